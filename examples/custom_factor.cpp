@@ -1,4 +1,4 @@
-// A factor of one's own: three beacons measure the range to a robot, whose odometry joins in.
+// A custom factor: ranges from three beacons to a robot are combined with its odometry.
 #include <placegraph/backend/factor_graph/factor_graph.h>
 #include <placegraph/backend/factors/relative_pose.h>
 

@@ -1,4 +1,4 @@
-/// Judges two estimated trajectories against one ground truth and says which is better:
+/// Evaluates two trajectories against one ground truth and prints the better one:
 /// evaluate_two TRUTH FIRST SECOND
 #include <placegraph/eval/trajectory/evaluate.h>
 #include <placegraph/eval/trajectory/report.h>

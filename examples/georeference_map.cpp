@@ -1,5 +1,5 @@
-// Puts a map onto the earth by GPS fixes and writes it for a map viewer: georeference_map OUT.kml
-// The map: odometry around a block, whose heading drifts. The fixes: as a receiver would give them.
+// Georeferences a map by GPS fixes and writes it for a map viewer: georeference_map OUT.kml
+// The map is odometry around a block with a drift of the heading; the GPS fixes are simulated.
 #include <placegraph/backend/georeference/georeference.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/graphs/geo_export.h>
@@ -28,16 +28,16 @@ int main(int argc, char** argv) try {
     fix.position = enu.to_geodetic({p.x(), p.y(), 0});
     fix.accuracy_m = 0.5;
     input.fixes.push_back(fix);
-    const SE2 turn = i % 50 == 49 ? corner : SE2();
+    const SE2 step_rotation = i % 50 == 49 ? corner : SE2();
     if (i + 1 < 200) {
       RelativePoseConstraint edge;
       edge.from = NodeId(i), edge.to = NodeId(i + 1);
-      edge.T_from_to = drifting * turn;
+      edge.T_from_to = drifting * step_rotation;
       edge.information = Eigen::Vector3d(400, 400, 1e5).asDiagonal();  // 5 cm and 0.2 degrees
       input.graph.constraints.push_back(edge);
     }
-    T_enu_robot = T_enu_robot * step * turn;
-    T_map_robot = T_map_robot * drifting * turn;
+    T_enu_robot = T_enu_robot * step * step_rotation;
+    T_map_robot = T_map_robot * drifting * step_rotation;
   }
   const GeoreferenceResult result = georeference(input, {});
   if (!result.outcome) {

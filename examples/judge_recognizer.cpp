@@ -1,5 +1,5 @@
-// A place recognizer of one's own, judged: judge_recognizer SEQUENCE
-// The sequence has ground truth; that says which images show the same place.
+// Evaluates a custom place recognizer: judge_recognizer SEQUENCE
+// The ground truth of the sequence determines which images show the same place.
 #include <placegraph/eval/loops/loop_benchmark.h>
 #include <placegraph/eval/loops/loop_truth_from_poses.h>
 #include <placegraph/placegraph.h>
@@ -8,7 +8,7 @@
 
 using namespace placegraph;
 
-/// How an image looks to this recognizer: its mean grey values in cells of 40 x 40 pixels.
+/// The descriptor of an image: its mean grey values in cells of 40 x 40 pixels.
 Eigen::VectorXd describe(const Image& image) {
   const int rows = image.rows / 40, cols = image.cols / 40;
   Eigen::VectorXd cells = Eigen::VectorXd::Zero(rows * cols);
@@ -27,7 +27,7 @@ int main(int argc, char** argv) try {
   const auto dataset = open_dataset(argv[1]);
   if (!dataset->ground_truth()) throw ArgumentError(std::string(argv[1]) + ": no ground truth");
   RevisitOptions revisit;
-  revisit.min_age = 20;  // images; younger ones look alike because nothing has moved
+  revisit.min_age = 20;  // images; younger ones are similar because the camera has hardly moved
 
   std::vector<Eigen::VectorXd> views;
   std::vector<LoopPrediction> predictions;

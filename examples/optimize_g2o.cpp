@@ -14,8 +14,8 @@ int main(int argc, char** argv) try {
   }
   const PoseGraph graph = read_g2o(argv[1]);
   PoseGraphOptions options;
-  options.rotation_error = RotationError::kQuaternion;  // as g2o counts
-  options.robust.method = RobustMethod::kAuto;          // finds out which loops are false
+  options.rotation_error = RotationError::kQuaternion;  // as in g2o
+  options.robust.method = RobustMethod::kAuto;          // detects false loops
   const PoseGraphReport report = optimize_pose_graph(graph, options);
   if (!report.outcome) {
     std::fprintf(stderr, "no optimum: %s\n", report.outcome.reason.c_str());

@@ -26,7 +26,7 @@ std::vector<unsigned char> paint_wall() {
   return wall;
 }
 
-/// What this program wants to be told of.
+/// The events that this program receives.
 struct KeyframeCount final : SlamEvents {
   void keyframe_added(const KeyframeAdded&) override { ++keyframes; }
   int keyframes = 0;

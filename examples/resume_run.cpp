@@ -1,6 +1,6 @@
 // A run that may be interrupted: resume_run SEQUENCE MAP.db [FRAMES]
-// It saves its map as it goes; where MAP.db is there already, it goes on with it. After so many
-// FRAMES it is interrupted, as by somebody who pulls the plug.
+// It saves its map during the run; if MAP.db exists already, the run is resumed. After FRAMES
+// frames it is interrupted, as by a power failure.
 #include <placegraph/placegraph.h>
 
 #include <cstdio>
@@ -30,7 +30,7 @@ int main(int argc, char** argv) try {
               run.map.frames.size());
   return 0;
 } catch (const Interrupted&) {
-  std::printf("interrupted; the map holds what was known\n");
+  std::printf("interrupted; the map was saved\n");
   return 1;
 } catch (const Error& error) {
   std::fprintf(stderr, "%s\n", error.what());

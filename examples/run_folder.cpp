@@ -1,4 +1,4 @@
-// Runs a recorded sequence or a folder of images, frame by frame as a robot would, and writes the
+// Runs a recorded sequence or a folder of images, frame by frame as on a robot, and writes the
 // trajectory: run_folder SEQUENCE OUT.tum
 #include <placegraph/placegraph.h>
 
@@ -12,7 +12,7 @@ int main(int argc, char** argv) try {
     return 2;
   }
   const auto dataset = open_dataset(argv[1]);
-  const Sensor sensor = dataset->sensors().front();  // the best it offers
+  const Sensor sensor = dataset->sensors().front();  // the best one of the data set
 
   Slam slam(SlamOptions{}, dataset->calibration(sensor));
   for (std::size_t i = 0; i < dataset->size(); ++i) {

@@ -1,11 +1,11 @@
-// Tells what happens while a map is made, as it happens: watch_events SEQUENCE
+// Prints the events of a SLAM run at the time they occur: watch_events SEQUENCE
 #include <placegraph/placegraph.h>
 
 #include <cstdio>
 
 using namespace placegraph;
 
-/// Override what is of interest; Slam calls it on the thread that calls add_frame.
+/// Override the events of interest; Slam calls them on the thread that calls add_frame.
 class Watcher final : public SlamEvents {
  public:
   void frame_lost(const FrameResult& frame) override {

@@ -17,27 +17,28 @@ using BinaryDescriptor = std::array<std::uint64_t, 4>;
 int hamming_distance(const BinaryDescriptor& a, const BinaryDescriptor& b);
 
 /// Writes the number of bits in which `from` differs from each of `to` to `distances`.
-/// Several times as fast as one by one where the processor counts bits.
+/// Several times as fast as single calls if the processor has an instruction that counts bits.
 void hamming_distances(const BinaryDescriptor& from, const std::vector<BinaryDescriptor>& to,
                        std::vector<int>& distances);
 
 /// An image point of a keyframe with its descriptor and, where known, its position.
 struct Feature {
-  Eigen::Vector2f px = Eigen::Vector2f::Zero();  ///< in the full-size image
+  Eigen::Vector2f px = Eigen::Vector2f::Zero();  ///< position in the full-size image [px]
   float angle_rad = 0;                           ///< orientation of the patch
-  int octave = 0;                                ///< pyramid level that it was found at
-  BinaryDescriptor descriptor{};                 ///< of the patch
-  /// In the keyframe's camera frame and unit of length; nothing where the depth is not known.
+  int octave = 0;                                ///< pyramid level of the detection
+  BinaryDescriptor descriptor{};                 ///< descriptor of the patch
+  /// Position in the keyframe's camera frame, at the keyframe's scale; nothing if the depth is
+  /// unknown.
   std::optional<Eigen::Vector3f> point_cam;
 };
 
-/// A point of the scene as the map keeps it: relative to the keyframe that it is anchored at.
+/// A point of the scene, stored relative to its anchor keyframe.
 struct PointLandmark {
-  LandmarkId id;        ///< of the point and of its track
-  KeyframeId keyframe;  ///< the keyframe whose frame `point_cam` is in
-  /// In that keyframe's camera frame and unit of length.
+  LandmarkId id;        ///< id of the point and of its track
+  KeyframeId keyframe;  ///< the anchor keyframe
+  /// Position in the anchor keyframe's camera frame, at that keyframe's scale.
   Eigen::Vector3d point_cam = Eigen::Vector3d::Zero();
-  int observations = 0;  ///< keyframes that observed it
+  int observations = 0;  ///< number of keyframes that observed it
 };
 
 }  // namespace placegraph

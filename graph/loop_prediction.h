@@ -5,13 +5,13 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// A place recognizer's claim that an image shows the same place as an older one.
+/// A place recognizer's prediction that an image shows the same place as an older image.
 struct LoopPrediction {
   FrameId query;      ///< the image
   FrameId candidate;  ///< the older image
-  double score = 0;   ///< larger is surer, comparable over all queries
-  std::string stage;  ///< the test that refused it, or "accepted"; empty where it is not known
-  int line = 0;       ///< of the file that it was read from; 0 if it was not read
+  double score = 0;   ///< larger is more certain; comparable over all queries
+  std::string stage;  ///< the test that refused it, or "accepted"; empty if unknown
+  int line = 0;       ///< line of the file that it was read from; 0 if it was not read
 };
 
 }  // namespace placegraph

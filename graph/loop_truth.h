@@ -16,9 +16,9 @@ struct LoopQuery {
 
 /// Ground truth of place recognition: which images of a sequence show the same place.
 struct LoopTruth {
-  std::map<FrameId, LoopQuery> queries;  ///< by the image that is looked up
+  std::map<FrameId, LoopQuery> queries;  ///< true matches by the query image
   /// Whether images that are not listed have no true match, so that any detection there is false;
-  /// else detections there are not judged.
+  /// otherwise detections there are not judged.
   bool unlisted_have_none = false;
   /// Candidates less than this many images before the query are neither hits nor misses. 0: the
   /// ranges of the queries alone define the candidates.

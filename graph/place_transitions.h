@@ -6,7 +6,7 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// How often the camera went directly from one place to another.
+/// The number of direct transitions of the camera from one place to another.
 struct PlaceTransition {
   PlaceId from, to;  ///< two different places
   int count = 0;     ///< pairs of consecutive frames, at least 1

@@ -7,9 +7,9 @@
 namespace [[gnu::visibility("default")]] placegraph {
 
 /// The descriptor of an image by one cue: one vector for each cell of a grid laid over it.
-/// Integers make comparing quick and memory small; their common scale means nothing.
+/// Integers make the comparison fast and save memory; their common scale is arbitrary.
 struct CueGrid {
-  int columns = 0, rows = 0, channels = 0;  ///< of the grid; channels: size of a cell's vector
+  int columns = 0, rows = 0, channels = 0;  ///< size of the grid; channels: size of a cell's vector
   std::vector<std::int16_t> values;         ///< row after row, a cell's channels together
   /// Integral image of the squared lengths of the cells' vectors, (columns + 1) x (rows + 1).
   std::vector<std::int64_t> energy;
@@ -24,10 +24,10 @@ std::vector<std::int64_t> cell_energy(int columns, int rows, int channels,
 
 /// An image's descriptors in all cues of place recognition.
 struct PlaceView {
-  /// Small image and gradients, at scale 1 and, of a query, at 1 / zoom and zoom too.
+  /// Small image and gradients, at scale 1 and, for a query, also at 1 / zoom and zoom.
   std::vector<CueGrid> tiny, gradients;
   CueGrid colour;  ///< empty for a grey image: there is no colour cue
-  CueGrid gabor;   ///< texture; empty where the cue has no weight
+  CueGrid gabor;   ///< texture; empty if the cue has weight zero
   CueGrid coarse;  ///< the tiny image at half its columns, for the second of three comparisons
   /// Colour, coarse and gradients pooled to a few cells, each of unit length and rounded to
   /// integers: the first comparison, with tens of thousands of images, is a dot product.

@@ -7,31 +7,32 @@ namespace [[gnu::visibility("default")]] placegraph {
 
 /// The elements of visual navigation that a run uses (Siddiqui 2014).
 struct Elements {
-  bool motion = false;     ///< tracking and the sliding window
-  bool spatial = false;    ///< places recognized, loops closed
-  bool geometry = false;   ///< planes, lines and Manhattan frames as cues; the floor plan
-  bool context = false;    ///< the kind of environment and what is assumed there
-  bool semantics = false;  ///< labels of surfaces for motion and places
+  bool motion = false;    ///< tracking and sliding-window optimization
+  bool spatial = false;   ///< place recognition and loop closure
+  bool geometry = false;  ///< planes, lines and Manhattan frames as cues; floor plan
+  /// Classification of the environment and the assumptions that follow from it.
+  bool context = false;
+  bool semantics = false;  ///< surface labels for odometry and place recognition
 };
 
-/// Reads names joined by commas, as in "motion,spatial".
+/// Parses element names joined by commas, as in "motion,spatial".
 ///
-/// Throws ArgumentError for an unknown name, one named twice, or if motion is not among them:
-/// nothing else says how the camera moves.
+/// Throws ArgumentError for an unknown name, for a duplicate name, or if motion is missing, because
+/// no other element estimates the camera's motion.
 Elements parse_elements(const std::string& names);
 
-/// Turns each element on or off in the options of a run.
+/// Enables or disables each element in the options of a run.
 ///
-/// Spatial is `loops.enabled`; geometry the cues
-/// "points,lines,plane,manhattan" instead of "points", and `scene.geometry`; context
-/// `context.enabled`; semantics `semantics.enabled` and `scene.semantics`.
+/// `spatial` sets `loops.enabled`; `geometry` sets the cues to "points,lines,plane,manhattan"
+/// instead of "points", and sets `scene.geometry`; `context` sets `context.enabled`; `semantics`
+/// sets `semantics.enabled` and `scene.semantics`.
 void set_elements(const Elements& elements, RunOptions& options);
 
-/// Adds the cues that steady the poses of a floor plan.
+/// Adds the cues that reduce rotation drift in a floor plan.
 ///
-/// Adds `manhattan` to the cues if points are among them, and enables planes in depth images as
-/// landmarks, as `placegraph run --scene geometry` does. Throws ArgumentError for cues that
-/// OdometryOptions::check() refuses.
+/// Adds `manhattan` to the cues if points are among them, and enables plane landmarks from depth
+/// images, as `placegraph run --scene geometry` does. Throws ArgumentError for cues that
+/// OdometryOptions::check() rejects.
 void steady_for_plan(RunOptions& options);
 
 }  // namespace placegraph

@@ -1,19 +1,19 @@
 #pragma once
 /// The entry points of the library in one header; a program may include the one it needs instead.
 
-// Run a sequence: the whole of it, or frame by frame.
+// Run SLAM on a sequence, as a whole or frame by frame.
 #include <placegraph/io/datasets/open_dataset.h>
 #include <placegraph/pipeline/run.h>
 #include <placegraph/pipeline/slam.h>
 #include <placegraph/pipeline/slam_events.h>
 
-// What a map holds, and where an image was taken in it.
+// Query a map, and localize images in it.
 #include <placegraph/graph/map.h>
 #include <placegraph/graph/route.h>
 #include <placegraph/pipeline/map/explanation.h>
 #include <placegraph/pipeline/map/map_localizer.h>
 
-// Optimize a pose graph, at once or as it grows, and put it onto the earth.
+// Optimize a pose graph, in batch or incrementally, and georeference it.
 #include <placegraph/backend/georeference/georeference.h>
 #include <placegraph/backend/incremental/incremental_optimizer.h>
 #include <placegraph/backend/pose_graph/pose_graph_optimizer.h>

@@ -13,79 +13,84 @@ namespace [[gnu::visibility("default")]] placegraph {
 
 struct FrameView;
 
-/// Lists the SLAM options beside the others, not in a group of their own.
+/// Lists the SLAM options at the top level, not in a group of their own.
 void visit(OptionVisitor& field, RunOptions& options);
 
-/// Frames of a run that have no pose in the end, for one reason.
+/// Number of frames without a final pose that share one reason.
 struct UnposedFrames {
-  /// Of the first of them: that of FrameResult::outcome, or that its component was never joined.
+  /// Reason of the first of these frames: its FrameResult::outcome, or the statement that its
+  /// component was never joined to the map.
   std::string reason;
-  int count = 0;  ///< how many frames there are, at least 1
+  int count = 0;  ///< number of frames, at least 1
 };
 
-/// What run_sequence returns.
+/// Result of run_sequence.
 struct RunResult {
-  Sensor sensor = Sensor::kMono;  ///< what the sequence was run as
-  Calibration calibration;        ///< of the images as they were used, without their distortion
-  /// Radial distortion (k1 of OpenCV's model) that was removed from the images, which should have
-  /// had none; 0: nothing was removed.
+  Sensor sensor = Sensor::kMono;  ///< sensor configuration of the run
+  Calibration calibration;        ///< calibration of the images as used, without distortion
+  /// Radial distortion coefficient (k1 of OpenCV's model) that was removed from the images, which
+  /// were expected to be undistorted; 0: nothing was removed.
   double lens_k1 = 0;
-  Map map;  ///< optimized to convergence
-  /// The message of the FileError if a frame could not be read: the map holds the frames before it.
+  Map map;  ///< final map, optimized to convergence
+  /// Message of the FileError if a frame could not be read; the map then contains the frames before
+  /// it.
   std::optional<std::string> broken_off;
-  /// The first frame that was processed, if the run resumed one that had been broken off.
+  /// First frame that was processed, if the run resumed an interrupted one.
   std::optional<FrameId> resumed_at;
-  /// CPU time of reading and of the stages of Slam. With more than one thread the next frame is
-  /// read while the last is processed, and its time counts for the stage that is open then.
+  /// CPU time of reading images and of the stages of Slam. With more than one thread, the next
+  /// frame is read while the current one is processed, and the reading time is added to the stage
+  /// that is active then.
   std::vector<StageTimes::Stage> stages;
-  /// Why frames have no pose, the most frequent reason first; reasons that differ in numbers alone
-  /// are one. Frames before a resumed run are not counted.
+  /// Reasons why frames have no pose, the most frequent first. Reasons that differ only in numbers
+  /// are merged. Frames before a resumed run are not counted.
   std::vector<UnposedFrames> unposed;
-  /// What each keyframe shows of its environment; empty unless `context` is enabled.
+  /// Environment of each keyframe; empty unless `context` is enabled.
   std::vector<EnvironmentObservation> environments;
 };
 
-/// Where a run saves its map (io/map/map_database.h), after every new place and at the end.
+/// File in which a run saves its map, after every new place and at the end.
+///
+/// The format is that of io/map/map_database.h.
 struct MapFile {
-  std::string path;      ///< of the database; created with the first place
-  std::string sequence;  ///< path of the sequence by which open_dataset finds it again
-  bool resume = false;   ///< go on with the run that was broken off there
+  std::string path;      ///< path of the database, which is created with the first place
+  std::string sequence;  ///< path of the sequence with which open_dataset can open it again
+  bool resume = false;   ///< whether to resume the run that was interrupted there
 };
 
-/// The sensor that a sequence is run as: the one asked for, or the best offered for kAuto.
+/// Selects the sensor configuration: the requested one, or the best available for kAuto.
 ///
 /// Throws ArgumentError if the sequence lacks the images that the sensor needs.
 Sensor choose_sensor(const Dataset& dataset, SensorChoice choice);
 
-/// Called after each frame with the number of frames done, of all frames, and its result.
+/// Callback after each frame, with the number of processed frames, their total and the result.
 using RunProgress = std::function<void(std::size_t done, std::size_t total, const FrameResult&)>;
 
-/// Called after each frame with its images, its result, and what the frontend sees in it.
+/// Callback after each frame, with its images, its result and the frontend's view of it.
 using FrameObserver =
     std::function<void(const Frame& frame, const FrameResult& result, const FrameView& view)>;
 
-/// What a run may be given beside the sequence and its options.
+/// Optional inputs of a run besides the sequence and its options.
 struct RunInputs {
-  /// A trained model that labels surfaces; needed if `semantics` or `context` are enabled.
+  /// Trained model that labels surfaces; required if `semantics` or `context` is enabled.
   std::shared_ptr<const SceneModel> surfaces = nullptr;
-  /// Where the map is saved, or resumed from: the frames up to the last committed place are then
-  /// taken from the file.
+  /// File in which the map is saved, or from which the run resumes: the frames up to the last
+  /// committed place are then read from the file.
   std::optional<MapFile> map_file = std::nullopt;
-  RunProgress progress = {};    ///< empty: nobody is told
-  FrameObserver observer = {};  ///< empty: nobody is told
-  /// Receives events; not owned. Each time the run begins (once more without distortion), run_began
-  /// is called.
+  RunProgress progress = {};    ///< progress callback; may be empty
+  FrameObserver observer = {};  ///< callback with the images and tracks; may be empty
+  /// Event listener; not owned. run_began is called at each start of the run, including a restart
+  /// with undistorted images.
   SlamEvents* events = nullptr;
-  LogSink log = {};  ///< where messages go; empty: nowhere
+  LogSink log = {};  ///< receiver of log messages; may be empty
 };
 
-/// Runs the system over every frame of a sequence, as fast as it can.
+/// Runs SLAM on every frame of a sequence, as fast as possible.
 ///
-/// Begins again, at most twice, where the images of a monocular or RGB-D camera prove to be
-/// distorted (LensOptions). The result is the same for any number of threads. An unreadable frame
-/// that is not the first ends the run (RunResult::broken_off). Throws ArgumentError for options
-/// that their check() refuses or a sequence that does not offer what they ask for, FileError for
-/// files that cannot be read or written.
+/// Restarts, at most twice, if the images of a monocular or RGB-D camera are found to be distorted
+/// (LensOptions). The result does not depend on the number of threads. An unreadable frame other
+/// than the first ends the run (RunResult::broken_off). Throws ArgumentError for options that their
+/// check() rejects or for a sequence that lacks the required data, FileError for files that cannot
+/// be read or written.
 RunResult run_sequence(const Dataset& dataset, const RunOptions& options,
                        const RunInputs& inputs = {});
 

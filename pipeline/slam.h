@@ -20,87 +20,88 @@ struct MapChanges;
 struct PlaceHistory;
 struct SceneModel;
 
-/// Radial distortion that images still show, though undistorted ones should have none.
+/// Residual radial distortion of images that are expected to be undistorted.
 struct LensDistortion {
-  double k1 = 0;  ///< first radial coefficient of OpenCV's model; 0 before anything was estimated
-  /// Standard deviation of k1; infinite before the evidence of about four windows.
+  double k1 = 0;  ///< first radial coefficient of OpenCV's model; 0 before the first estimate
+  /// Standard deviation of k1; infinite until about four windows of data have been used.
   double sigma_k1 = std::numeric_limits<double>::infinity();
   /// Displacement of the tracks by k1 that no other motion or structure explains: root mean square
   /// in standard deviations of the tracks.
   double effect = 0;
 };
 
-/// What Slam may be given beside options and calibration.
+/// Optional inputs of Slam besides options and calibration.
 struct SlamInputs {
-  /// Motion of the (left) camera that other sensors measured (wheels, laser, inertial sensors), on
-  /// the clock of the frames [ns]. It gives a monocular camera its scale, adds robust constraints
-  /// to the place graph, and carries on where nothing is seen.
+  /// Motion of the (left) camera measured by other sensors (wheels, laser, inertial sensors), with
+  /// time stamps on the clock of the frames [ns]. It makes the scale of a monocular camera
+  /// observable, adds robust constraints to the place graph, and bridges stretches in which visual
+  /// tracking fails.
   std::shared_ptr<const MeasuredMotion> motion = nullptr;
-  /// A trained model that labels surfaces; needed if `semantics` or `context` are enabled.
+  /// Trained model that labels surfaces; required if `semantics` or `context` is enabled.
   std::shared_ptr<const SceneModel> surfaces = nullptr;
-  /// Receives events as they happen; not owned, must outlive the Slam object.
+  /// Listener for events; not owned, must outlive the Slam object.
   SlamEvents* events = nullptr;
-  LogSink log = {};  ///< where messages go; empty: nowhere
+  LogSink log = {};  ///< receiver of log messages; may be empty
 };
 
-/// The whole system: frames in, place graph and trajectory out.
+/// Complete SLAM system: takes frames, estimates the place graph and the trajectory.
 ///
 ///     Slam slam(options, calibration);
 ///     for (frame : frames) slam.add_frame(frame);
 ///     Map map = slam.finish();
 ///
-/// Stereo if the calibration has a baseline, RGB-D if it has a depth camera, monocular otherwise; a
-/// monocular map is metric if the camera height is known or other sensors measure the motion.
-/// Objects share nothing: any number may live in one process. Same frames, options and libraries:
-/// same bits. Poses are T_map_cam of the (left) camera. An object that was moved from may only be
-/// destroyed or assigned to.
+/// The camera is treated as stereo if the calibration has a baseline, as RGB-D if it has a depth
+/// camera, and as monocular otherwise. A monocular map is metric if the camera height is known or
+/// if other sensors measure the motion. Objects share no state; any number may exist in one
+/// process. Equal frames, options and libraries give bit-identical results. Poses are T_map_cam of
+/// the (left) camera. A moved-from object may only be destroyed or assigned to.
 class Slam {
  public:
-  /// Prepares a run. Nothing is processed before the first frame.
+  /// Prepares a run; processing begins with the first frame.
   ///
-  /// Throws ArgumentError for options or a calibration that their check() refuses, or if
-  /// `semantics` or `context` are enabled without a model of surfaces.
+  /// Throws ArgumentError for options or a calibration that their check() rejects, or if
+  /// `semantics` or `context` is enabled without a model of surfaces.
   Slam(const SlamOptions& options, const Calibration& calibration, const SlamInputs& inputs = {});
   ~Slam();
   Slam(Slam&&) noexcept;
   Slam& operator=(Slam&&) noexcept;
 
-  /// Resumes a run that was broken off; call it before the first frame.
+  /// Resumes an interrupted run; must be called before the first frame.
   ///
-  /// `map` and `history` are those of the saved run, `last` is the frame of its last keyframe,
-  /// which is processed again: tracking begins there as after a loss. Records of later frames are
-  /// dropped; add_frame goes on with the frame after `last`. Throws ArgumentError if map and
-  /// history contradict each other, the frame is another, or frames have been added already; the
-  /// object must then not be used any more.
+  /// `map` and `history` are those of the saved run. `last` is the frame of its last keyframe; it
+  /// is processed again, and tracking restarts there as after a loss. Records of later frames are
+  /// dropped; add_frame continues with the frame after `last`. Throws ArgumentError if map and
+  /// history are inconsistent, if `last` is another frame, or if frames have already been added;
+  /// the object must then not be used any more.
   void resume(const Map& map, const PlaceHistory& history, const Frame& last);
-  /// Processes one frame; returns its pose as it is known now, or why it has none.
+  /// Processes one frame; returns its current pose estimate, or the reason why it has none.
   ///
-  /// The images are kept, not copied, for as long as tracking needs them: hand over a clone() of a
-  /// buffer that is written again or freed.
-  /// Throws ArgumentError if an image has another size or type than the calibration says, if id or
-  /// stamp do not increase, or after finish().
+  /// The images are referenced, not copied, for as long as tracking needs them: pass a clone() of a
+  /// buffer that will be overwritten or freed.
+  /// Throws ArgumentError if the size or type of an image differs from the calibration, if id or
+  /// stamp does not increase, or after finish().
   FrameResult add_frame(const Frame& frame);
-  /// Returns what the map has gained since the last call, for MapDatabase::commit.
+  /// Returns the changes of the map since the last call, for MapDatabase::commit.
   ///
-  /// Frames, features and landmarks are told where they are new or have changed; the places, their
-  /// history and the loops each time. The appearance of keyframes is handed over: later calls and
-  /// snapshots do not hold it.
+  /// Frames, features and landmarks are included if they are new or have changed; the places, their
+  /// history and the loops are included each time. The appearance of keyframes is moved into the
+  /// result: later calls and snapshots do not contain it.
   MapChanges take_changes();
-  /// A copy of map and trajectories as they stand; may be called between frames.
+  /// Returns a copy of the current map and trajectories; may be called between frames.
   Map snapshot() const;
   /// Optimizes the place graph to convergence and returns the map.
   ///
-  /// Afterwards, finish() and add_frame() throw ArgumentError.
+  /// Later calls of finish() and add_frame() throw ArgumentError.
   Map finish();
-  /// Radial distortion that the images have shown so far; for a stereo pair it stays unknown.
+  /// Returns the radial distortion estimated so far; for a stereo pair it remains unknown.
   ///
-  /// run_sequence begins again with undistorted images where LensOptions call it proven.
+  /// run_sequence restarts with undistorted images once the thresholds of LensOptions are exceeded.
   LensDistortion lens() const;
-  /// One entry per keyframe of this run, in their order; empty unless `context` is enabled.
+  /// Returns one entry per keyframe of this run, in order; empty unless `context` is enabled.
   const std::vector<EnvironmentObservation>& environments() const;
-  /// What the frontend sees in the last frame, in pixels; empty lists if that frame is lost.
+  /// Returns the tracked features of the last frame [px]; empty lists if that frame is lost.
   FrameView view() const;
-  /// CPU time [s] that each stage has taken so far.
+  /// Returns the CPU time [s] used so far by each stage.
   const std::vector<StageTimes::Stage>& stages() const;
 
  private:

@@ -11,40 +11,42 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// Appearance of keyframes, kept in the map so that images can be placed in it later.
+/// Options for storing the appearance of keyframes, which MapLocalizer needs.
 struct KeyframeViewOptions {
-  bool enabled = true;   ///< keep it; MapLocalizer and `placegraph localize` need it
-  PlaceCueOptions cues;  ///< which descriptors are kept
+  /// Store the appearance; required by MapLocalizer and `placegraph localize`.
+  bool enabled = true;
+  PlaceCueOptions cues;  ///< descriptors that are stored
 };
 void visit(OptionVisitor& field, KeyframeViewOptions& options);
 
-/// Labels of surfaces for motion and places; the model is given by SlamInputs::surfaces.
+/// Surface labels for odometry and place recognition; the model is SlamInputs::surfaces.
 struct SceneUseOptions {
-  bool enabled = false;    ///< label keyframes; needs SlamInputs::surfaces
-  SceneMaskOptions masks;  ///< which labels keep pixels out of tracking
+  bool enabled = false;    ///< label keyframes; requires SlamInputs::surfaces
+  SceneMaskOptions masks;  ///< labels whose pixels are excluded from tracking
 };
 void visit(OptionVisitor& field, SceneUseOptions& options);
 
-/// The kind of environment the camera is in, and what is assumed there.
+/// Classification of the environment, and the assumptions that follow from it.
 struct ContextOptions {
-  bool enabled = false;  ///< classify keyframes and label places; needs SlamInputs::surfaces
-  bool assume = true;    ///< the odometry relies only on what usually holds in that environment
-  EnvironmentFilterOptions filter;  ///< smoothing of the kind over consecutive keyframes
+  bool enabled = false;  ///< classify keyframes and label places; requires SlamInputs::surfaces
+  bool assume = true;    ///< odometry relies only on cues that usually hold in that environment
+  EnvironmentFilterOptions filter;  ///< smoothing of the class over consecutive keyframes
 };
 void visit(OptionVisitor& field, ContextOptions& options);
 
-/// Options of Slam: everything but the sequence.
+/// Options of Slam.
 struct SlamOptions {
-  std::uint64_t seed = 0;         ///< of every random stream; the same seed gives the same bits
-  OdometryOptions odometry;       ///< motion over the last keyframes
+  /// Seed of all random number generators; the same seed gives identical results.
+  std::uint64_t seed = 0;
+  OdometryOptions odometry;       ///< visual odometry over the last keyframes
   LoopOptions loops;              ///< loop closures
   PlaceOptions places;            ///< places and the edges between them
   IncrementalOptions pose_graph;  ///< optimization of the place graph
-  KeyframeViewOptions views;      ///< appearance of keyframes, kept for localization
-  SceneUseOptions semantics;      ///< labels of surfaces
-  ContextOptions context;         ///< the kind of environment
-  /// Frames without a pose in a row after which a new component of the map begins, or the map goes
-  /// on by SlamInputs::motion where it tells the motion.
+  KeyframeViewOptions views;      ///< stored appearance of keyframes, for localization
+  SceneUseOptions semantics;      ///< surface labels
+  ContextOptions context;         ///< class of the environment
+  /// Number of consecutive frames without a pose after which a new component of the map begins, or
+  /// after which the trajectory continues with SlamInputs::motion if that covers the time.
   int max_lost_frames = 10;
   void check() const;
 };

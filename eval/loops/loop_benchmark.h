@@ -10,49 +10,49 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// How a place recognizer's answer to one image was judged.
+/// The verdict on a place recognizer's answer to one image.
 enum class LoopVerdict {
   kHit,         ///< its best candidate shows the same place
-  kMiss,        ///< it does not, or there is none that does
+  kMiss,        ///< its best candidate does not show the same place
   kSilent,      ///< nothing was proposed
-  kTooYoung,    ///< all that was proposed is younger than the truth's min_age
-  kOutOfRange,  ///< all that was proposed lies outside the candidates of the query
+  kTooYoung,    ///< all candidates are younger than the truth's min_age
+  kOutOfRange,  ///< all candidates are outside the range of the query
 };
 /// Name of a verdict: "hit", "miss", "silent", "too_young" or "out_of_range".
 std::string to_string(LoopVerdict verdict);
 
 /// A query of a place recognizer, judged.
 struct JudgedQuery {
-  FrameId query;                               ///< the image that was asked about
-  LoopVerdict verdict = LoopVerdict::kSilent;  ///< how its best candidate was judged
+  FrameId query;                               ///< the query image
+  LoopVerdict verdict = LoopVerdict::kSilent;  ///< verdict on its best candidate
   bool has_match = false;                      ///< whether it has a true match among its candidates
-  LoopPrediction best;  ///< the candidate of the highest score; only of a hit or a miss
+  LoopPrediction best;  ///< candidate of the highest score; only for a hit or a miss
   int rank = 0;         ///< rank of the first true candidate, from 1; 0 if none is true
 };
 
 /// Figures of a place recognizer over a set of images.
 struct LoopBenchmark {
   int positives = 0;  ///< queries that have a true match
-  int answered = 0;   ///< queries with a candidate that counts
+  int answered = 0;   ///< queries with a valid candidate
   int dropped = 0;    ///< predictions that are neither hit nor miss: too young or out of range
-  int unjudged = 0;   ///< predictions for images that the truth does not judge
+  int unjudged = 0;   ///< predictions for images without ground truth
   /// Share of the positives with a true candidate among the kRanks best; nothing without positives.
   std::array<std::optional<double>, 3> recall_at;
   static constexpr std::array<int, 3> kRanks = {1, 5, 10};  ///< the ranks of `recall_at`
   PrecisionRecall curve;  ///< over the best candidate of every query
-  /// All candidates that count, not the best alone; in the order of the queries.
+  /// All valid candidates, not only the best; in the order of the queries.
   std::vector<ScoredPrediction> candidates;
   std::vector<JudgedQuery> queries;  ///< ascending; all that the truth lists, and all answered ones
 };
 
 /// Judges the loop closures that a place recognizer proposed for a set of images.
 ///
-/// A query's answer is its best candidate; it is a hit if it lies within `tolerance` images of a
-/// true match. Candidates that the truth excludes (younger than its min_age, outside a query's
-/// range) are left out whether right or wrong. Of candidates with equal scores the false ones come
-/// first, so that the order of the predictions plays no part. Precision = hits / (hits + misses)
-/// and recall = hits / positives over the threshold on the score. Throws ArgumentError for a
-/// negative tolerance or a score that is not finite.
+/// A query's answer is its best candidate; it is a hit if it is within `tolerance` images of a true
+/// match. Candidates that the truth excludes (younger than its min_age, outside a query's range)
+/// are left out, right or wrong. Of candidates with equal scores the false ones come first, so that
+/// the order of the predictions has no influence. Precision = hits / (hits + misses) and recall =
+/// hits / positives over the threshold on the score. Throws ArgumentError for a negative tolerance
+/// or a score that is not finite.
 LoopBenchmark judge_loops(const LoopTruth& truth, const std::vector<LoopPrediction>& predictions,
                           int tolerance = 0);
 

@@ -9,11 +9,11 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// How far a loop constraint may be from the truth to count as correct.
+/// Largest errors of a loop constraint that counts as correct.
 struct LoopCheckOptions {
   double max_translation_m = 0.1;  ///< largest error in translation
   double max_rotation_deg = 5;     ///< largest error in rotation
-  int min_frames_apart = 33;       ///< constraints between nearer frames count as neither
+  int min_frames_apart = 33;  ///< constraints between nearer frames are neither correct nor wrong
   void check() const;
 };
 void visit(OptionVisitor& field, LoopCheckOptions& options);
@@ -28,16 +28,16 @@ struct CheckedLoop {
 
 /// How many accepted loops of a run are correct.
 struct LoopCheck {
-  std::vector<CheckedLoop> loops;  ///< the accepted ones that could be judged, in their order
-  int correct = 0, wrong = 0;      ///< numbers of them
-  int too_near = 0;                ///< accepted ones nearer than min_frames_apart
-  int unjudged = 0;                ///< accepted ones without ground truth at one of their frames
+  std::vector<CheckedLoop> loops;  ///< accepted loops with ground truth, in their order
+  int correct = 0, wrong = 0;      ///< numbers of correct and wrong loops
+  int too_near = 0;                ///< accepted loops of frames nearer than min_frames_apart
+  int unjudged = 0;                ///< accepted loops without ground truth at one of their frames
 };
 
 /// Judges accepted loops by E = (T_match_query)_truth^-1 (T_match_query)_measured.
 ///
-/// `truth` holds T_world_cam with one entry per frame of the sequence, indexed by the frames of
-/// LoopRecord. Measured poses must be metric. Loops that are not accepted are ignored.
+/// `truth` has one pose T_world_cam per frame of the sequence, indexed by the frames of LoopRecord.
+/// Measured poses must be metric. Loops that are not accepted are ignored.
 LoopCheck check_loops(const Trajectory& truth, const std::vector<LoopRecord>& loops,
                       const LoopCheckOptions& options);
 

@@ -5,17 +5,17 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// When an image shows a place again; the defaults suit drives at 10 Hz.
+/// Criteria for a revisit of a place; the defaults suit drives at 10 Hz.
 struct RevisitOptions {
-  SameView same;      ///< when two poses see the same place
-  int min_age = 300;  ///< images from the older to the younger, at least
+  SameView same;      ///< criteria for two poses with the same view
+  int min_age = 300;  ///< minimum number of images from the older to the younger
   void check() const;
 };
 void visit(OptionVisitor& field, RevisitOptions& options);
 
 /// Finds the true loop closures of a trajectory that has one pose T_world_cam per image [m].
 ///
-/// Images without a pose are not judged, nor are they matches; images too early for an old enough
+/// Images without a pose are not judged and are no matches; images too early for an old enough
 /// candidate are listed without a match. Throws ArgumentError for options that check() refuses.
 LoopTruth loop_truth_from_poses(const Trajectory& truth, const RevisitOptions& options);
 

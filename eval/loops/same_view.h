@@ -5,12 +5,12 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// When two poses see the same place: near each other and looking in the same direction.
+/// Criteria for two poses with the same view: nearby, with similar orientation.
 struct SameView {
-  double radius_m = 5;      ///< between the two positions, at most
-  double heading_deg = 30;  ///< angle of the rotation between the two poses, at most
+  double radius_m = 5;      ///< largest distance of the two positions [m]
+  double heading_deg = 30;  ///< largest angle of the rotation between the two poses [deg]
   void check() const;       ///< throws ArgumentError naming the field
-  /// Whether two poses (of cameras or bodies, metric) see the same place.
+  /// Whether two poses (of cameras or bodies, metric) have the same view.
   bool holds(const Eigen::Isometry3d& T_world_a, const Eigen::Isometry3d& T_world_b) const;
 };
 void visit(OptionVisitor& field, SameView& options);

@@ -12,7 +12,7 @@ struct ApeResult {
   Outcome outcome;                     ///< kTooFewData if no frame is posed
   Statistics error_m;                  ///< meaningful only if outcome; the RMSE is the ATE
   std::vector<int> frames;             ///< the posed frames, as FramePair::frame
-  std::vector<double> frame_errors_m;  ///< of each of them
+  std::vector<double> frame_errors_m;  ///< error of each of them [m]
 };
 
 /// Computes the absolute trajectory error of pairs whose estimate is aligned already.

@@ -6,11 +6,11 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// What is fitted before an estimate is compared with the ground truth.
+/// The transformation that is fitted before an estimate is compared with the ground truth.
 enum class Alignment {
-  kNone,    ///< nothing: the estimate as it stands
-  kOrigin,  ///< the first associated pose is put on the ground truth's; nothing is fitted
-  kSe3,     ///< rotation and translation that fit the positions best
+  kNone,    ///< none: the estimate is compared unchanged
+  kOrigin,  ///< the first associated pose is aligned with the ground truth's; nothing is fitted
+  kSe3,     ///< rotation and translation by least squares of the positions
   kSim3,    ///< rotation, translation and scale
   kScale,   ///< as kOrigin, and one scale fitted about that first pose
 };
@@ -28,18 +28,18 @@ struct SegmentOptions {
   /// Lengths of the segments along the true path.
   std::vector<double> lengths_m = {100, 200, 300, 400, 500, 600, 700, 800};
   int step = 10;                 ///< frames between the starts of two segments
-  double frame_rate_hz = 10;     ///< for speeds, where the ground truth has no times
+  double frame_rate_hz = 10;     ///< frame rate for speeds, if the ground truth has no times
   double speed_bin_m_per_s = 2;  ///< width of an interval of speed in the table per speed
   void check() const;
 };
 void visit(OptionVisitor& field, SegmentOptions& options);
 
-/// How an estimated trajectory is compared with the ground truth.
+/// Options of the comparison of an estimated trajectory with the ground truth.
 struct EvaluationOptions {
-  Alignment alignment = Alignment::kSe3;         ///< what is fitted before the comparison
-  Association association = Association::kAuto;  ///< how poses are paired
-  AssociationOptions time;                       ///< of the association by time
-  SegmentOptions segments;                       ///< of t_rel and r_rel
+  Alignment alignment = Alignment::kSe3;         ///< transformation fitted before the comparison
+  Association association = Association::kAuto;  ///< association of poses
+  AssociationOptions time;                       ///< options of the association by time
+  SegmentOptions segments;                       ///< segments of t_rel and r_rel
   void check() const;
 };
 void visit(OptionVisitor& field, EvaluationOptions& options);

@@ -9,11 +9,10 @@ namespace [[gnu::visibility("default")]] placegraph {
 
 /// A pose of the ground truth and the pose of the estimate for the same frame.
 ///
-/// Matrices are as the files gave them, not re-orthonormalized: the KITTI devkit and other tools
-/// compute their figures so.
+/// Matrices are as in the files, not re-orthonormalized, as in the KITTI devkit and other tools.
 struct FramePair {
   int frame = 0;              ///< index in the ground truth
-  std::int64_t stamp_ns = 0;  ///< of the ground truth; an index where it has no times
+  std::int64_t stamp_ns = 0;  ///< stamp of the ground truth; an index if it has no times
   Eigen::Isometry3d T_world_truth = Eigen::Isometry3d::Identity();  ///< the true pose [m]
   std::optional<Eigen::Isometry3d> T_world_estimate;  ///< nothing where the frame is lost
 };

@@ -20,7 +20,7 @@ struct SegmentError {
 /// One row of a table: the mean over the segments of one length, or of one interval of speed.
 struct SegmentGroup {
   double from = 0, to = 0;    ///< length [m] (both the same), or speed [m/s], from <= speed < to
-  int segments = 0;           ///< how many it is the mean of
+  int segments = 0;           ///< number of segments in the mean
   double t_percent = 0;       ///< mean error in translation [%]
   double r_deg_per_100m = 0;  ///< mean error in rotation
 };
@@ -38,11 +38,11 @@ struct SegmentResult {
 /// Computes the relative errors of the KITTI odometry devkit (Geiger et al. 2012).
 ///
 /// From every `step`-th frame i and for every length L, j is the first frame with more than L
-/// metres of true path behind i, and E = (T_i^-1 T_j)_estimate^-1 (T_i^-1 T_j)_truth gives |trans
-/// E| / L and acos((tr R - 1) / 2) / L. Every segment has the same weight, whatever its length.
-/// Outcome: kTooFewData if the path is too short for every length, or all segments were skipped.
-/// `has_times` says whether stamp_ns are times or only indices. Throws ArgumentError for options
-/// that check() refuses.
+/// metres of true path behind i, and E = (T_i^-1 T_j)_estimate^-1 (T_i^-1 T_j)_truth yields |trans
+/// E| / L and acos((tr R - 1) / 2) / L. Every segment has the same weight, independent of its
+/// length. Outcome: kTooFewData if the path is too short for every length, or all segments were
+/// skipped. `has_times` says whether stamp_ns are times or only indices. Throws ArgumentError for
+/// options that check() refuses.
 [[nodiscard]] SegmentResult kitti_segments(const std::vector<FramePair>& pairs, bool has_times,
                                            const SegmentOptions& options);
 

@@ -16,10 +16,10 @@ std::string to_string(Association association);
 struct PairingResult {
   Outcome outcome;                               ///< see pair_trajectories
   Association association = Association::kAuto;  ///< the one used, kIndex or kTime
-  /// The frames to judge, in time order: posed lines of the ground truth for which the estimate has
-  /// a pose, or should have one and is lost. By time, a line without a partner counts as lost only
-  /// where no pose of the estimate is within three quarters of the estimate's spacing; where the
-  /// ground truth is clearly denser (a motion capture system at 200 Hz), one per missing pose.
+  /// The frames to evaluate, in time order: posed lines of the ground truth for which the estimate
+  /// has a pose, or lacks one that it should have. By time, a line without a partner counts as lost
+  /// only where no pose of the estimate is within three quarters of the estimate's spacing; where
+  /// the ground truth is clearly denser (a motion capture system at 200 Hz), one per missing pose.
   std::vector<FramePair> pairs;
   bool has_times = false;             ///< FramePair::stamp_ns are times, not indices
   bool has_orientation = true;        ///< both trajectories have orientations
@@ -27,10 +27,10 @@ struct PairingResult {
   int posed = 0;                      ///< pairs with an estimate
   int estimate_frames = 0;            ///< posed lines of the estimate
   int estimate_without_truth = 0;     ///< posed lines of the estimate without a posed partner
-  std::vector<std::string> warnings;  ///< what is odd about the times of either
+  std::vector<std::string> warnings;  ///< implausible times of either
 };
 
-/// Pairs the poses of two trajectories, or says in `outcome` why that would be a guess.
+/// Pairs the poses of two trajectories, or states in `outcome` why the pairs are ambiguous.
 ///
 /// kInconsistent: different numbers of lines without times, times on one side only, stamps that do
 /// not overlap. kTooFewData: fewer than two pairs. Throws ArgumentError if stamps of either do not

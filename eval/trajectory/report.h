@@ -20,7 +20,7 @@ std::string to_json(const std::vector<EvaluationResult>& results, bool with_aver
 ///
 /// Columns: name,record,key,value,unit,first_frame,last_frame,length_m,speed_m_per_s,protocol.
 /// Records are "metric" and "segment" (every segment's t_rel and r_rel). Columns that do not apply
-/// are empty, and so is a value that the data did not allow.
+/// and values that the data did not allow are empty.
 std::string to_csv(const std::vector<EvaluationResult>& results);
 
 /// Writes a LaTeX table (booktabs), one row per result; empty without results.

@@ -11,45 +11,45 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// How the figures of a result were computed; every report states it.
+/// The method of computation of the figures of a result; every report states it.
 struct Protocol {
-  Alignment alignment = Alignment::kSe3;         ///< what was fitted
+  Alignment alignment = Alignment::kSe3;         ///< transformation that was fitted
   Association association = Association::kAuto;  ///< the one used, kIndex or kTime
-  double max_difference_s = 0, offset_s = 0;     ///< of the association by time
+  double max_difference_s = 0, offset_s = 0;     ///< options of the association by time
   std::vector<double> lengths_m;                 ///< SegmentOptions::lengths_m
   int step = 0;                                  ///< SegmentOptions::step
 };
 
 /// One estimated trajectory evaluated against one ground truth.
 struct EvaluationResult {
-  Outcome outcome;    ///< of the association and the alignment; without it no figure is meaningful
-  std::string name;   ///< of the estimate, for tables and legends
+  Outcome outcome;    ///< outcome of association and alignment; without it no figure is meaningful
+  std::string name;   ///< name of the estimate, for tables and legends
   Protocol protocol;  ///< how the figures were computed
   int frames = 0;     ///< posed frames of the ground truth
-  int judged = 0;     ///< those of them that are judged, see PairingResult::pairs
-  int posed = 0;      ///< judged frames with an estimate
-  int estimate_frames = 0;            ///< posed frames of the estimate
-  int estimate_without_truth = 0;     ///< those of them without a true pose
-  double coverage = 0;                ///< share of the judged frames that are posed, 0 to 1
-  std::vector<int> lost_frames;       ///< judged frames without an estimate, ground-truth indices
-  double path_m = 0;                  ///< length of the true path
-  double posed_path_m = 0;            ///< of its part from the first posed frame to the last
-  AlignmentResult alignment;          ///< the transformation that was fitted
-  ApeResult ape;                      ///< absolute errors after the alignment
-  RpeResult rpe;                      ///< errors of the motion between consecutive frames
-  SegmentResult segments;             ///< t_rel and r_rel
-  std::vector<std::string> warnings;  ///< one line each: what is odd, and what to try
-  std::vector<FramePair> aligned_pairs;  ///< the judged frames, with aligned estimates
-  std::vector<double> travelled_m;       ///< of each of them, the true path so far
+  int judged = 0;     ///< evaluated frames among these, see PairingResult::pairs
+  int posed = 0;      ///< evaluated frames with an estimate
+  int estimate_frames = 0;         ///< posed frames of the estimate
+  int estimate_without_truth = 0;  ///< those of them without a true pose
+  double coverage = 0;             ///< share of the evaluated frames that are posed, 0 to 1
+  std::vector<int> lost_frames;    ///< evaluated frames without an estimate, ground-truth indices
+  double path_m = 0;               ///< length of the true path
+  double posed_path_m = 0;    ///< length of the true path from the first posed frame to the last
+  AlignmentResult alignment;  ///< the transformation that was fitted
+  ApeResult ape;              ///< absolute errors after the alignment
+  RpeResult rpe;              ///< errors of the motion between consecutive frames
+  SegmentResult segments;     ///< t_rel and r_rel
+  std::vector<std::string> warnings;     ///< one line each: a suspicious property and a remedy
+  std::vector<FramePair> aligned_pairs;  ///< the evaluated frames, with aligned estimates
+  std::vector<double> travelled_m;       ///< length of the true path up to each of them
 };
 
-/// A figure with its unit and how it was computed.
+/// A figure with its unit and its method of computation.
 struct Metric {
-  std::string key;              ///< as in JSON: "t_rel_percent"
-  std::string name;             ///< for people: "t_rel"
+  std::string key;              ///< key in JSON: "t_rel_percent"
+  std::string name;             ///< name in texts: "t_rel"
   std::string unit;             ///< "m", "%", "deg/100m", "deg", "" (a ratio)
-  std::optional<double> value;  ///< nothing where the data allow none
-  std::string protocol;         ///< one line
+  std::optional<double> value;  ///< nothing if the data allow none
+  std::string protocol;         ///< method of computation, one line
 };
 
 /// All figures of a result in a fixed order; those of a failed one have no value.
@@ -57,9 +57,9 @@ std::vector<Metric> metrics(const EvaluationResult& result);
 
 /// Averages over several sequences.
 struct AverageResult {
-  int sequences = 0;          ///< those whose outcome is ok
-  int segments = 0;           ///< of all of them together
-  std::vector<Metric> means;  ///< of every metric, over the sequences that have a value
+  int sequences = 0;          ///< sequences whose outcome is ok
+  int segments = 0;           ///< number of segments of all sequences
+  std::vector<Metric> means;  ///< mean of every metric over the sequences that have a value
   /// Means over all segments of all sequences, as the KITTI devkit averages.
   Metric pooled_t_rel, pooled_r_rel;
 };

@@ -19,8 +19,8 @@ struct RpeResult {
 /// Computes the relative pose error over every two neighbours that both have an estimate.
 ///
 /// Sturm et al. 2012, section V.A, with delta = one frame. The angle is taken from the skew part as
-/// well as the trace: acos of the trace alone cannot tell 0.02 deg from zero in matrices of seven
-/// digits.
+/// well as the trace: acos of the trace alone cannot distinguish 0.02 deg from zero in matrices of
+/// seven digits.
 [[nodiscard]] RpeResult rpe(const std::vector<FramePair>& pairs);
 
 /// Angle [rad], in [0, pi], of a rotation matrix that may be orthonormal to some digits only.

@@ -9,7 +9,7 @@ struct Statistics {
   double mean = 0;    ///< arithmetic mean
   double median = 0;  ///< mean of the two middle ones where their number is even
   double max = 0;     ///< the largest error
-  int count = 0;      ///< how many errors there are
+  int count = 0;      ///< number of errors
 };
 
 /// Computes the statistics of a list of errors. Throws ArgumentError if it is empty.

@@ -17,11 +17,11 @@ struct AlignmentResult {
   double scale = 1;  ///< metres of the truth per unit of the estimate
   Eigen::Matrix3d R_truth_estimate = Eigen::Matrix3d::Identity();  ///< its rotation
   Eigen::Vector3d t_truth_estimate = Eigen::Vector3d::Zero();      ///< [m]
-  double rmse_m = 0;  ///< of the positions after alignment
-  int pairs = 0;      ///< used for the fit
-  /// Directions the positions spread in, 0 to 3. With 1 (a straight line) the rotation about the
-  /// line is free: the outcome is kDegenerate, though the similarity is one of the best and
-  /// `rmse_m` is the unique minimum.
+  double rmse_m = 0;  ///< RMSE of the positions after alignment [m]
+  int pairs = 0;      ///< number of pairs in the fit
+  /// Number of directions of the spread of the positions, 0 to 3. With 1 (a straight line) the
+  /// rotation about the line is unobservable: the outcome is kDegenerate, although the similarity
+  /// is one of the optimal ones and `rmse_m` is the unique minimum.
   int rank = 0;
 
   /// Transforms a pose of the estimate into the coordinate frame of the ground truth.
@@ -31,7 +31,7 @@ struct AlignmentResult {
 /// Fits the least-squares similarity from `points_from` to `points_to` [m] (Umeyama 1991).
 ///
 /// Equations 34 to 43; scale stays 1 unless `with_scale`. Outcomes: kTooFewData below three points;
-/// kDegenerate if the points coincide (nothing fitted) or lie on a line (see `rank`). Throws
+/// kDegenerate if the points coincide (nothing fitted) or are on a line (see `rank`). Throws
 /// ArgumentError if the sizes differ.
 [[nodiscard]] AlignmentResult umeyama(const std::vector<Eigen::Vector3d>& points_from,
                                       const std::vector<Eigen::Vector3d>& points_to,

@@ -4,37 +4,37 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// When segments are pieces of one edge and are joined.
+/// Joining of segments that are pieces of one edge.
 struct SegmentMergingOptions {
-  double max_angle_deg = 2;      ///< largest angle between pieces
-  double max_distance_px = 1.2;  ///< largest distance of the pieces' ends from the common line
-  double max_gap_px = 10;        ///< longest gap between pieces, along the line
+  double max_angle_deg = 2;      ///< maximum angle between pieces
+  double max_distance_px = 1.2;  ///< maximum distance of the pieces' ends from the common line
+  double max_gap_px = 10;        ///< maximum gap between pieces, along the line
   void check() const { check_ranges(*this); }
 };
 void visit(OptionVisitor& field, SegmentMergingOptions& options);
 
 /// Sub-pixel fit of a segment to the image gradient.
 struct EdgeRefinementOptions {
-  int reach_px = 3;            ///< how far from the segment the edge is searched, on both sides
-  double blur_px = 1;          ///< standard deviation of the blur before the gradient is taken
-  double min_gradient = 2;     ///< least gradient of a point of the edge [grey levels / px]
-  double min_support = 0.5;    ///< least share of the segment's samples that see the edge
-  double min_sigma_px = 0.03;  ///< least standard deviation of a sample across the edge
+  int reach_px = 3;          ///< search distance for the edge on both sides of the segment
+  double blur_px = 1;        ///< standard deviation of the blur before the gradient is taken
+  double min_gradient = 2;   ///< minimum gradient of a point of the edge [grey levels / px]
+  double min_support = 0.5;  ///< minimum share of the segment's samples at which the edge is found
+  double min_sigma_px = 0.03;  ///< minimum standard deviation of a sample across the edge
   void check() const { check_ranges(*this); }
 };
 void visit(OptionVisitor& field, EdgeRefinementOptions& options);
 
-/// How far an edge is followed beyond its predicted ends.
+/// Extension of a tracked edge beyond its predicted ends.
 struct EdgeGrowth {
-  double beyond_px = 6;    ///< most growth at either end
-  double max_gap_px = 10;  ///< longest part of an edge without support
+  double beyond_px = 6;    ///< maximum growth at either end
+  double max_gap_px = 10;  ///< maximum gap without support inside an edge
 };
 
 /// Detection of straight edges.
 struct SegmentDetectorOptions {
-  double min_length_px = 15;      ///< shorter edges are left out
-  double border_px = 3;           ///< edges along the image border, this near to it, are left out
-  SegmentMergingOptions merging;  ///< which pieces are joined to one edge
+  double min_length_px = 15;  ///< minimum length of an edge
+  double border_px = 3;       ///< edges along the image border within this distance are left out
+  SegmentMergingOptions merging;     ///< joining of pieces of one edge
   EdgeRefinementOptions refinement;  ///< the sub-pixel fit
   void check() const;
 };
@@ -45,7 +45,7 @@ struct SegmentFlowOptions {
   int strip_px = 7;              ///< half the width of the strip
   int iterations = 8;            ///< Gauss-Newton iterations on each level
   double robust_grey = 12;       ///< width of the Huber kernel on residuals [grey levels of 255]
-  double max_rotation_deg = 15;  ///< largest rotation from the predicted direction
+  double max_rotation_deg = 15;  ///< maximum rotation from the predicted direction
   void check() const { check_ranges(*this); }
 };
 void visit(OptionVisitor& field, SegmentFlowOptions& options);
@@ -63,10 +63,10 @@ void visit(OptionVisitor& field, VanishingNoise& noise);
 
 /// Vanishing points of an image, their number unknown (minimum description length).
 struct VanishingPointOptions {
-  VanishingNoise noise;   ///< of the segments
-  int samples = 1000;     ///< hypotheses of two segments at first; half as many in later searches
-  int max_points = 10;    ///< most vanishing points
-  int min_segments = 4;   ///< least number of segments that point to one
+  VanishingNoise noise;   ///< noise of the segments
+  int samples = 1000;     ///< initial hypotheses of two segments; later searches use half as many
+  int max_points = 10;    ///< maximum number of vanishing points
+  int min_segments = 4;   ///< minimum number of segments of a vanishing point
   double point_cost = 8;  ///< description length of a point beside its precision [nats]
   void check() const;
 };
@@ -74,12 +74,12 @@ void visit(OptionVisitor& field, VanishingPointOptions& options);
 
 /// Manhattan frames: three orthogonal directions that many edges share.
 struct ManhattanOptions {
-  /// Deviation of the directions of a rectangular scene from right angles, lens and calibration
-  /// included. The deviation is estimated, up to twice this.
+  /// Deviation of the axes of a Manhattan frame from right angles, lens and calibration included.
+  /// The deviation is estimated, up to twice this.
   double orthogonality_deg = 1;
-  int min_segments = 4;     ///< least number of segments of an axis that counts as seen
-  double min_evidence = 8;  ///< least evidence of each of the two best axes [nats]
-  /// Least log odds, by the angles between the axes, that they are orthogonal.
+  int min_segments = 4;     ///< minimum number of segments of an observed axis
+  double min_evidence = 8;  ///< minimum evidence of each of the two best axes [nats]
+  /// Minimum log odds, from the angles between the axes, that they are orthogonal.
   double min_orthogonality = 1;
   void check() const { check_ranges(*this); }
 };
@@ -96,23 +96,23 @@ struct SceneDirectionOptions {
 };
 void visit(OptionVisitor& field, SceneDirectionOptions& options);
 
-/// Straight edges followed from frame to frame.
+/// Tracking of straight edges from frame to frame.
 struct LineTrackerOptions {
-  SegmentDetectorOptions detector;  ///< where new tracks come from
+  SegmentDetectorOptions detector;  ///< detection of edges that become tracks
   SegmentFlowOptions flow;          ///< alignment from frame to frame
-  EdgeGrowth growth;                ///< how far an edge may grow
-  int max_tracks = 80;              ///< most edges followed at once, the longest ones
-  double enough_share = 0.75;       ///< no new edges are searched with this share of max_tracks
+  EdgeGrowth growth;                ///< extension of edges
+  int max_tracks = 80;              ///< maximum number of edges tracked at once, the longest ones
+  double enough_share = 0.75;       ///< share of max_tracks from which on no new edges are searched
   /// Edges that will leave the image soon become tracks only below this share of max_tracks.
   double leaving_share = 0.3;
-  double max_shift_px = 12;   ///< largest distance of a segment from its prediction
-  double min_new_px = 25;     ///< least length of an edge that becomes a track
-  double min_length_px = 20;  ///< least length of a track; shorter ones end
-  /// Least correlation of the strips in two frames, on one side of the edge or both.
+  double max_shift_px = 12;   ///< maximum distance of a segment from its prediction
+  double min_new_px = 25;     ///< minimum length of an edge that becomes a track
+  double min_length_px = 20;  ///< minimum length of a track; shorter ones end
+  /// Minimum correlation of the strips in two frames, on one side of the edge or both.
   double min_similarity = 0.7;
-  /// Largest error, across, of the ends tracked there and back.
+  /// Maximum error across the edge of its ends tracked forward and back [px].
   double max_forward_backward_px = 1;
-  double max_contrast_ratio = 2.5;  ///< largest ratio of the contrasts in two frames
+  double max_contrast_ratio = 2.5;  ///< maximum ratio of the contrasts in two frames
   void check() const;
 };
 void visit(OptionVisitor& field, LineTrackerOptions& options);
@@ -120,22 +120,21 @@ void visit(OptionVisitor& field, LineTrackerOptions& options);
 /// Search for edges of the left image in the right image of a rectified stereo pair.
 struct LineStereoOptions {
   SegmentFlowOptions flow;  ///< alignment in the right image
-  double min_sine = 0.17;   ///< least sine of a segment's angle to the rows; flatter: no depth
+  double min_sine = 0.17;   ///< minimum sine of a segment's angle to the rows; below: no depth
   int samples = 7;          ///< points along a segment whose disparities start the search
-  double max_disparity_miss_px = 1.5;  ///< largest distance of an inlier from the common line
-  /// Least correlation of the strips in both images, on one side of the edge or both.
+  double max_disparity_miss_px = 1.5;  ///< maximum distance of an inlier from the common line
+  /// Minimum correlation of the strips in both images, on one side of the edge or both.
   double min_similarity = 0.8;
   void check() const;
 };
 void visit(OptionVisitor& field, LineStereoOptions& options);
 
-/// When a line in space is known well enough from several keyframes.
+/// Acceptance of a line triangulated from several keyframes.
 struct LineTriangulationOptions {
-  /// Least angle between the planes through the line and two camera centres, those that differ
-  /// most.
+  /// Minimum of the largest angle between the planes through the line and two camera centres.
   double min_rotation_deg = 1.5;
-  double min_rotation_sigmas = 8;  ///< least ratio of that angle to its standard deviation
-  double max_error_sigmas = 4;     ///< largest residual of any observation, in standard deviations
+  double min_rotation_sigmas = 8;  ///< minimum ratio of that angle to its standard deviation
+  double max_error_sigmas = 4;     ///< maximum residual of an observation [standard deviations]
   void check() const { check_ranges(*this); }
 };
 void visit(OptionVisitor& field, LineTriangulationOptions& options);
@@ -144,47 +143,47 @@ void visit(OptionVisitor& field, LineTriangulationOptions& options);
 struct PoseFromLinesOptions {
   /// Three-line hypotheses.
   RansacOptions ransac{.max_iterations = 200, .confidence = 0.999, .min_inliers = 6};
-  double threshold_px = 2.5;  ///< largest distance of an inlier from its projection
-  /// RANSAC is left out if this share of the lines are inliers of the predicted pose; above 1:
+  double threshold_px = 2.5;  ///< maximum distance of an inlier from its projection
+  /// RANSAC is skipped if this share of the lines are inliers of the predicted pose; above 1:
   /// never.
   double prior_inlier_ratio = 0.6;
-  double huber_sigmas = 3;  ///< width of the Huber kernel, in standard deviations
+  double huber_sigmas = 3;  ///< width of the Huber kernel [standard deviations]
   void check() const;
 };
 void visit(OptionVisitor& field, PoseFromLinesOptions& options);
 
-/// The first keyframes of a monocular camera that sees lines but no points.
+/// Initialization of a monocular camera from lines without points.
 struct LineInitializerOptions {
   VanishingPointOptions directions;  ///< vanishing points of the first image, for the rotations
   /// Five-line hypotheses of the translations.
   RansacOptions ransac{.max_iterations = 200, .confidence = 0.999, .min_inliers = 9};
-  double threshold_px = 3;  ///< largest residual, in the middle image, of a line from the others
-  double min_rotation_deg =
-      0.7;             ///< least rotation of a line's plane to take part in the translation
-  int min_lines = 12;  ///< least number of lines tracked from the first to the last image
+  double threshold_px = 3;  ///< maximum residual in the middle image of a line from the others
+  /// Minimum rotation of a line's plane for use in the translation.
+  double min_rotation_deg = 0.7;
+  int min_lines = 12;  ///< minimum number of lines tracked from the first to the last image
   void check() const;
 };
 void visit(OptionVisitor& field, LineInitializerOptions& options);
 
-/// Which lines lie on the floor, and how high the camera is above it.
+/// Selection of the lines on the floor and height of the camera above it.
 struct FloorFromLinesOptions {
-  double max_tilt_deg = 25;  ///< largest tilt of the floor from the camera's xz plane
-  double upright_deg = 3;    ///< deviation of built uprights from the floor's normal
-  double end_px = 3;  ///< standard deviation of an upright's end from where it meets the floor
-  double unevenness = 0.01;  ///< standard deviation of the floor, in camera heights
-  double max_sigma = 0.1;    ///< largest deviation of a height with a vote, in camera heights
-  int min_lines = 4;         ///< least number of lines on the floor
-  double min_share = 0.35;   ///< least votes for the floor over those for the level with most
+  double max_tilt_deg = 25;  ///< maximum tilt of the floor from the camera's xz plane
+  double upright_deg = 3;    ///< deviation of vertical edges from the floor's normal
+  double end_px = 3;         ///< standard deviation of a vertical edge's end from its floor contact
+  double unevenness = 0.01;  ///< standard deviation of the floor [camera heights]
+  double max_sigma = 0.1;   ///< maximum standard deviation of a height with a vote [camera heights]
+  int min_lines = 4;        ///< minimum number of lines on the floor
+  double min_share = 0.35;  ///< minimum ratio of the floor's votes to those of the level with most
   void check() const { check_ranges(*this); }
 };
 void visit(OptionVisitor& field, FloorFromLinesOptions& options);
 
 /// Matching of a keyframe's lines to segments near their predicted projection.
 struct LineFeatureMatcherOptions {
-  int max_distance = 60;     ///< largest Hamming distance of the descriptors [bits of 256]
-  double gate_px = 9;        ///< largest distance of a segment from its predicted line
-  double max_angle_deg = 8;  ///< largest angle between both
-  double min_overlap = 0.3;  ///< least share of the shorter segment that the other covers
+  int max_distance = 60;     ///< maximum Hamming distance of the descriptors [bits of 256]
+  double gate_px = 9;        ///< maximum distance of a segment from its predicted line
+  double max_angle_deg = 8;  ///< maximum angle between a segment and its predicted line
+  double min_overlap = 0.3;  ///< minimum share of the shorter segment that the other covers
   void check() const;
 };
 void visit(OptionVisitor& field, LineFeatureMatcherOptions& options);

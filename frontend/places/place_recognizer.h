@@ -17,21 +17,22 @@ class DenseIndex;
 /// (1, 1 / zoom, zoom) instead of one, for which it takes about three times as long.
 PlaceView describe_place(const Image& image, const PlaceCueOptions& options, bool query);
 
-/// How similar a stored image is to a query.
+/// Similarity of a stored image to a query.
 struct PlaceSimilarity {
-  int view = 0;      ///< index of the stored image
-  double score = 0;  ///< larger is more similar; comparable over queries, but no probability
+  int view = 0;  ///< index of the stored image
+  /// Similarity; larger is more similar; comparable over queries, but not a probability.
+  double score = 0;
 };
 
-/// Finds the stored images (views) that look most like a query.
+/// Retrieves the stored images (views) that are most similar to a query.
 ///
-/// Nothing is learned: every score depends on two images alone, as the weighted sum of all cues.
-/// Two coarse comparisons choose the views that are compared in full. Only the first, a dot
-/// product, takes time that grows with the number of views, up to
-/// PlaceRecognizerOptions::indexed_from; beyond, a graph of neighbours is searched.
+/// There is no training: every score depends on two images alone and is the weighted sum of all
+/// cues. Two coarse comparisons choose the views that are compared in full. Only the time of the
+/// first one, a dot product, grows with the number of views, up to
+/// PlaceRecognizerOptions::indexed_from; with more views a graph of neighbours is searched.
 class PlaceRecognizer {
  public:
-  /// Begins without views. Throws ArgumentError for options that check() refuses.
+  /// Starts without views. Throws ArgumentError for options that check() refuses.
   explicit PlaceRecognizer(const PlaceRecognizerOptions& options);
   ~PlaceRecognizer();
   PlaceRecognizer(PlaceRecognizer&&) noexcept;
@@ -39,19 +40,20 @@ class PlaceRecognizer {
 
   /// Adds a view (describe_place) and returns its index: 0, 1, 2, ...
   ///
-  /// Of a query's scales only the first is kept. Throws ArgumentError if it is grey and the others
-  /// are in colour, or the reverse, or it was described by other cues.
+  /// If the view was described as a query, only its first scale is kept. Throws ArgumentError if
+  /// the view is grey and the others are in colour, or the reverse, or if it was described by other
+  /// cues.
   int add(PlaceView view);
-  /// The most similar views among first..last, at most `short_list`, best first.
+  /// Returns the most similar views among first..last, at most `short_list`, best first.
   ///
-  /// The range is cut to the views that exist; the list is empty if there are none. `query` is a
+  /// The range is cut to the existing views; the list is empty if there are none. `query` is a
   /// describe_place with `query` set, by the same cues (ArgumentError otherwise).
   std::vector<PlaceSimilarity> query(const PlaceView& query, int first, int last) const;
-  /// A stored view. Throws std::out_of_range for an index that no view has.
+  /// Returns a stored view. Throws std::out_of_range for an index without a view.
   const PlaceView& view(int index) const { return views_.at(static_cast<std::size_t>(index)); }
   /// Number of stored views.
   int size() const { return static_cast<int>(views_.size()); }
-  /// The options it was made with.
+  /// Options of the constructor.
   const PlaceRecognizerOptions& options() const { return options_; }
 
  private:
@@ -61,8 +63,9 @@ class PlaceRecognizer {
 
   PlaceRecognizerOptions options_;
   std::vector<PlaceView> views_;
-  std::vector<std::int16_t> glances_;  ///< of the views, one after the other
-  std::unique_ptr<DenseIndex> graph_;  ///< of the same; from half of indexed_from on
+  std::vector<std::int16_t> thumbnails_;  ///< thumbnails of the views, one after the other
+  /// Neighbour graph of the thumbnails, built from half of indexed_from on.
+  std::unique_ptr<DenseIndex> graph_;
 };
 
 }  // namespace placegraph

@@ -6,7 +6,7 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// Keeps the `count` best of a list, sorted by score, best first; equal ones by view.
+/// Keeps the `count` best of a list, sorted by score, best first; ties are sorted by view.
 inline void keep_best(std::vector<PlaceSimilarity>& list, int count) {
   const auto kept = std::min(list.size(), static_cast<std::size_t>(std::max(count, 0)));
   const auto better = [](const PlaceSimilarity& a, const PlaceSimilarity& b) {

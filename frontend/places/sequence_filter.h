@@ -7,7 +7,7 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// Joins the similarities of consecutive images into the best path through the stored views.
+/// Finds the best path through the stored views from the similarities of consecutive images.
 ///
 /// A max-product filter over view, direction of travel (forwards or backwards) and pace (half a
 /// view, one or two views per image). It uses past images only. A score is the mean of the
@@ -16,36 +16,36 @@ namespace [[gnu::visibility("default")]] placegraph {
 /// for the same purpose.
 class SequenceFilter {
  public:
-  /// Begins without a past. Throws ArgumentError for options that check() refuses.
+  /// Starts without past images. Throws ArgumentError for options that check() refuses.
   explicit SequenceFilter(const SequenceFilterOptions& options);
 
-  /// Takes the next image's similarities; returns a score for every view in first..last.
+  /// Adds the next image's similarities; returns a score for every view in first..last.
   ///
-  /// `list` holds views of first..last (ArgumentError otherwise); views that are not listed count
-  /// as the least similar listed one. Sorted by score, best first. An empty list ends the sequence,
-  /// and nothing is returned.
+  /// `list` contains views of first..last (ArgumentError otherwise); a view that is not listed gets
+  /// the score of the least similar listed one. The result is sorted by score, best first. An empty
+  /// list ends the sequence, and the result is empty.
   std::vector<PlaceSimilarity> update(const std::vector<PlaceSimilarity>& list, int first,
                                       int last);
-  /// Confidence of an answer of `update`, comparable over images.
+  /// Returns the confidence of an answer of `update`, comparable over images.
   ///
-  /// The weighted mean of its score and of the similarity that `list`, as it was given to `update`
-  /// and sorted best first, has for that view: a path goes on for a while where its street has been
-  /// left. Which view is the best is not changed by that.
+  /// The confidence is the weighted mean of the answer's score and of the similarity of its view in
+  /// `list`, the list that `update` received, sorted best first. The reason: a path continues for
+  /// some images after the camera has left its street. The choice of the best view does not change.
   double confidence(const PlaceSimilarity& answer, const std::vector<PlaceSimilarity>& list) const;
-  /// Forgets the past: the next image begins a new sequence.
+  /// Discards the past; the next image begins a new sequence.
   void restart() { states_.clear(); }
 
  private:
   struct State {
-    double pace = 1;            ///< views an image, negative for travel backwards
-    std::vector<double> score;  ///< of views first_, first_ + 1, ...
+    double pace = 1;            ///< views per image, negative for travel backwards
+    std::vector<double> score;  ///< scores of the views first_, first_ + 1, ...
   };
   std::vector<double> predict(const State& state, int first, int last) const;
 
   SequenceFilterOptions options_;
   std::vector<State> states_;
   int first_ = 0;
-  double weight_ = 0;  ///< of the images in the scores
+  double weight_ = 0;  ///< sum of the weights of the images in the scores
 };
 
 }  // namespace placegraph

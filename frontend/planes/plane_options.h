@@ -6,31 +6,32 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// How a particle's velocity is damped.
+/// Damping of a particle's velocity.
 enum class SwarmDamping {
   kConstriction,  ///< chi = 2 / |2 - phi - sqrt(phi^2 - 4 phi)|, phi = 4.1 (Clerc & Kennedy 2002)
-  kInertia,       ///< weight from 0.9 to 0.4 over the run, c1 = c2 = 1.7 (Shi & Eberhart 1998)
+  kInertia,  ///< weight from 0.9 to 0.4 over the generations, c1 = c2 = 1.7 (Shi & Eberhart 1998)
 };
 
-/// Whose best point attracts a particle.
+/// Set of particles whose best point attracts a particle.
 enum class SwarmTopology {
-  kGlobal,  ///< that of all
-  kRing,    ///< of itself and its two neighbours by index: slower to agree, harder to fool
+  kGlobal,  ///< all particles
+  kRing,  ///< the particle and its two neighbours by index: slower convergence, fewer false optima
 };
 
-/// Particle swarm search (Kennedy & Eberhart 1995) about a start.
+/// Particle swarm search (Kennedy & Eberhart 1995) around an initial estimate.
 ///
-/// Coordinates are in standard deviations of the start.
+/// Coordinates are in standard deviations of the initial estimate.
 struct SwarmOptions {
-  SwarmDamping damping = SwarmDamping::kConstriction;  ///< how velocities are damped
-  SwarmTopology topology = SwarmTopology::kRing;       ///< whose best point attracts a particle
-  int particles = 40;                                  ///< size of the swarm
-  int generations = 40;                                ///< most moves of each particle
-  int stagnation = 12;     ///< generations without a better best point that end the search
-  double max_speed = 0.8;  ///< most change of a coordinate in one generation
-  double bound = 3;  ///< largest absolute value of a coordinate; particles are reflected there
-  std::uint64_t seed = 1;  ///< of the random streams, one per particle
-  int threads = 1;         ///< the result does not depend on it
+  SwarmDamping damping = SwarmDamping::kConstriction;  ///< damping of the velocities
+  /// Set of particles whose best point attracts a particle.
+  SwarmTopology topology = SwarmTopology::kRing;
+  int particles = 40;    ///< size of the swarm
+  int generations = 40;  ///< maximum number of moves of each particle
+  int stagnation = 12;   ///< number of generations without a better best point that ends the search
+  double max_speed = 0.8;  ///< maximum change of a coordinate in one generation
+  double bound = 3;  ///< maximum absolute value of a coordinate; particles are reflected there
+  std::uint64_t seed = 1;  ///< seed of the random streams, one per particle
+  int threads = 1;         ///< number of threads; the result does not depend on it
   void check() const;
 };
 void visit(OptionVisitor& field, SwarmOptions& options);
@@ -38,17 +39,17 @@ void visit(OptionVisitor& field, SwarmOptions& options);
 /// Motion between two images by direct alignment of the grey values of several planes.
 struct DirectMotionOptions {
   int levels = 4;           ///< levels of the image pyramid, coarse to fine
-  int samples = 1500;       ///< samples of all planes together, per level
-  int min_samples = 150;    ///< least number of samples in view on the finest level
-  int iterations = 12;      ///< most iterations per level
+  int samples = 1500;       ///< number of samples of all planes together, per level
+  int min_samples = 150;    ///< minimum number of samples in view on the finest level
+  int iterations = 12;      ///< maximum number of iterations per level
   double converged = 0.01;  ///< mean displacement of the samples by a step that ends a level [px]
-  double kernel_width = 4.685;     ///< of Tukey's weights [standard deviations of the residuals]
-  double min_visible_share = 0.3;  ///< least share of the samples that is in view
-  double min_agreement = 0.5;      ///< least correlation of observed and predicted grey values
-  double min_inlier_share = 0.4;   ///< least share of inliers among the samples in view
+  double kernel_width = 4.685;  ///< width of Tukey's weights [standard deviations of the residuals]
+  double min_visible_share = 0.3;  ///< minimum share of the samples that is in view
+  double min_agreement = 0.5;      ///< minimum correlation of observed and predicted grey values
+  double min_inlier_share = 0.4;   ///< minimum share of inliers among the samples in view
   /// Side of the tiles within which residuals may be correlated; the covariance allows for it.
   int tile_px = 32;
-  /// Search where no start is known.
+  /// Search without an initial motion.
   SwarmOptions swarm{.particles = 48, .generations = 40};
   void check() const;
 };
@@ -58,29 +59,31 @@ void visit(OptionVisitor& field, DirectMotionOptions& options);
 struct DepthPlanesOptions {
   int cell_px = 8;           ///< side of the cells that planes are grown over
   int step_px = 2;           ///< distance of the pixels used; at most half of cell_px
-  double flatness = 0.002;   ///< largest deviation from a plane, as a share of the depth
-  double min_share = 0.02;   ///< least share of the image's cells on a plane
-  int max_planes = 8;        ///< most planes, the largest ones
-  double max_sigma_deg = 1;  ///< largest standard deviation of the normal of a plane
-  /// Least standard deviation of a normal, beyond what residuals tell: the depths of a camera are
-  /// bent and scaled, which its planes follow.
+  double flatness = 0.002;   ///< maximum deviation from a plane, as a share of the depth
+  double min_share = 0.02;   ///< minimum share of the image's cells on a plane
+  int max_planes = 8;        ///< maximum number of planes; the largest ones are kept
+  double max_sigma_deg = 1;  ///< maximum standard deviation of the normal of a plane
+  /// Minimum standard deviation of a normal, beyond the residuals' covariance: the depths of a
+  /// camera have systematic bend and scale errors, which its planes share.
   double floor_deg = 0.1;
-  double floor_distance = 0.002;  ///< the same of the distance, as a share of it
+  /// Minimum relative standard deviation of the distance of a plane.
+  double floor_distance = 0.002;
   void check() const { check_ranges(*this); }
 };
 void visit(OptionVisitor& field, DepthPlanesOptions& options);
 
 /// The ground plane from two images of known motion by direct alignment.
 struct GroundPlaneOptions {
-  /// The part of the ground that is aligned, ahead of the camera, in camera heights: it must be
-  /// road, and of one lane, as roads are arched.
+  /// Region of the ground that is aligned, ahead of the camera, in camera heights. It must contain
+  /// only the road, and only one lane, as roads are arched.
   double near_heights = 2.5, far_heights = 12, half_width_heights = 1.4;
   int step_px = 3;                 ///< distance of neighbouring samples in the reference image
   int pyramid_levels = 3;          ///< levels of the image pyramid, coarse to fine
   int iterations = 12;             ///< Gauss-Newton iterations per level
   double pixel_correlation = 0.1;  ///< share of the samples that counts as independent
-  double min_zncc = 0.5;  ///< least correlation of the aligned samples; below, there is no result
-  int min_samples = 400;  ///< least number of samples seen in both images
+  /// Minimum correlation of the aligned samples; there is no result below it.
+  double min_zncc = 0.5;
+  int min_samples = 400;  ///< minimum number of samples seen in both images
   void check() const;
 };
 void visit(OptionVisitor& field, GroundPlaneOptions& options);
@@ -89,9 +92,9 @@ void visit(OptionVisitor& field, GroundPlaneOptions& options);
 struct InverseDepthPlaneOptions {
   /// Three-pixel hypotheses.
   RansacOptions ransac{.max_iterations = 200, .confidence = 0.999, .min_inliers = 25};
-  double threshold_sigmas = 3;      ///< largest residual of an inlier, in standard deviations
-  double max_sigma_deg = 3;         ///< largest standard deviation of the normal
-  double max_sigma_distance = 0.1;  ///< largest relative standard deviation of the distance
+  double threshold_sigmas = 3;      ///< maximum residual of an inlier, in standard deviations
+  double max_sigma_deg = 3;         ///< maximum standard deviation of the normal
+  double max_sigma_distance = 0.1;  ///< maximum relative standard deviation of the distance
   void check() const;
 };
 void visit(OptionVisitor& field, InverseDepthPlaneOptions& options);
@@ -99,16 +102,17 @@ void visit(OptionVisitor& field, InverseDepthPlaneOptions& options);
 /// The surface that a camera moves over, followed by a filter of pitch, roll and height.
 struct DominantSurfaceOptions {
   InverseDepthPlaneOptions fit;  ///< the plane through the depths of one region
-  /// The region ahead of the camera that is tried first, in distances of the surface; other regions
-  /// lie in it or beside it.
+  /// Region ahead of the camera that is tried first, in distances of the surface; other regions are
+  /// in it or beside it.
   double near_heights = 2, far_heights = 12, half_width_heights = 1.5;
-  int pixels = 400;                      ///< pixels in one region whose depth is measured
-  double min_share = 0.4;                ///< least share of a region's pixels on the surface
-  double mounting_sigma_deg = 5;         ///< standard deviation of pitch and roll at first
-  double mounting_sigma_distance = 0.3;  ///< relative standard deviation of the height at first
+  int pixels = 400;                      ///< number of pixels in one region whose depth is measured
+  double min_share = 0.4;                ///< minimum share of a region's pixels on the surface
+  double mounting_sigma_deg = 5;         ///< initial standard deviation of pitch and roll
+  double mounting_sigma_distance = 0.3;  ///< initial relative standard deviation of the height
   double pitching_sigma_deg = 0.3;       ///< random walk of pitch and roll from image to image
   double distance_drift = 0.005;         ///< relative random walk of the height
-  double slope_sigma_deg = 2;  ///< that of pitch and roll after a plane that contradicts the filter
+  /// Random walk of pitch and roll after a plane that contradicts the filter.
+  double slope_sigma_deg = 2;
   void check() const;
 };
 void visit(OptionVisitor& field, DominantSurfaceOptions& options);

@@ -8,8 +8,8 @@ namespace [[gnu::visibility("default")]] placegraph {
 struct Pose3d2dOptions {
   /// Three-point hypotheses.
   RansacOptions ransac{.max_iterations = 200, .confidence = 0.999, .min_inliers = 12};
-  double threshold_px = 2.5;  ///< largest reprojection error of an inlier
-  /// RANSAC is left out if this share of the points are inliers of the predicted pose; above 1:
+  double threshold_px = 2.5;  ///< maximum reprojection error of an inlier
+  /// RANSAC is skipped if this share of the points are inliers of the predicted pose; above 1:
   /// never.
   double prior_inlier_ratio = 0.7;
   void check() const;
@@ -20,7 +20,7 @@ void visit(OptionVisitor& field, Pose3d2dOptions& options);
 struct Pose2d2dOptions {
   /// Five-point and four-point hypotheses.
   RansacOptions ransac{.max_iterations = 300, .confidence = 0.999, .min_inliers = 30};
-  double threshold_px = 1.0;  ///< distance of an inlier from its epipolar line, or transfer error
+  double threshold_px = 1.0;  ///< maximum epipolar distance or transfer error of an inlier
   /// Share S_H / (S_H + S_E) of the homography's score above which the scene counts as planar.
   double homography_share = 0.45;
   void check() const;
@@ -31,22 +31,22 @@ void visit(OptionVisitor& field, Pose2d2dOptions& options);
 struct Rotation2d2dOptions {
   /// Two-point hypotheses.
   RansacOptions ransac{.max_iterations = 100, .confidence = 0.999, .min_inliers = 30};
-  double threshold_px = 1.5;  ///< largest distance of an inlier from where the rotation moves it
-  /// Least share of the matches that a rotation must explain; with fewer the camera has translated.
-  /// Moving objects are among the others.
+  double threshold_px = 1.5;  ///< maximum distance of an inlier from its rotated position
+  /// Minimum share of the matches that a pure rotation must explain; with fewer the camera has
+  /// translated. The other matches include moving objects.
   double min_inlier_share = 0.85;
   void check() const;
 };
 void visit(OptionVisitor& field, Rotation2d2dOptions& options);
 
-/// When two images of a monocular camera are good enough to begin a map with.
+/// Initialization of a map from two images of a monocular camera.
 struct MonoInitializerOptions {
   Pose2d2dOptions two_view;       ///< the relative pose
-  double min_parallax_deg = 0.6;  ///< least angle between the two rays of a point
-  int min_points = 50;            ///< triangulated points that must have that angle
-  double max_error_px = 1.5;      ///< largest reprojection error of a triangulated point
+  double min_parallax_deg = 0.6;  ///< minimum angle between the two rays of a point
+  int min_points = 50;            ///< minimum number of triangulated points with that angle
+  double max_error_px = 1.5;      ///< maximum reprojection error of a triangulated point
   /// A second motion that triangulates this share of the best one's points makes the result
-  /// ambiguous, unless the images between the two decide.
+  /// ambiguous, unless the images between the two resolve it.
   double ambiguity = 0.8;
   void check() const;
 };

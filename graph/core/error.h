@@ -5,8 +5,8 @@
 namespace [[gnu::visibility("default")]] placegraph {
 
 /// Base of every exception that the library throws itself.
-/// It reports a caller's mistake, a bad option or a broken file. The message is one line that names
-/// the field or `file:line` and the value seen. When the data merely allow no estimate, nothing is
+/// It reports an error of the caller, an invalid option or a broken file. The message is one line
+/// that names the field or `file:line` and the value. If the data allow no estimate, nothing is
 /// thrown: see outcome.h.
 class Error : public std::runtime_error {
  public:

@@ -10,16 +10,15 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// The number of one thing of a kind; ids of two kinds cannot be exchanged or compared.
-/// `Tag` is an incomplete type that names the kind, as in graph/core/ids.h. There is no id that
-/// means "none": where one may be missing stands a std::optional. Files write ids as the integers
-/// that they are.
+/// The number of an object of one kind; ids of different kinds cannot be mixed or compared.
+/// `Tag` is an incomplete type that names the kind, as in graph/core/ids.h. No id means "none": an
+/// id that may be missing is a std::optional. Files store ids as integers.
 template <class Tag>
 class Id {
  public:
   /// The id 0.
   constexpr Id() = default;
-  /// The id of that number, which must be an integer.
+  /// The id with the given number, which must be an integer.
   template <std::integral Integer>
     requires(!std::same_as<Integer, bool>)
   constexpr explicit Id(Integer value) : value_(static_cast<std::int64_t>(value)) {}
@@ -27,12 +26,12 @@ class Id {
   /// The number: for files, messages, and arithmetic on positions in a sequence.
   [[nodiscard]] constexpr std::int64_t value() const { return value_; }
 
-  /// Becomes the next id, for what numbers its own things.
+  /// Increments the id, for code that numbers its own objects.
   constexpr Id& operator++() {
     ++value_;
     return *this;
   }
-  /// Becomes the next id; returns the one before.
+  /// Increments the id and returns its previous value.
   constexpr Id operator++(int) {
     const Id before = *this;
     ++value_;
@@ -53,7 +52,7 @@ class Id {
   friend void to_json(Json& json, Id id) {
     json = id.value_;
   }
-  /// Reads the number; throws what nlohmann::json throws where there is none.
+  /// Reads the number; throws the exception of nlohmann::json if the value is not a number.
   template <class Json>
   friend void from_json(const Json& json, Id& id) {
     id.value_ = json.template get<std::int64_t>();

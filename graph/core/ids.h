@@ -7,7 +7,7 @@ namespace [[gnu::visibility("default")]] placegraph {
 using FrameId = Id<struct FrameTag>;
 
 /// A keyframe. Keyframes are numbered in the order of their frames, over all components of a map.
-/// A part of a place is identified by its first keyframe, its anchor.
+/// A segment of a place is identified by its first keyframe, the anchor keyframe.
 using KeyframeId = Id<struct KeyframeTag>;
 
 /// A topological place: a node of the place graph.
@@ -25,7 +25,7 @@ using PlaneId = Id<struct PlaneTag>;
 /// A Manhattan frame: three orthogonal directions that many edges of the scene are parallel to.
 using ManhattanFrameId = Id<struct ManhattanFrameTag>;
 
-/// A vertex of a pose graph: a pose, or a point beside the poses. Ids may be any integers.
+/// A vertex of a pose graph: a pose or a point landmark. Ids may be any integers.
 using NodeId = Id<struct NodeTag>;
 
 }  // namespace placegraph

@@ -9,7 +9,7 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// The closed interval that the value of an option may lie in; by default any number.
+/// The closed interval of allowed values of an option; by default any number.
 struct Range {
   double min = -std::numeric_limits<double>::infinity();  ///< smallest value allowed
   double max = std::numeric_limits<double>::infinity();   ///< largest value allowed
@@ -59,7 +59,7 @@ class OptionVisitor {
   virtual void operator()(const char* key, double& value, const char* doc, Range range = {}) = 0;
   /// A text, such as a path; it may be empty.
   virtual void operator()(const char* key, std::string& value, const char* doc) = 0;
-  /// A list of any length whose elements all lie within `range`.
+  /// A list of any length whose elements are all within `range`.
   virtual void operator()(const char* key, std::vector<double>& value, const char* doc,
                           Range range = {}) = 0;
 
@@ -74,7 +74,7 @@ class OptionVisitor {
 
   /// Nested options, whose fields get the paths "key.field".
   /// `visit(OptionVisitor&, Options&)` must be found by argument-dependent lookup. A visitor that
-  /// checks calls `options.check()` instead, where there is one.
+  /// checks calls `options.check()` instead, if it exists.
   template <class Options>
   void group(const char* key, Options& options, const char* doc) {
     begin_group(key, doc);
@@ -102,8 +102,8 @@ class OptionVisitor {
                             const char* doc) = 0;
   virtual void begin_group(const char* key, const char* doc) = 0;
   virtual void end_group() = 0;
-  /// A visitor that checks gets the groups' own `check()`, between begin_group and end_group, in
-  /// place of their fields.
+  /// Whether the visitor receives the `check()` of each group, between begin_group and end_group,
+  /// instead of its fields.
   virtual bool checks() const { return false; }
   virtual void check_group(const std::function<void()>& check) { check(); }
 
@@ -120,10 +120,10 @@ class OptionVisitor {
 struct OptionEntry {
   std::string path;   ///< keys from the outermost group on: "frontend.tracker.window_px"
   std::string value;  ///< the present value, as YAML would write it; empty for a group
-  std::string doc;    ///< what it means, one line
+  std::string doc;    ///< meaning, one line
   std::string type;   ///< bool | int | uint | double | string | list | choice | group
-  Range range;        ///< of an int, a double or the elements of a list
-  std::vector<std::string> choices;  ///< the names that a choice may have, else empty
+  Range range;        ///< allowed values of an int, a double or the elements of a list
+  std::vector<std::string> choices;  ///< allowed names of a choice, else empty
   OptionLevel level = OptionLevel::kAdvanced;  ///< who it is for; of a group: its fields
   std::string former_path;  ///< the path that it had in earlier versions; empty: the same
 };
@@ -171,8 +171,8 @@ std::vector<OptionEntry> list_options(const Options& options) {
 }
 
 /// Throws ArgumentError naming the first field that is NaN or outside its range.
-/// The message is "path: value outside [min, max]". Of a group it is what the group's own `check()`
-/// refuses, with the group's name before it.
+/// The message is "path: value outside [min, max]". For a group that has a `check()` it is the
+/// message of that check, preceded by the name of the group.
 template <class Options>
 void check_ranges(const Options& options) {
   internal::OptionCollector collector(true);

@@ -6,8 +6,8 @@ namespace [[gnu::visibility("default")]] placegraph {
 
 /// Whether an estimator's result may be used, and if not, why.
 /// It is the first member of every result struct whose computation the data may not allow; the
-/// evidence beside it (inliers, condition, residual) is always filled. Test it before using the
-/// estimate: `if (!result.outcome) ...`.
+/// evidence beside it (inliers, condition, residual) is always filled. Test it before the estimate
+/// is used: `if (!result.outcome) ...`.
 struct [[nodiscard]] Outcome {
   /// The kind of failure, for programs that treat kinds differently.
   enum class Code {
@@ -20,15 +20,15 @@ struct [[nodiscard]] Outcome {
     kNotAttempted,  ///< the default: nothing was computed yet
   };
 
-  Code code = Code::kNotAttempted;  ///< what `if (outcome)` tests for kOk
-  std::string reason;               ///< one line for people; empty when ok
+  Code code = Code::kNotAttempted;  ///< the kind of outcome; `if (outcome)` tests for kOk
+  std::string reason;               ///< one readable line; empty if ok
 
   /// True if the estimate may be used.
   explicit operator bool() const { return code == Code::kOk; }
 
   /// Success, without a reason.
   static Outcome ok() { return {Code::kOk, {}}; }
-  /// Failure of that kind, with one line that says what was seen and what was needed.
+  /// Failure of the given kind; `reason` is one line with the value found and the value needed.
   static Outcome failure(Code code, std::string reason) { return {code, std::move(reason)}; }
 };
 

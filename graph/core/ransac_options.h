@@ -3,11 +3,11 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// How long RANSAC draws samples and which support a model needs (Fischler & Bolles 1981).
+/// Stopping criterion and minimum support of a model in RANSAC (Fischler & Bolles 1981).
 struct RansacOptions {
-  int max_iterations = 300;   ///< samples drawn at most
-  double confidence = 0.999;  ///< stop once a sample of inliers alone was drawn with this chance
-  int min_inliers = 12;       ///< a model with fewer is refused: Outcome kNoConsensus
+  int max_iterations = 300;   ///< maximum number of samples
+  double confidence = 0.999;  ///< probability of an outlier-free sample at which sampling stops
+  int min_inliers = 12;       ///< minimum number of inliers of a model, else Outcome kNoConsensus
   void check() const { check_ranges(*this); }
 };
 void visit(OptionVisitor& field, RansacOptions& options);

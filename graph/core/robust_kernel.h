@@ -9,8 +9,9 @@ struct RobustKernel {
   /// The function rho; kDcs is dynamic covariance scaling (Agarwal et al. 2013) as a kernel.
   enum class Kind { kNone, kHuber, kCauchy, kTukey, kGemanMcClure, kDcs, kTruncated };
   Kind kind = Kind::kNone;  ///< kNone: rho(s) = s, least squares
-  /// In standard deviations: Huber's k, Cauchy's c, Tukey's c, DCS's sqrt(Phi), and the error from
-  /// which on truncated least squares (rho = min(s, width^2)) gives no weight. Must be positive.
+  /// Width in standard deviations: Huber's k, Cauchy's c, Tukey's c, sqrt(Phi) of DCS, and the
+  /// error beyond which truncated least squares (rho = min(s, width^2)) has weight zero. Must be
+  /// positive.
   double width = 1;
 
   /// The kernel and its derivatives by s.

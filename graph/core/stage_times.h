@@ -5,15 +5,15 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// CPU time that the stages of a program took, each without the stages it called.
+/// CPU time of the stages of a program, each without the stages that it called.
 ///
 ///     const auto span = times.measure("window");  // until the end of the scope
 ///
-/// One thread opens and closes spans, inner ones first; what its helper threads work meanwhile
-/// counts for the open stage, as does any other work of the process.
+/// One thread opens and closes spans, inner ones first. CPU time of its helper threads and of any
+/// other thread of the process counts for the open stage.
 class StageTimes {
  public:
-  /// What one stage has taken so far.
+  /// The time that one stage has taken so far.
   struct Stage {
     std::string name;        ///< as given to `measure`
     double cpu_s = 0;        ///< CPU time of all threads of the process, inner stages excluded [s]
@@ -33,9 +33,9 @@ class StageTimes {
     StageTimes& times_;
   };
 
-  /// Opens a span of the stage of that name, which ends with the scope it is kept in.
+  /// Opens a span of the named stage, which ends when the returned object is destroyed.
   [[nodiscard]] Span measure(const std::string& name);
-  /// The stages in the order in which they were first met.
+  /// The stages in the order of their first spans.
   /// A stage whose first span is still open has no calls and no time yet.
   const std::vector<Stage>& stages() const { return stages_; }
 

@@ -6,7 +6,8 @@
 namespace [[gnu::visibility("default")]] placegraph {
 
 /// A position relative to the WGS84 ellipsoid.
-/// The height is taken as height above the ellipsoid, whatever the receiver measures it from.
+/// The height is used as height above the ellipsoid, even if the receiver has another vertical
+/// datum.
 struct GeodeticPosition {
   double latitude_deg = 0;   ///< [-90, 90]
   double longitude_deg = 0;  ///< [-540, 540)

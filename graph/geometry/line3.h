@@ -8,9 +8,10 @@ namespace [[gnu::visibility("default")]] placegraph {
 /// An infinite line of space in Pluecker coordinates (m, v), up to one common factor:
 /// direction v and moment m = p x v for any point p of the line.
 ///
-/// It is held in the orthonormal form of Bartoli & Sturm 2005: U in SO(3) with columns m/|m|, v/|v|
-/// and their cross product, and the angle of W in SO(2) with (|m|, |v|) ~ (cos, sin). That form has
-/// four parameters and no singularity. Tangent: [rotation of U on the right, change of the angle].
+/// It is stored in the orthonormal form of Bartoli & Sturm 2005: U in SO(3) with columns m/|m|,
+/// v/|v| and their cross product, and the angle of W in SO(2) with (|m|, |v|) ~ (cos, sin). That
+/// form has four parameters and no singularity. Tangent: [rotation of U on the right, change of the
+/// angle].
 class Line3 {
  public:
   static constexpr int kDof = 4;  ///< degrees of freedom: size of the tangent
@@ -21,7 +22,7 @@ class Line3 {
 
   /// The x axis.
   Line3();
-  /// The line of that orthonormal form, see above.
+  /// The line with the given orthonormal form, see above.
   Line3(const SO3& U, double angle) : U_(U), angle_(angle) {}
   /// The line through a point along a direction of any length.
   /// Throws ArgumentError if the direction is zero or anything is not finite.
@@ -33,7 +34,7 @@ class Line3 {
   Eigen::Vector3d direction() const { return U_.matrix().col(1); }
   /// The point nearest to the origin.
   Eigen::Vector3d nearest_point() const;
-  /// Distance of a point from the line, in the unit of its coordinates; never negative.
+  /// Distance of a point from the line, in the unit of the coordinates; never negative.
   double distance_to(const Eigen::Vector3d& point) const;
   /// The rotation of the orthonormal form: columns m/|m|, v/|v| and their cross product.
   const SO3& U() const { return U_; }
@@ -51,7 +52,7 @@ class Line3 {
 };
 
 /// Pluecker coordinates in frame b of a line that is given in frame a:
-/// v_b = R^T v_a, m_b = R^T (m_a - t x v_a) with T_a_b = (R, t). The Jacobians, if asked for, are
+/// v_b = R^T v_a, m_b = R^T (m_a - t x v_a) with T_a_b = (R, t). The Jacobians, if requested, are
 /// the derivatives by T_a_b exp(xi) and by the tangent of the line:
 ///
 ///   d m_b / d xi = [hat(v_b), hat(m_b)],   d v_b / d xi = [0, hat(v_b)]

@@ -6,8 +6,8 @@
 namespace [[gnu::visibility("default")]] placegraph {
 
 /// A straight edge of an image [px], from `start` to `end`.
-/// A detector that knows the polarity orders the ends so that the brighter side lies on the right
-/// when going from start to end (u right, v down). From another detector the order means nothing.
+/// A detector that measures the polarity orders the ends so that the brighter side is to the right
+/// of the direction from start to end (u right, v down). The order of other detectors is arbitrary.
 struct LineSegment {
   Eigen::Vector2d start = Eigen::Vector2d::Zero();  ///< first end [px]
   Eigen::Vector2d end = Eigen::Vector2d::Zero();    ///< second end [px]
@@ -20,20 +20,20 @@ struct LineSegment {
   double length() const { return vector().norm(); }
   /// From start to end, of unit length; zero if the ends coincide.
   Eigen::Vector2d direction() const { return vector().normalized(); }
-  /// The direction turned by +90 degrees, (-d_v, d_u); it points to the right of the segment.
+  /// The direction rotated by +90 degrees, (-d_v, d_u); it points to the right of the segment.
   Eigen::Vector2d normal() const;
   /// Signed distance of a point from the infinite line [px], positive where the normal points.
   double offset_of(const Eigen::Vector2d& px) const { return normal().dot(px - start); }
-  /// Position of a point's foot along the line, from start [px]; may lie outside [0, length].
+  /// Position of a point's foot along the line, from start [px]; may be outside [0, length].
   double position_of(const Eigen::Vector2d& px) const { return direction().dot(px - start); }
   /// Distance of a point from the segment, its ends included [px].
   double distance_to(const Eigen::Vector2d& px) const;
 };
 
 /// An infinite line of an image, n^T p = offset with n = (cos angle, sin angle).
-/// Where an edge ends in an image depends on the detector, the line that it lies on does not.
+/// The ends of an edge depend on the detector, the infinite line through them does not.
 struct ImageLine {
-  double angle_rad = 0;  ///< of the normal, from the u axis towards v
+  double angle_rad = 0;  ///< direction of the normal, from the u axis towards v
   double offset_px = 0;  ///< signed distance of the line from pixel (0, 0) along the normal
   /// Covariance of [rotation about `anchor`, shift along the normal at `anchor`], rad and px.
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
@@ -50,21 +50,22 @@ struct ImageLine {
   /// It grows with the distance of the point's foot from the anchor.
   double variance_at(const Eigen::Vector2d& px) const;
   /// Two points of the line where its distances are independent and equally well known.
-  /// They stand for the infinite line with its covariance, wherever the ends of its segment are.
+  /// They represent the infinite line with its covariance, independently of the ends of its
+  /// segment.
   struct Carriers {
-    Eigen::Vector2d first, second;  ///< on the line, on both sides of the anchor [px]
+    Eigen::Vector2d first, second;  ///< points of the line, on both sides of the anchor [px]
     double sigma_px = 0;            ///< standard deviation of the line's distance at either point
   };
   /// The carriers of the line, with no deviation below `sigma_floor_px`.
   /// The covariance must be diagonal, as `fit_line` and `line_of` leave it; throws ArgumentError if
-  /// one of its variances is not positive.
+  /// a variance is not positive.
   Carriers carriers(double sigma_floor_px = 0) const;
 };
 
 /// The line through edge points [px] by total least squares, with a covariance.
-/// `sigmas_px` are the standard deviations of the points across the line, which must be as many and
-/// positive (ArgumentError). The covariance is that of the normal equations. Nothing if there are
-/// fewer than two points or all are in one place.
+/// `sigmas_px` are the standard deviations of the points across the line: one positive value for
+/// each point, else ArgumentError. The covariance is that of the normal equations. Nothing if there
+/// are fewer than two points or all points coincide.
 std::optional<ImageLine> fit_line(const std::vector<Eigen::Vector2d>& points_px,
                                   const std::vector<double>& sigmas_px);
 
@@ -74,13 +75,14 @@ std::optional<ImageLine> fit_line(const std::vector<Eigen::Vector2d>& points_px,
 /// rotation. Throws ArgumentError if the segment has no length or a parameter is not positive.
 ImageLine line_of(const LineSegment& segment, double sigma_px = 0.3, double step_px = 2);
 
-/// How far two segments are from lying on one line, measured along the longer one.
+/// Deviation of two segments from a common line, relative to the longer segment.
 struct Collinearity {
-  double angle_rad = 0;    ///< between the lines, 0 .. pi/2
-  double distance_px = 0;  ///< of the shorter segment's farther end from the longer one's line
-  double gap_px = 0;       ///< between them along the line; negative: they overlap by so much
+  double angle_rad = 0;  ///< angle between the lines, 0 .. pi/2
+  /// Distance of the shorter segment's farther end from the line of the longer one.
+  double distance_px = 0;
+  double gap_px = 0;  ///< gap between the segments along the line; negative: their overlap
 };
-/// Compares two segments, both of which must have a length; the order does not matter.
+/// Compares two segments of non-zero length; their order does not matter.
 Collinearity collinearity(const LineSegment& a, const LineSegment& b);
 
 }  // namespace placegraph

@@ -4,11 +4,12 @@
 namespace [[gnu::visibility("default")]] placegraph {
 
 /// A plane of space without orientation: the points with n^T p = d, |n| = 1.
-/// (n, d) and (-n, -d) are the same plane. It is held as the unit quaternion of vector part
+/// (n, d) and (-n, -d) are the same plane. It is stored as the unit quaternion with vector part
 /// n / sqrt(1 + d^2) and scalar part -d / sqrt(1 + d^2) (Kaess 2015, "Simultaneous localization and
 /// mapping with infinite planes"), whose sign does not matter either. Tangent: rotation vector of
-/// that quaternion, perturbed on the right: q [+] w = q exp(w). At a distance of zero the part of w
-/// across n is twice the rotation of the normal [rad], the part along n twice the shift [m].
+/// that quaternion, perturbed on the right: q [+] w = q exp(w). At a distance of zero the component
+/// of w perpendicular to n is twice the rotation of the normal [rad], the component along n twice
+/// the shift [m].
 class Plane3 {
  public:
   static constexpr int kDof = 3;  ///< degrees of freedom: size of the tangent
@@ -17,24 +18,25 @@ class Plane3 {
 
   /// The plane z = 0.
   Plane3() : Plane3(Eigen::Vector3d::UnitZ(), 0) {}
-  /// The plane across `normal`, of any length, at a signed distance from the origin [m].
+  /// The plane with a normal of any length, at a signed distance from the origin [m].
   /// Throws ArgumentError if the normal is zero or anything is not finite.
   Plane3(const Eigen::Vector3d& normal, double distance);
-  /// The plane of that quaternion, see above; its vector part must not be zero.
+  /// The plane with the given quaternion, see above; its vector part must not be zero.
   explicit Plane3(const SO3& quaternion) : q_(quaternion) {}
   /// The plane whose point nearest to the origin is `closest` = n d [m].
-  /// Throws ArgumentError if that is the origin (which leaves the normal open) or not finite.
+  /// Throws ArgumentError if that is the origin (which leaves the normal undetermined) or not
+  /// finite.
   static Plane3 from_closest_point(const Eigen::Vector3d& closest);
   /// The point nearest to the origin, n d [m], and its derivative by w.
-  /// It does not depend on the sign of the quaternion. Of a plane through the origin it is zero,
+  /// It does not depend on the sign of the quaternion. For a plane through the origin it is zero
   /// and its derivative has rank one.
   Eigen::Vector3d closest_point(Eigen::Matrix3d* J_closest = nullptr) const;
 
-  /// The unit normal n, of the sign that the quaternion has, and its derivative by w.
+  /// The unit normal n, with the sign of the quaternion, and its derivative by w.
   Eigen::Vector3d normal(Eigen::Matrix3d* J_normal = nullptr) const;
   /// The signed distance d from the origin [m] along `normal()`, and its derivative by w.
   double distance(Eigen::RowVector3d* J_distance = nullptr) const;
-  /// The quaternion that the plane is held as; it and its negative are the same plane.
+  /// The stored quaternion; it and its negative represent the same plane.
   const SO3& quaternion() const { return q_; }
   /// Signed distance n^T p - d of a point [m], and its derivative by w.
   double distance_to(const Eigen::Vector3d& p, Eigen::RowVector3d* J_plane = nullptr) const;
@@ -48,9 +50,9 @@ class Plane3 {
   SO3 q_;
 };
 
-/// A plane that is given in frame a, in frame b: n_b = R^T n_a, d_b = d_a - n_a^T t.
-/// T_a_b = (R, t). The Jacobians, if asked for, are the derivatives of its tangent by
-/// T_a_b exp(xi) and by the tangent of `plane_a`.
+/// Transforms a plane from frame a to frame b: n_b = R^T n_a, d_b = d_a - n_a^T t.
+/// T_a_b = (R, t). The Jacobians, if requested, are the derivatives of its tangent by T_a_b exp(xi)
+/// and by the tangent of `plane_a`.
 Plane3 transform_to(const SE3& T_a_b, const Plane3& plane_a,
                     Eigen::Matrix<double, 3, 6>* J_pose = nullptr,
                     Eigen::Matrix3d* J_plane = nullptr);

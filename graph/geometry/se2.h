@@ -12,14 +12,14 @@ class SE2 {
   using Tangent = Eigen::Vector3d;
   /// A linear map of tangents.
   using Jacobian = Eigen::Matrix3d;
-  /// What the group acts on.
+  /// A point that the group acts on.
   using Point = Eigen::Vector2d;
 
   /// The identity.
   SE2() : t_(Eigen::Vector2d::Zero()) {}
   /// The motion p -> R p + t.
   SE2(const SO2& rotation, const Eigen::Vector2d& translation) : R_(rotation), t_(translation) {}
-  /// The motion of that translation and rotation angle [rad].
+  /// The motion with the given translation and rotation angle [rad].
   SE2(double x, double y, double angle) : R_(angle), t_(x, y) {}
 
   /// The exponential map: a constant twist xi for unit time.

@@ -17,7 +17,7 @@ class SE3 {
   using Tangent = Vector6d;
   /// A linear map of tangents.
   using Jacobian = Matrix6d;
-  /// What the group acts on.
+  /// A point that the group acts on.
   using Point = Eigen::Vector3d;
 
   /// The identity.
@@ -47,7 +47,7 @@ class SE3 {
   Point operator*(const Point& p) const { return R_ * p + t_; }
   /// T [+] xi = T * exp(xi).
   SE3 plus(const Tangent& xi) const { return *this * exp(xi); }
-  /// The same motion in another unit of length: its translation times `factor`.
+  /// The same motion at another scale: its translation times `factor`.
   SE3 scaled(double factor) const { return SE3(R_, factor * t_); }
 
   /// R_a_b of T_a_b.

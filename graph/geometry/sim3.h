@@ -17,7 +17,7 @@ class Sim3 {
   using Tangent = Vector7d;
   /// A linear map of tangents.
   using Jacobian = Matrix7d;
-  /// What the group acts on.
+  /// A point that the group acts on.
   using Point = Eigen::Vector3d;
 
   /// The identity.
@@ -43,9 +43,9 @@ class Sim3 {
 
   /// R_a_b of S_a_b.
   const SO3& rotation() const { return R_; }
-  /// The origin of b in frame a, in the unit of a.
+  /// The origin of b in frame a, at the scale of a.
   const Eigen::Vector3d& translation() const { return t_; }
-  /// The length in a of one unit of length of b.
+  /// The scale s: lengths in a over lengths in b.
   double scale() const { return s_; }
   /// The homogeneous matrix [s R t; 0 1].
   Eigen::Matrix4d matrix() const;
@@ -65,7 +65,7 @@ class Sim3 {
   double s_;
 };
 
-/// Rotation and translation of a similarity: a camera's pose if its unit does not matter.
+/// Rotation and translation of a similarity: a camera's pose where its scale does not matter.
 inline SE3 rigid_part(const Sim3& S) { return SE3(S.rotation(), S.translation()); }
 
 }  // namespace placegraph

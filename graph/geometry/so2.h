@@ -4,7 +4,7 @@
 namespace [[gnu::visibility("default")]] placegraph {
 
 /// A rotation of the plane, `R_a_b`: p_a = R_a_b * p_b.
-/// Held as cosine and sine. Tangent: angle [rad].
+/// Stored as cosine and sine. Tangent: angle [rad].
 class SO2 {
  public:
   static constexpr int kDof = 1;  ///< degrees of freedom: size of the tangent
@@ -12,7 +12,7 @@ class SO2 {
   using Tangent = Eigen::Matrix<double, 1, 1>;
   /// A linear map of tangents.
   using Jacobian = Eigen::Matrix<double, 1, 1>;
-  /// What the group acts on.
+  /// A point that the group acts on.
   using Point = Eigen::Vector2d;
 
   /// The identity.

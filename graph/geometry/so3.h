@@ -2,8 +2,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-// The library's own alignment, which the targets of its CMake package hand on: a program whose
-// Eigen types are aligned otherwise (by -mavx) would disagree with it on their layout.
+// The library is built with this alignment of Eigen types, and the targets of its CMake package
+// pass it on: with another alignment (as by -mavx) a program would have another memory layout.
 static_assert(EIGEN_MAX_ALIGN_BYTES == 16 && EIGEN_MALLOC_ALREADY_ALIGNED == 1,
               "compile with -DEIGEN_MAX_ALIGN_BYTES=16 -DEIGEN_MALLOC_ALREADY_ALIGNED=1, as the "
               "targets placegraph::* do");
@@ -18,7 +18,7 @@ inline Eigen::Matrix3d hat(const Eigen::Vector3d& a) {
 }
 
 /// A rotation `R_a_b`: p_a = R_a_b * p_b.
-/// Held as a unit quaternion. Tangent: rotation vector [rad], perturbed on the right:
+/// Stored as a unit quaternion. Tangent: rotation vector [rad], perturbed on the right:
 /// R [+] w = R * exp(w).
 class SO3 {
  public:
@@ -27,18 +27,18 @@ class SO3 {
   using Tangent = Eigen::Vector3d;
   /// A linear map of tangents.
   using Jacobian = Eigen::Matrix3d;
-  /// What the group acts on.
+  /// A point that the group acts on.
   using Point = Eigen::Vector3d;
 
   /// The identity.
   SO3() : q_(Eigen::Quaterniond::Identity()) {}
   /// The rotation of a quaternion, which is normalized.
-  /// Throws ArgumentError if it is zero or not finite. One of unit length to rounding stays as it
-  /// is to the last bit.
+  /// Throws ArgumentError if it is zero or not finite. A quaternion of unit length within rounding
+  /// is stored unchanged, bit by bit.
   explicit SO3(const Eigen::Quaterniond& q);
   /// The rotation nearest to `R` in the Frobenius norm.
-  /// Throws ArgumentError if `R` is not finite, mirrors, or is further than 1e-2 (largest singular
-  /// value of R^T R - I) from a rotation.
+  /// Throws ArgumentError if `R` is not finite, is a reflection, or is further than 1e-2 (largest
+  /// singular value of R^T R - I) from a rotation.
   static SO3 from_matrix(const Eigen::Matrix3d& R);
 
   /// The rotation about w by the angle |w| [rad].
@@ -61,7 +61,7 @@ class SO3 {
 
   /// The rotation matrix.
   Eigen::Matrix3d matrix() const { return q_.toRotationMatrix(); }
-  /// The unit quaternion; of the two that mean this rotation, the one that it is held as.
+  /// The stored unit quaternion, one of the two that represent this rotation.
   const Eigen::Quaterniond& quaternion() const { return q_; }
   /// Ad_R = R, with R exp(w) = exp(Ad_R w) R.
   Jacobian adjoint() const { return matrix(); }
@@ -74,7 +74,7 @@ class SO3 {
   static Jacobian right_jacobian_inverse(const Tangent& w);
 
  private:
-  struct Unit {};  ///< the caller knows that the quaternion is of unit length
+  struct Unit {};  ///< marks a quaternion that has unit length already
   SO3(const Eigen::Quaterniond& q, Unit) : q_(q) {}
   Eigen::Quaterniond q_;
 };

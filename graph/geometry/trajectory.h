@@ -7,11 +7,11 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// One pose of a trajectory, with a matrix as it was given.
-/// Files carry 7 digits, and an evaluator that must match others may not re-orthonormalize them;
-/// SE3(*T_world_body) does.
+/// One pose of a trajectory, with its matrix exactly as read or computed.
+/// Files have 7 digits, and an evaluator whose figures must match those of other tools must not
+/// re-orthonormalize them; SE3(*T_world_body) does.
 struct StampedPose {
-  std::int64_t stamp_ns = 0;                      ///< or the number of a frame, see has_times
+  std::int64_t stamp_ns = 0;                      ///< time, or the number of a frame, see has_times
   std::optional<Eigen::Isometry3d> T_world_body;  ///< nothing where the frame is lost
 };
 

@@ -20,7 +20,7 @@ Sim3 Map::S_map_keyframe(KeyframeId id) const {
   if (!keyframe) throw ArgumentError("map: keyframe " + to_string(id) + " is not there");
   const Place* place = place_graph.find(keyframe->place);
   if (!place)
-    throw ArgumentError("map: keyframe " + to_string(id) + " hangs on place " +
+    throw ArgumentError("map: keyframe " + to_string(id) + " refers to place " +
                         to_string(keyframe->place) + ", which is not there");
   return place->S_map_place() *
          PlaceMember{id, keyframe->T_place_keyframe, keyframe->scale}.S_place_keyframe();
@@ -48,11 +48,11 @@ Trajectory Map::trajectory_optimized() const {
       throw ArgumentError("map: frame " + to_string(record.frame) + " has a pose and no keyframe");
     const auto keyframe = keyframe_by_id.find(*record.keyframe);
     if (keyframe == keyframe_by_id.end())
-      throw ArgumentError("map: frame " + to_string(record.frame) + " hangs on keyframe " +
+      throw ArgumentError("map: frame " + to_string(record.frame) + " refers to keyframe " +
                           to_string(*record.keyframe) + ", which is not there");
     const auto place = place_by_id.find(keyframe->second->place);
     if (place == place_by_id.end())
-      throw ArgumentError("map: keyframe " + to_string(*record.keyframe) + " hangs on place " +
+      throw ArgumentError("map: keyframe " + to_string(*record.keyframe) + " refers to place " +
                           to_string(keyframe->second->place) + ", which is not there");
     if (!belongs.at(place->first)) continue;
     // The scale moves positions; a camera's own pose has none.

@@ -12,7 +12,7 @@ namespace {
 
 using Isometry = Eigen::Isometry3d;
 
-/// Frames as they are known when a later one asks.
+/// A frame that later frames are compared with.
 struct SeenFrame {
   FrameId frame;
   Isometry T_map_cam;
@@ -20,7 +20,7 @@ struct SeenFrame {
 
 using Neighbours = std::unordered_map<PlaceId, std::set<PlaceId>>;
 
-/// Of every place: itself, and those next to it.
+/// For every place: the place itself and the adjacent ones.
 Neighbours neighbours_of(const Map& map) {
   Neighbours next_to;
   const auto join = [&](PlaceId a, PlaceId b) {
@@ -38,8 +38,9 @@ Neighbours neighbours_of(const Map& map) {
 }  // namespace
 
 void visit(OptionVisitor& field, MapRevisitOptions& o) {
-  field("min_age", o.min_age, "frames between the two, at least", {1, 1e9});
-  field("max_angle_deg", o.max_angle_deg, "between where they look [deg]", {0, 180});
+  field("min_age", o.min_age, "minimum number of frames between the two visits", {1, 1e9});
+  field("max_angle_deg", o.max_angle_deg, "largest angle between the two viewing directions [deg]",
+        {0, 180});
 }
 
 std::vector<LoopPrediction> map_revisits(const Map& map, const MapRevisitOptions& options) {

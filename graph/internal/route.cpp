@@ -31,8 +31,7 @@ Roads roads_of(const PlaceGraph& graph) {
   return roads;
 }
 
-/// Before which place each lies on the shortest way to `to`; nothing for places it cannot be
-/// reached from.
+/// The next place on the shortest path to `to`, for every place; nothing for places without a path.
 std::unordered_map<PlaceId, PlaceId> next_places(const Roads& roads, PlaceId from, PlaceId to) {
   using Open = std::pair<double, PlaceId>;  // equal lengths: the lower id first
   std::priority_queue<Open, std::vector<Open>, std::greater<>> open;

@@ -27,7 +27,7 @@ std::optional<std::string> WordTree::problem() const {
   if (idf.size() != static_cast<std::size_t>(words)) return "not one weight per word";
   if (!all_finite(centres)) return "a centre is not finite";
   if (!all_finite(idf)) return "a weight is not finite";
-  // Children stand after their parents and each has one: no cycles, all reached.
+  // Children follow their parents and each has one parent: no cycles, all are reached.
   std::vector<bool> has_parent(nodes.size(), false), seen(static_cast<std::size_t>(words), false);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const Node& node = nodes[i];

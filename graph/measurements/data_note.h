@@ -3,8 +3,9 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// A remark about data that were read, for those who use them.
-/// It says what was left out and why, or what is odd about the numbers and what to try.
+/// A remark about input data.
+/// It names the data that were left out and the reason, or the numbers that are suspicious and a
+/// possible remedy.
 struct DataNote {
   std::string text;           ///< one line
   bool doubts_scale = false;  ///< lengths may be wrong: results must not be called metric

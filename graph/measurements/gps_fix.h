@@ -9,10 +9,10 @@ namespace [[gnu::visibility("default")]] placegraph {
 
 /// One reading of a GPS receiver, or of a unit that fuses GPS and inertial sensors.
 struct GpsFix {
-  std::int64_t stamp_ns = 0;  ///< by the receiver's clock
-  GeodeticPosition position;  ///< of the antenna, or of the point that the unit refers to
-  double accuracy_m = 0;      ///< standard deviation of each coordinate as the receiver states it
-  std::optional<Eigen::Vector3d> velocity_enu;  ///< east, north, up [m/s]
+  std::int64_t stamp_ns = 0;  ///< time by the receiver's clock
+  GeodeticPosition position;  ///< position of the antenna, or of the reference point of the unit
+  double accuracy_m = 0;      ///< standard deviation of each coordinate as stated by the receiver
+  std::optional<Eigen::Vector3d> velocity_enu;  ///< velocity: east, north, up [m/s]
   std::optional<SO3> R_enu_body;                ///< attitude; body: forward, left, up
 };
 

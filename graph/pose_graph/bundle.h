@@ -15,18 +15,19 @@ struct BundleCamera {
 /// The observation of a point in a camera.
 struct BundleObservation {
   int camera = 0, point = 0;  ///< positions in Bundle::cameras and Bundle::points
-  Eigen::Vector2d px = Eigen::Vector2d::Zero();  ///< from the principal point
+  Eigen::Vector2d px = Eigen::Vector2d::Zero();  ///< position relative to the principal point [px]
 };
 
-/// A problem of bundle adjustment: cameras, points and observations; a start or a solution.
+/// A problem of bundle adjustment: cameras, points and observations.
+/// Cameras and points are an initialization or a solution.
 struct Bundle {
   std::vector<BundleCamera> cameras;            ///< with intrinsics of their own
   std::vector<Eigen::Vector3d> points;          ///< in the world frame
   std::vector<BundleObservation> observations;  ///< in any order
 
   /// Throws ArgumentError naming the first entry that is invalid.
-  /// Invalid are an observation of a camera or point that is not there, a focal length that is not
-  /// positive, and anything that is not finite.
+  /// Invalid are an observation of an unknown camera or point, a focal length that is not positive,
+  /// and values that are not finite.
   void check() const;
 };
 

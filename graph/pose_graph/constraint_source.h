@@ -8,7 +8,7 @@ namespace [[gnu::visibility("default")]] placegraph {
 
 /// The name of a source in files: "odometry", "loop" or "other".
 const char* to_string(ConstraintSource source);
-/// The source of a name; nothing for any other text.
+/// The source with the given name; nothing for any other text.
 std::optional<ConstraintSource> constraint_source(std::string_view name);
 
 }  // namespace placegraph

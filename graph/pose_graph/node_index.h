@@ -9,15 +9,15 @@
 namespace [[gnu::visibility("default")]] placegraph {
 
 /// Positions of nodes by their ids.
-/// Ids that lie close together (0..n-1 as in most files) are looked up in a table, any others in a
-/// hash map; memory is linear in the number of nodes either way.
+/// Ids that are close together (0..n-1 as in most files) are looked up in a table, others in a hash
+/// map; memory is linear in the number of nodes in both cases.
 class NodeIndex {
  public:
   NodeIndex() = default;
-  /// Indexes `ids` by their positions; of an id that is there several times the first counts.
+  /// Indexes `ids` by their positions; of several equal ids the first is used.
   explicit NodeIndex(const std::vector<NodeId>& ids);
 
-  /// Position of the id; nothing if it is not there.
+  /// Position of the id; nothing if it is unknown.
   std::optional<int> find(NodeId id) const {
     if (table_.empty()) return find_in_map(id);
     const std::uint64_t offset =
@@ -25,9 +25,9 @@ class NodeIndex {
     if (offset >= table_.size() || table_[offset] == kNone) return std::nullopt;
     return table_[offset];
   }
-  /// Whether the id is there.
+  /// Whether the id is known.
   bool contains(NodeId id) const { return find(id).has_value(); }
-  /// Position of the id; throws ArgumentError if it is not there.
+  /// Position of the id; throws ArgumentError if it is unknown.
   int at(NodeId id) const;
 
  private:

@@ -16,7 +16,7 @@ struct PoseNode {
   bool fixed = false;  ///< optimization leaves the pose as it is
 };
 
-/// Poses and constraints on them; a plain value, whose ids are any integers in any order.
+/// Poses and constraints on them; a plain value. Ids are any integers in any order.
 struct PoseGraph {
   std::vector<PoseNode> nodes;          ///< all of one kind; results keep their order
   std::vector<Constraint> constraints;  ///< between nodes, and on positions of nodes
@@ -36,13 +36,13 @@ struct PoseGraph {
   /// Throws ArgumentError for a constraint on an unknown node.
   std::vector<int> components() const;
   /// For every node the constraint that reaches it in a breadth-first spanning forest.
-  /// -1 for roots, which are the first nodes of the components. Constraints that are not odometry
-  /// are used only where odometry leads no further. Throws as components().
+  /// -1 for roots, which are the first nodes of the components. Constraints from other sources than
+  /// odometry are used only to reach nodes that odometry does not reach. Throws as components().
   std::vector<int> spanning_tree() const;
 };
 
 /// Sets the poses by chaining the measurements along the spanning tree.
-/// Roots and fixed nodes stay where they are. Throws ArgumentError for a constraint on an unknown
+/// Roots and fixed nodes keep their poses. Throws ArgumentError for a constraint on an unknown
 /// node.
 void integrate_odometry(PoseGraph& graph);
 

@@ -7,7 +7,7 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// The kind of surroundings a place is in.
+/// The kind of surroundings of a place.
 enum class Environment : std::uint8_t {
   kStreet,    ///< outdoors, between buildings
   kRoad,      ///< outdoors, nearly without buildings
@@ -19,10 +19,10 @@ enum class Environment : std::uint8_t {
 constexpr int kEnvironmentCount = 5;
 /// The name of a kind: "street", "road", "corridor", "room" or "hall".
 const std::string& environment_name(Environment kind);
-/// The kind of a name; nothing for any other text.
+/// The kind with the given name; nothing for any other text.
 std::optional<Environment> environment_of_name(const std::string& name);
 
-/// What an estimator may assume in an environment.
+/// The assumptions that an estimator may make in an environment.
 struct Assumptions {
   /// The camera is at its known height above a ground plane that fills the image ahead of it.
   bool ground_height = true;
@@ -37,7 +37,7 @@ Assumptions assumptions_of(Environment kind);
 /// Labels a place with its environment, as in "environment:street".
 /// An earlier label of this form is replaced; other labels stay.
 void label_environment(Place& place, Environment kind);
-/// The environment that a place is labelled with; nothing without such a label.
+/// The environment in the label of a place; nothing without such a label.
 std::optional<Environment> environment_of(const Place& place);
 
 }  // namespace placegraph

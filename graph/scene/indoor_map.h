@@ -15,15 +15,16 @@ namespace [[gnu::visibility("default")]] placegraph {
 /// A point of a surface as a keyframe observes it, in the keyframe's camera frame.
 struct SurfacePoint {
   Eigen::Vector3f point = Eigen::Vector3f::Zero();  ///< position [m]
-  /// Unit normal towards the camera; zero where only the point is known.
+  /// Unit normal towards the camera; zero if only the point is known.
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();
-  float sigma = 0;  ///< of the distance along the normal, or along the ray where there is none [m]
+  float sigma = 0;  ///< standard deviation of the distance along the normal, or along the ray if
+                    ///< there is no normal [m]
 };
 
 /// The surface points that one keyframe observes; in its frame, so that they move with it.
 struct KeyframeSurfacePoints {
   KeyframeId keyframe;               ///< the keyframe
-  std::vector<SurfacePoint> points;  ///< in its camera frame
+  std::vector<SurfacePoint> points;  ///< points in its camera frame
 };
 
 /// A straight upright surface that reaches the ceiling, observed from one side.
@@ -41,9 +42,9 @@ struct IndoorWall {
 /// A doorway in a wall, open or closed by a door leaf.
 struct IndoorDoor {
   Eigen::Vector2d a, b;  ///< ends of the opening, plan coordinates [m]
-  double height_m = 0;   ///< of its head above the floor; 0: none was observed
+  double height_m = 0;   ///< height of the door head above the floor; 0: not observed
   bool closed = false;   ///< a leaf was observed in it
-  /// Positions in IndoorMap::rooms that it joins; nothing where unknown.
+  /// The rooms that it connects, as positions in IndoorMap::rooms; nothing if unknown.
   std::array<std::optional<int>, 2> rooms;
 };
 
@@ -52,10 +53,10 @@ struct IndoorRoom {
   std::string label;                     ///< "corridor 1", "room 2"
   std::vector<Eigen::Vector2d> outline;  ///< closed polygon, counter-clockwise in (x, z) [m]
   std::vector<std::vector<Eigen::Vector2d>> holes;  ///< polygons within it that are not free
-  double area_m2 = 0;                               ///< of the outline without the holes
+  double area_m2 = 0;                               ///< area of the outline without the holes
   double ceiling_m = 0;                             ///< height above the floor; 0: not observed
   bool entered = false;                             ///< whether the camera was in it
-  std::vector<PlaceId> places;                      ///< places of the map that lie in it
+  std::vector<PlaceId> places;                      ///< places of the map inside it
 };
 
 /// A floor plan of walls, doors and rooms.
@@ -65,7 +66,7 @@ struct IndoorMap {
   Outcome outcome;     ///< kTooFewData: no upright surfaces; kDegenerate: no vertical or no floor
   SO3 R_plan_map;      ///< maps directions of the map frame to the plan frame
   double floor_y = 0;  ///< y of the floor in the plan frame, y down [m]
-  double yaw_rad = 0;  ///< of the walls' axes, from x towards z, modulo pi / 2
+  double yaw_rad = 0;  ///< direction of the walls' axes, from x towards z, modulo pi / 2
   std::vector<IndoorWall> walls;  ///< one for each side of a wall that was observed
   std::vector<IndoorDoor> doors;  ///< doorways between rooms
   std::vector<IndoorRoom> rooms;  ///< free space, divided by walls and doors
@@ -74,7 +75,7 @@ struct IndoorMap {
     double size_m = 0.1;                            ///< side of a cell
     Eigen::Vector2d low = Eigen::Vector2d::Zero();  ///< corner of the grid, in the walls' axes [m]
     int columns = 0, rows = 0;                      ///< along the first and the second axis
-    /// Log-odds that something stands in the cell at any height, row by row; 0: nothing is known.
+    /// Log odds of occupancy of the cell at any height, row by row; 0: unknown.
     std::vector<float> log_odds;
   } cells;
 };

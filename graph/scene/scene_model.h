@@ -14,13 +14,13 @@ enum class Surface : std::uint8_t { kSky, kGround, kVertical, kObject };
 constexpr int kSurfaceCount = 4;
 /// The name of a kind: "sky", "ground", "vertical" or "object".
 const std::string& surface_name(Surface surface);
-/// The kind of a name; nothing for any other text.
+/// The kind with the given name; nothing for any other text.
 std::optional<Surface> surface_of_name(const std::string& name);
 
 /// A class of a labelled data set.
 struct SceneClass {
   int id = 0;                      ///< its value in label images
-  std::string name;                ///< as in the data set's list of classes
+  std::string name;                ///< name in the data set's list of classes
   std::optional<Surface> surface;  ///< nothing for void, which is neither learned nor judged
 };
 
@@ -32,23 +32,23 @@ struct RelationTable {
 };
 
 /// A trained model that labels superpixels: two decision forests and a random field.
-/// The first forest sees the features of a superpixel, the second one the first one's answers
-/// around it too; the random field smooths the result.
+/// The first forest uses the features of a superpixel, the second one also the predictions of the
+/// first one around it; the random field smooths the result.
 struct SceneModel {
-  /// What it labels: geometric surfaces, or the classes of a street.
+  /// The labels: geometric surfaces, or the classes of a street.
   enum class Kind : std::uint32_t { kSurfaces, kUrban };
-  Kind kind = Kind::kSurfaces;                ///< what it labels
+  Kind kind = Kind::kSurfaces;                ///< the kind of labels
   std::vector<std::string> classes;           ///< names, 2 to 64
-  std::vector<Surface> surfaces;              ///< of each class
+  std::vector<Surface> surfaces;              ///< surface of each class
   DecisionForest first, second;               ///< both over all classes
   RelationTable relations;                    ///< classes x classes
   float smoothness = 0, relation_weight = 0;  ///< weights of the random field's terms
   float sharpness = 1;  ///< exponent that turns the result's shares into probabilities
-  std::string origin;   ///< what it was trained on, one line
+  std::string origin;   ///< training set, one line
 
   /// Number of classes.
   int class_count() const { return static_cast<int>(classes.size()); }
-  /// What is inconsistent in it, in a few words; nothing if it is sound.
+  /// A short description of an inconsistency; nothing if there is none.
   std::optional<std::string> problem() const;
 };
 

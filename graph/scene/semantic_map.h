@@ -17,8 +17,8 @@ namespace [[gnu::visibility("default")]] placegraph {
 /// A point of a static object as a keyframe observes it, in the keyframe's camera frame.
 struct SemanticPoint {
   Eigen::Vector3f point = Eigen::Vector3f::Zero();  ///< position [m]
-  float sigma = 0;                                  ///< of its depth [m]
-  float height_m = 0;                               ///< above the ground under it
+  float sigma = 0;                                  ///< standard deviation of its depth [m]
+  float height_m = 0;                               ///< height above the ground below it
   std::uint16_t region = 0;  ///< its superpixel: a row of KeyframeSemantics::shares
 };
 
@@ -26,15 +26,15 @@ struct SemanticPoint {
 struct KeyframeSemantics {
   KeyframeId keyframe;                              ///< the keyframe
   std::vector<float> shares;                        ///< regions x classes, probabilities
-  std::vector<SemanticPoint> points;                ///< in its camera frame
+  std::vector<SemanticPoint> points;                ///< points in its camera frame
   Eigen::Vector3f down = Eigen::Vector3f::UnitY();  ///< unit vector of gravity, camera frame
 };
 
 /// A cube of space in which something was observed.
 struct SemanticCell {
   Eigen::Vector3i at = Eigen::Vector3i::Zero();    ///< its lower corner in the plan frame [cells]
-  Eigen::Vector3f mean = Eigen::Vector3f::Zero();  ///< of its points, plan frame [m]
-  float height_m = 0;                              ///< mean of its points above the ground
+  Eigen::Vector3f mean = Eigen::Vector3f::Zero();  ///< mean of its points, plan frame [m]
+  float height_m = 0;                              ///< mean height of its points above the ground
   float weight = 0;          ///< number of points, each counted by 1 / (1 + (sigma / cell)^2)
   int observations = 0;      ///< keyframes with a point in it
   std::optional<int> label;  ///< position in SemanticMap::classes; nothing: unknown
@@ -60,10 +60,11 @@ struct SemanticGridOptions {
   double cell_m = 0.3;       ///< side of a cell
   double max_sigma_m = 0.6;  ///< points with a larger standard deviation of depth are left out
   double observation_weight = 0.5;  ///< below 1, as the errors of several keyframes are correlated
-  double full_weight = 4;           ///< weight of a keyframe's points in a cell that counts in full
-  double min_weight = 3;            ///< least weight of a known cell
-  int min_observations = 2;         ///< least number of keyframes of a known cell
-  double min_confidence = 0.4;      ///< least probability of the class of a known cell
+  /// Weight of a keyframe's points in a cell with which the keyframe counts fully.
+  double full_weight = 4;
+  double min_weight = 3;        ///< least weight of a known cell
+  int min_observations = 2;     ///< least number of keyframes of a known cell
+  double min_confidence = 0.4;  ///< least probability of the class of a known cell
   void check() const { check_ranges(*this); }
 };
 void visit(OptionVisitor& field, SemanticGridOptions& options);
@@ -83,9 +84,9 @@ class SemanticGrid {
                const SO3& R_plan_map);
   /// Adds the points of a keyframe at its pose.
   /// Points that are too uncertain or not finite are left out. Throws ArgumentError if a point
-  /// names a region that the sight does not have.
+  /// names a region that `observation` does not have.
   void add(const KeyframeSemantics& observation, const SE3& T_map_cam);
-  /// The map of all that was added; kTooFewData if that is nothing.
+  /// The map of all points that were added; kTooFewData if there are none.
   [[nodiscard]] SemanticMap map() const;
 
  private:
@@ -99,7 +100,8 @@ class SemanticGrid {
 };
 
 /// A semantic map seen from above: one cell of each column of cells.
-/// Where something stands it is a cell of that, as in an aerial photograph; elsewhere the ground.
+/// In a column with an object it is a cell of the object, as in an aerial photograph, else a cell
+/// of the ground.
 struct TopView {
   double cell_m = 0;                              ///< side of a cell
   Eigen::Vector2i low = Eigen::Vector2i::Zero();  ///< (x, z) of the first column [cells]
@@ -114,9 +116,9 @@ struct TopView {
 };
 
 /// The known cells of a map from above.
-/// Something stands in a column if its cells higher than `standing_m` above the ground have at
-/// least a quarter of the weight of those below. Shown is the cell of largest weight of the class
-/// that has the largest weight, among those above or those below.
+/// A column has an object if its cells higher than `standing_m` above the ground have at least a
+/// quarter of the weight of those below. The view shows the cell of largest weight of the class
+/// that has the largest weight, among the cells above or below accordingly.
 TopView top_view(const SemanticMap& map, double standing_m = 0.5);
 
 /// A colour {red, green, blue} for a class: CamVid's by its name, else one by its number.

@@ -10,14 +10,15 @@ namespace [[gnu::visibility("default")]] placegraph {
 
 namespace internal {
 
-/// Hands the values of one YAML file to an options struct's visit() and keeps account of the keys.
+/// Assigns the values of one YAML file in an options struct's visit() and records the used keys.
 class OptionsFile {
  public:
   explicit OptionsFile(const std::string& path);
   OptionsFile(const std::string& path, const std::string& text);
   ~OptionsFile();
   OptionVisitor& visitor();
-  /// Throws FileError for the first key that nobody asked for; names old spellings to `log`.
+  /// Throws FileError for the first key of the file that visit() did not request; names old
+  /// spellings to `log`.
   void finish(const LogSink& log);
 
  private:
@@ -25,13 +26,14 @@ class OptionsFile {
   std::unique_ptr<Reader> reader_;
 };
 
-/// Hands one "a.b.c=value" to an options struct's visit().
+/// Assigns one "a.b.c=value" in an options struct's visit().
 class OptionAssignment {
  public:
   explicit OptionAssignment(const std::string& assignment);
   ~OptionAssignment();
   OptionVisitor& visitor();
-  /// Throws ArgumentError if nobody asked for the key, with those of `known` that look like it.
+  /// Throws ArgumentError, with the similar keys of `known`, if visit() did not request the key;
+  /// names an old spelling to `log`.
   void finish(const std::vector<OptionEntry>& known, const LogSink& log);
 
  private:
@@ -58,7 +60,7 @@ void read_options(const std::string& path, Options& options, const LogSink& log 
 
 /// Sets the options that a YAML text names, as dump_options writes it.
 ///
-/// `path` is the file that holds the text, for messages; otherwise as read_options.
+/// `path` is the file name for error messages; otherwise as read_options.
 template <class Options>
 void read_options_text(const std::string& path, const std::string& text, Options& options,
                        const LogSink& log = {}) {
@@ -82,9 +84,9 @@ void set_option(Options& options, const std::string& assignment, const LogSink& 
   options = changed;
 }
 
-/// Writes options as YAML that read_options takes back; meaning and range stand as comments.
+/// Writes options as YAML that read_options accepts; comments give meaning and range.
 std::string dump_options(const std::vector<OptionEntry>& entries);
-/// Writes all fields of `options` as YAML that read_options takes back.
+/// Writes all fields of `options` as YAML that read_options accepts.
 template <class Options>
 std::string dump_options(const Options& options) {
   return dump_options(list_options(options));
@@ -92,7 +94,7 @@ std::string dump_options(const Options& options) {
 
 /// Writes options as Markdown: one table (key, default, range, meaning) for each group.
 std::string options_markdown(const std::vector<OptionEntry>& entries);
-/// Writes all fields of `options` as Markdown; their present values stand as defaults.
+/// Writes all fields of `options` as Markdown, with their present values as defaults.
 template <class Options>
 std::string options_markdown(const Options& options) {
   return options_markdown(list_options(options));

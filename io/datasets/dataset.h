@@ -10,11 +10,11 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// A recorded sequence of images, in one form whatever its files look like.
+/// A recorded sequence of images, with one interface for all file layouts.
 ///
 /// Frames are grey, undistorted and (stereo) rectified, stamps [ns] strictly increase, and poses
 /// are T_world_cam of the (left) camera. `frame()` may be called from several threads at once. To
-/// run own recordings, derive from this class and hand the object to run_sequence.
+/// process another kind of recording, derive from this class and pass the object to run_sequence.
 class Dataset {
  public:
   virtual ~Dataset() = default;
@@ -24,7 +24,7 @@ class Dataset {
   virtual const std::string& format() const = 0;
   /// The number of frames, at least 1.
   virtual std::size_t size() const = 0;
-  /// What it can be run as, best first (stereo, rgbd, mono); never empty.
+  /// The sensors that the recording supports, best first (stereo, rgbd, mono); never empty.
   virtual std::vector<Sensor> sensors() const = 0;
   /// Calibration of the images that `frame()` returns for a sensor.
   ///
@@ -34,12 +34,12 @@ class Dataset {
   virtual std::int64_t stamp_ns(std::size_t index) const = 0;
   /// Reads one frame with the images that `sensor` needs.
   ///
-  /// Throws FileError naming the image that is missing, unreadable or of another size than the
-  /// calibration says, ArgumentError for an index beyond size() or a sensor that is not offered.
+  /// Throws FileError that names the image if it is missing, unreadable or of another size than the
+  /// calibration, ArgumentError for an index beyond size() or a sensor that is not in sensors().
   virtual Frame frame(std::size_t index, Sensor sensor) const = 0;
-  /// True poses T_world_cam, one entry per frame (without a pose where none is known), if any.
+  /// Ground truth T_world_cam, one entry per frame (no pose where it is unknown), if any.
   virtual const std::optional<Trajectory>& ground_truth() const = 0;
-  /// What was left out in reading, and what is odd about the data; one line each.
+  /// Notes about skipped data and implausible data, one line each.
   virtual std::vector<DataNote> notes() const { return {}; }
 };
 

@@ -4,7 +4,7 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// No sequence of a known layout lies at a path; the message says what was looked for.
+/// No sequence of a known layout was found at a path; the message lists the layouts.
 class UnknownLayout : public FileError {
  public:
   using FileError::FileError;

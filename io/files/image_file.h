@@ -5,22 +5,22 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// A picture that was read from a file.
+/// An image that was read from a file, as grey and as colour.
 struct GreyAndColour {
   Image grey, colour;  ///< CV_8UC1; CV_8UC3 in BGR, empty where the file has no colour
 };
 
-/// Reads a picture as 8-bit grey and, where the file has it, colour.
+/// Reads an image as 8-bit grey and, if the file has colour, as BGR.
 ///
 /// PNG and JPEG are read by the library itself; PGM/PPM, TIFF and BMP need its picture plug-in.
-/// EXIF orientation is not applied. Of a 16-bit file that uses `bits` bits (8 to 16) the upper
-/// eight of them are kept. Throws FileError if the file is missing, truncated, no image, or under 4
-/// px high or wide.
+/// EXIF orientation is not applied. If a 16-bit file uses only `bits` bits (8 to 16), the upper
+/// eight of these are kept. Throws FileError if the file is missing, truncated, not an image, or
+/// less than 4 px high or wide.
 GreyAndColour read_image(const std::string& path, int bits = 16);
 
-/// Reads a picture with the channels and bits per channel that the file has.
+/// Reads an image with the channels and bits per channel of the file.
 ///
-/// Throws FileError if the file is missing, truncated or no image.
+/// Throws FileError if the file is missing, truncated or not an image.
 Image read_image_as_stored(const std::string& path);
 
 /// Reads a 16-bit depth image into CV_32FC1 [m]: value * unit_m.

@@ -4,13 +4,13 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// What a reader of pose graphs refuses, and what it reports.
+/// Options of a pose graph reader: what it rejects and where it reports.
 struct PoseGraphReading {
-  /// Refuse a graph of several components, unless each has a fixed vertex or a measured position:
+  /// Reject a graph of several components, unless each has a fixed vertex or a measured position:
   /// then all are in one coordinate frame.
   bool connected = false;
-  /// Receives a sentence for what was skipped (time stamps behind vertices); where it is null, such
-  /// a file is refused.
+  /// Receives a sentence about skipped data (time stamps after vertices); if it is null, such a
+  /// file is rejected.
   std::vector<std::string>* remarks = nullptr;
 };
 

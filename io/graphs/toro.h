@@ -6,7 +6,7 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// Reads a pose graph in the form of TORO.
+/// Reads a pose graph in the TORO format.
 ///
 /// TORO is by Grisetti et al. (openslam.org/toro.html). Lines may come in any order; comments (#)
 /// are skipped:
@@ -16,12 +16,11 @@ namespace [[gnu::visibility("default")]] placegraph {
 ///   VERTEX3 id x y z roll pitch yaw
 ///   EDGE3 from to x y z roll pitch yaw I_11 I_12 .. I_16 I_22 .. I_66
 ///
-/// Vertices are T_world_node, edges T_from_to. Lengths [m], angles [rad];
-/// R = R_z(yaw) R_y(pitch) R_x(roll). The information of EDGE2 has an order of its own, as above
-/// (f forward, s sideward, r rotate); that of EDGE3 is upper-triangular over
-/// [x y z roll pitch yaw]. Near zero these angles are the rotation vector, so it is taken over as
-/// that of our tangent [translation, rotation] and belongs to RotationError::kLog. Errors as
-/// read_g2o.
+/// Vertices are T_world_node, edges T_from_to. Lengths [m], angles [rad]; R = R_z(yaw) R_y(pitch)
+/// R_x(roll). The information of EDGE2 has its own order, as above (f forward, s sideward, r
+/// rotate); that of EDGE3 is upper-triangular over [x y z roll pitch yaw]. Near zero these angles
+/// equal the rotation vector. The information is therefore used unchanged for our tangent
+/// [translation, rotation] and belongs to RotationError::kLog. Errors as read_g2o.
 PoseGraph read_toro(const std::string& path, const PoseGraphReading& reading = {});
 
 }  // namespace placegraph

@@ -10,17 +10,17 @@ struct MapWriter;
 
 /// A saved map that is being written: one SQLite file (docs/map.md).
 ///
-/// A commit is a transaction and writes only what has changed; whatever ends the program between or
-/// in commits, the file holds what the last complete one wrote. While it is open the file belongs
-/// to this object alone, and its newest part may stand in PATH-wal beside it; finish() makes it one
-/// file. Throws FileError, with the file, if it cannot be written.
+/// A commit is a transaction and writes only what has changed. If the program ends between or
+/// during commits, the file contains the state of the last complete commit. While the file is open,
+/// no other program can use it, and its newest part may be in PATH-wal beside it; finish() merges
+/// both into one file. Throws FileError, which names the file, if it cannot be written.
 class MapDatabase {
  public:
-  /// Creates a map without content; replaces a file that is there.
+  /// Creates an empty map; an existing file is replaced.
   static MapDatabase create(const std::string& path, const MapOrigin& origin);
-  /// Opens a map whose run was broken off, to go on writing.
+  /// Opens the map of an interrupted run to continue writing.
   ///
-  /// Throws FileError for a file that is no saved map.
+  /// Throws FileError for a file that is not a saved map.
   static MapDatabase open(const std::string& path);
   MapDatabase(MapDatabase&&) noexcept;
   MapDatabase& operator=(MapDatabase&&) noexcept;
@@ -28,11 +28,11 @@ class MapDatabase {
 
   /// Writes the changes since the last commit (Slam::take_changes) in one transaction.
   void commit(const MapChanges& changes);
-  /// Deletes the content of the map: its run begins again with this origin.
+  /// Deletes the content of the map, whose run restarts with this origin.
   void clear(const MapOrigin& origin);
   /// Writes the last changes, marks the map as finished and closes the file.
   void finish(const MapChanges& changes);
-  /// Closes the file; without finish() before, the map stays marked as broken off.
+  /// Closes the file; without an earlier finish(), the map remains marked as unfinished.
   void close();
 
  private:
@@ -40,10 +40,10 @@ class MapDatabase {
   explicit MapDatabase(std::unique_ptr<MapWriter> writer);
   static std::unique_ptr<MapWriter> made(const std::string& path, const MapOrigin& origin,
                                          bool synchronized);
-  std::unique_ptr<MapWriter> writer_;  ///< none once it is closed
+  std::unique_ptr<MapWriter> writer_;  ///< null after close()
 };
 
-/// Writes a whole map at once; nobody sees the file before it is complete.
+/// Writes a whole map at once; the file appears only when it is complete.
 ///
 /// Throws ArgumentError if the members of a place are not the keyframes that name it, anchor first,
 /// then by id; FileError if the file cannot be written.
@@ -52,28 +52,28 @@ void write_map(const std::string& path, const StoredMap& stored);
 /// Reads a saved map and checks everything: every reference, size and number.
 ///
 /// Throws FileError, one line with file, table and row, for a map that is damaged; with its version
-/// for a newer one; and for a file that is no saved map.
+/// for a newer one; and for a file that is not a saved map.
 StoredMap read_map(const std::string& path);
 
-/// Reads only where a saved map comes from. Throws FileError as read_map.
+/// Reads only the origin of a saved map. Throws FileError as read_map.
 MapOrigin read_map_origin(const std::string& path);
 
 /// Runs SQLite's own integrity check; returns what it finds, or "ok".
 ///
-/// Throws FileError for a file that is no saved map.
+/// Throws FileError for a file that is not a saved map.
 std::string check_map_file(const std::string& path);
 
-/// Whether a file of this name is a saved map whose run was broken off.
+/// Whether a file of this name is the saved map of an interrupted run.
 ///
-/// False if there is no such file; throws FileError for a file that is no saved map.
+/// False if there is no such file; throws FileError for a file that is not a saved map.
 bool is_unfinished_map(const std::string& path);
 
-/// Where the size of a saved map comes from.
+/// Version of a saved map, and the sizes of its parts.
 struct MapSizes {
   /// Version of the tables; bytes of the file and of the data in three of its tables.
   std::int64_t schema = 0, file_bytes = 0, features_bytes = 0, views_bytes = 0, landmarks_bytes = 0;
 };
-/// Reads version and sizes of a saved map. Throws FileError for a file that is none.
+/// Reads version and sizes of a saved map. Throws FileError for any other file.
 MapSizes map_sizes(const std::string& path);
 
 }  // namespace placegraph

@@ -12,18 +12,21 @@ struct GroundPlaneScaleOptions {
   GroundPlaneOptions plane;  ///< direct alignment of the ground in two keyframes
   bool enabled = true;       ///< use the ground plane where the camera height is known
   /// Relative standard deviation of a single scale, added to that of the alignment: the road is
-  /// uneven, and pairs of keyframes that overlap see the same of it, so that they err together.
+  /// uneven, and overlapping pairs of keyframes observe the same part of it, so that their errors
+  /// are correlated.
   double sigma_relative = 0.02;
-  /// Largest distance of a scale from the median of the last five (in logarithm); scales farther
-  /// off are not used.
+  /// Maximum distance of a scale from the median of the last five (in logarithm); scales with a
+  /// larger distance are not used.
   double max_log_jump = 0.12;
-  double mounting_sigma_deg = 3;     ///< standard deviation of the camera's pitch and roll at first
-  double pitching_sigma_deg = 0.5;   ///< of a single frame about their mean: the vehicle pitches
+  double mounting_sigma_deg = 3;  ///< initial standard deviation of the camera's pitch and roll
+  /// Standard deviation of pitch and roll in one frame about their mean (vehicle pitching).
+  double pitching_sigma_deg = 0.5;
   double mounting_drift_deg = 0.03;  ///< random walk of the mean from one measurement to the next
-  /// Standard deviation of the normal of a floor that edges show to be level, beside that of the
-  /// edges.
+  /// Standard deviation of the normal of a floor that is level according to edges, added to that of
+  /// the edges.
   double level_sigma_deg = 0.03;
-  /// Shortest translation between the two keyframes, in camera heights; a shorter one tells little.
+  /// Minimum translation between the two keyframes, in camera heights; a shorter one carries little
+  /// information.
   double min_baseline_heights = 0.6;
   void check() const;
 };
@@ -31,12 +34,13 @@ void visit(OptionVisitor& field, GroundPlaneScaleOptions& options);
 
 /// Metric scale of a monocular camera of known height from lines on the floor.
 struct FloorLineScaleOptions {
-  FloorFromLinesOptions floor;   ///< which lines lie on the floor
-  double sigma_relative = 0.01;  ///< of a single height: the floor is uneven, the camera bobs
-  /// Largest distance of a scale from the median of the last five (in logarithm); scales farther
-  /// off are not used.
+  FloorFromLinesOptions floor;  ///< selection of the lines on the floor
+  /// Relative standard deviation of one height: uneven floor, camera bobbing.
+  double sigma_relative = 0.01;
+  /// Maximum distance of a scale from the median of the last five (in logarithm); scales with a
+  /// larger distance are not used.
   double max_log_jump = 0.12;
-  /// Largest relative standard deviation of the height from which the scale is taken first.
+  /// Maximum relative standard deviation of the height that provides the first scale.
   double max_sigma_at_first = 0.04;
   void check() const;
 };
@@ -45,22 +49,23 @@ void visit(OptionVisitor& field, FloorLineScaleOptions& options);
 /// Line landmarks: edges that are tracked, triangulated and kept in the sliding window.
 struct LineCueOptions {
   LineTrackerOptions tracker;              ///< edges followed from frame to frame
-  LineStereoOptions stereo;                ///< edges found again in the right image
-  LineTriangulationOptions triangulation;  ///< when the line in space is known well enough
-  PoseFromLinesOptions pose;               ///< the pose of a frame from known lines
-  LineInitializerOptions start;  ///< the first keyframes of a monocular camera without points
-  FloorLineScaleOptions floor;   ///< metric scale where points are not among the cues
-  double sigma_floor_px = 0.15;  ///< least deviation across a line: lens, rolling shutter, blur
-  /// The error of an edge persists while it is tracked: so many observations in the window count as
-  /// one independent one (their variances are multiplied by this number).
+  LineStereoOptions stereo;                ///< matching of edges in the right image
+  LineTriangulationOptions triangulation;  ///< conditions for the triangulation of a line
+  PoseFromLinesOptions pose;               ///< pose of a frame from known lines
+  LineInitializerOptions start;            ///< first keyframes of a monocular camera without points
+  FloorLineScaleOptions floor;             ///< metric scale where points are not among the cues
+  /// Minimum standard deviation across a line: lens, rolling shutter, blur.
+  double sigma_floor_px = 0.15;
+  /// Number of observations in the window that count as one independent observation, because the
+  /// error of an edge persists while it is tracked (their variances are multiplied by this number).
   double similar_observations = 16;
-  /// Replaces triangulation.min_rotation_deg where vanishing directions give the rotation and fewer
-  /// than 15 lines are known: a line is then of use much sooner.
+  /// Replaces triangulation.min_rotation_deg if vanishing directions provide the rotation and fewer
+  /// than 15 lines are known: a line then becomes useful much sooner.
   double min_rotation_steered_deg = 0.4;
-  /// Frames to look ahead: an edge that leaves the image sooner at the present motion is tracked
-  /// only if there are few others.
+  /// Prediction horizon [frames]: an edge that will leave the image sooner at the present motion is
+  /// tracked only if there are few others.
   int stay_frames = 10;
-  double outlier_px = 4;  ///< a line landmark with a larger residual at a carrier is removed
+  double outlier_px = 4;  ///< residual [px] at a carrier above which a line landmark is removed
   void check() const;
 };
 void visit(OptionVisitor& field, LineCueOptions& options);
@@ -68,48 +73,49 @@ void visit(OptionVisitor& field, LineCueOptions& options);
 /// Point landmarks: corners that are tracked, triangulated and kept in the sliding window.
 struct PointCueOptions {
   PointTrackerOptions tracker;  ///< points followed from frame to frame
-  Pose3d2dOptions pose;         ///< the pose of a frame from landmarks
-  double outlier_px = 4;        ///< a landmark with a larger reprojection error [px] is removed
+  Pose3d2dOptions pose;         ///< pose of a frame from landmarks
+  double outlier_px = 4;        ///< reprojection error [px] above which a landmark is removed
   /// A landmark whose reprojection errors over at least three keyframes exceed both limits (root
   /// mean square per coordinate, in pixels and in standard deviations) is removed with its track.
   double misfit_px = 0.4, misfit_sigmas = 1.5;
-  /// Masks made from semantic labels are ignored where they would leave fewer tracks than this.
+  /// Masks from semantic labels are ignored if they would leave fewer tracks than this.
   int min_unmasked_tracks = 150;
-  /// Least angle between the rays of two keyframes to triangulate a landmark.
+  /// Minimum angle between the rays of two keyframes to triangulate a landmark.
   double min_parallax_deg = 0.5;
 };
 
-/// How Manhattan frames are kept in the sliding window.
+/// Options for the Manhattan frames in the sliding window.
 ///
-/// A Manhattan frame is three orthogonal directions that many edges of the scene share.
+/// A Manhattan frame consists of three orthogonal directions that many edges of the scene share.
 struct ManhattanFrameOptions {
-  /// Standard deviation of the directions in one keyframe beyond the noise of its lines: the scene
-  /// is not quite rectangular, lines are assigned to wrong axes, the lens is distorted.
+  /// Standard deviation of the directions in one keyframe in addition to the noise of its lines:
+  /// the scene is not exactly rectangular, lines are assigned to wrong axes, the lens is distorted.
   double sigma_floor_deg = 0.1;
-  /// Neighbouring keyframes see the same lines and err alike: so many of them count as one. As
-  /// points before a blank wall tell a rotation worse than their covariance says, a large number
-  /// does harm.
+  /// Number of neighbouring keyframes that count as one, because they observe the same lines and
+  /// their errors are correlated. In front of a blank wall the rotation from points is less
+  /// accurate than its covariance states, so a large number does harm.
   double correlation = 1;
-  /// Standard deviation of a Manhattan frame seen from a new keyframe, beyond the covariance of the
-  /// window: rotations drift by more than the noise of the points explains. Frames that differ by
-  /// less than about three of these are one.
+  /// Standard deviation of a Manhattan frame observed from a new keyframe, in addition to the
+  /// covariance of the window: rotations drift by more than the noise of the points explains.
+  /// Frames that differ by less than about three of these are treated as one.
   double sigma_drift_deg = 1;
-  int persistence = 3;  ///< keyframes of the window that must show a new Manhattan frame
-  int max_frames = 4;   ///< most frames remembered; the one unseen for longest is forgotten
+  int persistence = 3;  ///< keyframes of the window that must observe a new Manhattan frame
+  /// Maximum number of stored frames; the one unobserved for longest is removed.
+  int max_frames = 4;
   void check() const { check_ranges(*this); }
 };
 void visit(OptionVisitor& field, ManhattanFrameOptions& options);
 
 /// Rotation from the directions of Manhattan frames.
 struct ManhattanCueOptions {
-  /// How straight edges are found.
+  /// Detection of straight edges.
   SegmentDetectorOptions segments{.min_length_px = 20, .merging = {}, .refinement = {}};
-  SceneDirectionOptions directions;  ///< how vanishing points and Manhattan frames are found
-  ManhattanFrameOptions worlds;      ///< how Manhattan frames are kept in the window
-  int max_width_px = 800;            ///< wider images are halved before edges are looked for
-  double max_sigma_deg = 1;  ///< largest standard deviation about any axis of a frame that is used
-  /// A frame between keyframes also takes its rotation from Manhattan frames if its pose has fewer
-  /// inliers than this.
+  SceneDirectionOptions directions;  ///< detection of vanishing points and Manhattan frames
+  ManhattanFrameOptions worlds;      ///< tracking of Manhattan frames in the sliding window
+  int max_width_px = 800;    ///< image width above which images are halved before edge detection
+  double max_sigma_deg = 1;  ///< maximum standard deviation of a used frame about any axis
+  /// Number of inliers below which a frame between keyframes also takes its rotation from Manhattan
+  /// frames.
   int few_points = 1000;
   void check() const;
 };
@@ -117,38 +123,43 @@ void visit(OptionVisitor& field, ManhattanCueOptions& options);
 
 /// Planes in the depth images of keyframes as landmarks of the sliding window.
 struct PlaneLandmarkOptions {
-  bool enabled = false;      ///< off: depth images give no plane landmarks
-  DepthPlanesOptions depth;  ///< how planes are found in a depth image
-  /// Neighbouring keyframes see the same depths and err alike: so many of them count as one.
+  bool enabled = false;      ///< off: depth images provide no plane landmarks
+  DepthPlanesOptions depth;  ///< detection of planes in a depth image
+  /// Number of neighbouring keyframes that count as one, because they observe the same depths and
+  /// their errors are correlated.
   double correlation = 4;
-  /// Standard deviation of a plane's normal and distance [m] seen from a new keyframe, beyond the
-  /// covariance of the window: the motion drifts by more than the noise of its points explains.
+  /// Standard deviation of a plane's normal and distance [m] observed from a new keyframe, in
+  /// addition to the covariance of the window: the motion drifts by more than the noise of its
+  /// points explains.
   double drift_deg = 0.2, drift_m = 0.01;
-  /// Least share of the smaller of an observed plane and a landmark that lies where the other is.
+  /// Minimum overlap of an observed plane and a landmark, as a share of the smaller one.
   double min_overlap = 0.2;
-  int patience = 20;       ///< keyframes for which an unseen landmark is remembered
-  int max_landmarks = 12;  ///< most landmarks; the one unseen for longest is forgotten
+  int patience = 20;  ///< number of keyframes for which an unobserved landmark is kept
+  /// Maximum number of landmarks; the one unobserved for longest is removed.
+  int max_landmarks = 12;
   void check() const;
 };
 void visit(OptionVisitor& field, PlaneLandmarkOptions& options);
 
-/// Motion by direct alignment of the grey values of planes.
+/// Options of the cue that estimates motion by direct alignment of planes.
 struct DirectCueOptions {
   DominantSurfaceOptions surface;  ///< the ground under a vehicle or robot
-  /// How further planes are fitted to inverse depths.
+  /// Fit of further planes to inverse depths.
   InverseDepthPlaneOptions planes{.ransac = {.max_iterations = 100, .min_inliers = 30}};
-  DirectMotionOptions align;      ///< the alignment itself
-  int depths = 800;               ///< depths measured over the whole image to find planes in
-  int max_planes = 5;             ///< most planes aligned at once, beside the ground
-  double min_plane_share = 0.06;  ///< least share of the depths that lie on a plane
-  /// Least relative standard deviation of a plane's distance: surfaces are uneven.
+  DirectMotionOptions align;  ///< options of the direct alignment
+  int depths = 800;           ///< number of depths measured over the whole image to find planes
+  int max_planes = 5;  ///< maximum number of planes aligned at once, in addition to the ground
+  double min_plane_share = 0.06;  ///< minimum share of the depths that support a plane
+  /// Minimum relative standard deviation of a plane's distance: surfaces are uneven.
   double evenness_distance = 0.005;
-  double evenness_deg = 0.1;   ///< least standard deviation of a plane's normal
-  double nodding_deg = 0.4;    ///< of a vehicle's pitch and roll about their mean; monocular
+  double evenness_deg = 0.1;  ///< minimum standard deviation of a plane's normal
+  /// Standard deviation of a vehicle's pitch and roll about their mean; monocular.
+  double nodding_deg = 0.4;
   double sigma_height = 0.01;  ///< relative standard deviation of the camera height; monocular
-  /// A keyframe is due below this share of the samples in view, or of inliers among them.
+  /// A keyframe is created when the share of samples in view, or of inliers among them, falls below
+  /// this value.
   double keyframe_share = 0.6;
-  /// Largest difference of forward and backward motion, in standard deviations.
+  /// Maximum difference of forward and backward motion, in standard deviations.
   double max_disagreement = 5;
   void check() const;
 };

@@ -43,7 +43,8 @@ Elements parse_elements(const std::string& names) {
   }
   require(
       elements.motion,
-      "elements: motion is needed, as nothing else says how the camera moves; got '" + names + "'");
+      "elements: motion is needed, because no other element estimates the camera's motion; got '" +
+          names + "'");
   return elements;
 }
 

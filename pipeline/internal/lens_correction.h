@@ -6,18 +6,18 @@
 
 namespace placegraph {
 
-/// Whether images should be undistorted by `lens` before they are used.
+/// Whether images should be undistorted with `lens` before they are used.
 bool is_distorted(const LensDistortion& lens, const LensOptions& options);
 
-/// Takes radial distortion out of the images of one eye that should show none.
+/// Removes radial distortion from monocular images that are expected to be undistorted.
 class LensCorrection {
  public:
   explicit LensCorrection(const Calibration& as_given) : as_given_(as_given) {}
 
-  /// Adds to the distortion that is taken out: what was found in corrected images.
+  /// Adds `k1`, which was estimated from corrected images, to the removed distortion.
   void add(double k1);
   double k1() const { return k1_; }
-  /// Of the corrected images.
+  /// Calibration of the corrected images.
   Calibration calibration() const;
   void apply(Frame& frame) const;
 

@@ -14,7 +14,7 @@
 namespace placegraph {
 
 Rotations rotations_of(const Trajectory& trajectory) {
-  constexpr std::size_t kSteps = 50;  // longer than what a road shakes
+  constexpr std::size_t kSteps = 50;  // longer than the vibration of a rough road
   Rotations rotations;
   const std::size_t step = std::max<std::size_t>(1, trajectory.size() / kSteps);
   const StampedPose* before = nullptr;
@@ -22,10 +22,10 @@ Rotations rotations_of(const Trajectory& trajectory) {
     const StampedPose& pose = trajectory.poses[i];
     if (!pose.T_world_body) continue;
     if (before) {
-      const Eigen::Vector3d turn =
+      const Eigen::Vector3d rotation_vector =
           (SE3(*before->T_world_body).inverse() * SE3(*pose.T_world_body)).rotation().log();
-      rotations.about_x_deg += rad_to_deg(std::abs(turn.x()));
-      rotations.about_y_deg += rad_to_deg(std::abs(turn.y()));
+      rotations.about_x_deg += rad_to_deg(std::abs(rotation_vector.x()));
+      rotations.about_y_deg += rad_to_deg(std::abs(rotation_vector.y()));
     }
     before = &pose;
   }
@@ -38,20 +38,21 @@ std::optional<DataNote> odd_posture(const Camera& camera, const Rotations& rotat
     return more > kLeast_deg && more > kClear * less;
   };
   const std::string advice =
-      ": the ground is looked for below, and lengths are in doubt; turn the images upright (EXIF "
+      ": the ground is searched for below, and the scale is in doubt; rotate the images upright "
+      "(EXIF "
       "orientation is not applied)";
   if (clearly(rotations.about_x_deg, rotations.about_y_deg))
     return DataNote{
         fmt::format(
-            "the camera turns about the horizontal axis of its images ({:.0f} deg in all, {:.0f} "
+            "the camera rotates about the horizontal axis of its images ({:.0f} deg in all, {:.0f} "
             "about the vertical one), as if it lay on its side",
             rotations.about_x_deg, rotations.about_y_deg) +
             advice,
         true};
   if (camera.height > camera.width && !clearly(rotations.about_y_deg, rotations.about_x_deg))
     return DataNote{
-        "the images are higher than wide, and the camera's turns do not show whether it "
-        "stands upright" +
+        "the images are higher than wide, and the camera's rotations do not show whether it "
+        "is upright" +
             advice,
         true};
   return std::nullopt;
@@ -59,19 +60,21 @@ std::optional<DataNote> odd_posture(const Camera& camera, const Rotations& rotat
 
 namespace {
 
-/// Keyframes that move along their optical axis, by their ids.
+/// Ids of keyframes that move along their optical axis.
 std::set<KeyframeId> keyframes_that_go_ahead(const Map& map) {
-  constexpr double kAhead = 0.9;  // cosine
+  constexpr double kAhead = 0.9;  // cosine of the angle
   std::set<KeyframeId> ahead;
   for (std::size_t i = 1; i < map.keyframes.size(); ++i) {
     const Sim3 S_map_cam = map.S_map_keyframe(map.keyframes[i].id);
-    const Eigen::Vector3d way =
+    const Eigen::Vector3d translation =
         S_map_cam.translation() - map.S_map_keyframe(map.keyframes[i - 1].id).translation();
     const Eigen::Vector3d axis = S_map_cam.rotation() * Eigen::Vector3d(0, 0, 1);
-    if (way.norm() > 0 && way.dot(axis) > kAhead * way.norm()) ahead.insert(map.keyframes[i].id);
+    if (translation.norm() > 0 && translation.dot(axis) > kAhead * translation.norm())
+      ahead.insert(map.keyframes[i].id);
   }
   return ahead;
 }
+/// The lowest quintile; -1 for fewer than thirty values.
 
 /// The lowest fifth; -1 of fewer than thirty.
 double lowest_fifth(std::vector<double> values) {
@@ -114,18 +117,17 @@ std::optional<DataNote> odd_sides(const NearestSides& sides) {
   if (sides.below < 0 || sides.nearest_other < 0 || sides.below > kBelowTooNear ||
       sides.nearest_other > kOtherTooNear)
     return std::nullopt;
-  return DataNote{fmt::format("what is below the camera comes as near as {:.2f} of its height, and "
-                              "another side as near as "
-                              "{:.2f}: the ground is elsewhere than below, as if the camera lay on "
-                              "its side or upside down; "
-                              "lengths are in doubt",
+  return DataNote{fmt::format("landmarks below the camera are as near as {:.2f} of its height, and "
+                              "those on another side as near as {:.2f}: the ground is not below, "
+                              "as if the camera lay on its side or upside down; the scale is in "
+                              "doubt",
                               sides.below, sides.nearest_other),
                   true};
 }
 
 namespace {
 
-/// Whether stamps are those that recordings without times get: 10 Hz, to the nanosecond.
+/// Whether the stamps are those assigned to recordings without times: 10 Hz, to the nanosecond.
 bool are_counted(const Trajectory& trajectory) {
   const auto step_ns = static_cast<std::int64_t>(1e9 / kDefaultRateHz);
   return std::ranges::all_of(trajectory.poses,
@@ -150,7 +152,7 @@ std::optional<DataNote> odd_speed(const Trajectory& trajectory) {
   return DataNote{
       fmt::format(
           "the camera moves at {:.3g} m/s: the baseline, the depth unit, the camera's height or "
-          "the times are of another unit than metres and seconds",
+          "the times are not in metres and seconds",
           speed),
       true};
 }

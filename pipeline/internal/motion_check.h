@@ -8,38 +8,40 @@
 
 namespace placegraph {
 
-/// What a camera on a vehicle turned about, over a trajectory of it: sums over steps of a fiftieth
-/// of the way [deg].
+/// Accumulated rotation of a camera on a vehicle, summed over steps of a fiftieth of the path
+/// length [deg].
 struct Rotations {
-  double about_x_deg = 0;  ///< of the image: pitch of an upright camera
-  double about_y_deg = 0;  ///< heading of an upright camera
+  double about_x_deg = 0;  ///< rotation about the image's x axis: pitch of an upright camera
+  double about_y_deg = 0;  ///< rotation about the image's y axis: heading of an upright camera
 };
 Rotations rotations_of(const Trajectory& trajectory);
 
-/// Whether a camera whose height gives the scale may lie on its side, so that what is below in its
-/// images is no ground and lengths are in doubt: it turns about its x axis as vehicles turn about
-/// the vertical, or its images are higher than wide and it does not turn about its y axis clearly.
-/// EXIF orientation is not applied, so images of a phone may be so.
+/// Reports whether a camera whose height provides the scale may be mounted on its side, so that the
+/// lower part of its images does not show the ground and the scale is in doubt. Evidence: it
+/// rotates about its x axis as vehicles rotate about the vertical, or its images are higher than
+/// wide and it does not clearly rotate about its y axis. This occurs with images of a phone,
+/// because EXIF orientation is not applied.
 std::optional<DataNote> odd_posture(const Camera& camera, const Rotations& rotations);
 
-/// How near landmarks come on each side of the way, in camera heights: the lowest fifth of their
-/// distances across it, of landmarks ahead of keyframes that move along their optical axis.
-/// Negative where fewer than thirty tell.
+/// Distance of the nearest landmarks on each side of the trajectory, in camera heights: the lowest
+/// quintile of the distances perpendicular to the trajectory, over landmarks ahead of keyframes
+/// that move along their optical axis. Negative if there are fewer than thirty landmarks.
 struct NearestSides {
   double below = -1, nearest_other = -1;
-  /// Something as far below as the ground is to be, and nothing nearer elsewhere.
+  /// Whether the nearest landmarks below are about as far away as the ground, and no others are
+  /// nearer.
   bool are_upright() const { return below > 0.9 && nearest_other > 1; }
 };
 NearestSides nearest_sides(const Map& map, double camera_height_m);
 
-/// What the height was taken for cannot be the ground: something other than what is below comes
-/// nearer than six tenths of the height, and what is below nearer than eight tenths, where the
-/// ground is at one. So it is for cameras on their side or upside down.
+/// Reports that the surface below the camera cannot be the ground: landmarks on another side are
+/// nearer than six tenths of the height, and those below are nearer than eight tenths, while the
+/// ground is at one. This is the case for cameras on their side or upside down.
 std::optional<DataNote> odd_sides(const NearestSides& sides);
 
-/// A camera that is faster than any vehicle or hand (a median of 100 m/s): its baseline, depth unit
-/// or height, or the unit of its times, cannot be right. Nothing where all times
-/// are whole tenths of a second, as those that recordings without times get (kDefaultRateHz).
+/// Reports a camera that is faster than any vehicle or hand (a median of 100 m/s), so that its
+/// baseline, depth unit, height or time unit cannot be correct. Nothing if all time stamps are
+/// multiples of a tenth of a second, as in recordings without time stamps (kDefaultRateHz).
 std::optional<DataNote> odd_speed(const Trajectory& trajectory);
 
 }  // namespace placegraph

@@ -24,14 +24,14 @@
 namespace placegraph {
 namespace {
 
-/// Throws FileError if a motion and the images have no time in common, or the images lie within a
-/// step or two of many; says so if the motion tells little.
+/// Throws FileError if a motion and the images do not overlap in time, or if the images cover only
+/// a step or two of a long motion; logs a warning if the motion covers few pairs of frames.
 void check_common_time(const std::string& path, const MeasuredMotion& motion,
                        const std::vector<std::int64_t>& stamps_ns, const LogSink& log) {
   if (stamps_ns.size() < 2) return;
-  std::size_t told = 0, steps_in_common = 0;
+  std::size_t covered = 0, steps_in_common = 0;
   for (std::size_t i = 1; i < stamps_ns.size(); ++i)
-    told += motion.between(stamps_ns[i - 1], stamps_ns[i]).has_value();
+    covered += motion.between(stamps_ns[i - 1], stamps_ns[i]).has_value();
   std::vector<std::int64_t> motion_ns = {motion.steps().front().from_ns};
   for (const MotionStep& step : motion.steps()) {
     motion_ns.push_back(step.to_ns);
@@ -39,24 +39,24 @@ void check_common_time(const std::string& path, const MeasuredMotion& motion,
   }
   const std::size_t pairs = stamps_ns.size() - 1;
   const bool within_few = steps_in_common <= 2 && motion.steps().size() > 2 && pairs > 2;
-  if (2 * told > pairs && !within_few) return;
+  if (2 * covered > pairs && !within_few) return;
   const std::string times =
       fmt::format("it is from {:.3f} to {:.3f} s, the images are from {:.3f} to {:.3f} s",
                   seconds(0, motion_ns.front()), seconds(0, motion_ns.back()),
                   seconds(0, stamps_ns.front()), seconds(0, stamps_ns.back()));
-  if (told > 0 && !within_few) {
+  if (covered > 0 && !within_few) {
     placegraph::log(log, LogLevel::kWarning,
-                    "{}: tells the motion between {} of {} pairs of frames: {}", path, told, pairs,
-                    times);
+                    "{}: covers the motion between {} of {} pairs of frames: {}", path, covered,
+                    pairs, times);
     return;
   }
   const std::string clock = other_clock(stamps_ns, motion_ns, "the odometry");
-  throw FileError(path, (told > 0 ? "has hardly a time in common with the images: "
-                                  : "has no time in common with the images: ") +
+  throw FileError(path, (covered > 0 ? "has almost no time in common with the images: "
+                                     : "has no time in common with the images: ") +
                             times + (clock.empty() ? "" : "; " + clock));
 }
 
-/// Of the camera.
+/// Motion of the camera.
 MeasuredMotion read_motion(const Dataset& dataset, const MotionOptions& options,
                            const LogSink& log) {
   std::vector<std::int64_t> stamps_ns;
@@ -69,7 +69,7 @@ MeasuredMotion read_motion(const Dataset& dataset, const MotionOptions& options,
   return motion.seen_from(T_cam_body);
 }
 
-/// Reads frames in order, one ahead of its user if it may have a thread for that.
+/// Reads frames in order, one ahead of the caller if it may use a thread for that.
 class FrameReader {
  public:
   FrameReader(const Dataset& dataset, const LensCorrection& lens, Sensor sensor, std::size_t end,
@@ -98,9 +98,9 @@ class FrameReader {
   std::future<Frame> next_;
 };
 
-/// Whether the images proved to be distorted by more than `lens` takes out, which then does. The
-/// first finding leans towards no distortion, as tracks that contradict it were dropped: it is
-/// refined once.
+/// Whether the images are distorted by more than `lens` removes; adds the difference to `lens`. The
+/// first estimate is biased towards no distortion, because tracks that contradict it were dropped:
+/// it is refined once.
 bool learn_lens(const LensDistortion& seen, int pass, const LensOptions& options,
                 LensCorrection& lens, const LogSink& log) {
   if (pass > 1) return false;
@@ -112,7 +112,7 @@ bool learn_lens(const LensDistortion& seen, int pass, const LensOptions& options
   if (!is_distorted(seen, refined)) return false;
   lens.add(seen.k1);
   placegraph::log(log, LogLevel::kInfo,
-                  "images are distorted, k1 = {:f} +- {:f}: once more from the beginning without",
+                  "images are distorted, k1 = {:f} +- {:f}: restarting with undistorted ones",
                   lens.k1(), seen.sigma_k1);
   return true;
 }
@@ -138,9 +138,9 @@ Sensor choose_sensor(const Dataset& dataset, SensorChoice choice) {
   std::string all;
   for (const Sensor sensor : offered)
     all += (all.empty() ? "" : ", ") + std::string(to_string(sensor));
-  require(
-      std::find(offered.begin(), offered.end(), wanted) != offered.end(),
-      dataset.name() + ": has not what " + to_string(wanted) + " needs; it can be run as " + all);
+  require(std::find(offered.begin(), offered.end(), wanted) != offered.end(),
+          dataset.name() + ": lacks the images that " + to_string(wanted) +
+              " needs; it can be run as " + all);
   return wanted;
 }
 
@@ -166,7 +166,7 @@ std::vector<UnposedFrames> unposed_frames(const Trajectory& optimized, const Map
   return result;
 }
 
-/// A run over a sequence, and what it has written of itself.
+/// A run over a sequence, with the file in which it saves its map.
 class SequenceRun {
  public:
   SequenceRun(const Dataset& dataset, const RunOptions& options, const RunInputs& inputs)
@@ -199,7 +199,7 @@ class SequenceRun {
   }
 
  private:
-  /// The map of a run that had come to its end already.
+  /// The map of a run that was already finished.
   RunResult as_saved(StoredMap stored) {
     result_.calibration = lens_.calibration();
     result_.lens_k1 = lens_.k1();
@@ -220,7 +220,7 @@ class SequenceRun {
     return origin;
   }
 
-  /// Whether it came to the end; otherwise the images are to be corrected, and it begins anew.
+  /// Processes the sequence; returns false if the images must be corrected and the run restarted.
   bool pass(const StoredMap& stored) {
     result_.calibration = lens_.calibration();
     if (database_ && stored.map.keyframes.empty()) database_->clear(origin());
@@ -240,7 +240,7 @@ class SequenceRun {
         break;
       }
       const FrameResult done = slam.add_frame(frame);
-      reasons_.emplace(frame.id, done.outcome ? "nothing joins it to the first part of the map"
+      reasons_.emplace(frame.id, done.outcome ? "not connected to the first component of the map"
                                               : done.outcome.reason);
       if (inputs_.observer) inputs_.observer(frame, done, slam.view());
       if (inputs_.progress) inputs_.progress(i + 1 - begin_, end_ - begin_, done);
@@ -268,13 +268,13 @@ class SequenceRun {
     return inputs;
   }
 
-  /// Takes up what was saved; the index of the next frame.
+  /// Restores the saved state; returns the index of the next frame.
   std::size_t go_on(const StoredMap& stored, Slam& slam) {
     if (stored.map.keyframes.empty()) return begin_;
     const auto last = static_cast<std::size_t>(stored.map.keyframes.back().frame.value());
     require(last >= begin_ && last < end_,
             inputs_.map_file->path + ": its last keyframe is frame " + std::to_string(last) +
-                ", which is not of the sequence");
+                ", which is not in the sequence");
     Frame frame = dataset_.frame(last, result_.sensor);
     lens_.apply(frame);
     slam.resume(stored.map, stored.history, frame);
@@ -282,7 +282,7 @@ class SequenceRun {
     return last + 1;
   }
 
-  /// The file begins with the first place: what fails before leaves none.
+  /// The file is created with the first place: no file remains after an earlier failure.
   void commit(Slam& slam, bool last) {
     if (!database_) database_ = MapDatabase::create(inputs_.map_file->path, origin());
     const auto span = times_.measure("map database");
@@ -298,7 +298,8 @@ class SequenceRun {
   int pass_ = 0;
   std::optional<MapDatabase> database_;
   StageTimes times_;
-  std::map<FrameId, std::string> reasons_;  ///< of every frame, if it has no pose in the end
+  /// Reason for every frame, if it has no pose in the end.
+  std::map<FrameId, std::string> reasons_;
   RunResult result_;
 };
 

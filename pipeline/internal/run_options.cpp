@@ -7,12 +7,11 @@ void LensOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, LensOptions& o) {
   field("enabled", o.enabled,
-        "one eye or a depth camera: where the images prove to be distorted, the run begins again "
-        "with undistorted ones");
-  field("min_sigmas", o.min_sigmas, "radial distortion over its deviation that counts as proof",
-        {0, 1e6});
+        "monocular or RGB-D: restart with undistorted images if distortion is detected");
+  field("min_sigmas", o.min_sigmas,
+        "minimum |k1| over its standard deviation for a lens to count as distorted", {0, 1e6});
   field("min_effect", o.min_effect,
-        "of it on the tracks, rms in their standard deviations, that nothing else would explain",
+        "minimum unexplained RMS displacement of the tracks by k1, in standard deviations",
         {0, 1e6});
 }
 
@@ -24,18 +23,19 @@ void MotionOptions::check() const {
 }
 
 void visit(OptionVisitor& field, MotionOptions& o) {
-  field("file", o.file, "see docs/odometry.md; none if empty");
-  field("T_cam_body", o.T_cam_body, "tx ty tz qx qy qz qw of the body in the camera [m]");
-  field.group("noise", o.noise, "where the file tells none");
+  field("file", o.file, "path of a motion file (docs/other_sensors.md); empty: none");
+  field("T_cam_body", o.T_cam_body,
+        "pose of the body in the camera frame: tx ty tz [m] qx qy qz qw");
+  field.group("noise", o.noise, "noise of the motion where the file states none");
 }
 
 void visit(OptionVisitor& field, SceneOptions& o) {
-  field("geometry", o.geometry, "a floor plan with walls, doors and rooms, at the end");
-  field("semantics", o.semantics, "a map of what is where in a street, at the end");
-  field("urban_model", o.urban_model, "model of a street's classes; empty: the program's own");
-  field("surfaces_model", o.surfaces_model, "model of surfaces; empty: the program's own");
-  field.group("indoor", o.indoor, "the floor plan");
-  field.group("urban", o.urban, "the map of a street");
+  field("geometry", o.geometry, "build a floor plan with walls, doors and rooms at the end");
+  field("semantics", o.semantics, "build a semantic map of the street at the end");
+  field("urban_model", o.urban_model, "path of the street class model; empty: the built-in model");
+  field("surfaces_model", o.surfaces_model, "path of the surface model; empty: the built-in model");
+  field.group("indoor", o.indoor, "floor plan");
+  field.group("urban", o.urban, "semantic street map");
 }
 
 void RunOptions::check() const {
@@ -45,15 +45,15 @@ void RunOptions::check() const {
 
 void visit(OptionVisitor& field, RunOptions& o) {
   field.choice("sensor", o.sensor, {"auto", "mono", "stereo", "rgbd"},
-               "what the sequence is run as; auto: the best it offers");
+               "sensor configuration; auto: the best that the sequence offers");
   field("camera_height_m", o.camera_height_m,
-        "of the camera above the ground; 0: as the sequence says, or unknown", {0, 1000});
-  field("first_frame", o.first_frame, "frames left out at the beginning", {0, 1e9});
-  field("max_frames", o.max_frames, "frames run; 0: all", {0, 1e9});
-  field("threads", o.threads, "threads; the result does not depend on it", {1, 256});
-  field.group("motion", o.motion, "motion that other sensors measured");
-  field.group("lens", o.lens, "self-calibration of one eye's radial distortion");
-  field.group("scene", o.scene, "what is made of the scene beside the places");
+        "camera height above the ground [m]; 0: as stated by the sequence, or unknown", {0, 1000});
+  field("first_frame", o.first_frame, "number of frames skipped at the beginning", {0, 1e9});
+  field("max_frames", o.max_frames, "maximum number of frames to process; 0: all", {0, 1e9});
+  field("threads", o.threads, "number of threads; the result does not depend on it", {1, 256});
+  field.group("motion", o.motion, "motion measured by other sensors");
+  field.group("lens", o.lens, "self-calibration of a monocular camera's radial distortion");
+  field.group("scene", o.scene, "scene models built from the finished map");
   visit(field, o.slam);
 }
 

@@ -13,7 +13,7 @@
 
 namespace placegraph {
 
-/// What Slam keeps, and its steps.
+/// State of Slam and the steps of processing.
 struct Slam::Impl {
   Impl(const SlamOptions& o, const Calibration& c, const SlamInputs& inputs)
       : options(o),
@@ -22,7 +22,8 @@ struct Slam::Impl {
         odometry(o.odometry, c, o.seed, log_sink, times),
         closer(o.loops, c, o.seed),
         mapper(o.places, o.pose_graph),
-        recovery({o.max_lost_frames, o.odometry.turn.threshold_px / c.camera.fx}, log_sink),
+        recovery({o.max_lost_frames, o.odometry.pure_rotation.threshold_px / c.camera.fx},
+                 log_sink),
         environments(o.context.filter, c.camera),
         feed(o.views.cues),
         events(inputs.events) {
@@ -49,7 +50,7 @@ struct Slam::Impl {
   void take_up(const Map& map, const PlaceHistory& history, const Frame& last);
   KnownMap known() const { return {closer, mapper, recorder}; }
   MapSources sources() { return {odometry, closer, mapper, recorder, environments}; }
-  /// Keyframes from here on are still being refined: their places are not merged.
+  /// Keyframes from this one on are still being refined: their places are not merged.
   KeyframeId first_open() const { return odometry.map().window_begin().value_or(kBeforeAll); }
 
   SlamOptions options;
@@ -71,7 +72,7 @@ Slam::Slam(const SlamOptions& options, const Calibration& calibration, const Sla
   options.check();
   calibration.check();
   require(inputs.surfaces || !(options.semantics.enabled || options.context.enabled),
-          "Slam: semantics and context need a model of surfaces, see SlamInputs::surfaces");
+          "Slam: semantics and context require a model of surfaces, see SlamInputs::surfaces");
   impl_ = std::make_unique<Impl>(options, calibration, inputs);
 }
 Slam::~Slam() = default;
@@ -123,7 +124,7 @@ void Slam::Impl::check_frame(const Frame& frame) const {
   require(fits(frame.right, CV_8UC1, camera) && fits(frame.mask, CV_8UC1, camera) &&
               (!calibration.depth || fits(frame.depth, CV_32FC1, calibration.depth->camera)),
           "frame " + to_string(frame.id) +
-              ": right eye, mask or depth image of another size or type than calibrated");
+              ": right image, mask or depth image differs in size or type from the calibration");
   require(recorder.accepts(frame),
           "frame " + to_string(frame.id) + ": ids and stamps must increase");
 }
@@ -132,23 +133,23 @@ FrameResult Slam::Impl::add_frame(const Frame& frame) {
   check_frame(frame);
   recorder.begin(frame);
 
-  // 1. Visual odometry; where no track segment hangs on the map, with the place where the frame is.
+  // 1. Visual odometry; while no track segment is connected to the map, with the predicted pose.
   const std::optional<LocatedFrame> expected = recovery.expect(frame, known(), odometry);
   OdometryUpdate update = odometry.add_frame(
       frame, expected ? std::optional(known().T_map_frame(*expected)) : std::nullopt);
   const std::optional<LocatedFrame> located = recovery.locate(expected, update, known(), odometry);
 
-  // 2. Lost: relocalize, go on by a rotation or other sensors, or begin a new component of the map.
+  // 2. After a loss: relocalize, continue with a rotation or other sensors, or begin a component.
   if (recovery.needed(update, known()))
     update = recovery.restart(frame, located, update, known(), odometry);
 
-  // 3. New keyframes go into the place graph, and loops are sought.
+  // 3. Add new keyframes to the place graph, and detect loops.
   FrameResult result;
   result.frame = frame.id;
   if (update.rescale) rescale(update.rescale->factor);
   add_keyframes(update, result);
 
-  // 4. The frame's pose, relative to a keyframe and as it is known now.
+  // 4. The frame's pose, relative to a keyframe and as currently estimated.
   place(frame, located, update, result);
   recorder.finish(result.component == 0 ? result.T_map_cam : std::nullopt);
   events.frame_done(result);
@@ -173,11 +174,10 @@ void Slam::Impl::place(const Frame& frame, const std::optional<LocatedFrame>& lo
                  : recorder.newest_keyframe() ? TrackingState::kLost
                                               : TrackingState::kInitializing;
   if (result.T_map_cam && odometry.awaits_scale()) {
-    // The map will tell the pose once it has its unit: a pose in another is worse than none.
+    // The pose is recovered once the scale of the map is known; until then it would be misleading.
     result.T_map_cam.reset();
     result.state = TrackingState::kInitializing;
-    result.outcome =
-        Outcome::failure(Outcome::Code::kDegenerate, "waits for the map's unit of length");
+    result.outcome = Outcome::failure(Outcome::Code::kDegenerate, "waits for the scale of the map");
     return;
   }
   if (result.T_map_cam && recorder.newest_has_keyframe())
@@ -232,8 +232,8 @@ void Slam::Impl::add_keyframe(const NewKeyframe& keyframe, FrameResult& result) 
   recorder.add_keyframe(keyframe);
   if (recovery.motion()) add_motion(keyframe.id);
   if (options.context.enabled) classify_environment(keyframe);
-  // Before loops are sought: the test of a loop by its covariance asks the optimizer for the new
-  // place.
+  // Must precede the loop detection: the covariance test of a loop needs the new place in the
+  // optimizer.
   events.keyframe_added(keyframe.id, keyframe.frame.id, mapper);
   if (mapper.is_anchor(keyframe.id)) {
     result.new_place = true;
@@ -252,7 +252,8 @@ void Slam::Impl::add_keyframe(const NewKeyframe& keyframe, FrameResult& result) 
   if (options.loops.enabled) close_loops(result);
 }
 
-/// From anchor to anchor. What a monocular camera took its lengths from does not count again.
+/// Adds the measured motion between anchors. The length that provides a monocular camera's scale is
+/// not counted twice.
 void Slam::Impl::add_motion(KeyframeId keyframe) {
   const auto previous = mapper.previous_anchor(keyframe);
   if (!previous) return;
@@ -279,8 +280,8 @@ void Slam::Impl::classify_environment(const NewKeyframe& keyframe) {
   odometry.assume(kind ? std::optional(assumptions_of(*kind)) : std::nullopt);
 }
 
-/// The window goes on refining its last keyframes: their links follow. Information of the motion
-/// from an anchor to the next one comes from the window as a whole while it holds both.
+/// Updates the links of the keyframes that the window still refines. The information of the motion
+/// between consecutive anchors comes from the window as a whole while it contains both.
 void Slam::Impl::refresh_links(KeyframeId newest) {
   const LocalMap& map = odometry.map();
   const KeyframeId oldest(newest.value() - options.odometry.window.max_keyframes - 2);

@@ -3,34 +3,34 @@
 namespace placegraph {
 
 void visit(OptionVisitor& field, KeyframeViewOptions& o) {
-  field("enabled", o.enabled, "keep how keyframes look");
-  field.group("cues", o.cues, "cues that views are compared by");
+  field("enabled", o.enabled, "store the appearance of keyframes, for placegraph localize");
+  field.group("cues", o.cues, "descriptors of the stored appearance");
 }
 
 void visit(OptionVisitor& field, SceneUseOptions& o) {
-  field("enabled", o.enabled, "surfaces of keyframes say what is looked at");
-  field.group("masks", o.masks, "what is kept out");
+  field("enabled", o.enabled, "label the surfaces of keyframes, for odometry and places");
+  field.group("masks", o.masks, "labels whose pixels are excluded from tracking");
 }
 
 void visit(OptionVisitor& field, ContextOptions& o) {
-  field("enabled", o.enabled, "kinds of environments are told, and places labelled by them");
-  field("assume", o.assume, "motion is seen by what holds in the kind of environment");
-  field.group("filter", o.filter, "the kind over views in order of travel");
+  field("enabled", o.enabled, "classify the environment of keyframes and label places with it");
+  field("assume", o.assume, "rely only on cues that usually hold in the environment");
+  field.group("filter", o.filter, "smoothing of the environment class over consecutive keyframes");
 }
 
 void SlamOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, SlamOptions& o) {
-  field("seed", o.seed, "of every random stream");
-  field.group("odometry", o.odometry, "motion memory: relative poses and their window");
-  field.group("loops", o.loops, "spatial memory: recognition of places");
+  field("seed", o.seed, "seed of all random number generators");
+  field.group("odometry", o.odometry, "visual odometry over a sliding window");
+  field.group("loops", o.loops, "place recognition and loop closure");
   field.group("places", o.places, "topological places");
   field.group("pose_graph", o.pose_graph, "optimization of the place graph");
-  field.group("views", o.views, "how keyframes look, for placegraph localize");
-  field.group("semantics", o.semantics, "labels of surfaces, for motion and places");
-  field.group("context", o.context, "the kind of environment and what is assumed there");
-  field("max_lost_frames", o.max_lost_frames, "then a new component of the map begins",
-        {1, 1000000});
+  field.group("views", o.views, "stored appearance of keyframes, for placegraph localize");
+  field.group("semantics", o.semantics, "surface labels for odometry and place recognition");
+  field.group("context", o.context, "environment class and the assumptions that follow from it");
+  field("max_lost_frames", o.max_lost_frames,
+        "consecutive lost frames after which a new component of the map begins", {1, 1000000});
 }
 
 }  // namespace placegraph

@@ -10,7 +10,7 @@
 namespace placegraph {
 namespace {
 
-/// Fewer matches than this tell nothing.
+/// Minimum number of matches for a result.
 constexpr int kFewest = 60;
 
 struct Pair {
@@ -18,7 +18,8 @@ struct Pair {
 };
 
 std::vector<Pair> some_pairs(const Dataset& dataset) {
-  constexpr std::size_t kMostPairs = 4, kFramesAPair = 20;  // a small share of a run over them
+  // Takes a small share of the time of a run.
+  constexpr std::size_t kMostPairs = 4, kFramesAPair = 20;
   DetectorOptions detector;
   detector.max_features = 600;
   const std::size_t count = std::clamp<std::size_t>(dataset.size() / kFramesAPair, 1, kMostPairs);
@@ -39,20 +40,20 @@ bool agree(const RowOffsets& offsets) {
   return offsets.outcome && offsets.inliers > 0.5 * offsets.matches;
 }
 
-/// How a right eye would have to be turned or shifted for its rows to be off so.
+/// The rotation or shift of the right camera that would explain the row offsets.
 std::string likely_cause(const RowOffsets& offsets, const Camera& camera) {
   const double half_x = 0.5 * camera.width / camera.fx, half_y = 0.5 * camera.height / camera.fy;
   const double shift = std::abs(offsets.rows[0]), roll = std::abs(offsets.rows[1]) * half_x,
                zoom = std::abs(offsets.rows[2]) * half_y;
   const double most = std::max({shift, roll, zoom});
-  if (most < 0.5 * offsets.rms_px) return "as if the eyes had other lenses or directions";
+  if (most < 0.5 * offsets.rms_px) return "as if the cameras had different lenses or directions";
   if (most == shift)
-    return fmt::format("as if the right eye's were {:.1f} rows too {}", shift,
+    return fmt::format("as if the right images were {:.1f} rows too {}", shift,
                        offsets.rows[0] > 0 ? "low" : "high");
   if (most == roll)
-    return fmt::format("as if the right eye were rolled by {:.1f} degrees",
+    return fmt::format("as if the right camera were rolled by {:.1f} degrees",
                        rad_to_deg(std::atan(offsets.rows[1] / camera.fx)));
-  return fmt::format("as if the right eye's images were {:.1f} % {}",
+  return fmt::format("as if the right images were {:.1f} % {}",
                      100 * std::abs(offsets.rows[2]) / camera.fy,
                      offsets.rows[2] > 0 ? "larger" : "smaller");
 }
@@ -63,7 +64,7 @@ RowOffsets check_rows(const Dataset& dataset) {
   const Camera camera = dataset.calibration(Sensor::kStereo).camera;
   const std::vector<Pair> pairs = some_pairs(dataset);
   RowOffsets offsets;
-  // Two degrees of roll, or rather more where that explains nothing.
+  // Two degrees of roll, or more if that finds no agreement.
   for (const double share : {0.02, 0.1}) {
     std::vector<RowSample> samples;
     for (const Pair& pair : pairs) {
@@ -81,24 +82,25 @@ RowOffsets check_rows(const Dataset& dataset) {
 std::optional<DataNote> odd_rows(const RowOffsets& offsets, const Camera& camera) {
   constexpr double kMostRmsPx = 0.75, kMostBendPx = 1.5;
   const std::string advice =
-      "; rectify the pair first, or give both raw cameras with their distortion and poses (EuRoC's "
-      "sensor.yaml): lengths are in doubt";
+      "; rectify the pair first, or provide both raw cameras with their distortion and poses "
+      "(EuRoC's "
+      "sensor.yaml): the scale is in doubt";
   if (offsets.matches < kFewest) return std::nullopt;
   if (!agree(offsets))
-    return DataNote{fmt::format("matches between the eyes do not agree on rows ({} of {}): not "
-                                "rectified, or not of the same moment",
+    return DataNote{fmt::format("matches between the cameras do not agree on rows ({} of {}): not "
+                                "rectified, or not taken at the same time",
                                 offsets.inliers, offsets.matches) +
                         advice,
                     true};
   if (offsets.behind > 0.5 * offsets.inliers)
     return DataNote{
-        fmt::format("{} of {} matches lie farther right in the right eye's images: are the eyes "
+        fmt::format("{} of {} matches are farther right in the right images: are the cameras "
                     "swapped?",
                     offsets.behind, offsets.inliers),
         true};
   const double bend_px = std::abs(offsets.rows[2]) / camera.fy * 0.5 * camera.width;
   if (offsets.rms_px < kMostRmsPx && bend_px < kMostBendPx) return std::nullopt;
-  return DataNote{fmt::format("matches between the eyes lie {:.1f} px off their rows (root mean "
+  return DataNote{fmt::format("matches between the cameras are {:.1f} px off their rows (root mean "
                               "square of {}), {}",
                               offsets.rms_px, offsets.inliers, likely_cause(offsets, camera)) +
                       advice,

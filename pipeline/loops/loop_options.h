@@ -5,35 +5,36 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// How loop closures are found, verified and tested before they are accepted.
+/// Options for the detection, verification and acceptance of loop closures.
 ///
-/// Lengths are relative to the median depth of the newest keyframe, so that they hold for
-/// monocular maps too.
+/// Lengths are relative to the median depth of the newest keyframe, so that they apply to monocular
+/// maps too.
 struct LoopOptions {
-  bool enabled = true;            ///< look for loop closures
+  bool enabled = true;            ///< detect loop closures
   DetectorOptions detector;       ///< features that describe a keyframe
   PlaceDatabaseOptions database;  ///< retrieval by visual words
-  LoopVerifierOptions verifier;   ///< geometric verification of a candidate
-  int min_frame_gap = 40;         ///< frames between two keyframes that may form a loop, at least
-  int candidates = 5;             ///< most keyframes retrieved for one query
-  /// Least similarity of a candidate, as a share of that of the keyframe before the query.
+  LoopVerifierOptions verifier;   ///< geometric verification of a loop candidate
+  int min_frame_gap = 40;         ///< minimum number of frames between two keyframes of a loop
+  int candidates = 5;             ///< maximum number of keyframes retrieved for one query
+  /// Minimum similarity of a candidate, as a share of the similarity of the keyframe before the
+  /// query.
   double min_similarity = 0.3;
-  int support_window = 4;  ///< keyframes within which a second loop must agree
-  /// Largest disagreement of two loops in translation over (median depth + path length between
+  int support_window = 4;  ///< number of keyframes within which a second loop must agree
+  /// Maximum disagreement of two loops in translation over (median depth + path length between
   /// them).
   double support_translation = 0.03;
-  double support_angle_deg = 2;  ///< largest disagreement of two loops in rotation
+  double support_angle_deg = 2;  ///< maximum disagreement of two loops in rotation
   /// Assumed drift of the odometry in translation over (median depth + path length since the
-  /// match): a loop that contradicts the odometry by more is refused.
+  /// match). A loop that contradicts the odometry by more is refused.
   double drift_translation = 0.015;
-  /// Assumed drift of the odometry in rotation per median depth of path length, beside
+  /// Assumed drift of the odometry in rotation per median depth of path length, in addition to
   /// support_angle_deg.
   double drift_angle_deg = 1;
-  /// Assumed drift of a monocular camera's scale (logarithm) per median depth of path length,
-  /// beside verifier.max_scale_error.
+  /// Assumed drift of a monocular camera's scale (logarithm) per median depth of path length, in
+  /// addition to verifier.max_scale_error.
   double drift_scale = 0.03;
-  /// Factor on the information of a loop: feature noise is correlated, so that it tells less than
-  /// the number of its inliers promises.
+  /// Factor on the information of a loop: feature noise is correlated, so that the number of
+  /// inliers overestimates the information.
   double information_scale = 0.1;
   void check() const;
 };

@@ -13,48 +13,50 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// Where an image was taken, or why that is not known.
+/// Place of an image in a map, or the reason why the place is unknown.
 struct Localization {
   bool placed = false;  ///< whether `probability` reaches LocalizerOptions::min_probability
-  /// The place of the map; the best guess if not placed, nothing if there is none.
+  /// Place in the map; the most probable one if `placed` is false, nothing if there is none.
   std::optional<PlaceId> place;
-  std::optional<KeyframeId> keyframe;  ///< the keyframe that the image was matched to
-  std::optional<FrameId> frame;        ///< the frame of that keyframe
-  double probability = 0;              ///< that the place is right
-  /// The test that decided. Of placed images "geometry" or "appearance"; of others "blank" (there
-  /// is nothing to compare), "calibration" (the map's keyframes do not show what wrong answers look
-  /// like), "appearance" (not sure enough), "geometry" (the features contradict).
+  std::optional<KeyframeId> keyframe;  ///< keyframe to which the image was matched
+  std::optional<FrameId> frame;        ///< frame of that keyframe
+  double probability = 0;              ///< probability that the place is correct
+  /// Test that decided. For placed images: "geometry" or "appearance". For others: "blank" (the
+  /// image has no content to compare), "calibration" (the keyframes of the map provide no examples
+  /// of wrong matches), "appearance" (the probability is too low), "geometry" (the features
+  /// contradict the match).
   std::string stage;
-  std::optional<SE3> T_map_cam;  ///< if placed and verified by geometry
-  std::string without_pose;      ///< why a placed image has no pose; empty otherwise
+  std::optional<SE3> T_map_cam;  ///< pose, if the image is placed and verified by geometry
+  std::string without_pose;      ///< reason why a placed image has no pose; empty otherwise
 };
 
 /// Localizes images in a saved map, with a calibrated probability.
 ///
-/// Whole images are compared with the keyframes by appearance; the map's own keyframes calibrate
-/// the probability of an answer. Where the map has points of known depth, features verify it and
-/// give a pose.
+/// The appearance of whole images is compared with that of the keyframes; the keyframes of the map
+/// are used to calibrate the probability of a match. Where the map contains points of known depth,
+/// features verify the match and determine the pose.
 class MapLocalizer {
  public:
-  /// Takes the map over and prepares its keyframes for comparison.
+  /// Takes ownership of the map and prepares its keyframes for comparison.
   ///
-  /// Throws ArgumentError for options that check() refuses, for fewer than ten keyframes with an
-  /// appearance, or if it was described by other cues than those of the options.
+  /// Throws ArgumentError for options that check() rejects, for a map with fewer than ten keyframes
+  /// whose appearance is stored, or if the map was described with other cues than those of the
+  /// options.
   MapLocalizer(const LocalizerOptions& options, StoredMap stored);
   ~MapLocalizer();
   MapLocalizer(MapLocalizer&&) noexcept;
   MapLocalizer& operator=(MapLocalizer&&) noexcept;
 
-  /// Reads the frame of an index; called once for each, in ascending order.
+  /// Callback that returns the frame of an index; called once for each, in ascending order.
   ///
-  /// `image` is grey, as taken by the map's camera (images of another size are placed without a
-  /// pose); `colour` is needed where the map's keyframes were kept in colour.
+  /// `image` is grey and taken by the camera of the map (images of another size are placed without
+  /// a pose); `colour` is required if the map's keyframes were stored in colour.
   using Frames = std::function<Frame(std::size_t)>;
-  /// Localizes `count` images; one result for each, in their order.
+  /// Localizes `count` images; returns one result for each, in order.
   ///
-  /// `sequence`: the images are consecutive ones of one drive, and each is judged with the evidence
-  /// of those around it; otherwise each is judged by itself. Throws ArgumentError if colour is
-  /// missing.
+  /// `sequence`: the images are consecutive images of one drive, and each is classified with the
+  /// evidence of its neighbours; otherwise each image is classified independently. Throws
+  /// ArgumentError if colour is missing.
   std::vector<Localization> localize(std::size_t count, const Frames& frames, bool sequence) const;
 
  private:

@@ -5,34 +5,36 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// How MapLocalizer places images in a saved map.
+/// Options for the localization of images in a saved map.
 struct LocalizerOptions {
-  PlaceRecognizerOptions recognizer;  ///< its cues must be those that the map was described by
-  /// Evidence of consecutive images. Images before and after count, so that it is gathered over
-  /// longer than where only the past is known.
+  /// Appearance comparison; its cues must be those with which the map was described.
+  PlaceRecognizerOptions recognizer;
+  /// Combination of the evidence of consecutive images. Images before and after count, so that
+  /// evidence is accumulated over a longer span than in online use.
   SequenceFilterOptions sequence{.memory = 0.97};
-  double min_probability = 0.95;  ///< least probability of an answer
-  int calibration_views = 300;    ///< most keyframes of the map used to calibrate probabilities
-  bool geometry = true;           ///< verify by features where the map has their depth
-  LoopOptions loops;              ///< as the run that made the map; used if `geometry`
+  double min_probability = 0.95;  ///< minimum probability of a placed image
+  /// Maximum number of keyframes of the map used to calibrate probabilities.
+  int calibration_views = 300;
+  bool geometry = true;  ///< verify by features where the map contains their depth
+  LoopOptions loops;     ///< options of the run that made the map; used if `geometry`
   void check() const;
 };
 void visit(OptionVisitor& field, LocalizerOptions& options);
 
-/// How a map of places is learned from images alone, without motion.
+/// Options for learning a map of places from images alone, without motion.
 struct MapLearnerOptions {
-  PlaceCueOptions cues;  ///< descriptors that images are compared by
-  /// A place ends where the similarity of an image to the place's first one falls below this share
-  /// of its similarity to the image before. Both are taken beyond what any two images have in
-  /// common.
+  PlaceCueOptions cues;  ///< descriptors with which images are compared
+  /// A place ends where the similarity of an image to the first image of the place falls below this
+  /// share of its similarity to the previous image. The similarity that any two images have in
+  /// common is subtracted from both.
   double similar = 0.5;
   void check() const;
 };
 void visit(OptionVisitor& field, MapLearnerOptions& options);
 
-/// How places are labelled by a classifier of images.
+/// Options for labelling places with an image classifier.
 struct PlaceLabelOptions {
-  /// Mean probability over a place's keyframes below which the place stays without a label.
+  /// Minimum mean probability over a place's keyframes for the place to be labelled.
   double min_probability = 0.5;
   void check() const;
 };

@@ -8,14 +8,14 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// What one keyframe shows of the environment it was taken in.
+/// Environment evidence and classification of one keyframe.
 struct EnvironmentObservation {
-  KeyframeId keyframe;           ///< the keyframe that was classified
-  FrameId frame;                 ///< the frame that became the keyframe
-  EnvironmentEvidence evidence;  ///< the measured features
-  /// Of each Environment, by this keyframe alone; they sum to 1.
+  KeyframeId keyframe;           ///< keyframe that was classified
+  FrameId frame;                 ///< frame that became the keyframe
+  EnvironmentEvidence evidence;  ///< measured features
+  /// Probability of each Environment by this keyframe alone; the sum is 1.
   std::array<double, kEnvironmentCount> probabilities{};
-  /// The kind by this and all earlier keyframes; nothing while it is undecided.
+  /// Class by this and all earlier keyframes; nothing while it is undecided.
   std::optional<Environment> kind;
 };
 

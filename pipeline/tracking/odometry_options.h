@@ -9,45 +9,48 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// When a frame becomes a keyframe.
+/// Criteria for turning a frame into a keyframe.
 struct KeyframeOptions {
-  /// Median displacement of the tracks since the last keyframe over the image width, above which a
-  /// keyframe is due.
+  /// Median displacement of the tracks since the last keyframe, over the image width, above which a
+  /// keyframe is created.
   double max_flow_share = 0.06;
-  /// Whether the camera's rotation is taken out of the displacements: what is left is parallax.
+  /// Whether to remove the camera's rotation from the displacements, so that only parallax remains.
   bool derotated = false;
-  /// Share of the last keyframe's landmarks that must still be inliers; with fewer a keyframe is
-  /// due.
+  /// Minimum share of the last keyframe's landmarks that must still be inliers; with fewer, a
+  /// keyframe is created.
   double min_tracked_share = 0.7;
-  /// Frames after which a keyframe is due if the displacement is at least a tenth of
+  /// Number of frames after which a keyframe is created if the displacement is at least a tenth of
   /// max_flow_share.
   int max_interval = 20;
   void check() const;
 };
 void visit(OptionVisitor& field, KeyframeOptions& options);
 
-/// Visual odometry: the motion of the camera over the last keyframes.
+/// Options of visual odometry, which estimates the motion over the last keyframes.
 struct OdometryOptions {
-  /// What motion is measured by: points, lines, plane, manhattan, direct, joined by commas.
+  /// Motion cues, joined by commas: points, lines, plane, manhattan, direct.
   ///
-  /// One of points, lines, plane and direct is needed. Beside others, `plane` is the ground that
-  /// gives a monocular camera of known height its scale; alone, it is all that motion is seen by.
+  /// One of points, lines, plane and direct is required. In combination with other cues, `plane` is
+  /// the ground plane, which makes the scale of a monocular camera of known height observable;
+  /// alone, it is the only motion cue.
   std::string cues = "points,plane";
   PointCueOptions points;              ///< point landmarks
-  MonoInitializerOptions initializer;  ///< the first two keyframes of a monocular camera
-  Rotation2d2dOptions turn;            ///< a monocular camera that rotates on the spot
-  StereoMatcherOptions stereo;         ///< search for points in the right image
+  MonoInitializerOptions initializer;  ///< first two keyframes of a monocular camera
+  Rotation2d2dOptions pure_rotation;   ///< pure rotation of a monocular camera
+  StereoMatcherOptions stereo;         ///< stereo matching of points
   RectificationOptions rectification;  ///< self-calibration of a stereo pair
   GroundPlaneScaleOptions ground;      ///< metric scale from the ground plane
   LineCueOptions lines;                ///< line landmarks, where `lines` is among the cues
-  ManhattanCueOptions manhattan;       ///< where `manhattan` is among the cues
-  PlaneLandmarkOptions planes;         ///< planes in depth images as landmarks
-  DirectCueOptions surfaces;           ///< where `plane` is the only cue or `direct` is among them
-  KeyframeOptions keyframe;            ///< when a frame becomes a keyframe
+  /// Rotation from Manhattan frames, where `manhattan` is among the cues.
+  ManhattanCueOptions manhattan;
+  PlaneLandmarkOptions planes;  ///< planes in depth images as landmarks
+  /// Direct alignment, where `plane` is the only cue or `direct` is among them.
+  DirectCueOptions surfaces;
+  KeyframeOptions keyframe;  ///< criteria for a new keyframe
   /// Bundle adjustment over the last keyframes.
   SlidingWindowOptions window{.max_keyframes = 10, .relative_decrease = 1e-3};
   /// SlidingWindowOptions::scale_drift (logarithm per keyframe) of a monocular camera whose scale
-  /// the ground or another sensor measures.
+  /// is measured by the ground or another sensor.
   double scale_drift = 0.003;
   void check() const;
 };

@@ -227,10 +227,10 @@ void study_approach(Report& report) {
     const Image from = test::render(kCamera, T_wall_1, {wall}).grey;
     const Image to = test::render(kCamera, T_wall_2, {wall}).grey;
     const auto flow = lucas_kanade(from, to, flow_grid(kCamera.width, kCamera.height, 24), {});
-    const KnownRotation turn{T_wall_1.rotation().inverse() * T_wall_2.rotation()};
+    const KnownRotation camera_rotation{T_wall_1.rotation().inverse() * T_wall_2.rotation()};
     const Vector3d normal = T_wall_1.rotation().inverse() * Vector3d::UnitZ();
-    const TimeToContact contact =
-        time_to_contact(ventral_motion(derotate(kCamera, flow, turn), normal), normal, kPeriod_s);
+    const TimeToContact contact = time_to_contact(
+        ventral_motion(derotate(kCamera, flow, camera_rotation), normal), normal, kPeriod_s);
     errors.push_back(contact.outcome ? std::abs(contact.seconds / contact_s - 1) : 1);
   }
   report.target("time to contact, worst error [%]",
@@ -253,9 +253,9 @@ void study_ventral(Report& report) {
       const Image from = test::render(kCamera, T_floor_1, {floor}).grey;
       const Image to = test::render(kCamera, T_floor_2, {floor}).grey;
       const auto flow = lucas_kanade(from, to, flow_grid(kCamera.width, kCamera.height, 24), {});
-      const KnownRotation turn{T_floor_1.rotation().inverse() * T_floor_2.rotation()};
+      const KnownRotation camera_rotation{T_floor_1.rotation().inverse() * T_floor_2.rotation()};
       const Vector3d normal = T_floor_1.rotation().inverse() * Vector3d::UnitZ();
-      const VentralMotion motion = ventral_motion(derotate(kCamera, flow, turn), normal);
+      const VentralMotion motion = ventral_motion(derotate(kCamera, flow, camera_rotation), normal);
       const Vector3d truth = T_floor_1.rotation().inverse() * way / height;
       errors.push_back(motion.outcome ? (motion.over_distance - truth).norm() / truth.norm() : 1);
     }

@@ -34,7 +34,7 @@ void study(int flights) {
     request.seed = static_cast<std::uint64_t>(seed);
     request.duration_s = kDuration_s;
     const synthetic::Tour tour = synthetic::make_flight_world(request);
-    const auto& truth = tour.hover->flight.truth;
+    const auto& truth = tour.flight_setting->flight.truth;
     const auto fly = [&](double until_s) {
       return body_state_error(
           truth, answers(test::fly_without_images(tour, {}, {}, request.seed,

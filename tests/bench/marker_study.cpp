@@ -49,12 +49,12 @@ void study_apriltag_sim(const std::string& folder, Report& report) {
     const SE3& T = poses.poses[0].T_cam_marker;
     const double range = tag.T_cam_marker.translation().norm();
     const double way = 100 * (T.translation() - tag.T_cam_marker.translation()).norm() / range;
-    const double turn = angle_deg(T, tag.T_cam_marker);
+    const double angle_error_deg = angle_deg(T, tag.T_cam_marker);
     corner_px = std::max(corner_px, px);
     way_percent = std::max(way_percent, way);
-    rotation_deg = std::max(rotation_deg, turn);
+    rotation_deg = std::max(rotation_deg, angle_error_deg);
     report.markdown += fmt::format("| {} | {:.3f} | {:.2f} | {:.2f} | {:.0f} |\n", observation.id,
-                                   px, way, turn, poses.margin());
+                                   px, way, angle_error_deg, poses.margin());
   }
   report.target("apriltag_sim, tags found", static_cast<double>(found.size()));
   report.target("apriltag_sim, corners [px]", corner_px);
@@ -102,13 +102,13 @@ std::optional<SE3> rival(const MarkerScene& scene, const SE3& T_world_cam) {
 }
 
 void judge(const MarkerScene& scene, const SE3& T_world_cam, const Image& image,
-           const MarkerDetector& detector, const std::optional<SO3>& turn, std::int64_t stamp_ns,
-           MarkerFilter& filter, Tally& tally) {
+           const MarkerDetector& detector, const std::optional<SO3>& body_rotation,
+           std::int64_t stamp_ns, MarkerFilter& filter, Tally& tally) {
   ++tally.views;
   MarkerView view;
   view.stamp_ns = stamp_ns;
   view.markers = detector.detect(image);
-  view.rotation_body = turn;
+  view.rotation_body = body_rotation;
   if (view.markers.size() != 1) return;
   ++tally.seen;
   const PlacedMarker& placed = scene.layout.markers[0];
@@ -191,15 +191,17 @@ void study_tilts(int seeds, Report& report) {
         for (int step = 0; step < 60; ++step) {
           const double tilt = (step < 30 ? step : 60 - step) * 2.5;
           const SE3 T = looking_at_origin(range, tilt * kRadPerDeg, azimuth + 0.01 * step, roll);
-          std::optional<SO3> turn;
+          std::optional<SO3> body_rotation;
           if (step > 0) {
             const double s = 0.002;
-            turn = before.rotation().inverse() * T.rotation() *
-                   SO3::exp({random.normal(0, s), random.normal(0, s), random.normal(0, s)});
+            body_rotation =
+                before.rotation().inverse() * T.rotation() *
+                SO3::exp({random.normal(0, s), random.normal(0, s), random.normal(0, s)});
           }
           before = T;
           const Image image = scene.render(T, random);
-          judge(scene, T, image, detector, turn, 50'000'000LL * (step + 1), filter, all_swaying);
+          judge(scene, T, image, detector, body_rotation, 50'000'000LL * (step + 1), filter,
+                all_swaying);
         }
       }
   }

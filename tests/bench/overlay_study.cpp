@@ -48,9 +48,9 @@ std::optional<Street> street_at(const Scene& scene, const Vector2d& place) {
       for (int i = 0; i < face.count; ++i) {
         const Vector3d& a = face.corners[static_cast<std::size_t>(i)];
         const Vector3d side = face.corners[static_cast<std::size_t>((i + 1) % face.count)] - a;
-        const double turn = side.x() * (place.y() - a.z()) - side.z() * (place.x() - a.x());
-        left = left && turn >= 0;
-        right = right && turn <= 0;
+        const double side_sign = side.x() * (place.y() - a.z()) - side.z() * (place.x() - a.x());
+        left = left && side_sign >= 0;
+        right = right && side_sign <= 0;
       }
       if (!left && !right) continue;
       const Vector3d& a = face.corners[0];
@@ -152,11 +152,11 @@ void judge_frame(const SyntheticWorld& world, std::size_t k, const SceneModel& m
       const Vector2d foot = seen_at(truth.camera, box.foot_cam);
       if (taken || foot.x() < 20 || foot.x() > bgr.cols - 20 || foot.y() > bgr.rows - 10) continue;
       box.size = {right, ahead, 0.6, 0.6, 1.8};
-      const Vector2d told = seen_at(view.camera, ground_place(view, right, ahead));
+      const Vector2d predicted = seen_at(view.camera, ground_place(view, right, ahead));
       const Vector2d level = seen_at(truth.camera, ground_place(truth, right, ahead));
-      score.plane_px.push_back((told - level).norm());
+      score.plane_px.push_back((predicted - level).norm());
       if (street->is_road) score.best_road_px.push_back((level - foot).norm());
-      (street->is_road ? score.road_px : score.pavement_px).push_back((told - foot).norm());
+      (street->is_road ? score.road_px : score.pavement_px).push_back((predicted - foot).norm());
       Image mask;
       picture = overlay_box(draw.empty() ? bgr : picture, popup, view, box.size, &mask);
       judge_pixels(box, truth.camera, frame.depth, mask, score);

@@ -106,20 +106,21 @@ TEST_F(OnDisk, TumRuns) {
 }
 
 TEST_F(OnDisk, EurocRuns) {
-  for (const int eye : {0, 1}) {
-    const std::string at = "s/mav0/cam" + std::to_string(eye) + "/";
+  for (const int camera_number : {0, 1}) {
+    const std::string at = "s/mav0/cam" + std::to_string(camera_number) + "/";
     std::string list = "#timestamp [ns],filename\n";
     for (int i = 0; i < kFrames; ++i) {
       const std::string stamp = std::to_string(1'000'000'000 + 50'000'000 * i);
       list += stamp + "," + stamp + ".png\n";
-      write_image(folder_, at + "data/" + stamp + ".png", eye ? files_.right(i) : files_.left(i));
+      write_image(folder_, at + "data/" + stamp + ".png",
+                  camera_number ? files_.right(i) : files_.left(i));
     }
     folder_.write(at + "data.csv", list);
     const Camera c = street_camera();
     std::ostringstream sensor;
     sensor << std::setprecision(12)
            << "sensor_type: camera\nT_BS:\n  cols: 4\n  rows: 4\n  data: [1, 0, 0, "
-           << (eye ? kStreetBaseline_m : 0.0)
+           << (camera_number ? kStreetBaseline_m : 0.0)
            << ", 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]\nrate_hz: 20\nresolution: [" << c.width << ", "
            << c.height << "]\ncamera_model: pinhole\nintrinsics: [" << c.fx << ", " << c.fy << ", "
            << c.cx << ", " << c.cy

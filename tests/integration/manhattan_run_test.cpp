@@ -46,9 +46,9 @@ TEST(DirectionsOfARenderedCorridor, AreKnownAsWellAsTheyClaim) {
         (nearest_axes(frame.R_cam_manhattan, R_cam_map).inverse() * R_cam_map).log();
     if (e.norm() > 2 * kRadPerDeg) continue;  // counted below
     // The frame is named anew along the same axes: its information is turned with it.
-    const Eigen::Matrix3d turn =
+    const Eigen::Matrix3d rotation_part =
         (frame.R_cam_manhattan.inverse() * nearest_axes(frame.R_cam_manhattan, R_cam_map)).matrix();
-    nees += e.dot(turn.transpose() * frame.information * turn * e);
+    nees += e.dot(rotation_part.transpose() * frame.information * rotation_part * e);
     squared += e.squaredNorm();
     ++found;
   }

@@ -73,40 +73,40 @@ struct Listener final : SlamEvents {
 };
 
 TEST(SlamEventsOfARun, ComeInTheOrderThatIsSaidAndTellTheWholeMap) {
-  Listener heard;
-  Slam slam(small_options(), calibration(), {.events = &heard});
+  Listener listener;
+  Slam slam(small_options(), calibration(), {.events = &listener});
   std::vector<FrameResult> results;
   for (const Frame& frame : frames()) results.push_back(slam.add_frame(frame));
   const Map map = slam.finish();
 
-  EXPECT_TRUE(std::regex_match(heard.order, std::regex("(V?(KP*M*J*V?L*P*M*J*V?)*F)*P*M*J*V?")))
-      << heard.order;
-  ASSERT_EQ(heard.done.size(), frames().size());
+  EXPECT_TRUE(std::regex_match(listener.order, std::regex("(V?(KP*M*J*V?L*P*M*J*V?)*F)*P*M*J*V?")))
+      << listener.order;
+  ASSERT_EQ(listener.done.size(), frames().size());
   for (std::size_t i = 0; i < results.size(); ++i) {
-    EXPECT_EQ(heard.done[i].frame, results[i].frame);
+    EXPECT_EQ(listener.done[i].frame, results[i].frame);
     if (i >= kFrames) continue;
     const bool dark = i >= kDarkBegin && i < kDarkEnd;
-    EXPECT_EQ(heard.done[i].T_map_cam.has_value(), !dark) << i;
-    EXPECT_EQ(static_cast<bool>(heard.done[i].outcome), !dark) << i;
-    EXPECT_EQ(heard.done[i].outcome.reason.empty(), !dark) << i;
+    EXPECT_EQ(listener.done[i].T_map_cam.has_value(), !dark) << i;
+    EXPECT_EQ(static_cast<bool>(listener.done[i].outcome), !dark) << i;
+    EXPECT_EQ(listener.done[i].outcome.reason.empty(), !dark) << i;
   }
-  ASSERT_EQ(heard.keyframes.size(), map.keyframes.size());
+  ASSERT_EQ(listener.keyframes.size(), map.keyframes.size());
   for (std::size_t i = 0; i < map.keyframes.size(); ++i) {
-    EXPECT_EQ(heard.keyframes[i].keyframe, map.keyframes[i].id);
-    EXPECT_EQ(heard.keyframes[i].frame, map.keyframes[i].frame);
+    EXPECT_EQ(listener.keyframes[i].keyframe, map.keyframes[i].id);
+    EXPECT_EQ(listener.keyframes[i].frame, map.keyframes[i].frame);
   }
   std::set<PlaceId> places;
   for (const Place& place : map.place_graph.places) places.insert(place.id);
-  EXPECT_EQ(heard.places, places);
+  EXPECT_EQ(listener.places, places);
   const auto accepted = std::ranges::count_if(map.loops, &LoopRecord::accepted);
-  EXPECT_EQ(heard.accepted, static_cast<std::size_t>(accepted));
-  EXPECT_GE(heard.accepted + heard.refused, map.loops.size());
+  EXPECT_EQ(listener.accepted, static_cast<std::size_t>(accepted));
+  EXPECT_GE(listener.accepted + listener.refused, map.loops.size());
 }
 
 TEST(SlamEventsOfARun, DoNotChangeIt) {
-  Listener heard;
+  Listener listener;
   Slam quiet(small_options(), calibration()),
-      watched(small_options(), calibration(), {.events = &heard});
+      watched(small_options(), calibration(), {.events = &listener});
   for (int i = 0; i < 12; ++i) {
     quiet.add_frame(frames()[static_cast<std::size_t>(i)]);
     watched.add_frame(frames()[static_cast<std::size_t>(i)]);

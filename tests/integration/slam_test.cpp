@@ -237,7 +237,7 @@ TEST(SlamOnAStreet, MovesEvenlyFromOneKeyframeToTheNext) {
 }
 
 /// Eight degrees of turning on the spot are a tenth of the image's width, and no parallax.
-TEST(SlamOnAStreet, NeedsNoKeyframesToTurnWhereItsTurnIsTakenOut) {
+TEST(SlamOnAStreet, NeedsNoKeyframesToRotateWhereItsRotationIsRemoved) {
   std::vector<Frame> frames;
   for (int i = 0; i < 20; ++i) {
     const SE3 T_world_left = pose({0, deg_to_rad(0.4 * i), 0}, {0, -kStreetHeight_m, 0});
@@ -393,7 +393,7 @@ TEST(SlamOnAStreet, RefusesFramesThatBreakTheContract) {
   EXPECT_THAT(refusal(wrong), testing::HasSubstr("grey image"));
   wrong = first;
   wrong.right = wrong.right.colRange(0, 300);
-  EXPECT_THAT(refusal(wrong), testing::HasSubstr("right eye"));
+  EXPECT_THAT(refusal(wrong), testing::HasSubstr("right image"));
   slam.add_frame(first);
   EXPECT_THAT(refusal(first), testing::HasSubstr("must increase"));
   slam.finish();

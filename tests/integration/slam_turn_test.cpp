@@ -19,8 +19,8 @@ constexpr double kRotationRad = 0.035;  // of a frame
 StreetDataset way(int before, int rotating, int after, int dark_begin = 0, int dark_end = 0) {
   return StreetDataset(before + rotating + after, dark_begin, dark_end, false, [=](int i) {
     const int way = std::min(i, before) + std::max(0, i - before - rotating);
-    const int turn = std::clamp(i - before, 0, rotating);
-    return pose({0, kRotationRad * turn, 0}, {0, -kStreetHeight_m, 0.25 * way});
+    const int rotated_steps = std::clamp(i - before, 0, rotating);
+    return pose({0, kRotationRad * rotated_steps, 0}, {0, -kStreetHeight_m, 0.25 * way});
   });
 }
 
@@ -40,14 +40,16 @@ EvaluationResult judge(const StreetDataset& dataset, const RunResult& run) {
 
 /// From the first frame to the last, against the truth.
 double rotation_error_deg(const StreetDataset& dataset, const Trajectory& trajectory) {
-  const auto turn = [](const Trajectory& t) {
+  const auto total_rotation = [](const Trajectory& t) {
     return SE3(*t.poses.front().T_world_body).rotation().inverse() *
            SE3(*t.poses.back().T_world_body).rotation();
   };
-  return rad_to_deg((turn(*dataset.ground_truth()).inverse() * turn(trajectory)).log().norm());
+  return rad_to_deg((total_rotation(*dataset.ground_truth()).inverse() * total_rotation(trajectory))
+                        .log()
+                        .norm());
 }
 
-TEST(SlamThatTurnsOnTheSpot, KeepsItsPlaceInTheMapThoughAllItKnewLeavesTheView) {
+TEST(SlamThatRotatesInPlace, KeepsItsPlaceInTheMapThoughAllItKnewLeavesTheView) {
   const StreetDataset dataset = way(12, 45, 14);  // 90 degrees: it goes on sideways
   const RunResult run = run_mono(dataset);
   const Trajectory optimized = run.map.trajectory_optimized();
@@ -60,7 +62,7 @@ TEST(SlamThatTurnsOnTheSpot, KeepsItsPlaceInTheMapThoughAllItKnewLeavesTheView) 
   EXPECT_LT(result.ape.error_m.rmse, 0.15 * result.path_m);
 }
 
-TEST(SlamThatTurnsOnTheSpot, KnowsHowItStoodBeforeItsFirstSecondView) {
+TEST(SlamThatRotatesInPlace, KnowsHowItStoodBeforeItsFirstSecondView) {
   const StreetDataset dataset = way(0, 30, 12);
   const RunResult run = run_mono(dataset);
   const Trajectory optimized = run.map.trajectory_optimized();
@@ -71,7 +73,7 @@ TEST(SlamThatTurnsOnTheSpot, KnowsHowItStoodBeforeItsFirstSecondView) {
   EXPECT_LT(result.ape.error_m.rmse, 0.02 * result.path_m);
 }
 
-TEST(SlamThatTurnsOnTheSpot, ForgetsWhatItSawBeforeTheDarkIfNothingWasPlacedYet) {
+TEST(SlamThatRotatesInPlace, ForgetsWhatItSawBeforeTheDarkIfNothingWasPlacedYet) {
   const StreetDataset dataset = way(0, 24, 12, 16, 20);
   const RunResult run = run_mono(dataset);
   // Whatever is posed hangs together: the dark tells nothing of how it turned there.
@@ -81,11 +83,12 @@ TEST(SlamThatTurnsOnTheSpot, ForgetsWhatItSawBeforeTheDarkIfNothingWasPlacedYet)
       const auto& pose = trajectory.poses[i].T_world_body;
       if (!pose) continue;
       const auto& truth = dataset.ground_truth()->poses;
-      const SO3 turn =
+      const SO3 estimated_rotation =
           SE3(*pose).rotation().inverse() * SE3(*trajectory.poses.back().T_world_body).rotation();
       const SO3 expected = SE3(*truth[i].T_world_body).rotation().inverse() *
                            SE3(*truth.back().T_world_body).rotation();
-      EXPECT_LT(rad_to_deg((expected.inverse() * turn).log().norm()), 0.7) << "frame " << i;
+      EXPECT_LT(rad_to_deg((expected.inverse() * estimated_rotation).log().norm()), 0.7)
+          << "frame " << i;
     }
   }
 }

@@ -188,7 +188,7 @@ TYPED_TEST(LieGroup, ExpOfZeroIsExactlyTheIdentity) {
   EXPECT_EQ(TypeParam().log(), TypeParam::Tangent::Zero());
 }
 
-TYPED_TEST(LieGroup, ExpOfAHalfTurnIsRecoveredUpToItsSign) {
+TYPED_TEST(LieGroup, ExpOfARotationByPiIsRecoveredUpToItsSign) {
   for (int i = 0; i < 20; ++i) {
     const auto sample = make_sample<TypeParam>(this->random_, "half turn", pi, 2, 0.3);
     const TypeParam T = TypeParam::exp(sample.xi);

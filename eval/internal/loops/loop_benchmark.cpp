@@ -16,7 +16,7 @@ RangeTest range_test_of(std::int64_t min_age, FrameId id, const LoopQuery& query
   return inside ? RangeTest::kInside : RangeTest::kOutOfRange;
 }
 
-/// What the truth says of an image, matches that are no candidates left out.
+/// The ground truth of an image, without matches that are no candidates.
 LoopQuery query_of(const LoopTruth& truth, FrameId id) {
   const auto listed = truth.queries.find(id);
   if (listed == truth.queries.end()) return {};
@@ -38,7 +38,7 @@ struct Candidate {
   bool correct = false;
 };
 
-// Best first, false ones before true ones of the same score, and never by their order.
+// Best first, false ones before true ones of the same score, independent of their order.
 bool stands_before(const Candidate& a, const Candidate& b) {
   if (a.prediction.score != b.prediction.score) return a.prediction.score > b.prediction.score;
   if (a.correct != b.correct) return b.correct;

@@ -21,9 +21,12 @@ const Eigen::Isometry3d* pose_of(const Trajectory& truth, FrameId frame) {
 void LoopCheckOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, LoopCheckOptions& o) {
-  field("max_translation_m", o.max_translation_m, "of a true loop constraint", {0, 1e6});
-  field("max_rotation_deg", o.max_rotation_deg, "of a true loop constraint", {0, 180});
-  field("min_frames_apart", o.min_frames_apart, "nearer frames count as neither", {0, 1e9});
+  field("max_translation_m", o.max_translation_m, "largest translation error of a correct loop [m]",
+        {0, 1e6});
+  field("max_rotation_deg", o.max_rotation_deg, "largest rotation error of a correct loop [deg]",
+        {0, 180});
+  field("min_frames_apart", o.min_frames_apart,
+        "loops of nearer frames are neither correct nor wrong", {0, 1e9});
 }
 
 LoopCheck check_loops(const Trajectory& truth, const std::vector<LoopRecord>& loops,

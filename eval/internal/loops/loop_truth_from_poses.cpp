@@ -5,8 +5,8 @@ namespace placegraph {
 void RevisitOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, RevisitOptions& o) {
-  field.group("same", o.same, "which views are of one place");
-  field("min_age", o.min_age, "images from the older to the younger, at least", {1, 1e9});
+  field.group("same", o.same, "criteria for two views of the same place");
+  field("min_age", o.min_age, "minimum number of images from the older to the younger", {1, 1e9});
 }
 
 LoopTruth loop_truth_from_poses(const Trajectory& truth, const RevisitOptions& options) {

@@ -70,8 +70,8 @@ void count_pure_pairs(const Map& map, const Trajectory& truth, const PlaceCheckO
       }
 }
 
-/// A place that holds frames from before is revisited where a frame's true match lies in it,
-/// whatever place the frame itself was put into.
+/// A place with earlier frames is revisited if the true match of a frame belongs to it, independent
+/// of the place of that frame in the map.
 void count_growth(const std::vector<PlacedFrame>& frames, const Trajectory& truth,
                   const PlaceCheckOptions& options, PlaceCheck& check) {
   const LoopTruth revisits = loop_truth_from_poses(truth, options.revisit);
@@ -123,9 +123,11 @@ std::set<std::pair<PlaceId, PlaceId>> true_adjacency(const std::vector<Anchor>& 
 void PlaceCheckOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, PlaceCheckOptions& o) {
-  field("max_distance_m", o.max_distance_m, "between two views of one place [m]", {0, 1e6});
-  field("max_angle_deg", o.max_angle_deg, "between where they look [deg]", {0, 180});
-  field.group("revisit", o.revisit, "what counts as having been there before");
+  field("max_distance_m", o.max_distance_m, "largest distance between two views of one place [m]",
+        {0, 1e6});
+  field("max_angle_deg", o.max_angle_deg, "largest angle between their viewing directions [deg]",
+        {0, 180});
+  field.group("revisit", o.revisit, "criteria for a revisit");
 }
 
 PlaceCheck check_places(const Map& map, const Trajectory& truth, const PlaceCheckOptions& options) {

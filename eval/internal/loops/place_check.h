@@ -5,24 +5,24 @@
 namespace placegraph {
 
 struct PlaceCheckOptions {
-  double max_distance_m = 15;  ///< between two views of one place
-  double max_angle_deg = 45;   ///< between where they look
-  RevisitOptions revisit;      ///< what counts as having been there before
+  double max_distance_m = 15;  ///< largest distance between two views of one place [m]
+  double max_angle_deg = 45;   ///< largest angle between their viewing directions [deg]
+  RevisitOptions revisit;      ///< criteria for a revisit
   void check() const;
 };
 void visit(OptionVisitor& field, PlaceCheckOptions& options);
 
-/// The places of a map against the truth.
+/// The places of a map, compared with the ground truth.
 struct PlaceCheck {
   int places = 0;
-  /// Pairs of views (keyframes) of one place, and those truly as near as asked.
+  /// Pairs of views (keyframes) of one place, and those within the limits by the true poses.
   std::int64_t pairs = 0, pure_pairs = 0;
-  /// Places seen again on revisiting frames as they were founded before, and places that only
-  /// revisiting frames know.
+  /// Places that revisiting frames observe again, and places that have revisiting frames only.
   int revisited_places = 0, added_places = 0;
-  /// Unordered pairs of places that the camera went between, in the map and in the truth: there
-  /// every frame stands in the place whose anchor is truly nearest among those that look the same
-  /// way. `common` are in both; a way that skips one place truly between is in neither's favour.
+  /// Unordered pairs of places with a direct transition of the camera, in the map and in the truth.
+  /// In the truth every frame belongs to the nearest anchor keyframe with a similar viewing
+  /// direction. `common` pairs are in both; a transition that skips a place which is truly in
+  /// between counts for neither precision nor recall.
   int adjacent = 0, true_adjacent = 0, common = 0;
 
   double purity() const { return pairs ? static_cast<double>(pure_pairs) / pairs : 1; }
@@ -37,6 +37,7 @@ struct PlaceCheck {
   }
 };
 
+/// Compares the places of a map with the ground truth.
 /// `truth` has one pose per frame of the sequence, indexed by the map's frame numbers; frames
 /// without one are left out. Throws ArgumentError for frame numbers beyond the truth.
 PlaceCheck check_places(const Map& map, const Trajectory& truth,

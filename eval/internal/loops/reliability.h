@@ -5,13 +5,13 @@
 
 namespace placegraph {
 
-/// Answers whose probabilities lie in one tenth, and how many of them are right.
+/// Predictions whose probabilities are in one tenth, and the share of right ones.
 struct ReliabilityBin {
   int answers = 0;
   double mean_probability = 0, share_right = 0;  ///< 0 without answers
 };
 
-/// Whether answers are as often right as they say.
+/// Agreement of predicted probabilities with the share of right predictions.
 struct Reliability {
   std::vector<ReliabilityBin> bins;  ///< ten, from 0 to 1
   /// Mean of |share right - mean probability| over the answers, by bins (Naeini et al. 2015); 0
@@ -19,7 +19,8 @@ struct Reliability {
   double calibration_error = 0;
 };
 
-/// Scores are probabilities; throws ArgumentError for one outside 0 to 1.
+/// Computes the reliability of scores that are probabilities.
+/// Throws ArgumentError for a score outside 0 to 1.
 Reliability reliability_of(const std::vector<ScoredPrediction>& answers);
 
 }  // namespace placegraph

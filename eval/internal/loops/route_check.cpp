@@ -9,8 +9,8 @@
 namespace placegraph {
 namespace {
 
-/// Two frames are of different passes if more than so much was driven between them.
-constexpr double kWayBetweenPasses = 4;  // in radii of SameView
+/// Two frames belong to different passes if the path between them is longer than this.
+constexpr double kPathBetweenPasses = 4;  // in radii of SameView
 
 void join(PlaceGraph& graph, PlaceId from, PlaceId to, ConstraintSource source) {
   RelativePoseConstraint edge;
@@ -20,7 +20,7 @@ void join(PlaceGraph& graph, PlaceId from, PlaceId to, ConstraintSource source) 
   graph.constraints.push_back(edge);
 }
 
-/// The length of a way where its places truly stand.
+/// The length of a route by the true positions of its places.
 double true_length(const Route& route, const PlaceGraph& truth) {
   double length = 0;
   for (std::size_t i = 1; i < route.steps.size(); ++i)
@@ -51,8 +51,8 @@ std::vector<std::pair<std::size_t, std::size_t>> pairs_of(std::size_t count, int
 void RouteCheckOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, RouteCheckOptions& o) {
-  field.group("same", o.same, "which frames of different passes stand on one road");
-  field("max_pairs", o.max_pairs, "of places that are asked for", {1, 1e9});
+  field.group("same", o.same, "criteria for frames of different passes on the same road");
+  field("max_pairs", o.max_pairs, "maximum number of pairs of places", {1, 1e9});
 }
 
 PlaceGraph driven_roads(const Trajectory& truth, const RouteCheckOptions& options) {
@@ -75,13 +75,13 @@ PlaceGraph driven_roads(const Trajectory& truth, const RouteCheckOptions& option
   std::vector<Eigen::Isometry3d> T_world_place;
   for (const Place& place : places) T_world_place.push_back(place.T_map_place.isometry());
   for (std::size_t i = 0; i < places.size(); ++i) {
-    // Of each pass the nearest frame: passes are stretches of neighbours within reach.
+    // The nearest frame of each pass; a pass is a stretch of neighbours within reach.
     std::optional<std::size_t> nearest;
     const auto distance = [&](std::size_t j) {
       return (places[i].T_map_place.translation() - places[j].T_map_place.translation()).norm();
     };
     for (std::size_t j = 0; j < i; ++j) {
-      const bool met = driven_m[i] - driven_m[j] > kWayBetweenPasses * options.same.radius_m &&
+      const bool met = driven_m[i] - driven_m[j] > kPathBetweenPasses * options.same.radius_m &&
                        options.same.holds(T_world_place[i], T_world_place[j]);
       if (met && (!nearest || distance(j) < distance(*nearest))) nearest = j;
       if (!nearest || (met && j + 1 < i)) continue;

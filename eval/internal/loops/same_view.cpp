@@ -9,8 +9,9 @@ namespace placegraph {
 void SameView::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, SameView& o) {
-  field("radius_m", o.radius_m, "largest distance of two views of one place [m]", {0, 1e6});
-  field("heading_deg", o.heading_deg, "largest angle between them [deg]", {0, 180});
+  field("radius_m", o.radius_m, "largest distance of two views of the same place [m]", {0, 1e6});
+  field("heading_deg", o.heading_deg, "largest angle between two views of the same place [deg]",
+        {0, 180});
 }
 
 bool SameView::holds(const Eigen::Isometry3d& T_world_a, const Eigen::Isometry3d& T_world_b) const {

@@ -69,8 +69,8 @@ void draw_truth(PlotCanvas& canvas, const PlanScale& scale, const BuildingPlan& 
     canvas.line({scale(door.a), scale(door.b)}, kTruth, 5);
 }
 
-/// A point of the room where its name can stand: the middle of its outline, or of its longest edge
-/// moved inside where there is a hole.
+/// A point of the room for its name: the middle of its outline, or of its longest edge moved inside
+/// where there is a hole.
 Vector2d name_at(const IndoorRoom& room) {
   Vector2d low = room.outline.front(), high = low;
   for (const Vector2d& p : room.outline) low = low.cwiseMin(p), high = high.cwiseMax(p);

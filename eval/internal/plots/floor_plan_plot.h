@@ -8,12 +8,13 @@ namespace placegraph {
 
 struct FloorPlanPicture {
   std::string title;
-  std::vector<Eigen::Vector2d> path;    ///< of the camera, plan coordinates
-  const BuildingPlan* truth = nullptr;  ///< drawn below, if given; in plan coordinates
+  std::vector<Eigen::Vector2d> path;  ///< path of the camera, plan coordinates
+  /// Ground truth in plan coordinates, drawn below; may be null.
+  const BuildingPlan* truth = nullptr;
 };
 
-/// Rooms, walls, doors (open: a gap with its leaf's arc left out, closed: a bar), the camera's way
-/// and a scale, x to the right and z up. Picture as SVG text or PNG bytes.
+/// Draws rooms, walls, doors (open: a gap without the arc of the leaf, closed: a bar), the camera's
+/// path and a scale bar, x to the right and z up. The picture is SVG text or PNG bytes.
 std::string floor_plan_svg(const IndoorMap& plan, const FloorPlanPicture& picture);
 std::string floor_plan_png(const IndoorMap& plan, const FloorPlanPicture& picture);
 

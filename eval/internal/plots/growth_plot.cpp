@@ -23,7 +23,7 @@ void check(const GrowthPlot& plot) {
     require(!panel.curves.empty(), "growth plot: a panel without curves");
     for (const GrowthCurve& curve : panel.curves) {
       require(!curve.sizes.empty() && curve.sizes.size() == curve.values.size(),
-              "growth plot: '" + curve.name + "' has not as many values as sizes");
+              "growth plot: '" + curve.name + "' has different numbers of values and sizes");
       for (const std::vector<double>& numbers : {curve.sizes, curve.values})
         for (const double number : numbers)
           require(number > 0 && std::isfinite(number),
@@ -32,7 +32,7 @@ void check(const GrowthPlot& plot) {
   }
 }
 
-// Decades: what is shown of one axis, and where on the picture.
+// The range of one axis in decades, and its position in the picture.
 struct Axis {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   void add(double value) {
@@ -51,7 +51,7 @@ struct Area {
   }
 };
 
-// The same scale on both axes, what is shown in the middle.
+// The same scale on both axes, with the data in the middle.
 Area area_of(const GrowthPanel& panel, double left) {
   Area area{{left + 100, 92}, kPanelWidth - 140.0, kPanelHeight - 92.0 - 76, 0, {}, {}};
   for (const GrowthCurve& curve : panel.curves)

@@ -4,14 +4,14 @@
 
 namespace placegraph {
 
-/// What something costs at several sizes; both positive, sizes ascending.
+/// Costs at several sizes; both positive, sizes ascending.
 struct GrowthCurve {
   std::string name;
   std::vector<double> sizes, values;
 };
 
 struct GrowthPanel {
-  std::string heading;  ///< what is shown, and its unit
+  std::string heading;  ///< quantity and unit
   std::vector<GrowthCurve> curves;
 };
 

@@ -14,7 +14,7 @@ using Eigen::Vector2d;
 
 constexpr int kHeight = 800, kWidth = 1600, kWidthWithoutErrors = 1000;
 constexpr Colour kReference = {150, 150, 150}, kLink = {0, 158, 115}, kRejected = {213, 94, 0};
-// Okabe & Ito: told apart by colour-blind readers too.
+// Colours of Okabe & Ito, which colour-blind readers can distinguish.
 constexpr Colour kPalette[] = {{0, 114, 178}, {213, 94, 0},   {204, 121, 167},
                                {230, 159, 0}, {86, 180, 233}, {0, 0, 0}};
 
@@ -32,7 +32,7 @@ struct Interval {
   double size() const { return max - min; }
 };
 
-// A rectangle of the picture and the part of the plane it shows.
+// A rectangle of the picture and the part of the plane in it.
 struct Panel {
   Vector2d corner, size;
   Interval x, y;
@@ -98,7 +98,7 @@ void draw_frame(PlotCanvas& canvas, const Panel& panel) {
   canvas.line({a, {b[0], a[1]}, b, {a[0], b[1]}, a}, kFrame, 1);
 }
 
-// A line with gaps where there is nothing; points nearer than 0.3 px to the last are left out.
+// A line with gaps at missing points; points nearer than 0.3 px to the last one are left out.
 void draw_with_gaps(PlotCanvas& canvas, const std::vector<std::optional<Vector2d>>& points_px,
                     Colour colour, double width_px) {
   std::vector<Vector2d> run;
@@ -141,7 +141,7 @@ std::pair<Vector2d, long> best_corner(const Panel& panel, const Vector2d& box,
   return best;
 }
 
-// Shrinks what is shown so that `height_px` stay free at the top of the panel.
+// Scales the content down so that `height_px` stay free at the top of the panel.
 void make_room_on_top(Panel& panel, double height_px) {
   const double factor = panel.size[1] / (panel.size[1] - height_px);
   widen(panel.x, panel.x.size() * factor);
@@ -159,7 +159,7 @@ void draw_legend(PlotCanvas& canvas, const Vector2d& corner, const Vector2d& siz
   }
 }
 
-// How every curve is drawn, in their order.
+// The style of every curve, in their order.
 std::vector<LegendEntry> styles_of(const Plot& plot) {
   std::vector<LegendEntry> styles;
   int estimate = 0;
@@ -288,10 +288,10 @@ std::pair<int, int> top_view_axes(const std::vector<std::optional<Eigen::Vector3
   Interval extent[3];
   for (const auto& p : positions_m)
     for (int axis = 0; p && axis < 3; ++axis) extent[axis].add((*p)[axis]);
-  int least = 1;  // of equals, the camera's y is height
+  int least = 1;  // y, the height axis of a camera, if extents are equal
   for (const int axis : {0, 2})
     if (extent[axis].size() < extent[least].size()) least = axis;
-  // A camera that drives straight ahead, be it uphill: y is no part of a top view.
+  // A camera that drives straight ahead, even uphill: a top view does not include y.
   if (least == 0 && extent[1].size() < 0.5 * extent[2].size()) least = 1;
   return {least == 0 ? 1 : 0, least == 2 ? 1 : 2};
 }

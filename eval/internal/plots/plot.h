@@ -9,22 +9,22 @@
 
 namespace placegraph {
 
-/// A trajectory in a top view; nothing where a frame is lost: the line has a gap there.
+/// A trajectory in a top view; a lost frame has no position and leaves a gap in the line.
 struct PlotCurve {
   std::string name;  ///< in the legend; curves of the same name share a line of it
   std::vector<std::optional<Eigen::Vector3d>> positions_m;
-  bool reference = false;  ///< ground truth: grey, below the others, and it chooses the axes
+  bool reference = false;  ///< ground truth: grey, below the others; determines the axes
 };
 
 /// A position error over the distance travelled, drawn in the colour of the estimate it belongs to.
 struct PlotError {
-  int estimate = 0;  ///< counts the curves that are no reference
+  int estimate = 0;  ///< index among the curves that are no reference
   std::vector<double> distance_m;
-  std::vector<std::optional<double>> error_m;  ///< as many
+  std::vector<std::optional<double>> error_m;  ///< one for each distance
 };
 
-/// What a figure shows. Left the top view, on the two axes along which the first reference (else
-/// the first curve) extends furthest, in equal scale; right the errors, if there are any.
+/// The content of a figure. Left: the top view, on the two axes of largest extent of the first
+/// reference (else of the first curve), in equal scale. Right: the errors, if there are any.
 struct Plot {
   std::string title;
   std::vector<PlotCurve> curves;
@@ -42,8 +42,8 @@ Plot plot_of(const std::vector<EvaluationResult>& results);
 std::string to_svg(const Plot& plot);
 std::string to_png(const Plot& plot);
 
-/// The two axes (0 = x, 1 = y, 2 = z), ascending, along which the positions extend furthest; x and
-/// z for a drive along z that goes aside by less than a tenth.
+/// The two axes (0 = x, 1 = y, 2 = z) of largest extent of the positions, ascending; x and z for a
+/// drive along z with a lateral extent of less than a tenth.
 std::pair<int, int> top_view_axes(const std::vector<std::optional<Eigen::Vector3d>>& positions_m);
 
 }  // namespace placegraph

@@ -82,7 +82,7 @@ class SvgCanvas : public PlotCanvas {
   int clips_ = 0;
 };
 
-// Drawn at twice the size and averaged down: smooth lines, and thin ones stay thin.
+// Draws at twice the size and averages down: lines are smooth, and thin ones stay thin.
 class PngCanvas : public PlotCanvas {
  public:
   PngCanvas(int width_px, int height_px)

@@ -12,7 +12,7 @@ struct Colour {
 
 enum class TextAnchor { kLeft, kMiddle, kRight };
 
-/// Where a figure is drawn: the same strokes as SVG or as pixels. Coordinates in pixels, y down.
+/// Target of drawing: the same strokes as SVG or as pixels. Coordinates in pixels, y down.
 class PlotCanvas {
  public:
   virtual ~PlotCanvas() = default;
@@ -21,13 +21,13 @@ class PlotCanvas {
                          Colour stroke) = 0;
   virtual void disc(const Eigen::Vector2d& centre, double radius_px, Colour fill,
                     Colour stroke) = 0;
-  /// `at` lies on the baseline; `size_px` is the height of the font.
+  /// `at` is on the baseline; `size_px` is the height of the font.
   virtual void text(const Eigen::Vector2d& at, const std::string& text, double size_px,
                     Colour colour, TextAnchor anchor) = 0;
-  /// Strokes between these two calls show inside the rectangle only.
+  /// Strokes between these two calls are clipped to the rectangle.
   virtual void begin_clip(const Eigen::Vector2d& corner, const Eigen::Vector2d& size) = 0;
   virtual void end_clip() = 0;
-  /// Width a text takes [px], about.
+  /// Approximate width of a text [px].
   virtual double text_width(const std::string& text, double size_px) const = 0;
   /// The whole picture as file content.
   virtual std::string encode() = 0;

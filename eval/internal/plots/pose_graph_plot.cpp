@@ -7,7 +7,7 @@
 namespace placegraph {
 namespace {
 
-/// The nodes in their order, with a gap wherever no odometry joins a node to the one before.
+/// The nodes in their order, with a gap where no odometry joins a node to the previous one.
 std::vector<std::optional<Eigen::Vector3d>> line_of(const PoseGraph& graph,
                                                     const NodeIndex& index) {
   std::vector<char> joined(graph.nodes.size());

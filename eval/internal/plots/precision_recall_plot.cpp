@@ -13,7 +13,7 @@ constexpr int kSquareWidth = 900, kSquareHeight = 800;
 constexpr Colour kCurvePalette[] = {{0, 114, 178},   {213, 94, 0},  {0, 158, 115},
                                     {204, 121, 167}, {230, 159, 0}, {86, 180, 233}};
 constexpr double kSide = 640;
-const Vector2d kCorner(110, 70);  // of the square from (0, 0) to (1, 1)
+const Vector2d kCorner(110, 70);  // corner of the square from (0, 0) to (1, 1)
 
 Vector2d px(double recall, double precision) {
   return {kCorner[0] + recall * kSide, kCorner[1] + (1 - precision) * kSide};
@@ -47,7 +47,7 @@ void draw_curve(PlotCanvas& canvas, const PrecisionRecall& figures, Colour colou
 }
 
 std::string figures_of(const PrecisionRecall& figures) {
-  if (!figures.average_precision) return "nothing to be found";
+  if (!figures.average_precision) return "no positives";
   return fmt::format("AP {:.3f}, recall {:.3f} at full precision", *figures.average_precision,
                      *figures.recall_at_full_precision);
 }

@@ -11,8 +11,8 @@ struct PrecisionRecallCurve {
   PrecisionRecall figures;
 };
 
-/// Precision over recall, both from 0 to 1: a curve per system, a disc where the last threshold
-/// without a false answer lies. Recall is gained in steps, one per threshold.
+/// Precision over recall, both from 0 to 1: a curve per system, a disc at the last threshold
+/// without a false answer. Recall increases in steps, one per threshold.
 struct PrecisionRecallPlot {
   std::string title;
   std::vector<PrecisionRecallCurve> curves;

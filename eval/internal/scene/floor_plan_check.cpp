@@ -51,7 +51,7 @@ std::vector<Segment> solid_pieces(const BuildingPlan& truth, std::size_t wall, b
   return pieces;
 }
 
-/// What the poses can have seen, seen from above.
+/// The surfaces that are visible from the poses, in the plane.
 class Observation {
  public:
   Observation(const BuildingPlan& truth, const std::vector<SE3>& poses,
@@ -113,7 +113,7 @@ struct Surface {
   Vector2d normal;
 };
 
-/// The distance to the nearest surface that faces the same way, at most a metre.
+/// The distance to the nearest surface with the same orientation, at most one metre.
 double nearest(const Sample& sample, const std::vector<Surface>& surfaces) {
   double best = 1;
   for (const Surface& surface : surfaces)
@@ -233,16 +233,16 @@ class Checker {
 
   void walls() {
     const std::vector<Surface> surfaces = true_surfaces(truth_);
-    std::vector<Surface> told;
+    std::vector<Surface> estimated;
     for (const IndoorWall& wall : plan_.walls)
-      told.push_back({{into_truth(wall.a), into_truth(wall.b)},
-                      (into_truth(wall.a + wall.normal) - into_truth(wall.a)).normalized()});
+      estimated.push_back({{into_truth(wall.a), into_truth(wall.b)},
+                           (into_truth(wall.a + wall.normal) - into_truth(wall.a)).normalized()});
     std::vector<double> from_truth, from_plan;
     for (const Surface& surface : surfaces)
       for (const Sample& sample : samples_of(surface.segment, surface.normal))
         if (observation_.sees(sample.at, sample.normal))
-          from_truth.push_back(nearest(sample, told));
-    for (const Surface& surface : told)
+          from_truth.push_back(nearest(sample, estimated));
+    for (const Surface& surface : estimated)
       for (const Sample& sample : samples_of(surface.segment, surface.normal))
         from_plan.push_back(nearest(sample, surfaces));
     result_.truth_to_plan_median_m = median(from_truth);
@@ -266,21 +266,21 @@ class Checker {
           break;
         }
     }
-    std::vector<cv::Mat1b> told;
+    std::vector<cv::Mat1b> masks;
     for (const IndoorRoom& room : plan_.rooms) {
       std::vector<Vector2d> outline;
       std::vector<std::vector<Vector2d>> holes(room.holes.size());
       for (const Vector2d& p : room.outline) outline.push_back(into_truth(p));
       for (std::size_t i = 0; i < holes.size(); ++i)
         for (const Vector2d& p : room.holes[i]) holes[i].push_back(into_truth(p));
-      told.push_back(raster.room(outline, holes));
+      masks.push_back(raster.room(outline, holes));
     }
     for (const auto& [space, name] : entered) {
       FloorPlanCheck::RoomCheck check{name, 0, -1};
       const cv::Mat1b mask = raster.space(space);
-      for (std::size_t i = 0; i < told.size(); ++i) {
-        const double both = cv::countNonZero(mask & told[i]);
-        const double iou = both / std::max(1, cv::countNonZero(mask | told[i]));
+      for (std::size_t i = 0; i < masks.size(); ++i) {
+        const double both = cv::countNonZero(mask & masks[i]);
+        const double iou = both / std::max(1, cv::countNonZero(mask | masks[i]));
         if (iou > check.iou) check.iou = iou, check.room = static_cast<int>(i);
       }
       result_.rooms.push_back(check);
@@ -293,7 +293,7 @@ class Checker {
       const BuildingPlan::Wall& wall = truth_.walls[door.wall];
       const Vector2d axis = (wall.b - wall.a).normalized(), across(-axis[1], axis[0]);
       const Vector2d middle = 0.5 * (door.a + door.b);
-      // A closed door stands in the middle line itself, so that it is looked at a little before it.
+      // A closed door is in the middle line itself, so that a point a little before it is tested.
       const bool seen = observation_.sees(middle + 0.03 * across, across) ||
                         observation_.sees(middle - 0.03 * across, -across);
       int match = -1;

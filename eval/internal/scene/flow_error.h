@@ -6,22 +6,22 @@
 
 namespace placegraph {
 
-/// Optical flow against the truth, over the pixels whose true flow is known and stays inside.
+/// Error of optical flow over the pixels whose true flow is known and stays inside the image.
 struct FlowError {
-  std::int64_t pixels = 0;    ///< with truth
-  std::int64_t compared = 0;  ///< of those with an estimate
+  std::int64_t pixels = 0;    ///< number of pixels with ground truth
+  std::int64_t compared = 0;  ///< number of these with an estimate
   double coverage = 0;        ///< compared / pixels
-  double mean_px = 0;         ///< end-point error (Otte & Nagel 1994) of those compared
+  double mean_px = 0;         ///< mean end-point error (Otte & Nagel 1994) of the compared pixels
   double median_px = 0;
   double share_beyond_3px = 0;
 };
 
-/// Length of the true flow that pixels are to have, [min, max) [px].
+/// Interval of the length of the true flow of the compared pixels, [min, max) [px].
 struct FlowRange {
   double min_px = 0, max_px = std::numeric_limits<double>::infinity();
 };
 
-/// Both CV_32FC2 of one size, NaN where unknown; throws ArgumentError otherwise.
+/// Compares two flow images, CV_32FC2 of one size, NaN where unknown; else throws ArgumentError.
 FlowError flow_error(const Image& flow, const Image& truth, const FlowRange& range = {});
 
 }  // namespace placegraph

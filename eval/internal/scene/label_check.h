@@ -6,7 +6,7 @@
 
 namespace placegraph {
 
-/// How label images agree with the truth, pixel by pixel, over as many images as were added.
+/// Agreement of label images with the truth, pixel by pixel, over all images that were added.
 class LabelCheck {
  public:
   explicit LabelCheck(int classes);
@@ -17,13 +17,13 @@ class LabelCheck {
   void add(const Image& truth, const Image& labels, const Image& confidence = {});
 
   int classes() const { return classes_; }
-  std::int64_t pixels() const;                     ///< scored
+  std::int64_t pixels() const;                     ///< number of scored pixels
   std::int64_t count(int truth, int label) const;  ///< label = classes: no class
   double pixel_accuracy() const;                   ///< share of the scored pixels that are right
-  double class_accuracy() const;     ///< mean over classes that occur, of the share found
+  double class_accuracy() const;     ///< mean over the classes that occur of the share found
   double mean_iou() const;           ///< intersection over union, mean over classes that occur
   double accuracy(int label) const;  ///< share of a class's pixels that is found; NaN without any
-  double iou(int label) const;       ///< NaN where the class neither occurs nor is answered
+  double iou(int label) const;       ///< NaN if the class neither occurs nor is predicted
   /// Expected calibration error: mean over 15 bins of confidence, by pixels, of |mean confidence -
   /// accuracy| (Guo et al. 2017); NaN without confidences.
   double calibration_error() const;

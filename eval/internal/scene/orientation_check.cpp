@@ -26,7 +26,7 @@ void check_orientation(const Image& labels, const Eigen::Matrix3d& R_cam_manhatt
       if (plane == 0) continue;
       ++check.judged;
       const int said = labels.at<std::uint8_t>(v, u);
-      check.told += said != 0;
+      check.oriented += said != 0;
       check.right += said != 0 && said == truth[plane];
     }
 }

@@ -9,8 +9,9 @@ namespace placegraph {
 namespace {
 
 struct Regions {
-  std::map<int, int> truth, found;           ///< points of each label
-  std::map<int, std::map<int, int>> common;  ///< of truth, of found
+  std::map<int, int> truth, found;  ///< points of each label
+  /// Number of common points by true label, then found label.
+  std::map<int, std::map<int, int>> common;
 };
 
 Regions count_regions(const std::vector<int>& truth, const std::vector<int>& found) {
@@ -42,8 +43,8 @@ PlaneCheck check_planes(const std::vector<int>& truth, const std::vector<int>& f
           "planes: overlap: " + std::to_string(options.overlap) + " is not above 0.5 and up to 1");
   const Regions regions = count_regions(truth, found);
   PlaneCheck check;
-  std::set<int> explained;                                 // found labels that are something
-  std::map<int, std::vector<std::pair<int, int>>> within;  // found: true regions that it holds
+  std::set<int> explained;                                 // found labels with a match
+  std::map<int, std::vector<std::pair<int, int>>> within;  // true regions in each found region
   for (const auto& [label, points] : regions.truth) {
     PlaneCheckMatch match{label, 0, points, 0};
     int together = 0;

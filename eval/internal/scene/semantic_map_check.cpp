@@ -37,7 +37,7 @@ class TrueCells {
       }
   }
 
-  /// The classes of a cell with their areas, or of the nearest that has any; empty: nothing there.
+  /// The classes of a cell with their areas, or of the nearest that has any; empty: no surface.
   const std::map<int, double>& at(const Vector3i& cell, double tolerance_m) const {
     static const std::map<int, double> kNone;
     const auto here = areas_.find(key_of(cell));
@@ -70,11 +70,11 @@ class TrueCells {
     }
   }
 
-  /// Whether a box [m] meets a block that is looked at.
+  /// Whether a box [m] meets a block that is tested.
   bool meets(const Vector3d& low, const Vector3d& high) const {
     const Vector3i a = (low / (kBlock * cell_)).array().floor().cast<int>();
     const Vector3i b = (high / (kBlock * cell_)).array().floor().cast<int>();
-    if (((b - a).array() > 6).any()) return true;  // too many to ask: it is cut first
+    if (((b - a).array() > 6).any()) return true;  // too many to test: the box is divided first
     for (int x = a[0]; x <= b[0]; ++x)
       for (int y = a[1]; y <= b[1]; ++y)
         for (int z = a[2]; z <= b[2]; ++z)
@@ -120,7 +120,7 @@ SemanticMapCheck check_semantic_map(const SemanticMap& map, const LabelledMesh& 
   check.confusion.assign(n * n, 0);
   const SE3 T_plan_truth = SE3(map.R_plan_map, Vector3d::Zero()) * T_truth_map.inverse();
   const TrueCells cells(map, truth, T_plan_truth, tolerance_m);
-  std::vector<int> number;  // of a true class in the map
+  std::vector<int> number;  // positions of the true classes in the map
   for (const std::string& name : truth.classes) {
     const auto found = std::find(map.classes.begin(), map.classes.end(), name);
     number.push_back(found == map.classes.end() ? -1

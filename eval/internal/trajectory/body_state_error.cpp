@@ -10,7 +10,7 @@ namespace {
 
 using Vector15d = Eigen::Matrix<double, 15, 1>;
 
-/// Squared error over its degrees of freedom in units of the covariance; nothing where that is not
+/// Squared error over its degrees of freedom normalized by the covariance; nothing if that is not
 /// positive definite.
 std::optional<double> normalized(const BodyState& state, const Vector15d& error, int at, int size) {
   const Eigen::MatrixXd P = state.covariance.block(at, at, size, size);

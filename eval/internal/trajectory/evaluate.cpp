@@ -25,7 +25,7 @@ std::vector<FramePair> scaled(double scale, std::vector<FramePair> pairs) {
   return pairs;
 }
 
-/// RPE, t_rel and r_rel: motions between frames, with the alignment's scale and nothing else of it.
+/// RPE, t_rel and r_rel: motions between frames, with the scale of the alignment only.
 void judge_motions(const std::vector<FramePair>& pairs, bool has_times,
                    const SegmentOptions& segments, EvaluationResult& r) {
   r.rpe = rpe(pairs);
@@ -49,7 +49,7 @@ std::string scale_warning(const std::vector<FramePair>& pairs, Alignment used) {
 void add_warnings(EvaluationResult& r, const PairingResult& paired) {
   if (r.alignment.rank == 1)
     r.warnings.push_back(
-        "the positions lie on a line: the rotation about it was chosen at will "
+        "the positions lie on a line: the rotation about it is arbitrary "
         "(the ATE does not depend on it)");
   const std::string scale = scale_warning(paired.pairs, r.protocol.alignment);
   if (!scale.empty()) r.warnings.push_back(scale);
@@ -59,10 +59,9 @@ void add_warnings(EvaluationResult& r, const PairingResult& paired) {
   if (!r.segments.outcome) r.warnings.push_back("no t_rel and r_rel: " + r.segments.outcome.reason);
   if (!r.rpe.outcome) r.warnings.push_back("no RPE: " + r.rpe.outcome.reason);
   if (r.coverage < 0.5)
-    r.warnings.push_back(
-        fmt::format("only {:.1f} % of the frames have an estimate: the figures "
-                    "speak of those alone",
-                    100 * r.coverage));
+    r.warnings.push_back(fmt::format(
+        "only {:.1f} % of the frames have an estimate: the figures cover these frames only",
+        100 * r.coverage));
   if (r.judged < r.frames)
     r.warnings.push_back(
         fmt::format("the ground truth is denser than the estimate: {} of its {} "
@@ -74,7 +73,7 @@ void add_warnings(EvaluationResult& r, const PairingResult& paired) {
                     r.estimate_without_truth, r.estimate_frames,
                     r.protocol.association == Association::kTime
                         ? fmt::format(" within {:g} s", r.protocol.max_difference_s)
-                        : " of their number"));
+                        : " of the same number"));
 }
 
 /// Which of the two has all its positions in one point; empty if neither.
@@ -93,9 +92,9 @@ std::string who_stands(const std::vector<FramePair>& pairs) {
     truth_m = std::max(truth_m, from(pair.T_world_truth, *first_truth));
     estimate_m = std::max(estimate_m, from(*pair.T_world_estimate, *first_estimate));
   }
-  constexpr double kNoWay_m = 1e-9;
-  if (estimate_m < kNoWay_m) return ": the estimate never moves";
-  return truth_m < kNoWay_m ? ": the ground truth never moves" : "";
+  constexpr double kNoPath_m = 1e-9;
+  if (estimate_m < kNoPath_m) return ": the estimate never moves";
+  return truth_m < kNoPath_m ? ": the ground truth never moves" : "";
 }
 
 Outcome needs_orientation(const char* what) {
@@ -103,7 +102,7 @@ Outcome needs_orientation(const char* what) {
                           std::string(what) + " needs orientations, but there are positions alone");
 }
 
-/// Of the true path, from the first posed frame to the last.
+/// Length of the true path from the first posed frame to the last.
 double posed_path_m(const std::vector<FramePair>& pairs, const std::vector<double>& travelled_m) {
   const auto posed = [](const FramePair& pair) { return pair.T_world_estimate.has_value(); };
   const auto first = std::find_if(pairs.begin(), pairs.end(), posed);

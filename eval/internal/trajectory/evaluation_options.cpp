@@ -10,24 +10,24 @@ void SegmentOptions::check() const {
 
 void visit(OptionVisitor& field, SegmentOptions& o) {
   field("lengths_m", o.lengths_m, "segment lengths of t_rel and r_rel [m]", {1e-3, 1e6});
-  field("step", o.step, "frames between segment starts", {1, 1e6});
-  field("frame_rate_hz", o.frame_rate_hz, "for speeds where the ground truth has no times",
-        {1e-3, 1e4});
-  field("speed_bin_m_per_s", o.speed_bin_m_per_s, "width of a row of the table per speed",
-        {1e-3, 1e3});
+  field("step", o.step, "frames between the starts of two segments", {1, 1e6});
+  field("frame_rate_hz", o.frame_rate_hz,
+        "frame rate for speeds, if the ground truth has no times [Hz]", {1e-3, 1e4});
+  field("speed_bin_m_per_s", o.speed_bin_m_per_s,
+        "width of an interval of the table per speed [m/s]", {1e-3, 1e3});
 }
 
 void EvaluationOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, EvaluationOptions& o) {
   field.choice("align", o.alignment, {"none", "origin", "se3", "sim3", "scale"},
-               "what is fitted before comparing");
+               "transformation fitted before the comparison");
   field.choice("associate", o.association, {"auto", "index", "time"},
-               "how lines of the two files are paired");
-  field("max_difference_s", o.time.max_difference_s, "largest difference of stamps of a pair",
-        {0, 1e6});
-  field("offset_s", o.time.offset_s, "added to the estimate's stamps", {-1e12, 1e12});
-  field.group("segments", o.segments, "t_rel and r_rel");
+               "association of the poses of the two files");
+  field("max_difference_s", o.time.max_difference_s,
+        "largest difference of the stamps of a pair [s]", {0, 1e6});
+  field("offset_s", o.time.offset_s, "offset added to the estimate's stamps [s]", {-1e12, 1e12});
+  field.group("segments", o.segments, "segments of t_rel and r_rel");
 }
 
 }  // namespace placegraph

@@ -109,7 +109,7 @@ class LostFrames {
   std::vector<std::int64_t> posed_ns_;
 };
 
-/// Of every line of the ground truth, the line of the estimate; -1 none.
+/// For every line of the ground truth the line of the estimate; -1: none.
 std::vector<int> partners(const Trajectory& truth, const Trajectory& estimate, bool by_time,
                           const AssociationOptions& options) {
   std::vector<int> estimate_of(truth.size(), -1);

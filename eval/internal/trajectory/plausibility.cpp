@@ -15,11 +15,11 @@ namespace {
 
 constexpr int kMaxShift = 5;
 constexpr double kClearlyBetter = 0.5;
-/// Misfits below this (1 % of the motion) leave nothing to explain.
+/// Misfits below this (1 % of the motion) need no explanation.
 constexpr double kGoodMisfit = 1e-4;
 /// Orientations that differ by less are the same.
 constexpr double kSameOrientation_rad = 1e-6;
-/// Turned axes below this are a mounting error, not those of another sensor.
+/// Rotated axes below this are a mounting error, not those of another sensor.
 constexpr double kRotatedAxes_deg = 5;
 
 Eigen::Vector3d rotation_vector(const Eigen::Matrix3d& R) {
@@ -32,7 +32,7 @@ struct Motion {
   Eigen::Vector3d rotation;
 };
 
-/// How a file's poses are understood.
+/// An interpretation of a file's poses.
 using Reading = std::function<Eigen::Isometry3d(const Eigen::Isometry3d&)>;
 
 Eigen::Isometry3d as_it_stands(const Eigen::Isometry3d& T) { return T; }
@@ -62,7 +62,7 @@ Motion motion_between(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
 /// The motions of both from pair i to pair i + stride.
 struct Motions {
   std::vector<Motion> truth, estimate;
-  double scale = std::numeric_limits<double>::quiet_NaN();  ///< of the estimate
+  double scale = std::numeric_limits<double>::quiet_NaN();  ///< scale of the estimate
 
   Motions(const std::vector<FramePair>& pairs, int stride, int shift, const Reading& of_truth,
           const Reading& of_estimate) {
@@ -85,7 +85,7 @@ struct Motions {
     if (truth_length > 0 && estimate_length > 0) scale = truth_length / estimate_length;
   }
 
-  /// With the estimate's axes turned by R; NaN if no motion can be compared.
+  /// Misfit with the estimate's axes rotated by R; NaN if no motion can be compared.
   double misfit(const Eigen::Matrix3d& R_truth_estimate) const {
     if (std::isnan(scale)) return scale;
     double translation = 0, rotation = 0, translation_all = 0, rotation_all = 0;
@@ -96,13 +96,13 @@ struct Motions {
       translation_all += truth[k].translation.squaredNorm();
       rotation_all += truth[k].rotation.squaredNorm();
     }
-    // A truth that hardly turns (below 1 mrad a stride) has no rotation to compare relatively.
+    // A truth with hardly any rotation (below 1 mrad a stride) allows no relative comparison.
     const double rotation_floor = 1e-6 * static_cast<double>(truth.size());
     return translation / translation_all + rotation / std::max(rotation_all, rotation_floor);
   }
 
   /// The rotation between the axes of the two that takes the motions of one to those of the other;
-  /// nothing if their directions do not tell.
+  /// nothing if their directions do not determine it.
   std::optional<Eigen::Matrix3d> axes() const {
     Eigen::Matrix3d translations = Eigen::Matrix3d::Zero(), rotations = Eigen::Matrix3d::Zero();
     for (std::size_t k = 0; k < truth.size(); ++k) {
@@ -172,17 +172,17 @@ std::string other_convention(const std::vector<FramePair>& pairs, int stride, do
        "the estimate looks inverted: its inverse poses fit clearly better (T_cam_world given, "
        "T_world_cam expected?)"},
       {as_it_stands, scalar_first,
-       "the estimate's quaternions seem to have w first, not last: so read they fit clearly "
+       "the estimate's quaternions seem to have w first, not last: in that order they fit clearly "
        "better"},
       {as_it_stands, scalar_last,
-       "the estimate's quaternions seem to have w last, not first: so read they fit clearly "
+       "the estimate's quaternions seem to have w last, not first: in that order they fit clearly "
        "better"},
       {scalar_first, as_it_stands,
-       "the ground truth's quaternions seem to have w first, not last: so read they fit clearly "
-       "better"},
+       "the ground truth's quaternions seem to have w first, not last: in that order they fit "
+       "clearly better"},
       {scalar_last, as_it_stands,
-       "the ground truth's quaternions seem to have w last, not first: so read they fit clearly "
-       "better"},
+       "the ground truth's quaternions seem to have w last, not first: in that order they fit "
+       "clearly better"},
   };
   const Candidate* best = nullptr;
   double least = kClearlyBetter * as_given;
@@ -197,7 +197,8 @@ std::string other_convention(const std::vector<FramePair>& pairs, int stride, do
   const double angle_deg = R ? rad_to_deg(rotation_angle(*R)) : 0;
   if (angle_deg < kRotatedAxes_deg || !(motions.misfit(*R) < least)) return best ? best->text : "";
   return fmt::format(
-      "the estimate's axes are turned by {:.0f} deg against the ground truth's: are these poses of "
+      "the estimate's axes are rotated by {:.0f} deg against the ground truth's: are these poses "
+      "of "
       "another sensor (camera against body)?",
       angle_deg);
 }

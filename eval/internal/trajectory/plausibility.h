@@ -6,14 +6,14 @@
 
 namespace placegraph {
 
-/// One line for every common mistake of convention the data give evidence for; the figures are
-/// computed from the estimate as it stands all the same.
-///  - never turns: one of the two has one orientation throughout, the other turns;
+/// One warning line for every common error of convention that the data show. The figures are
+/// computed from the unchanged estimate nevertheless.
+///  - never turns: one of the two has a constant orientation, the other rotates;
 ///  - inverted: the motions of the inverted poses (T_cam_world given as T_world_cam) agree clearly
 ///    better with the truth;
 ///  - w first, w last: likewise those of quaternions read in the other order, of either;
-///  - other axes: likewise the motions turned by one rotation of more than five degrees, as between
-///    the axes of a camera and of the body;
+///  - other axes: likewise the motions after a constant rotation of more than five degrees, as
+///    between the axes of a camera and of the body;
 ///  - time-shifted: the motions agree clearly better when the estimate is shifted by up to
 ///    five frames.
 /// "Clearly" is half the misfit. Straight motion at constant speed shows none of them.

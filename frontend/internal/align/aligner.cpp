@@ -16,7 +16,7 @@ namespace {
 using Code = Outcome::Code;
 using End = GradientAlignmentResult::End;
 
-/// What a whole alignment looks at.
+/// Inputs of an alignment.
 struct Job {
   const PlanarTemplate& planar_template;
   const std::vector<Image>& pyramid;
@@ -42,7 +42,7 @@ Gradients gradients_of(AlignOptimizer optimizer) {
   }
 }
 
-/// A part of a level's samples, every one as likely as another, the same in every run.
+/// A uniformly drawn subset of a level's samples, the same in every run.
 TemplateLevel thinned(const TemplateLevel& level, int count) {
   const int all = static_cast<int>(level.samples.size());
   if (all <= count) return level;
@@ -77,9 +77,10 @@ Matrix8d corner_spread(const AlignOptions& o, double reach_px) {
   return reach_px * reach_px * spread;
 }
 
-/// From the coordinates of a population, one standard deviation each, to warps about `start`: those
-/// of 8 degrees of freedom by their corners, however far they go; of other families the corners
-/// follow to first order. Nothing where no camera sees the template so.
+/// Maps a member's coordinates, in standard deviations, to a warp about `start`.
+///
+/// A warp of 8 degrees of freedom is computed exactly from its corners; in other families the
+/// corners move to first order. Nothing if no camera can take such an image of the template.
 std::function<std::optional<PlanarWarp>(const Eigen::VectorXd&)> members_about(
     const Job& job, const PlanarWarp& start, double reach_px) {
   const Matrix8d spread = corner_spread(job.options, reach_px);
@@ -133,7 +134,7 @@ GradientAlignmentResult follow(const Job& job, const PlanarWarp& start, int leve
                      start, gradients_of(job.options.optimizer), job.options.gradient);
 }
 
-/// ESM from the start and from the best members, no two of which are neighbours; the best end.
+/// The best result of ESM from the start and from the best members that are not neighbours.
 PlanarWarp follow_members(const Job& job, const PlanarWarp& start,
                           const std::vector<PlanarWarp>& members, AlignResult& result) {
   const TemplateLevel& samples =
@@ -161,7 +162,7 @@ PlanarWarp follow_members(const Job& job, const PlanarWarp& start,
   return best;
 }
 
-/// Coarse to fine; false with an outcome where it had to stop.
+/// Aligns coarse to fine; false, with an outcome, if the alignment failed.
 bool descend(const Job& job, AlignResult& result) {
   const AlignOptions& o = job.options;
   double reach_px = job.planar_template.diagonal_px();
@@ -190,14 +191,15 @@ bool descend(const Job& job, AlignResult& result) {
       return false;
     }
     if (end.end == End::kSingular && level == 0) {
-      result.outcome = Outcome::failure(Code::kNotConverged, "what is in view tells no step");
+      result.outcome =
+          Outcome::failure(Code::kNotConverged, "the samples in view do not determine a step");
       return false;
     }
   }
   return true;
 }
 
-/// Fills the evidence on the finest level.
+/// Fills in the quality measures on the finest level.
 void measure(const Job& job, AlignResult& result) {
   const TemplateLevel& samples = job.planar_template.levels()[0];
   const GradientAlignmentOptions& o = job.options.gradient;
@@ -254,20 +256,23 @@ const std::vector<std::string>& align_optimizer_names() {
 void AlignOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, AlignOptions& o) {
-  field.choice("optimizer", o.optimizer, align_optimizer_names(), "how the warp is found");
-  field.group("gradient", o.gradient, "similarity and the optimizers that follow derivatives");
+  field.choice("optimizer", o.optimizer, align_optimizer_names(), "optimizer of the warp");
+  field.group("gradient", o.gradient, "similarity and gradient-based optimizers");
   field("search_sigma", o.search_sigma,
-        "spread of a population's corners, in diagonals of the template", {0.001, 2});
+        "initial standard deviation of a population's corners [template diagonals]", {0.001, 2});
   field("search_shift_sigma", o.search_shift_sigma,
-        "spread of a shift of all corners together, in the same unit", {0, 10});
-  field("search_samples", o.search_samples, "samples that judge a member", {20, 1000000});
+        "standard deviation of a common shift of all corners [template diagonals]", {0, 10});
+  field("search_samples", o.search_samples,
+        "samples from which the similarity of a member is computed", {20, 1000000});
   field("followed", o.followed, "best members of the swarm that ESM follows", {1, 1000});
   field.group("swarm", o.swarm, "particle swarm");
   field.group("genetic", o.genetic, "genetic algorithm");
-  field("min_samples", o.min_samples, "of a level", {20, 1000000});
-  field("min_agreement", o.min_agreement, "correlation below which it is no match", {-1, 1});
-  field("min_inlier_share", o.min_inlier_share, "of the samples in view", {0, 1});
-  field("max_sigma_px", o.max_sigma_px, "of the most uncertain corner", {0.001, 100});
+  field("min_samples", o.min_samples, "minimum samples of a level", {20, 1000000});
+  field("min_agreement", o.min_agreement, "minimum correlation of image and template", {-1, 1});
+  field("min_inlier_share", o.min_inlier_share,
+        "minimum share of inliers among the samples in view", {0, 1});
+  field("max_sigma_px", o.max_sigma_px,
+        "maximum standard deviation of the most uncertain corner [px]", {0.001, 100});
 }
 
 AlignResult align(const PlanarTemplate& planar_template, const Image& image_cur,
@@ -294,7 +299,7 @@ AlignResult align(const PlanarTemplate& planar_template, const std::vector<Image
     result.outcome = Outcome::failure(Code::kTooFewData, "the template starts beyond the horizon");
     return result;
   }
-  // Two grey levels of noise, one sample in ten of its own. Where the warp starts is no matter.
+  // Noise of two grey levels, one independent sample in ten. The start warp is irrelevant here.
   const PlanarWarp unmoved = start.at(Eigen::Matrix3d::Identity());
   const double promised_px =
       promised_corner_sigma_px(planar_template, 0, unmoved, 2 * std::sqrt(10.0));

@@ -14,14 +14,14 @@ using Eigen::VectorXd;
 constexpr int kReach = 4;              // grid steps
 constexpr double kRounding = 1.0 / 6;  // variance of the difference of two rounded grey values
 
-/// Takes out of the columns of J what the columns of C explain.
+/// Projects the columns of C out of the columns of J.
 void project_out(const MatrixXd& C, const VectorXd& weight, MatrixXd& J) {
   const MatrixXd WC = weight.asDiagonal() * C;
   const MatrixXd share = (C.transpose() * WC).ldlt().solve(WC.transpose() * J);
   if (share.allFinite()) J -= C * share;
 }
 
-/// Inverse of a symmetric matrix of unlike units; nothing if it is singular.
+/// Inverse of a symmetric matrix with mixed units; nothing if it is singular.
 std::optional<MatrixXd> inverse_of(const MatrixXd& H) {
   if (!(H.diagonal().minCoeff() > 0)) return std::nullopt;
   const VectorXd scale = H.diagonal().cwiseSqrt().cwiseInverse();
@@ -73,7 +73,7 @@ MatrixXd correlated_sum(const Eigen::MatrixXi& grid, const MatrixXd& J, const Ve
   return sum;
 }
 
-/// The matrix, but in no direction below a tenth of `floor`.
+/// The matrix, raised to at least a tenth of `floor` in every direction.
 MatrixXd bounded_below(const MatrixXd& M, const MatrixXd& floor) {
   const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> solver(M, floor);
   if (solver.info() != Eigen::Success) return M;

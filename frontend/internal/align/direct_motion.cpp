@@ -13,7 +13,7 @@ namespace {
 
 using Code = Outcome::Code;
 
-/// Greatest gradient of each cell of q x q pixels among those that `patch_of` gives to a patch.
+/// Pixel of greatest gradient of each cell of q x q pixels, among those with a patch in `patch_of`.
 std::vector<DirectReference::Sample> strongest(const Image& image, const Image& patch_of, int q,
                                                const Camera& camera, double scale, int tile_px) {
   std::vector<DirectReference::Sample> samples;
@@ -48,7 +48,7 @@ std::vector<DirectReference::Sample> strongest(const Image& image, const Image& 
   return samples;
 }
 
-/// Which patch, counted from one, the pixels of a level belong to; the first of several.
+/// Patch of each pixel of a level, counted from one; the first if there are several.
 Image patches_on(const cv::Size& size, const std::vector<SurfacePatch>& patches, double scale) {
   Image patch_of(size, CV_8UC1, cv::Scalar(0));
   for (std::size_t k = patches.size(); k-- > 0;)
@@ -111,8 +111,9 @@ DirectMotion align_motion(const DirectReference& reference, const std::vector<Im
       equations.linearize(pyramid_cur[i], static_cast<int>(i));
       ++motion.iterations;
       if (!equations.step()) {
-        motion.outcome = Outcome::failure(
-            equations.visible() < 30 ? Code::kTooFewData : Code::kDegenerate, "no step is told");
+        motion.outcome =
+            Outcome::failure(equations.visible() < 30 ? Code::kTooFewData : Code::kDegenerate,
+                             "the samples do not determine a step");
         return motion;
       }
       motion.last_step_px = equations.step_px();
@@ -123,7 +124,8 @@ DirectMotion align_motion(const DirectReference& reference, const std::vector<Im
   equations.report(motion);
   motion.outcome = judge(motion, options, equations.visible());
   if (motion.outcome && !equations.covariance(motion))
-    motion.outcome = Outcome::failure(Code::kDegenerate, "a direction is not seen");
+    motion.outcome =
+        Outcome::failure(Code::kDegenerate, "a direction of the motion is unobservable");
   return motion;
 }
 

@@ -17,7 +17,7 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Sample = DirectReference::Sample;
 
-/// Of ordinary gains and biases [grey].
+/// Prior standard deviations of gain and bias, least of a grey value [grey].
 constexpr double kSigmaGain = 0.3, kSigmaBias = 30, kLeastSigmaGrey = 1.5;
 
 /// A camera whose pixels are those of a level.
@@ -33,7 +33,7 @@ struct LevelCamera {
     if (!inside_bicubic(image, px.x(), px.y())) return std::nullopt;
     return px;
   }
-  /// Of a grey value by the point whose pixel it is.
+  /// Derivative of a grey value with respect to the point X at its pixel.
   Vector3d by_point(const Vector2d& gradient, const Vector3d& X) const {
     const double a = gradient.x() * fx / X.z(), b = gradient.y() * fy / X.z();
     return {a, b, -(a * X.x() + b * X.y()) / X.z()};
@@ -41,12 +41,12 @@ struct LevelCamera {
 };
 
 Matrix3d information_of(const Matrix3d& covariance) {
-  // A plane that is said to be exact is known to a ten thousandth.
+  // A plane with zero covariance gets a standard deviation of 1e-5.
   const Matrix3d C = covariance + 1e-10 * Matrix3d::Identity();
   return C.ldlt().solve(Matrix3d::Identity());
 }
 
-/// M, but in no direction below `floor`.
+/// M, raised to at least `floor` in every direction.
 Matrix6d bounded_below(const Matrix6d& M, const Matrix6d& floor) {
   const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6d> solver(M, floor);
   if (solver.info() != Eigen::Success) return M + floor;
@@ -63,7 +63,7 @@ DirectEquations::DirectEquations(const DirectReference& reference, const SE3& T_
     planes_.push_back({patch.g_ref, 1, 0, information_of(patch.g_covariance)});
 }
 
-/// Bias of every plane: the median difference of what is seen.
+/// Initializes the bias of every plane by the median difference of the grey values.
 void DirectEquations::start_photometry() {
   photometry_known_ = true;
   std::vector<std::vector<double>> differences(planes_.size());
@@ -90,7 +90,7 @@ void DirectEquations::linearize(const Image& image, int level) {
     if (!px) continue;
     const GreySample grey = sample_bicubic(image, px->x(), px->y());
     const Vector3d forward = camera.by_point({grey.du, grey.dv}, X);
-    // In the reference frame, where the motion is perturbed; the mean of both gradients.
+    // In the reference frame, in which the motion is perturbed, with the mean of both gradients.
     const Vector3d by_ref = 0.5 * (R.transpose() * forward +
                                    plane.gain * camera.by_point(sample.gradient, sample.ray_ref));
     Row row;
@@ -182,7 +182,7 @@ bool DirectEquations::step() {
                         camera.fy * (d.y() - sample.ray_ref.y() * d.z()));
   }
   step_px_ = moved / visible_;
-  // A linear model of grey values reaches a few pixels.
+  // The linear model of grey values is valid within a few pixels.
   constexpr double kFarthest_px = 6;
   const double shrink = std::min(1.0, kFarthest_px / std::max(step_px_, 1e-9));
   for (std::size_t k = 0; k < planes_.size(); ++k) {
@@ -234,7 +234,7 @@ void DirectEquations::report(DirectMotion& motion) const {
 bool DirectEquations::covariance(DirectMotion& motion) const {
   const Matrix6d A = -T_cur_ref_.adjoint();
   const Matrix6d prior = A.transpose() * guess_.information * A;
-  // The equations by the derivative of the score, unless that leaves them indefinite.
+  // Use the derivative of the score in the equations, unless they become indefinite.
   for (const bool by_slope : {true, false}) {
     const auto parts = blocks(by_slope);
     Matrix6d S = prior, M = prior, independent = prior;

@@ -3,17 +3,21 @@
 
 namespace placegraph {
 
-/// Gauss-Newton for align_motion: the motion's six parameters xi, T_cur_ref exp(xi), with the five
-/// of every plane (g, gain, bias) eliminated.
+/// Gauss-Newton equations of align_motion.
+///
+/// The motion has six parameters xi, T_cur_ref exp(xi); the five of every plane (g, gain, bias) are
+/// eliminated.
 class DirectEquations {
  public:
   DirectEquations(const DirectReference& reference, const SE3& T_ref_cur, const MotionGuess& guess,
                   const DirectMotionOptions& options);
 
   void linearize(const Image& image_cur, int level);
-  /// False where the equations leave something open.
+  /// Takes a step; false if the equations are singular.
   bool step();
-  double step_px() const { return step_px_; }  ///< mean way of the samples by the last step
+  double step_px() const {
+    return step_px_;
+  }  ///< mean displacement of the samples by the last step
   int visible() const { return visible_; }
   void report(DirectMotion& motion) const;
   bool covariance(DirectMotion& motion) const;
@@ -32,7 +36,7 @@ class DirectEquations {
     double gain = 1, bias = 0;
     Eigen::Matrix3d g_information;
   };
-  /// Of one plane, what is known beforehand included.
+  /// Normal equations of one plane, prior included.
   struct Block {
     Eigen::Matrix<double, 6, 6> H = Eigen::Matrix<double, 6, 6>::Zero();
     Eigen::Matrix<double, 6, 5> C = Eigen::Matrix<double, 6, 5>::Zero();
@@ -56,8 +60,10 @@ class DirectEquations {
   bool photometry_known_ = false;
 };
 
-/// Mean over the planes, by their samples, of the zero-mean normalized correlation of a reference
-/// with a level of another image; -1 where less than a third of the samples are in view.
+/// Zero-mean normalized correlation of a reference with a level of another image.
+///
+/// The mean over the planes, weighted by their samples; -1 if less than a third of the samples are
+/// in view.
 double correlation_at(const DirectReference& reference,
                       const std::vector<DirectReference::Sample>& samples, const Image& image_cur,
                       int level, const SE3& T_cur_ref);

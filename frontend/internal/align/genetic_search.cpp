@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// Members are sorted, so the least index drawn wins.
+/// Index of a parent by tournament; members are sorted, so the least index drawn wins.
 const VectorXd& select(const PopulationResult& members, int tournament, Random& random) {
   int winner = static_cast<int>(members.points.size()) - 1;
   for (int i = 0; i < tournament; ++i)
@@ -38,15 +38,18 @@ void GeneticOptions::check() const {
 
 void visit(OptionVisitor& field, GeneticOptions& o) {
   field("members", o.members, "size of the population", {3, 10000});
-  field("generations", o.generations, "generations at most", {1, 10000});
-  field("stagnation", o.stagnation, "generations without progress that end it", {1, 10000});
+  field("generations", o.generations, "maximum number of generations", {1, 10000});
+  field("stagnation", o.stagnation, "generations without progress after which the search ends",
+        {1, 10000});
   field("tournament", o.tournament, "members drawn for a parent", {1, 100});
-  field("elite", o.elite, "best members that live on unchanged", {0, 1000});
-  field("blend", o.blend, "children beyond the box of their parents", {0, 2});
-  field("mutation_rate", o.mutation_rate, "share of coordinates that mutate", {0, 1});
-  field("mutation_sigma", o.mutation_sigma, "in standard deviations of the start", {0, 10});
-  field("bound", o.bound, "of a coordinate, in standard deviations of the start", {0.1, 100});
-  field("seed", o.seed, "of the random stream");
+  field("elite", o.elite, "best members kept unchanged", {0, 1000});
+  field("blend", o.blend, "share by which the box of children exceeds that of the parents", {0, 2});
+  field("mutation_rate", o.mutation_rate, "probability that a coordinate mutates", {0, 1});
+  field("mutation_sigma", o.mutation_sigma,
+        "initial size of mutations [standard deviations of the start]", {0, 10});
+  field("bound", o.bound,
+        "largest absolute value of a coordinate [standard deviations of the start]", {0.1, 100});
+  field("seed", o.seed, "seed of the random stream");
   field("threads", o.threads, "threads; the result does not depend on it", {1, 256});
 }
 

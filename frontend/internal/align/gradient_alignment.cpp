@@ -11,10 +11,10 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Row = Eigen::Matrix<double, 9, 1>;
-/// Nine numbers of the generators, one photometric column, ones, the residual.
+/// Columns: nine numbers of the generators, one photometric column, ones, the residual.
 using Gram = Eigen::Matrix<double, 12, 12>;
 
-/// sum w [r; a; 1; e] [r; a; 1; e]^T over the seen samples.
+/// sum w [r; a; 1; e] [r; a; 1; e]^T over the samples in view.
 Gram accumulate(const TemplateLevel& level, const SeenSamples& seen, const PhotometricFit& fit,
                 Similarity similarity, Gradients gradients) {
   const bool ref_column = similarity == Similarity::kSsdGainBias;
@@ -36,12 +36,12 @@ Gram accumulate(const TemplateLevel& level, const SeenSamples& seen, const Photo
   return sum;
 }
 
-/// The step of the parameters; empty where the template shows too little to tell one.
+/// Step of the parameters; empty if the template has too little texture to determine it.
 PlanarWarp::Step solve(const Gram& gram, const PlanarWarp::Generators& A, Similarity similarity) {
   Eigen::MatrixXd H = A.transpose() * gram.topLeftCorner<9, 9>() * A;
   Eigen::VectorXd b = A.transpose() * gram.block<9, 1>(0, 11);
   if (similarity != Similarity::kSsd) {
-    // Gain and bias are free: what they can explain is taken out.
+    // Gain and bias are free parameters: they are projected out.
     const Eigen::Matrix2d D = gram.block<2, 2>(9, 9);
     const Eigen::MatrixXd C = gram.block<2, 9>(9, 0) * A;
     const double determinant = D.determinant();
@@ -82,13 +82,16 @@ bool limit_step(const PlanarTemplate& planar_template, const PlanarWarp& warp,
 void GradientAlignmentOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, GradientAlignmentOptions& o) {
-  field.choice("similarity", o.similarity, similarity_names(), "what is to be made great");
-  field.choice("kernel", o.kernel, robust_kernel_names(), "weights against occlusion");
-  field("kernel_width", o.kernel_width, "of the weights, in standard deviations", {0.1, 100});
-  field("iterations", o.iterations, "at most, per level", {1, 1000});
-  field("converged_px", o.converged_px, "a step below this ends a level", {1e-6, 1});
-  field("min_visible_share", o.min_visible_share, "of the samples, in the current image",
-        {0.05, 1});
+  field.choice("similarity", o.similarity, similarity_names(),
+               "similarity measure that is maximized");
+  field.choice("kernel", o.kernel, robust_kernel_names(), "robust kernel against occlusion");
+  field("kernel_width", o.kernel_width,
+        "width of the robust kernel [standard deviations of the residuals]", {0.1, 100});
+  field("iterations", o.iterations, "maximum number of iterations per level", {1, 1000});
+  field("converged_px", o.converged_px, "a level ends when no corner moves by more in a step [px]",
+        {1e-6, 1});
+  field("min_visible_share", o.min_visible_share,
+        "minimum share of the samples in view of the current image", {0.05, 1});
 }
 
 Row generator_row(const Vector2d& x, const Vector2d& g) {

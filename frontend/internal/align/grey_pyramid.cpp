@@ -34,8 +34,8 @@ std::vector<Image> grey_pyramid(const Image& grey, int levels) {
   std::vector<Image> pyramid(1);
   Image image;
   grey.convertTo(image, CV_32F);
-  // Interpolation leaves less of white noise between pixels than at them, and an alignment would
-  // be drawn there; of smoothed noise it leaves as much everywhere.
+  // Interpolation attenuates white noise between pixels more than at pixels, which would bias an
+  // alignment towards positions between pixels; smoothed noise is attenuated equally everywhere.
   cv::GaussianBlur(image, pyramid[0], {5, 5}, 1);
   while (static_cast<int>(pyramid.size()) < levels) {
     if (image.cols < 16 || image.rows < 16) break;

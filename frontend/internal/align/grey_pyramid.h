@@ -5,9 +5,11 @@
 
 namespace placegraph {
 
-/// An image in float, smoothed by a pixel, and its halvings: pixel (u, v) of level i is pixel 2^i
-/// (u, v) of the image. Throws ArgumentError unless `grey` is CV_8UC1 and not empty. There are
-/// fewer levels than asked for where a side would fall below 8 pixels.
+/// Pyramid of a grey image in float, smoothed by a pixel.
+///
+/// Pixel (u, v) of level i is pixel 2^i (u, v) of the image. There are fewer levels than requested
+/// if a side would fall below 8 pixels. Throws ArgumentError unless `grey` is CV_8UC1 and not
+/// empty.
 std::vector<Image> grey_pyramid(const Image& grey, int levels);
 
 /// Value of an image between its pixels, and its derivatives.
@@ -15,8 +17,10 @@ struct GreySample {
   double value = 0, du = 0, dv = 0;
 };
 
-/// Bicubic interpolation (Catmull-Rom: Keys 1981, a = -1/2) of a CV_32FC1 image with the exact
-/// derivatives of the interpolant. Precondition: inside_bicubic(image, u, v).
+/// Bicubic interpolation (Catmull-Rom: Keys 1981, a = -1/2) of a CV_32FC1 image.
+///
+/// The derivatives are the exact ones of the interpolant. Precondition:
+/// inside_bicubic(image, u, v).
 GreySample sample_bicubic(const Image& image, double u, double v);
 double value_bicubic(const Image& image, double u, double v);
 

@@ -6,7 +6,7 @@
 namespace placegraph {
 namespace {
 
-/// So far from empty that the logarithm of a bin stays moderate.
+/// Offset from zero that keeps the logarithm of a bin moderate.
 constexpr double kTiny = 1e-6;
 
 }  // namespace

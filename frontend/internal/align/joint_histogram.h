@@ -4,32 +4,37 @@
 
 namespace placegraph {
 
-/// The joint distribution of two lists of grey values, estimated with cubic B-spline windows (Unser
-/// & Thevenaz 2000): smooth in every value, so that mutual information can be followed. Each list
-/// is spread over its own range from its least to its greatest value.
+/// Joint distribution of two lists of grey values.
+///
+/// Estimated with cubic B-spline windows (Unser & Thevenaz 2000): it is smooth in every value, so
+/// that mutual information has a derivative. Each list is spread over its own range from its least
+/// to its greatest value.
 class JointHistogram {
  public:
-  /// Of each list; the outer two on either side are margin for the windows.
+  /// Number of bins of each list; the outer two on either side are margin for the windows.
   static constexpr int kBins = 16;
 
-  /// Precondition: lists of one size. Values that are all alike fall into one bin.
+  /// Builds the histogram. Precondition: lists of one size. Equal values fall into one bin.
   JointHistogram(const std::vector<double>& ref, const std::vector<double>& cur);
 
-  /// sum p(c, r) log(p(c, r) / (p(c) p(r))) [nat]; 0 for empty lists.
+  /// Mutual information sum p(c, r) log(p(c, r) / (p(c) p(r))) [nat]; 0 for empty lists.
   double mutual_information() const;
 
-  /// For every sample: the conditional mean of the current value given the template's, its slope,
-  /// and -N s^2 dMI/dcur [grey levels] with s^2 the conditional variance, windows included: for a
-  /// joint normal distribution the deviation from the mean, shrunk to the overall one.
+  /// Linearizes mutual information at every sample.
+  ///
+  /// `mean` is the conditional mean of the current value given the template's, `slope` its slope,
+  /// `residual` is -N s^2 dMI/dcur [grey levels] with s^2 the conditional variance, windows
+  /// included: for a joint normal distribution the deviation from the mean, shrunk towards the
+  /// overall one.
   void linearize(const std::vector<double>& ref, const std::vector<double>& cur,
                  std::vector<double>& mean, std::vector<double>& slope,
                  std::vector<double>& residual) const;
 
  private:
-  /// Where a value falls: bins first ... first + 3 with these shares.
+  /// Bins of a value: first ... first + 3 with these shares.
   struct Window {
     int first;
-    double share[4], derivative[4];  ///< derivative by the value [1 per grey level]
+    double share[4], derivative[4];  ///< derivative with respect to the value [1 per grey level]
   };
   struct Scale {
     double low = 0, bins_per_grey = 0;

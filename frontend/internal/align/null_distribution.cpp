@@ -56,7 +56,7 @@ Image surrogate(const Image& patch, Random& random) {
   return tiled;
 }
 
-/// Statistics over pictures of the patch's spectrum, the template started near their middle.
+/// Statistics over surrogate images with the patch's spectrum; alignments start near their centre.
 void ask_surrogates(const Image& patch, const PlanarTemplate& planar_template,
                     const AlignOptions& options, int trials, Random& random,
                     NullDistribution& chance) {
@@ -76,7 +76,7 @@ void ask_surrogates(const Image& patch, const PlanarTemplate& planar_template,
   chance.deviation = std::sqrt(std::max(0.0, (squares - sum * chance.mean) / (chance.trials - 1)));
 }
 
-/// The best end away from the truth, over starts a quarter to a whole template beside it.
+/// Greatest similarity away from the true position, from starts a quarter to a whole side off.
 double best_rival(const Image& image_ref, const PlanarTemplate& planar_template,
                   const AlignOptions& options, int trials, Random& random) {
   constexpr double kElsewherePx = 3;
@@ -101,7 +101,7 @@ double best_rival(const Image& image_ref, const PlanarTemplate& planar_template,
 NullDistribution null_distribution(const Image& image_ref, const std::vector<Vector2d>& polygon_px,
                                    const PlanarTemplate& planar_template,
                                    const AlignOptions& options, int trials) {
-  require(trials >= 2, "chance_likeness: at least two trials");
+  require(trials >= 2, "null_distribution: at least two trials needed");
   const Image patch = box_of(image_ref, polygon_px);
   NullDistribution chance;
   if (patch.rows < 2 || patch.cols < 2) return chance;

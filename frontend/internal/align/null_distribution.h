@@ -3,20 +3,22 @@
 
 namespace placegraph {
 
-/// The likeness (AlignResult::likeness) at which alignments end where the template is not.
+/// Distribution of AlignResult::robust_similarity in images that do not show the template.
 struct NullDistribution {
-  double mean = 0, deviation = 0;  ///< on pictures that only look alike
-  double rival =
-      0;           ///< the greatest elsewhere in the template's own image: near 1 where it repeats
-  int trials = 0;  ///< pictures on which most of the template stayed in view
-  /// What a picture that only looks alike exceeds about as often as a normal distribution lies
-  /// beyond so many standard deviations.
+  double mean = 0, deviation = 0;  ///< over surrogate images with the template's spectrum
+  double rival = 0;  ///< greatest value elsewhere in the template's own image; near 1 if it repeats
+  int trials = 0;    ///< surrogate images on which most of the template stayed in view
+  /// Mean plus `deviations` standard deviations.
+  ///
+  /// A surrogate image exceeds it about as often as a normal variable exceeds that many deviations.
   double bound(double deviations) const { return mean + deviations * deviation; }
 };
 
-/// Aligns the template with `trials` pictures of its own power spectrum but of random phases
-/// (surrogate data: Theiler et al. 1992), and with its own image from starts beside it. The
-/// template is that of `polygon_px` in `image_ref`; the swarm's seed chooses phases and starts.
+/// Estimates the null distribution of a template's similarity.
+///
+/// Aligns the template with `trials` surrogate images that have its power spectrum and random
+/// phases (surrogate data: Theiler et al. 1992), and with its own image from starts beside it. The
+/// template is that of `polygon_px` in `image_ref`; the swarm's seed determines phases and starts.
 /// Throws ArgumentError unless `trials` is at least 2.
 NullDistribution null_distribution(const Image& image_ref,
                                    const std::vector<Eigen::Vector2d>& polygon_px,

@@ -19,7 +19,7 @@ struct Particle {
   VectorXd x, velocity;
 };
 
-/// Back into the box; what left it turns round.
+/// Moves a particle back into the box and reverses its velocity where it left the box.
 void reflect(VectorXd& x, VectorXd& velocity, double bound) {
   for (Eigen::Index k = 0; k < x.size(); ++k) {
     if (std::abs(x[k]) <= bound) continue;
@@ -28,7 +28,7 @@ void reflect(VectorXd& x, VectorXd& velocity, double bound) {
   }
 }
 
-/// Index of the best point among those that draw particle i.
+/// Index of the best point among those that attract particle i.
 std::size_t leader(const std::vector<double>& best, std::size_t i, SwarmTopology topology) {
   if (topology == SwarmTopology::kGlobal)
     return static_cast<std::size_t>(std::min_element(best.begin(), best.end()) - best.begin());

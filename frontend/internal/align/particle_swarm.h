@@ -9,31 +9,34 @@
 
 namespace placegraph {
 
-/// Value of a point of R^n that a population search makes small. It is called from several threads
-/// at once, so it must not change anything.
+/// Cost of a point of R^n that a population search minimizes.
+///
+/// It is called from several threads at once, so it must have no side effects.
 using PopulationCost = std::function<double(const Eigen::VectorXd&)>;
 
-/// What a population search found: the members' best points so far, best first.
+/// Result of a population search: the members' best points, best first.
 struct PopulationResult {
   std::vector<Eigen::VectorXd> points;
-  std::vector<double> costs;  ///< as many, ascending
+  std::vector<double> costs;  ///< costs of `points`, ascending
   int generations = 0, evaluations = 0;
 };
 
-/// Costs of the points, each into its own place, by `threads` threads.
+/// Computes the costs of the points by `threads` threads; costs[i] is that of points[i].
 void evaluate_population(const PopulationCost& cost, const std::vector<Eigen::VectorXd>& points,
                          int threads, std::vector<double>& costs);
 
-/// Points and costs in ascending order of cost; of equal ones in the order of their indices.
+/// Sorts points and costs by ascending cost, equal ones by their indices.
 void sort_population(PopulationResult& population);
 
-/// chi for phi > 4: 0.7298 for 4.1.
+/// Constriction factor chi for phi > 4: 0.7298 for 4.1.
 double constriction(double phi);
 
-/// Particle swarm search (Kennedy & Eberhart 1995) in n dimensions. Coordinates are in standard
-/// deviations: the first particle starts at the origin, all others normally distributed about it.
-/// Every particle draws from a random stream of its own and the bests are compared in the order of
-/// indices once a generation is complete, so that the same bits come from any number of threads.
+/// Minimizes a cost in n dimensions by a particle swarm (Kennedy & Eberhart 1995).
+///
+/// Coordinates are in standard deviations: the first particle starts at the origin, all others are
+/// normally distributed about it. Every particle has a random stream of its own and the best points
+/// are compared in the order of indices once a generation is complete, so that the result is the
+/// same to the bit with any number of threads.
 PopulationResult swarm_search(const PopulationCost& cost, int n, const SwarmOptions& options);
 
 }  // namespace placegraph

@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Even-odd rule.
+/// Whether a point is inside a polygon, by the even-odd rule.
 bool inside(const std::vector<Vector2d>& polygon, const Vector2d& p) {
   bool in = false;
   for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
@@ -23,7 +23,7 @@ bool inside(const std::vector<Vector2d>& polygon, const Vector2d& p) {
   return in;
 }
 
-/// Which pixels of a level belong to a region.
+/// The pixels of a level that belong to a region.
 struct Region {
   const std::vector<Vector2d>& polygon;
   const Image& mask;

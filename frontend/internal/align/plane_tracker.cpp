@@ -14,22 +14,22 @@ using Code = Outcome::Code;
 using Eigen::Matrix3d;
 using Eigen::Vector2d;
 
-/// Twice the signed area of a convex quadrilateral; nothing if it is none.
+/// Signed area of a quadrilateral; nothing if it is not convex.
 std::optional<double> convex_area(const std::vector<Vector2d>& corners) {
   double area = 0, least = 0, greatest = 0;
   for (std::size_t i = 0; i < 4; ++i) {
     const Vector2d &a = corners[i], &b = corners[(i + 1) % 4], &c = corners[(i + 2) % 4];
     const Vector2d in = b - a, out = c - b;
-    const double turn = in.x() * out.y() - in.y() * out.x();
-    least = i == 0 ? turn : std::min(least, turn);
-    greatest = i == 0 ? turn : std::max(greatest, turn);
+    const double cross = in.x() * out.y() - in.y() * out.x();
+    least = i == 0 ? cross : std::min(least, cross);
+    greatest = i == 0 ? cross : std::max(greatest, cross);
     area += a.x() * b.y() - a.y() * b.x();
   }
   if (!std::isfinite(area) || !(least * greatest > 0)) return std::nullopt;
   return area / 2;
 }
 
-/// Where a homography takes corners; empty if one goes beyond the horizon.
+/// Corners mapped by a homography; empty if one is mapped beyond the horizon.
 std::vector<Vector2d> mapped(const Matrix3d& H, const std::vector<Vector2d>& corners) {
   std::vector<Vector2d> there;
   for (const Vector2d& corner : corners) {
@@ -40,7 +40,7 @@ std::vector<Vector2d> mapped(const Matrix3d& H, const std::vector<Vector2d>& cor
   return there;
 }
 
-/// Where a template of convex corners is seen with a positive area; 0 where no camera sees it so.
+/// Area of the image of convex corners [px^2]; 0 if no camera can see them so.
 double seen_area_px(const Matrix3d& H, const std::vector<Vector2d>& corners) {
   const std::vector<Vector2d> there = mapped(H, corners);
   if (there.empty()) return 0;
@@ -48,7 +48,7 @@ double seen_area_px(const Matrix3d& H, const std::vector<Vector2d>& corners) {
   return from && to && *from * *to > 0 ? std::abs(*to) : 0;
 }
 
-/// Covariance of where a warp takes corners.
+/// Covariance of the corners mapped by a warp.
 Eigen::Matrix<double, 8, 8> covariance_of(const PlanarWarp& warp,
                                           const std::vector<Vector2d>& corners,
                                           const Eigen::MatrixXd& covariance) {
@@ -95,20 +95,29 @@ void PlaneTrackerOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, PlaneTrackerOptions& o) {
   field.group("align", o.align, "alignment of the template");
-  field.choice("model", o.model, plane_model_names(), "how the template may move");
-  field("levels", o.levels, "of the pyramid", {1, 10});
-  field("max_samples", o.max_samples, "of a level", {100, 10000000});
-  field("chance_trials", o.chance_trials, "pictures that calibrate the likeness", {2, 1000});
-  field("chance_deviations", o.chance_deviations, "of the likeness above chance", {0, 20});
-  field("rival_margin", o.rival_margin, "of a likeness above what the image repeats", {0, 1});
-  field("max_area_change", o.max_area_change, "from frame to frame, either way", {1, 100});
-  field("min_area_px", o.min_area_px, "of the template's image", {1, 1e9});
-  field("search_sigma", o.search_sigma, "of corners in the search, in diagonals", {0.001, 2});
-  field("search_shift", o.search_shift, "of all corners in the search, in diagonals", {0, 10});
-  field("back_px", o.back_px, "agreement of the way there and back", {0.01, 100});
+  field.choice("model", o.model, plane_model_names(), "motion model of the template");
+  field("levels", o.levels, "number of levels of the image pyramid", {1, 10});
+  field("max_samples", o.max_samples, "maximum samples of a level", {100, 10000000});
+  field("chance_trials", o.chance_trials,
+        "surrogate images for the null distribution of the similarity", {2, 1000});
+  field("chance_deviations", o.chance_deviations,
+        "minimum deviations of the similarity above the null distribution's mean", {0, 20});
+  field("rival_margin", o.rival_margin,
+        "minimum similarity of a found template above its repetitions in the image", {0, 1});
+  field("max_area_change", o.max_area_change,
+        "maximum factor of the area between frames, in both directions", {1, 100});
+  field("min_area_px", o.min_area_px, "minimum area of the template's image [px^2]", {1, 1e9});
+  field("search_sigma", o.search_sigma,
+        "standard deviation of corners in the search [template diagonals]", {0.001, 2});
+  field("search_shift", o.search_shift,
+        "standard deviation of a common shift in the search [template diagonals]", {0, 10});
+  field("back_px", o.back_px, "maximum forward-backward error of a template found again [px]",
+        {0.01, 100});
   field.group("finder", o.finder, "search by point features");
-  field("key_similarity", o.key_similarity, "of a view that becomes the second template", {0, 1});
-  field("key_interval", o.key_interval, "frames between second templates", {1, 1000000});
+  field("key_similarity", o.key_similarity,
+        "minimum similarity of a view that becomes the second template", {0, 1});
+  field("key_interval", o.key_interval, "minimum number of frames between second templates",
+        {1, 1000000});
   field.group("normal", o.normal, "the plane's normal from several views");
 }
 
@@ -131,7 +140,7 @@ PlaneTracker::PlaneTracker(const Image& image_ref, const std::vector<Vector2d>& 
   require(corners_px.size() == 4 && convex_area(corners_px),
           "plane tracker: four corners of a convex quadrilateral needed");
   require(camera || (options.model == PlaneModel::kHomography && !normal_ref),
-          "plane tracker: this needs a camera");
+          "plane tracker: this model needs a camera");
   if (normal_ref) {
     require(std::abs(normal_ref->norm() - 1) < 1e-6, "plane tracker: normal not of unit length");
     plane_.outcome = Outcome::ok();
@@ -161,7 +170,7 @@ double PlaneTracker::least_similarity_found() const {
   return std::max(least_similarity(), chance_.rival + options_.rival_margin);
 }
 
-/// Of the model's family, once the plane's normal is known.
+/// Warp of the model's family once the plane's normal is known, else a homography.
 PlanarWarp PlaneTracker::warp_at(const Matrix3d& H_cur_ref) const {
   if (options_.model == PlaneModel::kHomography || !plane_.outcome)
     return template_.homography(H_cur_ref);
@@ -176,7 +185,7 @@ Outcome PlaneTracker::judge(const AlignResult& result, const Matrix3d& H_cur_ref
   if (!result.outcome) return result.outcome;
   const double area_px = seen_area_px(H_cur_ref, corners_px_);
   if (area_px < options_.min_area_px)
-    return Outcome::failure(Code::kInconsistent, "no camera sees the template so, or hardly");
+    return Outcome::failure(Code::kInconsistent, "implausible or very small image of the template");
   if (lost_ == 0) {
     const double change = area_px / seen_area_px(H_last_ref_, corners_px_);
     if (std::max(change, 1 / change) > options_.max_area_change)
@@ -184,7 +193,7 @@ Outcome PlaneTracker::judge(const AlignResult& result, const Matrix3d& H_cur_ref
                               "area changed by a factor of " + std::to_string(change));
   }
   if (result.robust_similarity < least)
-    return Outcome::failure(Code::kInconsistent, "likeness " +
+    return Outcome::failure(Code::kInconsistent, "similarity " +
                                                      std::to_string(result.robust_similarity) +
                                                      ", " + std::to_string(least) + " needed");
   return Outcome::ok();
@@ -209,7 +218,7 @@ PlaneTrack PlaneTracker::aligned(const View& view, const Matrix3d& H_start,
   return track;
 }
 
-/// From where the last two frames lead, then from where it was.
+/// Aligns from the predicted position, then from the last position.
 PlaneTrack PlaneTracker::follow(const View& view) const {
   const Matrix3d H_predicted = H_last_before_ * H_last_ref_;
   const double area_px = seen_area_px(H_last_ref_, corners_px_);
@@ -224,7 +233,7 @@ PlaneTrack PlaneTracker::follow(const View& view) const {
                  PlaneTrackSource::kLastPlace);
 }
 
-/// By a recent view; then by the first image from there, whose word is the last if it holds.
+/// Aligns with the second template; from there with the first, whose result has priority.
 PlaneTrack PlaneTracker::by_second_template(const View& view) const {
   const auto source = PlaneTrackSource::kSecondTemplate;
   if (!key_) return lost(Outcome::failure(Code::kTooFewData, "no second template"), source);
@@ -253,7 +262,7 @@ PlaneTrack PlaneTracker::by_second_template(const View& view) const {
   return track;
 }
 
-/// About its last place, the further the longer it is lost.
+/// Searches about the last position; the range grows with the number of lost frames.
 PlaneTrack PlaneTracker::search(const View& view) const {
   AlignOptions options = swarm_of(options_.align);
   const double widest = image_size_px_.norm() / template_.diagonal_px();
@@ -262,11 +271,11 @@ PlaneTrack PlaneTracker::search(const View& view) const {
   options.swarm.seed += static_cast<std::uint64_t>(frames_);
   PlaneTrack track =
       aligned(view, H_last_ref_, options, least_similarity_found(), PlaneTrackSource::kSwarm);
-  if (track.outcome) track.outcome = the_way_back(view, track);
+  if (track.outcome) track.outcome = backward_check(view, track);
   return track;
 }
 
-/// Anywhere.
+/// Searches the whole image by point features.
 PlaneTrack PlaneTracker::find(const View& view) {
   PlaneTrack track = lost(Outcome::failure(Code::kNoConsensus, "not found by features either"),
                           PlaneTrackSource::kFeatures);
@@ -274,16 +283,16 @@ PlaneTrack PlaneTracker::find(const View& view) {
     if (seen_area_px(place.H_cur_ref, corners_px_) < options_.min_area_px) continue;
     PlaneTrack there = aligned(view, place.H_cur_ref, options_.align, least_similarity_found(),
                                PlaneTrackSource::kFeatures);
-    if (there.outcome) there.outcome = the_way_back(view, there);
+    if (there.outcome) there.outcome = backward_check(view, there);
     if (there.outcome) return there;
     track = there;
   }
   return track;
 }
 
-/// What is seen there, cut out and looked for in the first image from a few pixels beside, has to
-/// come back to where the template was cut.
-Outcome PlaneTracker::the_way_back(const View& view, const PlaneTrack& track) const {
+/// Aligns the patch found in this frame with the first image, from a start a few pixels off; it
+/// must end at the template's corners.
+Outcome PlaneTracker::backward_check(const View& view, const PlaneTrack& track) const {
   constexpr double kBesidePx = 3;
   const PlanarTemplate seen(view.image, track.corners_px, options_.levels, options_.max_samples);
   const Matrix3d H_ref_cur = track.H_cur_ref.inverse();
@@ -299,7 +308,7 @@ Outcome PlaneTracker::the_way_back(const View& view, const PlaneTrack& track) co
   }
   if (apart_px > std::max(options_.back_px, 3 * back.corner_sigma_px))
     return Outcome::failure(Code::kInconsistent,
-                            "the way back ends " + std::to_string(apart_px) + " px off");
+                            "the backward alignment ends " + std::to_string(apart_px) + " px off");
   return Outcome::ok();
 }
 

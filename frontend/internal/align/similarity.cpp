@@ -35,8 +35,8 @@ double correlation(const Moments& m) {
 
 double one(std::size_t) { return 1; }
 
-/// Gain of the regression of cur on ref, kept where images of one scene lie: without a bound the
-/// best partner of everything is a blank wall.
+/// Gain of the regression of cur on ref, limited to the range between images of one scene: without
+/// a bound a blank wall would match everything best.
 double regression_gain(const Moments& m) {
   return m.ref_ref > 0 ? std::clamp(m.ref_cur / m.ref_ref, 0.5, 2.0) : 1;
 }
@@ -48,7 +48,7 @@ void linear_model(Similarity kind, const std::vector<double>& ref, const std::ve
   if (kind != Similarity::kSsd) {
     const Moments m = moments_of(ref, cur, [&](std::size_t i) { return fit.weight[i]; });
     fit.gain = regression_gain(m);
-    // ZNCC compares both at unit norm.
+    // ZNCC compares both lists at unit norm.
     if (kind == Similarity::kZncc && m.ref_ref > 0) fit.gain = std::sqrt(m.cur_cur / m.ref_ref);
     fit.bias = m.mean_cur - fit.gain * m.mean_ref;
   }
@@ -103,7 +103,7 @@ void fit_photometry(Similarity kind, const std::vector<double>& ref, const std::
                     RobustKernel::Kind kernel, double width, PhotometricFit& fit) {
   const std::size_t n = ref.size();
   const RobustKernel robust{kernel, width};
-  // Without weights from the step before, outliers have to be found first.
+  // Without weights of the previous step, the outliers must be found first.
   const bool fresh = fit.weight.size() != n;
   if (fresh || kernel == RobustKernel::Kind::kNone) fit.weight.assign(n, 1);
   for (auto* values : {&fit.model, &fit.slope, &fit.residual}) values->resize(n);
@@ -112,7 +112,7 @@ void fit_photometry(Similarity kind, const std::vector<double>& ref, const std::
     fit.similarity = histogram.mutual_information();
     histogram.linearize(ref, cur, fit.model, fit.slope, fit.residual);
     measure_spread(cur, fit);
-    // The logarithm of the histogram gives outliers little weight by itself.
+    // The logarithm of the histogram already gives outliers little weight.
     fit.weight.assign(n, 1);
     return;
   }

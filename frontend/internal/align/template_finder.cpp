@@ -43,10 +43,10 @@ PointMatches without(const PointMatches& matches, const std::vector<int>& gone) 
 }  // namespace
 
 void visit(OptionVisitor& field, TemplateFinderOptions& o) {
-  field.group("features", o.features, "points of the images");
-  field("inlier_px", o.inlier_px, "transfer error of a match that agrees", {0.1, 50});
-  field.group("ransac", o.ransac, "search for a homography");
-  field("places", o.places, "proposed at most", {1, 100});
+  field.group("features", o.features, "point features of the images");
+  field("inlier_px", o.inlier_px, "maximum symmetric transfer error of an inlier [px]", {0.1, 50});
+  field.group("ransac", o.ransac, "homography hypotheses");
+  field("places", o.places, "maximum number of proposals", {1, 100});
 }
 
 TemplateFinder::TemplateFinder(const Image& image_ref,

@@ -5,32 +5,39 @@
 
 namespace placegraph {
 
+/// Options of the template finder.
 struct TemplateFinderOptions {
-  WideMatcherOptions features;  ///< its geometry is not asked
-  double inlier_px = 3;         ///< symmetric transfer error of a match that agrees
+  WideMatcherOptions features;  ///< its geometric options are not used
+  double inlier_px = 3;         ///< maximum symmetric transfer error of an inlier
   RansacOptions ransac{2000, 0.999, 8};
-  int places = 3;  ///< at most, each by the matches that those before leave
+  int places = 3;  ///< maximum number of proposals; each uses the matches left by the previous ones
   void check() const { check_ranges(*this); }
 };
 void visit(OptionVisitor& field, TemplateFinderOptions& options);
 
+/// A proposed position of the template.
 struct FoundPlace {
   Eigen::Matrix3d H_cur_ref;
   int inliers = 0;
 };
 
-/// Finds a planar region of one image in others, wherever it went, by point features and a
-/// homography that many of them agree on. It proposes; whether the region is really there an
-/// alignment has to say.
+/// Finds a planar region of one image anywhere in other images.
+///
+/// By point features and a homography that many of them agree with. The results are proposals that
+/// an alignment must verify.
 class TemplateFinder {
  public:
+  /// Detects the features of the region.
+  ///
   /// Throws ArgumentError for options out of range, an image that is not grey or a polygon of fewer
   /// than three corners.
   TemplateFinder(const Image& image_ref, const std::vector<Eigen::Vector2d>& polygon_px,
                  const TemplateFinderOptions& options);
 
-  int features() const { return static_cast<int>(points_ref_.px.size()); }  ///< of the region
-  /// Those with the most matches first; empty where no homography has ransac.min_inliers.
+  int features() const {
+    return static_cast<int>(points_ref_.px.size());
+  }  ///< features of the region
+  /// Proposals in an image, most inliers first; empty if no homography has ransac.min_inliers.
   std::vector<FoundPlace> find(const Image& image_cur, Random& random) const;
 
  private:

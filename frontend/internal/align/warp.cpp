@@ -163,8 +163,8 @@ PlanarWarp PlanarWarp::at(const Matrix3d& H_cur_ref) const {
   if (kind_ == Kind::kRigidMotion) return rigid_motion(frame_, T_cur_ref, plane_ref_);
   const SE3 R(R_ref_plane_, Vector3d::Zero());
   const SE3 along = R.inverse() * T_cur_ref * R;
-  const Matrix3d turn = along.rotation().matrix();
-  const double angle = std::atan2(turn(1, 0) - turn(0, 1), turn(0, 0) + turn(1, 1));
+  const Matrix3d R_along = along.rotation().matrix();
+  const double angle = std::atan2(R_along(1, 0) - R_along(0, 1), R_along(0, 0) + R_along(1, 1));
   return planar_motion(frame_, SE2(along.translation().x(), along.translation().y(), angle),
                        plane_ref_);
 }

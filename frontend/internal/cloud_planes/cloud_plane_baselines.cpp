@@ -10,7 +10,7 @@
 namespace placegraph {
 namespace {
 
-/// Points about one, by neighbours of neighbours, itself first.
+/// Points around one, by neighbours of neighbours, itself first.
 void patch_of(const CloudPoints& points, int i, std::size_t count, std::vector<int>& patch) {
   patch.assign(1, i);
   for (std::size_t k = 0; k < patch.size() && patch.size() < count; ++k)
@@ -19,7 +19,7 @@ void patch_of(const CloudPoints& points, int i, std::size_t count, std::vector<i
         patch.push_back(points.neighbours[n]);
 }
 
-/// The largest piece of marked points that hang together; marks go down to 0.
+/// Largest connected piece of marked points; its marks are reset to 0.
 std::vector<int> largest_piece(const CloudPoints& points, const std::vector<int>& marked,
                                std::vector<char>& mark) {
   std::vector<int> best, piece;
@@ -46,7 +46,7 @@ FittedPlane fit_to(const CloudPoints& points, const std::vector<int>& some) {
   return sums.fit(points.model);
 }
 
-/// The best of the planes through three points near each other, by those of some points within.
+/// Best of the planes through three points near each other, by the number of sampled points within.
 FittedPlane draw_plane(const CloudPoints& points, const std::vector<int>& left,
                        const std::vector<int>& labels, double sigmas, Random& random) {
   constexpr int kDraws = 400, kScored = 2000;
@@ -151,7 +151,7 @@ PlaneLabels planes_by_growing(const CloudPoints& points, const CloudPlanesOption
         next_fit = region.size() * 3 / 2;
       }
     if (static_cast<int>(region.size()) < options.min_points) {
-      // Too small: its points are free again, but the seed has had its turn.
+      // Too small: its points are released, but the seed is not used again.
       for (const int i : region) result.labels[i] = -1;
       local[seed].ok = false;
       continue;

@@ -5,18 +5,22 @@
 
 namespace placegraph {
 
-// Both are methods of CloudPlanesOptions, so that a caller can hold the cuts against them on data
-// of his own. Of 264 planes of depth images with 2 mm of noise the cuts find 198 in 21 ms an image,
+// Both are methods of CloudPlanesOptions, so that a caller can compare the cuts with them on other
+// data. Of 264 planes of depth images with 2 mm of noise the cuts find 198 in 21 ms per image,
 // RANSAC 155 in 352 ms, region growing 35 in 56 ms (docs/results.md, section cloud_planes).
 
-/// Planes one after the other: the one with the most points within `inlier_sigmas` of those drawn
-/// through three points near each other, its largest connected piece taken away, until none has
-/// `min_points` (Fischler & Bolles 1981; samples and pieces as Schnabel et al. 2007).
+/// Finds planes one after the other by RANSAC (Fischler & Bolles 1981).
+///
+/// The next plane is the one with the most points within `inlier_sigmas` among those drawn through
+/// three points near each other. Its largest connected piece is removed, until no plane has
+/// `min_points` (samples and pieces as in Schnabel et al. 2007).
 PlaneLabels planes_by_ransac(const CloudPoints& points, const CloudPlanesOptions& options);
 
-/// Regions grown from the flattest points over neighbours whose normals, of patches about them,
-/// differ by less than ten degrees and that are within `inlier_sigmas` of the region's plane, which
-/// is fitted anew as it grows (Rabbani et al. 2006).
+/// Grows regions from the flattest points (Rabbani et al. 2006).
+///
+/// A neighbour is added if its normal, from the patch around it, differs by less than ten degrees
+/// and it is within `inlier_sigmas` of the region's plane, which is fitted again as the region
+/// grows.
 PlaneLabels planes_by_growing(const CloudPoints& points, const CloudPlanesOptions& options);
 
 }  // namespace placegraph

@@ -9,10 +9,10 @@
 namespace placegraph {
 namespace {
 
-constexpr int kLeastPoints = 12;  ///< of a cloud
+constexpr int kLeastPoints = 12;  ///< least number of points of a cloud
 
-/// The plane of most of a segment's points, by RANSAC on some of them and least squares on all that
-/// are near; nothing where that is less than a share of them.
+/// Plane of most of a segment's points, by RANSAC on some of them and least squares on all near
+/// ones; nothing if those are too small a share of all.
 FittedPlane robust_plane(const PlanarSegment& segment, const CloudPoints& points,
                          const SuperPoints& cloud, double sigmas, double least_share,
                          Random& random) {
@@ -55,8 +55,8 @@ FittedPlane robust_plane(const PlanarSegment& segment, const CloudPoints& points
   return best;
 }
 
-/// Takes segments apart that hold more than one plane: the super-points on the plane of most of it,
-/// and those that are off it, again.
+/// Splits segments with more than one plane: the super-points on the main plane, and the others,
+/// again.
 std::vector<PlanarSegment> split(std::vector<PlanarSegment> segments, const CloudPoints& points,
                                  const SuperPoints& cloud, const CloudPlanesOptions& options,
                                  Random& random) {
@@ -90,7 +90,7 @@ std::vector<PlanarSegment> split(std::vector<PlanarSegment> segments, const Clou
   return result;
 }
 
-/// Everything up to the judgement.
+/// All steps up to the classification of segments.
 std::vector<PlanarSegment> find_segments(const CloudPoints& points, const SuperPoints& cloud,
                                          const CloudPlanesOptions& options, Random& random) {
   std::vector<PlanarSegment> segments = cut_into_segments(cloud, points.model, options.max_cut);
@@ -130,9 +130,9 @@ PlaneLabels planes_by_cuts(const CloudPoints& points, const CloudPlanesOptions& 
   return result;
 }
 
-/// Patches of surfaces are thin against the whole cloud; points anywhere in space are not.
+/// Patches of surfaces are thin relative to the whole cloud; points throughout a volume are not.
 bool fills_a_volume(const CloudPoints& points, const CloudPlanesOptions& options) {
-  constexpr double kThickest = 0.05;  // of half the extent
+  constexpr double kThickest = 0.05;  // share of half the extent
   if (points.model.noise != PointNoise::kIsotropic) return false;
   return points.noise.sigma(0) * options.flatness > kThickest * points.model.flatness;
 }

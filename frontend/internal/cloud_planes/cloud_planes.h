@@ -9,31 +9,35 @@
 namespace placegraph {
 
 struct CloudPlane {
-  Plane plane;  ///< in the sensor's frame, distance_m >= 0
-  /// Of the closest point n d [m], never claimed smaller than the residuals allow.
+  Plane plane;  ///< plane in the sensor's frame, distance_m >= 0
+  /// Covariance of the closest point n d [m], at least that of the residuals.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   int points = 0;
-  double probability = 1;   ///< of being a plane, by its looks; 1 with the other methods
-  double chi2_per_dof = 0;  ///< of its points, against the noise alone
+  /// Probability of a plane, from the segment's features; 1 with the other methods.
+  double probability = 1;
+  /// Chi2 of its points over their degrees of freedom, for the noise alone.
+  double chi2_per_dof = 0;
 };
 
 struct CloudPlanesResult {
   Outcome outcome;                 ///< too few data; a cloud without planes is ok
-  std::vector<CloudPlane> planes;  ///< the largest first
-  std::vector<int> labels;         ///< of each point of the cloud: 0 none, k planes[k - 1]
-  CloudNoise noise;                ///< as measured
-  bool from_origin = true;  ///< one surface along every ray: the sensor is where it should be
+  std::vector<CloudPlane> planes;  ///< planes, the largest first
+  std::vector<int> labels;         ///< label of each point of the cloud: 0 none, k planes[k - 1]
+  CloudNoise noise;                ///< measured noise
+  bool from_origin = true;         ///< one surface along every ray: the sensor is at the origin
 };
 
-/// The planes of a cloud and what lies on them, at any scale. Super-points, normalized cuts
-/// of their graph by planar dissimilarity (Shi & Malik 2000), learned planarity of the segments,
-/// pruning, coplanar segments taken together, RANSAC and least squares in each, then every point
-/// to the plane it lies on. Throws ArgumentError for options or sizes that cannot be.
+/// Finds the planes of a cloud and the points on them, at any scale.
+///
+/// Super-points, normalized cuts of their graph by planar dissimilarity (Shi & Malik 2000), learned
+/// planarity of the segments, pruning, merging of coplanar segments, RANSAC and least squares in
+/// each, then assignment of every point to its plane. Throws ArgumentError for invalid options or
+/// sizes.
 [[nodiscard]] CloudPlanesResult find_cloud_planes(const PointCloud& cloud,
                                                   const CloudPlanesOptions& options,
                                                   const PlanarityModel& planarity);
 
-/// Segments as they are judged, for whoever trains: what `find_cloud_planes` asks the model about.
+/// Segments and their features in `find_cloud_planes`, for the training of the planarity model.
 struct JudgedSegments {
   CloudPoints points;
   SuperPoints cloud;

@@ -5,13 +5,16 @@ namespace placegraph {
 void CloudPlanesOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, CloudPlanesOptions& o) {
-  field.choice("method", o.method, {"cuts", "ransac", "growing"}, "how planes are found");
-  field("flatness", o.flatness, "what a plane may bend, as a share of the depth", {1e-6, 0.1});
-  field("inlier_sigmas", o.inlier_sigmas, "points of a plane are this near", {0.5, 10});
-  field("min_points", o.min_points, "fewer are no plane", {3, 1e9});
-  field("max_cut", o.max_cut, "normalized cuts above it are not made", {0, 2});
-  field("min_probability", o.min_probability, "of a segment being a plane, to be one", {0, 1});
-  field("seed", o.seed, "of the random samples");
+  field.choice("method", o.method, {"cuts", "ransac", "growing"}, "method that finds planes");
+  field("flatness", o.flatness, "maximum deviation from a plane, as a share of the depth",
+        {1e-6, 0.1});
+  field("inlier_sigmas", o.inlier_sigmas,
+        "maximum distance of a plane's points, in standard deviations", {0.5, 10});
+  field("min_points", o.min_points, "minimum number of points of a plane", {3, 1e9});
+  field("max_cut", o.max_cut, "maximum value of a normalized cut that is made", {0, 2});
+  field("min_probability", o.min_probability, "minimum probability that a segment is a plane",
+        {0, 1});
+  field("seed", o.seed, "seed of the random samples");
 }
 
 }  // namespace placegraph

@@ -11,12 +11,13 @@ enum class CloudPlanesMethod {
 
 struct CloudPlanesOptions {
   CloudPlanesMethod method = CloudPlanesMethod::kCuts;
-  double flatness = 0.0003;      ///< what a plane may bend, as a share of the depth
-  double inlier_sigmas = 3;      ///< points of a plane are this near
-  int min_points = 50;           ///< fewer are no plane
-  double max_cut = 0.25;         ///< normalized cuts above it are not made
-  double min_probability = 0.3;  ///< of a segment; a lost plane costs more than a false one
-  std::uint64_t seed = 1;        ///< of the random samples
+  double flatness = 0.0003;  ///< maximum deviation from a plane, as a share of the depth
+  double inlier_sigmas = 3;  ///< maximum distance of a plane's points [standard deviations]
+  int min_points = 50;       ///< minimum number of points of a plane
+  double max_cut = 0.25;     ///< maximum value of a normalized cut that is made
+  /// Minimum probability of a segment; a missed plane costs more than a false one.
+  double min_probability = 0.3;
+  std::uint64_t seed = 1;  ///< seed of the random samples
   void check() const;
 };
 void visit(OptionVisitor& field, CloudPlanesOptions& options);

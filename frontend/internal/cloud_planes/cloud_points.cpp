@@ -12,9 +12,10 @@
 namespace placegraph {
 namespace {
 
-constexpr int kNeighbours = 8;        ///< of a point of a cloud that is no image
-constexpr int kNoisePatches = 1500;   ///< looked at
-constexpr double kLeastShare = 1e-5;  ///< of the depth: less noise than that is rounding
+/// Number of neighbours of a point, for a cloud that is not an image.
+constexpr int kNeighbours = 8;
+constexpr int kNoisePatches = 1500;   ///< number of patches for the noise estimate
+constexpr double kLeastShare = 1e-5;  ///< share of the depth: less noise than that is rounding
 
 void take_points(const PointCloud& cloud, CloudPoints& points) {
   if (cloud.organised()) {
@@ -30,7 +31,7 @@ void take_points(const PointCloud& cloud, CloudPoints& points) {
   }
 }
 
-/// Neighbours right, left, below and above; beyond one missing pixel, too.
+/// Neighbours to the right, left, below and above; also across one missing pixel.
 void join_pixels(CloudPoints& points) {
   const auto at = [&](int x, int y) {
     return x < 0 || y < 0 || x >= points.width || y >= points.height
@@ -71,8 +72,8 @@ void join_nearest(const std::vector<Eigen::Vector3d>& where, const NeighbourTree
   points.begin.push_back(static_cast<int>(points.neighbours.size()));
 }
 
-/// Whether points that are next to each other as the origin sees them are about equally far: then
-/// there is one surface along each ray.
+/// Whether points in adjacent directions from the origin have about equal distances: then there is
+/// one surface along each ray.
 bool seen_from_origin(const std::vector<Eigen::Vector3d>& xyz, const NeighbourTree& by_direction) {
   constexpr int kSamples = 1000, kOfEach = 2;
   constexpr double kSimilar = 0.06, kShare = 0.75;
@@ -88,8 +89,8 @@ bool seen_from_origin(const std::vector<Eigen::Vector3d>& xyz, const NeighbourTr
   return !differences.empty() && quantile_of(differences, kShare) < kSimilar;
 }
 
-/// The points about one, itself first: of an image a square, otherwise neighbours of neighbours.
-/// False where that is no whole patch.
+/// Points around one, itself first: in an image a square, otherwise neighbours of neighbours. False
+/// if the patch is not complete.
 bool patch_about(const CloudPoints& points, int i, std::vector<int>& patch) {
   constexpr int kHalf = 2, kMost = 25, kLeast = 12;
   patch.clear();
@@ -114,8 +115,8 @@ bool patch_about(const CloudPoints& points, int i, std::vector<int>& patch) {
   return static_cast<int>(patch.size()) >= kLeast;
 }
 
-/// The least second difference of depths along the rows of a square patch that is not zero: depths
-/// in steps show none below a step.
+/// Least nonzero second difference of depths along the rows of a square patch: quantized depths
+/// have none below a step.
 double least_bend(const CloudPoints& points, const std::vector<int>& patch) {
   constexpr std::size_t kSide = 5;
   double least = std::numeric_limits<double>::infinity();
@@ -129,7 +130,8 @@ double least_bend(const CloudPoints& points, const std::vector<int>& patch) {
 }
 
 CloudNoise measure_noise(const CloudPoints& points, double step_m) {
-  constexpr double kQuiet = 0.35, kSteps = 12;  // variance of an even spread over one step: 1/12
+  constexpr double kQuiet = 0.35,
+                   kSteps = 12;  // variance of a uniform distribution over one step: 1/12
   struct Reading {
     double depth, sigma;
   };
@@ -171,8 +173,8 @@ CloudNoise measure_noise(const CloudPoints& points, double step_m) {
   return noise;
 }
 
-/// What is left of the noise in the means of 4x4 blocks, off the planes of 16x16 pixels, beyond
-/// what chance leaves: its variance over that of the noise, in the quietest third of them.
+/// Part of the noise that remains in the means of 4x4 blocks, relative to the planes of 16x16
+/// pixels, beyond chance: its variance over that of the noise, in the least noisy third of them.
 double measure_shared(const CloudPoints& points) {
   constexpr int kSide = 16, kBlock = 4, kBlocks = kSide / kBlock;
   constexpr double kQuiet = 0.35, kMeans = kBlocks * kBlocks, kInBlock = kBlock * kBlock, kDof = 3;
@@ -201,7 +203,7 @@ double measure_shared(const CloudPoints& points) {
     for (const double mean : means) square += mean * mean;
     shares.push_back(square / (kMeans - kDof) - 1 / kInBlock);
   }
-  // Where few patches are flat, what is left is the surface's: no sensor shares more than it has.
+  // If few patches are flat, the rest is due to the surface: no sensor shares more than its noise.
   constexpr double kMost = 1;
   return shares.empty() ? 0 : std::clamp(quantile_of(shares, kQuiet), 0.0, kMost);
 }
@@ -217,7 +219,7 @@ CloudPoints prepare_cloud(const PointCloud& cloud, double flatness) {
   CloudPoints points;
   require(!cloud.organised() || cloud.points.size() == static_cast<std::size_t>(cloud.width) *
                                                            static_cast<std::size_t>(cloud.height),
-          "cloud: not a point for every pixel");
+          "cloud: needs a point for every pixel");
   take_points(cloud, points);
   points.model = {PointNoise::kAlongRay, flatness};
   points.fit.resize(points.xyz.size());

@@ -6,38 +6,43 @@
 
 namespace placegraph {
 
-/// Deviation of a point: `at_1m` times depth to the `power` [m]: 0 constant, 1 a share of the depth
-/// (laser), 2 a constant disparity (stereo, depth cameras).
+/// Standard deviation of a point: `at_1m` times depth to the `power` [m].
+///
+/// Power 0: constant, 1: a share of the depth (laser), 2: a constant disparity (stereo, depth
+/// cameras).
 struct CloudNoise {
   double at_1m = 0;
   int power = 1;
-  double least_m = 0;  ///< by the steps of the depths
-  double shared = 0;   ///< of an image: variance that neighbours have in common, over theirs
+  double least_m = 0;  ///< least value, from the quantization of the depths
+  double shared = 0;   ///< in an image: variance that neighbours have in common, over their own
   double sigma(double depth_m) const;
 };
 
-/// A cloud as plane finders take it: the points that are there, with their noise and neighbours.
+/// Cloud in the form that plane finders use: its points, with their noise and neighbours.
 struct CloudPoints {
   FitModel model;
   CloudNoise noise;
-  std::vector<Eigen::Vector3d> xyz;  ///< [m]
+  std::vector<Eigen::Vector3d> xyz;  ///< positions [m]
   std::vector<double> depth;         ///< z of a depth image, range of a scan, 0 otherwise [m]
   std::vector<FitPoint> fit;
-  std::vector<int> source;    ///< of each point, its number in the cloud
-  int width = 0, height = 0;  ///< of an organised cloud
-  std::vector<int> pixel;     ///< of an organised cloud: point of each pixel, or -1
-  std::vector<int> begin;     ///< of the neighbours of each point, one more at the end
+  std::vector<int> source;    ///< index of each point in the cloud
+  int width = 0, height = 0;  ///< size of an organised cloud
+  std::vector<int> pixel;     ///< in an organised cloud: point of each pixel, or -1
+  /// Start of the neighbours of each point, with one more entry at the end.
+  std::vector<int> begin;
   std::vector<int> neighbours;
 
   int size() const { return static_cast<int>(xyz.size()); }
 };
 
-/// Prepares a cloud. Depth images have neighbours by pixel; scans that were taken from the origin
-/// (the surface is single along every ray) by direction; other clouds by distance. The noise is
-/// that of small patches, the quietest third of them, with the power of the depth that suits
-/// best; in images also what the means of blocks keep of it beyond chance. `flatness`: of the
-/// depth; of a cloud without viewpoint, of half its extent. Throws ArgumentError if the sizes of an
-/// organised cloud do not fit, or a depth is not positive.
+/// Prepares a cloud.
+///
+/// Depth images have neighbours by pixel, scans taken from the origin (with a single surface along
+/// every ray) by direction, other clouds by distance. The noise is that of small patches, the least
+/// noisy third of them, with the best fitting power of the depth; in images also the part that
+/// remains in the means of blocks beyond chance. `flatness`: share of the depth; for a cloud
+/// without viewpoint, share of half its extent. Throws ArgumentError if the sizes of an organised
+/// cloud do not agree, or a depth is not positive.
 CloudPoints prepare_cloud(const PointCloud& cloud, double flatness);
 
 }  // namespace placegraph

@@ -13,7 +13,7 @@
 namespace placegraph {
 namespace {
 
-/// Share of points that may lie on the wrong side, or beyond an end: labels err at edges.
+/// Share of points that may be on the wrong side, or beyond an end: labels are wrong at some edges.
 constexpr double kStray = 0.05;
 
 /// A plane with some of its points.
@@ -21,7 +21,7 @@ struct Face {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< towards the sensor
   double offset = 0;                                  ///< height = normal . X + offset
   std::vector<Eigen::Vector3d> points;
-  int count = 0;     ///< of all its points
+  int count = 0;     ///< number of all its points
   double depth = 0;  ///< mean distance of the points [m]
 
   double height(const Eigen::Vector3d& X) const { return normal.dot(X) + offset; }
@@ -40,7 +40,7 @@ std::vector<Face> faces_of(const PointCloud& cloud, const CloudPlanesResult& fou
   };
   for (std::size_t i = 0; i < found.labels.size(); ++i) {
     require(found.labels[i] <= static_cast<int>(faces.size()),
-            "find_cuboids: a label of no plane: " + std::to_string(found.labels[i]));
+            "find_cuboids: a label without a plane: " + std::to_string(found.labels[i]));
     if (counts(i)) ++faces[static_cast<std::size_t>(found.labels[i]) - 1].count;
   }
   for (std::size_t i = 0; i < found.labels.size(); ++i) {
@@ -56,18 +56,18 @@ std::vector<Face> faces_of(const PointCloud& cloud, const CloudPlanesResult& fou
   return faces;
 }
 
-/// How two faces lie to each other.
+/// Position of two faces relative to each other.
 struct Relation {
-  bool right = false, opposite = false;  ///< their normals
-  bool behind = false, before = false;   ///< each wholly behind the other, or before it
-  double edge = 0;                       ///< what both have of a common one [m], 0 without one
+  bool right = false, opposite = false;  ///< relation of their normals
+  bool behind = false, before = false;   ///< each is wholly behind the other, or in front of it
+  double edge = 0;                       ///< overlap of both at a common edge [m], 0 without one
 };
 
-/// Where a face comes near the plane of another, along the edge between them.
+/// Part of a face near the plane of another, along the edge between them.
 struct EdgeSide {
   bool there = false;
   double low = 0, high = 0;  ///< [m]
-  double length = 0;         ///< of the whole face, the same way [m]
+  double length = 0;         ///< length of the whole face along the edge [m]
 };
 
 EdgeSide edge_side(const Face& face, const Face& other, const Eigen::Vector3d& along, double gap) {
@@ -94,7 +94,7 @@ Relation relation_of(const Face& a, const Face& b, const CloudNoise& noise,
   std::vector<double> heights_a, heights_b;
   for (const Eigen::Vector3d& X : a.points) heights_a.push_back(b.height(X));
   for (const Eigen::Vector3d& X : b.points) heights_b.push_back(a.height(X));
-  constexpr double kSigmas = 4, kBend = 0.01;  // planes of real things bend
+  constexpr double kSigmas = 4, kBend = 0.01;  // planes of real objects bend
   const double depth = std::max(a.depth, b.depth);
   const double slack = kSigmas * noise.sigma(depth) + kBend * depth;
   relation.behind =
@@ -111,7 +111,7 @@ Relation relation_of(const Face& a, const Face& b, const CloudNoise& noise,
   return relation;
 }
 
-/// Faces that hang together by edges of one kind, the longest edges first.
+/// Connected faces by edges of one kind, the longest edges first.
 std::vector<std::vector<int>> groups_of(const std::vector<std::vector<Relation>>& relations,
                                         CuboidKind kind) {
   const int n = static_cast<int>(relations.size());
@@ -149,8 +149,8 @@ std::vector<std::vector<int>> groups_of(const std::vector<std::vector<Relation>>
   return groups;
 }
 
-/// The rotation whose axes the normals are nearest to, each as strongly as its face has points; the
-/// first two axes are those of the largest face and of the next that is not parallel to it.
+/// Rotation with axes nearest to the normals, each weighted by the number of points of its face;
+/// the first two axes are those of the largest face and of the next that is not parallel to it.
 SO3 frame_of(const std::vector<Face>& faces, const std::vector<int>& members) {
   const auto face = [&](int k) -> const Face& { return faces[static_cast<std::size_t>(k)]; };
   const Eigen::Vector3d first = face(members.front()).normal;
@@ -176,7 +176,7 @@ SO3 frame_of(const std::vector<Face>& faces, const std::vector<int>& members) {
   return SO3::from_matrix(U * svd.matrixV().transpose());
 }
 
-/// Nothing if the faces leave it no extent, or two of them are one side.
+/// Nothing if the faces determine no extent, or two of them are one side.
 std::optional<Cuboid> cuboid_of(const std::vector<Face>& faces, const std::vector<int>& members,
                                 CuboidKind kind) {
   Cuboid cuboid;
@@ -220,20 +220,20 @@ void CuboidOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, CuboidOptions& options) {
   field("max_off_right_deg", options.max_off_right_deg,
-        "deviation of the angle between two faces from a right one", {0.01, 10});
-  field("gap", options.gap, "faces come this near to their common edge, share of the depth",
-        {1e-4, 1});
-  field("overlap", options.overlap, "of them there, share of the shorter face along the edge",
-        {0, 0.99});
-  field("min_box_faces", options.min_box_faces, "a box with fewer is none", {2, 3});
-  field("min_room_faces", options.min_room_faces, "a room with fewer is none", {2, 6});
+        "maximum deviation of the angle between two faces from a right one", {0.01, 10});
+  field("gap", options.gap,
+        "maximum distance of two faces from their common edge, share of the depth", {1e-4, 1});
+  field("overlap", options.overlap,
+        "minimum overlap at the edge, share of the shorter face along it", {0, 0.99});
+  field("min_box_faces", options.min_box_faces, "minimum number of faces of a box", {2, 3});
+  field("min_room_faces", options.min_room_faces, "minimum number of faces of a room", {2, 6});
 }
 
 std::vector<Cuboid> find_cuboids(const PointCloud& cloud, const CloudPlanesResult& planes,
                                  const CuboidOptions& options) {
   options.check();
   require(planes.labels.size() == cloud.points.size(),
-          "find_cuboids: a label for each point is needed");
+          "find_cuboids: needs a label for each point");
   require(planes.from_origin, "find_cuboids: the cloud was not taken from the origin");
   const std::vector<Face> faces = faces_of(cloud, planes);
   std::vector<std::vector<Relation>> relations(faces.size(), std::vector<Relation>(faces.size()));
@@ -245,7 +245,7 @@ std::vector<Cuboid> find_cuboids(const PointCloud& cloud, const CloudPlanesResul
                                     std::pair{CuboidKind::kRoom, options.min_room_faces}})
     for (std::vector<int>& members : groups_of(relations, kind)) {
       if (static_cast<int>(members.size()) < least) continue;
-      std::sort(members.begin(), members.end());  // planes come largest first
+      std::sort(members.begin(), members.end());  // planes are sorted, the largest first
       if (auto cuboid = cuboid_of(faces, members, kind)) cuboids.push_back(*cuboid);
     }
   std::stable_sort(cuboids.begin(), cuboids.end(),

@@ -15,7 +15,7 @@
 namespace placegraph {
 namespace {
 
-constexpr double kSigmas = 3;  ///< cells of a plane are this near
+constexpr double kSigmas = 3;  ///< largest distance of a plane's cells
 
 /// Sums over pixels of rays (z = 1) and inverse depths.
 struct Sums {
@@ -33,7 +33,7 @@ struct Sums {
     M += other.M, v += other.v, c += other.c, n += other.n;
     return *this;
   }
-  /// n / d by least squares; nothing of pixels on a line.
+  /// n / d by least squares; nothing for collinear pixels.
   std::optional<Eigen::Vector3d> fit() const {
     if (n < 4) return std::nullopt;
     const Eigen::LDLT<Eigen::Matrix3d> solver(M);
@@ -53,8 +53,8 @@ struct Sums {
 
 struct Cell {
   Sums sums;
-  bool even = false;                     ///< a single surface
-  std::optional<Eigen::Vector3d> block;  ///< the plane of this cell and its eight neighbours
+  bool even = false;                     ///< whether it is a single surface
+  std::optional<Eigen::Vector3d> block;  ///< plane of this cell and its eight neighbours
   double roughness = 0;                  ///< variance of cell means about that plane
 };
 
@@ -64,7 +64,7 @@ struct Region {
   Eigen::Vector3d g = Eigen::Vector3d::Zero();
 };
 
-/// The image as cells.
+/// Image divided into cells.
 class Grid {
  public:
   Grid(const Image& depth_m, const Camera& camera, const DepthPlanesOptions& options)
@@ -86,7 +86,7 @@ class Grid {
   int min_cells() const {
     return std::max(9, static_cast<int>(options_.min_share * static_cast<double>(cells_.size())));
   }
-  /// What the mean of a cell may be off a plane by [1/m].
+  /// Largest deviation of the mean of a cell from a plane [1/m].
   double tolerance(const Cell& c) const {
     const double bend = options_.flatness * c.sums.inverse_depth();
     return kSigmas * std::sqrt(roughness_ + bend * bend);
@@ -135,7 +135,7 @@ void Grid::sum_up(const Image& depth_m) {
   }
 }
 
-/// Cells that a depth edge passes through are no part of a plane.
+/// A cell with a depth edge in it is not part of a plane.
 void Grid::judge_cells() {
   const double full =
       std::pow(std::floor(options_.cell_px / static_cast<double>(options_.step_px)), 2);
@@ -178,16 +178,17 @@ void Grid::judge_blocks() {
   if (!known.empty()) roughness_ = median_of(known);
 }
 
-/// A cell's mean lies on the plane, and what is about it faces the same way.
+/// Whether a cell's mean is on the plane, and its neighbourhood has the same orientation.
 bool Grid::fits(int i, const Eigen::Vector3d& g) const {
   const Cell& c = cell(i);
   if (!c.even) return false;
   const double reach = tolerance(c);
   if (std::abs(c.sums.mean_residual(g)) > reach) return false;
   if (!c.block) return true;
-  const Eigen::Vector3d turn = *c.block - g;
+  const Eigen::Vector3d difference = *c.block - g;
   const double half = 1.5 * options_.cell_px;
-  return std::hypot(turn.x() * half / camera_.fx, turn.y() * half / camera_.fy) < 2 * reach;
+  return std::hypot(difference.x() * half / camera_.fx, difference.y() * half / camera_.fy) <
+         2 * reach;
 }
 
 Region Grid::grow(std::vector<int> start, const std::vector<char>& taken) const {
@@ -221,14 +222,14 @@ Region Grid::grow(std::vector<int> start, const std::vector<char>& taken) const 
   return region;
 }
 
-/// Of the means of a region's cells about a plane.
+/// Mean square of the residuals of a region's cells about a plane.
 double Grid::mean_square(const Region& region, const Eigen::Vector3d& g) const {
   double sum = 0;
   for (const int i : region.cells) sum += std::pow(cell(i).sums.mean_residual(g), 2);
   return sum / static_cast<double>(region.cells.size());
 }
 
-/// Between the nearest cells of two regions [cells].
+/// Distance between the nearest cells of two regions [cells].
 int Grid::gap(const Region& a, const Region& b) const {
   int least = cols_ + rows_;
   for (const int i : a.cells)
@@ -238,7 +239,7 @@ int Grid::gap(const Region& a, const Region& b) const {
   return least;
 }
 
-/// One plane does for both about as well as each its own.
+/// Whether one plane fits both regions nearly as well as one plane each.
 bool Grid::coplanar(const Region& large, const Region& small) const {
   Sums both = large.sums;
   both += small.sums;
@@ -270,7 +271,7 @@ std::vector<Region> Grid::regions() const {
     for (int k = 0; k < 9; ++k) start.push_back(seed + (k / 3 - 1) * cols_ + k % 3 - 1);
     if (!std::all_of(start.begin(), start.end(), is_free)) continue;
     Region region = grow(start, taken);
-    // Once more from what fits the plane of the whole.
+    // Repeated from the cells that agree with the plane of the whole region.
     std::erase_if(region.cells, [&](int i) { return !fits(i, region.g); });
     if (region.cells.size() >= 9) region = grow(region.cells, taken);
     if (static_cast<int>(region.cells.size()) < min_cells() / 2) {
@@ -303,8 +304,9 @@ std::vector<Region> Grid::regions() const {
   return found;
 }
 
-/// Of n / d, when blocks of so many cells a side err as one: the sum over blocks of the squares of
-/// what they pull, with the correction for few of them. Zero where they are too few.
+/// Covariance of n / d if the errors within blocks of so many cells a side are common: the sum over
+/// blocks of the squares of their gradients, with a correction for a small number of blocks. Zero
+/// with too few.
 Eigen::Matrix3d Grid::covariance(const Region& region, int block_cells) const {
   constexpr std::size_t kLeastBlocks = 6;
   std::map<int, Eigen::Vector3d> pulls;
@@ -325,8 +327,8 @@ DepthPlane Grid::describe(const Region& region) const {
   DepthPlane result;
   const Eigen::Vector3d& g = region.g;
   const double pixels = region.sums.n / static_cast<double>(region.cells.size());
-  Eigen::Matrix3d of_g =
-      region.sums.M.inverse() * std::max(noise_, roughness_ * pixels);  // independent cells
+  // Independent cells.
+  Eigen::Matrix3d of_g = region.sums.M.inverse() * std::max(noise_, roughness_ * pixels);
   for (const int block_cells : {2, 4, 8}) {
     const Eigen::Matrix3d similar = covariance(region, block_cells);
     if (similar.trace() > of_g.trace()) of_g = similar;
@@ -346,7 +348,7 @@ DepthPlane Grid::describe(const Region& region) const {
   return result;
 }
 
-/// Of the worse of two turns of the normal.
+/// Standard deviation of the normal, the worse of two directions.
 double sigma_normal_rad(const DepthPlane& plane) {
   Eigen::Matrix3d J;
   plane.plane_cam.normal(&J);
@@ -360,10 +362,10 @@ double sigma_normal_rad(const DepthPlane& plane) {
 std::vector<DepthPlane> find_depth_planes(const Image& depth_m, const Camera& depth_camera,
                                           const DepthPlanesOptions& options) {
   options.check();
-  require(options.step_px * 2 <= options.cell_px, "step_px: two steps at least in a cell");
+  require(options.step_px * 2 <= options.cell_px, "step_px: must be at most half of cell_px");
   require(depth_m.type() == CV_32FC1 && depth_m.cols == depth_camera.width &&
               depth_m.rows == depth_camera.height,
-          "depth planes: a CV_32FC1 depth image of the camera's size is needed");
+          "depth planes: needs a CV_32FC1 depth image of the camera's size");
   const Grid grid(depth_m, depth_camera, options);
   std::vector<DepthPlane> planes;
   for (const Region& region : grid.regions()) {

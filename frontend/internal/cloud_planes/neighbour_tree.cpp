@@ -31,7 +31,7 @@ int NeighbourTree::build(int begin, int end) {
     least = least.cwiseMin(p), most = most.cwiseMax(p);
   }
   int axis = 0;
-  if (!((most - least).maxCoeff(&axis) > 0)) return index;  // all at one place
+  if (!((most - least).maxCoeff(&axis) > 0)) return index;  // all at one position
   const int middle = begin + (end - begin) / 2;
   const auto key = [&](int i) { return (*points_)[static_cast<std::size_t>(i)][axis]; };
   std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end,

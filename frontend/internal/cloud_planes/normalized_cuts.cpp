@@ -12,7 +12,7 @@ namespace placegraph {
 namespace {
 
 /// x -> D^-1/2 W D^-1/2 x without the part along the known largest eigenvector D^1/2 1, so that the
-/// largest eigenvalue left is one minus the second smallest of the problem.
+/// largest remaining eigenvalue is one minus the second smallest of the problem.
 class Deflated {
  public:
   using Scalar = double;
@@ -60,7 +60,7 @@ std::optional<NormalizedCut> normalized_cut(int nodes, const std::vector<Affinit
   Eigen::VectorXd degree = Eigen::VectorXd::Zero(nodes);
   for (const Affinity& edge : affinities) {
     require(edge.a >= 0 && edge.b >= 0 && edge.a < nodes && edge.b < nodes && edge.a != edge.b,
-            "normalized cut: an affinity of nodes that are not there");
+            "normalized cut: an affinity of nodes that do not exist");
     degree[edge.a] += edge.weight;
     degree[edge.b] += edge.weight;
   }
@@ -79,7 +79,7 @@ std::optional<NormalizedCut> normalized_cut(int nodes, const std::vector<Affinit
   if (!vector) return std::nullopt;
   const Eigen::VectorXd y = vector->cwiseQuotient(root);
 
-  // Nodes go over to the other side one by one in the order of y; the cut changes by their edges.
+  // Nodes change to the other side one by one in the order of y; the cut changes by their edges.
   std::vector<int> order(static_cast<std::size_t>(nodes)), rank(order.size());
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(),

@@ -8,21 +8,24 @@
 namespace placegraph {
 namespace {
 
-constexpr double kDissimilarityScale = 8;  ///< affinity exp(-dissimilarity / this)
+constexpr double kDissimilarityScale = 8;  ///< affinity is exp(-dissimilarity / this)
 constexpr double kLeastAffinity = 1e-3;    ///< below it two cells are not joined
-/// Rise of a cell's chi2 per degree of freedom from its own plane to that of the segment.
+/// Largest increase of a cell's chi2 per degree of freedom from its own plane to that of the
+/// segment.
 constexpr double kCellRise = 12;
-constexpr double kOddCells = 0.03;  ///< share of the points in cells that may rise more
-/// A cut where the affinities are more than this share of those within follows no crease.
+constexpr double kOddCells = 0.03;  ///< share of the points in cells that may exceed it
+/// Largest ratio of the affinities at a cut to those inside; above, the cut does not follow a
+/// crease.
 constexpr double kSmoothCut = 0.6;
-constexpr double kMaxRotationCos = 0.95;  ///< of planes that are merged
+/// Cosine of the largest angle between planes that are merged.
+constexpr double kMaxRotationCos = 0.95;
 
-/// An affinity of cells: how alike they are, as often as their points are neighbours.
+/// Affinity of cells: their similarity, weighted by the number of neighbouring points.
 struct Joint : Affinity {
   double pairs = 0;
 };
 
-/// Cells that hang together, with their affinities by the numbers of the cells in the cloud.
+/// Connected cells, with their affinities by the indices of the cells in the cloud.
 struct Part {
   std::vector<int> cells;
   std::vector<Joint> joints;
@@ -43,7 +46,7 @@ std::vector<Part> connected_parts(const std::vector<int>& cells, const std::vect
   return parts;
 }
 
-/// The two sides of the best cut; nothing where it is no good.
+/// Two sides of the best cut; nothing if it is not acceptable.
 std::vector<Part> halves(const Part& part, double max_cut, std::vector<int>& number_of) {
   if (part.cells.size() < 2) return {};
   for (std::size_t i = 0; i < part.cells.size(); ++i)
@@ -67,19 +70,20 @@ std::vector<Part> halves(const Part& part, double max_cut, std::vector<int>& num
   return two;
 }
 
-/// What another plane costs points beyond their own.
+/// Increase of the cost of a segment's points under another plane.
 double rise_of(const PlanarSegment& segment, const FittedPlane& plane, const FitModel& model) {
   return segment.sums.misfit(plane, model) - segment.plane.chi2;
 }
 
-/// Whether two segments are one plane: a common one costs either no more than chance and a part of
-/// the noise, or the smaller one goes on in the larger one's plane but for what that may bend. (A
-/// common plane tilts over a step between them; the larger one's does not.)
+/// Whether two segments are one plane: either the increase in cost of both under a common plane is
+/// within chance and a part of the noise, or the smaller one continues in the larger one's plane up
+/// to the allowed deviation. (A common plane tilts over a step between them; the larger one's does
+/// not.)
 bool are_coplanar(const PlanarSegment& large, const PlanarSegment& small, const FitModel& model) {
   constexpr double kChance = 16, kNoiseShare = 0.1, kBending = 4;
   if (std::abs(small.plane.plane.normal.dot(large.plane.plane.normal)) < kMaxRotationCos)
     return false;
-  // The noise as these segments have it, where that is more than elsewhere.
+  // Noise of these segments, if it is larger than elsewhere.
   const double noise = std::max(
       1.0, (large.plane.chi2 + small.plane.chi2) / (large.sums.count() + small.sums.count()));
   const auto chance = [&](const PlanarSegment& segment) {

@@ -5,7 +5,7 @@
 
 namespace placegraph {
 
-/// Super-points taken together, with the one plane that suits all of them best.
+/// Group of super-points with its best fitting plane.
 struct PlanarSegment {
   std::vector<int> cells;  ///< ascending
   PlaneSums sums;
@@ -14,21 +14,24 @@ struct PlanarSegment {
 
 PlanarSegment make_segment(std::vector<int> cells, const SuperPoints& cloud, const FitModel& model);
 
-/// Contacts of each cell, as numbers of `cloud.contacts`.
+/// Contacts of each cell, as indices of `cloud.contacts`.
 std::vector<std::vector<int>> contacts_of_cells(const SuperPoints& cloud);
 
-/// Whether one plane does for all cells of a segment: all points together, and each cell by itself.
+/// Whether one plane fits all cells of a segment: all points together, and each cell by itself.
 bool is_one_plane(const PlanarSegment& segment, const SuperPoints& cloud, const FitModel& model);
 
-/// Cuts the planar super-points into segments: parts that hang together by affinities
-/// exp(-dissimilarity / 8) are halved at their best normalized cut for as long as they are no
-/// plane, the cut is below `max_cut` and it runs where the surface bends more than elsewhere. A
-/// surface that is curved everywhere alike stays in one piece.
+/// Cuts the planar super-points into segments.
+///
+/// Parts connected by affinities exp(-dissimilarity / 8) are divided at their best normalized cut
+/// as long as they are not planar, the cut is below `max_cut` and it follows a line where the
+/// surface bends more than elsewhere. A surface with uniform curvature stays in one piece.
 std::vector<PlanarSegment> cut_into_segments(const SuperPoints& cloud, const FitModel& model,
                                              double max_cut);
 
-/// Takes segments together, the larger ones first, whose points have one plane: what one plane for
-/// both costs either is what noise and bending allow. They need not touch.
+/// Merges segments whose points are on one plane, the larger ones first.
+///
+/// The condition is that the increase in cost of one plane for both is within the noise and the
+/// allowed deviation. They need not touch.
 std::vector<PlanarSegment> merge_coplanar(std::vector<PlanarSegment> segments,
                                           const SuperPoints& cloud, const FitModel& model);
 

@@ -10,7 +10,7 @@
 namespace placegraph {
 namespace {
 
-constexpr int kSamples = 256;  ///< points of a segment that are looked at
+constexpr int kSamples = 256;  ///< number of points of a segment that are sampled
 const double kSimilarCos = std::cos(deg_to_rad(10)), kGentleCos = std::cos(deg_to_rad(12)),
              kCreaseCos = std::cos(deg_to_rad(30));
 
@@ -24,7 +24,7 @@ std::vector<int> sample_points(const PlanarSegment& segment, const SuperPoints& 
   return sample;
 }
 
-/// Signed, in deviations with bending.
+/// Signed residual in standard deviations, including the allowed deviation.
 double residual(const FittedPlane& fit, const FitPoint& point, const FitModel& model) {
   const bool ray = model.noise == PointNoise::kAlongRay;
   const double off =
@@ -33,9 +33,9 @@ double residual(const FittedPlane& fit, const FitPoint& point, const FitModel& m
 }
 
 struct Shape {
-  double linearity = 0, scatter = 0;  ///< of the eigenvalues of the points' covariance
-  double near = 0, far = 0;           ///< share of residuals below one, above two deviations
-  double curved = 0, bend = 0;  ///< share of the residuals that a quadric takes away; its size
+  double linearity = 0, scatter = 0;  ///< from the eigenvalues of the points' covariance
+  double near = 0, far = 0;     ///< share of residuals below one, above two standard deviations
+  double curved = 0, bend = 0;  ///< share of the residuals that a quadric explains; its size
 };
 
 Shape shape_of(const PlanarSegment& segment, const CloudPoints& points, const SuperPoints& cloud) {
@@ -73,13 +73,13 @@ Shape shape_of(const PlanarSegment& segment, const CloudPoints& points, const Su
   return shape;
 }
 
-/// Shares of the neighbours across the border.
+/// Shares of the neighbours across the border, by kind.
 struct Border {
   double pairs = 0;
-  double goes_on = 0;  ///< on a cell that turns away as a curved surface does
-  double gentle = 0;   ///< on a cell that turns away by more, less than a crease does
+  double goes_on = 0;  ///< on a cell at a small angle, as on a curved surface
+  double gentle = 0;   ///< on a cell at a larger angle, but less than a crease
   double crease = 0;   ///< on a cell at a larger angle
-  double rough = 0;    ///< on a cell that is no plane
+  double rough = 0;    ///< on a cell that is not planar
 };
 
 Border border_of(const PlanarSegment& segment, const SuperPoints& cloud,
@@ -98,14 +98,14 @@ Border border_of(const PlanarSegment& segment, const SuperPoints& cloud,
         continue;
       }
       const Eigen::Vector3d &n = here.plane.plane.normal, &m = there.plane.plane.normal;
-      const double turn = n.dot(m), sign = turn < 0 ? -1 : 1;
+      const double cosine = n.dot(m), sign = cosine < 0 ? -1 : 1;
       const Eigen::Vector3d to = there.centre - here.centre;
-      // On either side of the other's plane: a step. On the same side: a bend.
+      // Each on different sides of the other's plane: a step. On the same side: a bend.
       const bool bends = n.dot(to) * -sign * m.dot(to) > 0;
-      if (std::abs(turn) < kCreaseCos)
+      if (std::abs(cosine) < kCreaseCos)
         border.crease += contact.pairs;
       else if (bends && planar_dissimilarity(here, there, model) > kDifferent)
-        (std::abs(turn) > kGentleCos ? border.goes_on : border.gentle) += contact.pairs;
+        (std::abs(cosine) > kGentleCos ? border.goes_on : border.gentle) += contact.pairs;
     }
   const double all = std::max(border.pairs, 1.0);
   border.goes_on /= all, border.gentle /= all, border.crease /= all, border.rough /= all;
@@ -128,11 +128,11 @@ PlanarityFeatures planarity_features(const PlanarSegment& segment, const CloudPo
   const double misfit =
       segment.plane.chi2 / (n * segment.sums.inflation(segment.plane, points.model));
   const Shape shape = shape_of(segment, points, cloud);
-  double turn = 0, similar = 0;
+  double mean_angle = 0, similar = 0;
   for (const int c : segment.cells) {
     const double cosine =
         std::min(1.0, std::abs(cloud.cells[c].plane.plane.normal.dot(segment.plane.plane.normal)));
-    turn += cloud.cells[c].sums.count() * std::acos(cosine) / n;
+    mean_angle += cloud.cells[c].sums.count() * std::acos(cosine) / n;
     if (cosine > kSimilarCos) similar += cloud.cells[c].sums.count() / n;
   }
   const Border border = border_of(segment, cloud, contacts, points.model);
@@ -143,7 +143,7 @@ PlanarityFeatures planarity_features(const PlanarSegment& segment, const CloudPo
           shape.far,
           shape.curved,
           shape.bend,
-          turn,
+          mean_angle,
           similar,
           border.goes_on,
           border.gentle,
@@ -165,7 +165,7 @@ PlanarityModel train_planarity(const std::vector<PlanaritySample>& samples, int 
   const std::size_t n = samples.size();
   std::size_t planes = 0;
   for (const PlanaritySample& sample : samples) planes += sample.planar;
-  require(planes > 0 && planes < n, "planarity: samples of one kind only");
+  require(planes > 0 && planes < n, "planarity: needs samples of both kinds");
   std::vector<double> weight(n), target(n);
   for (std::size_t i = 0; i < n; ++i) {
     target[i] = samples[i].planar ? 1 : -1;
@@ -184,7 +184,7 @@ PlanarityModel train_planarity(const std::vector<PlanaritySample>& samples, int 
     double all = 0, sum = 0;
     for (std::size_t i = 0; i < n; ++i) all += weight[i], sum += weight[i] * target[i];
     PlanarityModel::Stump best{0, 0, sum / all, sum / all};
-    double most = 0;  // what of the squared error a stump takes away
+    double most = 0;  // largest reduction of the squared error by a stump
     for (std::size_t f = 0; f < order.size(); ++f) {
       double w = 0, s = 0;
       for (std::size_t k = 0; k + 1 < n; ++k) {

@@ -8,15 +8,18 @@
 namespace placegraph {
 
 constexpr int kPlanarityFeatures = 15;
-/// What a segment looks like, free of scale.
+/// Features of a segment, invariant to scale.
 using PlanarityFeatures = std::array<double, kPlanarityFeatures>;
 
-/// Their names, in order.
+/// Names of the features, in order.
 const std::array<const char*, kPlanarityFeatures>& planarity_feature_names();
 
-/// Residuals against noise and flatness, their distribution and how much less a curved surface
-/// leaves, the spread of points and normals, and the border: whether the surface goes on beyond it
-/// at a small turn, as a slice of a curved one does. `contacts`: as of `contacts_of_cells`.
+/// Computes the features of a segment.
+///
+/// Residuals relative to noise and flatness, their distribution and their decrease with a curved
+/// surface, the spread of points and normals, and the border: whether the surface continues beyond
+/// it at a small angle, as that of a slice of a curved surface. `contacts`: the result of
+/// `contacts_of_cells`.
 PlanarityFeatures planarity_features(const PlanarSegment& segment, const CloudPoints& points,
                                      const SuperPoints& cloud,
                                      const std::vector<std::vector<int>>& contacts);
@@ -25,17 +28,17 @@ PlanarityFeatures planarity_features(const PlanarSegment& segment, const CloudPo
 struct PlanarityModel {
   struct Stump {
     int feature = 0;
-    double threshold = 0, below = 0, above = 0;  ///< the vote
+    double threshold = 0, below = 0, above = 0;  ///< vote on either side of the threshold
   };
   std::vector<Stump> stumps;
   double probability(const PlanarityFeatures& features) const;
 };
 
-/// The model that comes with the library (docs/planes.md says what it was trained on).
+/// Model that is built into the library (docs/planes.md documents its training).
 PlanarityModel built_in_planarity();
 
-/// Text: a line `planarity FEATURES`, then `name threshold below above` a stump. Reading throws
-/// FileError "path:line: ..." for anything else.
+/// Text of a model: a line `planarity FEATURES`, then `name threshold below above` for each stump.
+/// Reading throws FileError "path:line: ..." for anything else.
 std::string to_text(const PlanarityModel& model);
 PlanarityModel parse_planarity(const std::string& text, const std::string& path);
 
@@ -44,8 +47,11 @@ struct PlanaritySample {
   bool planar = false;
 };
 
-/// GentleBoost (Friedman, Hastie & Tibshirani 2000) of stumps; the classes weigh the same in all.
-/// Same samples, same bits. Throws ArgumentError unless there are samples of both.
+/// Trains stumps by GentleBoost (Friedman, Hastie & Tibshirani 2000); both classes have equal
+/// weight.
+///
+/// The same samples give the same bits. Throws ArgumentError unless there are samples of both
+/// classes.
 PlanarityModel train_planarity(const std::vector<PlanaritySample>& samples, int rounds = 60);
 
 }  // namespace placegraph

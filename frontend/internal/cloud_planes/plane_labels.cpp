@@ -8,10 +8,10 @@ namespace placegraph {
 namespace {
 
 const double kFacesCos = std::cos(deg_to_rad(20));
-constexpr double kRise = 12;  ///< of a cell's chi2 per degree of freedom
+constexpr double kRise = 12;  ///< largest increase of a cell's chi2 per degree of freedom
 
-/// Whether a point's piece of surface may belong to a plane: it is no plane itself, or faces the
-/// same way, or is too uncertain to say.
+/// Whether a point's piece of surface may belong to a plane: it is not planar itself, or has the
+/// same orientation, or its orientation is too uncertain.
 class Facing {
  public:
   Facing(const CloudPoints& points, const SuperPoints& cloud,
@@ -59,7 +59,7 @@ void grow(const CloudPoints& points, double sigmas, Facing& faces, PlaneLabels& 
   }
 }
 
-/// Points go over to a neighbour's plane that is nearer, from wherever that last happened on.
+/// Moves points to a neighbour's plane that is nearer, and repeats this around each change.
 void settle_borders(const CloudPoints& points, Facing& faces, PlaneLabels& result) {
   std::vector<int> queue;
   const auto at_border = [&](int i) {
@@ -71,7 +71,8 @@ void settle_borders(const CloudPoints& points, Facing& faces, PlaneLabels& resul
   };
   for (int i = 0; i < points.size(); ++i)
     if (result.labels[i] >= 0 && at_border(i)) queue.push_back(i);
-  const std::size_t most = 4 * points.xyz.size();  // each change brings a point nearer: it ends
+  // Each change brings a point nearer, so that the loop ends.
+  const std::size_t most = 4 * points.xyz.size();
   for (std::size_t k = 0; k < queue.size() && k < most; ++k) {
     const int i = queue[k];
     int best = result.labels[i];

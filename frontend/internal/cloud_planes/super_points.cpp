@@ -8,9 +8,9 @@ namespace placegraph {
 namespace {
 
 constexpr int kBlock = 16, kLeastBlock = 4;  ///< [px]
-constexpr int kLeastCell = 12;               ///< points of a piece that is split no further
-constexpr int kLeastPlanar = 6;              ///< fewer points tell no plane
-constexpr double kDof = 3;                   ///< of a plane
+constexpr int kLeastCell = 12;   ///< number of points of a piece that is not split further
+constexpr int kLeastPlanar = 6;  ///< least number of points that determine a plane
+constexpr double kDof = 3;       ///< degrees of freedom of a plane
 
 class Maker {
  public:
@@ -90,7 +90,7 @@ class Maker {
         return;
       }
     }
-    // By direction as the sensor sees it, or in space; where the widest side is.
+    // By direction as observed by the sensor, or by position in space; split at the widest side.
     const auto where = [&](int i) -> const Eigen::Vector3d& {
       return along ? points_.fit[i].q : points_.xyz[i];
     };
@@ -143,14 +143,15 @@ class Maker {
 
   const CloudPoints& points_;
   SuperPoints result_;
-  std::vector<PlaneSums> sums_;  ///< of the smallest blocks
+  std::vector<PlaneSums> sums_;  ///< sums of the smallest blocks
   int across_ = 0, down_ = 0, largest_ = 0;
 };
 
 }  // namespace
 
 bool lies_on_plane(const PlaneSums& sums, const FittedPlane& fit, const FitModel& model) {
-  // The noise is known to a factor only; beyond it, what chance adds to a mean square.
+  // The noise is known only up to a factor; the second term is the effect of chance on a mean
+  // square.
   constexpr double kNoiseFactor = 1.5, kChance = 3;
   if (!fit.ok) return false;
   const double dof = std::max(1.0, sums.count() - kDof);

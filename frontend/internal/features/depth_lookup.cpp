@@ -11,7 +11,7 @@ std::vector<std::optional<double>> lookup_depth(const Image& depth_m, const Came
                                                 const std::vector<Eigen::Vector2f>& px,
                                                 const DepthLookupOptions& options) {
   require(depth_m.type() == CV_32FC1, "lookup_depth: depth image in metres (CV_32FC1) needed");
-  // The depth image seen by the colour camera, nearest surface first.
+  // The depth image reprojected into the colour camera, nearest surface first.
   cv::Mat registered(camera.height, camera.width, CV_32FC1, cv::Scalar(0));
   const Camera& d = depth_camera.camera;
   const Eigen::Matrix3d R = depth_camera.T_cam_depth.rotation().matrix();

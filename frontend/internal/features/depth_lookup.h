@@ -7,19 +7,23 @@
 
 namespace placegraph {
 
-/// Depth (z in the colour camera's frame [m]) at pixels of the colour image, from a depth image in
-/// its own camera's grid: every depth pixel is carried over, nearest surface first, and the mean
-/// within `radius_px` counts. Nothing where no depth falls, or where near and far meet within
-/// `margin_px` (spread above `max_spread` of the depth): there a small error of the two cameras'
-/// pose would take the wrong surface. Such an error is one of direction, so the margin is given for
-/// a focal length of `margin_focal_px` and follows the camera's: images of half the size have half
-/// of it.
+/// Options of lookup_depth.
 struct DepthLookupOptions {
-  double radius_px = 1.5;
-  double margin_px = 5;
-  double margin_focal_px = 525;
-  double max_spread = 0.05;
+  double radius_px = 1.5;        ///< depths within this radius are averaged
+  double margin_px = 5;          ///< radius within which depths must agree, at margin_focal_px
+  double margin_focal_px = 525;  ///< focal length for which margin_px is given
+  double max_spread = 0.05;      ///< maximum spread of depths within the margin, relative
 };
+
+/// Depth (z in the colour camera's frame [m]) at pixels of the colour image.
+///
+/// The depth image is in its own camera's grid: every depth pixel is projected into the colour
+/// image, nearest surface first, and the depths within `radius_px` are averaged. Nothing where
+/// there is no depth, or where near and far surfaces meet within `margin_px` (spread above
+/// `max_spread` of the depth): there a small error of the relative pose of the two cameras would
+/// select the wrong surface. Such an error is one of direction, so the margin is given for a focal
+/// length of `margin_focal_px` and scales with the camera's: images of half the size have half the
+/// margin.
 std::vector<std::optional<double>> lookup_depth(const Image& depth_m, const Camera& camera,
                                                 const DepthCamera& depth_camera,
                                                 const std::vector<Eigen::Vector2f>& px,

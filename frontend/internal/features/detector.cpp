@@ -10,7 +10,7 @@
 namespace placegraph {
 namespace {
 
-/// The strongest of every cell, so that one textured corner does not take all.
+/// The strongest features of every cell, so that one textured region does not take all.
 std::vector<cv::KeyPoint> spread(std::vector<cv::KeyPoint> candidates, cv::Size size, int count) {
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const auto& a, const auto& b) { return a.response > b.response; });

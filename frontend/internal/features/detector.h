@@ -8,8 +8,9 @@
 
 namespace placegraph {
 
-/// ORB features (Rublee et al. 2011, by OpenCV), spread over the image by a grid: at most
-/// max_features, `point_cam` empty. `mask` 0 = not here (may be empty).
+/// Detects ORB features (Rublee et al. 2011, by OpenCV), spread over the image by a grid.
+///
+/// At most max_features, `point_cam` empty. `mask`: no features where it is 0 (may be empty).
 std::vector<Feature> detect_features(const Image& image, const DetectorOptions& options,
                                      const Image& mask = {});
 

@@ -9,63 +9,76 @@ void PointTrackerOptions::check() const {
 }
 
 void visit(OptionVisitor& field, PointTrackerOptions& o) {
-  field("max_tracks", o.max_tracks, "points followed at once", {20, 10000});
-  field("window_px", o.window_px, "side of the Lucas-Kanade window, odd", {5, 63});
-  field("pyramid_levels", o.pyramid_levels, "levels of the image pyramid", {1, 8});
+  field("max_tracks", o.max_tracks, "maximum number of points tracked at once", {20, 10000});
+  field("window_px", o.window_px, "side of the Lucas-Kanade window, odd [px]", {5, 63});
+  field("pyramid_levels", o.pyramid_levels, "number of levels of the image pyramid", {1, 8});
   field("max_forward_backward_px", o.max_forward_backward_px,
-        "a track that does not come back to its start this closely is dropped", {0.01, 10});
+        "maximum error of a point tracked forward and back; beyond, the track ends [px]",
+        {0.01, 10});
   field("min_eigenvalue", o.min_eigenvalue,
-        "least eigenvalue of the gradient matrix per pixel, grey levels / 255", {0, 1});
-  field("cell_px", o.cell_px, "side of the cells over which tracks are balanced", {8, 512});
-  field("min_distance_px", o.min_distance_px, "least distance between detected points", {1, 256});
+        "minimum eigenvalue of the gradient matrix per pixel, for grey levels / 255", {0, 1});
+  field("cell_px", o.cell_px, "side of the cells over which tracks are balanced [px]", {8, 512});
+  field("min_distance_px", o.min_distance_px, "minimum distance of a new point from others [px]",
+        {1, 256});
   field("max_anchor_shift_px", o.max_anchor_shift_px,
-        "at keyframes a track goes to where its first look is, at most this far; 0: never",
-        {0, 100});
+        "maximum correction of a track to its anchor at a keyframe; 0: no anchors [px]", {0, 100});
   field("min_anchor_correlation", o.min_anchor_correlation,
-        "with the first look; below, the look is taken anew", {0, 1});
-  field("sigma_px", o.sigma_px, "noise of a step where the first look was not found", {0.05, 10});
-  field("min_sigma_px", o.min_sigma_px, "noise, at least, of a look that is found", {0.01, 10});
-  field("max_sigma_px", o.max_sigma_px, "a track that has gathered more noise ends", {0.1, 100});
+        "minimum correlation with the anchor; below it a new anchor is taken", {0, 1});
+  field("sigma_px", o.sigma_px, "noise added at a keyframe where the anchor was not found [px]",
+        {0.05, 10});
+  field("min_sigma_px", o.min_sigma_px,
+        "minimum standard deviation of a point whose anchor was found [px]", {0.01, 10});
+  field("max_sigma_px", o.max_sigma_px,
+        "maximum accumulated noise of a track; beyond, the track ends [px]", {0.1, 100});
 }
 
 void DetectorOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, DetectorOptions& o) {
-  field("max_features", o.max_features, "described points per keyframe", {50, 20000});
-  field("octaves", o.octaves, "pyramid levels", {1, 12});
-  field("scale_factor", o.scale_factor, "between pyramid levels", {1.05, 2});
-  field("fast_threshold", o.fast_threshold, "FAST corner threshold, grey levels", {1, 100});
+  field("max_features", o.max_features, "maximum number of features per image", {50, 20000});
+  field("octaves", o.octaves, "number of levels of the image pyramid", {1, 12});
+  field("scale_factor", o.scale_factor, "ratio of the sizes of two pyramid levels", {1.05, 2});
+  field("fast_threshold", o.fast_threshold,
+        "threshold of the FAST corner test [grey levels of 255]", {1, 100});
 }
 
 void MatcherOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, MatcherOptions& o) {
-  field("max_distance", o.max_distance, "differing bits of 256", {1, 256});
-  field("max_ratio", o.max_ratio, "best over second best distance", {0.1, 1});
+  field("max_distance", o.max_distance, "maximum Hamming distance of a match [bits of 256]",
+        {1, 256});
+  field("max_ratio", o.max_ratio, "maximum ratio of the best to the second best distance",
+        {0.1, 1});
 }
 
 void StereoMatcherOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, StereoMatcherOptions& o) {
-  field("half_width_px", o.half_width_px, "half width of the compared patches", {2, 31});
-  field("half_height_px", o.half_height_px, "half height of the compared patches", {1, 31});
-  field("max_disparity_px", o.max_disparity_px, "greatest disparity looked for", {4, 1024});
-  field("min_score", o.min_score, "ZNCC of an accepted match", {0, 1});
-  field("max_left_right_px", o.max_left_right_px, "disagreement with the search back", {0.1, 20});
-  field("sigma_disparity_px", o.sigma_disparity_px, "noise of the disparity", {0.01, 10});
+  field("half_width_px", o.half_width_px, "half the width of the compared patches [px]", {2, 31});
+  field("half_height_px", o.half_height_px, "half the height of the compared patches [px]",
+        {1, 31});
+  field("max_disparity_px", o.max_disparity_px, "maximum disparity searched [px]", {4, 1024});
+  field("min_score", o.min_score, "minimum zero-mean normalized cross-correlation of a match",
+        {0, 1});
+  field("max_left_right_px", o.max_left_right_px,
+        "maximum error of the search back into the left image [px]", {0.1, 20});
+  field("sigma_disparity_px", o.sigma_disparity_px, "standard deviation of a disparity [px]",
+        {0.01, 10});
 }
 
 void RectificationOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, RectificationOptions& o) {
-  field("enabled", o.enabled, "estimate what the eyes' rectification is off by while driving");
+  field("enabled", o.enabled,
+        "estimate the rectification error of the stereo pair and correct disparities by it");
   field("prior_sigma_px", o.prior_sigma_px,
-        "of the offset, and of its growth over a unit of x and y, before anything was seen",
-        {1e-3, 10});
-  field("batch_sigma_px", o.batch_sigma_px, "error common to the samples of one keyframe",
-        {1e-3, 10});
-  field("scale_sigma", o.scale_sigma, "of the motion's unit before anything was seen", {1e-5, 1});
-  field("scale_drift", o.scale_drift, "of the motion's unit, from keyframe to keyframe", {1e-6, 1});
+        "initial standard deviation of offset, by_x and by_y [px]", {1e-3, 10});
+  field("batch_sigma_px", o.batch_sigma_px,
+        "standard deviation of the error common to the samples of a keyframe [px]", {1e-3, 10});
+  field("scale_sigma", o.scale_sigma, "initial relative standard deviation of the motion's scale",
+        {1e-5, 1});
+  field("scale_drift", o.scale_drift, "random walk of the motion's scale from keyframe to keyframe",
+        {1e-6, 1});
 }
 
 }  // namespace placegraph

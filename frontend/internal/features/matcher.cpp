@@ -22,7 +22,7 @@ struct Best {
   }
 };
 
-/// Descriptors word by word, so that several are compared at once.
+/// Descriptors stored word by word, so that several are compared at once.
 struct DescriptorColumns {
   std::array<std::vector<std::uint64_t>, 4> word;
   explicit DescriptorColumns(std::size_t count) {
@@ -33,15 +33,15 @@ struct DescriptorColumns {
   }
 };
 
-/// What compare() fills in, one per descriptor.
+/// Results of compare(), one per descriptor.
 struct Comparison {
   std::vector<int> distances, nearest, nearest_a;
   explicit Comparison(std::size_t count)
       : distances(count), nearest(count, 257), nearest_a(count, -1) {}
 };
 
-/// The distances of `from` to all, and for whom `a` is nearer than all before it. These loops, side
-/// by side and without branches, are most of the cost of comparing two views.
+/// Computes the distances of `from` to all, and updates those for which `a` is the nearest so far.
+/// These loops without branches are most of the cost of comparing two views.
 PLACEGRAPH_INLINE void compare_all(const BinaryDescriptor& from, const DescriptorColumns& columns,
                                    int a, Comparison& result) {
   const std::uint64_t *word0 = columns.word[0].data(), *word1 = columns.word[1].data(),
@@ -67,7 +67,7 @@ void compare(const BinaryDescriptor& from, const DescriptorColumns& columns, int
 }
 
 #ifdef PLACEGRAPH_COUNTS_MANY_BITS
-/// Eight words at once; no clone, as GCC 12 cannot ask for this instruction in one.
+/// Eight words at once; not a target clone, as GCC 12 cannot select this instruction in one.
 PLACEGRAPH_COUNTS_MANY_BITS
 void compare_eight(const BinaryDescriptor& from, const DescriptorColumns& columns, int a,
                    Comparison& result) {
@@ -81,7 +81,8 @@ Compare best_compare() {
 auto best_compare() { return &compare; }
 #endif
 
-/// Keeps mutual best matches that pass both tests; `best_a[i]` looks into b, `best_b[j]` into a.
+/// Keeps mutual best matches that pass both tests; `best_a[i]` is an index into b, `best_b[j]` into
+/// a.
 std::vector<FeatureMatch> mutual(const std::vector<Best>& best_a, const std::vector<Best>& best_b,
                                  const MatcherOptions& options) {
   std::vector<FeatureMatch> matches;
@@ -136,7 +137,7 @@ std::vector<FeatureMatch> match_epipolar(const Camera& camera, const std::vector
     Eigen::Vector2d px;
     int octave;
   };
-  std::vector<Place> places_b;  // side by side, as all are asked for every line
+  std::vector<Place> places_b;  // contiguous, as all are compared for every line
   for (const Feature& feature : b) places_b.push_back({feature.px.cast<double>(), feature.octave});
   std::vector<Best> best_a(a.size()), best_b(b.size());
   for (int i = 0; i < static_cast<int>(a.size()); ++i) {
@@ -146,8 +147,8 @@ std::vector<FeatureMatch> match_epipolar(const Camera& camera, const std::vector
     const Eigen::Vector3d infinity = H_infinity * x_a;
     if (infinity.z() <= 0 || !line.allFinite()) continue;
     const Eigen::Vector2d px_infinity = infinity.hnormalized();
-    // From the point at infinity a nearer point moves along the line in the direction in which the
-    // epipole pulls or pushes.
+    // From the image of the point at infinity, a nearer point moves along the line towards the
+    // epipole or away from it.
     const Eigen::Vector3d Kt = camera.K() * T_b_a.translation();
     const Eigen::Vector2d direction = (Kt.head<2>() - Kt.z() * px_infinity).normalized();
     for (int j = 0; j < static_cast<int>(b.size()); ++j) {

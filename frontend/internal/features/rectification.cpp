@@ -11,7 +11,7 @@ namespace {
 using Eigen::Matrix4d;
 using Eigen::Vector4d;
 
-/// Derivative of a measured disparity by scale, offset, by_x, by_y.
+/// Derivative of a measured disparity with respect to scale, offset, by_x, by_y.
 Vector4d row_of(const DisparitySample& s) { return {s.from_motion_px, 1, s.ray.x(), s.ray.y()}; }
 
 /// Normal equations of a batch.
@@ -20,7 +20,7 @@ struct Batch {
   Vector4d right = Vector4d::Zero();
 };
 
-/// Cauchy's weights about `state`, in units of what the samples scatter by: their sigmas may be too
+/// Cauchy weights about `state`, relative to the scatter of the samples: their sigmas may be too
 /// small.
 Batch weigh(const std::vector<DisparitySample>& samples, const Vector4d& state) {
   constexpr double kWidth = 2;
@@ -61,7 +61,8 @@ void RectificationEstimator::add(const std::vector<DisparitySample>& samples) {
   covariance_(0, 0) += options_.scale_drift * options_.scale_drift;
   const Matrix4d prior = covariance_.inverse();
   const Vector4d predicted = state_;
-  // What a batch has in common widens what it says: (information^-1 + common)^-1, of any rank.
+  // The error common to a batch increases its covariance: (information^-1 + common)^-1, of any
+  // rank.
   const double variance = options_.batch_sigma_px * options_.batch_sigma_px;
   const Matrix4d common = Vector4d(0, variance, variance, variance).asDiagonal();
   constexpr int kIterations = 10;

@@ -7,11 +7,12 @@
 
 namespace placegraph {
 
-/// What a stereo pair that should be rectified is still off by: a measured disparity is the true
-/// one plus offset + by_x x + by_y y at the ray (x, y, 1) of the left eye. To first order that is a
-/// right eye turned about its vertical axis (offset), of another focal length (by_x) and turned
-/// about its optical axis (by_y); a tenth of a pixel of offset moves a point at 40 baselines by
-/// half a per cent of its depth.
+/// Remaining error of the rectification of a stereo pair.
+///
+/// A measured disparity is the true one plus offset + by_x x + by_y y at the ray (x, y, 1) of the
+/// left camera. To first order the right camera is rotated about its vertical axis (offset), has
+/// another focal length (by_x) and is rotated about its optical axis (by_y). An offset of a tenth
+/// of a pixel moves a point at 40 baselines by half a per cent of its depth.
 struct RectificationError {
   double offset_px = 0, by_x_px = 0, by_y_px = 0;
   double at(const Eigen::Vector2d& ray) const {
@@ -19,20 +20,23 @@ struct RectificationError {
   }
 };
 
-/// A point's disparity as the two eyes show it and as the camera's motion does: f b over the depth
-/// that the left eye alone triangulates from several poses.
+/// A point's disparity in the stereo pair and as predicted from the camera's motion.
+///
+/// The prediction is f b over the depth that is triangulated by the left camera alone from several
+/// poses.
 struct DisparitySample {
-  Eigen::Vector2d ray = Eigen::Vector2d::Zero();  ///< x, y of the left eye's ray, z = 1
+  Eigen::Vector2d ray = Eigen::Vector2d::Zero();  ///< x, y of the left camera's ray, z = 1
   double measured_px = 0;
   double from_motion_px = 0;
-  double sigma_px = 1;  ///< of their difference
+  double sigma_px = 1;  ///< standard deviation of measured_px - from_motion_px
 };
 
-/// Self-calibration of a stereo pair while it drives. The motion knows depths up to one scale,
-/// which disparities of many sizes tell apart from an offset: a Kalman filter of the scale, which
-/// wanders, and of the error, which does not, by measured = scale * from_motion + error(ray), each
-/// batch by iteratively reweighted least squares (Cauchy). Each point should be handed over once:
-/// its samples repeat the same noise.
+/// Self-calibration of a moving stereo pair.
+///
+/// The motion determines depths up to one scale, which disparities of different sizes separate from
+/// an offset. A Kalman filter estimates the scale, a random walk, and the constant error from
+/// measured = scale * from_motion + error(ray), each batch by iteratively reweighted least squares
+/// (Cauchy). Each point should be added only once: its samples repeat the same noise.
 class RectificationEstimator {
  public:
   explicit RectificationEstimator(const RectificationOptions& options);

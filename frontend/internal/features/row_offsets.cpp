@@ -18,7 +18,7 @@ Vector5d terms(const Eigen::Vector2d& ray) {
 
 constexpr double kInlierPx = 2;
 
-/// Through three samples: constant, by x, by y.
+/// Constant, x and y terms through three samples.
 std::vector<Vector5d> through(const std::vector<RowSample>& samples,
                               const std::vector<int>& sample) {
   Eigen::Matrix3d A;
@@ -35,8 +35,8 @@ std::vector<Vector5d> through(const std::vector<RowSample>& samples,
   return {model};
 }
 
-/// Least squares over some samples with Cauchy's weights about `about`; every factor is known to be
-/// within some ten pixels before anything was seen.
+/// Least squares over some samples with Cauchy weights about `about`; the prior standard deviation
+/// of every coefficient is about ten pixels.
 Vector5d weighed_fit(const std::vector<RowSample>& samples, const std::vector<int>& some,
                      const Vector5d& about) {
   constexpr double kPriorSigmaPx = 10;

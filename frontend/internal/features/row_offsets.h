@@ -9,27 +9,28 @@
 
 namespace placegraph {
 
-/// A feature of the left eye and how many rows lower the right eye shows it: none in a rectified
-/// pair.
+/// A feature of the left image and its row offset in the right image, 0 in a rectified pair.
 struct RowSample {
-  Eigen::Vector2d ray = Eigen::Vector2d::Zero();  ///< x and y of the left eye's ray at z = 1
+  Eigen::Vector2d ray = Eigen::Vector2d::Zero();  ///< x and y of the left camera's ray at z = 1
   double rows = 0;                                ///< v_right - v_left [px]
   double disparity_px = 0;                        ///< u_left - u_right
-  double sigma_px = 1;                            ///< of `rows`, by the features' size
+  double sigma_px = 1;  ///< standard deviation of `rows`, by the features' size
 };
 
-/// Samples of one pair: mutually best matches whose rows differ by at most `band_px`, of either
-/// sign of the disparity.
+/// Samples of one pair: mutually best matches whose rows differ by at most `band_px`.
+///
+/// Their disparity may have either sign.
 std::vector<RowSample> row_samples(const Camera& camera, const std::vector<Feature>& left,
                                    const std::vector<Feature>& right, double band_px);
 
-/// Rows by which the right eye of a pair is off, over the left image: constant (pitch, shift), by x
-/// (roll), by y (zoom), by xy (yaw) and by y^2 (pitch).
+/// Row offset of the right camera as a polynomial over the left image.
+///
+/// Constant (pitch, shift), by x (roll), by y (zoom), by xy (yaw) and by y^2 (pitch).
 struct RowOffsets {
   Outcome outcome;
-  std::array<double, 5> rows{};  ///< factors of 1, x, y, xy, y^2 of the left eye's ray [px]
+  std::array<double, 5> rows{};  ///< coefficients of 1, x, y, xy, y^2 of the left camera's ray [px]
   int matches = 0, inliers = 0;  ///< the inliers agree with the model to about two pixels
-  double rms_px = 0;             ///< of the model's rows where the inliers are
+  double rms_px = 0;             ///< root mean square of the model's rows at the inliers
   int behind = 0;                ///< inliers whose disparity is clearly negative
 
   double at(const Eigen::Vector2d& ray) const {
@@ -38,8 +39,10 @@ struct RowOffsets {
   }
 };
 
-/// Robust fit (RANSAC over the first three terms, then reweighted least squares over all, held to
-/// zero where the samples do not tell). Outcomes: too few data, no consensus.
+/// Robust fit of the row offsets.
+///
+/// RANSAC over the first three terms, then reweighted least squares over all, with a prior of zero
+/// for terms that the samples do not determine. Outcomes: too few data, no consensus.
 RowOffsets fit_row_offsets(const std::vector<RowSample>& samples, Random& random);
 
 }  // namespace placegraph

@@ -15,15 +15,15 @@ struct Peak {
   bool interior = false;
 };
 
-/// Zero-mean normalized cross-correlation of a patch with every place in a strip of its height; 0
-/// where the strip is flat. (A library's template matching spends more on setting up than these few
-/// hundred products take.)
+/// Zero-mean normalized cross-correlation of a patch with every position in a strip of its height;
+/// 0 where the strip has no contrast. (The setup of a library's template matching takes longer than
+/// these few hundred products.)
 std::vector<float> zncc_along(const cv::Mat& patch, const cv::Mat& strip) {
   const int width = patch.cols, places = strip.cols - width + 1;
   const auto count = static_cast<float>(patch.total());
   const auto mean = static_cast<float>(cv::mean(patch)[0]);
   std::vector<float> products(places, 0.0f);
-  std::vector<int> sums(strip.cols, 0), squares(strip.cols, 0);  // of the strip's columns
+  std::vector<int> sums(strip.cols, 0), squares(strip.cols, 0);  // sums over the strip's columns
   float patch_square = 0;
   for (int y = 0; y < patch.rows; ++y) {
     const unsigned char* p = patch.ptr(y);
@@ -52,8 +52,8 @@ std::vector<float> zncc_along(const cv::Mat& patch, const cv::Mat& strip) {
   return products;
 }
 
-/// Best place of the patch around (u, v) of `from` among centres [u_min, u_max] of the same row of
-/// `to`, by ZNCC, to sub-pixels.
+/// Best sub-pixel position, by ZNCC, of the patch around (u, v) of `from` among the centres
+/// [u_min, u_max] of the same row of `to`.
 std::optional<Peak> search_row(const Image& from, const Image& to, int u, int v, int u_min,
                                int u_max, const StereoMatcherOptions& o) {
   const int w = o.half_width_px, h = o.half_height_px;
@@ -74,12 +74,12 @@ std::optional<Peak> search_row(const Image& from, const Image& to, int u, int v,
 }
 
 constexpr double kAboutExpected = 6, kAboutCoarse = 4;  // px of disparity on either side
-constexpr double kLessAtHalfSize = 0.1;                 // of the score: the pixels mix depths
+constexpr double kLessAtHalfSize = 0.1;                 // reduction of the score: pixels mix depths
 
-/// The disparity of a point between `d_min` and `d_max`, there and back.
+/// The disparity of a point between `d_min` and `d_max`, checked from right to left.
 std::optional<double> match_within(const Image& left, const Image& right, const Eigen::Vector2f& px,
                                    double d_min, double d_max, const StereoMatcherOptions& o) {
-  // The patch is cut at whole pixels; the fraction is taken back at the end.
+  // The patch is taken at whole pixels; the fraction is subtracted at the end.
   const int u = cvRound(px.x()), v = cvRound(px.y());
   const int near = static_cast<int>(std::floor(d_min)), far = static_cast<int>(std::ceil(d_max));
   const auto there = search_row(left, right, u, v, u - far, u - near, o);
@@ -100,10 +100,10 @@ std::vector<std::optional<double>> match_stereo(
   require(left.type() == CV_8UC1 && right.type() == CV_8UC1 && left.size() == right.size(),
           "match_stereo: two grey images of one size needed");
   require(expected_px.empty() || expected_px.size() == px_left.size(),
-          "match_stereo: one expectation a point needed");
+          "match_stereo: one expected disparity per point needed");
   std::vector<std::optional<double>> disparities(px_left.size());
   const double reach = o.max_disparity_px;
-  // Far ranges are searched at half the size with half the patch, then about what was found.
+  // Wide ranges are searched at half the size with half the patch, then about the match found.
   Image half_left, half_right;
   cv::pyrDown(left, half_left);
   cv::pyrDown(right, half_right);

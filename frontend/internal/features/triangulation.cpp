@@ -17,8 +17,8 @@ double largest_angle(const std::vector<Eigen::Vector3d>& rays) {
   return largest;
 }
 
-/// The point of least reprojection errors, by Gauss-Newton from a point near it; nothing where it
-/// comes to lie behind a camera.
+/// The point of least reprojection errors, by Gauss-Newton from a point near it; nothing if it
+/// moves behind a camera.
 std::optional<Eigen::Vector3d> least_reprojection_errors(
     const Camera& camera, const std::vector<PointMeasurement>& observations,
     const std::vector<SE3>& T_cam_ref, Eigen::Vector3d p) {
@@ -50,7 +50,7 @@ TriangulationResult triangulate(const Camera& camera,
   using Code = Outcome::Code;
   TriangulationResult result;
   if (observations.size() < 2) {
-    result.outcome = Outcome::failure(Code::kTooFewData, "two sightings needed");
+    result.outcome = Outcome::failure(Code::kTooFewData, "two observations needed");
     return result;
   }
   std::vector<SE3> T_cam_ref;

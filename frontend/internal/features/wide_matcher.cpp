@@ -13,8 +13,8 @@ PointPair pair_of(const WideBaselineFeatures& a, int i, const WideBaselineFeatur
   PointPair pair;
   pair.px_a = a.px[i];
   pair.px_b = b.px[j];
-  const double turn = b.angle_rad[j] - a.angle_rad[i], scale = b.size_px[j] / a.size_px[i];
-  pair.rotation_b_a << std::cos(turn), -std::sin(turn), std::sin(turn), std::cos(turn);
+  const double angle = b.angle_rad[j] - a.angle_rad[i], scale = b.size_px[j] / a.size_px[i];
+  pair.rotation_b_a << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
   pair.rotation_b_a *= scale;
   return pair;
 }
@@ -60,12 +60,14 @@ std::vector<PointPair> match_points(const WideBaselineFeatures& a, const WideBas
 }
 
 void visit(OptionVisitor& field, WideMatcherOptions& o) {
-  field("max_features", o.max_features, "points of an image", {50, 100000});
-  field("min_contrast", o.min_contrast, "of a feature, of the whole range of grey", {0, 1});
-  field("max_ratio", o.max_ratio, "best over second best distance", {0.1, 1});
-  field("epipolar_px", o.epipolar_px, "inliers of the fundamental matrix lie this close",
-        {0.1, 20});
-  field("min_inliers", o.min_inliers, "fewer are no agreement", {8, 10000});
+  field("max_features", o.max_features, "maximum number of features of an image", {50, 100000});
+  field("min_contrast", o.min_contrast,
+        "minimum contrast of a feature, as a share of the grey range", {0, 1});
+  field("max_ratio", o.max_ratio, "maximum ratio of the best to the second best distance",
+        {0.1, 1});
+  field("epipolar_px", o.epipolar_px,
+        "maximum epipolar distance of an inlier of the fundamental matrix [px]", {0.1, 20});
+  field("min_inliers", o.min_inliers, "minimum inliers of the fundamental matrix", {8, 10000});
 }
 
 WideMatches match_wide(const Image& a, const Image& b, const WideMatcherOptions& options) {

@@ -8,50 +8,55 @@
 
 namespace placegraph {
 
+/// Options of the matching across wide baselines.
 struct WideMatcherOptions {
-  int max_features = 6000;      ///< of an image
-  double min_contrast = 0.006;  ///< of a feature, of the whole range of grey
-  double max_ratio = 0.85;      ///< best over second best distance (Lowe 2004)
-  double epipolar_px = 1.5;     ///< inliers of the fundamental matrix lie this close
-  int min_inliers = 16;
+  int max_features = 6000;      ///< maximum number of features of an image
+  double min_contrast = 0.006;  ///< minimum contrast of a feature, as a share of the grey range
+  double max_ratio = 0.85;      ///< maximum ratio of best to second best distance (Lowe 2004)
+  double epipolar_px = 1.5;     ///< maximum epipolar distance of an inlier
+  int min_inliers = 16;         ///< minimum inliers of the fundamental matrix
   void check() const { check_ranges(*this); }
 };
 void visit(OptionVisitor& field, WideMatcherOptions& options);
 
-/// A point seen in two images, with what its surroundings say about the motion around it.
+/// A point in two images, with the local motion estimated from its surroundings.
 struct PointPair {
   Eigen::Vector2d px_a = Eigen::Vector2d::Zero(), px_b = Eigen::Vector2d::Zero();
   Eigen::Matrix2d rotation_b_a = Eigen::Matrix2d::Identity();  ///< similarity: scale times rotation
 };
 
-/// Points of one image as match_wide compares them, made ready for any number of comparisons.
+/// Point features of one image for match_points.
 struct WideBaselineFeatures {
   std::vector<Eigen::Vector2d> px;
   std::vector<double> angle_rad, size_px;
-  Image descriptors;  ///< CV_32FC1, a row each
+  Image descriptors;  ///< CV_32FC1, one row per feature
 };
 
-/// SIFT (Lowe 2004) with the square roots of normalized histograms, whose distance is Hellinger's
-/// (Arandjelovic & Zisserman 2012). `mask`, if not empty, has zeros where no point is wanted.
+/// Detects SIFT features (Lowe 2004) with square-root normalized histograms.
+///
+/// Their Euclidean distance is the Hellinger distance (Arandjelovic & Zisserman 2012). `mask`, if
+/// not empty, has zeros where features are excluded.
 WideBaselineFeatures detect_wide(const Image& image, const WideMatcherOptions& options,
                                  const Image& mask = {});
 
-/// Mutually best matches that pass the ratio test, before any geometry.
+/// Mutually best matches that pass the ratio test, without a geometric check.
 std::vector<PointPair> match_points(const WideBaselineFeatures& a, const WideBaselineFeatures& b,
                                     double max_ratio);
 
+/// Matches across a wide baseline.
 struct WideMatches {
-  Outcome outcome;               ///< kNoConsensus: `F_b_a` and `pairs` say nothing
+  Outcome outcome;               ///< kNoConsensus: `F_b_a` and `pairs` are meaningless
   std::vector<PointPair> pairs;  ///< inliers of F_b_a
   Eigen::Matrix3d F_b_a = Eigen::Matrix3d::Zero();  ///< (px_b, 1)^T F_b_a (px_a, 1) = 0
-  int candidates = 0;  ///< mutually best matches before the geometry was asked
+  int candidates = 0;  ///< mutually best matches before the geometric check
 };
 
-/// Matches of points across a wide baseline between cameras that need not be known: SIFT (Lowe
-/// 2004) compared by the Hellinger kernel (Arandjelovic & Zisserman 2012), mutually best, held
-/// together by one fundamental matrix (MAGSAC++, Barath et al. 2020, by OpenCV; its samples are the
-/// same in every run). Where all points lie on one plane the matrix is one of many that hold; the
-/// pairs are right all the same. Images: CV_8UC1, else ArgumentError.
+/// Matches points across a wide baseline between cameras that may be uncalibrated.
+///
+/// SIFT (Lowe 2004) compared by the Hellinger kernel (Arandjelovic & Zisserman 2012), mutually
+/// best, inliers of one fundamental matrix (MAGSAC++, Barath et al. 2020, by OpenCV; its samples
+/// are the same in every run). If all points are on one plane the matrix is one of many possible
+/// ones; the pairs are still correct. Images: CV_8UC1, else ArgumentError.
 WideMatches match_wide(const Image& a, const Image& b, const WideMatcherOptions& options);
 
 }  // namespace placegraph

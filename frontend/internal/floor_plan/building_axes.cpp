@@ -8,9 +8,9 @@
 namespace placegraph {
 namespace {
 
-constexpr std::size_t kFewest = 50;  ///< points of a direction that counts
+constexpr std::size_t kFewest = 50;  ///< least number of points of a direction
 
-/// The direction that normals near `guess` or against it share: a mean that narrows.
+/// Direction that normals near `guess` or opposite to it share: a mean with narrowing limits.
 Eigen::Vector3d shared_direction(const std::vector<SurfacePoint>& points,
                                  const Eigen::Vector3d& guess, std::size_t& count) {
   Eigen::Vector3d direction = guess.normalized();
@@ -31,7 +31,7 @@ Eigen::Vector3d shared_direction(const std::vector<SurfacePoint>& points,
   return direction;
 }
 
-/// The lowest level that holds a fifth as many points as the fullest of those seen from above.
+/// Lowest level with a fifth as many points as the fullest one, of those observed from above.
 std::optional<double> floor_level(const std::vector<std::pair<double, double>>& levels) {
   constexpr double kBin_m = 0.05;
   if (levels.size() < kFewest) return std::nullopt;
@@ -59,7 +59,7 @@ std::optional<double> floor_level(const std::vector<std::pair<double, double>>& 
   return sum / weights;
 }
 
-/// The turn, modulo a right angle, that the level normals share; the fullest of a histogram,
+/// Rotation, modulo a right angle, that the level normals share; the fullest bin of a histogram,
 /// refined.
 std::optional<double> shared_rotation(const std::vector<double>& angles) {
   if (angles.size() < kFewest) return std::nullopt;
@@ -75,18 +75,18 @@ std::optional<double> shared_rotation(const std::vector<double>& angles) {
     for (int j = -3; j <= 3; ++j) sum += histogram[(i + j + kBins) % kBins];
     if (sum > most) most = sum, best = i;
   }
-  double turn = (best + 0.5) / kBins * quarter;
+  double rotation_rad = (best + 0.5) / kBins * quarter;
   for (const double reach : {3.0, 2.0, 1.5, 1.5}) {
     double sum = 0;
     int count = 0;
     for (const double a : angles) {
-      const double d = std::remainder(a - turn, quarter);
+      const double d = std::remainder(a - rotation_rad, quarter);
       if (std::abs(d) > deg_to_rad(reach)) continue;
       sum += d, ++count;
     }
-    if (count > 0) turn += sum / count;
+    if (count > 0) rotation_rad += sum / count;
   }
-  return std::remainder(turn, quarter);
+  return std::remainder(rotation_rad, quarter);
 }
 
 }  // namespace
@@ -100,8 +100,8 @@ BuildingAxes find_building_axes(const std::vector<SurfacePoint>& points_map,
   };
   std::size_t count = 0;
   const Eigen::Vector3d up = shared_direction(points_map, up_guess, count);
-  if (count < kFewest) return fail("no level surface shows the vertical");
-  // x along the map's x, made level.
+  if (count < kFewest) return fail("no level surface for the vertical");
+  // x along the map's x, projected to the level plane.
   Eigen::Vector3d x = Eigen::Vector3d::UnitX() - up[0] * up;
   if (x.norm() < 0.3) x = Eigen::Vector3d::UnitZ() - up[2] * up;
   x.normalize();
@@ -116,12 +116,12 @@ BuildingAxes find_building_axes(const std::vector<SurfacePoint>& points_map,
     if (n[2] > 0.95) levels.emplace_back(up.dot(point.point.cast<double>()), point.sigma);
   }
   const auto floor = floor_level(levels);
-  if (!floor) return fail("no floor is seen");
-  const auto turn = shared_rotation(angles);
-  if (!turn) return fail("no upright surface is seen");
+  if (!floor) return fail("no floor");
+  const auto rotation_rad = shared_rotation(angles);
+  if (!rotation_rad) return fail("no upright surface");
   Eigen::Matrix3d about_z = Eigen::Matrix3d::Identity();
-  about_z.topLeftCorner<2, 2>() << std::cos(*turn), std::sin(*turn), -std::sin(*turn),
-      std::cos(*turn);
+  about_z.topLeftCorner<2, 2>() << std::cos(*rotation_rad), std::sin(*rotation_rad),
+      -std::sin(*rotation_rad), std::cos(*rotation_rad);
   axes.T_walls_map = SE3(about_z * R, Eigen::Vector3d(0, 0, -*floor));
   axes.outcome = Outcome::ok();
   return axes;

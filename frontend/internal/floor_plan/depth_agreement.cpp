@@ -6,7 +6,7 @@
 namespace placegraph {
 namespace {
 
-/// Pixels about which all tell their depth by themselves, and the same one.
+/// Marks pixels whose neighbourhood is distinct and has the same depth.
 void mark_certain(const std::vector<PixelDepth>& found, const SweepGeometry& geometry,
                   SweptDepth& result) {
   const Camera& camera = geometry.camera;
@@ -34,7 +34,7 @@ SweptDepth agreed_depth(const std::vector<PixelDepth>& found, const SweepGeometr
   const cv::Size size(camera.width, camera.height);
   SweptDepth result{camera, Image(size, CV_32FC1, cv::Scalar(0)),
                     Image(size, CV_32FC1, cv::Scalar(0)), Image(size, CV_8UC1, cv::Scalar(0))};
-  std::vector<Image> told(geometry.views.size());
+  std::vector<Image> shown(geometry.views.size());
   const auto pixel_of = [&](const SweepGeometry::View& view, int u, int v, double inverse_depth) {
     const Eigen::Vector3d p = view.at(u, v, inverse_depth);
     return p[2] < SweepGeometry::kBehind ? cv::Point(-1, -1)
@@ -51,11 +51,11 @@ SweptDepth agreed_depth(const std::vector<PixelDepth>& found, const SweepGeometr
           look(u, v, level);
   };
   for (std::size_t i = 0; i < geometry.views.size(); ++i) {
-    told[i] = Image(size, CV_32FC2, cv::Scalar(0, 1e9));
+    shown[i] = Image(size, CV_32FC2, cv::Scalar(0, 1e9));
     each([&](int u, int v, const PixelDepth& level) {
       const cv::Point at = pixel_of(geometry.views[i], u, v, level.inverse_depth);
       if (!inside(at)) return;
-      cv::Vec2f& best = told[i].at<cv::Vec2f>(at);
+      cv::Vec2f& best = shown[i].at<cv::Vec2f>(at);
       if (level.cost < best[1])
         best = {static_cast<float>(level.inverse_depth), static_cast<float>(level.cost)};
     });
@@ -66,13 +66,13 @@ SweptDepth agreed_depth(const std::vector<PixelDepth>& found, const SweepGeometr
     for (std::size_t i = 0; i < geometry.views.size(); ++i) {
       const cv::Point at = pixel_of(geometry.views[i], u, v, level.inverse_depth);
       if (!inside(at)) continue;
-      if (std::abs(told[i].at<cv::Vec2f>(at)[0] - level.inverse_depth) > 1.5 * geometry.step)
+      if (std::abs(shown[i].at<cv::Vec2f>(at)[0] - level.inverse_depth) > 1.5 * geometry.step)
         continue;
       information += std::pow(geometry.views[i].rate(u, v, level.inverse_depth) / sigma_px, 2);
       ++agreed;
     }
-    // About the point that the camera moves to nothing tells a depth.
-    constexpr double kMostDeviation = 0.2;  // of a depth, as a share of it
+    // Around the point that the camera moves towards the depth is not observable.
+    constexpr double kMostDeviation = 0.2;  // standard deviation of a depth, as a share of it
     const double sigma = 1 / std::sqrt(information);
     if (agreed < geometry.better_half() || !(sigma < kMostDeviation * level.inverse_depth)) return;
     result.depth_m.at<float>(v, u) = static_cast<float>(1 / level.inverse_depth);

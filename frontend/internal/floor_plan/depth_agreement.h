@@ -6,25 +6,27 @@
 
 namespace placegraph {
 
-/// What a pixel tells of its depth before other views are asked.
+/// Depth of a pixel by plane sweep, before the agreement of other views is tested.
 struct PixelDepth {
-  double inverse_depth = 0;  ///< [1/m]; 0: nothing
+  double inverse_depth = 0;  ///< inverse depth [1/m]; 0: none
   double cost = 0;
-  bool distinct = false;  ///< the pixel tells it by itself
+  bool distinct = false;  ///< the depth is distinct without the pixel's neighbours
 };
 
-/// The depth of an image's pixels, and how well it is known.
+/// Depth of an image's pixels, and its accuracy.
 struct SweptDepth {
   Camera camera;
   Image depth_m;        ///< CV_32FC1, 0 = none
-  Image sigma_inverse;  ///< CV_32FC1, of 1 / depth [1/m], where there is a depth
-  Image certain;        ///< CV_8UC1, 255 where each pixel about it tells that depth by itself
+  Image sigma_inverse;  ///< CV_32FC1, standard deviation of 1 / depth [1/m], where there is a depth
+  Image certain;        ///< CV_8UC1, 255 where all pixels around have this depth and are distinct
 };
 
-/// Keeps the depths that the better half of the views agrees to: where a view sees the point it
-/// sees, of all points that fall on that pixel, the one with the least cost, and that is this one
-/// or has its depth. A depth whose deviation is over a fifth of it is not kept. `found`: of the
-/// pixels of the geometry's camera, row by row; `sigma_px`: of where a surface is seen in a view.
+/// Keeps the depths on which the better half of the views agrees.
+///
+/// A view shows, of all points that project to one of its pixels, the one with the least cost; the
+/// view agrees if this is the point itself or has its depth. A depth with a standard deviation over
+/// a fifth of itself is dropped. `found`: pixels of the geometry's camera, row by row; `sigma_px`:
+/// standard deviation of the position of a surface in a view.
 [[nodiscard]] SweptDepth agreed_depth(const std::vector<PixelDepth>& found,
                                       const SweepGeometry& geometry, double sigma_px);
 

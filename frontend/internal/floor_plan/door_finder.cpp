@@ -8,19 +8,20 @@
 namespace placegraph {
 namespace {
 
-/// A door ends where nothing tells of it over this length, or no ray passes where no wall is seen.
+/// Length without evidence of a door, or without rays where no wall is visible, at which a door
+/// ends.
 constexpr double kUnseen_m = 0.4;
-/// Where less than both jambs and a head are seen, what is wider is a passage of another kind.
+/// Largest width of a door without both jambs and a head; wider ones are passages of another kind.
 constexpr double kWidest_m = 1.4;
 
-/// Ends a door where what tells of it ends: the passage, or the leaf. What lies between there and
-/// the next wall that is seen may be wall that is not.
+/// Ends a door at the end of its evidence: the passage, or the leaf. Between that end and the next
+/// visible wall there may be unseen wall.
 void trim(const WallProfile& profile, const DoorFinderOptions& options, std::size_t begin,
           std::size_t end, DoorPiece& door) {
-  const auto tells = [&](const WallStep& step) { return door.closed ? step.recess : step.open; };
+  const auto supports = [&](const WallStep& step) { return door.closed ? step.recess : step.open; };
   std::size_t first = begin, last = end;
-  while (first < end && !tells(profile.steps[first])) ++first;
-  while (last > first && !tells(profile.steps[last - 1])) --last;
+  while (first < end && !supports(profile.steps[first])) ++first;
+  while (last > first && !supports(profile.steps[last - 1])) --last;
   const auto far = [](std::size_t steps) {
     return static_cast<double>(steps) * WallProfile::kStep_m > kUnseen_m;
   };
@@ -29,7 +30,7 @@ void trim(const WallProfile& profile, const DoorFinderOptions& options, std::siz
   if (far(end - last)) door.to_m = profile.at_m(last);
 }
 
-/// The door that a stretch without wall at the height of doors is, if it is one.
+/// Door in a stretch without wall at the height of doors, if it is one.
 std::optional<DoorPiece> judge(const WallProfile& profile, const DoorFinderOptions& options,
                                std::size_t begin, std::size_t end) {
   const WallPlane& plane = profile.plane;
@@ -59,19 +60,19 @@ std::optional<DoorPiece> judge(const WallProfile& profile, const DoorFinderOptio
   return door;
 }
 
-/// Whether most of the steps before a place (`way` -1), or from it on (1), are wall.
-bool jamb(const WallProfile& profile, std::size_t at, int way) {
+/// Whether most of the steps before a position (`direction` -1), or from it on (1), are wall.
+bool jamb(const WallProfile& profile, std::size_t at, int direction) {
   constexpr std::size_t kLong = 6, kLeast = 4;
-  const std::size_t from = way < 0 ? at - std::min(at, kLong) : at;
-  const std::size_t to = way < 0 ? at : std::min(profile.steps.size(), at + kLong);
+  const std::size_t from = direction < 0 ? at - std::min(at, kLong) : at;
+  const std::size_t to = direction < 0 ? at : std::min(profile.steps.size(), at + kLong);
   return std::count_if(profile.steps.begin() + static_cast<std::ptrdiff_t>(from),
                        profile.steps.begin() + static_cast<std::ptrdiff_t>(to),
                        [](const WallStep& step) { return step.wall; }) >=
          static_cast<std::ptrdiff_t>(kLeast);
 }
 
-/// Where the camera went through a stretch without wall, beside a wall at one of its ends: the
-/// other end is where something stops rays, though too little is seen of it to be a wall.
+/// Doors where the camera went through a stretch without wall, beside a wall at one end. The other
+/// end is where rays are stopped, although too little is visible there for a wall.
 void find_crossed(const WallProfile& profile, const DoorFinderOptions& options, std::size_t begin,
                   std::size_t end, std::vector<DoorPiece>& doors) {
   const std::size_t unseen = static_cast<std::size_t>(kUnseen_m / WallProfile::kStep_m);
@@ -148,7 +149,7 @@ std::vector<DoorPiece> find_doors(const std::vector<WallPiece>& walls,
     });
     if (same == once.end())
       once.push_back(door);
-    else if (!door.closed)  // What passes through is no leaf.
+    else if (!door.closed)  // a door that something passes through is open
       same->closed = false;
   }
   return once;

@@ -8,30 +8,31 @@
 
 namespace placegraph {
 
-/// A door in the frame of the walls: in the wall surface `offset_m` along `axis`.
+/// Door in the frame of the walls: in the wall surface `offset_m` along `axis`.
 struct DoorPiece {
   int axis = 0, sign = 1;
   double offset_m = 0, from_m = 0, to_m = 0;
-  double head_m = 0;  ///< 0: none was seen
+  double head_m = 0;  ///< height of the head; 0: not visible
   bool closed = false;
 };
 
 /// Doors of one wall's plane.
 struct ProfileDoors {
-  std::vector<DoorPiece> between_walls;  ///< with wall at both sides
-  std::vector<DoorPiece> half_seen;      ///< with one jamb, where the camera went through
+  std::vector<DoorPiece> between_walls;  ///< doors with wall at both sides
+  std::vector<DoorPiece> half_seen;      ///< doors with one jamb, where the camera went through
 };
-/// Every stretch of the profile without wall at the height of doors is one, or none; see
+/// Finds at most one door in every stretch of the profile without wall at the height of doors; see
 /// find_doors.
 [[nodiscard]] ProfileDoors doors_of(const WallProfile& profile, const DoorFinderOptions& options);
 
-/// Doors along each wall's surface, and what lies between walls of one plane. Open ones: below a
-/// head nothing stands and rays pass, or, without a head, the `path` (camera positions, in order)
-/// goes through a gap of a door's width. Where the path goes through, one jamb is enough if the gap
-/// ends within 1.4 m, where rays that come so far are stopped for 0.4 m. Closed ones: a leaf as
-/// high and wide as doors are, set back from a wall that goes on above or beside it. Where the wall
-/// beside is seen only 0.4 m farther on or more, a door ends where its passage or leaf does. A door
-/// that both sides tell is told once.
+/// Finds doors along each wall's surface, and in gaps between walls of one plane.
+///
+/// Open doors: there is no surface below a head and rays pass, or, without a head, the `path`
+/// (camera positions, in order) goes through a gap of a door's width. Where the path goes through,
+/// one jamb is enough if the gap ends within 1.4 m, where rays that come so far are stopped for 0.4
+/// m. Closed doors: a leaf of a door's height and width, set back from a wall that continues above
+/// or beside it. If the wall beside is first visible 0.4 m farther on or more, a door ends at the
+/// end of its passage or leaf. A door that is visible from both sides is returned once.
 [[nodiscard]] std::vector<DoorPiece> find_doors(const std::vector<WallPiece>& walls,
                                                 const std::vector<PlacedPoint>& points,
                                                 const VoxelEvidence& voxels,

@@ -8,7 +8,7 @@
 namespace placegraph {
 namespace {
 
-/// The plane of a patch in inverse depth over normalized coordinates: (a, b, c) . (x, y, 1) = 1/z.
+/// Plane of a patch in inverse depth over normalized coordinates: (a, b, c) . (x, y, 1) = 1/z.
 struct PatchPlane {
   Eigen::Vector3d plane = Eigen::Vector3d::Zero();
   double residual = 0;  ///< rms relative to 1/z
@@ -28,7 +28,7 @@ PatchPlane fit_patch(const Image& depth_m, const Camera& camera, int u, int v, i
       ++all;
       const float z = depth_m.at<float>(y, x);
       if (z <= 0) continue;
-      // About the patch's middle, for the sake of the condition.
+      // About the patch's middle, for a good condition number.
       const Eigen::Vector3d p((x - u) / camera.fx, (y - v) / camera.fy, 1);
       const double w = 1.0 / z;
       A += p * p.transpose();
@@ -57,7 +57,7 @@ std::vector<SurfacePoint> surface_points(const Image& depth_m, const Image& sigm
            image.rows == depth_camera.height;
   };
   require(fits(depth_m) && fits(sigma_inverse),
-          "surface points: a CV_32FC1 depth image of the camera's size is needed");
+          "surface points: needs a CV_32FC1 depth image of the camera's size");
   std::vector<SurfacePoint> points;
   const Eigen::Matrix3d R = T_cam_depth.rotation().matrix();
   for (int v = options.step_px / 2; v < depth_m.rows; v += options.step_px)
@@ -73,7 +73,7 @@ std::vector<SurfacePoint> surface_points(const Image& depth_m, const Image& sigm
       double sigma = sigma_at_1m * z * z;
       if (fit.good && fit.residual < options.max_residual + 2 * sigma_at_1m * z) {
         const Eigen::Vector3d normal = -fit.plane.normalized();
-        // The patch's own depth is better than that of one pixel.
+        // The patch's own depth is more accurate than that of one pixel.
         const double z_plane = 1 / fit.plane.dot(ray);
         if (std::abs(z_plane - z) < 0.05 * z)
           point.point = (T_cam_depth * Eigen::Vector3d(z_plane * ray)).cast<float>();
@@ -97,9 +97,9 @@ std::vector<SurfacePoint> surface_points(const Image& depth_m, const Camera& dep
 Image dense_stereo(const Image& left, const Image& right, double fx, double baseline_m,
                    const DenseStereoOptions& options) {
   options.check();
-  require(options.disparities % 16 == 0, "disparities: a multiple of 16 is needed");
+  require(options.disparities % 16 == 0, "disparities: must be a multiple of 16");
   require(left.size() == right.size() && left.type() == CV_8UC1 && right.type() == CV_8UC1,
-          "dense stereo: two grey images of one size are needed");
+          "dense stereo: needs two grey images of one size");
   const int w = options.window_px;
   const auto matcher = cv::StereoSGBM::create(0, options.disparities, w, 8 * w * w, 32 * w * w, 1,
                                               31, 10, 100, 2, cv::StereoSGBM::MODE_SGBM_3WAY);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint8_t kMostCost = 60;
 
-/// An image and its camera at half the size, as often as it takes.
+/// Halves an image and its camera until the width is small enough.
 void shrink(Image& image, Camera& camera, int max_width_px) {
   while (image.cols > max_width_px && image.rows > 1) {
     cv::resize(image, image, {image.cols / 2, image.rows / 2}, 0, 0, cv::INTER_AREA);
@@ -23,8 +23,8 @@ void shrink(Image& image, Camera& camera, int max_width_px) {
   }
 }
 
-/// Deviation of the noise of an image, from what differs from pixel to pixel both ways (Immerkaer
-/// 1996, "Fast noise variance estimation"), by the median, as edges are outliers to it.
+/// Standard deviation of the noise of an image, from second differences in both directions
+/// (Immerkaer 1996, "Fast noise variance estimation"), by the median, as edges are outliers.
 double noise_of(const Image& image) {
   const cv::Matx33f mask(1, -2, 1, -2, 4, -2, 1, -2, 1);
   constexpr double kMaskNorm = 6;  // root of the sum of its squares
@@ -36,8 +36,8 @@ double noise_of(const Image& image) {
   return sizes.empty() ? 0 : 1.4826 / kMaskNorm * median_of(sizes);
 }
 
-/// Brightness over the contrast about each pixel, 1 to 255; lighting that changes from view to view
-/// leaves it alone.
+/// Brightness over the contrast around each pixel, 1 to 255; lighting that changes between views
+/// has no effect.
 Image normalized(const Image& image, double noise, const PlaneSweepOptions& options) {
   const cv::Size window(options.window_px, options.window_px);
   Image grey, mean, squares;
@@ -53,7 +53,7 @@ Image normalized(const Image& image, double noise, const PlaneSweepOptions& opti
   return cv::max(result, 1);
 }
 
-/// The search: what every level of depth would cost each pixel, and the level it takes.
+/// Search: the cost of every level of depth for each pixel, and the selected level.
 class PlaneSweep {
  public:
   PlaneSweep(const Image& image, const Camera& camera, const std::vector<SweptView>& views,
@@ -87,7 +87,7 @@ class PlaneSweep {
   }
 
  private:
-  /// Takes out what lies behind a view, by the homography of a plane.
+  /// Clears pixels behind a view, by the homography of a plane.
   static void hide_behind(const Eigen::Matrix3d& H, Image& warped) {
     constexpr double kBehind = SweepGeometry::kBehind;
     const auto depth = [&](int u, int v) { return H(2, 0) * u + H(2, 1) * v + H(2, 2); };
@@ -135,7 +135,7 @@ class PlaneSweep {
     return volume;
   }
 
-  /// Of the costs of a pixel, at the levels where views show it.
+  /// Mean of the costs of a pixel over the levels at which it is in a view.
   double mean_where_seen(const std::uint8_t* cost) const {
     double sum = 0;
     int seen = 0;
@@ -144,7 +144,7 @@ class PlaneSweep {
     return seen ? sum / seen : 0;
   }
 
-  /// The level of each pixel, if no other is about as good; inverse depth 0 where there is none.
+  /// Level of each pixel, if no other is about as good; inverse depth 0 where there is none.
   std::vector<PixelDepth> winners(const CostVolume& volume,
                                   const std::vector<std::uint16_t>& sums) const {
     std::vector<PixelDepth> found(static_cast<std::size_t>(reference_.cols) * reference_.rows);
@@ -185,14 +185,13 @@ SweptDepth sweep_planes(const Image& image, const Camera& camera,
                         const std::vector<SweptView>& views, const PlaneSweepOptions& options) {
   options.check();
   camera.check();
-  require(camera.distortion == Distortion::kNone,
-          "plane sweep: a camera without distortion is needed");
+  require(camera.distortion == Distortion::kNone, "plane sweep: needs a camera without distortion");
   const auto fits = [&](const Image& i) {
     return i.type() == CV_8UC1 && i.cols == camera.width && i.rows == camera.height;
   };
   require(fits(image) && std::all_of(views.begin(), views.end(),
                                      [&](const SweptView& view) { return fits(view.image); }),
-          "plane sweep: grey images of the camera's size are needed");
+          "plane sweep: needs grey images of the camera's size");
   return PlaneSweep(image, camera, views, options).depth();
 }
 

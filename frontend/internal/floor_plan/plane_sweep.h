@@ -10,19 +10,21 @@
 
 namespace placegraph {
 
-/// Another image of the same camera, which shows no distortion.
+/// Another image of the same camera, without distortion.
 struct SweptView {
   Image image;     ///< CV_8UC1
-  SE3 T_view_cam;  ///< from the camera of the image whose depth is asked for
+  SE3 T_view_cam;  ///< from the camera of the image whose depth is computed
 };
 
-/// Depth of the pixels of an image from views of known motion: planes are swept through space, what
-/// they would show is compared with the image (Collins 1996), the better half of the views counts,
-/// as the others may not see the surface (Kang, Szeliski & Chai 2001), and neighbouring pixels have
-/// neighbouring depths (sum_over_paths). Kept is what no other depth explains as well, what the
-/// better half of the views agrees to, and what they tell to a fifth of it. All depths are 0 where
-/// no view has moved. The size is the camera's, halved until it is narrow enough. Throws
-/// ArgumentError for images of another size or type, and cameras with distortion.
+/// Computes the depth of an image's pixels from views of known motion (Collins 1996).
+///
+/// Planes are swept through space and their predicted images are compared with the image. The
+/// better half of the views counts, as the surface may be hidden in the others (Kang, Szeliski &
+/// Chai 2001), and neighbouring pixels have neighbouring depths (sum_over_paths). A depth is kept
+/// if no other depth explains the pixel as well, the better half of the views agrees, and its
+/// standard deviation is at most a fifth of it. All depths are 0 if no view has moved. The size is
+/// the camera's, halved until it is narrow enough. Throws ArgumentError for images of another size
+/// or type, and cameras with distortion.
 [[nodiscard]] SweptDepth sweep_planes(const Image& image, const Camera& camera,
                                       const std::vector<SweptView>& views,
                                       const PlaneSweepOptions& options = {});

@@ -7,8 +7,8 @@
 namespace placegraph {
 namespace {
 
-/// A mask with all that lies between two of its cells along an axis, no barrier in between, and
-/// a neck fits into.
+/// Mask extended by all cells between two of its cells along an axis, without a barrier in between,
+/// wide enough for a neck.
 cv::Mat1b span(const cv::Mat1b& own, const cv::Mat1b& barrier, const Image& neck) {
   cv::Mat1b grown = own.clone();
   const auto join = [&](cv::Mat1b& joined, cv::Point p, cv::Point step, int length) {
@@ -31,7 +31,7 @@ cv::Mat1b span(const cv::Mat1b& own, const cv::Mat1b& barrier, const Image& neck
   return grown;
 }
 
-/// Number of the strip between cuts of every column or row; -1 outside of all.
+/// Number of the strip between cuts for every column or row; -1 outside of all.
 std::vector<int> strips(std::vector<int> cuts, int size) {
   std::sort(cuts.begin(), cuts.end());
   std::vector<int> strip(static_cast<std::size_t>(size), -1);

@@ -9,13 +9,13 @@
 namespace placegraph {
 namespace {
 
-constexpr double kBehind_m = 0.12;  ///< how thick a surface is taken to be, away from its viewer
+constexpr double kBehind_m = 0.12;  ///< assumed thickness of a surface, away from its viewer
 
 Image disc(int radius) {
   return cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * radius + 1, 2 * radius + 1});
 }
 
-/// Breadth first from all kernels at once, through free cells only.
+/// Grows all kernels together, breadth first, through free cells only.
 void grow(const cv::Mat1b& space, cv::Mat1i& rooms) {
   std::vector<cv::Point> front;
   for (int r = 0; r < rooms.rows; ++r)
@@ -35,7 +35,7 @@ void grow(const cv::Mat1b& space, cv::Mat1i& rooms) {
   }
 }
 
-/// Whether the path leads through each label.
+/// Whether the path goes through each label.
 std::vector<char> entered_of(const std::vector<cv::Point>& path, const cv::Mat1i& rooms,
                              int count) {
   std::vector<char> entered(static_cast<std::size_t>(count), 0);
@@ -60,7 +60,7 @@ class Partitioner {
             free_(r, c) = 255;
   }
 
-  /// The surface between two places along it, each with its offset.
+  /// Blocks the surface between two positions along it, each with its offset.
   void block(int axis, int sign, double from, double offset_from, double to, double offset_to) {
     const double reach = 0.05, half = 0.5 * kBehind_m;
     const double length = to - from + 2 * reach;
@@ -78,7 +78,7 @@ class Partitioner {
     }
   }
 
-  /// A line that parts boxes: of a wall that has some length.
+  /// Adds a line between boxes, along a wall of some length.
   void cut(int axis, double offset) {
     cuts_[axis].push_back(axis == 0 ? voxels_.column_of(offset) : voxels_.row_of(offset));
   }
@@ -91,7 +91,7 @@ class Partitioner {
     cv::Mat1b space;
     cv::morphologyEx(free_, space, cv::MORPH_CLOSE, disc(closing));
     space.setTo(0, blocked_);
-    // Rooms are what is left where necks are cut; each takes back what is nearest to it.
+    // Rooms are the parts left after cutting at necks; each is then extended to its nearest cells.
     cv::Mat1f distance;
     cv::distanceTransform(space, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE);
     const cv::Mat1b wide = distance > 0.5 * options_.neck_m / voxels_.cell_m();
@@ -115,7 +115,7 @@ class Partitioner {
     return static_cast<int>(std::lround(metres / voxels_.cell_m()));
   }
 
-  /// Whether walls run along much of a hole's border.
+  /// Whether walls are along much of a hole's border.
   bool walled(const std::vector<cv::Point>& hole) const {
     int near = 0;
     for (const cv::Point& p : hole) {
@@ -129,7 +129,7 @@ class Partitioner {
     std::vector<cv::Point> simple;
     cv::approxPolyDP(contour, simple, options_.outline_m / voxels_.cell_m(), true);
     std::vector<Eigen::Vector2d> points;
-    // A contour runs through the middles of cells: the border is half a cell outside, about.
+    // A contour goes through the middles of cells: the border is about half a cell outside.
     for (const cv::Point& p : simple)
       points.push_back(voxels_.low().head<2>() +
                        voxels_.cell_m() * Eigen::Vector2d(p.x + 0.5, p.y + 0.5));

@@ -12,14 +12,16 @@ struct RoomPartition {
   struct Room {
     std::vector<Eigen::Vector2d> outline;
     std::vector<std::vector<Eigen::Vector2d>> holes;
-    double area_m2 = 0, width_m = 0;  ///< twice the largest distance from its border
+    double area_m2 = 0, width_m = 0;  ///< the width is twice the largest distance from its border
   };
   std::vector<Room> rooms;
 };
 
-/// The free space (cells that rays pass at any height) parted at walls, at doors, and where it is
-/// narrower than a neck; what lies unseen between cells of a room that the path enters, as
-/// furniture hides it, belongs to the room unless walls take much of its border.
+/// Partitions the free space (cells that rays pass at any height) into rooms.
+///
+/// It is divided at walls, at doors, and where it is narrower than a neck. An unseen part between
+/// cells of a room that the path enters, e.g. hidden by furniture, belongs to the room unless walls
+/// are much of its border.
 [[nodiscard]] RoomPartition partition_rooms(const VoxelEvidence& voxels,
                                             const std::vector<WallPiece>& walls,
                                             const std::vector<DoorPiece>& doors,

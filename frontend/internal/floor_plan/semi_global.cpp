@@ -7,7 +7,8 @@
 namespace placegraph {
 namespace {
 
-constexpr int kPaths = 4;  // of each of two passes: from beside, and from three pixels of a row
+// Paths of each of two passes: from beside, and from three pixels of a row.
+constexpr int kPaths = 4;
 constexpr std::uint16_t kWall = 60000;
 
 /// Costs of the paths through one pixel, with a wall on both sides of the levels.
@@ -17,7 +18,7 @@ struct PathRow {
     for (std::size_t i = 0; i < least.size(); ++i)
       costs[i * stride] = costs[(i + 1) * stride - 1] = kWall;
   }
-  /// Of the pixel in column u, -1 and the width being outside the image, where paths begin.
+  /// Costs for the pixel in column u; -1 and the width are outside the image, where paths begin.
   std::uint16_t* at(int u) { return costs.data() + static_cast<std::size_t>(u + 1) * stride + 1; }
   std::uint16_t& least_at(int u) { return least[static_cast<std::size_t>(u + 1)]; }
 
@@ -25,7 +26,7 @@ struct PathRow {
   std::vector<std::uint16_t> costs, least;
 };
 
-/// A path goes on to a pixel; returns its least cost there.
+/// Extends a path to a pixel; returns its least cost there.
 std::uint16_t extend(const std::uint8_t* cost, const std::uint16_t* before, std::uint16_t least,
                      int levels, const PathCosts& penalty, std::uint16_t* after,
                      std::uint16_t* sum) {
@@ -46,23 +47,23 @@ std::uint16_t extend(const std::uint8_t* cost, const std::uint16_t* before, std:
 }  // namespace
 
 std::vector<std::uint16_t> sum_over_paths(const CostVolume& volume, const PathCosts& penalty) {
-  constexpr int kMostPenalty = 4000;  // sums of eight paths fit
+  constexpr int kMostPenalty = 4000;  // so that sums of eight paths do not overflow
   require(penalty.step >= 0 && penalty.jump >= 0 && penalty.step <= kMostPenalty &&
               penalty.jump <= kMostPenalty,
           "semi-global matching: penalties must be from 0 to 4000");
   std::vector<std::uint16_t> sums(volume.costs.size(), 0);
   const int width = volume.width, height = volume.height, levels = volume.levels;
-  for (const int way : {1, -1}) {
+  for (const int direction : {1, -1}) {
     std::vector<PathRow> last, now;
     for (int path = 0; path < kPaths; ++path)
       for (std::vector<PathRow>* rows : {&last, &now})
         rows->emplace_back(static_cast<std::size_t>(width), static_cast<std::size_t>(levels));
     for (int row = 0; row < height; ++row) {
-      const int v = way > 0 ? row : height - 1 - row;
+      const int v = direction > 0 ? row : height - 1 - row;
       for (int column = 0; column < width; ++column) {
-        const int u = way > 0 ? column : width - 1 - column;
+        const int u = direction > 0 ? column : width - 1 - column;
         const std::size_t at = volume.at(u, v);
-        const std::array<int, kPaths> from{u - way, u - 1, u, u + 1};
+        const std::array<int, kPaths> from{u - direction, u - 1, u, u + 1};
         for (std::size_t path = 0; path < kPaths; ++path) {
           PathRow& before = path == 0 ? now[path] : last[path];
           now[path].least_at(u) =

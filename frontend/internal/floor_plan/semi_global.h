@@ -6,7 +6,7 @@
 
 namespace placegraph {
 
-/// What it costs to take each of `levels` hypotheses for each pixel of an image.
+/// Costs of `levels` hypotheses for each pixel of an image.
 struct CostVolume {
   CostVolume(int width_px, int height_px, int level_count)
       : width(width_px),
@@ -17,13 +17,14 @@ struct CostVolume {
     return (static_cast<std::size_t>(v) * width + u) * static_cast<std::size_t>(levels);
   }
   int width, height, levels;
-  std::vector<std::uint8_t> costs;  ///< a pixel's levels beside each other, pixels by rows
+  /// Costs of the levels of a pixel beside each other, pixels by rows.
+  std::vector<std::uint8_t> costs;
 };
 
-/// Least costs of paths that end in each pixel at each level, summed over the eight directions that
-/// they come from (Hirschmueller 2008, "Stereo processing by semi-global matching and mutual
-/// information"), laid out like the costs. Throws ArgumentError for penalties below 0 or above
-/// 4000.
+/// Sums the least costs of paths that end in each pixel at each level, over eight directions.
+///
+/// Hirschmueller 2008, "Stereo processing by semi-global matching and mutual information". The
+/// result has the layout of the costs. Throws ArgumentError for penalties below 0 or above 4000.
 std::vector<std::uint16_t> sum_over_paths(const CostVolume& volume, const PathCosts& penalty);
 
 }  // namespace placegraph

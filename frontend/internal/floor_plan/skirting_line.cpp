@@ -8,11 +8,11 @@
 namespace placegraph {
 namespace {
 
-/// Where the floor ends in an image's column, coming from below.
+/// End of the floor in an image's column, from below.
 struct FloorEnd {
-  double row = -1;    ///< where it meets the wall
+  double row = -1;    ///< row where it meets the wall
   int wall_row = -1;  ///< lowest pixel of the wall
-  int axis = -1;      ///< of the wall's normal
+  int axis = -1;      ///< axis of the wall's normal
 };
 
 class FloorViewer {
@@ -50,7 +50,7 @@ class FloorViewer {
     const double horizon = camera_.cy - camera_.fy * (down_[0] * x + down_[2]) / down_[1];
     return static_cast<int>(std::clamp(horizon + 3, 0.0, static_cast<double>(camera_.height)));
   }
-  /// The floor's point behind a pixel.
+  /// Point of the floor at a pixel.
   Eigen::Vector3d on_floor(double u, double v) const {
     return height_m_ / down_.dot(ray(u, v)) * ray(u, v);
   }
@@ -66,7 +66,7 @@ class FloorViewer {
   }
 
   FloorEnd floor_end(int u) const {
-    constexpr int kGap = 40;  // pixels without a label that may lie between
+    constexpr int kGap = 40;  // largest number of pixels without a label in between
     int floor_row = -1;
     for (int v = camera_.height - 1; v > first_row(u); --v) {
       const int axis = label(u, v);
@@ -80,7 +80,7 @@ class FloorViewer {
     return {};
   }
 
-  /// The lowest edge along the wall that may be its foot; else where the floor's label ends.
+  /// Lowest edge along the wall that may be its foot; otherwise the end of the floor's label.
   double foot(int u, const FloorEnd& end) const {
     const int along = 3 - map_.vertical_axis - end.axis;
     const Eigen::Vector3d normal = R_.col(end.axis), top = ray(u, end.row);
@@ -89,13 +89,13 @@ class FloorViewer {
     bool found = false;
     for (std::size_t i = 0; i < segments_.size(); ++i) {
       if (axis_[i] != along) continue;
-      const Eigen::Vector2d a = segments_[i].start, way = segments_[i].end - a;
-      if (std::abs(way[0]) < 1) continue;
-      const double share = (u - a[0]) / way[0], slack = kReach_px / way.norm();
+      const Eigen::Vector2d a = segments_[i].start, extent = segments_[i].end - a;
+      if (std::abs(extent[0]) < 1) continue;
+      const double share = (u - a[0]) / extent[0], slack = kReach_px / extent.norm();
       if (share < -slack || share > 1 + slack) continue;
-      const double row = a[1] + share * way[1];
+      const double row = a[1] + share * extent[1];
       if (row < lowest || row > camera_.height - 1) continue;
-      // How high above that foot the label's end would be on the wall.
+      // Height of the label's end on the wall above that foot.
       const double depth = normal.dot(on_floor(u, row)) / normal.dot(top);
       if (!(height_m_ - depth * down_.dot(top) <= options_.skirting_m)) continue;
       lowest = row, found = true;
@@ -109,15 +109,15 @@ class FloorViewer {
     Eigen::Vector3d normal = R_.col(end.axis);
     if (normal.dot(foot) > 0) normal = -normal;
     const double distance = normal.dot(foot);
-    // A row of error at the foot moves the wall so far.
+    // Displacement of the wall for an error of one row at the foot.
     const double shift = std::abs(normal.dot(on_floor(u, end.row + 1)) - distance);
     const auto sigma = static_cast<float>(std::max(0.01, options_.sigma_boundary_px * shift));
-    int told_row = end.wall_row;
+    int labelled_row = end.wall_row;
     for (int v = end.wall_row; v >= 0; v -= options_.step_px) {
       const int axis = label(u, v);
-      if (axis < 0 && 2 * (told_row - v) <= camera_.height) continue;
+      if (axis < 0 && 2 * (labelled_row - v) <= camera_.height) continue;
       if (axis != end.axis) break;
-      told_row = v;
+      labelled_row = v;
       const double cosine = normal.dot(ray(u, v));
       if (cosine > -0.05) break;
       const double depth = distance / cosine;
@@ -147,7 +147,7 @@ std::vector<SurfacePoint> surface_points_on_floor(const OrientationMap& map,
                                                   const SkirtingLineOptions& options) {
   options.check();
   require(height_m > 0, "surface points: the camera's height must be positive");
-  require(segments.size() == axis.size(), "surface points: an axis for every segment is needed");
+  require(segments.size() == axis.size(), "surface points: needs an axis for every segment");
   if (!map.outcome) return {};
   return FloorViewer(map, segments, axis, camera, R_cam_manhattan, height_m, options).look();
 }

@@ -25,8 +25,8 @@ VoxelEvidence::VoxelEvidence(const Eigen::Vector3d& low, const Eigen::Vector3d& 
 
 void VoxelEvidence::add_ray(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double short_m,
                             bool hit) {
-  const Eigen::Vector3d way = to - from;
-  const double length = way.norm();
+  const Eigen::Vector3d ray = to - from;
+  const double length = ray.norm();
   const auto cell_of = [&](const Eigen::Vector3d& p, std::size_t& cell) {
     const int c = column_of(p[0]), r = row_of(p[1]), l = layer_of(p[2]);
     if (!contains(c, r) || l < 0 || l >= size_[2]) return false;
@@ -39,7 +39,7 @@ void VoxelEvidence::add_ray(const Eigen::Vector3d& from, const Eigen::Vector3d& 
   std::size_t cell = 0, last = std::numeric_limits<std::size_t>::max();
   const int steps = static_cast<int>(std::max(0.0, length - short_m) / cell_);
   for (int k = 0; k < steps; ++k) {
-    if (!cell_of(from + (k * cell_ / length) * way, cell) || cell == last) continue;
+    if (!cell_of(from + (k * cell_ / length) * ray, cell) || cell == last) continue;
     count(passes_[cell]);
     last = cell;
   }

@@ -5,17 +5,18 @@
 
 namespace placegraph {
 
-/// How often rays ended in the cells of a block of space, and how often they went through. The
-/// frame has z up.
+/// Counts of rays that ended in the cells of a block of space, and of rays that passed through.
+///
+/// The frame has z up.
 class VoxelEvidence {
  public:
-  /// Cells of `cell_m` (made larger where the block would need more than `most_cells`) and
-  /// `layer_m` high.
+  /// Makes cells of `cell_m` (larger if the block would need more than `most_cells`) and `layer_m`
+  /// high.
   VoxelEvidence(const Eigen::Vector3d& low, const Eigen::Vector3d& high, double cell_m,
                 double layer_m, std::size_t most_cells = 60000000);
 
-  /// A ray that was seen to go from one point to another: cells on the way are passed, but for the
-  /// last `short_m`; the last is hit, unless `hit` is false.
+  /// Adds an observed ray from one point to another: cells along it are passed, except for the last
+  /// `short_m`; the last one is hit, unless `hit` is false.
   void add_ray(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double short_m, bool hit);
 
   int columns() const { return size_[0]; }
@@ -40,7 +41,7 @@ class VoxelEvidence {
   Eigen::Vector3d low_;
   double cell_, layer_;
   Eigen::Vector3i size_;
-  std::vector<std::uint8_t> passes_, hits_;  ///< up to 255
+  std::vector<std::uint8_t> passes_, hits_;  ///< counts up to 255
 };
 
 }  // namespace placegraph

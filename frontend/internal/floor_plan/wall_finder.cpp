@@ -13,7 +13,7 @@ namespace {
 constexpr double kAlong_m = 0.1, kOffset_m = 0.02;
 constexpr int kMostLayers = 64;
 
-/// The points that face one side, over (along, offset): which layers of height they cover.
+/// Points that face one side, over (along, offset): the layers of height that they cover.
 class SideCoverage {
  public:
   SideCoverage(const std::vector<PlacedPoint>& points, const VoxelEvidence& voxels, int axis,
@@ -32,7 +32,7 @@ class SideCoverage {
     find_walls_of_columns();
   }
 
-  /// Takes planes one by one, most wall first.
+  /// Selects planes one by one, those with most wall first.
   std::vector<WallPiece> pieces() {
     std::vector<WallPiece> found;
     const int band = std::max(1, static_cast<int>(options_.band_m / kOffset_m));
@@ -76,7 +76,7 @@ class SideCoverage {
     return static_cast<int>(std::count(row, row + alongs_, 1));
   }
 
-  /// Layers in which something was seen to pass behind a place of the plane.
+  /// Layers in which a ray passed behind a position of the plane.
   std::uint64_t passed_behind(int along, int offset) const {
     double at[2];
     at[1 - axis_] = along_low_ + (along + 0.5) * kAlong_m;
@@ -112,7 +112,7 @@ class SideCoverage {
       }
   }
 
-  /// The runs of wall about an offset; marks in `used_` what they take.
+  /// Adds the stretches of wall around an offset; marks their columns in `used_`.
   void take(int offset, int band, std::vector<WallPiece>& found) {
     used_.assign(alongs_, 0);
     std::vector<char> here(alongs_, 0);
@@ -178,7 +178,7 @@ std::vector<WallPiece> cut_at_path(const std::vector<WallPiece>& walls,
       const Eigen::Vector3d &p = path[i - 1], &q = path[i];
       const double a = p[wall.axis] - wall.offset_at(p[1 - wall.axis]),
                    b = q[wall.axis] - wall.offset_at(q[1 - wall.axis]);
-      constexpr double kBroken_m = 3;  // between two stretches of the way
+      constexpr double kBroken_m = 3;  // between two stretches of the path
       if ((a < 0) == (b < 0) || (q - p).norm() > kBroken_m) continue;
       const double at = (b * p[1 - wall.axis] - a * q[1 - wall.axis]) / (b - a);
       std::vector<std::pair<double, double>> rest;

@@ -10,8 +10,8 @@
 namespace placegraph {
 namespace {
 
-/// What the points of a piece tell of it, but for its line.
-void tell(const std::vector<const PlacedPoint*>& near, WallPiece& piece) {
+/// Sets the properties of a piece from its points, except for its line.
+void set_properties(const std::vector<const PlacedPoint*>& near, WallPiece& piece) {
   std::vector<double> deviations, heights, alongs;
   std::map<int, int> votes;
   for (const PlacedPoint* p : near) {
@@ -20,7 +20,7 @@ void tell(const std::vector<const PlacedPoint*>& near, WallPiece& piece) {
     heights.push_back(p->point[2]), alongs.push_back(s);
     ++votes[p->observation];
   }
-  // Points of one sight share its pose's error: sights count, not points.
+  // Points of one observation share its pose's error: observations count, not points.
   piece.sigma_m = std::hypot(
       0.003, 1.4826 * median_of(deviations) / std::sqrt(static_cast<double>(votes.size())));
   std::sort(heights.begin(), heights.end());
@@ -37,7 +37,7 @@ void tell(const std::vector<const PlacedPoint*>& near, WallPiece& piece) {
       })->first;
 }
 
-/// Whether two pieces are one wall that poses of different rounds have put a little apart.
+/// Whether two pieces are one wall with an offset by drift between visits.
 bool one_wall(const WallPiece& a, const WallPiece& b, const WallTolerance& tolerance) {
   const double gap = std::max(a.from_m, b.from_m) - std::min(a.to_m, b.to_m);
   if (gap > tolerance.max_gap_m) return false;
@@ -75,7 +75,7 @@ bool fit_wall(const std::vector<const PlacedPoint*>& points, const WallTolerance
     const Eigen::Vector2d x = A.inverse() * b;
     piece.offset_m = x[0], piece.slope = x[1];
   }
-  tell(near, piece);
+  set_properties(near, piece);
   return std::abs(piece.slope) < std::tan(deg_to_rad(tolerance.max_rotation_deg));
 }
 

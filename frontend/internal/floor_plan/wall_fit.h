@@ -5,23 +5,25 @@
 
 namespace placegraph {
 
-/// What still counts as one wall.
+/// Tolerances of points and pieces of one wall.
 struct WallTolerance {
-  double band_m;            ///< half width of what counts as one plane
-  double max_rotation_deg;  ///< of a wall from the axis that it runs along
-  double max_gap_m;         ///< within a wall
-  double max_step_m;        ///< between pieces of one wall: what drift of the poses makes of it
+  double band_m;            ///< half the thickness of a set of points that counts as one plane
+  double max_rotation_deg;  ///< maximum angle of a wall from the axis that it runs along
+  double max_gap_m;         ///< longest gap within a wall
+  double max_step_m;  ///< maximum offset between pieces of one wall, caused by drift of the poses
 };
 
-/// Fits a piece of wall to the points near it: the line through them (reweighted least squares,
-/// Cauchy), which slopes only where the piece is long, and what they tell of its extent, its height
-/// and the sights that it is from. `points` face the piece's side. False, the piece then being of
-/// no use, if there are too few points or the wall turns more than `max_rotation_deg`.
+/// Fits a piece of wall to the points near it.
+///
+/// The line through them (reweighted least squares, Cauchy) slopes only for a long piece; the
+/// points also determine its extent, its height and its observation. `points` face the piece's
+/// side. Returns false, and the piece is not usable, if there are too few points or the wall's
+/// angle is larger than `max_rotation_deg`.
 [[nodiscard]] bool fit_wall(const std::vector<const PlacedPoint*>& points,
                             const WallTolerance& tolerance, WallPiece& piece);
 
-/// Joins pieces of one side that are one wall which poses of different rounds have put a little
-/// apart, each fitted anew to `points`.
+/// Joins pieces of one side that are one wall with an offset by drift between visits; each joined
+/// piece is fitted again to `points`.
 void join_walls(const std::vector<const PlacedPoint*>& points, const WallTolerance& tolerance,
                 std::vector<WallPiece>& pieces);
 

@@ -7,14 +7,14 @@
 namespace placegraph {
 namespace {
 
-/// So much of its points' deviation a leaf is farther behind its wall than min_recess_m.
+/// Share of its points' standard deviation that is added to min_recess_m for a leaf.
 constexpr double kRecessSigmas = 0.1;
 
 int step_of(const WallProfile& profile, double along) {
   return static_cast<int>(std::floor((along - profile.from_m) / WallProfile::kStep_m));
 }
 
-/// How far the surface lies behind the plane about each step.
+/// Distance of the surface behind the plane around each step.
 void find_surface(const std::vector<PlacedPoint>& points, WallProfile& profile) {
   constexpr int kReach = 24;  // steps
   const WallPlane& plane = profile.plane;

@@ -7,49 +7,50 @@
 
 namespace placegraph {
 
-/// A plane that pieces of wall lie in, in the frame of the walls: one side, offsets that agree.
+/// Plane that contains pieces of wall, in the frame of the walls: one side, offsets that agree.
 struct WallPlane {
   int axis = 0, sign = 1;
   double offset_m = 0, from_m = 0, to_m = 0;
 };
 
-/// The planes of the pieces, the longest piece first; pieces farther apart than `reach_m` are not
+/// Groups pieces into planes, the longest piece first; pieces farther apart than `reach_m` are not
 /// joined.
 [[nodiscard]] std::vector<WallPlane> planes_of(const std::vector<WallPiece>& walls, double reach_m);
 
-/// What one step along a wall's surface shows at the height of doors.
+/// Evidence at one step along a wall's surface at the height of doors.
 struct WallStep {
-  bool wall = false;           ///< the surface goes on down there
-  bool recess = false;         ///< something stands a little behind it
+  bool wall = false;           ///< the surface continues at this height
+  bool recess = false;         ///< there is a surface a little behind it
   bool open = false;           ///< rays pass
   bool faced = false;          ///< rays pass in front of it
-  bool over = false;           ///< rays pass above where a head would be
+  bool over = false;           ///< rays pass above the height of a head
   std::optional<double> head;  ///< lowest height of the surface above a door's [m]
-  double behind_m = 0;         ///< of the surface about it from the plane: poses that drift bend it
+  /// Distance of the nearby surface behind the plane: drift of the poses bends it.
+  double behind_m = 0;
 };
 
-/// The surface of a wall's plane step by step, as wide as a door beyond its ends.
+/// Surface of a wall's plane step by step, extended by a door's width beyond its ends.
 struct WallProfile {
   static constexpr double kStep_m = 0.05;
   WallPlane plane;
-  double from_m = 0;  ///< along the wall, where the first step begins
+  double from_m = 0;  ///< position along the wall where the first step begins
   std::vector<WallStep> steps{};
-  std::vector<double> crossed_m{};  ///< where the camera went through the plane
+  std::vector<double> crossed_m{};  ///< positions where the camera went through the plane
 
-  /// Where a step begins.
+  /// Position where a step begins.
   double at_m(std::size_t step) const { return from_m + static_cast<double>(step) * kStep_m; }
   /// Whether the camera went through the steps from `begin` to before `end`.
   bool crossed(std::size_t begin, std::size_t end) const;
 };
 
-/// What doors may look like.
+/// Limits for the shape of doors.
 struct DoorShape {
   double max_width_m;
-  double min_head_m;                  ///< of an opening's head above the floor
-  double min_recess_m, max_recess_m;  ///< of a leaf behind its wall's surface
+  double min_head_m;                  ///< height of an opening's head above the floor
+  double min_recess_m, max_recess_m;  ///< depth of a leaf behind its wall's surface
 };
 
-/// What points and rays tell of a plane, and the `path` (camera positions, in order).
+/// Computes the profile of a plane from points, rays and the `path` (camera positions, in order).
 [[nodiscard]] WallProfile profile_wall(const WallPlane& plane,
                                        const std::vector<PlacedPoint>& points,
                                        const VoxelEvidence& voxels,

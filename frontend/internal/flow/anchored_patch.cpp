@@ -9,17 +9,17 @@ namespace placegraph {
 namespace {
 
 constexpr int kHalf = AnchoredPatch::kHalf;
-/// Deviation of the weights [px]: the middle counts more than the border, which sooner lies on
-/// another surface.
+/// Standard deviation of the weights [px]: the centre has more weight than the border, which is
+/// more likely to show another surface.
 constexpr float kWeightSigma = 5;
-/// Deviations of grey values and of A between two views, whose ratio says how firmly A stays where
-/// it was when the patch hardly tells.
+/// Standard deviations of grey values and of A between two views; their ratio is the weight of the
+/// prior of A.
 constexpr float kGreySigma = 4, kWarpSigma = 0.1f;
-/// Neighbouring pixels err alike, as they are blurred alike: by this the deviation of a fit is more
-/// than independent pixels would give.
+/// Factor of the standard deviation of a fit because the errors of neighbouring pixels, which share
+/// the blur, are correlated.
 constexpr float kSimilar = 2;
 
-/// Bilinear; the caller has seen to it that all of it lies inside.
+/// Bilinear samples. Precondition: all of the patch is inside the image.
 template <typename Row>
 void sample(const Image& image, const AnchoredPatch::Place& place, Row& grey) {
   const std::size_t step = image.step;
@@ -45,7 +45,7 @@ bool is_inside(const Image& image, const AnchoredPatch::Place& place) {
          place.px.y() + reach.y() < image.rows - 2;
 }
 
-/// The level on which so magnified a patch is about as fine as its first look.
+/// The level on which a patch so magnified has about the resolution of the first image.
 int level_of(const Eigen::Matrix2f& A, int levels) {
   const float magnification = std::sqrt(std::abs(A.determinant()));
   return std::clamp(static_cast<int>(std::lround(std::log2(std::max(magnification, 1.f)))), 0,
@@ -80,7 +80,7 @@ std::optional<AnchoredPatch> AnchoredPatch::take(const Image& image, const Eigen
   Eigen::Matrix<double, kUnknowns, kUnknowns> H = (MtW * M).cast<double>();
   const double firm = (kGreySigma / kWarpSigma) * (kGreySigma / kWarpSigma);
   for (int k = 4; k < kUnknowns; ++k) H(k, k) += firm;
-  // Of grey values of nothing but noise the shift is not known to a pixel.
+  // If the grey values are only noise, the shift is uncertain by more than a pixel.
   const Eigen::LDLT<Eigen::Matrix<double, kUnknowns, kUnknowns>> solved(H);
   if (solved.info() != Eigen::Success || solved.vectorD().minCoeff() <= 0) return std::nullopt;
   const Eigen::Matrix<double, kUnknowns, kUnknowns> inverse =
@@ -95,7 +95,7 @@ std::optional<AnchoredPatch> AnchoredPatch::take(const Image& image, const Eigen
 std::optional<AnchoredPatch::Place> AnchoredPatch::find(const std::vector<Image>& pyramid,
                                                         const Place& start, float max_shift_px,
                                                         float min_correlation) const {
-  // Each level comes with its derivatives.
+  // The pyramid has the derivatives of each level after it.
   const int stride = pyramid.size() > 1 && pyramid[1].channels() == 2 ? 2 : 1;
   const int level = level_of(start.A, static_cast<int>(pyramid.size()) / stride);
   const float unit = static_cast<float>(1 << level);
@@ -115,7 +115,7 @@ std::optional<AnchoredPatch::Place> AnchoredPatch::find(const std::vector<Image>
         keep_ * Eigen::Vector4f(strayed(0, 0), strayed(0, 1), strayed(1, 0), strayed(1, 1));
     if (!(x[0] > 0.2f && x[0] < 5)) return std::nullopt;
     x.tail<6>() /= x[0];
-    // The look is grey(A (I + D)^-1 (offset - shift)), the other way round than its image.
+    // The patch is grey(A (I + D)^-1 (offset - shift)), the inverse of the warp of the image.
     Eigen::Matrix2f D;
     D << x[4], x[5], x[6], x[7];
     const Eigen::Matrix2f back = (Eigen::Matrix2f::Identity() + D).inverse();
@@ -130,7 +130,7 @@ std::optional<AnchoredPatch::Place> AnchoredPatch::find(const std::vector<Image>
   const float power = std::max(1e-6f, b.squaredNorm()), like = std::max(1e-6f, a.squaredNorm());
   const float correlation = a.dot(b) / std::sqrt(like * power);
   if (!(correlation >= min_correlation)) return std::nullopt;
-  // What the fit leaves over, in grey values of the look.
+  // Residual of the fit in grey values of the first patch.
   const float noise = std::sqrt(like * std::max(0.f, 1 - correlation * correlation) / kPixels);
   place.px *= unit;
   place.A *= unit;

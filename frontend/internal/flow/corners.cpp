@@ -8,13 +8,13 @@
 namespace placegraph {
 namespace {
 
-constexpr int kRadius = 2;  // of the window
+constexpr int kRadius = 2;  // radius of the window
 constexpr int kSide = 2 * kRadius + 1;
-/// Of a Sobel gradient. A smooth slope of one grey level a pixel gives 8 of it; together with the
-/// half in front of the trace that is the scale of OpenCV's cornerMinEigenVal.
+/// Scale of a Sobel gradient: a smooth slope of one grey level per pixel has the value 8. With the
+/// factor 1/2 of the trace this is the scale of OpenCV's cornerMinEigenVal.
 constexpr float kScale = 1.0f / (4 * kSide * 255);
 
-/// Products of gradients of one image row; the first and the last entry mean nothing.
+/// Products of gradients of one image row; the first and the last entry are undefined.
 struct GradientRow {
   std::vector<std::int32_t> xx, xy, yy;
   explicit GradientRow(std::size_t n = 0) : xx(n, 0), xy(n, 0), yy(n, 0) {}
@@ -37,8 +37,8 @@ void gradient_products(const Image& image, int v, std::vector<std::int16_t>& gx,
   for (int u = 1; u < n - 1; ++u) yy[u] = y[u] * y[u];
 }
 
-/// Sums over rows, kept by adding the row that enters and taking away the one that leaves: exact,
-/// as they are whole numbers (25 products of at most 1020^2).
+/// Sums over rows, updated by adding the row that enters and subtracting the one that leaves:
+/// exact, as they are integers (25 products of at most 1020^2).
 void move_sum(std::vector<std::int32_t>& sum, const std::vector<std::int32_t>& enters,
               const std::vector<std::int32_t>& leaves) {
   std::int32_t* s = sum.data();
@@ -48,7 +48,7 @@ void move_sum(std::vector<std::int32_t>& sum, const std::vector<std::int32_t>& e
 
 using Strengths = Eigen::ArrayXf;
 
-/// Sum over the columns of the window, in grey levels / 255.
+/// Sum over the columns of the window [grey levels / 255].
 void across(const std::vector<std::int32_t>& column_sums, Strengths& out) {
   const std::int32_t* c = column_sums.data();
   const int n = static_cast<int>(column_sums.size());
@@ -73,7 +73,7 @@ class StrengthRows {
     rows_.fill(GradientRow(columns()));
     for (int i = 0; i < 2 * kRadius; ++i) enter();
   }
-  /// Of the next row.
+  /// Computes the strengths of the next row.
   void read(Strengths& strengths) {
     enter();
     across(sum_.xx, xx_);
@@ -102,8 +102,8 @@ class StrengthRows {
   Strengths xx_, xy_, yy_;
 };
 
-/// One row of strengths, and of every pixel the highest of three that lie side by side: the middle
-/// one among them, or only those `beside` it. The first and the last entry of these mean nothing.
+/// One row of strengths and, for every pixel, the highest of three neighbours in the row, the pixel
+/// itself included or only those `beside` it. The first and the last entry of these are undefined.
 struct PeakRow {
   Strengths strengths, beside, highest;
   explicit PeakRow(Eigen::Index columns)
@@ -136,7 +136,7 @@ std::vector<Corner> find_corners(const Image& image, double min_strength, int bo
   Strengths highest(image.cols);
   for (int v = border; v < image.rows - border; ++v) {
     of[2].read(rows);
-    // All neighbours at once: noise has a peak every few pixels, and no branch foresees it.
+    // All neighbours at once: noise has a peak every few pixels, which defeats branch prediction.
     highest = of[0].highest.max(of[2].highest).max(of[1].beside).max(threshold);
     const float *here = of[1].strengths.data(), *over = highest.data();
     const std::uint8_t* no = blocked.empty() ? nullptr : blocked.ptr(v);

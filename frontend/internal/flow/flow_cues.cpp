@@ -24,8 +24,8 @@ constexpr double kTukey = 4.685;  // 95 % of the efficiency of least squares
 struct Fit {
   VectorXd x;
   MatrixXd information;  // A^T W A, robust weights included
-  VectorXd weights;      // one an observation
-  double scale = 1;      // of the deviations, at least 1
+  VectorXd weights;      // one per observation
+  double scale = 1;      // factor of the standard deviations, at least 1
   double chi2_per_dof = 0;
   bool degenerate = false;
 };
@@ -67,7 +67,7 @@ Fit fit(const std::vector<FlowRow>& rows) {
     result.information = normal;
     std::vector<double> deviations;
     for (const FlowRow& row : rows) deviations.push_back(mahalanobis(row, result.x));
-    // Of two normal coordinates the median distance is 1.177 deviations.
+    // The median distance of two normal coordinates is 1.177 standard deviations.
     result.scale = std::max(1.0, median_of(deviations) / 1.1774);
     for (Eigen::Index i = 0; i < n; ++i) {
       const double r = deviations[static_cast<std::size_t>(i)] / (kTukey * result.scale);
@@ -85,15 +85,15 @@ Fit fit(const std::vector<FlowRow>& rows) {
   return result;
 }
 
-/// What vectors leave open where they err more than they say.
+/// Covariance of the fit, scaled if the residuals exceed the vectors' stated covariance.
 MatrixXd covariance_of(const Fit& fitted) {
   return fitted.information.inverse() * std::max(1.0, fitted.chi2_per_dof);
 }
 
-/// Of what was fitted, by the right tangent of the turn that was taken out: its error moves all
-/// points together.
-MatrixXd by_turn(const Fit& fitted, const std::vector<FlowRow>& rows,
-                 const std::vector<const DerotatedFlow*>& flow) {
+/// Derivative of the fit by the right tangent of the removed rotation, whose error is common to all
+/// points.
+MatrixXd by_rotation(const Fit& fitted, const std::vector<FlowRow>& rows,
+                     const std::vector<const DerotatedFlow*>& flow) {
   MatrixXd J = MatrixXd::Zero(fitted.x.size(), 3);
   for (std::size_t i = 0; i < rows.size(); ++i)
     J += fitted.weights[static_cast<Eigen::Index>(i)] * rows[i].A.transpose() *
@@ -141,11 +141,13 @@ VentralMotion ventral_motion(const std::vector<DerotatedFlow>& flow, const Vecto
   VentralMotion result;
   constexpr std::size_t kLeast = 6;
   if (std::abs(normal.norm() - 1) > 1e-6) {
-    result.outcome = Outcome::failure(Code::kInconsistent, "the plane's normal is no unit vector");
+    result.outcome =
+        Outcome::failure(Code::kInconsistent, "the plane's normal is not a unit vector");
     return result;
   }
-  // With X the point over the plane's distance and c the camera's way over it, the second view is
-  // X - c: end = (X - c)_xy / (X - c)_z, which is linear in c. X = start / (normal . start).
+  // With X the point and c the camera's translation, both over the plane's distance, the second
+  // view is X - c: end = (X - c)_xy / (X - c)_z, which is linear in c. X = start / (normal .
+  // start).
   std::vector<FlowRow> rows;
   std::vector<const DerotatedFlow*> used;
   for (const DerotatedFlow& f : flow) {
@@ -162,13 +164,14 @@ VentralMotion ventral_motion(const std::vector<DerotatedFlow>& flow, const Vecto
   }
   const Fit fitted = fit(rows);
   if (fitted.degenerate) {
-    result.outcome = Outcome::failure(Code::kDegenerate, "the points leave a direction open");
+    result.outcome =
+        Outcome::failure(Code::kDegenerate, "the points leave a direction undetermined");
     return result;
   }
   result.over_distance = fitted.x;
   result.chi2_per_dof = fitted.chi2_per_dof;
   result.inliers = static_cast<int>((fitted.weights.array() > 0).count());
-  result.J_rotation = by_turn(fitted, rows, used);
+  result.J_rotation = by_rotation(fitted, rows, used);
   result.covariance = covariance_of(fitted) +
                       result.J_rotation * rotation_covariance * result.J_rotation.transpose();
   constexpr double kLeastSupport = 0.4;
@@ -184,7 +187,7 @@ TimeToContact time_to_contact(const VentralMotion& motion, const Vector3d& norma
     result.outcome = motion.outcome;
     return result;
   }
-  const double closing = normal.dot(motion.over_distance);  // of the distance, per image
+  const double closing = normal.dot(motion.over_distance);  // share of the distance per image
   const double sigma = std::sqrt(normal.dot(motion.covariance * normal));
   if (!(dt > 0 && closing > 3 * sigma)) {
     result.outcome = Outcome::failure(Code::kInconsistent, "no motion towards the plane");
@@ -220,7 +223,7 @@ AffineFlow affine_flow(const std::vector<DerotatedFlow>& flow,
   result.gradient << fitted.x[1], fitted.x[2], fitted.x[4], fitted.x[5];
   std::vector<const DerotatedFlow*> used;
   for (const DerotatedFlow& f : flow) used.push_back(&f);
-  const MatrixXd J = by_turn(fitted, rows, used);
+  const MatrixXd J = by_rotation(fitted, rows, used);
   result.covariance = covariance_of(fitted) + J * rotation_covariance * J.transpose();
   result.outcome = Outcome::ok();
   return result;
@@ -231,7 +234,7 @@ LateralBalance lateral_balance(const std::vector<DerotatedFlow>& flow,
   LateralBalance result;
   struct Side {
     double sum = 0, variance = 0;
-    Eigen::RowVector3d J = Eigen::RowVector3d::Zero();  // of `sum` by the turn
+    Eigen::RowVector3d J = Eigen::RowVector3d::Zero();  // derivative of `sum` by the rotation
     std::size_t count = 0;
   };
   Side left, right;
@@ -263,7 +266,7 @@ LateralBalance lateral_balance(const std::vector<DerotatedFlow>& flow,
     return J.dot(rotation_covariance * J.transpose());
   };
   if (!(sum > 3 * std::sqrt(left.variance + right.variance + by_rotation(left.J + right.J)))) {
-    result.outcome = Outcome::failure(Code::kDegenerate, "hardly anything moves");
+    result.outcome = Outcome::failure(Code::kDegenerate, "negligible flow");
     return result;
   }
   result.balance = (right.sum - left.sum) / sum;

@@ -31,7 +31,7 @@ std::vector<Eigen::Vector2d> flow_grid(int width, int height, int step_px) {
 
 double image_noise(const Image& image) {
   constexpr int kStep = 8;
-  constexpr double kLeast = 0.5, kMaskNorm = 6, kQuartile = 0.3186;  // of |x|, x normal
+  constexpr double kLeast = 0.5, kMaskNorm = 6, kQuartile = 0.3186;  // quartile of |x|, x normal
   std::vector<int> responses;
   for (int v = 1; v + 1 < image.rows; v += kStep) {
     const auto *above = image.ptr<unsigned char>(v - 1), *here = image.ptr<unsigned char>(v),
@@ -67,7 +67,8 @@ Eigen::Matrix2d track_covariance(const Image& image, const Eigen::Vector2d& px, 
       yy += y * y;
     }
   }
-  // Sobel's gradients are eight times the grey levels a pixel; their noise is sqrt(12) that of one.
+  // Sobel gradients are eight times the grey levels per pixel; their noise is sqrt(12) that of a
+  // pixel.
   const double share = 12 * noise_grey * noise_grey * pixels;
   Eigen::Matrix2d G;
   G << xx - share, xy, xy, yy - share;
@@ -83,10 +84,10 @@ Eigen::Matrix2d track_covariance(const Image& image, const Eigen::Vector2d& px, 
 std::vector<FlowVector> sampled_flow(const Image& from, const Image& flow, int cell_px) {
   require(from.type() == CV_8UC1 && flow.type() == CV_32FC2 && from.size() == flow.size(),
           "sampled_flow: a grey image and its flow are needed");
-  require(cell_px > 1, "sampled_flow: cells are of two pixels at least");
+  require(cell_px > 1, "sampled_flow: cells must have at least two pixels a side");
   const double noise_grey = image_noise(from), middle = 0.5 * (cell_px - 1);
   const int window_px = cell_px | 1;
-  // What gradients as strong as those of the noise would leave, see track_covariance.
+  // Variance for gradients as strong as those of the noise, see track_covariance.
   const double most_px2 = 2 * 64 / (12.0 * window_px * window_px);
   std::vector<FlowVector> vectors;
   for (int top = 0; top < flow.rows; top += cell_px)

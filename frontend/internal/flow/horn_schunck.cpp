@@ -24,7 +24,7 @@ std::vector<Image> halvings(const Image& grey, int levels) {
 }
 
 /// Coefficients of the linearized brightness, I(x + flow) - I0 = du * u + dv * v + rest, in every
-/// pixel; zero where the flow leads out of the image.
+/// pixel; zero where the flow leaves the image.
 struct Brightness {
   Image du, dv, rest;
 };
@@ -45,7 +45,7 @@ Brightness linearize(const Image& from, const Image& to, const Image& u, const I
   }
   Image moved;
   cv::remap(to, moved, map_u, map_v, cv::INTER_CUBIC, cv::BORDER_REPLICATE);
-  // Of both images' gradients the mean has the smaller error (second order in the flow left).
+  // The mean of both images' gradients has the smaller error (second order in the remaining flow).
   const Image mean = 0.5 * (from + moved);
   static const Image kDerivative =
       (cv::Mat_<float>(1, 5) << 1 / 12., -8 / 12., 0, 8 / 12., -1 / 12.);
@@ -59,8 +59,8 @@ Brightness linearize(const Image& from, const Image& to, const Image& u, const I
   return out;
 }
 
-/// One sweep of over-relaxation in place: every pixel to the optimum given its four neighbours, and
-/// a little beyond.
+/// One sweep of over-relaxation in place: moves every pixel to the optimum given its four
+/// neighbours, and a little beyond.
 void relax(const Brightness& brightness, float alpha2, Image& u, Image& v) {
   constexpr float kBeyond = 1.85F;
   const int width = u.cols, height = u.rows;
@@ -101,11 +101,13 @@ void HornSchunckOptions::check() const {
 }
 
 void visit(OptionVisitor& field, HornSchunckOptions& o) {
-  field("alpha", o.alpha, "smoothness against brightness, grey levels per pixel", {0.01, 1000});
-  field("levels", o.levels, "of the image pyramid", {1, 12});
-  field("warps", o.warps, "times per level that the second image is moved by the flow", {1, 50});
-  field("iterations", o.iterations, "of successive over-relaxation per warp", {1, 1000});
-  field("median_px", o.median_px, "side of the median filter after each warp, 1: none", {1, 5});
+  field("alpha", o.alpha, "weight of smoothness against brightness [grey levels per pixel]",
+        {0.01, 1000});
+  field("levels", o.levels, "levels of the image pyramid; 1: the method of 1981", {1, 12});
+  field("warps", o.warps, "warps of the second image by the current flow, per level", {1, 50});
+  field("iterations", o.iterations, "iterations of successive over-relaxation per warp", {1, 1000});
+  field("median_px", o.median_px, "side of the median filter after each warp; 1: none [px]",
+        {1, 5});
 }
 
 Image horn_schunck(const Image& from, const Image& to, const HornSchunckOptions& options) {

@@ -16,24 +16,26 @@ using Eigen::Vector4d;
 void InterpolationFlowOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, InterpolationFlowOptions& o) {
-  field("radius_px", o.radius_px, "half of the patch's side", {2, 64});
-  field("fwhm_px", o.fwhm_px, "full width of its Gaussian weight at half of the maximum", {1, 128});
-  field("levels", o.levels, "of the image pyramid", {1, 8});
-  field("shift_px", o.shift_px, "of the shifted references, on each level", {1, 16});
-  field("rotation_rad", o.rotation_rad, "of the rotated references", {0.001, 0.5});
-  field("rotates", o.rotates, "rotation of the patch is looked for, on the finest level");
-  field("iterations", o.iterations, "on each level at most", {1, 50});
-  field("epsilon_px", o.epsilon_px, "a step shorter than this ends them", {1e-4, 1});
-  field("min_eigenvalue", o.min_eigenvalue, "of the gradient matrix per pixel, grey levels / 255",
+  field("radius_px", o.radius_px, "half the side of the patch [px]", {2, 64});
+  field("fwhm_px", o.fwhm_px,
+        "full width of the patch's Gaussian weight at half of the maximum [px]", {1, 128});
+  field("levels", o.levels, "number of levels of the image pyramid", {1, 8});
+  field("shift_px", o.shift_px, "shift of the shifted references on each level [px]", {1, 16});
+  field("rotation_rad", o.rotation_rad, "rotation of the rotated references [rad]", {0.001, 0.5});
+  field("rotates", o.rotates, "estimate the rotation of the patch, on the finest level");
+  field("iterations", o.iterations, "maximum number of iterations on each level", {1, 50});
+  field("epsilon_px", o.epsilon_px, "a step shorter than this ends the iterations [px]", {1e-4, 1});
+  field("min_eigenvalue", o.min_eigenvalue,
+        "minimum eigenvalue of the gradient matrix per pixel, for grey levels / 255", {0, 1});
+  field("max_residual", o.max_residual, "maximum RMS of the residual, for grey levels / 255",
         {0, 1});
-  field("max_residual", o.max_residual, "RMS of what the answer leaves, grey levels / 255", {0, 1});
 }
 
-/// The linear system at one place: copies shifted along u, along v and rotated, and grey values
-/// themselves for the gain; all without their weighted mean, so that the offset is free.
+/// The linear system of one patch: differences of the copies shifted along u, along v and rotated,
+/// and the grey values for the gain; all without their weighted mean, so that the offset is free.
 struct InterpolationFlow::Patch {
   explicit Patch(Eigen::Index n) : grey(n), columns(n, 4), weighted(n, 4) {}
-  Eigen::VectorXf grey;                                       ///< of the first image
+  Eigen::VectorXf grey;                                       ///< grey values of the first image
   Eigen::Matrix<float, Eigen::Dynamic, 4> columns, weighted;  ///< the latter times Psi, sums 0
   Matrix4d normal = Matrix4d::Identity();
 };
@@ -93,7 +95,7 @@ void InterpolationFlow::reference(const Image& image, int u, int v, bool rotates
       const float* p = centre + pixel.row * step + pixel.column;
       return pixel.w00 * p[0] + pixel.w01 * p[1] + pixel.w10 * p[step] + pixel.w11 * p[step + 1];
     };
-    // A copy turned by +angle has at x what the patch has at x turned back.
+    // A copy rotated by +angle has at x the value of the patch at x rotated by -angle.
     for (int i = 0; i < side * side; ++i)
       patch.columns(i, 2) = around * (at(returned_[i]) - at(rotated_[i]));
   } else {
@@ -107,7 +109,7 @@ void InterpolationFlow::reference(const Image& image, int u, int v, bool rotates
   if (!rotates) patch.normal(2, 2) = 1;
 }
 
-/// The patch around `centre`, turned; false where it leaves the padded image.
+/// Samples the rotated patch around `centre`; false if it leaves the padded image.
 bool InterpolationFlow::sample(const Image& image, const Vector2d& centre, double rotation,
                                Eigen::VectorXf& values) const {
   const int radius = options_.radius_px;
@@ -154,10 +156,10 @@ bool InterpolationFlow::follow(const Patch& patch, const Image& image, const Vec
   if (seen.size() != weights_.size()) seen.resize(weights_.size());
   const Eigen::LDLT<Matrix4d> solver(patch.normal);
   for (int i = 0; i < options_.iterations; ++i) {
-    // A turn so small is seen in the shape of the copies, and not worth sampling every pixel anew.
+    // The copies represent so small a rotation; the pixels need not be sampled again.
     constexpr double kHardlyRotated = 0.01;
-    const double turn = std::abs(motion.rotation) < kHardlyRotated ? 0 : motion.rotation;
-    if (!sample(image, centre + motion.shift, turn, seen)) return false;
+    const double angle = std::abs(motion.rotation) < kHardlyRotated ? 0 : motion.rotation;
+    if (!sample(image, centre + motion.shift, angle, seen)) return false;
     seen -= patch.grey;
     const Vector4d b = (patch.weighted.transpose() * seen).cast<double>();
     const float mean = weights_.dot(seen);
@@ -165,9 +167,9 @@ bool InterpolationFlow::follow(const Patch& patch, const Image& image, const Vec
     const Vector4d step = solver.solve(b);
     motion.gain = 1 + step[3];
     motion.residual = std::sqrt(std::max(0.0, square - step.dot(b)));
-    const double c = std::cos(turn), s = std::sin(turn);
+    const double c = std::cos(angle), s = std::sin(angle);
     motion.shift += Vector2d(c * step[0] - s * step[1], s * step[0] + c * step[1]);
-    if (rotates) motion.rotation = turn + step[2];
+    if (rotates) motion.rotation = angle + step[2];
     if (step.head<2>().norm() < epsilon_px) break;
   }
   return true;
@@ -200,15 +202,15 @@ std::optional<PatchMotion> InterpolationFlow::measure(const PaddedPyramid& from,
       return std::nullopt;
     if (level > 0) motion.shift *= 2;
   }
-  // Beyond what the references bracket on any level nothing can be interpolated.
+  // Beyond the range of the references on all levels, interpolation is invalid.
   const bool bracketed =
       std::abs(motion.rotation) <= 3 * options_.rotation_rad && std::abs(motion.gain - 1) < 0.7;
   if (!bracketed || !(motion.residual <= options_.max_residual * 255)) return std::nullopt;
   const Vector2d end = px + motion.shift;
   if (!(end.minCoeff() >= 0 && end.x() <= to.width - 1 && end.y() <= to.height - 1))
     return std::nullopt;
-  // Of Gaussian weights half as many pixels count; neighbours are alike: about one in four says
-  // something of its own.
+  // The Gaussian weights halve the effective number of pixels; neighbours are correlated: about one
+  // in four is independent.
   constexpr double kPixelsPerSample = 4;
   const double sigma = options_.fwhm_px / 2.3548, samples = 4 * 3.14159265 * sigma * sigma;
   motion.covariance =

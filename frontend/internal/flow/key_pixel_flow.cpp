@@ -11,7 +11,7 @@ namespace {
 
 struct KeyPixels {
   std::vector<cv::KeyPoint> points;
-  Image descriptors;  // CV_32FC1, a row each
+  Image descriptors;  // CV_32FC1, one row per key-pixel
 };
 
 KeyPixels find(const Image& image, const KeyPixelFlowOptions& options) {
@@ -22,13 +22,13 @@ KeyPixels find(const Image& image, const KeyPixelFlowOptions& options) {
 }
 
 bool comparable(const cv::KeyPoint& a, const cv::KeyPoint& b, const KeyPixelFlowOptions& options) {
-  const cv::Point2f way = b.pt - a.pt;
-  return way.dot(way) <= options.max_flow_px * options.max_flow_px &&
+  const cv::Point2f flow = b.pt - a.pt;
+  return flow.dot(flow) <= options.max_flow_px * options.max_flow_px &&
          std::max(a.size, b.size) <= options.max_scale_ratio * std::min(a.size, b.size);
 }
 
-/// Index of the best partner in `b` of every key-pixel of `a`, -1 where there is none that is
-/// clearly better than the next.
+/// Index of the best partner in `b` of every key-pixel of `a`, -1 if none is clearly better than
+/// the next.
 std::vector<int> best_partners(const KeyPixels& a, const KeyPixels& b,
                                const KeyPixelFlowOptions& options) {
   std::vector<int> partners;
@@ -41,7 +41,7 @@ std::vector<int> best_partners(const KeyPixels& a, const KeyPixels& b,
           cv::hal::normL2Sqr_(a.descriptors.ptr<float>(static_cast<int>(i)),
                               b.descriptors.ptr<float>(static_cast<int>(j)), a.descriptors.cols);
       if (distance < best) {
-        // A blob may carry two descriptors, one for each strong orientation: no rivals.
+        // A blob may have two descriptors, one for each strong orientation: they are not rivals.
         if (partner < 0 || b.points[j].pt != b.points[partner].pt) second = best;
         best = distance;
         partner = static_cast<int>(j);
@@ -60,10 +60,12 @@ std::vector<int> best_partners(const KeyPixels& a, const KeyPixels& b,
 void KeyPixelFlowOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, KeyPixelFlowOptions& o) {
-  field("max_key_pixels", o.max_key_pixels, "the strongest of each image", {10, 100000});
-  field("max_flow_px", o.max_flow_px, "partners are sought no farther away", {1, 10000});
-  field("max_ratio", o.max_ratio, "distance of the best partner over that of the second", {0.1, 1});
-  field("max_scale_ratio", o.max_scale_ratio, "of the sizes of partners", {1, 10});
+  field("max_key_pixels", o.max_key_pixels,
+        "maximum number of key-pixels per image, the strongest ones", {10, 100000});
+  field("max_flow_px", o.max_flow_px, "maximum distance of partners [px]", {1, 10000});
+  field("max_ratio", o.max_ratio,
+        "maximum ratio of the descriptor distances of the two best partners", {0.1, 1});
+  field("max_scale_ratio", o.max_scale_ratio, "maximum ratio of the sizes of partners", {1, 10});
 }
 
 std::vector<FlowVector> key_pixel_flow(const Image& from, const Image& to,

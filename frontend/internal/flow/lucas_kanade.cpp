@@ -34,14 +34,14 @@ Gradients gradients_of(const Image& image, const LucasKanadeOptions& options) {
   return all;
 }
 
-/// The columns and rows of a window that lie on the image and not in its padding.
+/// The columns and rows of a window that are on the image and not in its padding.
 struct Part {
   int from_x = 0, to_x = 0, from_y = 0, to_y = 0;
   int count() const { return (to_x - from_x) * (to_y - from_y); }
 };
 
-/// Of a window read at (u, v) of an image in a padding of `pad` pixels; a pixel interpolated from
-/// one of the padding is none of the image's.
+/// Part of a window at (u, v) that is on an image with a padding of `pad` pixels; a pixel
+/// interpolated from the padding is not part of it.
 Part part_inside(const Image& image, int pad, int radius, double u, double v) {
   const auto clamped = [&](double value) {
     return std::clamp(static_cast<int>(value), 0, 2 * radius + 1);
@@ -59,7 +59,7 @@ class Window {
  public:
   Window(int radius) : radius_(radius), side_(2 * radius + 1), values_(side_ * side_) {}
 
-  /// Bilinear; false if the window leaves the padded image.
+  /// Samples bilinearly; false if the window leaves the padded image.
   bool read(const Image& image, double u, double v) {
     const int u0 = static_cast<int>(std::floor(u)), v0 = static_cast<int>(std::floor(v));
     if (u0 < radius_ || v0 < radius_ || u0 + radius_ + 1 >= image.cols ||
@@ -97,7 +97,7 @@ class Window {
 };
 
 float dot(const float* a, const float* b, int n) {
-  // Partial sums side by side, so that they may be added by vector instructions.
+  // Independent partial sums, so that vector instructions can be used.
   float sums[8] = {};
   int i = 0;
   for (; i + 8 <= n; i += 8)
@@ -175,13 +175,14 @@ class Follower {
       const Vector2d step = inverse * mismatch->along_gradient;
       flow += step;
       if (step.norm() < options_.epsilon_px) break;
-      if (i > 0 && (step + last).cwiseAbs().maxCoeff() < 0.01) {  // to and fro
+      if (i > 0 && (step + last).cwiseAbs().maxCoeff() < 0.01) {  // oscillation
         flow -= step / 2;
         break;
       }
       last = step;
     }
-    // Neighbouring residuals are alike, from smoothing and interpolation: about one in four counts.
+    // Smoothing and interpolation correlate neighbouring residuals: about one in four is
+    // independent.
     constexpr double kPixelsPerSample = 4;
     covariance = inverse * (kPixelsPerSample * square / std::max(1, inside_.count() - 2));
     return full ? Kind::kFull : Kind::kNormal;
@@ -199,8 +200,8 @@ class Follower {
 
   LucasKanadeOptions options_;
   Window template_, du_, dv_, window_, difference_;
-  Part inside_;  // of the template: what its mirrored rest shows moves another way
-  Vector2d axis_ = Vector2d::UnitX();  // of the larger eigenvalue, last looked at
+  Part inside_;  // part of the template on the image: its mirrored rest moves differently
+  Vector2d axis_ = Vector2d::UnitX();  // eigenvector of the larger eigenvalue, last level
 };
 
 }  // namespace
@@ -211,16 +212,15 @@ void LucasKanadeOptions::check() const {
 }
 
 void visit(OptionVisitor& field, LucasKanadeOptions& o) {
-  field("window_px", o.window_px, "side of the window, odd", {3, 63});
-  field("levels", o.levels, "of the image pyramid", {1, 8});
-  field("iterations", o.iterations, "on each level at most", {1, 100});
-  field("epsilon_px", o.epsilon_px, "a step shorter than this ends them", {1e-4, 1});
+  field("window_px", o.window_px, "side of the window, odd [px]", {3, 63});
+  field("levels", o.levels, "number of levels of the image pyramid", {1, 8});
+  field("iterations", o.iterations, "maximum number of iterations on each level", {1, 100});
+  field("epsilon_px", o.epsilon_px, "a step shorter than this ends the iterations of a level [px]",
+        {1e-4, 1});
   field("min_eigenvalue", o.min_eigenvalue,
-        "of the gradient matrix per pixel, grey levels / 255: two above give the flow, one its "
-        "component along the gradient",
-        {0, 1});
+        "minimum eigenvalue of the gradient matrix per pixel, for grey levels / 255", {0, 1});
   field("max_return_error_px", o.max_return_error_px,
-        "of the way back to the start; 0: it is not walked", {0, 10});
+        "maximum forward-backward error; 0: no check [px]", {0, 10});
 }
 
 std::vector<FlowVector> lucas_kanade(const Image& from, const Image& to,

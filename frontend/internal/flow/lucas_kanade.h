@@ -4,25 +4,27 @@
 
 namespace placegraph {
 
+/// Options of pyramidal Lucas-Kanade.
 struct LucasKanadeOptions {
-  int window_px = 21;
-  int levels = 4;
-  int iterations = 30;
+  int window_px = 21;              ///< side of the window, odd
+  int levels = 4;                  ///< levels of the image pyramid
+  int iterations = 30;             ///< maximum number of iterations on each level
   double epsilon_px = 0.01;        ///< a step shorter than this ends the iteration of a level
-  double min_eigenvalue = 3e-5;    ///< of the gradient matrix per pixel, grey levels / 255
-  double max_return_error_px = 1;  ///< of the way back to the start; 0: it is not walked
+  double min_eigenvalue = 3e-5;    ///< minimum, of the gradient matrix per pixel, grey levels / 255
+  double max_return_error_px = 1;  ///< maximum forward-backward error; 0: no check
   void check() const;
 };
 void visit(OptionVisitor& field, LucasKanadeOptions& options);
 
-/// Pyramidal Lucas-Kanade (Lucas & Kanade 1981; Bouguet 2000) from one image to the next (CV_8UC1,
-/// of one size), one answer for each of `points` (pixels of the first). A window whose gradient
-/// matrix has two eigenvalues above the threshold gives its full flow, one with one such eigenvalue
-/// its normal flow, anything else nothing, and so does a point that leaves the image or, of full
-/// flows, does not come back to its start. Covariances are those of least squares, from the
-/// residual's variance, corrected for the correlation that smoothing gives to neighbouring pixels.
-/// Windows may reach over the sides of the first image: what lies outside counts as without
-/// gradient. Throws ArgumentError.
+/// Pyramidal Lucas-Kanade flow (Lucas & Kanade 1981; Bouguet 2000) at given points.
+///
+/// From one image to the next (CV_8UC1, of one size), one vector for each of `points` (pixels of
+/// the first). A window whose gradient matrix has two eigenvalues above the threshold has a full
+/// flow, one with one such eigenvalue a normal flow, any other none. A point that leaves the image
+/// has none, nor has a full flow that fails the forward-backward check. Covariances are those of
+/// least squares, from the residual's variance, corrected for the correlation of neighbouring
+/// pixels by smoothing. Windows may extend beyond the sides of the first image: pixels outside
+/// count as without gradient. Throws ArgumentError.
 std::vector<FlowVector> lucas_kanade(const Image& from, const Image& to,
                                      const std::vector<Eigen::Vector2d>& points,
                                      const LucasKanadeOptions& options);

@@ -21,7 +21,7 @@ Image opencv_lucas_kanade(const Image& from, const Image& to, const FlowOptions&
   std::vector<Image> a, b;
   cv::buildOpticalFlowPyramid(from, a, window, lk.levels - 1);
   cv::buildOpticalFlowPyramid(to, b, window, lk.levels - 1);
-  // OpenCV's eigenvalues are those of gradients in grey levels, over 1024.
+  // OpenCV's eigenvalues are those of gradients in grey levels, divided by 1024.
   const double min_eigenvalue = lk.min_eigenvalue * 255 * 255 / 1024;
   std::vector<unsigned char> there, back;
   std::vector<float> error;
@@ -48,7 +48,7 @@ Image opencv_lucas_kanade(const Image& from, const Image& to, const FlowOptions&
   return flow_image(flow, from.cols, from.rows);
 }
 
-/// A flow that leads out of the image says nothing.
+/// Invalidates flow that leaves the image.
 Image forget_outside(Image flow) {
   for (int v = 0; v < flow.rows; ++v) {
     for (int u = 0; u < flow.cols; ++u) {
@@ -79,10 +79,11 @@ Image dis(const Image& from, const Image& to) {
 void FlowOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, FlowOptions& o) {
-  field.choice("method", o.method, flow_method_names(), "how displacements are found");
-  field("step_px", o.step_px, "of the grid, for methods that look at points", {1, 1000});
+  field.choice("method", o.method, flow_method_names(), "method of optical flow");
+  field("step_px", o.step_px, "spacing of the grid, for methods that measure single points [px]",
+        {1, 1000});
   field.group("interpolation", o.interpolation, "image interpolation");
-  field.group("lucas_kanade", o.lucas_kanade, "Lucas-Kanade, ours and OpenCV's");
+  field.group("lucas_kanade", o.lucas_kanade, "Lucas-Kanade, placegraph's and OpenCV's");
   field.group("horn_schunck", o.horn_schunck, "Horn-Schunck");
   field.group("key_pixels", o.key_pixels, "flow at key-pixels");
 }

@@ -10,7 +10,7 @@
 
 namespace placegraph {
 
-/// The last three are OpenCV's.
+/// Method of optical flow; the last three are OpenCV's.
 enum class FlowMethod {
   kInterpolation,
   kLucasKanade,
@@ -21,9 +21,10 @@ enum class FlowMethod {
   kDis
 };
 
+/// Options of optical flow.
 struct FlowOptions {
   FlowMethod method = FlowMethod::kDis;
-  int step_px = 4;  ///< of the grid of points, for methods that look at one point at a time
+  int step_px = 4;  ///< spacing of the grid of points, for methods that measure single points
   InterpolationFlowOptions interpolation;
   LucasKanadeOptions lucas_kanade;
   HornSchunckOptions horn_schunck;
@@ -32,13 +33,16 @@ struct FlowOptions {
 };
 void visit(OptionVisitor& field, FlowOptions& options);
 
-/// Names of the methods in their order: interpolation, lucas-kanade, horn-schunck, key-pixels,
-/// opencv-lucas-kanade, farneback, dis.
+/// Names of the methods in their order.
+///
+/// interpolation, lucas-kanade, horn-schunck, key-pixels, opencv-lucas-kanade, farneback, dis.
 const std::vector<std::string>& flow_method_names();
 
-/// Displacements from one image to the next (CV_8UC1, of one size): CV_32FC2, (du, dv) in pixels,
-/// NaN where the method says nothing or sees one direction only. Methods that look at points say
-/// nothing between those of the grid (or between key-pixels). Throws ArgumentError.
+/// Displacements from one image to the next (CV_8UC1, of one size).
+///
+/// CV_32FC2, (du, dv) in pixels, NaN where the method has no result or only normal flow. Methods
+/// that measure points have NaN between those of the grid (or between key-pixels). Throws
+/// ArgumentError.
 Image optical_flow(const Image& from, const Image& to, const FlowOptions& options);
 
 }  // namespace placegraph

@@ -20,7 +20,7 @@ void PointTracker::reset() {
 }
 
 void PointTracker::keep(const std::vector<bool>& flags) {
-  require(flags.size() == tracks_.size(), "PointTracker::keep: one flag a track needed");
+  require(flags.size() == tracks_.size(), "PointTracker::keep: one flag per track needed");
   std::size_t kept = 0;
   for (std::size_t i = 0; i < tracks_.size(); ++i)
     if (flags[i]) tracks_[kept++] = tracks_[i];
@@ -33,7 +33,7 @@ void PointTracker::track(const Image& image, const std::vector<Eigen::Vector2f>&
   require(image_.empty() || image.size() == image_.size(),
           "PointTracker::track: image size changed");
   require(predicted_px.empty() || predicted_px.size() == tracks_.size(),
-          "PointTracker::track: one prediction a track needed");
+          "PointTracker::track: one prediction per track needed");
   std::vector<Image> pyramid;
   cv::buildOpticalFlowPyramid(image, pyramid, cv::Size(options_.window_px, options_.window_px),
                               options_.pyramid_levels - 1);
@@ -57,7 +57,7 @@ void PointTracker::track(const Image& image, const std::vector<Eigen::Vector2f>&
   pyramid_ = std::move(pyramid);
 }
 
-/// Where the tracks are in the new image, if they come back to their start from there.
+/// Positions of the tracks in the new image that pass the forward-backward check.
 std::vector<std::optional<Eigen::Vector2f>> PointTracker::follow(
     const std::vector<Image>& pyramid, const std::vector<Eigen::Vector2f>& predicted_px,
     Search search) const {
@@ -82,8 +82,8 @@ std::vector<std::optional<Eigen::Vector2f>> PointTracker::follow(
   const int coarsest = options_.pyramid_levels - 1, finer = std::min(coarsest, 1);
   std::vector<cv::Point2f> to = guess;
   const auto there = lucas_kanade(pyramid_, pyramid, from, near ? finer : coarsest, to);
-  // The way back starts as far off its goal as the prediction was: there fine levels are enough,
-  // and what slid off elsewhere does not come home by itself.
+  // The backward search starts as far off as the prediction was: fine levels are enough, and a
+  // point that drifted elsewhere does not return to its start.
   std::vector<cv::Point2f> back = from;
   if (!predicted_px.empty())
     for (std::size_t i = 0; i < back.size(); ++i) back[i] += to[i] - guess[i];
@@ -118,7 +118,7 @@ void PointTracker::anchor() {
       if (track.covariance.trace() > most) continue;
     }
     if (!place || !AnchoredPatch::is_comparable(track.A)) {
-      // The new look lies where the old one is thought to be.
+      // The new anchor is taken at the estimated position of the old one.
       track.template_covariance = track.covariance;
       take_template(track);
     }
@@ -144,8 +144,7 @@ void PointTracker::detect(const Image& mask) {
     cv::circle(blocked, cv::Point(cvRound(track.px.x()), cvRound(track.px.y())),
                options_.min_distance_px, 255, cv::FILLED);
 
-  // Strongest corners of every cell first, cells in turn: what is even matters more than what is
-  // strong.
+  // Strongest corners of every cell first, cells in turn: even coverage has priority over strength.
   const int columns = (image_.cols + options_.cell_px - 1) / options_.cell_px;
   const int rows = (image_.rows + options_.cell_px - 1) / options_.cell_px;
   std::vector<std::vector<Corner>> cells(columns * rows);
@@ -163,7 +162,7 @@ void PointTracker::detect(const Image& mask) {
   const int quota = (options_.max_tracks + columns * rows - 1) / (columns * rows);
   std::vector<std::size_t> next(cells.size(), 0);
   int added = 0;
-  // First up to each cell's fair share, then wherever corners are left.
+  // First up to each cell's equal share, then the remaining corners of all cells.
   for (int round = 1; round <= 4 * quota && added < missing; ++round) {
     for (std::size_t c = 0; c < cells.size() && added < missing; ++c) {
       if (occupied[c] >= round) continue;

@@ -13,43 +13,51 @@
 
 namespace placegraph {
 
-/// One image point followed over time; the landmark that it becomes has its id.
+/// One image point tracked over time; its landmark has the same id.
 struct PointTrack {
   LandmarkId id;
   Eigen::Vector2f px = Eigen::Vector2f::Zero();
   Eigen::Vector2f px_previous = Eigen::Vector2f::Zero();
   int age = 0;  ///< frames since detection
-  /// Of px [px^2], against where the track began; after `anchor` and `detect`.
+  /// Covariance of px [px^2] relative to the start of the track; set by `anchor` and `detect`.
   Eigen::Matrix2f covariance = Eigen::Matrix2f::Identity();
-  Eigen::Matrix2f template_covariance = Eigen::Matrix2f::Zero();  ///< the same of its look
-  std::shared_ptr<const AnchoredPatch> anchor;      ///< its look where that was last taken
-  Eigen::Matrix2f A = Eigen::Matrix2f::Identity();  ///< how that lies in the image, see Place
+  Eigen::Matrix2f template_covariance = Eigen::Matrix2f::Zero();  ///< that of the anchor patch
+  std::shared_ptr<const AnchoredPatch> anchor;  ///< patch at the point where it was last taken
+  Eigen::Matrix2f A =
+      Eigen::Matrix2f::Identity();  ///< warp of the anchor patch in the image, see Place
 };
 
-/// Corners (Shi & Tomasi 1994) followed by pyramidal Lucas-Kanade (Bouguet 2000) with a
-/// forward-backward check (Kalal et al. 2010), at keyframes held by their first looks; new ones are
-/// detected so that they cover the image evenly. Ids are never used twice.
+/// Tracks corners (Shi & Tomasi 1994) by pyramidal Lucas-Kanade (Bouguet 2000).
+///
+/// With a forward-backward check (Kalal et al. 2010); at keyframes tracks are corrected by their
+/// anchor patches. New corners are detected so that they cover the image evenly. Ids are unique.
 class PointTracker {
  public:
   explicit PointTracker(const PointTrackerOptions& options);
 
-  /// Follows all tracks into `image` (CV_8UC1, the size of the last); lost ones are dropped.
-  /// `predicted_px` holds a starting point for each present track, or is empty. How far from there
-  /// a point is sought: over all levels of the pyramid, or over the finest two at less than half
-  /// the cost, some ten pixels wide; farther off, such a search may end at something alike.
+  /// Range of the search about the predicted point.
+  ///
+  /// kWide: over all levels of the pyramid. kNear: over the finest two at less than half the cost,
+  /// some ten pixels wide; farther off, such a search may end at a similar patch.
   enum class Search { kWide, kNear };
+  /// Tracks all points into `image` (CV_8UC1, the size of the last); lost tracks are dropped.
+  ///
+  /// `predicted_px` has a starting point for each present track, or is empty.
   void track(const Image& image, const std::vector<Eigen::Vector2f>& predicted_px = {},
              Search search = Search::kWide);
-  /// Detects new corners in the last image wherever tracks are missing; `mask` 0 = not here (may be
-  /// empty).
+  /// Detects new corners in the last image where tracks are missing.
+  ///
+  /// `mask`: no corners where it is 0 (may be empty).
   void detect(const Image& mask = {});
-  /// Puts every track to where its first look (AnchoredPatch) is in the last image, so that it does
-  /// not drift, and says how well it is known. A look that is not found there, or is too warped to
-  /// be compared, is taken anew: what the track erred by until then, it goes on to err by.
+  /// Corrects the drift of every track by its anchor patch in the last image.
+  ///
+  /// Moves the track to the position of its anchor (AnchoredPatch) and sets its covariance. If the
+  /// anchor is not found, or is too warped to be compared, a new one is taken: the error of the
+  /// track up to then remains.
   void anchor();
-  /// Drops the tracks whose flag is false (one flag a track, in order).
+  /// Drops the tracks whose flag is false (one flag per track, in order).
   void keep(const std::vector<bool>& flags);
-  /// Forgets tracks and images; ids go on counting.
+  /// Removes tracks and images; the numbering of ids continues.
   void reset();
 
   const std::vector<PointTrack>& tracks() const { return tracks_; }
@@ -62,7 +70,7 @@ class PointTracker {
   void take_template(PointTrack& track) const;
 
   PointTrackerOptions options_;
-  Eigen::Matrix2f least_ = Eigen::Matrix2f::Identity();  // covariance of a look that is found
+  Eigen::Matrix2f least_ = Eigen::Matrix2f::Identity();  // least covariance of a found anchor
   std::vector<PointTrack> tracks_;
   Image image_;
   std::vector<Image> pyramid_;

@@ -11,20 +11,22 @@ struct PixelBox {
   int u0 = 0, v0 = 0, u1 = 0, v1 = 0;
 };
 
-/// Means of many channels of bytes over any rectangle, in a time that does not depend on its size:
-/// integral images whose channels lie beside each other.
+/// Means of many byte channels over any rectangle, in a time that does not depend on its size.
+///
+/// Integral images with interleaved channels.
 class BoxSums {
  public:
-  /// `pixels`: rows x cols x channels bytes, the channels of one pixel beside each other. Throws
-  /// ArgumentError if the sizes do not agree or a sum could overflow (over 2^23 pixels).
+  /// Builds the integral images. `pixels`: rows x cols x channels bytes, with the channels of one
+  /// pixel beside each other. Throws ArgumentError if the sizes do not agree or a sum could
+  /// overflow (over 2^23 pixels).
   BoxSums(const std::vector<std::uint8_t>& pixels, int rows, int cols, int channels);
 
   int rows() const { return rows_; }
   int cols() const { return cols_; }
   int channels() const { return channels_; }
 
-  /// The rounded means over the part of the box within the image; a box that lies outside is moved
-  /// to the nearest pixels first, so every box has an answer. `means`: one a channel.
+  /// Computes the rounded means over the part of the box within the image; a box outside is first
+  /// moved to the nearest pixels, so that every box has a result. `means`: one per channel.
   void means(PixelBox box, std::uint8_t* means) const;
 
  private:

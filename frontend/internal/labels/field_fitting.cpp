@@ -9,7 +9,7 @@
 namespace placegraph {
 namespace {
 
-/// What the field with given weights says of the examples that judge it.
+/// Predictions of the field with given weights for the examples that are used to choose them.
 class FieldTrial {
  public:
   FieldTrial(const std::vector<SceneExample>& examples, const SceneTrainingSet& training_set,
@@ -45,7 +45,7 @@ class FieldTrial {
     return right / all + overlap / present;
   }
 
-  /// The exponent with the least mean -log of the right class's probability.
+  /// Exponent with the least mean -log of the correct class's probability.
   float sharpness(double smoothness, double relation) const {
     constexpr std::array<float, 9> kPowers = {0.5f, 0.6f, 0.7f, 0.85f, 1.0f,
                                               1.2f, 1.4f, 1.7f, 2.0f};

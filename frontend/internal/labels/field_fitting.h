@@ -5,15 +5,17 @@
 
 namespace placegraph {
 
-/// How often which classes lie above, below and beside each other in the examples.
+/// Frequencies of the classes above, below and beside each other in the examples.
 [[nodiscard]] RelationTable learn_relations(const std::vector<SceneExample>& examples,
                                             const SceneTrainingSet& training_set);
 
-/// Chooses the weights of a model's random field (LabelField) and how sharp its probabilities are,
-/// with the relations that it has. `shares`: what the forest says of every row of the lesson
-/// without having seen its block, rows x classes. The weights are those of the best pixel accuracy
-/// plus mean intersection over union, the smaller ones of equals; the sharpness is the exponent
-/// with the least mean -log of the right class's probability.
+/// Chooses the weights of a model's random field (LabelField) and the sharpness of its
+/// probabilities.
+///
+/// The model's relations are kept. `shares`: prediction of the forest for every row of the training
+/// set without the row's own block, rows x classes. The weights are those of the best pixel
+/// accuracy plus mean intersection over union, the smaller ones if equal; the sharpness is the
+/// exponent with the least mean -log of the correct class's probability.
 void fit_field(const std::vector<SceneExample>& examples, const SceneTrainingSet& training_set,
                const std::vector<float>& shares, SceneModel& model);
 

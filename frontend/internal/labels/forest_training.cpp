@@ -12,13 +12,13 @@ namespace placegraph {
 void ForestOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, ForestOptions& o) {
-  field("trees", o.trees, "how many", {1, 1000});
-  field("max_depth", o.max_depth, "of a tree", {1, 40});
-  field("min_leaf", o.min_leaf, "rows a leaf holds at least", {1, 1e6});
-  field("tries", o.tries, "features looked at for a split", {1, 60000});
-  field("share_blocks", o.share_blocks, "of the blocks, taken by a tree", {0.01, 1});
-  field("share_rows", o.share_rows, "of the rows of its blocks, taken by a tree", {0.001, 1});
-  field("seed", o.seed, "of what is drawn");
+  field("trees", o.trees, "number of trees", {1, 1000});
+  field("max_depth", o.max_depth, "maximum depth of a tree", {1, 40});
+  field("min_leaf", o.min_leaf, "minimum number of rows of a leaf", {1, 1e6});
+  field("tries", o.tries, "number of features tried for a split", {1, 60000});
+  field("share_blocks", o.share_blocks, "share of the blocks that a tree uses", {0.01, 1});
+  field("share_rows", o.share_rows, "share of the rows of its blocks that a tree uses", {0.001, 1});
+  field("seed", o.seed, "seed of the random samples");
 }
 
 namespace {
@@ -30,7 +30,7 @@ struct Split {
   double gain = 0;
 };
 
-/// One tree that grows.
+/// Training of one tree.
 class Grower {
  public:
   Grower(const ForestTrainingSet& training_set, const ForestOptions& options, std::uint64_t stream)
@@ -63,7 +63,7 @@ class Grower {
         rows_.push_back(static_cast<std::uint32_t>(i));
   }
 
-  // A tree whose blocks were all left out: it answers with the class of one row.
+  // Adds a leaf with the class of one row to a tree without any blocks.
   void add_any_row() {
     for (std::size_t i = 0; i < training_set_.label.size() && rows_.empty(); ++i)
       if (training_set_.label[i] != ForestTrainingSet::kVoid)
@@ -169,7 +169,7 @@ class Grower {
   DecisionForest tree_;
 };
 
-/// The leaf of a row that lies in columns.
+/// Leaf of a row that is stored in columns.
 const std::uint8_t* leaf_of(const DecisionForest& tree, const ForestTrainingSet& training_set,
                             std::size_t row) {
   const DecisionForest::Node* node = tree.nodes.data();
@@ -192,7 +192,7 @@ void append_tree(DecisionForest& forest, const DecisionForest& tree) {
   forest.leaves.insert(forest.leaves.end(), tree.leaves.begin(), tree.leaves.end());
 }
 
-/// Sums of the answers of the trees that did not see a row, then shares.
+/// Sums of the predictions of the trees that did not use a row, normalized to shares.
 std::vector<float> judge_unseen(const ForestTrainingSet& training_set,
                                 const std::vector<DecisionForest>& trees,
                                 const std::vector<std::vector<char>>& taken, int threads) {
@@ -236,7 +236,7 @@ TrainedForest train_forest(const ForestTrainingSet& training_set, const ForestOp
                     [](std::uint8_t label) { return label != ForestTrainingSet::kVoid; });
   require(learned > 0 && training_set.classes > 0 && training_set.classes <= kMostClasses &&
               training_set.blocks > 0,
-          "train_forest: nothing to learn from");
+          "train_forest: the training set is empty");
   require(training_set.weight.size() == rows && training_set.block.size() == rows &&
               training_set.dimension() > 0 && training_set.dimension() < DecisionForest::kLeaf,
           "train_forest: the sizes do not agree");

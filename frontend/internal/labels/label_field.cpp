@@ -24,12 +24,13 @@ float squared_difference(const std::uint8_t* a, const std::uint8_t* b) {
   return sum;
 }
 
-/// What one end of a border hears from the other.
+/// Influence on one side of a border from the other.
 struct Link {
   int to, from;
-  float weight;                ///< share of the border of `to`
-  float similar;               ///< exp(-|c - c'|^2 / 2m)
-  float above, below, beside;  ///< shares of the border where `to` lies so to `from`
+  float weight;   ///< share of the border of `to`
+  float similar;  ///< exp(-|c - c'|^2 / 2m)
+  /// Shares of the border where `to` has this position relative to `from`.
+  float above, below, beside;
 };
 
 std::vector<Link> links_of(const Superpixels& superpixels, const ByteFeatures& colours) {
@@ -82,17 +83,17 @@ std::vector<float> field_marginals(const LabelField& field, const std::vector<fl
   std::vector<float> unary(shares.size());
   for (std::size_t i = 0; i < shares.size(); ++i)
     unary[i] = std::log(std::max(shares[i], kLeastShare));
-  std::vector<float> marginals(shares.size()), heard;
+  std::vector<float> marginals(shares.size()), log_marginals;
   to_shares(unary, n, marginals);
   if (field.smoothness == 0 && field.relation_weight == 0) return marginals;
   const std::vector<Link> links = links_of(superpixels, colours);
   const auto smoothness = static_cast<float>(field.smoothness),
              relation = static_cast<float>(field.relation_weight);
   for (int round = 0; round < kRounds; ++round) {
-    heard = unary;
+    log_marginals = unary;
     for (const Link& link : links) {
       const float* q = marginals.data() + static_cast<std::size_t>(link.from) * n;
-      float* out = heard.data() + static_cast<std::size_t>(link.to) * n;
+      float* out = log_marginals.data() + static_cast<std::size_t>(link.to) * n;
       for (std::size_t c = 0; c < n; ++c) out[c] += link.weight * smoothness * link.similar * q[c];
       if (relation == 0) continue;
       for (std::size_t d = 0; d < n; ++d) {
@@ -104,7 +105,7 @@ std::vector<float> field_marginals(const LabelField& field, const std::vector<fl
                          link.beside * field.relations.beside[c * n + d]);
       }
     }
-    to_shares(heard, n, marginals);
+    to_shares(log_marginals, n, marginals);
   }
   return marginals;
 }
@@ -128,7 +129,8 @@ void RelationCounts::add(const Superpixels& superpixels, const std::vector<int>&
 RelationTable RelationCounts::table() const {
   const auto n = static_cast<std::size_t>(classes_);
   const auto odds = [&](const std::vector<double>& counts) {
-    constexpr double kPrior = 200;  // pixels of border by chance: few seen are no law
+    // Pixels of border by chance: a few observations have little effect.
+    constexpr double kPrior = 200;
     constexpr double kMost = 3;
     double sum = 1e-9;
     std::vector<double> first(n, 0), second(n, 0);

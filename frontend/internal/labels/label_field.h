@@ -6,9 +6,11 @@
 
 namespace placegraph {
 
-/// A conditional random field over superpixels that touch. Item i pays -log p_i(l) for label l, and
-/// with each neighbour j, by the share w_ij of their border in the whole border of i,
-///   -w_ij (smoothness s_ij [l_i = l_j] + relation_weight T(l_i, l_j)),
+/// Conditional random field over adjacent superpixels.
+///
+/// The cost of label l for item i is -log p_i(l), and with each neighbour j, by the share w_ij of
+/// their border in the whole border of i,
+/// -w_ij (smoothness s_ij [l_i = l_j] + relation_weight T(l_i, l_j)),
 /// with s_ij = exp(-|c_i - c_j|^2 / (2 m)), m the mean of the squares, and T the table of relations
 /// above, below and beside.
 struct LabelField {
@@ -17,16 +19,17 @@ struct LabelField {
   RelationTable relations;
 };
 
-/// Marginals of the field by mean field (ten rounds, all items at once), count x classes.
-/// `shares`: p_i(l), each > 0 after a floor of 1e-3; `colours`: features whose brightness and
-/// colour channels give c_i. Throws ArgumentError if the sizes do not agree.
+/// Computes marginals of the field by mean field (ten rounds, all items at once), count x classes.
+///
+/// `shares`: p_i(l), each > 0 after a floor of 1e-3; `colours`: features with the brightness and
+/// colour channels of c_i. Throws ArgumentError if the sizes do not agree.
 std::vector<float> field_marginals(const LabelField& field, const std::vector<float>& shares,
                                    const Superpixels& superpixels, const ByteFeatures& colours);
 
-/// Counts of which classes touch how, by pixels of borders, for `relations_of`.
+/// Counts of the contacts of classes by pixels of borders, for `relations_of`.
 struct RelationCounts {
   explicit RelationCounts(int classes);
-  /// `labels`: a class each, or -1.
+  /// Adds an image. `labels`: one class per superpixel, or -1.
   void add(const Superpixels& superpixels, const std::vector<int>& labels);
   RelationTable table() const;
 

@@ -6,8 +6,8 @@
 namespace placegraph {
 namespace {
 
-/// A forest of `base.classes` classes as one of `classes`; features from `context_begin` on are
-/// groups of one a class, and move apart.
+/// Converts a forest of `base.classes` classes to one of `classes`. Features from `context_begin`
+/// on are groups with one per class, whose positions change.
 DecisionForest widened(const DecisionForest& base, int classes, int context_begin) {
   DecisionForest forest = base;
   forest.classes = classes;
@@ -30,7 +30,7 @@ DecisionForest widened(const DecisionForest& base, int classes, int context_begi
 
 void append(DecisionForest& forest, const DecisionForest& more) {
   require(forest.dimension == more.dimension && forest.classes == more.classes,
-          "keep_trees: the model to keep is of other features");
+          "keep_trees: the model to keep has other features");
   const auto nodes = static_cast<std::uint32_t>(forest.nodes.size());
   const auto leaves =
       static_cast<std::uint32_t>(forest.leaves.size() / static_cast<std::size_t>(forest.classes));

@@ -18,7 +18,7 @@ std::uint8_t byte(float value) {
   return static_cast<std::uint8_t>(std::clamp(value, 0.0f, 255.0f) + 0.5f);
 }
 
-/// A plane of floats into one channel, times `scale` plus `offset`.
+/// Writes a plane of floats, times `scale` plus `offset`, to one channel.
 void put(SceneChannels& channels, int channel, const Image& plane, float scale, float offset) {
   std::uint8_t* out = channels.pixels.data() + channel;
   for (int v = 0; v < channels.rows; ++v) {
@@ -78,7 +78,7 @@ void put_brightness(SceneChannels& channels, const Image& grey_half) {
   ranked.convertTo(ranked, CV_32F);
   put(channels, C::kRank, ranked, 1, 0);
 
-  // Ratios, not differences: a shadow scales what lies in it.
+  // Ratios, not differences: a shadow scales the brightness within it.
   Image log_plane;
   cv::log(plane + 10.0f, log_plane);
   Image square;
@@ -100,7 +100,7 @@ void put_brightness(SceneChannels& channels, const Image& grey_half) {
   put(channels, C::kShade, scales[2] - wide, 120, 128);
 }
 
-/// log(I + 10): a light that changes adds the same everywhere.
+/// log(I + 10): a change of light adds the same everywhere.
 Image log_of(const Image& grey) {
   Image plane;
   grey.convertTo(plane, CV_32F, 1, 10);
@@ -108,7 +108,7 @@ Image log_of(const Image& grey) {
   return plane;
 }
 
-/// Soft shares of a gradient in the two directions next to its own; angle over [0, pi).
+/// Soft shares of a gradient in the two directions nearest to its own; angle in [0, pi).
 void put_edges(SceneChannels& channels, const Image& grey) {
   Image gx, gy, magnitude, angle;
   const Image plane_of_logs = log_of(grey);
@@ -168,7 +168,7 @@ void put_coarse_edges(SceneChannels& channels, const Image& grey_half) {
 SceneChannels scene_channels(const Image& bgr) {
   require(bgr.type() == CV_8UC3 && bgr.rows >= 2 && bgr.cols >= 2 && bgr.rows % 2 == 0 &&
               bgr.cols % 2 == 0,
-          "scene_channels: a CV_8UC3 picture with even sides is needed");
+          "scene_channels: needs a CV_8UC3 image with even sides");
   SceneChannels channels;
   channels.rows = bgr.rows / 2;
   channels.cols = bgr.cols / 2;

@@ -7,9 +7,11 @@
 
 namespace placegraph {
 
-/// What one pixel shows, as bytes: brightness as it is and by its rank in the picture, colour as it
-/// is and relative to the picture's (so that another light changes it little), strength and
-/// direction of edges at two scales, blobs at three. At half the size of the picture.
+/// Features of each pixel, as bytes, at half the size of the image.
+///
+/// Brightness, absolute and by its rank in the image; colour, absolute and relative to that of the
+/// image (so that a change of light has little effect); strength and direction of edges at two
+/// scales; blobs at three scales.
 struct SceneChannels {
   static constexpr int kCount = 32;
   enum Channel {
@@ -21,14 +23,14 @@ struct SceneChannels {
     kBlueRelative,
     kSaturation,
     kContrast,
-    kEdge,                    ///< strength, relative to the picture's mean
+    kEdge,                    ///< strength, relative to the image's mean
     kDirection,               ///< 6 of them: strength along 0, 30, ... 150 degrees
     kShare = kDirection + 6,  ///< 6 of them: share of each direction in the surroundings
     kCoarseEdge = kShare + 6,
     kCoarseUpright,
     kCoarseLevel,
     kBlob,               ///< 3 scales
-    kShade = kBlob + 3,  ///< darker or brighter than wide surroundings
+    kShade = kBlob + 3,  ///< brightness relative to a wide neighbourhood
     kBlueness,
     kGreenness,
     kEnd
@@ -43,7 +45,7 @@ struct SceneChannels {
   }
 };
 
-/// Of a CV_8UC3 BGR picture with even sides; throws ArgumentError for another.
+/// Computes the channels of a CV_8UC3 BGR image with even sides; throws ArgumentError for another.
 SceneChannels scene_channels(const Image& bgr);
 
 }  // namespace placegraph

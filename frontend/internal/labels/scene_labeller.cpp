@@ -16,7 +16,7 @@ void to_bytes(const float* shares, std::size_t n, std::uint8_t* bytes) {
   for (std::size_t c = 0; c < n; ++c) bytes[c] = static_cast<std::uint8_t>(shares[c] * 255 + 0.5f);
 }
 
-/// What a superpixel shows, then what is around it.
+/// Writes the features of a superpixel, then those of its context.
 void second_row(const ByteFeatures& features, const ByteFeatures& context, int i,
                 std::vector<std::uint8_t>& row) {
   std::copy_n(features.row(i), features.dimension, row.begin());
@@ -27,9 +27,9 @@ void second_row(const ByteFeatures& features, const ByteFeatures& context, int i
 
 Image scene_picture(const Image& picture) {
   require(!picture.empty() && (picture.type() == CV_8UC3 || picture.type() == CV_8UC1),
-          "view_scene: a picture of 8 bits, BGR or grey, is needed");
+          "view_scene: needs an image of 8 bits, BGR or grey");
   require(std::min(picture.rows, picture.cols) >= kLeastSide,
-          "view_scene: the picture is smaller than " + std::to_string(kLeastSide) + " pixels");
+          "view_scene: the image is smaller than " + std::to_string(kLeastSide) + " pixels");
   Image bgr = picture;
   if (picture.channels() == 1) cv::cvtColor(picture, bgr, cv::COLOR_GRAY2BGR);
   const double scale = std::sqrt(kWorkPixels / (static_cast<double>(bgr.rows) * bgr.cols));
@@ -69,7 +69,7 @@ std::vector<float> classify_superpixels(const SceneModel& model, const SceneView
   const auto n = static_cast<std::size_t>(classes);
   require(model.first.dimension == view.features.dimension &&
               model.second.dimension == view.features.dimension + context_dimension(classes),
-          "classify_superpixels: the model is of other features");
+          "classify_superpixels: the model has other features");
   const int count = view.superpixels.count;
   std::vector<float> shares(static_cast<std::size_t>(count) * n);
   for (int i = 0; i < count; ++i)

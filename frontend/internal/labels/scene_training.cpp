@@ -10,11 +10,13 @@ namespace placegraph {
 void SceneTrainingOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, SceneTrainingOptions& o) {
-  field.group("forest", o.forest, "of both rounds");
-  field("variants", o.variants, "of each picture: itself, and as another day might show it",
-        {1, 50});
-  field("class_power", o.class_power, "rare classes weigh as share^-power", {0, 1});
-  field("block", o.block, "pictures of a drive one after the other that are alike", {1, 10000});
+  field.group("forest", o.forest, "options of both forests");
+  field("variants", o.variants,
+        "number of variants of each image: itself, and simulations of other conditions", {1, 50});
+  field("class_power", o.class_power, "exponent of the weight share^-power of rare classes",
+        {0, 1});
+  field("block", o.block, "number of consecutive images of a drive that count as similar",
+        {1, 10000});
 }
 
 SceneModel train_scene_model(SceneModel model, std::vector<SceneExample> examples,
@@ -22,25 +24,24 @@ SceneModel train_scene_model(SceneModel model, std::vector<SceneExample> example
                              const std::function<void(const std::string&)>& say,
                              const SceneModel* base) {
   options.check();
-  require(model.class_count() >= 2 && !examples.empty(),
-          "train_scene_model: nothing to learn from");
+  require(model.class_count() >= 2 && !examples.empty(), "train_scene_model: no training data");
   for (const SceneExample& example : examples)
     require(example.pixels.size() ==
                 static_cast<std::size_t>(example.superpixels.count) * model.classes.size(),
-            "train_scene_model: an example of other classes");
+            "train_scene_model: an example has other classes");
   SceneTrainingSet training_set =
       make_training_set(examples, model.class_count(), options.class_power);
-  say("learning what superpixels show, from " + std::to_string(training_set.rows.rows()) +
-      " of them");
+  say("training the first forest from " + std::to_string(training_set.rows.rows()) +
+      " superpixels");
   TrainedForest first = train_forest(training_set.rows, options.forest, threads);
   add_context(examples, first.unseen, training_set);
-  say("learning what lies around them");
+  say("training the second forest, with the context of the superpixels");
   ForestOptions second_options = options.forest;
   ++second_options.seed;
   const TrainedForest second = train_forest(training_set.rows, second_options, threads);
   model.first = std::move(first.forest);
   model.second = second.forest;
-  say("learning how classes lie to each other");
+  say("fitting the random field");
   model.relations = learn_relations(examples, training_set);
   fit_field(examples, training_set, second.unseen, model);
   if (base) keep_trees(*base, model);

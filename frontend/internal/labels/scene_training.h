@@ -10,18 +10,21 @@
 namespace placegraph {
 
 struct SceneTrainingOptions {
-  ForestOptions forest;      ///< of both rounds
-  int variants = 3;          ///< of each picture: itself, and as another day might show it
-  double class_power = 0.5;  ///< rare classes weigh as share^-power
-  int block = 15;            ///< pictures of a drive one after the other that are alike
+  ForestOptions forest;  ///< options of both forests
+  /// Number of variants of each image: itself, and simulations of other conditions.
+  int variants = 3;
+  double class_power = 0.5;  ///< exponent of the weight share^-power of rare classes
+  int block = 15;            ///< number of consecutive images of a drive that count as similar
   void check() const;
 };
 void visit(OptionVisitor& field, SceneTrainingOptions& options);
 
-/// Learns a model of the classes in it (`kind`, `classes`, `surfaces` and `origin` are taken from
-/// `model`); `base`: one whose trees are kept beside the new ones, classes of the same names
-/// first in `model`. The same bits for any number of threads. `say` hears what is being done.
-/// Throws ArgumentError if there is nothing to learn from.
+/// Trains a model of the given classes.
+///
+/// `kind`, `classes`, `surfaces` and `origin` are taken from `model`. `base`: model whose trees are
+/// kept beside the new ones; its classes, with the same names, come first in `model`. The result
+/// has the same bits for any number of threads. `say` receives messages on the progress. Throws
+/// ArgumentError if there are no training data.
 SceneModel train_scene_model(SceneModel model, std::vector<SceneExample> examples,
                              const SceneTrainingOptions& options, int threads,
                              const std::function<void(const std::string&)>& say,

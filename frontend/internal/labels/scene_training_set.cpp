@@ -8,7 +8,7 @@
 namespace placegraph {
 namespace {
 
-/// The class most pixels have, if they are half of all; else void.
+/// Class of most pixels if they are at least half of all, else void.
 int class_of(const int* pixels, int classes, int area) {
   const int* best = std::max_element(pixels, pixels + classes);
   return *best > 0 && 2 * *best >= area ? static_cast<int>(best - pixels)
@@ -26,7 +26,7 @@ Image fit_labels(const Image& labels, const Image& picture) {
 
 SceneExample make_example(const Image& picture, const Image& labels, int classes, int block) {
   require(labels.type() == CV_8UC1 && labels.size() == picture.size(),
-          "make_example: labels of another size");
+          "make_example: the labels have another size");
   SceneView view = view_scene(picture);
   SceneExample example;
   example.block = block;

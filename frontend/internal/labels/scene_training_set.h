@@ -6,46 +6,48 @@
 
 namespace placegraph {
 
-/// A picture to learn from, cut up: its features, and which classes the pixels of each superpixel
-/// have.
+/// Training image in superpixels: features, and the number of pixels of each class.
 struct SceneExample {
   Superpixels superpixels;  ///< without the index
   ByteFeatures features;
-  std::vector<int> pixels;  ///< count x classes; void ones in none
-  int block = 0;            ///< examples of one are alike
+  std::vector<int> pixels;  ///< count x classes; void pixels do not count
+  int block = 0;            ///< examples of one block are similar
 };
 
-/// Labels at the size of a picture, by their nearest pixels.
+/// Resizes labels to the size of an image, by their nearest pixels.
 Image fit_labels(const Image& labels, const Image& picture);
 
-/// `labels` CV_8UC1 of the picture's size, void from `classes` on. Throws ArgumentError if the
-/// sizes do not agree.
+/// Makes an example. `labels`: CV_8UC1 of the image's size, void from `classes` on. Throws
+/// ArgumentError if the sizes do not agree.
 SceneExample make_example(const Image& picture, const Image& labels, int classes, int block);
 
-/// Whether the random field's weights are chosen by this example of so many: some hundred are
-/// enough.
+/// Whether an example, out of so many, is used to choose the random field's weights: some hundred
+/// are enough.
 [[nodiscard]] bool judges_field(std::size_t example, std::size_t examples);
 
-/// What the superpixels of all examples teach, one row each, example by example.
+/// Training rows of the superpixels of all examples, one each, example by example.
 struct SceneTrainingSet {
   ForestTrainingSet rows;
-  std::vector<int> first_row;  ///< of each example
+  std::vector<int> first_row;  ///< first row of each example
 
   int classes() const { return rows.classes; }
-  /// Of the first superpixel of an example, in an array of rows x classes.
+  /// Index of the first superpixel of an example in an array of rows x classes.
   std::size_t first_share(std::size_t example) const {
     return static_cast<std::size_t>(first_row[example]) * static_cast<std::size_t>(classes());
   }
 };
 
-/// A row's label is the class that half of its superpixel's pixels or more have, else void; it
-/// weighs as many pixels as have it, rare classes more, as their share to the power -class_power.
-/// Features are kept feature by feature: those of examples that do not judge the random field
-/// (judges_field) are let go of. Throws ArgumentError if no pixel is labelled.
+/// Makes the training set and clears features of the examples.
+///
+/// A row's label is the class of at least half of its superpixel's pixels, else void. Its weight is
+/// the number of pixels of the class, multiplied by the class's share to the power -class_power,
+/// which is more for rare classes. Features are stored feature by feature; those of examples that
+/// are not used for the random field (judges_field) are freed. Throws ArgumentError if no pixel is
+/// labelled.
 [[nodiscard]] SceneTrainingSet make_training_set(std::vector<SceneExample>& examples, int classes,
                                                  double class_power);
 
-/// Adds to every row what lies around its superpixel. `shares`: of the classes, rows x classes.
+/// Adds features of the surroundings to every row. `shares`: of the classes, rows x classes.
 void add_context(const std::vector<SceneExample>& examples, const std::vector<float>& shares,
                  SceneTrainingSet& training_set);
 

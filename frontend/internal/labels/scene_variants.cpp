@@ -8,7 +8,7 @@
 namespace placegraph {
 namespace {
 
-/// A smooth field of factors around 1: three grids of noise, the coarser the stronger.
+/// Smooth field of factors around 1: three grids of noise, the coarser the stronger.
 Image draw_light(cv::Size size, double strength, Random& random) {
   Image field = Image::zeros(size, CV_32F);
   for (const auto& [cells, part] : {std::pair{3, 1.0}, {7, 0.67}, {15, 0.5}}) {
@@ -40,8 +40,8 @@ Image relight(const Image& bgr, Random& random) {
       auto& out = result.at<cv::Vec3b>(v, u);
       const std::uint32_t bits = random.next();
       for (int c = 0; c < 3; ++c) {
-        const float dice =
-            static_cast<float>((bits >> (10 * c)) & 1023u) / 511.5f - 1;  // in [-1, 1]
+        // In [-1, 1].
+        const float dice = static_cast<float>((bits >> (10 * c)) & 1023u) / 511.5f - 1;
         out[c] = cv::saturate_cast<std::uint8_t>(table[in[c]] * light.at<float>(v, u) *
                                                      tint[static_cast<std::size_t>(c)] +
                                                  noise * dice);
@@ -55,7 +55,7 @@ Image relight(const Image& bgr, Random& random) {
 SceneVariant vary_scene(const Image& bgr, const Image& labels, std::uint8_t void_label, bool mirror,
                         Random& random) {
   require(bgr.type() == CV_8UC3 && labels.type() == CV_8UC1 && bgr.size() == labels.size(),
-          "vary_scene: a BGR picture and its labels are needed");
+          "vary_scene: needs a BGR image and its labels");
   SceneVariant variant{relight(bgr, random), labels.clone()};
   if (mirror) {
     cv::flip(variant.bgr, variant.bgr, 1);

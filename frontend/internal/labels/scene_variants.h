@@ -6,15 +6,17 @@
 
 namespace placegraph {
 
-/// A labelled picture as another day, another light and another camera might have shown it.
+/// Labelled image as on another day, in another light and with another camera.
 struct SceneVariant {
   Image bgr, labels;
 };
 
-/// Draws exposure, contrast, colour of the light, clouds and shadows (smooth factors), noise of the
-/// sensor, zoom and shift, takes the colour from about a third, and mirrors where `mirror` says so.
-/// `labels` of type CV_8UC1; pixels that come from outside become `void_label`. The same `random`
-/// gives the same picture.
+/// Simulates other conditions for an image.
+///
+/// Random exposure, contrast, colour of the light, clouds and shadows (smooth factors), sensor
+/// noise, zoom and shift; about a third lose their colour; mirrored if `mirror` is set. `labels`
+/// has type CV_8UC1; pixels from outside the image become `void_label`. The same `random` gives the
+/// same image.
 SceneVariant vary_scene(const Image& bgr, const Image& labels, std::uint8_t void_label, bool mirror,
                         Random& random);
 

@@ -10,8 +10,8 @@
 namespace placegraph {
 namespace {
 
-constexpr int kBoxes = 28;    ///< around a superpixel
-constexpr int kSpreads = 24;  ///< channels whose spread within a superpixel is taken
+constexpr int kBoxes = 28;    ///< rectangles around a superpixel
+constexpr int kSpreads = 24;  ///< channels whose spread within a superpixel is a feature
 constexpr int kShapeNumbers = 14;
 static_assert(kSuperpixelFeatures ==
               SceneChannels::kCount * (kBoxes + 1) + kSpreads + kShapeNumbers);
@@ -27,8 +27,7 @@ PixelBox box_at(float u, float v, float half_width, float half_height) {
           static_cast<int>(std::lround(v + half_height))};
 }
 
-/// The rectangles around (u, v) of a picture of `cols` x `rows`; `unit` is a 240th of its longer
-/// side.
+/// Rectangles around (u, v) in an image of `cols` x `rows`; `unit` is a 240th of its longer side.
 std::array<PixelBox, kBoxes> boxes_around(float u, float v, int cols, int rows) {
   const float unit = static_cast<float>(std::max(cols, rows)) / 240.0f;
   std::array<PixelBox, kBoxes> boxes;
@@ -83,7 +82,7 @@ void put_shape(const RegionShape& s, int cols, int rows, std::uint8_t* out) {
   for (std::size_t i = 0; i < numbers.size(); ++i) out[i] = byte_of(numbers[i]);
 }
 
-/// Means over each superpixel, and the spread of the first channels.
+/// Writes means over each superpixel, and the spread of the first channels.
 void put_own(const SceneChannels& channels, const Superpixels& superpixels, ByteFeatures& features,
              int spread_at) {
   constexpr int n = SceneChannels::kCount;
@@ -157,7 +156,7 @@ ByteFeatures context_features(const ByteFeatures& probabilities, const Superpixe
     }
   const BoxSums sums(map, rows, cols, classes);
 
-  // Of the neighbours above, below and beside, each weighed by the length of the border.
+  // Means over the neighbours above, below and beside, each weighted by the length of the border.
   const auto count = static_cast<std::size_t>(superpixels.count);
   std::vector<float> around(count * 4 * n, 0.0f), length(count * 4, 0.0f);
   const auto give = [&](int to, int from, std::size_t side, int border) {

@@ -8,7 +8,7 @@
 
 namespace placegraph {
 
-/// Rows of bytes, one a superpixel: what a forest decides by.
+/// Rows of bytes, one per superpixel: the features of a forest.
 struct ByteFeatures {
   int count = 0, dimension = 0;
   std::vector<std::uint8_t> values;  ///< count x dimension
@@ -20,12 +20,14 @@ struct ByteFeatures {
 
 constexpr int kSuperpixelFeatures = 32 * 29 + 24 + 14;
 
-/// Colour, texture and edges (see SceneChannels) of each superpixel and of rectangles around it:
-/// nine cells of a HOG-like grid, nine wider, far ones on four sides, the columns above and below,
-/// its row and the whole picture; spread within it; place and shape.
+/// Colour, texture and edges (see SceneChannels) of each superpixel and of rectangles around it.
+///
+/// The rectangles are nine cells of a HOG-like grid, nine wider ones, far ones on four sides, the
+/// columns above and below, the superpixel's row and the whole image; further features are the
+/// spread within the superpixel, its position and its shape.
 ByteFeatures superpixel_features(const Image& bgr, const Superpixels& superpixels);
 
-/// The label distributions of each superpixel, of its neighbours above, beside and below, and of
+/// Label distributions of each superpixel, of its neighbours above, beside and below, and of
 /// rectangles around it (auto-context, Tu 2008). `probabilities`: count x classes bytes, 255 = 1.
 ByteFeatures context_features(const ByteFeatures& probabilities, const Superpixels& superpixels);
 int context_dimension(int classes);

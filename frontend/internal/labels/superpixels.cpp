@@ -11,9 +11,9 @@ namespace placegraph {
 void SuperpixelOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, SuperpixelOptions& o) {
-  field("side_px", o.side_px, "about the side of a superpixel", {4, 200});
-  field("ruler", o.ruler, "the greater, the more compact they are", {1, 200});
-  field("iterations", o.iterations, "of their search", {1, 50});
+  field("side_px", o.side_px, "approximate side of a superpixel", {4, 200});
+  field("ruler", o.ruler, "compactness of the superpixels; larger is more compact", {1, 200});
+  field("iterations", o.iterations, "number of iterations of the search", {1, 50});
 }
 
 namespace {
@@ -90,7 +90,7 @@ std::vector<RegionShape> shapes_of(const Image& index, int count) {
   return shapes;
 }
 
-/// Logarithms stretched to the whole range: what lies in the dark has borders too.
+/// Logarithms stretched to the whole range, so that dark regions have borders too.
 Image brightened(const Image& bgr) {
   Image table(1, 256, CV_8UC1), result;
   const double most = std::log(1 + 255.0 / 20);
@@ -105,22 +105,22 @@ Image brightened(const Image& bgr) {
 
 Superpixels cut_superpixels(const Image& bgr, const SuperpixelOptions& options) {
   options.check();
-  require(bgr.type() == CV_8UC3, "cut_superpixels: a CV_8UC3 picture is needed");
+  require(bgr.type() == CV_8UC3, "cut_superpixels: needs a CV_8UC3 image");
   require(std::min(bgr.rows, bgr.cols) >= 2 * options.side_px,
-          "cut_superpixels: the picture is smaller than two superpixels");
+          "cut_superpixels: the image is smaller than two superpixels");
   Image lab;
   cv::cvtColor(brightened(bgr), lab, cv::COLOR_BGR2Lab);
   Image index;
   const int count = picture_plugin("superpixels")
                         .cut_superpixels(lab, options.side_px, static_cast<float>(options.ruler),
                                          options.iterations, index);
-  if (count == 0) throw Error("cut_superpixels: the picture cannot be cut");
+  if (count == 0) throw Error("cut_superpixels: the image has no superpixels");
   return superpixels_of_index(index, count);
 }
 
 Superpixels superpixels_of_index(const Image& index, int count) {
   require(index.type() == CV_32SC1 && !index.empty() && count > 0,
-          "superpixels_of_index: a CV_32SC1 image is needed");
+          "superpixels_of_index: needs a CV_32SC1 image");
   constexpr int kStep = Superpixels::kCoarse;
   Superpixels result;
   result.index = index;

@@ -6,7 +6,7 @@ namespace placegraph {
 SurfaceLayout classify_surfaces(const SceneModel& model, const SceneView& view,
                                 double unknown_below, const LabellerOptions& options) {
   require(model.kind == SceneModel::Kind::kSurfaces && model.class_count() == kSurfaceCount,
-          "classify_surfaces: a model of surfaces is needed");
+          "classify_surfaces: needs a model of surfaces");
   SurfaceLayout layout;
   layout.surfaces =
       most_probable(classify_superpixels(model, view, options), kSurfaceCount, view, unknown_below);

@@ -12,10 +12,11 @@ namespace placegraph {
 namespace {
 
 constexpr double kFarthestForPlane_m = 25;
-constexpr double kHalfRoad_m = 3.5;  // what lies before the camera is road, beside it may be higher
+// In front of the camera is road; the ground beside it may be higher.
+constexpr double kHalfRoad_m = 3.5;
 constexpr std::size_t kFewest = 60;
 
-/// Between which heights above the ground [m] something is found.
+/// Range of heights above the ground [m] in which a class occurs.
 struct ClassHeights {
   const char* name;
   double low, high;
@@ -40,7 +41,7 @@ ClassHeights heights_of(const std::string& name, Surface surface) {
 
 double normal_cdf(double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); }
 
-/// Density of a value that is even between two ends and measured with `sigma`.
+/// Density of a value that is uniform between two ends and measured with `sigma`.
 double soft_box(double value, double low, double high, double sigma) {
   const double width = high - low;
   if (width < 0.2 * sigma) {
@@ -50,7 +51,7 @@ double soft_box(double value, double low, double high, double sigma) {
   return (normal_cdf((value - low) / sigma) - normal_cdf((value - high) / sigma)) / width;
 }
 
-/// How high points lie above the plane down . p = h.
+/// Height of a point above the plane down . p = h.
 double above(const Eigen::Vector3d& down, double height, const Eigen::Vector3d& p) {
   return height - down.dot(p);
 }
@@ -61,7 +62,7 @@ struct PlaneFit {
   bool good = false;
 };
 
-/// Least squares of down . p = h, weights given, with y the coordinate that is measured.
+/// Weighted least squares of down . p = h, with errors in the coordinate y.
 PlaneFit fit_plane(const std::vector<Eigen::Vector3d>& points, const std::vector<double>& weights) {
   Eigen::Matrix3d A = 1e-9 * Eigen::Matrix3d::Identity();
   Eigen::Vector3d b = Eigen::Vector3d::Zero();
@@ -75,7 +76,7 @@ PlaneFit fit_plane(const std::vector<Eigen::Vector3d>& points, const std::vector
   return {n.normalized(), s[2] / n.norm(), s.allFinite()};
 }
 
-/// The plane that the median of the points is nearest to, of many through three of them.
+/// Plane with the least median distance from the points, among many through three of them.
 PlaneFit search_plane(const std::vector<Eigen::Vector3d>& points, const std::vector<double>& sigmas,
                       Random& random) {
   constexpr int kTries = 60;
@@ -92,7 +93,7 @@ PlaneFit search_plane(const std::vector<Eigen::Vector3d>& points, const std::vec
     if (!fit.good || fit.down[1] < std::cos(kSteepest) || fit.height < 0.3) continue;
     for (std::size_t i = 0; i < points.size(); ++i)
       residuals[i] = std::abs(above(fit.down, fit.height, points[i])) / sigmas[i];
-    // Of those that look like ground half are taken to be of it at least.
+    // At least half of the probable ground points are assumed to be ground.
     if (const double median = median_of(residuals); median < least) least = median, best = fit;
   }
   return best;
@@ -124,7 +125,7 @@ GroundProfile fit_ground(const std::vector<DepthSample>& samples,
   for (const DepthSample& sample : samples) {
     if (ground_share[static_cast<std::size_t>(sample.superpixel)] < 0.5F) continue;
     const Eigen::Vector3d p = sample.point.cast<double>();
-    if (p[1] < 0.3 - 0.08 * p[2]) continue;  // above all slopes that a street has
+    if (p[1] < 0.3 - 0.08 * p[2]) continue;  // above the slope of any street
     if (std::abs(p[0]) > kHalfRoad_m) continue;
     all.push_back(p);
     if (p[2] > kFarthestForPlane_m) continue;
@@ -132,7 +133,7 @@ GroundProfile fit_ground(const std::vector<DepthSample>& samples,
     sigmas.push_back(sigma_of(p));
   }
   if (points.size() < kFewest) {
-    profile.outcome = Outcome::failure(Outcome::Code::kTooFewData, "no ground is seen");
+    profile.outcome = Outcome::failure(Outcome::Code::kTooFewData, "no ground in the image");
     return profile;
   }
   Random random(7);
@@ -154,7 +155,7 @@ GroundProfile fit_ground(const std::vector<DepthSample>& samples,
   profile.outcome = Outcome::ok();
   profile.down = fit.down;
   profile.camera_height_m = fit.height;
-  // Hills: how much higher the ground is farther out, carried on where it is not seen.
+  // Hills: height of the ground above the plane farther away, extrapolated beyond the samples.
   std::vector<std::vector<double>> rises;
   for (const Eigen::Vector3d& p : all) {
     const auto bin = static_cast<std::size_t>(std::max(0.0, p[2] / GroundProfile::kStep_m));
@@ -177,9 +178,9 @@ namespace {
 /// Disparity over the pixels of a region [px]: coefficients . (u - middle_u, v - middle_v, 1).
 struct DisparityPlane {
   Eigen::Vector3d coefficients = Eigen::Vector3d::Zero();
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();  ///< of the pixels, (u, v, 0)
-  Eigen::Matrix3d inverse;                           ///< of the normal equations' matrix
-  double sigma_px = 0;                               ///< of the disparities from the plane
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();  ///< mean of the pixels, (u, v, 0)
+  Eigen::Matrix3d inverse;                           ///< inverse of the normal equations' matrix
+  double sigma_px = 0;  ///< dispersion of the disparities about the plane
 };
 
 /// Reweighted least squares (Tukey) over the samples of a region.
@@ -187,7 +188,7 @@ DisparityPlane fit_disparity(const std::vector<const DepthSample*>& samples,
                              const std::vector<double>& depths, double disparity_m_px,
                              const UrbanGeometryOptions& options) {
   DisparityPlane plane;
-  // About the middle, for the sake of the condition; inverse depth is linear on a plane.
+  // About the mean, for a good condition number; inverse depth is linear on a plane.
   for (const DepthSample* s : samples)
     plane.middle += Eigen::Vector3d(s->u, s->v, 0) / static_cast<double>(samples.size());
   const Eigen::Vector3d& middle = plane.middle;
@@ -219,7 +220,7 @@ DisparityPlane fit_disparity(const std::vector<const DepthSample*>& samples,
   return plane;
 }
 
-/// One region's samples, robustly fitted.
+/// Robust fit of the samples of one region.
 RegionPlace place_region(const std::vector<const DepthSample*>& samples, const Camera& camera,
                          double disparity_m_px, const GroundProfile& ground,
                          const UrbanGeometryOptions& options) {
@@ -249,7 +250,8 @@ RegionPlace place_region(const std::vector<const DepthSample*>& samples, const C
   const double length = place.plane.norm();
   if (!(length > 0) || !std::isfinite(length)) return place;
   place.upness = std::abs(place.plane.dot(ground.down)) / length;
-  // Neighbouring disparities err together: of a block of the matcher's window there is one.
+  // The errors of neighbouring disparities are correlated: a block of the matcher's window counts
+  // as one.
   constexpr double kTogether = 4;
   const double slope =
       std::sqrt(kTogether * std::max(0.0, std::max(fit.inverse(0, 0), fit.inverse(1, 1)))) *
@@ -292,14 +294,14 @@ std::vector<float> geometry_log_likelihoods(const std::vector<RegionPlace>& regi
       double likelihood = 0;
       if (surface != Surface::kSky) {
         const double height = soft_box(r.height_m, heights[c].low, heights[c].high, sigma);
-        double turn = 1;
+        double orientation = 1;
         if (surface == Surface::kGround)
-          turn = soft_box(r.upness, 0.9, 1.1, r.upness_sigma);
+          orientation = soft_box(r.upness, 0.9, 1.1, r.upness_sigma);
         else if (model.classes[c] == "Building" || model.classes[c] == "Fence")
-          turn = soft_box(r.upness, -0.2, 0.2, r.upness_sigma);
-        // Where the turn is not seen it says nothing.
+          orientation = soft_box(r.upness, -0.2, 0.2, r.upness_sigma);
+        // The orientation does not count if it is not observable.
         const double seen = std::max(0.0, 1 - r.upness_sigma / 0.6);
-        likelihood = height * (1 + seen * (turn - 1));
+        likelihood = height * (1 + seen * (orientation - 1));
       }
       const double p = (1 - options.outliers) * likelihood + options.outliers * kFloorDensity;
       log_likelihoods[i * n + c] = static_cast<float>(options.weight * std::log(p));

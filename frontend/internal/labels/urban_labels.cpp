@@ -12,10 +12,10 @@ namespace {
 void require_kinds(const SceneModel& urban, const SceneModel& surfaces) {
   require(urban.kind == SceneModel::Kind::kUrban && surfaces.kind == SceneModel::Kind::kSurfaces &&
               surfaces.class_count() == kSurfaceCount,
-          "label_urban: a model of urban classes and one of surfaces are needed");
+          "label_urban: needs a model of urban classes and one of surfaces");
 }
 
-/// How probable each surface is by what the classes of a superpixel say.
+/// Probability of each surface by the classes of a superpixel.
 std::array<float, kSurfaceCount> surface_shares(const SceneModel& urban, const float* p) {
   std::array<float, kSurfaceCount> shares{};
   for (std::size_t c = 0; c < urban.classes.size(); ++c)
@@ -23,10 +23,12 @@ std::array<float, kSurfaceCount> surface_shares(const SceneModel& urban, const f
   return shares;
 }
 
-/// The surface's probability is pooled with what the classes say of it, and shared out again.
+/// Pools the probabilities of the surface by its model and by the classes, and rescales the
+/// classes.
 UrbanLabels pool(const SceneModel& urban, std::vector<float> classes,
                  const std::vector<float>& geometry) {
-  constexpr float kOfSurfaces = 0.5f;  // two views of the same superpixels: half as good as two
+  // Two estimates from the same superpixels are not independent.
+  constexpr float kOfSurfaces = 0.5f;
   const auto n = urban.classes.size();
   UrbanLabels result;
   result.classes = std::move(classes);
@@ -65,15 +67,15 @@ UrbanLabels join_urban(const SceneModel& urban, const UrbanLabels& alone, const 
   const auto n = urban.classes.size();
   const std::size_t size = static_cast<std::size_t>(view.superpixels.count) * n;
   require(log_likelihoods.size() == size && alone.classes.size() == size,
-          "join_urban: a likelihood for each superpixel and class is needed");
+          "join_urban: needs a likelihood for each superpixel and class");
   UrbanLabels result = alone;
   for (std::size_t i = 0; i < static_cast<std::size_t>(view.superpixels.count); ++i) {
     float* p = result.classes.data() + i * n;
-    const float* told = log_likelihoods.data() + i * n;
-    const float most = *std::max_element(told, told + n);
+    const float* log_likelihood = log_likelihoods.data() + i * n;
+    const float most = *std::max_element(log_likelihood, log_likelihood + n);
     float sum = 0;
     for (std::size_t c = 0; c < n; ++c)
-      sum += p[c] = std::max(p[c], 1e-4f) * std::exp(told[c] - most);
+      sum += p[c] = std::max(p[c], 1e-4f) * std::exp(log_likelihood[c] - most);
     for (std::size_t c = 0; c < n; ++c) p[c] /= sum;
   }
   LabelField field{urban.class_count(), 0, 0, urban.relations};

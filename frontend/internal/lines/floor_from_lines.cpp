@@ -10,16 +10,17 @@
 namespace placegraph {
 namespace {
 
-/// Deviation of a line's direction, the two turns of U that move it.
+/// Standard deviation of a line's direction, from the two rotations of U that change it.
 double direction_sigma(const PlacedLine& line) {
   return std::sqrt(std::max(0.0, line.covariance(0, 0) + line.covariance(2, 2)));
 }
 
-/// How parallel what is built is: of an edge, and of a direction that several share.
-constexpr double kEdgeShare = 0.3, kSharedShare = 0.1;  // of upright_deg
+/// Deviation from parallel of a built edge and of a shared direction, as shares of upright_deg.
+constexpr double kEdgeShare = 0.3, kSharedShare = 0.1;
 
-/// Lines that have a direction in common with others are spoken for: they lean together, by what is
-/// wrong with the way that they were placed from, and would outvote it by their number.
+/// Directions for the vertical: the shared ones, and those of lines without a shared direction.
+/// Lines of a shared direction have correlated errors, from the path that they were triangulated
+/// from, and would outvote it by their number.
 std::vector<SharedDirection> directions_of(const std::vector<PlacedLine>& lines,
                                            const std::vector<SharedDirection>& shared,
                                            const FloorFromLinesOptions& options) {
@@ -39,8 +40,8 @@ std::vector<SharedDirection> directions_of(const std::vector<PlacedLine>& lines,
   return directions;
 }
 
-/// The vertical of most agreement: at right angles to level lines, along uprights, with a gate that
-/// closes around it. Nothing where it stays open.
+/// The vertical with most support: orthogonal to horizontal lines, along vertical lines, with a
+/// gate that narrows. Nothing if it is undetermined.
 std::optional<Eigen::Vector3d> vertical(const std::vector<SharedDirection>& directions,
                                         const Eigen::Vector3d& down_guess,
                                         const FloorFromLinesOptions& options) {
@@ -75,11 +76,11 @@ std::optional<Eigen::Vector3d> vertical(const std::vector<SharedDirection>& dire
 struct Mark {
   LineId id;
   Eigen::Vector3d point;
-  double sigma = 0;  ///< of its height
+  double sigma = 0;  ///< standard deviation of its height
 };
 
-/// `end_px`: how far the point may slide along the line's image; of a level line that does not
-/// change its height.
+/// The mark at a pixel of a line. `end_px`: standard deviation of the point along the line's image;
+/// it does not change the height of a horizontal line.
 std::optional<Mark> mark_at(const Camera& camera, const SE3& T_ref_cam, const PlacedLine& line,
                             const Eigen::Vector2d& px, const Eigen::Vector3d& down, double end_px) {
   const auto at = [&](const Line3& line_ref,
@@ -108,7 +109,7 @@ std::optional<Mark> mark_at(const Camera& camera, const SE3& T_ref_cam, const Pl
 std::vector<Mark> marks_of(const Camera& camera, const SE3& T_ref_cam,
                            const std::vector<PlacedLine>& lines, const Eigen::Vector3d& down,
                            const FloorFromLinesOptions& options) {
-  constexpr double kBorder_px = 8;  // an edge that ends there goes on outside
+  constexpr double kBorder_px = 8;  // an edge that ends there continues outside
   std::vector<Mark> marks;
   const double gate = std::sin(options.upright_deg * kRadPerDeg);
   for (const PlacedLine& line : lines) {
@@ -137,8 +138,8 @@ double sigma_of(const Mark& mark, double height, const FloorFromLinesOptions& op
   return std::hypot(mark.sigma, 1.5 * options.unevenness * height);
 }
 
-/// The marks of one level: those near a height, then near their own mean, until that stays. Where
-/// it began has no say, or the lowest level would be the lower half of one.
+/// The marks of one level: those near a height, then near their own mean, until it converges. The
+/// initial height has no weight, or the lowest level would be the lower half of one.
 std::vector<Mark> level_at(const std::vector<Mark>& marks, double height,
                            const Eigen::Vector3d& down, const FloorFromLinesOptions& options) {
   constexpr int kRounds = 10;
@@ -161,7 +162,7 @@ std::vector<Mark> level_at(const std::vector<Mark>& marks, double height,
   return level;
 }
 
-/// The marks of the lowest level that enough agree on.
+/// The marks of the lowest level with enough support.
 std::vector<Mark> lowest_level(const std::vector<Mark>& marks, const Eigen::Vector3d& down,
                                const FloorFromLinesOptions& options) {
   std::vector<std::vector<Mark>> levels;
@@ -187,20 +188,20 @@ std::vector<Mark> lowest_level(const std::vector<Mark>& marks, const Eigen::Vect
   return best;
 }
 
-/// The plane n . p = h of a level, n = down + x e1 + y e2 with e1, e2 square to down and each
+/// The plane n . p = h of a level, n = down + x e1 + y e2 with e1, e2 orthogonal to down and each
 /// other.
 struct FloorPlane {
   Eigen::Vector3d n;
   double h = 0;
-  Eigen::Matrix3d information;  ///< of (x, y, h)
+  Eigen::Matrix3d information;  ///< information of (x, y, h)
 };
 
-/// Reweighted least squares (Huber) over the level's marks, n . p = h, over uprights, n x d = 0,
-/// and over level lines, n . d = 0.
+/// Reweighted least squares (Huber) over the level's marks, n . p = h, over vertical lines, n x d =
+/// 0, and over horizontal lines, n . d = 0.
 FloorPlane fit_plane(const std::vector<Mark>& level, const std::vector<SharedDirection>& directions,
                      const Eigen::Vector3d& down, const FloorFromLinesOptions& options) {
   const Eigen::Vector3d e1 = down.unitOrthogonal(), e2 = down.cross(e1);
-  Eigen::Vector3d x = Eigen::Vector3d::Zero();  // of n, and h
+  Eigen::Vector3d x = Eigen::Vector3d::Zero();  // parameters of n, and h
   Eigen::Matrix3d H;
   constexpr int kRounds = 6;
   for (int round = 0; round < kRounds; ++round) {
@@ -242,14 +243,15 @@ FloorFromLines floor_from_lines(const Camera& camera, const SE3& T_ref_cam,
   const auto down = vertical(
       directions, T_ref_cam.rotation() * Eigen::Vector3d(Eigen::Vector3d::UnitY()), options);
   if (!down) {
-    result.outcome = Outcome::failure(Outcome::Code::kTooFewData, "no vertical is seen");
+    result.outcome =
+        Outcome::failure(Outcome::Code::kTooFewData, "the lines do not determine a vertical");
     return result;
   }
   const std::vector<Mark> floor =
       lowest_level(marks_of(camera, T_ref_cam, lines, *down, options), *down, options);
   if (static_cast<int>(floor.size()) < options.min_lines) {
-    result.outcome =
-        Outcome::failure(Outcome::Code::kNoConsensus, "no level below the camera is agreed on");
+    result.outcome = Outcome::failure(Outcome::Code::kNoConsensus,
+                                      "no level below the camera has enough support");
     return result;
   }
   const FloorPlane plane = fit_plane(floor, directions, *down, options);

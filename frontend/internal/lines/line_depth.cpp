@@ -10,8 +10,8 @@ namespace placegraph {
 namespace {
 
 constexpr int kColumns = 12;
-constexpr std::array<double, 3> kRows_px{3, 5, 8};  // from the edge
-constexpr double kLeastShare = 0.5;                 // of the columns must show depth
+constexpr std::array<double, 3> kRows_px{3, 5, 8};  // distances from the edge
+constexpr double kLeastShare = 0.5;                 // least share of columns with depth
 
 /// Inverse depth at both ends by a plane through samples beside the segment.
 struct Side {
@@ -19,7 +19,7 @@ struct Side {
   double scatter = 0;
 };
 
-/// A sample: share of the way along, distance across, inverse depth.
+/// Fits a plane to samples: position along the segment (0 to 1), distance across, inverse depth.
 std::optional<Side> fit_plane(const std::vector<Eigen::Vector3d>& samples, double sigma) {
   constexpr int kRounds = 3;
   constexpr double kGate = 3;
@@ -61,7 +61,7 @@ std::vector<std::optional<DepthAlong>> lookup_depth_along(
     const std::vector<LineSegment>& segments) {
   DepthLookupOptions options;
   options.margin_focal_px = camera.fx;  // the margin is in pixels of this camera
-  options.margin_px = 1;                // near the edge on purpose: each side is judged as a whole
+  options.margin_px = 1;                // small on purpose: each side is checked as a whole
   std::vector<Eigen::Vector2f> px;
   for (const LineSegment& segment : segments)
     for (const double side : {-1.0, 1.0})
@@ -71,7 +71,7 @@ std::vector<std::optional<DepthAlong>> lookup_depth_along(
                         side * row * segment.normal())
                            .cast<float>());
   const auto depths = lookup_depth(depth_m, camera, depth_camera, px, options);
-  // Depth noise grows with the square of the depth: the inverse has the noise of 1 m everywhere.
+  // Depth noise grows with the square of the depth: inverse depth has the noise of 1 m everywhere.
   const double sigma = depth_camera.sigma_at_1m;
   std::vector<std::optional<DepthAlong>> result(segments.size());
   std::size_t next = 0;
@@ -94,7 +94,7 @@ std::vector<std::optional<DepthAlong>> lookup_depth_along(
       else if ((a - b).minCoeff() > 0 || (a - b).maxCoeff() < 0)
         ends = a.sum() > b.sum() ? a : b;
       else
-        continue;  // the sides cross: neither is the edge's all along
+        continue;  // the sides cross: neither belongs to the whole edge
     }
     result[i] = DepthAlong{ends[0], ends[1], sigma};
   }
@@ -103,15 +103,15 @@ std::vector<std::optional<DepthAlong>> lookup_depth_along(
 
 VirtualCamera virtual_camera_from_depth(const Camera& camera, const LineSegment& segment,
                                         const DepthAlong& depth) {
-  constexpr double kBaseline = 0.1;  // [m]; only a unit: errors are scaled with it
+  constexpr double kBaseline = 0.1;  // [m]; arbitrary: errors scale with it
   const Eigen::Vector2d n = segment.normal();
-  VirtualCamera eye;
-  eye.second_in_cam << kBaseline * n, 0;
+  VirtualCamera second;
+  second.second_in_cam << kBaseline * n, 0;
   const Eigen::Vector2d shift(camera.fx * kBaseline * n.x(), camera.fy * kBaseline * n.y());
-  eye.seen.first = segment.start - depth.inverse_depth_start * shift;
-  eye.seen.second = segment.end - depth.inverse_depth_end * shift;
-  eye.seen.sigma_px = depth.sigma * std::abs(shift.dot(n));
-  return eye;
+  second.seen.first = segment.start - depth.inverse_depth_start * shift;
+  second.seen.second = segment.end - depth.inverse_depth_end * shift;
+  second.seen.sigma_px = depth.sigma * std::abs(shift.dot(n));
+  return second;
 }
 
 }  // namespace placegraph

@@ -8,29 +8,34 @@
 
 namespace placegraph {
 
-/// Inverse depth (1 / z in the camera [1/m]) at the two ends of a segment; it is affine between
-/// them. Errors of the two ends are independent.
+/// Inverse depth (1 / z in the camera [1/m]) at the two ends of a segment.
+///
+/// It is affine between them. Errors of the two ends are independent.
 struct DepthAlong {
   double inverse_depth_start = 0, inverse_depth_end = 0;
-  double sigma = 0;  ///< of either [1/m]
+  double sigma = 0;  ///< standard deviation of either end [1/m]
 };
 
-/// Depths along segments of the colour image from a depth image in its own camera's grid. On either
-/// side of an edge a plane is fitted to the depths near it (its inverse depth is affine in the
-/// image) and carried to the edge; where the two sides disagree, the edge is the nearer one's, as
-/// the farther surface only shows behind it. Nothing where no side has depths along most of the
-/// segment that lie on one plane.
+/// Depths along segments of the colour image from a depth image in its own camera's grid.
+///
+/// On either side of an edge a plane is fitted to the depths near it (its inverse depth is affine
+/// in the image) and extrapolated to the edge. If the two sides disagree, the edge belongs to the
+/// nearer surface, which occludes the farther one. Nothing if neither side has depths on one plane
+/// along most of the segment.
 std::vector<std::optional<DepthAlong>> lookup_depth_along(const Image& depth_m,
                                                           const Camera& camera,
                                                           const DepthCamera& depth_camera,
                                                           const std::vector<LineSegment>& segments);
 
-/// A segment as an eye beside the camera would see it, displaced across the segment, so that the
-/// depths along it become a shift across its image: a right eye where there is only depth.
+/// A segment in a virtual second camera beside the first.
+///
+/// The camera is displaced across the segment, so that the depths along the segment become a shift
+/// across its image. It replaces the right camera if there is only a depth image.
 struct VirtualCamera {
   Eigen::Vector3d second_in_cam = Eigen::Vector3d::Zero();
   ImageLine::Carriers seen;
 };
+/// The virtual camera of a segment with known depths.
 VirtualCamera virtual_camera_from_depth(const Camera& camera, const LineSegment& segment,
                                         const DepthAlong& depth);
 

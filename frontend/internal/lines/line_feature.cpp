@@ -33,7 +33,7 @@ cv::line_descriptor::KeyLine key_line_of(const LineSegment& segment, int number)
   return key;
 }
 
-/// Where b's part of a line appears in a's image; nothing if an end has no image there.
+/// Projection of b's part of a line into a's image; nothing if an end has no image there.
 std::optional<LineSegment> expected_in(const Camera& camera, const SE3& T_a_b,
                                        const LineFeature& seen_by_b) {
   std::array<Vector2d, 2> ends;
@@ -53,7 +53,7 @@ std::optional<LineSegment> expected_in(const Camera& camera, const SE3& T_a_b,
 
 bool lies_along(const LineSegment& seen, const LineSegment& expected,
                 const LineFeatureMatcherOptions& options) {
-  // Both know their polarity: the same edge runs the same way.
+  // Both segments have a polarity: the same edge has the same direction.
   if (seen.direction().dot(expected.direction()) < std::cos(deg_to_rad(options.max_angle_deg)))
     return false;
   if (std::abs(expected.offset_of(seen.middle())) > options.gate_px) return false;

@@ -12,8 +12,7 @@
 
 namespace placegraph {
 
-/// A straight edge of a keyframe, described, with its line in the keyframe's camera frame where
-/// that is known.
+/// A straight edge of a keyframe with its descriptor and, if known, its line in the camera frame.
 struct LineFeature {
   LineSegment segment;
   BinaryDescriptor descriptor{};
@@ -21,17 +20,21 @@ struct LineFeature {
 };
 
 /// Line band descriptors, 256 bits, of segments of a grey image (Zhang & Koch 2013, by OpenCV).
-/// Throws ArgumentError if the image is not CV_8UC1 or a segment lies outside it or has no length.
+///
+/// Throws ArgumentError if the image is not CV_8UC1 or a segment is outside it or has no length.
 std::vector<BinaryDescriptor> describe_segments(const Image& image,
                                                 const std::vector<LineSegment>& segments);
 
+/// A match of two line features.
 struct LineFeatureMatch {
   int a = 0, b = 0;  ///< indices into the two lists
 };
 
-/// Segments of a that show lines of b, whose pose T_b_a is known about: near the projection of b's
-/// line, along it, beside its part that b sees, the most alike descriptor. Each segment of a has
-/// one partner at most; ascending in a.
+/// Matches segments of a to lines of b near their projection, given the approximate pose T_b_a.
+///
+/// A match is the segment with the most similar descriptor near the projection of b's line,
+/// parallel to it, and overlapping with the part that b observes. Each segment of a has at most one
+/// partner; ascending in a.
 std::vector<LineFeatureMatch> match_lines_guided(const Camera& camera,
                                                  const std::vector<LineFeature>& a,
                                                  const std::vector<LineFeature>& b,

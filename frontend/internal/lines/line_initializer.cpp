@@ -42,13 +42,13 @@ struct Direction {
   double sigma_rad;
 };
 
-/// The direction at right angles to the planes of a family: least squares over the sines, each
-/// weighted by how well its segment points, reweighted (Cauchy).
+/// The direction orthogonal to the normals of a family's planes: least squares over the sines, each
+/// weighted by the accuracy of its segment's direction, reweighted (Cauchy).
 std::optional<Direction> direction_of(const Camera& camera, const LineView& view,
                                       const Ids& cluster) {
   constexpr std::size_t kLeast = 3;
   constexpr int kRounds = 5;
-  constexpr double kFloorRad = 2e-3;  // edges are not that parallel
+  constexpr double kFloorRad = 2e-3;  // least deviation of edges from parallel
   std::vector<std::pair<Eigen::Vector3d, double>> planes;
   for (const LineId id : cluster) {
     const auto line = view.find(id);
@@ -73,7 +73,8 @@ std::optional<Direction> direction_of(const Camera& camera, const LineView& view
       weights[i] = 1 / (1 + off * off);
     }
   }
-  // Planes of a family that hardly turn about the direction leave it open along themselves.
+  // Planes of a family with little rotation about the direction leave it undetermined along
+  // themselves.
   result.sigma_rad = 1 / std::sqrt(std::max(1e-12, eigen.eigenvalues()[1]));
   constexpr double kMostRad = 0.03;
   if (!(result.sigma_rad < kMostRad)) return std::nullopt;
@@ -94,7 +95,7 @@ RotationFromDirections rotation_between(const Camera& camera, const LineView& re
   return rotation_from_directions(pairs, guess);
 }
 
-/// The tracks of the first view that two others see too.
+/// The tracks of the first view that are also in two others.
 Ids common_tracks(const LineView& first, const LineView& second, const LineView& third) {
   Ids common;
   for (const auto& [id, line] : first)
@@ -102,7 +103,7 @@ Ids common_tracks(const LineView& first, const LineView& second, const LineView&
   return common;
 }
 
-/// Three views whose rotation is known, and the lines that moved in them.
+/// Three views of known rotation, and the lines that moved in them.
 struct Three {
   const Camera& camera;
   std::array<const LineView*, 3> views;
@@ -110,14 +111,14 @@ struct Three {
   Ids ids;
   std::vector<LineNormals> normals;
 
-  /// Takes the tracks whose planes turn from the first to the last view by `min_rotation_rad` or
-  /// more.
+  /// Adds the tracks whose planes rotate by at least `min_rotation_rad` from the first to the last
+  /// view.
   void take(const Ids& tracks, double min_rotation_rad) {
     for (const LineId id : tracks) {
       LineNormals m;
       for (std::size_t k = 0; k < 3; ++k) m[k] = normal_of(camera, views[k]->at(id));
-      const double turn = m[0].cross(R_view_ref[2].inverse() * m[2]).norm();
-      if (turn < std::sin(min_rotation_rad)) continue;
+      const double sine = m[0].cross(R_view_ref[2].inverse() * m[2]).norm();
+      if (sine < std::sin(min_rotation_rad)) continue;
       ids.push_back(id);
       normals.push_back(m);
     }
@@ -129,7 +130,7 @@ struct Three {
     const Eigen::Vector3d n = T_ref_view[2].rotation() * normals[i][2];
     return meet(normals[i][0], 0, n, n.dot(T_ref_view[2].translation()));
   }
-  /// Of the line of the first and the last view, in the middle one; infinite behind any of them.
+  /// Error in the middle view of the line from the first and the last; infinite behind any of them.
   double squared_error(std::size_t i, const std::vector<SE3>& T_ref_view) const {
     constexpr double kInfinity = 1e30;
     const auto line = place(i, T_ref_view);
@@ -173,13 +174,13 @@ RansacResult<std::vector<SE3>> translate(const Three& three, const LineInitializ
                                   random, solve_for, error, refine);
 }
 
-/// Every line from all views that are posed.
+/// Triangulates every line from all views with a pose.
 std::map<LineId, Line3> place_lines(const Camera& camera, const std::vector<LineView>& views,
                                     const std::vector<std::optional<SE3>>& T_ref_view) {
   LineTriangulationOptions options;
   options.min_rotation_deg = 0.5;
   options.min_rotation_sigmas = 5;
-  options.max_error_sigmas = 20;  // poses are not the last word yet
+  options.max_error_sigmas = 20;  // the poses are still preliminary
   std::map<LineId, Line3> lines;
   std::map<LineId, std::vector<LineMeasurement>> observations;
   for (std::size_t k = 0; k < views.size(); ++k)
@@ -196,7 +197,7 @@ std::map<LineId, Line3> place_lines(const Camera& camera, const std::vector<Line
 PoseFromLines pose_view(const Camera& camera, const LineView& view,
                         const std::map<LineId, Line3>& lines, const SE3& expected,
                         const LineInitializerOptions& options, Random& random) {
-  constexpr double kSigma = 0.1;  // [rad] and in the way from first to last view
+  constexpr double kSigma = 0.1;  // [rad], [translation from first to last view]
   std::vector<SeenLine> seen;
   for (const auto& [id, line] : lines)
     if (const auto at = view.find(id); at != view.end()) seen.push_back({line, at->second.seen});
@@ -206,13 +207,13 @@ PoseFromLines pose_view(const Camera& camera, const LineView& view,
   return estimate_pose_from_lines(camera, seen, pose, random, &guess);
 }
 
-/// Where a view is expected on the way between two others, of constant velocity.
+/// Predicted pose of a view between two others at constant velocity.
 SE3 expected_between(const SE3& T_ref_from, const SE3& T_ref_to, double share) {
   return T_ref_from * SE3::exp(share * (T_ref_from.inverse() * T_ref_to).log());
 }
 
-/// Poses the views between two that are posed by the lines; a view that agrees with no pose stays
-/// without one.
+/// Estimates the poses of the views between two known ones from the lines; a view without a
+/// consistent pose remains without one.
 void pose_between(const Camera& camera, const std::vector<LineView>& views, std::size_t from,
                   std::size_t to, const std::map<LineId, Line3>& lines,
                   const LineInitializerOptions& options, Random& random,
@@ -273,7 +274,8 @@ LineInitialization initialize_from_lines(const Camera& camera, const std::vector
   pose_between(camera, views, middle, n - 1, result.lines, options, random, T_ref_view);
   for (const auto& pose : T_ref_view)
     if (!pose) {
-      result.outcome = failure(Outcome::Code::kInconsistent, "a view between agrees with no pose");
+      result.outcome =
+          failure(Outcome::Code::kInconsistent, "no pose agrees with an intermediate view");
       return result;
     }
   for (const auto& pose : T_ref_view) result.T_ref_view.push_back(*pose);

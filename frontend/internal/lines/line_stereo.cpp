@@ -7,12 +7,12 @@
 namespace placegraph {
 namespace {
 
-/// A disparity at a share of the way along a segment.
+/// A disparity at a position along a segment (0 to 1).
 struct Sample {
   double share = 0, disparity = 0;
 };
 
-/// Disparities of both ends by the line through two samples that most others agree with.
+/// Disparities of both ends from the line through two samples with most inliers.
 std::optional<std::pair<double, double>> consensus(const std::vector<Sample>& samples,
                                                    double gate_px) {
   const int n = static_cast<int>(samples.size());
@@ -80,7 +80,7 @@ std::vector<std::optional<EdgeSegment>> match_stereo_segments(
     if (similar < options.min_similarity) continue;
     const auto edge = refiner.follow(flow->segment, {0, 10});
     if (!edge || edge->segment.length() < 0.4 * segment.length()) continue;
-    // Where the rows of the left ends meet the right line, the disparity is positive.
+    // At the rows of the left ends, the disparity of the right line must be positive.
     const Eigen::Vector2d n = edge->line.normal();
     const auto disparity = [&](const Eigen::Vector2d& p) {
       return p.x() - (edge->line.offset_px - n.y() * p.y()) / n.x();

@@ -8,7 +8,7 @@
 namespace placegraph {
 namespace {
 
-/// Both sides of an edge, or one of them where the other has changed.
+/// Similarity of both sides of an edge, or of one side if the other has changed.
 double similarity(const LineProfileSimilarity& similar) {
   constexpr double kOneSidePenalty = 0.1;
   return std::max(similar.both, std::max(similar.left, similar.right) - kOneSidePenalty);
@@ -42,7 +42,7 @@ LineSegment part_of(const LineSegment& whole, const LineSegment& moved, const Li
   return {at(part.start), at(part.end)};
 }
 
-/// The part of a segment beside which the other lies.
+/// The part of a segment that overlaps with the other.
 LineSegment common_part(const LineSegment& segment, const LineSegment& other) {
   const double length = segment.length();
   const double from = std::clamp(segment.position_of(other.start), 0.0, length);
@@ -63,9 +63,9 @@ double share_inside(const LineSegment& segment, const Image& mask) {
   return static_cast<double>(inside) / kSamples;
 }
 
-/// Two measurements of one edge: of one sense, on one line, one over the other.
+/// Whether two segments are one edge: same direction, collinear, overlapping.
 bool same_edge(const LineSegment& a, const LineSegment& b, double max_distance_px) {
-  constexpr double kMaxAngle = 0.05, kLeastOverlap = 0.3;  // rad; of the shorter
+  constexpr double kMaxAngle = 0.05, kLeastOverlap = 0.3;  // [rad]; share of the shorter
   const Eigen::Vector2d along_a = a.vector(), along_b = b.vector();
   const double reach = max_distance_px + 0.5 * (a.length() + b.length());
   if (along_a.dot(along_b) <= 0 || (a.middle() - b.middle()).squaredNorm() > reach * reach)
@@ -85,7 +85,7 @@ void LineTracker::track(const Image& image, const std::vector<LineSegment>& expe
   require(!image.empty() && image.type() == CV_8UC1, "LineTracker: grey image needed");
   require(image_.empty() || image.size() == image_.size(), "LineTracker: size of image changed");
   require(expected.empty() || expected.size() == tracks_.size(),
-          "LineTracker: one expected segment a track needed");
+          "LineTracker: one expected segment per track needed");
   const auto strips = std::make_shared<const LineProfileImage>(image);
   const auto refiner = std::make_shared<const EdgeRefiner>(image, options_.detector.refinement);
   merged_.clear();
@@ -111,9 +111,9 @@ void LineTracker::track(const Image& image, const std::vector<LineSegment>& expe
       if (inside.length() < options_.min_length_px) continue;
       const double ratio = edge->contrast / track.edge.contrast;
       if (std::max(ratio, 1 / ratio) > options_.max_contrast_ratio) continue;
-      const double turn =
+      const double angle =
           std::acos(std::clamp(inside.direction().dot(seen.direction()), -1.0, 1.0));
-      if (turn > max_rotation) continue;
+      if (angle > max_rotation) continue;
       if (!leads_back(track.edge.segment, before, flow->segment, *edge, *strips)) continue;
       track.previous = track.edge.segment;
       track.edge = *edge;
@@ -129,8 +129,8 @@ void LineTracker::track(const Image& image, const std::vector<LineSegment>& expe
   merge_tracks();
 }
 
-/// From the edge as it was measured, the way back must end on the edge it came from. Of that part
-/// only which was measured: a turn that its noise leaves grows beyond.
+/// Whether backward tracking of the measured edge ends on the original edge. Only the measured part
+/// is used: the error of a rotation by noise grows beyond it.
 bool LineTracker::leads_back(const LineSegment& origin, const LineSegment& before,
                              const LineSegment& aligned, const EdgeSegment& edge,
                              const LineProfileImage& strips) const {
@@ -146,13 +146,13 @@ bool LineTracker::leads_back(const LineSegment& origin, const LineSegment& befor
            options_.max_forward_backward_px;
   };
   if (agrees(back->segment)) return true;
-  // Where the surroundings move otherwise, the alignment is off both ways, but not the edge.
+  // If the surroundings move differently, both alignments are wrong, but not the edge.
   const auto again = refiner_->follow(back->segment, {0, options_.growth.max_gap_px});
   return again &&
          agrees({again->line.foot(back->segment.start), again->line.foot(back->segment.end)});
 }
 
-/// The older of two tracks on one edge goes on, as long as both together reach.
+/// Merges tracks on one edge: the older one continues, extended to the length of both.
 void LineTracker::merge_tracks() {
   std::vector<bool> keep(tracks_.size(), true);
   for (std::size_t j = 1; j < tracks_.size(); ++j)
@@ -161,7 +161,7 @@ void LineTracker::merge_tracks() {
       LineTrack &older = tracks_[i], &younger = tracks_[j];
       const double gate = options_.detector.merging.max_distance_px;
       if (!same_edge(older.edge.segment, younger.edge.segment, gate)) continue;
-      // The longer of the two measurements is the better one.
+      // The longer of the two measurements is more accurate.
       if (younger.edge.segment.length() > older.edge.segment.length()) older.edge = younger.edge;
       merged_.emplace_back(younger.id, older.id);
       keep[j] = false;

@@ -12,41 +12,47 @@
 
 namespace placegraph {
 
-/// A straight edge followed over time. Its line, with the covariance of its support in the newest
-/// frame, is measured anew in every frame and does not drift; its ends are those of its support.
+/// A straight edge tracked over time.
+///
+/// Its line, with the covariance of its support in the newest frame, is measured again in every
+/// frame and does not drift; its ends are those of its support.
 struct LineTrack {
   LineId id;
   EdgeSegment edge;      ///< in the newest image, brighter side on the right
-  LineSegment previous;  ///< in the image before
+  LineSegment previous;  ///< in the previous image
   int age = 0;           ///< frames since detection
 };
 
-/// Follows straight edges over frames. Each is aligned across its direction from where it is
-/// expected, measured on the gradient, held to the same polarity and the same surroundings, and
-/// followed back as a check. Pieces that turn out to lie on one edge become one track, the older
-/// one's. Ids are never used twice.
+/// Tracks straight edges over frames.
+///
+/// Each edge is aligned across its direction from its predicted position, measured on the gradient,
+/// checked for the same polarity and similar surroundings, and tracked back as a check. Pieces of
+/// one edge become one track, the older one. Ids are unique.
 class LineTracker {
  public:
   explicit LineTracker(const LineTrackerOptions& options);
 
-  /// Follows all tracks into `image` (CV_8UC1, the size of the last); lost ones are dropped.
-  /// `expected` holds a segment for each present track, its ends those of the track where they are
-  /// now thought to be, or is empty (nothing moved); one without length means that the track cannot
-  /// be seen.
+  /// Tracks all edges into `image` (CV_8UC1, the size of the last); lost tracks are dropped.
+  ///
+  /// `expected` has a segment for each present track, with the predicted positions of the track's
+  /// ends, or is empty (nothing moved); a segment without length means that the track is not
+  /// visible.
   void track(const Image& image, const std::vector<LineSegment>& expected = {});
-  /// Where a segment of the last image is thought to be some frames later, its ends anywhere.
+  /// Prediction of a segment of the last image some frames later; its ends may be outside the
+  /// image.
   using WhereLater = std::function<LineSegment(const LineSegment&)>;
-  /// Detects edges of the last image that no track covers, where tracks are few; `mask` 0 = not
-  /// here (may be empty). The longest come first, but those that will have left the image `later`
-  /// only where there are few without them.
+  /// Detects edges of the last image that no track covers, if there are few tracks.
+  ///
+  /// `mask`: no edges where it is 0 (may be empty). The longest have priority, but those predicted
+  /// by `later` to leave the image are used only if there are few others.
   void detect(const Image& mask = {}, const WhereLater& later = {});
-  /// Drops the tracks whose flag is false (one flag a track, in order).
+  /// Drops the tracks whose flag is false (one flag per track, in order).
   void keep(const std::vector<bool>& flags);
-  /// Forgets tracks and images; ids go on counting.
+  /// Removes tracks and images; the numbering of ids continues.
   void reset();
 
   const std::vector<LineTrack>& tracks() const { return tracks_; }
-  /// Tracks that `track` or `detect` found last to be part of another: (its id, the id it is now).
+  /// Tracks merged into others by the last `track` or `detect`: (old id, new id).
   const std::vector<std::pair<LineId, LineId>>& merged() const { return merged_; }
   const Image& image() const { return image_; }
 
@@ -59,8 +65,8 @@ class LineTracker {
   std::vector<LineTrack> tracks_;
   std::vector<std::pair<LineId, LineId>> merged_;
   Image image_;
-  std::shared_ptr<const LineProfileImage> strips_;  // of image_
-  std::shared_ptr<const EdgeRefiner> refiner_;      // of image_
+  std::shared_ptr<const LineProfileImage> strips_;  // strips of image_
+  std::shared_ptr<const EdgeRefiner> refiner_;      // refiner of image_
   LineId next_id_;
 };
 

@@ -21,26 +21,26 @@ struct Planes {
   double rotation_rad = -1;
 };
 
-/// The two sightings whose planes, turned into the reference frame, meet at the largest angle.
+/// The two observations whose planes, rotated into the reference frame, have the largest angle.
 Planes widest(const std::vector<Eigen::Vector3d>& normals_ref) {
   Planes best;
   const int n = static_cast<int>(normals_ref.size());
   for (int i = 0; i < n; ++i)
     for (int j = i + 1; j < n; ++j) {
-      const double turn = std::asin(std::min(1.0, normals_ref[i].cross(normals_ref[j]).norm()));
-      if (turn > best.rotation_rad) best = {i, j, turn};
+      const double angle = std::asin(std::min(1.0, normals_ref[i].cross(normals_ref[j]).norm()));
+      if (angle > best.rotation_rad) best = {i, j, angle};
     }
   return best;
 }
 
-/// Of the angle between the planes: how well both image lines are placed across, seen as angles.
+/// Standard deviation of the angle between the planes, from those of both image lines across.
 double rotation_sigma_rad(const Camera& camera, const LineMeasurement& a,
                           const LineMeasurement& b) {
   return std::hypot(a.seen.sigma_px, b.seen.sigma_px) / std::min(camera.fx, camera.fy);
 }
 
-/// Gauss-Newton on the distances of the sightings' carriers from the projected line, from a line
-/// near by; sets the line, its covariance and the error of the worst sighting.
+/// Gauss-Newton on the distances of the observations' carriers from the projected line, from a line
+/// nearby; sets the line, its covariance and the largest error of an observation.
 void refine_line(const Camera& camera, const std::vector<LineMeasurement>& observations,
                  TriangulatedLine& result) {
   Eigen::Matrix4d H;
@@ -120,7 +120,8 @@ TriangulatedLine triangulate_line(const Camera& camera,
   options.check();
   TriangulatedLine result;
   if (observations.size() < 2) {
-    result.outcome = Outcome::failure(Outcome::Code::kTooFewData, "one sighting is a plane");
+    result.outcome = Outcome::failure(Outcome::Code::kTooFewData,
+                                      "a single observation only determines a plane");
     return result;
   }
   std::vector<Eigen::Vector3d> normals_ref;
@@ -136,8 +137,8 @@ TriangulatedLine triangulate_line(const Camera& camera,
   const double needed = std::max(deg_to_rad(options.min_rotation_deg),
                                  options.min_rotation_sigmas * rotation_sigma_rad(camera, a, b));
   if (!start || planes.rotation_rad < needed) {
-    result.outcome =
-        Outcome::failure(Outcome::Code::kDegenerate, "the planes through the line hardly turn");
+    result.outcome = Outcome::failure(Outcome::Code::kDegenerate,
+                                      "the angle between the planes through the line is too small");
     return result;
   }
   result.line_ref = *start;
@@ -149,9 +150,9 @@ TriangulatedLine triangulate_line(const Camera& camera,
     in_front = in_front && z && *z > 0;
   }
   if (!in_front || result.error_sigmas > options.max_error_sigmas)
-    result.outcome = Outcome::failure(
-        Outcome::Code::kInconsistent,
-        in_front ? "a sighting misses the line" : "the line lies behind an eye that sees it");
+    result.outcome = Outcome::failure(Outcome::Code::kInconsistent,
+                                      in_front ? "an observation does not fit the line"
+                                               : "the line is behind a camera that observes it");
   else
     result.outcome = Outcome::ok();
   return result;

@@ -35,7 +35,7 @@ std::vector<int> inliers_of(const Camera& camera, const SE3& T_ref_cam,
 }
 
 /// Gauss-Newton; returns T_ref_cam and the normal matrix in `normal`. Distances beyond `huber_px`
-/// or `huber_sigmas` of their own, whichever is more, count less.
+/// or `huber_sigmas` of their own, whichever is greater, are downweighted.
 SE3 refine(const Camera& camera, const std::vector<SeenLine>& lines,
            const std::vector<int>& indices, const SE3& T_start, const PoseGuess* guess,
            double huber_sigmas, double huber_px, int iterations, Matrix6d* normal) {
@@ -55,7 +55,7 @@ SE3 refine(const Camera& camera, const std::vector<SeenLine>& lines,
       H.noalias() += w * J.transpose() * J;
       g.noalias() += w * J.transpose() * *r;
     }
-    if (guess) {  // the derivative of the log is near the identity for what is known well
+    if (guess) {  // the derivative of the log is near the identity for a small error
       H += guess->information;
       g += guess->information * (guess->T_ref_cam.inverse() * T).log();
     }
@@ -96,11 +96,12 @@ PoseFromLines finish(const Camera& camera, const std::vector<SeenLine>& lines,
   }
   const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(result.information, Eigen::EigenvaluesOnly);
   const bool fixed = eigen.eigenvalues()[0] > 1e-9 * eigen.eigenvalues()[5];
-  // The lines' own scatter, where it is larger than their covariances say.
+  // Scaled by the scatter of the lines if it exceeds their stated covariances.
   result.information /= std::max(1.0, result.rms_sigmas * result.rms_sigmas);
-  result.outcome = fixed ? Outcome::ok()
-                         : Outcome::failure(Outcome::Code::kDegenerate,
-                                            "the lines do not fix all six directions");
+  result.outcome = fixed
+                       ? Outcome::ok()
+                       : Outcome::failure(Outcome::Code::kDegenerate,
+                                          "the lines do not determine all six degrees of freedom");
   return result;
 }
 
@@ -109,7 +110,8 @@ PoseFromLines finish(const Camera& camera, const std::vector<SeenLine>& lines,
 std::vector<double> trigonometric_roots(const std::array<double, 9>& values) {
   using Complex = std::complex<double>;
   constexpr int kDegree = 8;
-  Eigen::Matrix<Complex, kDegree + 1, 1> c;  // of z^0 .. z^8, z = exp(i angle), times z^4
+  Eigen::Matrix<Complex, kDegree + 1, 1>
+      c;  // coefficients of z^0 .. z^8, z = exp(i angle), times z^4
   for (int k = 0; k <= kDegree; ++k) {
     Complex sum = 0;
     for (int j = 0; j <= kDegree; ++j)
@@ -210,7 +212,7 @@ PoseFromLines estimate_pose_from_lines(const Camera& camera, const std::vector<S
   if (guess) {
     std::vector<int> all(n);
     std::iota(all.begin(), all.end(), 0);
-    // A wide kernel first, so that the guess' error of some pixels does not decide.
+    // A wide kernel first, so that lines are not rejected for the guess' error of some pixels.
     const SE3 T = refine(camera, lines, all, guess->T_ref_cam, guess, options.huber_sigmas,
                          options.threshold_px, 10, nullptr);
     std::vector<int> inliers = inliers_of(camera, T, lines, options.threshold_px);

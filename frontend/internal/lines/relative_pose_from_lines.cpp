@@ -16,8 +16,8 @@ Outcome too_few(std::size_t have, const std::string& needed) {
                           std::to_string(have) + " lines, " + needed + " needed");
 }
 
-/// m_3^T t_31 - beta m_2^T t_21 as a row over [t_21, t_31], the normals m_2 and m_3 turned into the
-/// first camera's axes as n_2 and n_3.
+/// m_3^T t_31 - beta m_2^T t_21 as a row over [t_21, t_31], the normals m_2 and m_3 rotated into
+/// the first camera's axes as n_2 and n_3.
 std::optional<Eigen::Matrix<double, 1, 6>> three_view_row(const LineNormals& m, const SO3& R_21,
                                                           const SO3& R_31,
                                                           double least_rotation_rad) {
@@ -51,7 +51,7 @@ double row_variance(const LineNormals& m, const SO3& R_21, const SO3& R_31,
   return variance;
 }
 
-/// Where a line cuts a plane at distance d: its normal in the plane and its offset along that.
+/// Intersection of a line's plane with a plane at distance d: normal in the plane and offset.
 struct InPlane {
   Eigen::Vector3d normal;
   double offset = 0, sigma = 0;
@@ -60,7 +60,7 @@ std::optional<InPlane> in_plane(const Eigen::Vector3d& m, const Eigen::Vector3d&
                                 double sigma_rad) {
   const double along = n.dot(m);
   const Eigen::Vector3d flat = m - along * n;
-  constexpr double kLeast = 0.02;  // below this the line lies beyond fifty heights
+  constexpr double kLeast = 0.02;  // below this the line is beyond fifty heights
   if (!(flat.norm() > kLeast)) return std::nullopt;
   const double slope = along / flat.norm();
   return InPlane{flat.normalized(), -slope * d, d * (1 + slope * slope) * sigma_rad};
@@ -87,13 +87,14 @@ RotationFromDirections rotation_from_directions(const std::vector<DirectionPair>
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(result.information);
   if (!(eigen.eigenvalues()[0] > 1e-6 * eigen.eigenvalues()[2])) {
-    // The nearest rotation to the guess that carries the one direction over.
+    // The rotation nearest to the guess that aligns the one direction.
     const DirectionPair& pair = pairs.front();
     const Eigen::Vector3d from = (R_cur_ref_guess * pair.ref).normalized();
     const Eigen::Vector3d to = (from.dot(pair.cur) < 0 ? -1 : 1) * pair.cur.normalized();
     result.R_cur_ref = SO3(Eigen::Quaterniond::FromTwoVectors(from, to)) * R_cur_ref_guess;
-    result.outcome = Outcome::failure(Outcome::Code::kDegenerate,
-                                      "directions of one kind: the turn about them is open");
+    result.outcome =
+        Outcome::failure(Outcome::Code::kDegenerate,
+                         "directions are parallel: the rotation about them is undetermined");
     return result;
   }
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(B, Eigen::ComputeFullU | Eigen::ComputeFullV);
@@ -156,7 +157,7 @@ TranslationFromLines translation_from_three_views(const std::vector<LineNormals>
 Outcome translation_from_two_views(std::size_t lines) {
   return Outcome::failure(Outcome::Code::kDegenerate,
                           "unobservable: two views of " + std::to_string(lines) +
-                              " lines say nothing of the translation, a third view is needed");
+                              " lines do not determine the translation, a third view is needed");
 }
 
 MotionOnPlane motion_from_floor_lines(const std::vector<PlaneLineObservation>& lines,
@@ -166,7 +167,7 @@ MotionOnPlane motion_from_floor_lines(const std::vector<PlaneLineObservation>& l
   const Eigen::Vector3d n = sign * plane_ref.normal();
   const double height_ref = sign * plane_ref.distance();
   require(height_ref > 0 && height_cur > 0,
-          "motion_from_floor_lines: the plane must lie at a distance from both views");
+          "motion_from_floor_lines: both views need a positive distance to the plane");
   const Eigen::Vector3d e1 = n.unitOrthogonal(), e2 = n.cross(e1);
   Eigen::Matrix<double, 3, 2> E;
   E << e1, e2;
@@ -197,9 +198,10 @@ MotionOnPlane motion_from_floor_lines(const std::vector<PlaneLineObservation>& l
                   eigen.eigenvalues()[k];
   result.covariance = E * covariance * E.transpose();
   result.displacement_ref = E * (covariance * g) + (height_ref - height_cur) * n;
-  result.outcome = open ? Outcome::failure(Outcome::Code::kDegenerate,
-                                           "lines of one direction: the way along them is open")
-                        : Outcome::ok();
+  result.outcome =
+      open ? Outcome::failure(Outcome::Code::kDegenerate,
+                              "lines of one direction: the displacement along them is undetermined")
+           : Outcome::ok();
   return result;
 }
 

@@ -5,16 +5,19 @@
 
 namespace placegraph {
 
+/// Consistency of the observations of a line track.
 struct TrackConsistency {
-  bool judged = false;       ///< false: its planes hardly turned, any association would do
-  std::vector<bool> of_one;  ///< per sighting: sees the line that most of them see
-  int wrong() const;         ///< sightings of other lines
+  bool judged = false;       ///< false: its planes hardly rotated, any association would fit
+  std::vector<bool> of_one;  ///< per observation: whether it shows the line of the majority
+  int wrong() const;         ///< number of observations of other lines
 };
 
-/// Which sightings of a track see one and the same line of a static scene, poses exact: the line
-/// through the planes of two sightings that most others see within `max_error_px` at both carriers,
-/// before them. Pairs are taken from at most `kept` sightings, evenly spaced. All count as of one
-/// where fewer than three or no two planes that turn by 0.05 degrees are there.
+/// Determines which observations of a track show one line of a static scene, for exact poses.
+///
+/// The line is the intersection of the planes of two observations with which most others agree
+/// within `max_error_px` at both carriers, in front of them. Pairs are taken from at most `kept`
+/// observations, evenly spaced. All count as one line if there are fewer than three or no two
+/// planes at an angle of 0.05 degrees.
 [[nodiscard]] TrackConsistency judge_line_track(const Camera& camera,
                                                 const std::vector<LineMeasurement>& observations,
                                                 double max_error_px = 3, int kept = 12);

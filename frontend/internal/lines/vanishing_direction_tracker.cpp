@@ -11,7 +11,7 @@ namespace placegraph {
 
 /// The lines of a view as evidence, and the ids of their tracks.
 struct VanishingDirectionTracker::Evidence {
-  std::vector<LineId> ids;  ///< of the segments
+  std::vector<LineId> ids;  ///< ids of the segments
   VanishingEvidence lines;
 
   static Evidence of(const Camera& camera, const LineView& view, const VanishingNoise& noise) {
@@ -28,8 +28,8 @@ struct VanishingDirectionTracker::Evidence {
 
 namespace {
 
-/// No direction is known better than this: the edges of a family are not that parallel, and what
-/// is wrong with them is wrong in every view.
+/// Least standard deviation of a direction: the edges of a family are not exactly parallel, and
+/// their deviations are the same in every view.
 constexpr double kFloorRad = 1.5e-3;
 
 Eigen::Matrix3d with_floor(const Eigen::Matrix3d& information) {
@@ -68,7 +68,7 @@ VanishingDirectionTracker::RotationEstimate VanishingDirectionTracker::read(
       const PointingError error = evidence.lines.error(i, v);
       const double w =
           evidence.lines.weight(i) * evidence.lines.robust_weight(error) / error.variance;
-      // v = R^T d and R exp(x): v moves by v x x.
+      // v = R^T d and R exp(x): v changes by v x x.
       const Eigen::RowVector3d J = error.J_sine_v * hat(v);
       H += w * J.transpose() * J;
       g += w * error.sine * J.transpose();
@@ -90,7 +90,7 @@ std::vector<VanishingDirectionTracker::DirectionCluster> VanishingDirectionTrack
   constexpr std::size_t kLeast = 3;
   std::vector<DirectionCluster> clusters;
   for (const Known& known : directions_) {
-    // Planes that hardly turn about a direction leave it open along themselves.
+    // Planes with little rotation about a direction leave it undetermined along themselves.
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(known.across,
                                                                Eigen::EigenvaluesOnly);
     const double own = 1 / std::sqrt(std::max(1e-12, eigen.eigenvalues()[1]));
@@ -103,8 +103,8 @@ std::vector<VanishingDirectionTracker::DirectionCluster> VanishingDirectionTrack
   return clusters;
 }
 
-/// Gives every track of the view the direction that it points to; those that point to none of them
-/// and never did are returned.
+/// Assigns every track of the view the direction that it points to; returns those that point to
+/// none of them and never did.
 LineView VanishingDirectionTracker::assign(const Evidence& evidence, const LineView& view,
                                            const SO3& R_ref_cam) {
   constexpr double kJoinSigmas = 2.5, kLeaveSigmas = 5;
@@ -128,7 +128,7 @@ LineView VanishingDirectionTracker::assign(const Evidence& evidence, const LineV
         if (sigmas(k) < kJoinSigmas) direction = k;
         rivals += sigmas(k) < 2 * kJoinSigmas;
       }
-      if (rivals > 1) direction = -1;  // it passes two vanishing points
+      if (rivals > 1) direction = -1;  // it points to two vanishing points
       if (rivals == 0) left[id] = view.at(id);
     }
     now[id] = direction;
@@ -152,8 +152,8 @@ void VanishingDirectionTracker::find_new(const Camera& camera, const LineView& l
     if (found.labels[i] >= 0) direction_of_[ids[i]] = first + found.labels[i];
 }
 
-/// Turns every direction to where the planes of its tracks meet, those of earlier views with a
-/// weight that fades.
+/// Moves every direction to the intersection of the planes of its tracks, those of earlier views
+/// with a decreasing weight.
 void VanishingDirectionTracker::refine(const Evidence& evidence, const SO3& R_ref_cam) {
   constexpr double kForget = 0.97;
   for (Known& known : directions_) known.across *= kForget;
@@ -162,7 +162,7 @@ void VanishingDirectionTracker::refine(const Evidence& evidence, const SO3& R_re
     if (direction < 0) continue;
     Known& known = directions_[static_cast<std::size_t>(direction)];
     const PointingError e = evidence.lines.error(i, R_ref_cam.inverse() * known.d_ref);
-    // Where the error vanishes, its derivative is the normal of the plane but for a factor.
+    // If the error is zero, its derivative is the normal of the plane up to a factor.
     const Eigen::Vector3d n = e.J_sine_v.norm() * (R_ref_cam * evidence.lines.normal(i));
     known.across +=
         evidence.lines.weight(i) * evidence.lines.robust_weight(e) / e.variance * n * n.transpose();

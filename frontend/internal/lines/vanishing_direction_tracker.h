@@ -7,30 +7,36 @@
 
 namespace placegraph {
 
-/// The rotation of a camera by directions of a scene that many of its edges share: vanishing points
-/// remembered in a fixed frame, whatever the angles between them. Tracks are assigned to them once,
-/// by where they point, and go on to show the rotation in every view that they are seen in, whether
-/// their place is known or not. It does not drift as long as one direction stays in view while the
-/// others change.
+/// Estimates the rotation of a camera from directions shared by many edges of the scene.
+///
+/// The directions are vanishing points, stored in a fixed frame, at any angles to each other.
+/// Tracks are assigned to them once, by the direction of their segments, and constrain the rotation
+/// in every view in which they are observed, even if their position is unknown. The rotation does
+/// not drift as long as one direction stays in view while the others change.
 class VanishingDirectionTracker {
  public:
   explicit VanishingDirectionTracker(const VanishingPointOptions& options) : options_(options) {}
 
+  /// Rotation of a view.
   struct RotationEstimate {
     Outcome outcome;
     SO3 R_ref_cam;
-    /// Right tangent of R_ref_cam [1 / rad^2], of rank two where one direction alone is seen.
+    /// Right tangent of R_ref_cam [1 / rad^2], of rank two if only one direction is observed.
     Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
     int lines = 0;
   };
-  /// Near a rotation known to `sigma_rad`, which holds what the lines leave open and does not enter
-  /// the information. Reweighted Gauss-Newton over the tracks that have a direction. Outcomes: too
-  /// few data (under three of them).
+  /// Estimates the rotation of a view from a guess with standard deviation `sigma_rad`.
+  ///
+  /// Reweighted Gauss-Newton over the tracks that have a direction. The guess constrains the axes
+  /// that the lines leave undetermined and is not part of the information. Outcomes: too few data
+  /// (fewer than three of them).
   [[nodiscard]] RotationEstimate read(const Camera& camera, const LineView& view,
                                       const SO3& R_ref_cam_guess, double sigma_rad) const;
-  /// Where a view was taken: tracks that point to one of the directions join it, those that do not
-  /// any more leave it, and what is left over may show new directions. Tracks that the view does
-  /// not hold are forgotten.
+  /// Updates the directions by a view of known rotation.
+  ///
+  /// Tracks that point to one of the directions join it, those that no longer do leave it, and new
+  /// directions are searched among the remaining tracks. Tracks that are not in the view are
+  /// removed.
   void learn(const Camera& camera, const LineView& view, const SO3& R_ref_cam, Random& random);
   /// A direction and the tracks of the view learned last that point to it.
   struct DirectionCluster {
@@ -44,7 +50,7 @@ class VanishingDirectionTracker {
  private:
   struct Known {
     Eigen::Vector3d d_ref;
-    Eigen::Matrix3d across = Eigen::Matrix3d::Zero();  ///< sum of weighted n n^T of its planes
+    Eigen::Matrix3d across = Eigen::Matrix3d::Zero();  ///< sum of weighted n n^T over its planes
   };
   struct Evidence;
   LineView assign(const Evidence& evidence, const LineView& view, const SO3& R_ref_cam);

@@ -8,7 +8,7 @@
 namespace placegraph {
 namespace {
 
-/// The median of the window's outermost pixels.
+/// Grey value of the background: the median of the window's outermost pixels.
 double surroundings(const Image& grey, const cv::Rect& window) {
   std::vector<std::uint8_t> rim;
   for (int u = window.x; u < window.x + window.width; ++u) {
@@ -30,7 +30,7 @@ cv::Rect grown(const cv::Rect& box, const Image& grey) {
          cv::Rect(0, 0, grey.cols, grey.rows);
 }
 
-/// Centre, covariance and shape of the spot around `seed`; false if it is none.
+/// Computes centre, covariance and shape of the spot around `seed`; false if there is no spot.
 bool measure(const Image& grey, const cv::Rect& window, const cv::Point& seed,
              const BeaconDetectorOptions& options, BeaconObservation& spot) {
   const double around = surroundings(grey, window);
@@ -48,7 +48,7 @@ bool measure(const Image& grey, const cv::Rect& window, const cv::Point& seed,
   for (int v = 0; v < window.height; ++v)
     for (int u = 0; u < window.width; ++u) {
       if (labels.at<int>(v, u) != label) continue;
-      // A spot that leaves its window is no spot but something large.
+      // A bright region that leaves its window is too large for a spot.
       if (u == 0 || v == 0 || u == window.width - 1 || v == window.height - 1) return false;
       const Eigen::Vector2d px(u, v);
       const double weight = grey.at<std::uint8_t>(window.y + v, window.x + u) - half;
@@ -62,12 +62,12 @@ bool measure(const Image& grey, const cv::Rect& window, const cv::Point& seed,
   const Eigen::Vector2d centre = first / sum;
   mean /= area;
   moments = second - area * mean * mean.transpose();
-  // A pixel's own extent keeps spots of a few pixels from being lines.
+  // The extent of a pixel is added, so that spots of a few pixels are not degenerate lines.
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(
       Eigen::Matrix2d(moments / area + Eigen::Matrix2d::Identity() / 12), Eigen::EigenvaluesOnly);
   if (std::sqrt(axes.eigenvalues()[0] / axes.eigenvalues()[1]) < options.min_roundness)
     return false;
-  constexpr double kNoise = 3;  // grey levels of a pixel
+  constexpr double kNoise = 3;  // noise of a pixel [grey levels]
   const Eigen::Matrix2d spread = second - mean * area * centre.transpose() -
                                  centre * area * mean.transpose() +
                                  area * centre * centre.transpose();
@@ -103,7 +103,7 @@ std::vector<BeaconObservation> detect_beacons(const Image& grey,
         }
     BeaconObservation spot;
     if (!measure(grey, grown(box, grey), seed, options, spot)) continue;
-    // Two bright pixels of one spot are one spot.
+    // Seeds within one spot are merged.
     const bool known = std::any_of(spots.begin(), spots.end(), [&](const BeaconObservation& other) {
       return (other.px - spot.px).norm() < 1;
     });

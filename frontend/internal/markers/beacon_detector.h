@@ -11,15 +11,17 @@ namespace placegraph {
 /// A bright spot in an image.
 struct BeaconObservation {
   Eigen::Vector2d px = Eigen::Vector2d::Zero();
-  Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();  ///< px^2
-  double area_px = 0;                                        ///< above half of its contrast
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();  ///< [px^2]
+  double area_px = 0;                                        ///< area above half of its contrast
 };
 
-/// Bright round spots on darker ground, brightest surroundings excluded: the centre of what is
-/// above half of the spot's contrast, each pixel with its grey value above that. Where the sensor
-/// saturates and the spot blooms, all pixels inside count the same and its rim decides. Covariance:
-/// that of the centre under the noise of the pixels, the rim's share where it is cut by whole
-/// pixels. Largest first. CV_8UC1, else ArgumentError.
+/// Detects bright round spots on darker background, largest first.
+///
+/// The position is the centre of the pixels above half of the spot's contrast, each weighted by its
+/// grey value above that. Where the sensor saturates and the spot blooms, all pixels inside have
+/// the same weight and its rim determines the position. The covariance is that of the centre under
+/// the noise of the pixels, with the discretization of the rim by whole pixels. CV_8UC1, else
+/// ArgumentError.
 std::vector<BeaconObservation> detect_beacons(const Image& grey,
                                               const BeaconDetectorOptions& options = {});
 

@@ -13,7 +13,7 @@ namespace {
 using Code = Outcome::Code;
 using Triple = std::array<int, 3>;
 
-/// Pixel of a point and the covariance that an uncertain pose gives it.
+/// Pixel of a point and its covariance from that of the pose.
 struct Expected {
   Eigen::Vector2d px;
   Eigen::Matrix2d covariance;
@@ -50,12 +50,13 @@ std::vector<SeenPoint> seen_points(const std::vector<BeaconObservation>& spots,
   return points;
 }
 
-/// The pose under which spots and beacons fit, its pairs found anew; empty pairs if it falls apart.
+/// Refines the pose with reassigned pairs; empty pairs if this fails.
 BeaconPose refined(const std::vector<BeaconObservation>& spots,
                    const std::vector<Eigen::Vector3d>& beacons_world, const Camera& camera,
                    const SE3& T_world_cam, const BeaconPoseOptions& options) {
   BeaconPose result;
-  // Three spots give a pose of about their own error: 1 cm and a degree are wide.
+  // A pose from three spots has about their error: 1 % of the range and 0.01 rad are a generous
+  // bound.
   Matrix6d covariance = Matrix6d::Zero();
   const double range = (beacons_world.front() - T_world_cam.translation()).norm();
   covariance.diagonal() << Eigen::Vector3d::Constant(std::pow(0.01 * range, 2)),
@@ -85,7 +86,7 @@ bool same_pose(const SE3& a, const SE3& b, double range_m) {
   return between.translation().norm() < kSame * range_m && between.rotation().log().norm() < kSame;
 }
 
-/// All poses from three spots given to three beacons that explain enough spots.
+/// All poses from assignments of three spots to three beacons that explain enough spots.
 class AssignmentSearch {
  public:
   AssignmentSearch(const std::vector<BeaconObservation>& spots,
@@ -142,7 +143,7 @@ class AssignmentSearch {
       if (same_pose(known.T_world_cam, pose.T_world_cam, range)) return;
     found_.push_back(std::move(pose));
   }
-  /// Spots with a beacon within some pixels: most assignments end here.
+  /// Number of spots with a beacon within some pixels; it rejects most assignments.
   int rough_count(const SE3& T_world_cam) const {
     constexpr double kNear_px = 4;
     const SE3 T_cam_world = T_world_cam.inverse();
@@ -210,7 +211,7 @@ BeaconPose find_beacon_pose(const std::vector<BeaconObservation>& spots,
     result.outcome = Outcome::failure(Code::kNoConsensus, "no assignment explains the spots");
     return result;
   }
-  // More spots explained is better by what a spot outside the gate would cost.
+  // Each explained spot is worth the cost of a spot at the gate.
   const double spot_worth = chi_squared_quantile(options.gate, 2);
   const auto cost = [&](const BeaconPose& pose) {
     return pose.chi2 - spot_worth * static_cast<double>(pose.pairs.size());

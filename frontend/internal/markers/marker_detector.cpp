@@ -30,11 +30,11 @@ void MarkerDetector::detect_in(const Image& grey, int left, int top, int right, 
   const auto parameters = cv::aruco::DetectorParameters::create();
   parameters->minMarkerPerimeterRate = 4 * options_.min_side_px / longest;
   parameters->errorCorrectionRate = options_.correction;
-  // Of outlines nearer to each other than that only the outermost is looked at: that of the sheet
-  // must not hide the marker printed on it.
+  // Least distance of two outlines; of nearer ones only the outermost is used. It is small so that
+  // the outline of the sheet does not hide the marker printed on it.
   parameters->minMarkerDistanceRate = 0.02;
-  // Dark is what is darker than its surroundings by so many grey levels: by more than what noise
-  // does, whose thousand specks all had to be followed around else.
+  // Threshold of dark pixels below their surroundings [grey levels]: above the noise, whose
+  // thousands of specks would all be traced otherwise.
   constexpr double kSigmas = 3, kMost_grey = 20;
   parameters->adaptiveThreshConstant = std::clamp(kSigmas * image_noise(grey(window)),
                                                   parameters->adaptiveThreshConstant, kMost_grey);
@@ -54,7 +54,7 @@ void MarkerDetector::detect_in(const Image& grey, int left, int top, int right, 
 
 namespace {
 
-/// The same marker found twice, in two windows or as the two sides of a thick line.
+/// Whether two detections are the same marker, from two windows or both sides of a thick line.
 void drop_copies(std::vector<MarkerObservation>& found) {
   std::stable_sort(
       found.begin(), found.end(),
@@ -90,7 +90,7 @@ std::vector<MarkerObservation> MarkerDetector::detect_near(
       high = high.cwiseMax(corner);
     }
     if (!low.allFinite() || !high.allFinite()) continue;
-    constexpr double kLeastMargin_px = 12, kPaper = 0.15;  // white around it, in its widths
+    constexpr double kLeastMargin_px = 12, kPaper = 0.15;  // white margin of a marker [widths]
     const double width = (high - low).maxCoeff();
     const double reach =
         square.within_px ? kPaper * width + *square.within_px : options_.search_margin * width;

@@ -9,40 +9,47 @@
 
 namespace placegraph {
 
-/// A marker in an image. Corners: top left, top right, bottom right, bottom left, as somebody reads
-/// it (those of PlacedMarker::corners_marker).
+/// A marker in an image.
+///
+/// Corners: top left, top right, bottom right, bottom left of the upright marker (those of
+/// PlacedMarker::corners_marker).
 struct MarkerObservation {
   int id = 0;
   SquareCorners corners_px;
-  /// Of the corners together, [x0 y0 x1 y1 ...] [px^2].
+  /// Joint covariance of the corners, [x0 y0 x1 y1 ...] [px^2].
   Eigen::Matrix<double, 8, 8> covariance = Eigen::Matrix<double, 8, 8>::Identity();
-  double contrast = 0;  ///< of the square with its surroundings, grey levels
+  double contrast = 0;  ///< contrast of the square to its surroundings [grey levels]
 
-  /// Of one corner [px^2].
+  /// Covariance of one corner [px^2].
   Eigen::Matrix2d corner_covariance(int corner) const {
     return covariance.block<2, 2>(2 * corner, 2 * corner);
   }
 };
 
-/// Where a marker should be in an image.
+/// Predicted image of a marker.
 struct ExpectedSquare {
   SquareCorners corners_px;  ///< in any order
-  /// It may be so far from there; without, as far as MarkerDetectorOptions::search_margin says.
+  /// Maximum distance from the prediction; by default given by
+  /// MarkerDetectorOptions::search_margin.
   std::optional<double> within_px = std::nullopt;
 };
 
-/// Finds the square markers of a dictionary: quadrangles and their codes by OpenCV's aruco
-/// (Garrido-Jurado et al. 2014), corners by `fit_square`.
+/// Detects the square markers of a dictionary.
+///
+/// Quadrangles and their codes by OpenCV's aruco (Garrido-Jurado et al. 2014), corners by
+/// `fit_square`.
 class MarkerDetector {
  public:
-  /// Throws ArgumentError for an option out of range, or a dictionary that is not known.
+  /// Throws ArgumentError for an option out of range, or an unknown dictionary.
   MarkerDetector(const MarkerDetectorOptions& options, const std::string& dictionary);
 
-  /// All markers of the image (CV_8UC1, else ArgumentError), in the order of their ids. `lens`: the
-  /// camera if it bends straight lines.
+  /// Detects all markers of the image (CV_8UC1, else ArgumentError), in the order of their ids.
+  ///
+  /// `lens`: the camera if it has distortion.
   std::vector<MarkerObservation> detect(const Image& grey, const Camera* lens = nullptr) const;
-  /// The same, looked for only around where markers are expected: a tenth of the work for a marker
-  /// of a tenth of the image.
+  /// Detects markers only around their predicted positions.
+  ///
+  /// A tenth of the work for a marker of a tenth of the image.
   std::vector<MarkerObservation> detect_near(const Image& grey,
                                              const std::vector<ExpectedSquare>& expected,
                                              const Camera* lens = nullptr) const;

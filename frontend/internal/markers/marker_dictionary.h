@@ -6,20 +6,21 @@
 
 namespace placegraph {
 
-/// The families of square markers that are known by name: "aruco_4x4_50" to "aruco_7x7_1000",
-/// "aruco_original", "apriltag_16h5" to "apriltag_36h11".
+/// Names of the supported families of square markers.
+///
+/// "aruco_4x4_50" to "aruco_7x7_1000", "aruco_original", "apriltag_16h5" to "apriltag_36h11".
 std::vector<std::string> marker_dictionaries();
 
 /// The markers of a family.
 struct MarkerFamily {
-  Image codes;               ///< one row a marker, as OpenCV's aruco packs them
+  Image codes;               ///< one row per marker, in the packing of OpenCV's aruco
   int bits_per_side = 0;     ///< without the black border of one cell on either side
-  int correctable_bits = 0;  ///< wrong ones with which a marker is still told from all others
+  int correctable_bits = 0;  ///< wrong bits up to which a marker is still unique
 
   int count() const { return codes.rows; }
 };
 
-/// Throws ArgumentError listing the known names.
+/// The markers of a dictionary; throws ArgumentError with the known names if it is unknown.
 MarkerFamily marker_family(const std::string& dictionary);
 
 }  // namespace placegraph

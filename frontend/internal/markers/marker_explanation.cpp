@@ -13,7 +13,8 @@ namespace {
 using Code = Outcome::Code;
 using Eigen::Vector3d;
 
-/// Squares outside the gate count as at its edge, and so do beacons of which no spot is known.
+/// Log-likelihood of an explanation: squares outside the gate and beacons without a spot count as
+/// at the gate.
 double log_likelihood_of(const Camera& camera, const std::vector<SeenSquare>& squares,
                          const std::vector<SeenPoint>& points, double gate, double point_gate,
                          const SE3& T_ref_cam) {
@@ -43,7 +44,7 @@ std::vector<SeenPoint> points_of(const std::vector<BeaconObservation>& spots,
   return points;
 }
 
-/// The plane that all squares lie in, if they do.
+/// The common plane of all squares, if there is one.
 struct Plane {
   Vector3d centre = Vector3d::Zero(), normal = Vector3d::UnitZ();
 };
@@ -55,7 +56,7 @@ std::optional<Plane> common_plane(const std::vector<SeenSquare>& squares) {
   plane.centre /= static_cast<double>(squares.size());
   const auto& first = squares.front().corners_ref;
   plane.normal = (first[1] - first[0]).cross(first[0] - first[3]).normalized();
-  constexpr double kFlat = 0.02;  // of a square's side
+  constexpr double kFlat = 0.02;  // share of a square's side
   for (const SeenSquare& square : squares)
     for (const Vector3d& corner : square.corners_ref)
       if (std::abs(plane.normal.dot(corner - first[0])) > kFlat * (first[1] - first[0]).norm())
@@ -63,7 +64,7 @@ std::optional<Plane> common_plane(const std::vector<SeenSquare>& squares) {
   return plane;
 }
 
-/// Solves all squares together from a start; those that do not fit are left out, worst first.
+/// Solves all squares together from a start; outliers are left out, worst first.
 MarkerExplanation solve(const Camera& camera, const std::vector<SeenSquare>& squares,
                         const SE3& start, double gate) {
   MarkerExplanation result;
@@ -83,7 +84,7 @@ MarkerExplanation solve(const Camera& camera, const std::vector<SeenSquare>& squ
     }
     if (at == kept.size()) break;
     if (kept.size() == 1) {
-      // A single marker's pose is what it is: its error speaks for itself.
+      // A single marker is always kept: its error counts in the log-likelihood.
       break;
     }
     kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(at));
@@ -92,7 +93,7 @@ MarkerExplanation solve(const Camera& camera, const std::vector<SeenSquare>& squ
   return result;
 }
 
-/// Takes in the beacons that the pose makes plain.
+/// Adds the beacons that the pose assigns unambiguously.
 void add_beacons(const Camera& camera, const std::vector<SeenSquare>& squares,
                  const std::vector<BeaconObservation>& spots,
                  const std::vector<Vector3d>& beacons_world, const BeaconPoseOptions& options,
@@ -104,14 +105,14 @@ void add_beacons(const Camera& camera, const std::vector<SeenSquare>& squares,
   const SquarePose joint = refine_square_pose(camera, pick(squares, explanation.squares), points,
                                               explanation.pose.T_ref_cam);
   if (!joint.outcome) return;
-  // Spots that bend the pose are not the beacons that they were taken for.
+  // Spots that increase the squares' error beyond the gate are wrong assignments.
   const int rows = 2 * static_cast<int>(points.size());
   if (joint.chi2 - explanation.pose.chi2 > chi_squared_quantile(options.gate, rows)) return;
   explanation.pose = joint;
   explanation.beacons = pairs;
 }
 
-/// Both poses of every square alone.
+/// Both poses of every single square.
 std::vector<SE3> starts_of(const Camera& camera, const std::vector<SeenSquare>& squares) {
   std::vector<SE3> starts;
   for (const SeenSquare& square : squares) {
@@ -136,7 +137,7 @@ void keep(MarkerExplanation explanation, std::vector<MarkerExplanation>& found) 
   if (explanation.pose.outcome && !known) found.push_back(std::move(explanation));
 }
 
-/// The pose that beacons alone tell; `expected` makes three of them enough.
+/// Pose from beacons alone; with `expected` three of them are enough.
 MarkerExplanation by_beacons(const Camera& camera, const std::vector<BeaconObservation>& spots,
                              const std::vector<Vector3d>& beacons_world,
                              const BeaconPoseOptions& options,
@@ -179,7 +180,7 @@ MarkerExplanations explain_markers(const Camera& camera, const std::vector<SeenS
     keep(std::move(explanation), result.found);
   }
   if (result.found.size() == 1) {
-    // A plane may have been taken for its mirror image.
+    // The plane may have been confused with its mirror image.
     if (const auto plane = common_plane(squares)) {
       MarkerExplanation other = result.found.front();
       other.pose = find_planar_rival(camera, pick(squares, other.squares),
@@ -193,7 +194,7 @@ MarkerExplanations explain_markers(const Camera& camera, const std::vector<SeenS
     result.outcome = explanation.pose.outcome;
     keep(std::move(explanation), result.found);
   }
-  // A single square is not left out, however bad it is.
+  // A single square is never left out.
   const double worst = squares.size() > 1 ? gate : std::numeric_limits<double>::infinity();
   for (MarkerExplanation& explanation : result.found)
     explanation.log_likelihood_sum =

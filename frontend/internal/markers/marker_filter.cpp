@@ -20,8 +20,8 @@ using Eigen::Vector3d;
 
 Vector6d difference(const SE3& from, const SE3& to) { return (from.inverse() * to).log(); }
 
-/// Whether two poses are one within what is known of either. A filter that will weigh the answer
-/// may have one that covers both; without it the two must be as good as the same.
+/// Whether two poses agree within their covariances. If a filter weighs the estimate it may cover
+/// both; without a filter the two must be almost equal.
 bool indistinct(const MarkerHypothesis& a, const MarkerHypothesis& b, bool filtered) {
   const Vector6d d = difference(a.T_world_body, b.T_world_body);
   const Matrix6d S = a.covariance + b.covariance;
@@ -30,10 +30,10 @@ bool indistinct(const MarkerHypothesis& a, const MarkerHypothesis& b, bool filte
          (filtered || d.tail<3>().norm() < kSame_rad);
 }
 
-/// Two minima that are nearer to each other than either is known become one: mean and covariance of
-/// the mixture.
+/// Merges two minima that agree within their covariances: mean and covariance of the mixture.
 MarkerHypothesis mixture(const MarkerHypothesis& a, const MarkerHypothesis& b) {
-  const double share = 1 / (1 + std::exp(a.log_likelihood_sum - b.log_likelihood_sum));  // of b
+  const double share =
+      1 / (1 + std::exp(a.log_likelihood_sum - b.log_likelihood_sum));  // weight of b
   const Vector6d d = difference(a.T_world_body, b.T_world_body);
   MarkerHypothesis both = a.log_likelihood_sum >= b.log_likelihood_sum ? a : b;
   both.T_world_body = a.T_world_body.plus(share * d);
@@ -56,7 +56,7 @@ MarkerFilter::MarkerFilter(const MarkerFilterOptions& options, MarkerLayout layo
             "MarkerFilter: marker " + std::to_string(marker.id) + " has no positive side");
 }
 
-/// Markers of the layout that are seen once: of two with one number nobody knows which is which.
+/// Markers of the layout that are detected once: two with the same id are ambiguous.
 std::vector<SeenSquare> MarkerFilter::known_squares(const MarkerView& view) const {
   std::vector<SeenSquare> squares;
   for (const MarkerObservation& observation : view.markers) {
@@ -84,7 +84,7 @@ std::vector<MarkerHypothesis> MarkerFilter::explain(const MarkerView& view,
   const SE3 T_cam_body = T_body_cam_.inverse();
   std::optional<KnownCamera> known;
   if (expected && expected->state) {
-    // Errors of the state's position and attitude as a right tangent of the camera's pose.
+    // Maps errors of the state's position and attitude to the right tangent of the camera's pose.
     const BodyState& state = *expected->state;
     Eigen::Matrix<double, 6, 15> J = Eigen::Matrix<double, 6, 15>::Zero();
     J.block<3, 3>(0, 0) = state.T_world_body.rotation().matrix().transpose();
@@ -111,10 +111,10 @@ std::vector<MarkerHypothesis> MarkerFilter::explain(const MarkerView& view,
   return hypotheses;
 }
 
-/// What the views so far, the turn between them, the direction of up and the filter say to each.
+/// Adds the log-likelihoods of the previous views, the rotation, the vertical and the filter.
 void MarkerFilter::weigh(const MarkerView& view, const BodyExpectation* expected,
                          std::vector<MarkerHypothesis>& hypotheses) const {
-  // Errors of corners outlive a view: what was said before counts less with every one.
+  // Errors of corners are correlated between views: earlier log-likelihoods lose weight with each.
   constexpr double kKept = 0.8;
   const double dt = 1e-9 * static_cast<double>(view.stamp_ns - last_ns_);
   for (MarkerHypothesis& hypothesis : hypotheses) {
@@ -122,25 +122,26 @@ void MarkerFilter::weigh(const MarkerView& view, const BodyExpectation* expected
     for (const MarkerHypothesis& parent : hypotheses_) {
       const SO3 R_parent = parent.T_world_body.rotation();
       const SO3 R_expected = view.rotation_body ? R_parent * *view.rotation_body : R_parent;
-      const Vector3d turn = (R_expected.inverse() * hypothesis.T_world_body.rotation()).log();
-      const Vector3d way =
+      const Vector3d rotation = (R_expected.inverse() * hypothesis.T_world_body.rotation()).log();
+      const Vector3d translation =
           hypothesis.T_world_body.translation() - parent.T_world_body.translation();
       const double rotation_sigma = view.rotation_body ? options_.rotation_sigma_deg * kRadPerDeg
                                                        : options_.max_rotation_rad_s * dt;
-      const double way_sigma = options_.max_speed_m_s * dt;
+      const double translation_sigma = options_.max_speed_m_s * dt;
       const Eigen::Matrix3d R = hypothesis.T_world_body.rotation().matrix();
       const Eigen::Matrix3d S_rotation =
           rotation_sigma * rotation_sigma * Eigen::Matrix3d::Identity() +
           parent.covariance.bottomRightCorner<3, 3>() +
           hypothesis.covariance.bottomRightCorner<3, 3>();
-      const Eigen::Matrix3d S_way =
-          way_sigma * way_sigma * Eigen::Matrix3d::Identity() +
+      const Eigen::Matrix3d S_translation =
+          translation_sigma * translation_sigma * Eigen::Matrix3d::Identity() +
           R *
               Eigen::Matrix3d(hypothesis.covariance.topLeftCorner<3, 3>() +
                               parent.covariance.topLeftCorner<3, 3>()) *
               R.transpose();
-      const double step = log_likelihood(turn.dot(S_rotation.ldlt().solve(turn)), 3) +
-                          log_likelihood(way.dot(S_way.ldlt().solve(way)), 3);
+      const double step =
+          log_likelihood(rotation.dot(S_rotation.ldlt().solve(rotation)), 3) +
+          log_likelihood(translation.dot(S_translation.ldlt().solve(translation)), 3);
       before = std::max(before, kKept * parent.followed + step);
     }
     hypothesis.followed += before;
@@ -153,7 +154,7 @@ void MarkerFilter::weigh(const MarkerView& view, const BodyExpectation* expected
     }
   }
   if (!expected || !expected->deviation2) return;
-  // A filter that expects none of them is lost itself, and says nothing.
+  // If the filter's prediction contradicts all hypotheses the filter is lost and not used.
   std::vector<double> deviation2(hypotheses.size());
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < hypotheses.size(); ++i) {
@@ -195,8 +196,8 @@ MarkerPoseEstimate MarkerFilter::observe(const MarkerView& view, const BodyExpec
   MarkerHypothesis joined = hypotheses.front();
   for (std::size_t i = 1; i < hypotheses.size(); ++i) {
     if (!indistinct(hypotheses.front(), hypotheses[i], expected != nullptr)) {
-      answer.outcome = Outcome::failure(
-          Code::kInconsistent, std::to_string(hypotheses.size()) + " poses explain what is seen");
+      answer.outcome = Outcome::failure(Code::kInconsistent, std::to_string(hypotheses.size()) +
+                                                                 " poses explain the observations");
       return answer;
     }
     joined = mixture(joined, hypotheses[i]);
@@ -208,7 +209,7 @@ MarkerPoseEstimate MarkerFilter::observe(const MarkerView& view, const BodyExpec
 
 std::vector<ExpectedSquare> MarkerFilter::expected_squares(const SE3& T_world_body,
                                                            const Matrix6d& covariance) const {
-  // A marker is hardly ever farther off than that, if the layout is right to a few pixels.
+  // A marker is rarely farther off than this, if the layout is accurate to a few pixels.
   constexpr double kSigmas = 4, kLayout_px = 3;
   const SE3 T_body_world = T_world_body.inverse(), T_cam_body = T_body_cam_.inverse();
   std::vector<ExpectedSquare> squares;
@@ -229,7 +230,7 @@ std::vector<ExpectedSquare> MarkerFilter::expected_squares(const SE3& T_world_bo
     }
     if (seen < 4) continue;
     square.within_px = kLayout_px + kSigmas * std::sqrt(variance_px2);
-    // One that is cut by the side of the image is not found.
+    // A marker that crosses the side of the image is not detected.
     const bool whole =
         std::all_of(square.corners_px.begin(), square.corners_px.end(),
                     [&](const Vector2d& px) { return camera_.contains(px, -*square.within_px); });

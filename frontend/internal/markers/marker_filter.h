@@ -13,53 +13,59 @@
 
 namespace placegraph {
 
-/// What one image shows, and what is known of the body at its time.
+/// Observations in one image, and inertial measurements at its time.
 struct MarkerView {
   std::int64_t stamp_ns = 0;
   std::vector<MarkerObservation> markers;
   std::vector<BeaconObservation> beacons;
-  /// The accelerometer's mean about that time (specific force, up where the body is at rest), if
+  /// Mean of the accelerometer about that time (specific force, up if the body is at rest), if
   /// there is one.
   std::optional<Eigen::Vector3d> force_body;
-  /// The body's turn since the last view (R_last_now), as the gyro has it, if there is one.
+  /// Rotation of the body since the last view (R_last_now) from the gyro, if there is one.
   std::optional<SO3> rotation_body;
 };
 
-/// One way to explain what is seen.
+/// One hypothesis about the pose of the body.
 struct MarkerHypothesis {
   SE3 T_world_body;
   Matrix6d covariance = Matrix6d::Zero();  ///< right tangent
-  double chi2 = 0;                         ///< of this view's corners and spots
-  double log_likelihood_sum = 0;  ///< log-likelihood over the views it was followed through, with
-                                  ///< all that speaks for it now; 0 for the best
-  double followed = 0;  ///< what of that is kept for the next view
+  double chi2 = 0;                         ///< squared error of this view's corners and spots
+  double log_likelihood_sum = 0;  ///< log-likelihood over all views of the hypothesis and all
+  ///< present measurements, relative to the best hypothesis
+  double followed = 0;  ///< part of that sum that is kept for the next view
 };
 
+/// Pose of the body from markers and beacons.
 struct MarkerPoseEstimate {
   /// Outcomes: too few data (nothing known in view), inconsistent (two poses are still possible;
   /// the filter or the other markers contradict all), degenerate.
   Outcome outcome;
   PoseMeasurement observation;               ///< meaningful only if outcome
-  int markers = 0, beacons = 0;              ///< that shaped it
-  std::vector<MarkerHypothesis> hypotheses;  ///< those still possible, best first
+  int markers = 0, beacons = 0;              ///< numbers used in the pose
+  std::vector<MarkerHypothesis> hypotheses;  ///< remaining hypotheses, best first
 };
 
-/// From markers and beacons of known places to poses of the body (Siddiqui 2014, 2.1). A single
-/// marker is explained by two poses nearly alike: both are kept, and what the position filter
-/// expects, where up is, how the body turned between images and the other markers in view speak for
-/// one of them until the other is refuted; until then there is no answer. Markers and beacons in
-/// view are solved together.
+/// Estimates poses of the body from markers and beacons at known positions (Siddiqui 2014, 2.1).
+///
+/// Two poses explain a single marker almost equally well. Both are kept as hypotheses until the
+/// prediction of the position filter, the vertical, the rotation of the body between images and the
+/// other markers in view reject one of them; until then there is no estimate. Markers and beacons
+/// in view are solved together.
 class MarkerFilter {
  public:
-  /// Throws ArgumentError if an option is out of range, the camera is none, or the layout is empty.
+  /// Throws ArgumentError for an option out of range, an invalid camera or an empty layout.
   MarkerFilter(const MarkerFilterOptions& options, MarkerLayout layout, const Camera& camera,
                const SE3& T_body_cam);
 
-  /// Views come in the order of their times. `expected`, if given, is the body as another estimator
-  /// expects it at the view's time; without it the layout and the sensors decide.
+  /// Estimates the body's pose from the next view; views are in the order of their times.
+  ///
+  /// `expected`, if given, is the body's state as predicted by another estimator at the view's
+  /// time; without it only the layout and the sensors are used.
   MarkerPoseEstimate observe(const MarkerView& view, const BodyExpectation* expected = nullptr);
-  /// Where a camera at this pose would see the layout's markers, wholly or but for what the pose
-  /// leaves open (right tangent of T_world_body): for MarkerDetector::detect_near.
+  /// Predicted images of the layout's markers, for MarkerDetector::detect_near.
+  ///
+  /// Markers that are in view completely, or up to the uncertainty of the pose (right tangent of
+  /// T_world_body).
   std::vector<ExpectedSquare> expected_squares(const SE3& T_world_body,
                                                const Matrix6d& covariance) const;
   void forget() { hypotheses_.clear(); }
@@ -75,7 +81,7 @@ class MarkerFilter {
   MarkerLayout layout_;
   Camera camera_;
   SE3 T_body_cam_;
-  std::vector<MarkerHypothesis> hypotheses_;  // of the last view
+  std::vector<MarkerHypothesis> hypotheses_;  // hypotheses of the last view
   std::int64_t last_ns_ = 0;
 };
 

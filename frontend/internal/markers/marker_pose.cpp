@@ -13,8 +13,8 @@ namespace {
 
 using Code = Outcome::Code;
 
-/// Whether the corners turn one way all round, clockwise as the image shows it: a marker seen from
-/// its face.
+/// Whether the corners are a convex quadrangle, clockwise in the image: a marker seen from its
+/// face.
 bool faces_camera(const SquareCorners& corners) {
   for (int k = 0; k < 4; ++k) {
     const Eigen::Vector2d a = corners[(k + 1) % 4] - corners[k];
@@ -24,7 +24,7 @@ bool faces_camera(const SquareCorners& corners) {
   return true;
 }
 
-/// The two poses in closed form, from rays of the corners.
+/// The two poses in closed form from the rays of the corners.
 std::vector<SE3> ippe_square(const SquareCorners& corners_px, double side_m, const Camera& camera) {
   std::vector<cv::Point2d> rays;
   for (const Eigen::Vector2d& px : corners_px) {
@@ -48,7 +48,7 @@ std::vector<SE3> ippe_square(const SquareCorners& corners_px, double side_m, con
   return poses;
 }
 
-/// The reader stands on the side to which the marker's z axis points.
+/// Whether the camera is on the side to which the marker's z axis points.
 bool face_seen(const SE3& T_cam_marker) {
   const Eigen::Vector3d normal = T_cam_marker.rotation() * Eigen::Vector3d::UnitZ();
   return T_cam_marker.translation().z() > 0 && normal.dot(T_cam_marker.translation()) < 0;
@@ -62,7 +62,7 @@ double MarkerPoses::margin() const {
 
 MarkerPoses estimate_marker_poses(const MarkerObservation& observation, double side_m,
                                   const Camera& camera) {
-  require(side_m > 0, "estimate_marker_poses: a marker's side is positive");
+  require(side_m > 0, "estimate_marker_poses: the side of the marker must be positive");
   MarkerPoses result;
   SeenSquare seen;
   seen.corners_px = observation.corners_px;
@@ -74,7 +74,8 @@ MarkerPoses estimate_marker_poses(const MarkerObservation& observation, double s
                                   [](const Eigen::Vector2d& px) { return px.allFinite(); });
   if (!finite || !observation.covariance.allFinite() || covariance.info() != Eigen::Success ||
       !faces_camera(seen.corners_px)) {
-    result.outcome = Outcome::failure(Code::kDegenerate, "the corners are no marker's face");
+    result.outcome =
+        Outcome::failure(Code::kDegenerate, "the corners are not the face of a marker");
     return result;
   }
   seen.information = covariance.solve(Eigen::Matrix<double, 8, 8>::Identity());

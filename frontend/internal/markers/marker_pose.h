@@ -9,26 +9,29 @@ namespace placegraph {
 
 /// One of the poses that explain a marker's four corners.
 struct MarkerPose {
-  SE3 T_cam_marker;                        ///< the frame of PlacedMarker
+  SE3 T_cam_marker;                        ///< in the frame of PlacedMarker
   Matrix6d covariance = Matrix6d::Zero();  ///< right tangent of T_cam_marker
-  double chi2 = 0;                         ///< of the corners, in their covariance (2 dof)
-  double rms_px = 0;                       ///< of the corners' distances
+  double chi2 = 0;    ///< squared error of the corners in their covariance (2 dof)
+  double rms_px = 0;  ///< root mean square of the corners' distances
 };
 
+/// Both poses of a marker.
 struct MarkerPoses {
   Outcome outcome;
   std::vector<MarkerPose> poses;  ///< one or two, the better explanation first
-  /// chi2 of the second less that of the first; infinite if there is one only.
+  /// chi2 of the second pose minus that of the first; infinite if there is only one.
   double margin() const;
 };
 
-/// Both poses of a square marker: a planar square seen from afar looks nearly the same when its
-/// tilt towards the camera is mirrored, and the squared error has a minimum at either (Collins &
-/// Bartoli 2014, "Infinitesimal plane-based pose estimation", by OpenCV). Each is refined on the
-/// corners in the covariance of the sighting; its own is (J^T C^-1 J)^-1. Where noise leaves one
-/// minimum only, the other is the mirrored pose (find_planar_rival). Outcomes: degenerate (the
-/// corners are no convex quadrangle, or leave a direction open), no consensus (no pose has the
-/// marker in front of the camera, its face towards it).
+/// Estimates both poses of a square marker.
+///
+/// The image of a distant planar square is nearly the same when its tilt towards the camera is
+/// mirrored, and the squared error has a minimum at both poses (Collins & Bartoli 2014,
+/// "Infinitesimal plane-based pose estimation", by OpenCV). Each is refined on the corners in the
+/// covariance C of the observation; its covariance is (J^T C^-1 J)^-1. If noise leaves only one
+/// minimum, the other pose is the mirrored one (find_planar_rival). Outcomes: degenerate (the
+/// corners are not a convex quadrangle, or leave a direction undetermined), no consensus (no pose
+/// has the marker in front of the camera with its face towards it).
 [[nodiscard]] MarkerPoses estimate_marker_poses(const MarkerObservation& observation, double side_m,
                                                 const Camera& camera);
 

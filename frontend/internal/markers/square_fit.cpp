@@ -20,19 +20,19 @@ constexpr int kOffsetStart = 0, kOffsetEnd = 1, kMean = 2, kMeanSlope = 3, kHalf
 using Parameters = Eigen::Matrix<double, kParameters, 1>;
 using Normal = Eigen::Matrix<double, kParameters, kParameters>;
 
-/// A pixel beside a side: how far along it (0 to 1) and how far outside of it.
+/// A pixel beside a side: position along it (0 to 1) and distance outside of it.
 struct SidePixel {
   double along = 0, outside_px = 0, grey = 0;
 };
 
 struct Side {
-  Vector2d start, end, outwards;       ///< where it was looked for
-  Vector2d offset = Vector2d::Zero();  ///< of the fit at start and end, outwards
+  Vector2d start, end, outwards;       ///< expected side
+  Vector2d offset = Vector2d::Zero();  ///< offset of the fit at start and end, outwards
   Matrix2d covariance = Matrix2d::Zero();
   double contrast = 0;
 };
 
-/// The image's pixels in coordinates in which lines are straight.
+/// The image's pixels in undistorted coordinates.
 class StraightPixels {
  public:
   StraightPixels(const Image& grey, const Camera* lens) : grey_(grey) {
@@ -53,7 +53,7 @@ class StraightPixels {
     J_image_straight << J.col(0) / lens_->fx, J.col(1) / lens_->fy;
     return px;
   }
-  /// Those of the parallelogram around a side of the image.
+  /// The pixels of the parallelogram around a side in the image.
   template <class Use>
   void visit_band(const Side& side, double reach_px, const Use& use) const {
     Vector2d low(1e9, 1e9), high(-1e9, -1e9);
@@ -81,10 +81,10 @@ class StraightPixels {
   const Camera* lens_ = nullptr;
 };
 
-/// What the sides next to a side leave of it: its ends look different.
+/// The usable part of a side: near its ends the neighbouring sides change the grey values.
 struct Band {
   double inside_px = 0, outside_px = 0;
-  double border_px = 0;                     ///< how wide the dark border is, across the side
+  double border_px = 0;                     ///< width of the dark border across the side
   double start_margin = 0, end_margin = 0;  ///< shares of the side
 };
 
@@ -95,17 +95,17 @@ double cotangent(const Vector2d& a, const Vector2d& b) {
 
 std::vector<SidePixel> pixels_of(const StraightPixels& pixels, const Side& side, const Band& band,
                                  std::size_t most) {
-  const Vector2d way = side.end - side.start;
+  const Vector2d extent = side.end - side.start;
   std::vector<SidePixel> result;
   pixels.visit_band(side, std::max(band.inside_px, band.outside_px),
                     [&](const Vector2d& px, double grey) {
-                      const double along = (px - side.start).dot(way) / way.squaredNorm();
+                      const double along = (px - side.start).dot(extent) / extent.squaredNorm();
                       const double outside = (px - side.start).dot(side.outwards);
                       if (along < band.start_margin || along > 1 - band.end_margin) return;
                       if (outside < -band.inside_px || outside > band.outside_px) return;
                       result.push_back({along, outside, grey});
                     });
-  // Long sides have more pixels than are needed: some are left out, by no rhythm of the grid.
+  // Long sides have more pixels than needed: some are left out, in a pattern unrelated to the grid.
   if (result.size() <= most) return result;
   std::vector<SidePixel> kept;
   const double share = static_cast<double>(most) / static_cast<double>(result.size()),
@@ -117,7 +117,7 @@ std::vector<SidePixel> pixels_of(const StraightPixels& pixels, const Side& side,
   return kept;
 }
 
-/// Levels at the two ends of the band, as a start.
+/// Initial levels from the two ends of the band.
 Parameters start_of(const std::vector<SidePixel>& pixels, const Band& band) {
   double inside = 0, outside = 0, n_inside = 1e-9, n_outside = 1e-9;
   for (const SidePixel& pixel : pixels) {
@@ -143,7 +143,7 @@ struct Step {
   double value = 0, slope = 0;
 };
 Step step_at(double z) {
-  // Looked up: it is asked for at every pixel in every round. Between entries linear, to 2e-5.
+  // From a table, as it is needed at every pixel in every iteration; linear interpolation, to 2e-5.
   constexpr double kReach = 5, kPerUnit = 64;
   constexpr int kEntries = static_cast<int>(2 * kReach * kPerUnit) + 2;
   static const std::array<Step, kEntries> table = [] {
@@ -183,7 +183,7 @@ double error_and_jacobian(const Parameters& x, const SidePixel& pixel, Parameter
   return pixel.grey - value;
 }
 
-/// Levenberg-Marquardt from `x`; false where there is no step.
+/// Levenberg-Marquardt from `x`; false if there is no step.
 bool fit_side(const std::vector<SidePixel>& pixels, const Band& band, double min_contrast,
               Parameters& x, Side& side) {
   const int n = static_cast<int>(pixels.size());
@@ -229,7 +229,7 @@ bool fit_side(const std::vector<SidePixel>& pixels, const Band& band, double min
   }
   side.offset = x.head<2>();
   side.contrast = 2 * x[kHalf];
-  // A pixel's grey value is known to its rounding at best.
+  // The error of a grey value is at least its rounding.
   const double variance = std::max(1.0 / 12, cost / (n - kParameters));
   side.covariance = variance * (H + 1e-9 * Normal::Identity()).inverse().topLeftCorner<2, 2>();
   return side.offset.allFinite() && side.covariance.allFinite() && side.contrast >= min_contrast &&
@@ -245,7 +245,7 @@ std::optional<Vector2d> intersection(const Vector2d& a, const Vector2d& b, const
   return Vector2d(a + share[0] * (b - a));
 }
 
-/// The corners where fitted sides meet, with their covariance.
+/// Intersections of the fitted sides, with their covariance.
 bool join(const std::array<Side, 4>& sides, SquareFit& fit) {
   Eigen::Matrix<double, 8, 8> J = Eigen::Matrix<double, 8, 8>::Zero(), offsets = J;
   for (int i = 0; i < 4; ++i) {
@@ -258,13 +258,13 @@ bool join(const std::array<Side, 4>& sides, SquareFit& fit) {
                                      after.end + after.offset[1] * after.outwards);
     if (!corner) return false;
     fit.corners_px[i] = *corner;
-    // Two sides move outwards by what their offsets say at the corner.
+    // The two sides move outwards by their offsets at the corner.
     Matrix2d normals;
     normals << before.outwards.transpose(), after.outwards.transpose();
     const Matrix2d moved = normals.inverse();
     const auto share = [&](const Side& side) {
-      const Vector2d way = side.end - side.start;
-      return (*corner - side.start).dot(way) / way.squaredNorm();
+      const Vector2d extent = side.end - side.start;
+      return (*corner - side.start).dot(extent) / extent.squaredNorm();
     };
     const double u_before = share(before), u_after = share(after);
     const int at_before = 2 * ((i + 3) % 4), at_after = 2 * i;
@@ -277,7 +277,7 @@ bool join(const std::array<Side, 4>& sides, SquareFit& fit) {
   return fit.covariance.allFinite();
 }
 
-/// One pass: sides around the corners in `fit`, whose corners it moves.
+/// One pass: fits the sides around the corners in `fit` and updates these corners.
 bool fit_once(const StraightPixels& pixels, double border_share, const SquareFitOptions& options,
               bool first, std::array<Parameters, 4>& parameters, SquareFit& fit) {
   const SquareCorners corners = fit.corners_px;
@@ -288,28 +288,28 @@ bool fit_once(const StraightPixels& pixels, double border_share, const SquareFit
     Side& side = sides[i];
     side.start = corners[i];
     side.end = corners[(i + 1) % 4];
-    const Vector2d way = side.end - side.start;
-    const double length = way.norm();
+    const Vector2d extent = side.end - side.start;
+    const double length = extent.norm();
     if (length < 4) return false;
-    side.outwards = Vector2d(way.y(), -way.x()) / length;
+    side.outwards = Vector2d(extent.y(), -extent.x()) / length;
     if (side.outwards.dot(side.start - middle) < 0) side.outwards = -side.outwards;
     const Vector2d before = corners[(i + 3) % 4] - side.start;
     const Vector2d after = corners[(i + 2) % 4] - side.end;
-    // The border is as wide as the nearer of the two ends shows it.
+    // The width of the border is that at the nearer of the two ends.
     Band band;
     band.border_px = border_share * std::min(std::abs(before.dot(side.outwards)),
                                              std::abs(after.dot(side.outwards)));
-    // Found first, then measured from nearby only: the cells next to the border shine in where it
-    // is hardly wider than the blur.
+    // First located, then measured from nearby pixels only: the cells next to the border affect the
+    // fit if the border is hardly wider than the blur.
     constexpr double kFound_px = 2.5, kLeast_px = 1.5;
     band.inside_px = first ? std::clamp(band.border_px, kFound_px, options.reach_px)
                            : std::clamp(0.5 * band.border_px, kLeast_px, options.reach_px);
     band.outside_px = band.inside_px;
     constexpr double kCorner_px = 1.5, kMostMargin = 0.3;
     band.start_margin =
-        std::min(kMostMargin, (kCorner_px + band.inside_px * cotangent(before, way)) / length);
+        std::min(kMostMargin, (kCorner_px + band.inside_px * cotangent(before, extent)) / length);
     band.end_margin =
-        std::min(kMostMargin, (kCorner_px + band.inside_px * cotangent(after, way)) / length);
+        std::min(kMostMargin, (kCorner_px + band.inside_px * cotangent(after, extent)) / length);
     const std::vector<SidePixel> beside = pixels_of(pixels, side, band, first ? 80 : 400);
     Parameters& x = parameters[i];
     if (x[kBlur] == 0) x = start_of(beside, band);

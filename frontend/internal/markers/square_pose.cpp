@@ -10,8 +10,8 @@ namespace {
 using Code = Outcome::Code;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Residual of a point and its derivative by the right tangent of T_ref_cam; false behind the
-/// camera.
+/// Residual of a point and its derivative by the right tangent of T_ref_cam; false if the point is
+/// behind the camera.
 bool reproject(const Camera& camera, const SE3& T_cam_ref, const Eigen::Vector3d& point_ref,
                const Eigen::Vector2d& px, Eigen::Vector2d& r, Eigen::Matrix<double, 2, 6>* J) {
   const Eigen::Vector3d p_cam = T_cam_ref * point_ref;
@@ -27,7 +27,7 @@ bool reproject(const Camera& camera, const SE3& T_cam_ref, const Eigen::Vector3d
   return true;
 }
 
-/// Sum of squares, infinite if anything is behind the camera.
+/// Sum of squared errors; infinite if a corner or point is behind the camera.
 double equations(const Camera& camera, const std::vector<SeenSquare>& squares,
                  const std::vector<SeenPoint>& points, const SE3& T_ref_cam, Matrix6d& H,
                  Vector6d& g) {
@@ -87,7 +87,7 @@ double point_chi2(const Camera& camera, const SeenPoint& point, const SE3& T_ref
 
 namespace {
 
-/// Directions in which a pose may move: all six, or all but tilts against a plane's normal.
+/// Free directions of a pose: all six, or all but tilts against a plane's normal.
 Eigen::Matrix<double, 6, Eigen::Dynamic> free_directions(const SE3& T_ref_cam,
                                                          const Eigen::Vector3d* normal_ref) {
   if (!normal_ref) return Matrix6d::Identity();
@@ -113,11 +113,11 @@ SquarePose refine(const Camera& camera, const std::vector<SeenSquare>& squares,
   Vector6d g, g_next;
   result.chi2 = equations(camera, squares, points, T_ref_cam, H, g);
   if (!std::isfinite(result.chi2)) {
-    result.outcome = Outcome::failure(Code::kNoConsensus, "behind the camera");
+    result.outcome = Outcome::failure(Code::kNoConsensus, "a corner or point is behind the camera");
     return result;
   }
   constexpr int kIterations = 60;
-  double damping = 1e-2;  // steps are short at first, so that they stay in their valley
+  double damping = 1e-2;  // short steps at first, so that they stay near the same minimum
   bool converged = false;
   for (int i = 0; i < kIterations && !converged; ++i) {
     const auto directions = free_directions(result.T_ref_cam, normal_ref);
@@ -127,7 +127,7 @@ SquarePose refine(const Camera& camera, const std::vector<SeenSquare>& squares,
     const SE3 next = result.T_ref_cam.plus(step);
     const double chi2 =
         step.allFinite() ? equations(camera, squares, points, next, H_next, g_next) : kInfinity;
-    // The decrease foreseen by the linear model: below that there is nothing left to gain.
+    // The decrease predicted by the linear model is negligible: converged.
     const double foreseen = -step.dot(g) - 0.5 * step.dot(H * step);
     if (chi2 <= result.chi2) {
       converged = foreseen < 1e-9 * (1 + chi2);
@@ -143,7 +143,7 @@ SquarePose refine(const Camera& camera, const std::vector<SeenSquare>& squares,
   }
   const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(H);
   if (!(eigen.eigenvalues()[0] > 1e-12 * eigen.eigenvalues()[5])) {
-    result.outcome = Outcome::failure(Code::kDegenerate, "a direction of the pose stays open");
+    result.outcome = Outcome::failure(Code::kDegenerate, "a direction of the pose is undetermined");
     return result;
   }
   result.covariance = H.ldlt().solve(Matrix6d::Identity());
@@ -164,17 +164,17 @@ SquarePose find_planar_rival(const Camera& camera, const std::vector<SeenSquare>
                              const Eigen::Vector3d& centre_ref, const Eigen::Vector3d& normal_ref,
                              double apart_rad) {
   SquarePose result;
-  // The camera goes round the centre to the other side of the normal.
-  const Eigen::Vector3d observation = (centre_ref - T_ref_cam.translation()).normalized();
-  const Eigen::Vector3d axis = observation.cross(normal_ref);
-  const double tilt = std::atan2(axis.norm(), -observation.dot(normal_ref));
+  // The camera is rotated about the centre to the other side of the normal.
+  const Eigen::Vector3d view_direction = (centre_ref - T_ref_cam.translation()).normalized();
+  const Eigen::Vector3d axis = view_direction.cross(normal_ref);
+  const double tilt = std::atan2(axis.norm(), -view_direction.dot(normal_ref));
   if (!(2 * tilt > apart_rad)) {
-    result.outcome = Outcome::failure(Code::kInconsistent, "seen from right above");
+    result.outcome = Outcome::failure(Code::kInconsistent, "the plane is seen frontally");
     return result;
   }
-  const SO3 turn = SO3::exp(-2 * tilt * axis.normalized());
-  const SE3 start(turn * T_ref_cam.rotation(),
-                  Eigen::Vector3d(centre_ref + turn * (T_ref_cam.translation() - centre_ref)));
+  const SO3 mirroring = SO3::exp(-2 * tilt * axis.normalized());
+  const SE3 start(mirroring * T_ref_cam.rotation(),
+                  Eigen::Vector3d(centre_ref + mirroring * (T_ref_cam.translation() - centre_ref)));
   result = refine(camera, squares, points, start, nullptr);
   const auto angle = [&](const SquarePose& pose) {
     return (pose.T_ref_cam.rotation().inverse() * T_ref_cam.rotation()).log().norm();

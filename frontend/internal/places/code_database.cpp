@@ -9,7 +9,7 @@
 namespace placegraph {
 namespace {
 
-/// Binary words of a vocabulary, or of none: then those the images seen so far have taught.
+/// Binary words of a vocabulary, or without one, words learned from the images so far.
 class OnlineBow final : public CodeDatabase {
  public:
   OnlineBow(const PlaceCodeOptions& options, std::uint64_t seed)
@@ -119,7 +119,7 @@ class LlcDatabase final : public CodeDatabase {
   DenseIndex index_;
 };
 
-/// The sum of a view's landmarks is the first look; landmark is then compared with landmark.
+/// Retrieves by the sum of a view's landmarks first; then single landmarks are compared.
 class LandmarkDatabase final : public CodeDatabase {
  public:
   LandmarkDatabase(const PlaceCodeOptions& options, const FloatVocabulary& vocabulary)
@@ -162,12 +162,12 @@ class LandmarkDatabase final : public CodeDatabase {
 void PlaceCodeOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, PlaceCodeOptions& o) {
-  field.group("corners", o.corners, "of binary words");
+  field.group("corners", o.corners, "corners for binary words");
   field.group("features", o.features, "SIFT key-points");
-  field.group("llc", o.llc, "descriptors as sums of a few words");
+  field.group("llc", o.llc, "codes of descriptors as sums of a few words");
   field.group("landmarks", o.landmarks, "regions of key-points");
   field.group("online", o.online, "binary words without a vocabulary file");
-  field("listed", o.listed, "views an answer names", {1, 1e6});
+  field("listed", o.listed, "number of views in an answer", {1, 1e6});
 }
 
 std::unique_ptr<CodeDatabase> make_code_database(PlaceCode code, const PlaceCodeOptions& options,
@@ -178,9 +178,10 @@ std::unique_ptr<CodeDatabase> make_code_database(PlaceCode code, const PlaceCode
     if (!vocabulary) return std::make_unique<OnlineBow>(options, seed);
     return std::make_unique<BinaryBow>(options, Vocabulary(std::move(*vocabulary)));
   }
-  require(vocabulary.has_value(), "make_code_memory: this code needs a vocabulary");
+  require(vocabulary.has_value(), "make_code_database: this code needs a vocabulary");
   FloatVocabulary words(std::move(*vocabulary));
-  require(words.dimension() == kSiftNumbers, "make_code_memory: a vocabulary of no SIFT words");
+  require(words.dimension() == kSiftNumbers,
+          "make_code_database: the vocabulary does not have SIFT words");
   if (code == PlaceCode::kBowFloat) return std::make_unique<FloatBow>(options, std::move(words));
   if (code == PlaceCode::kLlc) return std::make_unique<LlcDatabase>(options, words);
   return std::make_unique<LandmarkDatabase>(options, words);

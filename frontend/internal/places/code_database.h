@@ -12,21 +12,21 @@
 
 namespace placegraph {
 
-/// How an image is told from others by the visual words it shows.
+/// Codes that describe an image by its visual words.
 enum class PlaceCode {
   kBow,        ///< binary words of corners, tf-idf
   kBowFloat,   ///< words of SIFT key-points, tf-idf
   kLlc,        ///< locality-constrained linear codes of a grid, pooled over a spatial pyramid
-  kLandmarks,  ///< the same of key-points, pooled over the landmarks they make up
+  kLandmarks,  ///< the same codes of key-points, pooled over the landmarks that the key-points form
 };
 
 struct PlaceCodeOptions {
-  CornerAgreementOptions corners{.max_corners = 500};  ///< of binary words
+  CornerAgreementOptions corners{.max_corners = 500};  ///< corners for binary words
   FloatFeatureOptions features;
   LlcOptions llc;
   LandmarkOptions landmarks;
   PlaceDatabaseOptions online;  ///< binary words without a vocabulary file
-  int listed = 60;              ///< views an answer names
+  int listed = 60;              ///< number of views in an answer
   void check() const;
 };
 void visit(OptionVisitor& field, PlaceCodeOptions& options);
@@ -36,18 +36,19 @@ struct ViewRange {
   int first = 0, last = 0;
 };
 
-/// Images as codes, in the order they were seen, and which of them another resembles.
+/// Database of image codes, in the order of the images; retrieves similar images.
 class CodeDatabase {
  public:
   virtual ~CodeDatabase() = default;
-  /// The views `among` that are most like a grey image, best first, scores in [0, 1] (none without
-  /// `among`); the image is stored as the next view then.
+  /// Returns the views in `among` that are most similar to a grey image, best first, with scores in
+  /// [0, 1] (none without `among`). The image is then stored as the next view.
   virtual std::vector<PlaceSimilarity> look_up_and_add(const Image& grey,
                                                        std::optional<ViewRange> among) = 0;
 };
 
-/// `vocabulary`: of binary words for kBow, where none is needed (words are then learned from the
-/// images themselves, with `seed`), of SIFT for the others; ArgumentError if it is another.
+/// Creates a database. `vocabulary`: of binary words for kBow, where it is optional (without one,
+/// words are learned from the images themselves, with `seed`), of SIFT words for the others;
+/// ArgumentError for any other vocabulary.
 std::unique_ptr<CodeDatabase> make_code_database(PlaceCode code, const PlaceCodeOptions& options,
                                                  std::optional<WordTree> vocabulary,
                                                  std::uint64_t seed);

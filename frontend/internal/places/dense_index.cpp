@@ -9,7 +9,7 @@
 namespace placegraph {
 namespace {
 
-/// FAISS asks OpenMP for threads: one, on this thread alone, while this lives.
+/// FAISS asks OpenMP for threads; during the life of this object it gets one, on this thread alone.
 class OneThread {
  public:
   OneThread() : before_(omp_get_max_threads()) { omp_set_num_threads(1); }
@@ -73,7 +73,7 @@ std::vector<PlaceSimilarity> DenseIndex::query(std::span<const float> vector, in
     keep_best(list, count);
     return list;
   }
-  // Those outside may be the nearest of all, as the images just before this one are.
+  // Vectors outside the range may be the nearest of all, like the images just before this one.
   const int asked = std::min(size(), count + outside);
   std::vector<float> distances(static_cast<std::size_t>(asked));
   std::vector<faiss::Index::idx_t> found(distances.size(), -1);

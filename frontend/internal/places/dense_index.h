@@ -7,22 +7,25 @@
 
 namespace placegraph {
 
-/// Vectors of unit length and which of them are nearest to another. Up to some thousands in
-/// question all are looked at; beyond, a graph of neighbours (HNSW, Malkov & Yashunin 2018, by
-/// FAISS) is followed, whose cost grows with the logarithm of their number and which may miss one
-/// now and then. It grows with every vector: nothing is trained, no thread started, same bits.
+/// Index of vectors of unit length for the search of nearest neighbours.
+///
+/// A range of up to some thousands of vectors is searched completely; for a larger one a graph of
+/// neighbours (HNSW, Malkov & Yashunin 2018, by FAISS) is searched, whose cost grows with the
+/// logarithm of the number of vectors and which may miss a neighbour occasionally. The graph grows
+/// with every vector, without training and without threads; the same input gives the same bits.
 class DenseIndex {
  public:
-  /// `dimension`: of the vectors. `exact_below`: so many views in question are all looked at.
+  /// Starts without vectors. `dimension`: length of the vectors. `exact_below`: number of vectors
+  /// in a range up to which it is searched completely.
   explicit DenseIndex(int dimension, int exact_below = kExactBelow);
   ~DenseIndex();
   DenseIndex(DenseIndex&&) noexcept;
   DenseIndex& operator=(DenseIndex&&) noexcept;
 
-  /// The index of the new vector: 0, 1, ... ArgumentError for another dimension.
+  /// Adds a vector and returns its index: 0, 1, ... ArgumentError for another dimension.
   int add(std::span<const float> vector);
-  /// The `count` of first..last (cut to those there are) with the largest inner product, best
-  /// first; fewer where many near ones lie outside.
+  /// Returns the `count` vectors of first..last (cut to the existing ones) with the largest inner
+  /// product, best first; fewer if many near ones are outside the range.
   std::vector<PlaceSimilarity> query(std::span<const float> vector, int count, int first,
                                      int last) const;
   int size() const;

@@ -15,7 +15,8 @@ struct Cluster {
   Rows members;
 };
 
-/// k-means draws from OpenCV's generator of this thread: seeded here, and put back afterwards.
+/// k-means uses OpenCV's random generator of this thread: this object seeds it and restores its
+/// state.
 class SeededKMeans {
  public:
   explicit SeededKMeans(Random& random) : before_(cv::theRNG().state) {
@@ -60,7 +61,7 @@ bool all_equal(const FloatDescriptors& descriptors, const Rows& members) {
 }  // namespace
 
 FloatVocabulary::FloatVocabulary(WordTree tree) : tree_(std::move(tree)) {
-  require(tree_.kind == WordTree::Kind::kFloat, "FloatVocabulary: its words are no vectors");
+  require(tree_.kind == WordTree::Kind::kFloat, "FloatVocabulary: its words are not vectors");
   const auto problem = tree_.problem();
   require(!problem, "FloatVocabulary: " + problem.value_or(""));
 }
@@ -105,7 +106,8 @@ FloatVocabulary FloatVocabulary::train(const FloatDescriptors& descriptors,
 }
 
 void FloatVocabulary::set_idf(std::vector<float> idf) {
-  require(idf.size() == static_cast<std::size_t>(words()), "FloatVocabulary: one idf per word");
+  require(idf.size() == static_cast<std::size_t>(words()),
+          "FloatVocabulary: needs one idf per word");
   tree_.idf = std::move(idf);
 }
 
@@ -116,7 +118,7 @@ Eigen::Map<const FloatDescriptors> FloatVocabulary::children(const WordTree::Nod
 
 std::uint32_t FloatVocabulary::word(const Eigen::Ref<const Eigen::RowVectorXf>& descriptor) const {
   require(!empty() && descriptor.size() == dimension(),
-          "FloatVocabulary: not trained, or on descriptors of another length");
+          "FloatVocabulary: not trained, or trained on descriptors of another length");
   const WordTree::Node* node = &tree_.nodes.front();
   while (node->word < 0) {
     Eigen::Index best = 0;

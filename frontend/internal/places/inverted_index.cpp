@@ -8,13 +8,13 @@ namespace placegraph {
 
 InvertedIndex::InvertedIndex(std::vector<float> idf)
     : idf_(std::move(idf)), views_with_(idf_.size(), 0), inverted_(idf_.size()) {
-  require(!idf_.empty(), "WordIndex: no words");
+  require(!idf_.empty(), "InvertedIndex: no words");
 }
 
 InvertedIndex::Counts InvertedIndex::count(const std::vector<std::uint32_t>& words) const {
   std::vector<std::uint32_t> sorted = words;
   std::sort(sorted.begin(), sorted.end());
-  require(sorted.empty() || sorted.back() < idf_.size(), "WordIndex: no such word");
+  require(sorted.empty() || sorted.back() < idf_.size(), "InvertedIndex: no such word");
   Counts counts;
   for (const std::uint32_t word : sorted) {
     if (counts.empty() || counts.back().first != word) counts.emplace_back(word, 0);

@@ -6,21 +6,24 @@
 
 namespace placegraph {
 
-/// Views as bags of visual words. Words are weighed by how often they are in a view and by how few
-/// views have them (tf-idf, Sivic & Zisserman 2003), and two views are as alike as their weights
-/// overlap: 1 - |v - w|_1 / 2 of weights that sum to one, in [0, 1]. Only views that share a word
-/// with the query are looked at (inverted index).
+/// Index of views as bags of visual words.
+///
+/// Words are weighted by their frequency in a view and by the rarity of views that contain them
+/// (tf-idf, Sivic & Zisserman 2003). The similarity of two views is the overlap of their weights: 1
+/// - |v - w|_1 / 2 of weights that sum to one, in [0, 1]. Only views that share a word with the
+/// query are compared (inverted index).
 class InvertedIndex {
  public:
-  /// `idf`: a weight per word, which holds until views enough have been seen to weigh words by;
-  /// from then on it follows what was seen, taken anew whenever the views have doubled.
+  /// Starts without views. `idf`: a weight per word, used until there are enough views to weight
+  /// words by; from then on the weights follow from the views and are computed again whenever the
+  /// number of views has doubled.
   explicit InvertedIndex(std::vector<float> idf);
 
-  /// The index of the new view: 0, 1, ... Words in any order, with repetitions; ArgumentError for
-  /// one that there is not.
+  /// Adds a view and returns its index: 0, 1, ... The words may be in any order, with repetitions;
+  /// ArgumentError for an unknown word.
   int add(const std::vector<std::uint32_t>& words);
-  /// Views of first..last (cut to those there are) with a word in common, best first, at most
-  /// `count`.
+  /// Returns the views of first..last (cut to the existing ones) with a word in common, best first,
+  /// at most `count`.
   std::vector<PlaceSimilarity> query(const std::vector<std::uint32_t>& words, int count, int first,
                                      int last) const;
   int size() const { return static_cast<int>(views_.size()); }
@@ -41,9 +44,9 @@ class InvertedIndex {
   void reweigh();
 
   std::vector<float> idf_;
-  std::vector<int> views_with_;  ///< by word
+  std::vector<int> views_with_;  ///< number of views with each word
   std::vector<Counts> views_;
-  std::vector<std::vector<Entry>> inverted_;  ///< by word, views ascending
+  std::vector<std::vector<Entry>> inverted_;  ///< entries of each word, views ascending
   std::size_t weighed_views_ = 0;
 };
 

@@ -7,7 +7,7 @@
 namespace placegraph {
 namespace {
 
-/// Where a point comes to rest among the others.
+/// Mode that a point climbs to among the others.
 Eigen::Vector2f mode_of(Eigen::Vector2f point, const std::vector<Eigen::Vector2f>& positions,
                         float radius) {
   constexpr int kRounds = 30;
@@ -33,10 +33,12 @@ Eigen::Vector2f mode_of(Eigen::Vector2f point, const std::vector<Eigen::Vector2f
 void LandmarkOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, LandmarkOptions& o) {
-  field("bandwidth", o.bandwidth, "of the width, of one landmark", {0.005, 1});
-  field("min_features", o.min_features, "of a landmark", {1, 1000});
-  field("max_shift", o.max_shift, "of the width, between two views of a landmark", {0, 10});
-  field("max_landmarks", o.max_landmarks, "of a view", {1, 1000});
+  field("bandwidth", o.bandwidth,
+        "radius of the key-points of one landmark, as a share of the width", {0.005, 1});
+  field("min_features", o.min_features, "minimum number of key-points of a landmark", {1, 1000});
+  field("max_shift", o.max_shift,
+        "maximum shift of a landmark between two views, as a share of the width", {0, 10});
+  field("max_landmarks", o.max_landmarks, "maximum number of landmarks of a view", {1, 1000});
 }
 
 std::vector<int> group_positions(const std::vector<Eigen::Vector2f>& positions, double bandwidth) {

@@ -25,10 +25,12 @@ Eigen::VectorXf of_unit_length(const Eigen::VectorXf& vector) {
 void LlcOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, LlcOptions& o) {
-  field("most_words", o.most_words, "of the level of the vocabulary that is taken", {2, 100000});
-  field("neighbours", o.neighbours, "words a descriptor is made of", {1, 100});
-  field("ridge", o.ridge, "of the trace of the local covariance", {1e-9, 1});
-  field("pyramid_rows", o.pyramid_rows, "cells of the finer level of the spatial pyramid", {1, 16});
+  field("most_words", o.most_words,
+        "maximum number of words of the level of the vocabulary that is used", {2, 100000});
+  field("neighbours", o.neighbours, "number of words in the code of a descriptor", {1, 100});
+  field("ridge", o.ridge, "ridge, as a share of the trace of the local covariance", {1e-9, 1});
+  field("pyramid_rows", o.pyramid_rows,
+        "number of cells of the finer level of the spatial pyramid, across and down", {1, 16});
 }
 
 Eigen::VectorXf local_shares(const Eigen::Ref<const FloatDescriptors>& words,
@@ -37,7 +39,7 @@ Eigen::VectorXf local_shares(const Eigen::Ref<const FloatDescriptors>& words,
           "local_shares: words and descriptor of equal length needed");
   const Eigen::MatrixXd differences = (words.rowwise() - descriptor).cast<double>();
   Eigen::MatrixXd covariance = differences * differences.transpose();
-  // A descriptor that is all its words alike leaves the ridge alone to decide: equal shares.
+  // If all words equal the descriptor, only the ridge determines the shares: they are equal.
   constexpr double kLeastTrace = 1e-12;
   covariance.diagonal().array() += ridge * std::max(covariance.trace(), kLeastTrace);
   const Eigen::VectorXd shares = covariance.ldlt().solve(Eigen::VectorXd::Ones(words.rows()));

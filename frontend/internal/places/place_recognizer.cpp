@@ -11,7 +11,7 @@
 namespace placegraph {
 namespace {
 
-/// A view of the short list with what is known of it so far.
+/// View of the short list with its similarities so far.
 struct Candidate {
   int view = 0;
   double coarse = 0;
@@ -21,15 +21,15 @@ struct Candidate {
   double score() const { return grids.sum() + corners; }
 };
 
-// Best first by some figure; equal ones keep their order.
+// Sorts by some figure, best first; equal ones keep their order.
 template <class Figure>
 void sort_by(std::vector<Candidate>& candidates, const Figure& figure) {
   std::stable_sort(candidates.begin(), candidates.end(),
                    [&](const Candidate& a, const Candidate& b) { return figure(a) > figure(b); });
 }
 
-// The corners of a view that any cue puts among its first are looked at, not only of those that
-// are first in the sum: where one cue fails, the sum is no good guide.
+// Marks the views whose corners are compared: those that are among the first in any single cue, not
+// only in the sum. If one cue fails, the sum is misleading.
 void nominate(std::vector<Candidate>& candidates, const PlaceRecognizerOptions& options) {
   const auto mark = [&](auto figure, int count) {
     sort_by(candidates, figure);
@@ -80,21 +80,21 @@ int PlaceRecognizer::add(PlaceView view) {
   if (view.tiny.size() > 1) view.tiny.resize(1);
   if (view.gradients.size() > 1) view.gradients.resize(1);
   require(views_.empty() || views_.front().thumbnail.size() == view.thumbnail.size(),
-          "PlaceRecognizer: views of different cues");
-  glances_.insert(glances_.end(), view.thumbnail.begin(), view.thumbnail.end());
+          "PlaceRecognizer: the views have different cues");
+  thumbnails_.insert(thumbnails_.end(), view.thumbnail.begin(), view.thumbnail.end());
   views_.push_back(std::move(view));
   grow_graph();
   return size() - 1;
 }
 
-// From half of the number on two views are entered for each that comes, so that none waits long.
+// From half of the number on, two views are inserted for each new one, so that none takes long.
 void PlaceRecognizer::grow_graph() {
   const std::size_t length = views_.back().thumbnail.size();
   if (length == 0 || size() < options_.indexed_from / 2) return;
   if (!graph_) graph_ = std::make_unique<DenseIndex>(static_cast<int>(length), 0);
   for (int i = 0; i < 2 && graph_->size() < size(); ++i)
-    graph_->add(
-        unit_vector(glances_.data() + static_cast<std::size_t>(graph_->size()) * length, length));
+    graph_->add(unit_vector(thumbnails_.data() + static_cast<std::size_t>(graph_->size()) * length,
+                            length));
 }
 
 std::vector<int> PlaceRecognizer::thumbnails_along_graph(const PlaceView& query, int first,
@@ -114,9 +114,9 @@ std::vector<int> PlaceRecognizer::thumbnail(const PlaceView& query, int first, i
     return thumbnails_along_graph(query, first, last);
   const auto length = static_cast<std::ptrdiff_t>(query.thumbnail.size());
   std::vector<std::int32_t> similarity(static_cast<std::size_t>(last - first + 1));
-  inner_products(query.thumbnail.data(), glances_.data() + first * length, length, last - first + 1,
-                 similarity.data());
-  std::vector<std::pair<std::int32_t, int>> order;  // minus the likeness, view
+  inner_products(query.thumbnail.data(), thumbnails_.data() + first * length, length,
+                 last - first + 1, similarity.data());
+  std::vector<std::pair<std::int32_t, int>> order;  // minus the similarity, view
   order.reserve(similarity.size());
   for (int view = first; view <= last; ++view)
     order.emplace_back(-similarity[static_cast<std::size_t>(view - first)], view);
@@ -136,7 +136,7 @@ std::vector<PlaceSimilarity> PlaceRecognizer::query(const PlaceView& query, int 
     return views_[static_cast<std::size_t>(i)];
   };
   require(views_.empty() || query.thumbnail.size() == views_.front().thumbnail.size(),
-          "PlaceRecognizer: a query of other cues than the views");
+          "PlaceRecognizer: the query has other cues than the views");
   std::vector<Candidate> candidates;
   for (const int view : thumbnail(query, std::max(first, 0), std::min(last, size() - 1)))
     candidates.push_back(

@@ -42,7 +42,8 @@ void append_pooled(const CueGrid& grid, int columns, int rows, double weight,
   for (const float sum : sums) code.push_back(sum * scale);
 }
 
-// Few cells, so that views from a little beside look alike; colours of the image as a whole.
+// Thumbnail with few cells, so that views from slightly different positions are similar; colours of
+// the image as a whole.
 std::vector<std::int16_t> thumbnail_of(const PlaceView& view) {
   std::vector<float> code;
   append_pooled(view.colour, 1, 1, 1, code);
@@ -66,7 +67,7 @@ PlaceView describe_place(const Image& image, const PlaceCueOptions& options, boo
   std::vector<double> scales = {1};
   if (query && options.zoom > 1) scales = {1, 1 / options.zoom, options.zoom};
   PlaceView view;
-  // Large images are shrunk once for all: the grids see a hundred pixels of their width.
+  // Large images are shrunk once: the grids use a hundred pixels of their width.
   constexpr int kWidth = 160;
   cv::Mat sized = image, sized_grey = grey;
   if (image.cols > kWidth) {
@@ -89,7 +90,7 @@ PlaceView describe_place(const Image& image, const PlaceCueOptions& options, boo
 GridSimilarity grid_similarity(const PlaceView& query, const PlaceView& stored,
                                const PlaceCueOptions& options) {
   require(query.colour.empty() == stored.colour.empty(),
-          "grid_likeness: one view is grey and one in colour");
+          "grid_similarity: one view is grey and one in colour");
   GridSimilarity similarity;
   if (options.tiny > 0)
     similarity.tiny = options.tiny * best_over_scales(query.tiny, stored.tiny.front(),

@@ -5,22 +5,22 @@
 
 namespace placegraph {
 
-/// What the grids of two views have in common: weighted cosines, 0 for a cue that is left out.
+/// Similarities of the grids of two views: weighted cosines, 0 for a cue that is left out.
 struct GridSimilarity {
   double tiny = 0, colour = 0, gradients = 0, gabor = 0;
   double sum() const { return tiny + colour + gradients + gabor; }
 };
 
-/// Both views grey or both in colour (ArgumentError otherwise).
+/// Compares the grids; both views must be grey or both in colour (ArgumentError otherwise).
 GridSimilarity grid_similarity(const PlaceView& query, const PlaceView& stored,
                                const PlaceCueOptions& options);
 
-/// What the corners add to it: weight * log(agreeing corners / corner_floor), never negative.
+/// Similarity of the corners: weight * log(agreeing corners / corner_floor), never negative.
 double corner_similarity(const PlaceView& query, const PlaceView& stored,
                          const PlaceCueOptions& options);
 
-/// A second look at hundreds of views: tiny images at half the columns and colours where they
-/// stand.
+/// Second coarse comparison of hundreds of views: tiny images at half the columns, colours without
+/// shifts.
 double coarse_similarity(const PlaceView& query, const PlaceView& stored,
                          const PlaceCueOptions& options);
 

@@ -7,26 +7,29 @@ void VocabularyOptions::check() const { check_ranges(*this); }
 void visit(OptionVisitor& field, VocabularyOptions& o) {
   field("branching", o.branching, "children of a tree node", {2, 64});
   field("depth", o.depth, "levels of the tree", {1, 6});
-  field("iterations", o.iterations, "k-majority rounds per node", {1, 100});
+  field("iterations", o.iterations, "k-majority iterations per node", {1, 100});
 }
 
 void PlaceDatabaseOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, PlaceDatabaseOptions& o) {
-  field.group("vocabulary", o.vocabulary, "tree of visual words, trained from the run itself");
-  field("first_training", o.first_training, "views before the first vocabulary", {2, 100000});
-  field("max_training_features", o.max_training_features, "features a training looks at",
-        {100, 10000000});
+  field.group("vocabulary", o.vocabulary, "tree of visual words, trained online");
+  field("first_training", o.first_training,
+        "number of keyframes at which the first vocabulary is trained", {2, 100000});
+  field("max_training_features", o.max_training_features,
+        "maximum number of features in one training", {100, 10000000});
 }
 
 void CornerAgreementOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, CornerAgreementOptions& o) {
-  field("width_px", o.width_px, "images are brought to this width for their corners", {64, 4096});
-  field("max_corners", o.max_corners, "of an image", {50, 5000});
-  field("max_distance", o.max_distance, "differing bits of 256 of two descriptors", {1, 256});
-  field("max_ratio", o.max_ratio, "best over second best distance", {0.1, 1});
-  field("tolerance", o.tolerance, "share of the width, where a corner should be", {0.001, 1});
+  field("width_px", o.width_px, "width to which images are resized for their corners", {64, 4096});
+  field("max_corners", o.max_corners, "maximum number of corners in an image", {50, 5000});
+  field("max_distance", o.max_distance, "maximum Hamming distance of a match [bits of 256]",
+        {1, 256});
+  field("max_ratio", o.max_ratio, "maximum ratio of best to second best distance", {0.1, 1});
+  field("tolerance", o.tolerance,
+        "maximum position error of an agreeing corner, as a share of the width", {0.001, 1});
 }
 
 void PlaceCueOptions::check() const { check_ranges(*this); }
@@ -35,27 +38,29 @@ void visit(OptionVisitor& field, PlaceCueOptions& o) {
   field("tiny", o.tiny, "weight of the shrunk image", {0, 100});
   field("colour", o.colour, "weight of the colour histograms", {0, 100});
   field("gradients", o.gradients, "weight of the gradient histograms", {0, 100});
-  field("corners", o.corners, "weight of agreeing corners, per e-fold", {0, 100});
-  field("gabor", o.gabor, "weight of the answers of a Gabor filter bank", {0, 100});
-  field("corner_floor", o.corner_floor, "corners that agree by chance", {1, 1000});
-  field("tiny_columns", o.tiny_columns, "cells of the shrunk image", {8, 128});
-  field("zoom", o.zoom, "a query is also looked at larger and smaller by this", {1, 2});
-  field("shift_loss", o.shift_loss, "of similarity where nothing overlaps", {0, 1});
-  field.group("corner_agreement", o.corner_agreement, "corners in one similarity");
+  field("corners", o.corners, "weight of log(agreeing corners / corner_floor)", {0, 100});
+  field("gabor", o.gabor, "weight of statistics of a Gabor filter bank", {0, 100});
+  field("corner_floor", o.corner_floor, "number of corners that agree by chance", {1, 1000});
+  field("tiny_columns", o.tiny_columns, "width of the shrunk image [px]", {8, 128});
+  field("zoom", o.zoom, "factor by which a query is also enlarged and reduced", {1, 2});
+  field("shift_loss", o.shift_loss, "loss of similarity for a shift by the whole image", {0, 1});
+  field.group("corner_agreement", o.corner_agreement,
+              "corners that agree in one similarity transformation");
 }
 
 void LoopTwoViewOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, LoopTwoViewOptions& o) {
   field.group("pose", o.pose, "essential matrix or homography");
-  field.group("turn", o.turn, "views that differ by a turn alone");
-  field("min_parallax_px", o.min_parallax_px, "median displacement that the rotation leaves",
-        {0.1, 1000});
-  field("min_depths", o.min_depths, "known depths that must agree on the length of the way",
+  field.group("turn", o.rotation, "views that differ by a rotation alone");
+  field("min_parallax_px", o.min_parallax_px,
+        "minimum median displacement beyond that of the rotation", {0.1, 1000});
+  field("min_depths", o.min_depths, "minimum number of known depths that agree on the baseline",
         {3, 1000});
-  field("max_depth_spread", o.max_depth_spread, "of their ratios (logarithm) from the median",
-        {0.01, 2});
-  field("min_depth_share", o.min_depth_share, "of the depths that must agree", {0, 1});
+  field("max_depth_spread", o.max_depth_spread,
+        "maximum |log ratio| between an agreeing depth and the median", {0.01, 2});
+  field("min_depth_share", o.min_depth_share, "minimum share of the known depths that agree",
+        {0, 1});
 }
 
 void LoopVerifierOptions::check() const { check_ranges(*this); }
@@ -64,34 +69,41 @@ void visit(OptionVisitor& field, LoopVerifierOptions& o) {
   field.group("matcher", o.matcher, "descriptor matching");
   field.group("pose", o.pose, "relative pose from 3-D points to pixels");
   field.group("two_view", o.two_view, "relative pose where too few points have a depth");
-  field.group("lines", o.lines, "lines that the pose expects in the query");
-  field("min_inlier_ratio", o.min_inlier_ratio, "share of the matches that must agree", {0, 1});
-  field("min_spread", o.min_spread, "share of the image the inliers must cover", {0, 1});
-  field("max_scale_error", o.max_scale_error, "disagreement of depths seen from both sides",
-        {0, 10});
+  field.group("lines", o.lines, "lines that the pose predicts in the query");
+  field("min_inlier_ratio", o.min_inlier_ratio,
+        "minimum share of the matches that agree with the pose", {0, 1});
+  field("min_spread", o.min_spread, "minimum share of the image that the inliers cover", {0, 1});
+  field("max_scale_error", o.max_scale_error,
+        "maximum |log| of the median ratio of the two keyframes' depths", {0, 10});
   field("max_baseline_depths", o.max_baseline_depths,
-        "translation between the views over the median depth of the inliers", {0.01, 100});
-  field("max_angle_deg", o.max_angle_deg, "rotation between the views", {1, 180});
+        "maximum translation between the views over the inliers' median depth", {0.01, 100});
+  field("max_angle_deg", o.max_angle_deg, "maximum rotation between the views", {1, 180});
 }
 
 void PlaceRecognizerOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, PlaceRecognizerOptions& o) {
-  field.group("cues", o.cues, "what tells places apart, and how much each counts");
-  field("shortlisted", o.shortlisted, "views that pass the first look", {1, 1e6});
-  field("short_list", o.short_list, "of those, views compared in full", {1, 1e6});
-  field("verified", o.verified, "first views by all grids whose corners are compared", {0, 1e6});
-  field("indexed_from", o.indexed_from, "views from which a graph serves the first look", {1, 1e9});
-  field("nominated", o.nominated, "first views by each cue whose corners are compared", {0, 1e6});
+  field.group("cues", o.cues, "cues by which views are compared, and their weights");
+  field("shortlisted", o.shortlisted, "number of views that pass the first comparison", {1, 1e6});
+  field("short_list", o.short_list, "number of views that are compared in full", {1, 1e6});
+  field("verified", o.verified,
+        "number of views, best by all other cues, whose corners are compared", {0, 1e6});
+  field("indexed_from", o.indexed_from,
+        "number of views from which on the first comparison searches a graph", {1, 1e9});
+  field("nominated", o.nominated,
+        "number of views, best by each single cue, whose corners are compared", {0, 1e6});
 }
 
 void SequenceFilterOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, SequenceFilterOptions& o) {
-  field("memory", o.memory, "weight of the past against the present image", {0, 0.999});
-  field("pace_penalty", o.pace_penalty, "per squared view a step is off the pace", {0, 1e3});
-  field("max_step", o.max_step, "views between the answers of two images", {1, 100});
-  field("present", o.present, "weight of the present image in how sure an answer is", {0, 1e3});
+  field("memory", o.memory, "factor on the score of the past, per image", {0, 0.999});
+  field("pace_penalty", o.pace_penalty,
+        "loss of score per squared difference [views] between step and pace", {0, 1e3});
+  field("max_step", o.max_step, "maximum distance [views] between the answers to two images",
+        {1, 100});
+  field("present", o.present, "weight of the present image alone in an answer's confidence",
+        {0, 1e3});
 }
 
 }  // namespace placegraph

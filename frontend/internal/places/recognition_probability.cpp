@@ -10,7 +10,7 @@ namespace {
 double share_agreed(const std::vector<ViewEstimate>& answers) {
   const auto agreed = std::count_if(answers.begin(), answers.end(),
                                     [](const ViewEstimate& answer) { return answer.agreed; });
-  // Of few answers none is no proof of never.
+  // Laplace's rule: a few answers without agreement do not give a probability of zero.
   return (static_cast<double>(agreed) + 1) / (static_cast<double>(answers.size()) + 2);
 }
 
@@ -79,7 +79,7 @@ ViewEstimate answer_of(const ViewEvidence& evidence, const NearViews& near,
 
 RecognitionProbability::RecognitionProbability(const std::vector<ViewEstimate>& wrong,
                                                const std::vector<ViewEstimate>& right) {
-  require(!wrong.empty() && !right.empty(), "RecognitionOdds: no answers to learn from");
+  require(!wrong.empty() && !right.empty(), "RecognitionProbability: no answers to calibrate with");
   constexpr double kLeast = 1e-6;
   for (const ViewEstimate& answer : wrong)
     mean_wrong_ += answer.margin / static_cast<double>(wrong.size());

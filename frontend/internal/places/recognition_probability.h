@@ -6,55 +6,61 @@
 
 namespace placegraph {
 
-/// What is known of one image: scores of all views, with the evidence of the images before it and
-/// of those after it. Empty for an image with nothing to compare.
+/// Evidence for one image: scores of all views from the images before it and from those after it.
+///
+/// Empty for an image without views to compare.
 struct ViewEvidence {
   std::vector<double> forwards, backwards;
 };
 
-/// The lists of images by themselves: both are the list, what is not listed counts as its least.
+/// Evidence of images by themselves: both directions are the list; unlisted views get its least
+/// score.
 std::vector<ViewEvidence> lone_evidence(const std::vector<std::vector<PlaceSimilarity>>& lists,
                                         int views);
-/// The lists of consecutive images: a SequenceFilter in either direction.
+/// Evidence of consecutive images: a SequenceFilter in either direction.
 std::vector<ViewEvidence> sequence_evidence(const std::vector<std::vector<PlaceSimilarity>>& lists,
                                             int views, const SequenceFilterOptions& options);
 
-/// Whether two stored views show about the same.
+/// Whether two stored views show nearly the same scene.
 using NearViews = std::function<bool(int, int)>;
 
-/// The view that the evidence of both sides together is for.
+/// View with the largest score in both directions together.
 struct ViewEstimate {
-  int view = -1;        ///< -1: there is none
-  double margin = 0;    ///< by how much it stands out above all views that are not near it
-  bool agreed = false;  ///< either side alone is for a view near it
+  int view = -1;        ///< index of the view; -1: none
+  double margin = 0;    ///< lead of its score over that of all views that are not near it
+  bool agreed = false;  ///< whether the best view of each direction alone is near it
 };
-/// Among the views that `allowed` admits.
+/// Finds the best view among those that `allowed` admits.
 ViewEstimate answer_of(const ViewEvidence& evidence, const NearViews& near,
                        const std::function<bool(int)>& allowed);
 
-/// How sure answers are. A map calibrates it with answers that its own views get: wrong ones, when
-/// all that is near them is kept from them; right ones, when they are kept from themselves alone.
-/// By Bayes' rule, with even odds before:
+/// Probability that an answer is right.
 ///
-/// - margins of wrong answers are exponential with their mean, as the distance of the first of many
-///   independent scores to the second is (Renyi 1953). How like itself a place remains in another
-///   light nobody knows: margins of right answers are anything up to the largest (all but a tenth);
-/// - both sides agree on right and on wrong answers as often as they did there;
-/// - answers of consecutive images that lie near each other are right together or wrong together:
+/// A map calibrates it with answers for its own views: wrong answers, when all views near the
+/// correct one are excluded; right answers, when only the view itself is excluded. By Bayes' rule,
+/// with equal prior probabilities:
+///
+/// - Margins of wrong answers are exponential with their mean, like the distance between the first
+///   and the second of many independent scores (Renyi 1953). The similarity of a place to itself in
+///   another light is unknown: margins of right answers are uniform up to the largest (all but a
+///   tenth).
+/// - Both directions agree on right and on wrong answers as often as in the calibration.
+/// - Answers of consecutive images that are near each other are right together or wrong together:
 ///   they share the mean of their log odds over `reach` images to either side.
 class RecognitionProbability {
  public:
-  /// Throws ArgumentError without answers of either kind.
+  /// Calibrates the model. Throws ArgumentError without right or without wrong answers.
   RecognitionProbability(const std::vector<ViewEstimate>& wrong,
                          const std::vector<ViewEstimate>& right);
   double log_odds(const ViewEstimate& answer) const;
-  /// Of each answer being right; 0 where there is none.
+  /// Probability that each answer is right; 0 for an image without an answer.
   std::vector<double> probabilities(const std::vector<ViewEstimate>& answers, const NearViews& near,
                                     int reach) const;
 
  private:
   double mean_wrong_ = 0, largest_right_ = 0;
-  double agreed_wrong_ = 0, agreed_right_ = 0;  ///< shares
+  /// Shares of answers on which both directions agree.
+  double agreed_wrong_ = 0, agreed_right_ = 0;
 };
 
 }  // namespace placegraph

@@ -19,7 +19,7 @@ void raise(double* best, const double* before, std::size_t count, double penalty
   for (std::size_t i = 0; i < count; ++i) best[i] = std::max(best[i], before[i] - penalty);
 }
 
-// Of many scores every few are asked: the map may be large.
+// Median of the scores; of many scores only a sample is used, as the map may be large.
 double middle_of(const std::vector<double>& scores) {
   constexpr std::size_t kMost = 2000;
   const std::size_t stride = 1 + (scores.size() - 1) / kMost;
@@ -37,7 +37,7 @@ SequenceFilter::SequenceFilter(const SequenceFilterOptions& options) : options_(
 
 std::vector<double> SequenceFilter::predict(const State& state, int first, int last) const {
   const auto count = static_cast<int>(state.score.size());
-  // A path may begin at a view that was none before: as likely as the middle one.
+  // A path may also begin at any view, with the score of the median view.
   const double begin = middle_of(state.score);
   const int size = last - first + 1;
   std::vector<double> best(static_cast<std::size_t>(size),
@@ -46,7 +46,7 @@ std::vector<double> SequenceFilter::predict(const State& state, int first, int l
   for (int step = 0; step <= options_.max_step; ++step) {
     const double off = step - std::abs(state.pace);
     const double penalty = options_.pace_penalty * off * off;
-    // Of first..last, those that a view known before leads to; a path begins at the others.
+    // Views of first..last that a view of the previous range leads to; at the others a path begins.
     const int shift = direction * step + first_ - first;
     const int known = std::clamp(shift, 0, size), end = std::clamp(count + shift, known, size);
     if (known < end)

@@ -70,7 +70,7 @@ std::vector<std::pair<BinaryDescriptor, Indices>> cluster(
 }  // namespace
 
 Vocabulary::Vocabulary(WordTree tree) : tree_(std::move(tree)) {
-  require(tree_.kind == WordTree::Kind::kBinary, "Vocabulary: not of binary words");
+  require(tree_.kind == WordTree::Kind::kBinary, "Vocabulary: its words are not binary");
   const auto problem = tree_.problem();
   require(!problem, "Vocabulary: " + problem.value_or(""));
 }
@@ -101,7 +101,7 @@ Vocabulary Vocabulary::train(const std::vector<BinaryDescriptor>& descriptors,
     }
     auto clusters =
         cluster(descriptors, work.members, options.branching, options.iterations, random);
-    if (clusters.size() == 1) {  // all alike
+    if (clusters.size() == 1) {  // all are equal
       tree.nodes[work.node].word = tree.words++;
       continue;
     }
@@ -117,7 +117,8 @@ Vocabulary Vocabulary::train(const std::vector<BinaryDescriptor>& descriptors,
 }
 
 void Vocabulary::set_idf(std::vector<float> idf) {
-  require(idf.size() == static_cast<std::size_t>(words()), "Vocabulary::set_idf: one per word");
+  require(idf.size() == static_cast<std::size_t>(words()),
+          "Vocabulary::set_idf: needs one idf per word");
   tree_.idf = std::move(idf);
 }
 

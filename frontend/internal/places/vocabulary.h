@@ -9,8 +9,9 @@
 
 namespace placegraph {
 
-/// A tree of binary words: hierarchical k-majority clustering (Nister & Stewenius 2006;
-/// Galvez-Lopez & Tardos 2012). Deterministic for a given `random`.
+/// Tree of binary words by hierarchical k-majority clustering (Nister & Stewenius 2006).
+///
+/// See also Galvez-Lopez & Tardos 2012. Deterministic for a given `random`.
 class Vocabulary {
  public:
   /// Clusters the descriptors; throws ArgumentError if there are none.
@@ -18,14 +19,15 @@ class Vocabulary {
                           const VocabularyOptions& options, Random& random);
 
   Vocabulary() = default;
-  /// One that was saved. Throws ArgumentError if it is not of binary words or has a problem().
+  /// Loads a saved vocabulary. Throws ArgumentError if its words are not binary or it has a
+  /// problem().
   explicit Vocabulary(WordTree tree);
 
   bool empty() const { return tree_.nodes.empty(); }
   int words() const { return tree_.words; }
-  /// The word [0, words()) of a descriptor.
+  /// Word of a descriptor, in [0, words()).
   std::uint32_t word(const BinaryDescriptor& descriptor) const;
-  /// What is to be saved; idf is 1 until it is set.
+  /// Tree for a file; idf is 1 until it is set.
   const WordTree& tree() const { return tree_; }
   void set_idf(std::vector<float> idf);
 

@@ -58,7 +58,7 @@ DominantSurface::DominantSurface(const DominantSurfaceOptions& options, const Ca
 
 Plane DominantSurface::plane_cam() const { return {g_cam_.normalized(), 1 / g_cam_.norm()}; }
 
-/// Pitch and roll are across the normal, the height along it.
+/// Pitch and roll are orthogonal to the normal, the height is along it.
 void DominantSurface::widen(double sigma_rad, double sigma_log_distance) {
   const Vector3d n = g_cam_.normalized();
   const Matrix3d along = n * n.transpose();
@@ -71,7 +71,7 @@ void DominantSurface::predict(const SE3& T_cur_last) {
   const Matrix3d R = T_cur_last.rotation().matrix();
   const Vector3d rotated = R * g_cam_, &t = T_cur_last.translation();
   const double stretch = 1 + rotated.dot(t);
-  if (stretch > 0.1) {  // else the motion leads through the surface: not believed
+  if (stretch > 0.1) {  // else the motion leads through the surface and is ignored
     const Matrix3d J = (Matrix3d::Identity() - rotated * t.transpose() / stretch) * R / stretch;
     g_cam_ = rotated / stretch;
     covariance_ = J * covariance_ * J.transpose();
@@ -96,7 +96,7 @@ std::vector<Vector2f> DominantSurface::pixels_of(SurfaceRegion region, const Ima
       }
     return px;
   };
-  // The grid's step is told by how many pixels a coarse one finds.
+  // The grid's step follows from the number of pixels of a coarse grid.
   constexpr int kCoarse = 8;
   const double area = kCoarse * kCoarse * static_cast<double>(on_grid(kCoarse).size());
   return on_grid(std::max(1, static_cast<int>(std::sqrt(area / options_.pixels))));
@@ -110,7 +110,7 @@ InverseDepthPlane DominantSurface::measure(SurfaceRegion region, const SurfaceDe
   for (const Vector2f& p : px)
     expected.push_back(g_cam_.dot(camera_.unproject(p.cast<double>()).value_or(Vector3d::UnitZ())));
   const auto answers = depths(px, expected);
-  require(answers.size() == px.size(), "DominantSurface: as many depths as pixels needed");
+  require(answers.size() == px.size(), "DominantSurface: needs as many depths as pixels");
   std::vector<InverseDepth> known;
   std::vector<Vector2f> known_px;
   for (std::size_t i = 0; i < px.size(); ++i)
@@ -138,7 +138,7 @@ SurfaceAppearance DominantSurface::look(const SurfaceDepths& depths, const SE3& 
                                         const Image& mask, Random& random) {
   require(mask.empty() ||
               (mask.type() == CV_8UC1 && mask.cols == camera_.width && mask.rows == camera_.height),
-          "DominantSurface: a mask of the camera's size needed");
+          "DominantSurface: needs a mask of the camera's size");
   predict(T_cur_last);
   std::vector<SurfaceRegion> order{last_region_};
   for (const SurfaceRegion region : kRegions)
@@ -173,7 +173,7 @@ SurfaceAppearance DominantSurface::look(const SurfaceDepths& depths, const SE3& 
                                  "too small a share on a plane " + std::string(to_string(region)))
               : measured.outcome;
     }
-    // Of failures, the one that came farthest is told.
+    // The reported failure is the one of the latest stage.
     const auto rank = [](const Outcome& o) {
       return o.code == Outcome::Code::kInconsistent ? 2
              : o.code == Outcome::Code::kTooFewData ? 0

@@ -15,14 +15,14 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// One level of the two pyramids with the camera that belongs to it.
+/// One level of the two pyramids with its camera.
 struct Level {
   Image ref, cur;  // CV_8UC1
-  Image mask;      // of ref, 0 = not the ground; empty: all may be
+  Image mask;      // mask of ref, 0 = not the ground; empty: all pixels may be ground
   Camera camera;
 };
 
-/// A pixel of the road in the reference image.
+/// Pixel of the road in the reference image.
 struct Sample {
   Vector3d ray_ref;  // z = 1
   double grey_ref;
@@ -31,7 +31,7 @@ struct Sample {
 std::vector<Level> build_levels(const Image& image_ref, const Image& image_cur,
                                 const Image& mask_ref, const Camera& camera, int count) {
   require(mask_ref.empty() || (mask_ref.type() == CV_8UC1 && mask_ref.size() == image_ref.size()),
-          "ground_plane: a mask of the image's size is needed");
+          "ground_plane: needs a mask of the image's size");
   std::vector<Level> levels{{image_ref, image_cur, mask_ref, camera}};
   for (int i = 1; i < count; ++i) {
     Level level = levels.back();
@@ -72,7 +72,8 @@ std::vector<Sample> collect_samples(const Level& level, const Plane& plane,
   for (int v = step; v < c.height - 1; v += step) {
     for (int u = step; u < c.width - 1; u += step) {
       const Vector3d ray((u - c.cx) / c.fx, (v - c.cy) / c.fy, 1);
-      const double depth_heights = 1 / plane.normal.dot(ray);  // of the ray's plane point
+      // Depth of the ray's point on the plane.
+      const double depth_heights = 1 / plane.normal.dot(ray);
       if (!(depth_heights > o.near_heights && depth_heights < o.far_heights)) continue;
       if (std::abs(ray.x() * depth_heights) > o.half_width_heights) continue;
       if (!level.mask.empty() && !level.mask.at<unsigned char>(v, u)) continue;
@@ -82,7 +83,7 @@ std::vector<Sample> collect_samples(const Level& level, const Plane& plane,
   return samples;
 }
 
-/// Every n-th, so that about `most` are left: enough to come near, where a finer level follows.
+/// Keeps every n-th, about `most` in all: enough for an approximation that a finer level refines.
 std::vector<Sample> thinned(std::vector<Sample> samples, std::size_t most = 1500) {
   const std::size_t stride = samples.size() / most + 1;
   std::size_t kept = 0;
@@ -123,12 +124,12 @@ constexpr int kParameters = 10;
 using Parameters = Eigen::Matrix<double, kParameters, 1>;
 using ParameterMatrix = Eigen::Matrix<double, kParameters, kParameters>;
 
-/// A motion with the directions in which it is corrected.
+/// Motion with the directions in which it is corrected.
 struct Motion {
   Matrix3d R;
   Vector3d t;
   Eigen::Matrix<double, 3, 2> across;  // B |t_start|
-  Vector3d omega = Vector3d::Zero();   // so far, for the prior
+  Vector3d omega = Vector3d::Zero();   // correction so far, for the prior
   Vector2d u = Vector2d::Zero();
 
   explicit Motion(const SE3& T_cur_ref)
@@ -145,12 +146,12 @@ struct Motion {
   }
 };
 
-/// What Gauss-Newton at one level works on and leaves behind.
+/// State and result of Gauss-Newton at one level.
 struct Fit {
   Vector3d g;  // n/d
   double gain = 1, bias = 0;
-  ParameterMatrix normal =
-      ParameterMatrix::Zero();  // whitened by the residuals' spread, prior included
+  // Whitened by the residuals' dispersion, prior included.
+  ParameterMatrix normal = ParameterMatrix::Zero();
   int seen = 0;
 };
 
@@ -200,7 +201,7 @@ void align_level(const Level& level, const std::vector<Sample>& samples,
                  Fit& fit) {
   std::vector<double> residuals(samples.size()), magnitudes;
   std::vector<Parameters> jacobians(samples.size());
-  constexpr double kMoved = 5e-4;  // of the distance: a twentieth of what a road is even to
+  constexpr double kMoved = 5e-4;  // share of the distance: a twentieth of the flatness of a road
   for (int iteration = 0; iteration < o.iterations; ++iteration) {
     magnitudes.clear();
     for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -227,7 +228,7 @@ void align_level(const Level& level, const std::vector<Sample>& samples,
     fit.normal = H;
     Parameters step = H.ldlt().solve(b);
     if (!step.allFinite()) return;
-    // No step may move the plane by more than a fifth of its distance.
+    // Each step moves the plane by at most a fifth of its distance.
     const double moved = step.head<3>().norm() / fit.g.norm();
     if (moved > 0.2) step *= 0.2 / moved;
     fit.g += step.head<3>();
@@ -238,8 +239,8 @@ void align_level(const Level& level, const std::vector<Sample>& samples,
   }
 }
 
-/// The distance at which the road matches best, within a factor of the prior's: Gauss-Newton alone
-/// falls into whatever dip of a fine texture lies nearest.
+/// Distance at which the road matches best, within a factor of the prior's. Gauss-Newton alone
+/// converges to the nearest local minimum of a fine texture.
 double start_distance(const Level& level, const Matrix3d& R, const Vector3d& t, const Plane& prior,
                       const GroundPlaneOptions& o) {
   const auto samples = thinned(collect_samples(level, prior, o, 2));
@@ -263,7 +264,7 @@ GroundPlaneResult align_ground_plane(const Image& image_ref, const Image& image_
                                      const GroundPlaneOptions& options, const Image& mask_ref) {
   const Plane& prior_ref = prior.plane_ref;
   require(image_ref.type() == CV_8UC1 && image_ref.size() == image_cur.size(),
-          "align_ground_plane: two grey images of one size needed");
+          "align_ground_plane: needs two grey images of one size");
   require(prior_ref.distance_m > 0, "align_ground_plane: the prior's distance must be positive");
   const auto levels = build_levels(image_ref, image_cur, mask_ref, camera, options.pyramid_levels);
   const Matrix3d R = T_cur_ref.rotation().matrix();
@@ -280,7 +281,7 @@ GroundPlaneResult align_ground_plane(const Image& image_ref, const Image& image_
                                             t, prior_ref, options);
   std::vector<Sample> samples;
   for (int i = static_cast<int>(levels.size()) - 1; i >= 0; --i) {
-    // The grid grows with the pixels: as many samples on every level.
+    // The step follows the pixel size, so that all levels have the same number of samples.
     const int step = std::max(1, (options.step_px + (1 << i) - 1) >> i);
     samples = collect_samples(levels[i], prior_ref, options, step);
     if (i > 0) samples = thinned(std::move(samples));
@@ -293,7 +294,7 @@ GroundPlaneResult align_ground_plane(const Image& image_ref, const Image& image_
     return result;
   }
   const double length = fit.g.norm();
-  // In the unit of the translation that was handed over, whose direction has been corrected.
+  // In the scale of the given translation, whose direction has been corrected.
   const double stretch = motion.t.norm() / T_cur_ref.translation().norm();
   result.plane_ref = {fit.g / length, 1 / (length * stretch)};
   result.T_cur_ref = SE3(motion.R, motion.t / stretch);
@@ -308,7 +309,7 @@ GroundPlaneResult align_ground_plane(const Image& image_ref, const Image& image_
         std::max(result.sigma_normal_rad,
                  std::sqrt(std::max(0.0, e.dot(covariance.topLeftCorner<3, 3>() * e))) / length);
   if (!(result.sigma_log_distance < 0.5)) {
-    result.outcome = Outcome::failure(Outcome::Code::kDegenerate, "the road shows too little");
+    result.outcome = Outcome::failure(Outcome::Code::kDegenerate, "the distance is too uncertain");
   } else if (result.zncc < options.min_zncc) {
     result.outcome =
         Outcome::failure(Outcome::Code::kInconsistent, "ZNCC " + std::to_string(result.zncc));
@@ -353,7 +354,7 @@ GroundPlaneResult search_ground_plane(const Image& image_ref, const Image& image
     failure.outcome = Outcome::failure(Outcome::Code::kTooFewData, "no road in view");
     return failure;
   }
-  // The search knows the pitch to its step, the roll not at all.
+  // The pitch is known to the step of the search, the roll is unknown.
   constexpr double kSigmaRad = deg_to_rad(1.5);
   return align_ground_plane(image_ref, image_cur, camera, T_cur_ref, {best_plane, kSigmaRad},
                             options, mask_ref);

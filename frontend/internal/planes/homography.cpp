@@ -9,8 +9,8 @@
 namespace placegraph {
 namespace {
 
-/// K^-1 H K scaled to what it is for a plane-induced motion: middle singular value one, and points
-/// that stay in front of the camera.
+/// K^-1 H K, scaled like a plane-induced motion: middle singular value one, and points that stay in
+/// front of the camera.
 Eigen::Matrix3d normalized(const Eigen::Matrix3d& K, const Eigen::Matrix3d& H_cur_ref) {
   const Eigen::Matrix3d M = K.inverse() * H_cur_ref * K;
   const Eigen::Vector3d singular = Eigen::JacobiSVD<Eigen::Matrix3d>(M).singularValues();
@@ -56,7 +56,7 @@ std::vector<HomographyMotion> decompose_homography(const Eigen::Matrix3d& K,
     if (!R.allFinite() || !t.allFinite() || !n.allFinite()) continue;
     int front = 0;
     for (const Eigen::Vector2d& px : px_ref) front += n.dot(K_inverse * px.homogeneous()) > 0;
-    // A few pixels may lie beyond the horizon of a wrong match.
+    // A few pixels of wrong matches may be beyond the horizon.
     if (front < 0.9 * px_ref.size()) continue;
     motions.push_back({SE3(R, t), n});
   }
@@ -66,7 +66,7 @@ std::vector<HomographyMotion> decompose_homography(const Eigen::Matrix3d& K,
 SE3 motion_from_homography(const Eigen::Matrix3d& K, const Eigen::Matrix3d& H_cur_ref,
                            const Eigen::Vector3d& normal_ref) {
   require(std::abs(normal_ref.norm() - 1) < 1e-6,
-          "motion_from_homography: normal not of unit length");
+          "motion_from_homography: the normal is not of unit length");
   const Eigen::Matrix3d M = normalized(K, H_cur_ref);
   const Eigen::Vector3d u = normal_ref.unitOrthogonal();
   const Eigen::Vector3d v = normal_ref.cross(u);

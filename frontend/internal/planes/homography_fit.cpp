@@ -16,11 +16,12 @@ using Vector8d = Eigen::Matrix<double, 8, 1>;
 using Vector9d = Eigen::Matrix<double, 9, 1>;
 using Matrix9d = Eigen::Matrix<double, 9, 9>;
 
-/// Of a triangle's area over its longest side squared: below, three points count as a line.
+/// Ratio of a triangle's area to its longest side squared below which three points count as
+/// collinear.
 constexpr double kMinTriangle = 0.02;
 /// A step this small (H of norm one, pixels scaled to one) ends the iteration.
 constexpr double kSmallStep = 1e-10;
-/// Smallest to largest eigenvalue of the scaled normal equations below which H is not fixed.
+/// Smallest to largest eigenvalue of the scaled normal equations below which H is not determined.
 constexpr double kMinCondition = 1e-13;
 
 double cross(const Vector2d& a, const Vector2d& b) { return a[0] * b[1] - a[1] * b[0]; }
@@ -51,7 +52,7 @@ Vector2d mean(const std::vector<Vector2d>& px, const Indices& which) {
   return sum / static_cast<double>(which.size());
 }
 
-/// Both views centred and scaled alike, so that noise that is equal in both stays so.
+/// Both views centred and with one scale, so that noise that is equal in both remains equal.
 template <class Indices>
 std::array<Conditioning, 2> conditioning(const PointMatches& matches, const Indices& which) {
   std::array<Conditioning, 2> views;
@@ -93,7 +94,7 @@ Matrix3d from_entries(const Vector9d& h) {
   return H;
 }
 
-/// Eight orthonormal directions across h.
+/// Eight orthonormal directions orthogonal to h.
 Eigen::Matrix<double, 9, 8> across(const Vector9d& h) {
   const Eigen::HouseholderQR<Vector9d> qr(h);
   const Matrix9d Q = qr.householderQ();
@@ -197,7 +198,7 @@ std::optional<Matrix3d> homography_through(const PointMatches& matches,
   if (!h.allFinite()) return std::nullopt;
   const Matrix3d H =
       cur.matrix().inverse() * from_entries((Vector9d() << h, 1).finished()) * ref.matrix();
-  // The sense of the triangles is kept, so the determinant is positive where w is.
+  // The orientation of the triangles is the same, so that the determinant is positive where w is.
   if (!H.allFinite() || !(H.determinant() > 0)) return std::nullopt;
   return unit(H);
 }
@@ -238,7 +239,7 @@ HomographyFit refine_homography(const Matrix3d& H_start, const PointMatches& mat
   if (!std::isfinite(normal.cost) ||
       !(eigen.eigenvalues()[0] > kMinCondition * eigen.eigenvalues()[7])) {
     fit.outcome =
-        Outcome::failure(Outcome::Code::kDegenerate, "the matches do not fix a homography");
+        Outcome::failure(Outcome::Code::kDegenerate, "the matches do not determine a homography");
     return fit;
   }
   // Back to pixels: h = M h_scaled / |M h_scaled|, M the Kronecker product of the conditionings.

@@ -36,7 +36,7 @@ std::vector<Vector3d> through_three(const Pixels& pixels, const std::vector<int>
     rays.row(i) = pixels[sample[i]].ray_cam;
     values[i] = pixels[sample[i]].value;
   }
-  if (!(std::abs(rays.determinant()) > 1e-9)) return {};  // on a line
+  if (!(std::abs(rays.determinant()) > 1e-9)) return {};  // collinear
   return {rays.inverse() * values};
 }
 
@@ -84,7 +84,8 @@ InverseDepthPlane fit_inverse_depth_plane(const Pixels& pixels,
   if (!(length > 0) || !result.covariance.allFinite() ||
       !(sigma_normal_rad(result.g_cam, result.covariance) < deg_to_rad(options.max_sigma_deg)) ||
       !(sigma_log_distance(result.g_cam, result.covariance) < options.max_sigma_distance)) {
-    result.outcome = Outcome::failure(Outcome::Code::kDegenerate, "the pixels leave it open");
+    result.outcome =
+        Outcome::failure(Outcome::Code::kDegenerate, "the pixels do not determine the plane");
     return result;
   }
   result.plane_cam = {result.g_cam / length, 1 / length};

@@ -9,13 +9,13 @@
 namespace placegraph {
 namespace {
 
-/// The best labelling in which each item keeps its label or takes `alpha`.
+/// Best labelling in which each item keeps its label or changes to `alpha`.
 std::vector<int> expanded(const LabelProblem& problem, const std::vector<int>& labels, int alpha) {
   const int n = static_cast<int>(labels.size());
   cv::detail::GCGraph<double> graph(static_cast<unsigned>(n),
                                     static_cast<unsigned>(2 * problem.neighbours.size()));
   for (int i = 0; i < n; ++i) graph.addVtx();
-  // With x = 1 for "takes alpha": cost += change[i] x_i, and capacity (1 - x_i) x_j per pair.
+  // With x = 1 for a change to alpha: cost += change[i] x_i, and capacity (1 - x_i) x_j per pair.
   std::vector<double> change(labels.size());
   for (int i = 0; i < n; ++i)
     change[static_cast<std::size_t>(i)] =
@@ -24,7 +24,7 @@ std::vector<int> expanded(const LabelProblem& problem, const std::vector<int>& l
   for (const auto& [i, j] : problem.neighbours) {
     const int a = labels[static_cast<std::size_t>(i)], b = labels[static_cast<std::size_t>(j)];
     const double neither = a != b ? problem.pair_cost : 0;
-    const double second = a != alpha ? problem.pair_cost : 0;  // only j takes alpha
+    const double second = a != alpha ? problem.pair_cost : 0;  // only j changes to alpha
     const double first = b != alpha ? problem.pair_cost : 0;
     change[static_cast<std::size_t>(i)] += first - neither;
     change[static_cast<std::size_t>(j)] -= first;
@@ -37,7 +37,7 @@ std::vector<int> expanded(const LabelProblem& problem, const std::vector<int>& l
     const double cost = change[static_cast<std::size_t>(i)];
     graph.addTermWeights(i, std::max(cost, 0.0), std::max(-cost, 0.0));
   }
-  if (edges) graph.maxFlow();  // refuses a graph without edges
+  if (edges) graph.maxFlow();  // does not accept a graph without edges
   std::vector<int> result = labels;
   for (int i = 0; i < n; ++i) {
     const bool takes = edges ? !graph.inSourceSegment(i) : change[static_cast<std::size_t>(i)] < 0;
@@ -60,7 +60,7 @@ double label_cost(const LabelProblem& problem, const std::vector<int>& labels) {
 
 double expand_labels(const LabelProblem& problem, std::vector<int>& labels) {
   require(problem.unary.rows() == static_cast<Eigen::Index>(labels.size()),
-          "expand_labels: as many labels as rows of costs needed");
+          "expand_labels: needs as many labels as rows of costs");
   require(problem.pair_cost >= 0, "expand_labels: pair_cost must not be negative");
   require(problem.unary.allFinite(), "expand_labels: costs must be finite");
   double cost = label_cost(problem, labels);

@@ -5,8 +5,10 @@
 
 namespace placegraph {
 
-/// A labelling problem: item i with label l costs unary(i, l), and each pair of neighbours with
-/// different labels `pair_cost` >= 0 (Potts).
+/// Labelling problem with Potts costs between neighbours.
+///
+/// Item i with label l costs unary(i, l), and each pair of neighbours with different labels costs
+/// `pair_cost` >= 0.
 struct LabelProblem {
   Eigen::MatrixXd unary;  ///< items x labels, finite
   std::vector<std::pair<int, int>> neighbours;
@@ -15,9 +17,10 @@ struct LabelProblem {
 
 double label_cost(const LabelProblem& problem, const std::vector<int>& labels);
 
-/// Lowers the cost of `labels` by alpha-expansion, one minimal cut per label, until no label's
-/// expansion lowers it (Boykov, Veksler & Zabih 2001, fig. 3). Returns the cost reached; throws
-/// ArgumentError if sizes do not agree or `pair_cost` is negative.
+/// Reduces the cost of `labels` by alpha-expansion (Boykov, Veksler & Zabih 2001, fig. 3).
+///
+/// One minimal cut per label, until no label's expansion reduces the cost. Returns the final cost;
+/// throws ArgumentError if sizes do not agree or `pair_cost` is negative.
 double expand_labels(const LabelProblem& problem, std::vector<int>& labels);
 
 }  // namespace placegraph

@@ -12,17 +12,17 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-/// Share of a plane's matches that must lie in front of both cameras.
+/// Least share of a plane's matches in front of both cameras.
 constexpr double kInFront = 0.9;
-constexpr double kSameAngle_rad = 1e-3;  ///< readings closer than this are one
+constexpr double kSameAngle_rad = 1e-3;  ///< readings closer than this count as one
 constexpr double kMinMotionCondition = 1e-14;
 constexpr int kHalvings = 8;
 
-/// The motion and the planes while they are refined; planes as normal over distance.
+/// Motion and planes during refinement; planes as normal over distance.
 struct State {
   SO3 R_cur_ref;
-  Vector3d t = Vector3d::UnitX();  // of length one; zero where there is none
-  std::vector<Vector3d> planes;    // none where there is no translation
+  Vector3d t = Vector3d::UnitX();  // length one; zero without a translation
+  std::vector<Vector3d> planes;    // empty without a translation
 
   Matrix3d euclidean(std::size_t plane) const {
     if (planes.empty()) return R_cur_ref.matrix();
@@ -33,7 +33,7 @@ struct State {
 struct Views {
   Matrix3d K, K_inverse;
   const PointMatches& matches;
-  std::vector<std::vector<int>> members;  // of each region
+  std::vector<std::vector<int>> members;  // matches of each region
   TransferNoise noise;
 };
 
@@ -182,7 +182,7 @@ bool same(const PlanesReading& a, const PlanesReading& b) {
   return rotation < kSameAngle_rad && direction < kSameAngle_rad;
 }
 
-/// The rotation that explains all matches best, and its cost.
+/// Rotation that explains all matches best, and its cost.
 MotionEquations only_rotation(const Views& views, const PlanarRegionsResult& regions, State& best,
                               int max_iterations) {
   MotionEquations least;
@@ -200,7 +200,7 @@ MotionEquations only_rotation(const Views& views, const PlanarRegionsResult& reg
   return least;
 }
 
-/// All motions that the regions' homographies allow, one by one, planes included.
+/// All motions that the regions' homographies allow, one by one, with their planes.
 std::vector<State> starts(const Views& views, const PlanarRegionsResult& regions) {
   std::vector<State> states;
   for (std::size_t k = 0; k < regions.regions.size(); ++k) {
@@ -223,14 +223,14 @@ std::vector<State> starts(const Views& views, const PlanarRegionsResult& regions
   return states;
 }
 
-/// The motions that explain the matches, likeliest first, with the matches in front of both
-/// cameras.
+/// Motions that explain the matches, likeliest first, with the matches in front of both cameras.
 struct Readings {
   std::vector<PlanesReading> readings;
-  bool fixed = false;  ///< by the matches, wherever they lie
+  /// Whether the matches determine the motion, on whichever side of the cameras they are.
+  bool fixed = false;
 };
 
-/// Every start refined; of those that meet in one motion the first counts.
+/// Refines every initial motion; of those that converge to the same motion the first is kept.
 Readings readings_of(const Views& views, const PlanarRegionsResult& regions,
                      const MotionFromPlanesOptions& options) {
   Readings result;
@@ -260,9 +260,10 @@ Readings readings_of(const Views& views, const PlanarRegionsResult& regions,
 void MotionFromPlanesOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, MotionFromPlanesOptions& o) {
-  field("max_iterations", o.max_iterations, "of the joint refinement", {1, 10000});
+  field("max_iterations", o.max_iterations, "maximum number of iterations of the joint refinement",
+        {1, 10000});
   field("ambiguity_log_ratio", o.ambiguity_log_ratio,
-        "readings this close to the likeliest are kept", {0, 1e6});
+        "maximum difference in log-likelihood to the best reading that is kept", {0, 1e6});
 }
 
 MotionFromPlanesResult motion_from_planes(const Camera& camera, const PointMatches& matches,
@@ -271,9 +272,9 @@ MotionFromPlanesResult motion_from_planes(const Camera& camera, const PointMatch
   options.check();
   camera.check();
   require(camera.distortion == Distortion::kNone,
-          "motion_from_planes: a camera without distortion needed");
+          "motion_from_planes: needs a camera without distortion");
   require(regions.labels.size() == matches.px_ref.size(),
-          "motion_from_planes: one label a match needed");
+          "motion_from_planes: needs one label per match");
   MotionFromPlanesResult result;
   if (regions.regions.empty()) {
     result.outcome = Outcome::failure(Outcome::Code::kTooFewData, "no planar region");
@@ -289,21 +290,21 @@ MotionFromPlanesResult motion_from_planes(const Camera& camera, const PointMatch
     }
   for (const PlanarRegion& region : regions.regions) result.homographies_cost += region.cost;
 
-  // The free homographies lie below any motion: if the rotation's three parameters do nearly as
-  // well as their eight each, a translation is not seen.
+  // The cost of independent homographies is below that of any motion: if the three parameters of a
+  // rotation are nearly as good as eight for each homography, a translation is not observable.
   State rotated;
   result.rotation_cost = only_rotation(views, regions, rotated, options.max_iterations).cost;
   const double per_parameter = 0.5 * std::log(static_cast<double>(count));
   const double parameters = 8.0 * static_cast<double>(regions.regions.size()) - 3;
   if (result.rotation_cost < result.homographies_cost + parameters * per_parameter) {
     result.R_cur_ref = rotated.R_cur_ref;
-    result.outcome = Outcome::failure(Outcome::Code::kDegenerate, "the camera only turned");
+    result.outcome = Outcome::failure(Outcome::Code::kDegenerate, "the motion is a pure rotation");
     return result;
   }
 
   Readings found = readings_of(views, regions, options);
   result.readings = std::move(found.readings);
-  // One motion has five parameters and three a plane; eight a plane is what moves freely.
+  // One motion has five parameters and three per plane; independent planes have eight each.
   const double tied = 5.0 * (static_cast<double>(regions.regions.size()) - 1);
   if (!result.readings.empty() &&
       result.readings.front().cost > result.homographies_cost + tied * per_parameter + 1e-6 * count)
@@ -316,7 +317,7 @@ MotionFromPlanesResult motion_from_planes(const Camera& camera, const PointMatch
                                       "no motion has the matches in front of both cameras");
   else
     result.outcome =
-        Outcome::failure(Outcome::Code::kDegenerate, "the matches leave the motion free");
+        Outcome::failure(Outcome::Code::kDegenerate, "the matches do not determine the motion");
   return result;
 }
 

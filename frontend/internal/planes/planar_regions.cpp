@@ -13,25 +13,25 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector2d;
 
-constexpr double kMaxCost = 1e4;  ///< of one match [nats]: stands for impossible
-/// Where the noise begins, over noise_px: with too much of it small planes fall to large ones, with
-/// too little large ones to pieces; the cost decides.
+constexpr double kMaxCost = 1e4;  ///< maximum cost of one match [nats], for impossible ones
+/// Initial noise levels, over noise_px: with too much noise large planes absorb small ones, with
+/// too little noise large ones are split; the cost decides.
 constexpr double kNoiseStarts[] = {0.3, 0.6, 1.2, 2.4};
-/// Neighbours that must agree with a sample beside its own.
+/// Number of neighbours, beside the sample itself, that must agree with it.
 constexpr int kMoreNeighbours = 2;
 constexpr int kFitIterations = 10;
-constexpr int kRounds = 12;  ///< of labels, models and noise in turn
+constexpr int kRounds = 12;  ///< rounds that estimate labels, models and noise in alternation
 
 struct StateEstimate {
   std::vector<Matrix3d> models;
   std::vector<int> labels;  // 0: none, k: models[k - 1]
-  double share_none = 1;    // of label 0
+  double share_none = 1;    // share of label 0
   double noise_px = 1;
-  bool noise_free = false;  // re-estimated with the models
+  bool noise_free = false;  // estimated with the models
   double cost = 0;
 };
 
-/// The matches and what does not change while planes are looked for.
+/// Search for planes: the matches and the constant quantities.
 class Search {
  public:
   Search(const PointMatches& matches, const PlanarRegionsOptions& options)
@@ -46,12 +46,13 @@ class Search {
   }
 
   StateEstimate nothing(double noise_px) const;
-  /// The best of many local samples, refined; false if none helps.
+  /// Finds the best of many local samples and refines it; false if none reduces the cost.
   bool propose(const StateEstimate& answer, Random& random, Matrix3d& H) const;
-  /// Labels, models, noise and shares in turn until the cost stands; weak planes are dropped.
+  /// Estimates labels, models, noise and shares in alternation until the cost is stationary; weak
+  /// planes are dropped.
   StateEstimate settle(StateEstimate answer, int rounds) const;
   StateEstimate merged(StateEstimate answer) const;
-  /// Plane after plane with the noise held, then all together with the noise free.
+  /// Adds planes one by one with fixed noise, then estimates all together with the noise.
   StateEstimate search(double noise_px, Random& random) const;
   std::vector<int> members(const StateEstimate& answer, int label) const;
 
@@ -64,7 +65,7 @@ class Search {
   void drop(StateEstimate& answer, int label) const;
   bool relabel(StateEstimate& answer) const;
   void refit(StateEstimate& answer) const;
-  /// Whether some of the neighbours among which a sample was drawn lie on its plane, too.
+  /// Whether some of the neighbours among which a sample was drawn are on its plane, too.
   bool agrees(const Matrix3d& H, const StateEstimate& answer, const std::vector<int>& near) const;
   double gain(const Matrix3d& H, const StateEstimate& answer, const std::vector<double>& now,
               std::vector<int>* inliers) const;
@@ -72,7 +73,7 @@ class Search {
   const PointMatches& matches_;
   const PlanarRegionsOptions& options_;
   double log_area_ = 0;
-  std::vector<std::vector<int>> near_;  // of each match, nearest first
+  std::vector<std::vector<int>> near_;  // neighbours of each match, nearest first
   std::vector<std::pair<int, int>> neighbours_;
 };
 
@@ -109,7 +110,7 @@ double Search::on_plane_cost(const Matrix3d& H, double noise_px, int i) const {
   return std::isfinite(cost) ? std::min(cost, kMaxCost) : kMaxCost;
 }
 
-/// Four points of the current view, each to the precision with which n matches give it.
+/// Cost of four points of the current view, each with the precision that n matches determine.
 double Search::plane_cost(const StateEstimate& answer, int n) const {
   return 4 * (log_area_ - std::log(2 * std::numbers::pi * 2 * answer.noise_px * answer.noise_px) +
               std::log(std::max(n, 4) / 4.0));
@@ -136,7 +137,7 @@ std::vector<int> Search::members(const StateEstimate& answer, int label) const {
 }
 
 void set_share(StateEstimate& answer) {
-  // One more of each than there is, so that none is impossible.
+  // One more of each than counted, so that no probability is zero.
   const auto none = std::count(answer.labels.begin(), answer.labels.end(), 0);
   answer.share_none =
       (1.0 + static_cast<double>(none)) / (2.0 + static_cast<double>(answer.labels.size()));
@@ -146,7 +147,7 @@ double Search::total(const StateEstimate& answer) const {
   double cost = label_cost({costs(answer), neighbours_, options_.smoothness}, answer.labels);
   for (std::size_t k = 1; k <= answer.models.size(); ++k)
     cost += plane_cost(answer, static_cast<int>(members(answer, static_cast<int>(k)).size()));
-  // The noise's prior, inverse gamma, that goes with the estimate of refit.
+  // Inverse gamma prior of the noise, consistent with the estimate in refit.
   const double ratio = options_.noise_px / answer.noise_px;
   return cost + options_.noise_confidence * (ratio * ratio - 2 * std::log(ratio));
 }
@@ -205,7 +206,7 @@ bool Search::propose(const StateEstimate& answer, Random& random, Matrix3d& H) c
   double best = 0;
   std::vector<int> three, inliers;
   for (int sample = 0; sample < options_.samples; ++sample) {
-    // Every other sample begins at a match without a plane.
+    // Every second sample begins at a match without a plane.
     const int seed =
         sample % 2 == 0 && !seeds.empty()
             ? seeds[static_cast<std::size_t>(random.index(static_cast<int>(seeds.size())))]
@@ -223,7 +224,8 @@ bool Search::propose(const StateEstimate& answer, Random& random, Matrix3d& H) c
     Matrix3d model = *hypothesis;
     if (!agrees(model, answer, near)) continue;
     double score = gain(model, answer, now, &inliers);
-    // Four neighbours fix a plane far off badly: refined on what agrees, while that helps.
+    // Four neighbours determine a plane poorly farther away: refined with its inliers as long as
+    // that reduces the cost.
     for (int round = 0; round < 6 && score > 0.4 * best && inliers.size() > 5; ++round) {
       const HomographyFit fit =
           refine_homography(model, matches_, inliers, {answer.noise_px, options_.tail_freedom}, 3);
@@ -331,26 +333,26 @@ StateEstimate Search::search(double noise_px, Random& random) const {
 void PlanarRegionsOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, PlanarRegionsOptions& o) {
-  field("noise_px", o.noise_px, "noise of a match per coordinate and view, to start from",
-        {0.01, 100});
-  field("noise_confidence", o.noise_confidence, "matches that noise_px weighs in the estimate",
-        {0, 1e9});
+  field("noise_px", o.noise_px, "initial noise of a match, per coordinate and view", {0.01, 100});
+  field("noise_confidence", o.noise_confidence,
+        "weight of noise_px in the noise estimate, in matches", {0, 1e9});
   field("tail_freedom", o.tail_freedom, "degrees of freedom of the noise, Student t", {1, 1e9});
   field("smoothness", o.smoothness, "cost of two neighbours with different labels [nats]",
         {0, 100});
-  field("neighbours", o.neighbours, "of each match, near in both views", {0, 100});
-  field("samples", o.samples, "of four matches, per plane that is looked for", {1, 1e7});
+  field("neighbours", o.neighbours, "number of neighbours of each match, near in both views",
+        {0, 100});
+  field("samples", o.samples, "number of samples of four matches per search of a plane", {1, 1e7});
   field("sample_neighbours", o.sample_neighbours,
-        "a sample lies among so many nearest of its first match", {3, 1e6});
-  field("min_matches", o.min_matches, "a plane with fewer is none", {5, 1e6});
-  field("max_planes", o.max_planes, "found at most", {1, 1000});
+        "number of nearest neighbours of its first match from which a sample is drawn", {3, 1e6});
+  field("min_matches", o.min_matches, "minimum number of matches of a plane", {5, 1e6});
+  field("max_planes", o.max_planes, "maximum number of planes", {1, 1000});
 }
 
 PlanarRegionsResult find_planar_regions(const PointMatches& matches,
                                         const PlanarRegionsOptions& options, Random& random) {
   options.check();
   require(matches.px_ref.size() == matches.px_cur.size(),
-          "find_planar_regions: as many pixels in both views needed");
+          "find_planar_regions: needs as many pixels in both views");
   PlanarRegionsResult result;
   result.labels.assign(matches.px_ref.size(), 0);
   if (matches.size() < options.min_matches) {
@@ -369,7 +371,7 @@ PlanarRegionsResult find_planar_regions(const PointMatches& matches,
   result.noise = {answer.noise_px, options.tail_freedom};
   result.description_length = answer.cost - empty;
   if (answer.models.empty()) {
-    result.outcome = Outcome::failure(Outcome::Code::kNoConsensus, "no plane is worth its cost");
+    result.outcome = Outcome::failure(Outcome::Code::kNoConsensus, "no plane reduces the cost");
     return result;
   }
   std::vector<std::pair<int, int>> order;

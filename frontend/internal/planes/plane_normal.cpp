@@ -15,7 +15,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-/// A minimum of the sum of squares over the normals.
+/// Minimum of the sum of squares over the normals.
 struct Reading {
   Vector3d normal;
   double cost = std::numeric_limits<double>::infinity();
@@ -28,8 +28,8 @@ std::optional<Vector2d> seen(const Matrix3d& H, const Vector2d& px) {
   return Vector2d(q.hnormalized());
 }
 
-/// Where the corners went less where the nearest motion before a plane of this normal takes them,
-/// in standard deviations; a far miss where it takes one behind the camera.
+/// Corner positions minus their predictions by the nearest motion for a plane of this normal, in
+/// standard deviations; a large residual if the motion puts a corner behind the camera.
 VectorXd residuals(const Matrix3d& K, const std::vector<Vector2d>& corners,
                    const std::vector<Matrix3d>& views, const Vector3d& normal, double sigma_px) {
   constexpr double kMissPx = 100;
@@ -94,7 +94,7 @@ bool faces(const Matrix3d& K, const std::vector<Vector2d>& corners, const Vector
   });
 }
 
-/// The minima from every reading of every view, best first, no two of them closer than `distinct`.
+/// Minima from every reading of every view, best first, with a distance of at least `distinct`.
 std::vector<Reading> readings_of(const Matrix3d& K, const std::vector<Vector2d>& corners,
                                  const std::vector<Matrix3d>& views,
                                  const PlaneNormalOptions& options) {
@@ -127,11 +127,12 @@ std::vector<Reading> readings_of(const Matrix3d& K, const std::vector<Vector2d>&
 }  // namespace
 
 void visit(OptionVisitor& field, PlaneNormalOptions& o) {
-  field("views", o.views, "kept at most", {2, 1000});
-  field("apart_px", o.apart_px, "from every kept view, for another to be kept", {0.01, 1000});
-  field("sigma_px", o.sigma_px, "of a corner, at least", {0.001, 100});
-  field("max_sigma_deg", o.max_sigma_deg, "of the normal, to be of use", {0.01, 90});
-  field("distinct_deg", o.distinct_deg, "two readings closer than this are one", {0.1, 90});
+  field("views", o.views, "maximum number of views kept", {2, 1000});
+  field("apart_px", o.apart_px, "minimum distance of a view from every kept one, for it to be kept",
+        {0.01, 1000});
+  field("sigma_px", o.sigma_px, "minimum standard deviation of a corner", {0.001, 100});
+  field("max_sigma_deg", o.max_sigma_deg, "maximum standard deviation of the normal", {0.01, 90});
+  field("distinct_deg", o.distinct_deg, "readings closer than this count as one", {0.1, 90});
 }
 
 PlaneNormalEstimator::PlaneNormalEstimator(const Matrix3d& K,
@@ -139,7 +140,7 @@ PlaneNormalEstimator::PlaneNormalEstimator(const Matrix3d& K,
                                            const PlaneNormalOptions& options)
     : K_(K), corners_px_(corners_ref_px), options_(options), spacing_px_(options.apart_px) {
   options.check();
-  require(corners_ref_px.size() >= 4, "plane normal: at least four corners");
+  require(corners_ref_px.size() >= 4, "plane normal: needs at least four corners");
 }
 
 double PlaneNormalEstimator::apart_px(const Matrix3d& Ha, const Matrix3d& Hb) const {
@@ -158,7 +159,7 @@ bool PlaneNormalEstimator::add(const Matrix3d& H_cur_ref) {
   for (const Matrix3d& view : views_)
     if (apart_px(H_cur_ref, view) < spacing_px_) return false;
   if (static_cast<int>(views_.size()) >= options_.views) {
-    // Every other one goes, and those to come must differ more.
+    // Every second view is dropped, and new ones must differ more.
     std::vector<Matrix3d> kept;
     for (std::size_t i = 0; i < views_.size(); i += 2) kept.push_back(views_[i]);
     views_ = std::move(kept);
@@ -182,7 +183,7 @@ PlaneNormal PlaneNormalEstimator::estimate() const {
     return result;
   }
   const Reading& best = readings.front();
-  // A view has eight numbers and a motion of six.
+  // A view has eight measurements and a motion with six parameters.
   const double freedom = std::max(1.0, 2.0 * result.views - 2);
   const double spread = std::max(1.0, best.cost / freedom);
   const double least =
@@ -192,9 +193,10 @@ PlaneNormal PlaneNormalEstimator::estimate() const {
       least > 0 ? std::sqrt(spread / least) : std::numeric_limits<double>::infinity();
   constexpr double kChiSquared = 9.2;  // two degrees of freedom, 1 %
   if (!(result.sigma_rad < deg_to_rad(options_.max_sigma_deg)))
-    result.outcome = Outcome::failure(Code::kDegenerate, "the views leave the normal open");
+    result.outcome = Outcome::failure(Code::kDegenerate, "the views do not determine the normal");
   else if (readings.size() > 1 && readings[1].cost < best.cost + kChiSquared * spread)
-    result.outcome = Outcome::failure(Code::kDegenerate, "two readings explain the views alike");
+    result.outcome =
+        Outcome::failure(Code::kDegenerate, "two readings explain the views equally well");
   else
     result.outcome = Outcome::ok();
   return result;

@@ -8,34 +8,36 @@
 namespace placegraph {
 
 struct PlaneNormalOptions {
-  int views = 24;            ///< kept at most
-  double apart_px = 4;       ///< from every kept view, for another to be kept
-  double sigma_px = 0.3;     ///< of a corner, at least
-  double max_sigma_deg = 5;  ///< of the normal, to be of use
-  double distinct_deg = 8;   ///< two readings closer than this are one
+  int views = 24;            ///< maximum number of views kept
+  double apart_px = 4;       ///< minimum distance of a view from every kept one, for it to be kept
+  double sigma_px = 0.3;     ///< minimum standard deviation of a corner
+  double max_sigma_deg = 5;  ///< maximum standard deviation of the normal
+  double distinct_deg = 8;   ///< readings closer than this count as one
   void check() const { check_ranges(*this); }
 };
 void visit(OptionVisitor& field, PlaneNormalOptions& options);
 
-/// A plane's unit normal in the reference camera, told from homographies to several views.
+/// Unit normal of a plane in the reference camera, estimated from homographies to several views.
 struct PlaneNormal {
-  /// kTooFewData: no view yet that is apart from the reference; kDegenerate: the views leave the
-  /// normal open (no parallax), or two readings of them are as good as each other.
+  /// kTooFewData: no view differs enough from the reference; kDegenerate: the views do not
+  /// determine the normal (no parallax), or two readings of them are equally good.
   Outcome outcome;
   Eigen::Vector3d normal_ref = Eigen::Vector3d::UnitZ();
-  double sigma_rad = 0;  ///< in its more uncertain direction
+  double sigma_rad = 0;  ///< standard deviation in its more uncertain direction
   int views = 0;
 };
 
-/// One homography has two readings (Malis & Vargas 2007), but the normal of the reference is the
-/// same for all views: it is the one under which the motions that motion_from_homography gives
-/// explain best where the region's corners went, by least squares over the normal's two degrees of
-/// freedom, started from every reading of every view.
+/// Estimates the normal of a plane from several homographies.
+///
+/// One homography has two readings (Malis & Vargas 2007), but the normal in the reference is the
+/// same for all views: it is the one whose motions by motion_from_homography explain best the
+/// positions of the region's corners, by least squares over the normal's two degrees of freedom,
+/// started from every reading of every view.
 class PlaneNormalEstimator {
  public:
   PlaneNormalEstimator(const Eigen::Matrix3d& K, const std::vector<Eigen::Vector2d>& corners_ref_px,
                        const PlaneNormalOptions& options);
-  /// True if the view was kept. The corners must be in front of both cameras.
+  /// Adds a view; true if it was kept. The corners must be in front of both cameras.
   bool add(const Eigen::Matrix3d& H_cur_ref);
   PlaneNormal estimate() const;
 

@@ -9,9 +9,11 @@
 namespace placegraph {
 namespace {
 
-/// Three sums over fewer points are no plane; of rounding in the smallest pivot.
+/// Relative size of the smallest pivot below which it is rounding: fewer than three independent
+/// points.
 constexpr double kTinyPivot = 1e-11;
-constexpr double kLeastDistance = 1e-9;  ///< [m], of a plane through the origin
+/// Least distance of a plane, for one through the origin [m].
+constexpr double kLeastDistance = 1e-9;
 
 void set_plane(FittedPlane& fit, Eigen::Vector3d normal, double distance) {
   if (distance < 0) normal = -normal, distance = -distance;

@@ -25,7 +25,7 @@ SE3 camera_motion(const Views& views, double yaw_rad) {
   return T_level_cam.inverse() * T_level * T_level_cam;
 }
 
-/// d of the right tangent of camera_motion by the yaw.
+/// Derivative of the right tangent of camera_motion with respect to the yaw.
 Vector6d motion_by_yaw(const Views& views, double yaw_rad) {
   // In the levelled frame: dt = R_y(yaw) u, dR = R_y(yaw) hat(y).
   const Vector3d u = 0.5 * Vector3d(std::cos(yaw_rad / 2), 0, std::sin(yaw_rad / 2));
@@ -39,14 +39,14 @@ std::vector<double> votes_of(const Views& views) {
   for (std::size_t i = 0; i < views.x_ref.size(); ++i) {
     const Vector3d r = views.R_level_cam * views.x_ref[i], c = views.R_level_cam * views.x_cur[i];
     votes.push_back(2 * std::atan2(c.y() * r.x() - r.y() * c.x(), r.y() * c.z() + c.y() * r.z()));
-    // tan has the period of half a turn: of the two yaws, the one below half a turn.
+    // tan has the period pi: of the two yaws, the one below pi.
     if (votes.back() > std::numbers::pi) votes.back() -= 2 * std::numbers::pi;
     if (votes.back() < -std::numbers::pi) votes.back() += 2 * std::numbers::pi;
   }
   return votes;
 }
 
-/// The middles of the fullest bins, neighbours counted half, at least a bin apart.
+/// Centres of the bins with most votes, neighbours with half weight, at least a bin apart.
 std::vector<double> fullest_bins(const std::vector<double>& votes, const CircularMotionOptions& o,
                                  std::size_t count) {
   const double bin = deg_to_rad(o.bin_deg), most = deg_to_rad(o.max_yaw_deg);
@@ -75,7 +75,7 @@ struct Fit {
   double yaw_rad = 0;
   double score_px2 = 0;       // truncated squared errors
   double curvature = 0;       // sum of squared derivatives of the inliers [px^2/rad^2]
-  double inlier_sum_px2 = 0;  // of squared errors
+  double inlier_sum_px2 = 0;  // sum of squared errors
   std::vector<int> inliers;
 };
 
@@ -115,13 +115,13 @@ Fit refine(const Views& views, double yaw_rad, double threshold_px) {
 void CircularMotionOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, CircularMotionOptions& o) {
-  field("threshold_px", o.threshold_px, "inliers lie this close to meeting", {0.1, 20});
-  field("max_yaw_deg", o.max_yaw_deg, "between the views", {0.1, 120});
-  field("bin_deg", o.bin_deg, "of the histogram of votes", {0.001, 5});
-  field("min_parallax_px", o.min_parallax_px, "median displacement below which no motion is told",
+  field("threshold_px", o.threshold_px, "maximum Sampson error of an inlier [px]", {0.1, 20});
+  field("max_yaw_deg", o.max_yaw_deg, "maximum yaw between the views [deg]", {0.1, 120});
+  field("bin_deg", o.bin_deg, "bin width of the histogram of votes [deg]", {0.001, 5});
+  field("min_parallax_px", o.min_parallax_px, "minimum median displacement for an estimate [px]",
         {0, 100});
-  field("min_inliers", o.min_inliers, "fewest points that agree", {2, 1000000});
-  field("min_share", o.min_share, "of the points that must agree", {0, 1});
+  field("min_inliers", o.min_inliers, "minimum number of inliers", {2, 1000000});
+  field("min_share", o.min_share, "minimum share of inliers", {0, 1});
 }
 
 CircularMotionResult estimate_circular_motion(const Camera& camera,
@@ -166,7 +166,7 @@ CircularMotionResult estimate_circular_motion(const Camera& camera,
   result.outcome = parallax.median_px < options.min_parallax_px
                        ? Outcome::failure(Outcome::Code::kDegenerate,
                                           "a parallax of " + std::to_string(parallax.median_px) +
-                                              " px: the car stands")
+                                              " px: the car is stationary")
                        : Outcome::ok();
   return result;
 }

@@ -67,7 +67,7 @@ std::vector<Vector3d> rays_of(const Camera& camera, const std::vector<Eigen::Vec
   rays.reserve(px.size());
   for (const Eigen::Vector2d& p : px) {
     const auto ray = camera.unproject(p);
-    require(ray.has_value(), "rays_of: a pixel outside of what the lens maps");
+    require(ray.has_value(), "rays_of: a pixel outside the lens model");
     rays.push_back(*ray);
   }
   return rays;

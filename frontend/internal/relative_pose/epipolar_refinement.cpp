@@ -35,7 +35,7 @@ SE3 refine_epipolar(const Camera& camera, const std::vector<Vector3d>& x_ref,
     }
     if (knowledge) knowledge(T, H, g);
     if (information) *information = H;
-    // The length of the translation is nobody's: held.
+    // The length of the translation is unobservable and constrained.
     const Vector3d along = T.rotation().matrix().transpose() * T.translation();
     Matrix6d held = H;
     held.topLeftCorner<3, 3>() += H.trace() * along * along.transpose();

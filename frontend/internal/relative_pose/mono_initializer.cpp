@@ -14,7 +14,7 @@ struct Hypothesis {
   SE3 T_ref_cur;
   std::vector<std::optional<Eigen::Vector3d>> points_ref;
   std::vector<double> parallaxes_rad;
-  double between_px = 0;  // error of the views between
+  double between_px = 0;  // error in the intermediate views
 };
 
 Hypothesis triangulate_all(const Camera& camera, const std::vector<Eigen::Vector2d>& px_ref,
@@ -34,8 +34,8 @@ Hypothesis triangulate_all(const Camera& camera, const std::vector<Eigen::Vector
   return hypothesis;
 }
 
-/// Root mean square reprojection error of the views between, each at its best pose; nothing if no
-/// view sees enough points.
+/// Root mean square reprojection error of the intermediate views, each at its best pose; nothing if
+/// no view has enough points.
 std::optional<double> judge_between(const Camera& camera, const Hypothesis& hypothesis,
                                     const std::vector<PartialView>& between) {
   double sum = 0;
@@ -51,7 +51,7 @@ std::optional<double> judge_between(const Camera& camera, const Hypothesis& hypo
     if (points.size() < 12) continue;
     std::vector<int> all(points.size());
     std::iota(all.begin(), all.end(), 0);
-    // The view lies somewhere on the way: start at its share of the whole motion.
+    // Start from an interpolated pose, at the view's share of the whole motion.
     const double share = (v + 1.0) / (between.size() + 1.0);
     const SE3 start = SE3::exp(share * hypothesis.T_ref_cur.log());
     const SE3 T_ref_view = refine_pose_3d2d(camera, points, px, all, start, 2.0, 15);

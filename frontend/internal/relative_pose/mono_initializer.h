@@ -11,6 +11,7 @@ namespace placegraph {
 /// Pixels of some of the points in a view between the two: (index of the point, pixel).
 using PartialView = std::vector<std::pair<int, Eigen::Vector2d>>;
 
+/// Motion and points of a monocular initialization.
 struct MonoInitialization {
   Outcome outcome;
   SE3 T_ref_cur;                                           ///< |t| = 1
@@ -20,10 +21,12 @@ struct MonoInitialization {
   double median_parallax_deg = 0;
 };
 
-/// Motion and structure from two views, up to scale: estimate_pose_2d2d, then every candidate
-/// motion is judged by the points it triangulates in front of both cameras. Where two explain the
-/// views alike (a plane has two readings), views in between decide by the reprojection error of
-/// their poses; without a clear verdict nothing is said. Outcomes: too few data, no consensus,
+/// Estimates motion and structure from two views, up to scale.
+///
+/// estimate_pose_2d2d, then every candidate motion is scored by the number of points that it
+/// triangulates in front of both cameras. If two motions explain the views equally well (a plane
+/// has two solutions), the views in between decide by the reprojection error of their poses;
+/// without a clear difference the result is ambiguous. Outcomes: too few data, no consensus,
 /// degenerate (too little parallax), inconsistent (ambiguous).
 [[nodiscard]] MonoInitialization initialize_mono(const Camera& camera,
                                                  const std::vector<Eigen::Vector2d>& px_ref,

@@ -132,7 +132,7 @@ Pose2d2dResult estimate_pose_2d2d(const Camera& camera, const std::vector<Vector
     result.outcome = essential.outcome;
     return result;
   }
-  // Scores: what an inlier leaves of the common allowance of 5.99 sigma^2 (chi2 of 2 d.o.f.).
+  // Score of an inlier: 5.99 sigma^2 (chi2 of 2 d.o.f.) minus its squared error.
   const double sigma2 = options.threshold_px * options.threshold_px / 3.84;
   const double allowance = 5.99 * sigma2;
   double score_essential = 0, score_homography = 0;
@@ -165,9 +165,9 @@ Pose2d2dResult estimate_pose_2d2d(const Camera& camera, const std::vector<Vector
     result.inliers = essential.inliers;
     result.T_ref_cur = decompose_essential(essential.model);
   }
-  result.outcome = result.T_ref_cur.empty()
-                       ? Outcome::failure(Outcome::Code::kDegenerate, "no translation in the model")
-                       : Outcome::ok();
+  result.outcome = result.T_ref_cur.empty() ? Outcome::failure(Outcome::Code::kDegenerate,
+                                                               "the model has no translation")
+                                            : Outcome::ok();
   return result;
 }
 

@@ -7,9 +7,10 @@
 
 namespace placegraph {
 
-/// Which model explains two views.
+/// Model of the relative pose of two views.
 enum class TwoViewModel { kEssential, kHomography };
 
+/// Candidate motions between two views.
 struct Pose2d2dResult {
   Outcome outcome;
   TwoViewModel model = TwoViewModel::kEssential;
@@ -17,12 +18,14 @@ struct Pose2d2dResult {
   /// matrix, up to two for a homography. The caller decides by triangulation.
   std::vector<SE3> T_ref_cur;
   std::vector<int> inliers;
-  double homography_share = 0;  ///< R_H
+  double homography_share = 0;  ///< R_H = S_H / (S_H + S_E)
 };
 
-/// Relative pose up to scale of two views: five-point essential matrix (Nister 2004, by OpenGV) and
-/// four-point homography, each in RANSAC; the better one by the scores of ORB-SLAM (Mur-Artal et
-/// al. 2015, sec. IV). Outcomes: too few data, no consensus.
+/// Estimates the relative pose of two views up to scale.
+///
+/// Five-point essential matrix (Nister 2004, by OpenGV) and four-point homography, each in RANSAC;
+/// the better one by the scores of ORB-SLAM (Mur-Artal et al. 2015, sec. IV). Outcomes: too few
+/// data, no consensus.
 [[nodiscard]] Pose2d2dResult estimate_pose_2d2d(const Camera& camera,
                                                 const std::vector<Eigen::Vector2d>& px_ref,
                                                 const std::vector<Eigen::Vector2d>& px_cur,

@@ -47,7 +47,7 @@ Pose3d2dResult finish(const Camera& camera, const std::vector<Eigen::Vector3d>& 
   double sum = 0;
   for (int i : result.inliers) sum += squared_error_px(camera, T_cam_ref, points_ref[i], px[i]);
   result.rmse_px = count ? std::sqrt(sum / (2.0 * count)) : 0;
-  // The residuals of a few points may be small by chance: sigma is not believed below 0.3 px.
+  // The residuals of a few points may be small by chance: sigma is at least 0.3 px.
   const double sigma_px = std::max(0.3, result.rmse_px);
   result.information = normal / (sigma_px * sigma_px);
   if (count < options.ransac.min_inliers) {
@@ -58,9 +58,10 @@ Pose3d2dResult finish(const Camera& camera, const std::vector<Eigen::Vector3d>& 
   }
   const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(normal, Eigen::EigenvaluesOnly);
   const bool invertible = eigen.eigenvalues()[0] > 1e-9 * eigen.eigenvalues()[5];
-  result.outcome = invertible ? Outcome::ok()
-                              : Outcome::failure(Outcome::Code::kDegenerate,
-                                                 "the points do not fix all six directions");
+  result.outcome = invertible
+                       ? Outcome::ok()
+                       : Outcome::failure(Outcome::Code::kDegenerate,
+                                          "the points do not determine all six degrees of freedom");
   return result;
 }
 
@@ -156,7 +157,7 @@ Pose3d2dResult estimate_pose_3d2d(const Camera& camera,
     return result;
   }
   if (prior) {
-    // A wide kernel first, so that the prediction's error of some pixels does not decide.
+    // A wide kernel first, so that points are not rejected for the prior's error of some pixels.
     std::vector<int> all(n);
     std::iota(all.begin(), all.end(), 0);
     const SE3 T = refine_pose_3d2d(camera, points_ref, px, all, *prior, options.threshold_px, 8);

@@ -25,7 +25,7 @@ Distance distance(const CloudPoint& ref, const CloudPoint& cur, const SE3& T_ref
   return {T_ref_cur * cur.point - ref.point, covariance.inverse()};
 }
 
-/// Gauss-Newton, the weights held within a step.
+/// Gauss-Newton with weights that are constant within a step.
 SE3 refine(const Cloud& ref, const Cloud& cur, const std::vector<int>& indices, const SE3& T_start,
            double huber_sigmas, int iterations, Matrix6d* normal) {
   SE3 T = T_start;
@@ -37,7 +37,7 @@ SE3 refine(const Cloud& ref, const Cloud& cur, const std::vector<int>& indices, 
       const Distance d = distance(ref[i], cur[i], T);
       const double sigmas = std::sqrt(d.squared());
       const double weight = sigmas > huber_sigmas ? huber_sigmas / sigmas : 1;
-      Eigen::Matrix<double, 3, 6> J;  // of T exp(xi) p = t + R (p + u + w x p)
+      Eigen::Matrix<double, 3, 6> J;  // derivative of T exp(xi) p = t + R (p + u + w x p)
       J << R, -R * hat(cur[i].point);
       const Eigen::Matrix<double, 6, 3> JW = weight * J.transpose() * d.weight;
       H.noalias() += JW * J;
@@ -57,7 +57,7 @@ std::vector<SE3> align_three(const opengv::point_cloud::PointCloudAdapter& adapt
   const Vector3d a = cur[sample[1]].point - cur[sample[0]].point;
   const Vector3d b = cur[sample[2]].point - cur[sample[0]].point;
   if (!(a.cross(b).norm() > 1e-3 * a.norm() * b.norm())) return {};  // on a line
-  // The first cloud of the adapter is the one that the transformation leads to.
+  // The first cloud of the adapter is the target of the transformation.
   const opengv::transformation_t T = opengv::point_cloud::threept_arun(adapter, sample);
   const Matrix3d R = T.leftCols<3>();
   if (!T.allFinite() || (R.transpose() * R - Matrix3d::Identity()).norm() > 1e-3 ||
@@ -71,7 +71,7 @@ std::vector<SE3> align_three(const opengv::point_cloud::PointCloudAdapter& adapt
 CloudPoint cloud_point(const Camera& camera, const Eigen::Vector2d& px, double inverse_depth,
                        double sigma_px, double sigma_inverse_depth) {
   const auto ray = camera.unproject(px);
-  require(ray.has_value(), "cloud_point: a pixel outside of what the lens maps");
+  require(ray.has_value(), "cloud_point: a pixel outside the lens model");
   require(inverse_depth > 0, "cloud_point: inverse depth must be positive");
   const double depth = 1 / inverse_depth;
   CloudPoint result{depth * *ray, Matrix3d::Zero()};
@@ -87,7 +87,8 @@ void Pose3d3dOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, Pose3d3dOptions& o) {
   field.group("ransac", o.ransac, "three-point hypotheses");
-  field("threshold_sigmas", o.threshold_sigmas, "inliers lie within", {0.5, 20});
+  field("threshold_sigmas", o.threshold_sigmas, "maximum error of an inlier [standard deviations]",
+        {0.5, 20});
 }
 
 Pose3d3dResult estimate_pose_3d3d(const Cloud& points_ref, const Cloud& points_cur,
@@ -125,13 +126,13 @@ Pose3d3dResult estimate_pose_3d3d(const Cloud& points_ref, const Cloud& points_c
   const double dof = 3.0 * static_cast<double>(result.inliers.size()) - 6;
   result.chi2_per_dof = dof > 0 ? chi2 / dof : 0;
   result.information = normal / std::max(1.0, result.chi2_per_dof);
-  // Turned to a unit diagonal, so that metres and radians compare.
+  // Scaled to a unit diagonal, so that metres and radians are comparable.
   const Vector6d scale = normal.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(
       Matrix6d(scale.asDiagonal() * normal * scale.asDiagonal()), Eigen::EigenvaluesOnly);
   if (!(eigen.eigenvalues()[0] > 1e-9))
-    result.outcome =
-        Outcome::failure(Outcome::Code::kDegenerate, "the points do not fix all six directions");
+    result.outcome = Outcome::failure(Outcome::Code::kDegenerate,
+                                      "the points do not determine all six degrees of freedom");
   return result;
 }
 

@@ -22,7 +22,7 @@ using Sextic = Eigen::Matrix<double, 7, 1>;
 struct LevelViews {
   const Camera& camera;
   std::vector<Vector3d> x_ref, x_cur;  // rays with z = 1
-  Matrix3d R_level_ref, R_level_cur;   // down becomes (0, 1, 0)
+  Matrix3d R_level_ref, R_level_cur;   // rotates down to (0, 1, 0)
 };
 
 /// (1 + q^2) R_y(q) y_cur x y_ref.
@@ -86,14 +86,14 @@ std::vector<SE3> solve_three_points(const LevelViews& views, const std::vector<i
     for (const Vector3d& other : {rows[1].cross(rows[2]), rows[2].cross(rows[0])})
       if (other.norm() > t.norm()) t = other;
     if (!(t.norm() > 1e-12)) continue;
-    const SO3 turn = SO3::exp(2 * std::atan(q) * Vector3d::UnitY());
-    models.emplace_back(views.R_level_ref.transpose() * turn.matrix() * views.R_level_cur,
+    const SO3 heading = SO3::exp(2 * std::atan(q) * Vector3d::UnitY());
+    models.emplace_back(views.R_level_ref.transpose() * heading.matrix() * views.R_level_cur,
                         views.R_level_ref.transpose() * t.normalized());
   }
   return models;
 }
 
-/// On the epipolar errors and on what the verticals say of the rotation: R down_cur = down_ref.
+/// Refines on the epipolar errors and on the verticals: R down_cur = down_ref.
 SE3 refine(const LevelViews& views, const std::vector<int>& indices, const SE3& T_start,
            const GravityPoseOptions& o, double sigma_px, int iterations, Matrix6d* information) {
   const Vector3d down_ref = views.R_level_ref.row(1), down_cur = views.R_level_cur.row(1);
@@ -115,10 +115,11 @@ void GravityPoseOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, GravityPoseOptions& o) {
   field.group("ransac", o.ransac, "three-point hypotheses");
-  field("threshold_px", o.threshold_px, "inliers lie this close to meeting", {0.1, 20});
-  field("sigma_gravity_deg", o.sigma_gravity_deg, "of each view's vertical", {1e-4, 10});
-  field("min_parallax_px", o.min_parallax_px,
-        "median displacement below which no translation is told", {0, 100});
+  field("threshold_px", o.threshold_px, "maximum Sampson error of an inlier [px]", {0.1, 20});
+  field("sigma_gravity_deg", o.sigma_gravity_deg,
+        "standard deviation of each view's vertical [deg]", {1e-4, 10});
+  field("min_parallax_px", o.min_parallax_px, "minimum median displacement for a translation [px]",
+        {0, 100});
 }
 
 GravityPoseResult estimate_pose_with_gravity(const Camera& camera,
@@ -161,23 +162,23 @@ GravityPoseResult estimate_pose_with_gravity(const Camera& camera,
   SE3 T =
       refine(views, result.inliers, consensus.model, options, options.threshold_px / 2, 6, nullptr);
   result.rmse_px = epipolar_rmse_px(camera, views.x_ref, views.x_cur, result.inliers, T);
-  // The residuals of a few points may be small by chance: sigma is not believed below 0.1 px.
+  // The residuals of a few points may be small by chance: sigma is at least 0.1 px.
   T = refine(views, result.inliers, T, options, std::max(0.1, result.rmse_px), 2,
              &result.information);
   const TwoViewParallax parallax =
       two_view_parallax(camera, T, views.x_ref, views.x_cur, result.inliers);
   if (parallax.behind > parallax.ahead) {
     T = SE3(T.rotation(), -T.translation());
-    // The tangent's translation turns with it.
+    // The translational part of the tangent is rotated, too.
     result.information.topRightCorner<3, 3>() *= -1;
     result.information.bottomLeftCorner<3, 3>() *= -1;
   }
   result.T_ref_cur = T;
   result.parallax_px = parallax.median_px;
   if (parallax.median_px < options.min_parallax_px)
-    result.outcome = Outcome::failure(
-        Outcome::Code::kDegenerate,
-        "a parallax of " + std::to_string(parallax.median_px) + " px tells no translation");
+    result.outcome = Outcome::failure(Outcome::Code::kDegenerate,
+                                      "a parallax of " + std::to_string(parallax.median_px) +
+                                          " px does not determine a translation");
   return result;
 }
 

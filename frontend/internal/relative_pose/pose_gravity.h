@@ -6,31 +6,35 @@
 
 namespace placegraph {
 
+/// Options of the relative pose with known vertical.
 struct GravityPoseOptions {
   RansacOptions ransac{.max_iterations = 200, .confidence = 0.999, .min_inliers = 20};
-  double threshold_px = 1.0;       ///< inliers lie this close to meeting (Sampson)
-  double sigma_gravity_deg = 0.3;  ///< of each view's vertical, about each level axis
-  double min_parallax_px = 1.0;    ///< median displacement below which no translation is told
+  double threshold_px = 1.0;       ///< maximum Sampson error of an inlier
+  double sigma_gravity_deg = 0.3;  ///< error of each view's vertical about each horizontal axis
+  double min_parallax_px = 1.0;    ///< least median displacement for a translation
   void check() const;
 };
 void visit(OptionVisitor& field, GravityPoseOptions& options);
 
+/// Relative pose of two views with known vertical.
 struct GravityPoseResult {
   Outcome outcome;
-  SE3 T_ref_cur;  ///< |t| = 1; of a degenerate motion only the rotation means something
+  SE3 T_ref_cur;  ///< |t| = 1; only the rotation is meaningful if degenerate
   std::vector<int> inliers;
-  double rmse_px = 0;      ///< of the inliers
-  double parallax_px = 0;  ///< median displacement that the rotation leaves
-  /// Of T_ref_cur, right tangent, the vertical's included; nothing along the translation.
+  double rmse_px = 0;      ///< root mean square error of the inliers
+  double parallax_px = 0;  ///< median displacement after the rotation is removed
+  /// Right tangent of T_ref_cur, that of the verticals included; zero along the translation.
   Matrix6d information = Matrix6d::Zero();
 };
 
-/// Relative pose up to scale of two views whose vertical is known, as unit vectors that point down
-/// in each camera: with both views levelled only the heading and the direction of the translation
-/// are left, which three points fix: det M(q) = 0 with M's rows R_y(q) y_cur x y_ref, a quartic in
-/// the tangent q of half the heading's change (Fraundorfer, Tanskanen & Pollefeys 2010). In RANSAC;
-/// then all five degrees of freedom on the Huber-weighted Sampson error and the verticals.
-/// Outcomes: too few data, no consensus, degenerate (parallax below min_parallax_px).
+/// Estimates the relative pose up to scale of two views with known vertical.
+///
+/// The verticals are unit vectors that point down in each camera. With both views levelled only the
+/// heading and the direction of the translation are unknown, which three points determine:
+/// det M(q) = 0 with M's rows R_y(q) y_cur x y_ref, a quartic in the tangent q of half the
+/// heading's change (Fraundorfer, Tanskanen & Pollefeys 2010), in RANSAC. Then all five degrees of
+/// freedom are refined on the Huber-weighted Sampson error and the verticals. Outcomes: too few
+/// data, no consensus, degenerate (parallax below min_parallax_px).
 [[nodiscard]] GravityPoseResult estimate_pose_with_gravity(
     const Camera& camera, const std::vector<Eigen::Vector2d>& px_ref,
     const std::vector<Eigen::Vector2d>& px_cur, const Eigen::Vector3d& down_ref,

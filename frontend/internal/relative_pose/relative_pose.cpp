@@ -28,7 +28,7 @@ std::vector<Eigen::Vector2d> chosen(const std::vector<Eigen::Vector2d>& px,
   return result;
 }
 
-/// The rotation among the matches `indices`, if one moves nearly all of them.
+/// The rotation of the matches `indices`, if one rotation explains almost all of them.
 Rotation2d2dResult rotation_of(const Views& views, const std::vector<int>& indices,
                                const Rotation2d2dOptions& options, Random& random) {
   Rotation2d2dResult result = estimate_rotation_2d2d(
@@ -48,7 +48,7 @@ void take_rotation(const Rotation2d2dResult& rotation, RelativePose& result) {
   result.covariance.bottomRightCorner<3, 3>() = rotation.covariance;
 }
 
-/// On five degrees of freedom: the translation's length is not seen.
+/// Covariance with five degrees of freedom: the translation's length is unobservable.
 Matrix6d covariance_of(const Matrix6d& information) {
   const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(information);
   Matrix6d covariance = Matrix6d::Zero();
@@ -58,7 +58,7 @@ Matrix6d covariance_of(const Matrix6d& information) {
   return covariance;
 }
 
-/// The matches whose rays meet to `threshold_px`.
+/// The matches with a Sampson error within `threshold_px`.
 std::vector<int> meeting(const Views& views, const SE3& T_ref_cur, double threshold_px) {
   const EpipolarError error(views.camera, T_ref_cur);
   std::vector<int> indices;
@@ -67,7 +67,7 @@ std::vector<int> meeting(const Views& views, const SE3& T_ref_cur, double thresh
   return indices;
 }
 
-/// Of the four motions of an essential matrix the one that has most points before both eyes.
+/// The motion with most points in front of both cameras, among the four of an essential matrix.
 void take_essential(const Views& views, const Pose2d2dResult& found,
                     const RelativePoseOptions& options, RelativePose& result) {
   constexpr double kLeastSigma_px = 0.1;  // the residuals of a few points may be small by chance
@@ -84,7 +84,7 @@ void take_essential(const Views& views, const Pose2d2dResult& found,
     return refine_epipolar(views.camera, views.x_ref, views.x_cur, result.inliers, T,
                            {huber_px, sigma_px, 10}, information);
   };
-  // The inliers of five points are a biased choice; those of all of them less so.
+  // The inliers of a model from five points are biased; those of a model from all of them less so.
   SE3 T = ranked[0].second;
   constexpr int kRounds = 3;
   for (int round = 0; round < kRounds; ++round) {
@@ -105,7 +105,7 @@ void take_essential(const Views& views, const Pose2d2dResult& found,
   if (parallax.median_px < options.min_parallax_px)
     result.outcome =
         Outcome::failure(Code::kDegenerate, "a parallax of " + std::to_string(parallax.median_px) +
-                                                " px tells no translation");
+                                                " px does not determine a translation");
   else if (result.rivals.size() > 1)
     result.outcome = Outcome::failure(Code::kInconsistent, "two motions explain the views");
   else
@@ -113,14 +113,14 @@ void take_essential(const Views& views, const Pose2d2dResult& found,
   if (result.rivals.size() == 1) result.rivals.clear();
 }
 
-/// The inliers of a homography as one region, with the noise that they show.
+/// The inliers of a homography as one region, with the noise estimated from them.
 PlanarRegionsResult one_plane(const PointMatches& matches, const std::vector<int>& inliers,
                               HomographyFit& fit) {
   constexpr int kIterations = 20;
   constexpr double kLeastSigma_px = 0.1;
   PlanarRegionsResult regions;
   std::array<int, 4> corners{};
-  // Four of them in a quarter each, as far out as can be, to begin with.
+  // Initialize by the four inliers that are farthest out in each diagonal direction.
   for (int k = 0; k < 4; ++k) {
     const Eigen::Vector2d out(k & 1 ? 1 : -1, k & 2 ? 1 : -1);
     corners[static_cast<std::size_t>(k)] = *std::max_element(
@@ -191,14 +191,14 @@ const std::vector<std::string>& relative_pose_model_names() {
 void RelativePoseOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, RelativePoseOptions& o) {
-  field.choice("model", o.model, relative_pose_model_names(), "what explains the views");
+  field.choice("model", o.model, relative_pose_model_names(), "model of the relative pose");
   field.group("two_view", o.two_view, "essential matrix and homography");
-  field.group("rotation", o.rotation, "the camera turns only");
+  field.group("rotation", o.rotation, "pure rotation");
   field.group("plane", o.plane, "motion before one plane");
-  field("min_parallax_px", o.min_parallax_px,
-        "median displacement below which no translation is told", {0, 100});
-  field("ambiguity", o.ambiguity, "share of the best motion's points that makes another a rival",
-        {0, 1});
+  field("min_parallax_px", o.min_parallax_px, "minimum median displacement for a translation [px]",
+        {0, 100});
+  field("ambiguity", o.ambiguity,
+        "share of the best motion's points that makes a second motion a rival", {0, 1});
 }
 
 RelativePose estimate_relative_pose(const Camera& camera,

@@ -21,14 +21,14 @@ struct Rays {
   opengv::bearingVectors_t ref, cur;
 };
 
-/// Pixel of the current view minus where the rotation carries it, where that can be seen.
+/// Pixel of the current view minus the rotated pixel of the reference, if that has an image.
 std::optional<Vector2d> residual_px(const Rays& rays, const Matrix3d& R_cur_ref, int i,
                                     Eigen::Matrix<double, 2, 3>* J = nullptr) {
   const Vector3d x = R_cur_ref * rays.ref[static_cast<std::size_t>(i)];
   Eigen::Matrix<double, 2, 3> by_x;
   const auto px = rays.camera.project(x, &by_x);
   if (!px) return std::nullopt;
-  if (J) *J = -by_x * hat(x);  // R_ref_cur exp(w) turns x by -w x
+  if (J) *J = -by_x * hat(x);  // R_ref_cur exp(w) rotates x by -w
   return rays.px_cur[static_cast<std::size_t>(i)] - *px;
 }
 
@@ -37,7 +37,7 @@ struct Fit {
   Matrix3d normal = Matrix3d::Zero();
   double sum_px2 = 0;
   int count = 0;
-  bool full = false;  // whether the pixels tell all three angles
+  bool full = false;  // whether the pixels determine all three angles
 };
 
 /// Gauss-Newton on the pixels of the inliers.
@@ -104,12 +104,12 @@ Rotation2d2dResult estimate_rotation_2d2d(const Camera& camera, const std::vecto
   if (static_cast<double>(found.inliers.size()) < options.min_inlier_share * n) {
     result.outcome = Outcome::failure(
         Code::kInconsistent, std::to_string(found.inliers.size()) + " of " + std::to_string(n) +
-                                 " points moved as a rotation carries them: the camera moved");
+                                 " points agree with a rotation: the camera translated");
     return result;
   }
   const Fit fit = refine(rays, found.model, found.inliers);
   if (!fit.full) {
-    result.outcome = Outcome::failure(Code::kDegenerate, "all points lie in one direction");
+    result.outcome = Outcome::failure(Code::kDegenerate, "all points are in one direction");
     return result;
   }
   result.R_ref_cur = fit.R_ref_cur;

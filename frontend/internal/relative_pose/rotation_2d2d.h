@@ -7,21 +7,23 @@
 
 namespace placegraph {
 
+/// Rotation between two views.
 struct Rotation2d2dResult {
   Outcome outcome;
   SO3 R_ref_cur;  ///< meaningful only if outcome
-  /// Of the right tangent of R_ref_cur [rad^2]; what way the threshold would have let pass is
-  /// among it.
+  /// Covariance of the right tangent of R_ref_cur [rad^2], including the effect of a translation
+  /// below the threshold.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   std::vector<int> inliers;
-  double rmse_px = 0;  ///< of the inliers
+  double rmse_px = 0;  ///< root mean square error of the inliers
 };
 
-/// Rotation between two views that share their centre: x_cur = R_ref_cur^T x_ref up to length. Two
-/// points in RANSAC, all of the inliers afterwards (Arun et al. 1987, both by OpenGV), then least
-/// squares of their pixels. Throws ArgumentError if the lists differ in length. Outcomes: too few
-/// data, no consensus, inconsistent (too small a share agrees: the camera moved), degenerate (all
-/// in one direction).
+/// Estimates the rotation between two views with the same centre.
+///
+/// x_cur = R_ref_cur^T x_ref up to length. Two points in RANSAC, then all inliers (Arun et al.
+/// 1987, both by OpenGV), then least squares of their pixels. Throws ArgumentError if the lists
+/// differ in length. Outcomes: too few data, no consensus, inconsistent (the share of inliers is
+/// too small: the camera translated), degenerate (all points in one direction).
 [[nodiscard]] Rotation2d2dResult estimate_rotation_2d2d(const Camera& camera,
                                                         const std::vector<Eigen::Vector2d>& px_ref,
                                                         const std::vector<Eigen::Vector2d>& px_cur,

@@ -16,10 +16,10 @@ void normalize(std::array<double, kEnvironmentCount>& shares) {
   for (double& share : shares) share /= sum;
 }
 
-/// Standardized; 0 for what was not looked at.
+/// Standardized evidence; 0 for missing values.
 std::array<double, kEvidenceCount> standardized(const EnvironmentModel& model,
                                                 const EnvironmentEvidence& evidence) {
-  constexpr double kMost = 3;  // an odd number is no proof
+  constexpr double kMost = 3;  // limits the effect of a single outlying value
   std::array<double, kEvidenceCount> x{};
   for (std::size_t i = 0; i < kEvidenceCount; ++i)
     if (std::isfinite(evidence.values[i]) && model.sigma[i] > 0)
@@ -38,9 +38,9 @@ std::array<double, kEnvironmentCount> softmax(const EnvironmentModel& model,
   return p;
 }
 
-/// A sample as it is, without its points, without its unit, without its surfaces, and by its points
-/// alone, which are what differs least between a rendered world and a real one. Rendered rooms are
-/// more rectangular than any real one: nothing is learned from that.
+/// Variants of a sample: complete, without its points, without metric scale, without its surfaces,
+/// and by its points alone, which differ least between rendered and real scenes. Rendered rooms are
+/// more rectangular than any real one, so that this evidence is not used.
 constexpr std::size_t kVariants = 5;
 std::array<EnvironmentEvidence, kVariants> variants_of(const EnvironmentEvidence& evidence) {
   const double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -79,7 +79,7 @@ EnvironmentModel train_environments(const std::vector<EnvironmentSample>& sample
   std::array<double, kEnvironmentCount> count{};
   for (const EnvironmentSample& sample : samples) count[static_cast<std::size_t>(sample.kind)] += 1;
   const auto kinds = std::count_if(count.begin(), count.end(), [](double n) { return n > 0; });
-  require(kinds >= 2, "train_environments: samples of two kinds are needed");
+  require(kinds >= 2, "train_environments: needs samples of two kinds");
   EnvironmentModel model;
   standardize(samples, model);
   struct Row {
@@ -94,7 +94,7 @@ EnvironmentModel train_environments(const std::vector<EnvironmentSample>& sample
       rows.push_back({standardized(model, variant), kind,
                       1 / (kVariants * count[kind] * static_cast<double>(kinds))});
   }
-  // A kind without samples is never told.
+  // A kind without samples gets a negligible probability.
   for (std::size_t k = 0; k < kEnvironmentCount; ++k) model.bias[k] = count[k] > 0 ? 0 : -20;
   constexpr int kSteps = 3000;
   constexpr double kRate = 0.5;
@@ -151,15 +151,15 @@ EnvironmentModel parse_environments(const std::string& text, const std::string& 
     if (name == "kinds") {
       for (std::size_t k = 0; k < kEnvironmentCount; ++k)
         if (!(fields >> rest) || rest != environment_name(static_cast<Environment>(k)))
-          throw FileError(path, number, "the kinds are not those of this program");
+          throw FileError(path, number, "the kinds differ from those of this program");
       continue;
     }
     if (name == "environment") {
       int count = 0;
       if (!(fields >> count) || count != kEvidenceCount)
-        throw FileError(
-            path, number,
-            "evidence of another number than this program has, " + std::to_string(kEvidenceCount));
+        throw FileError(path, number,
+                        "the number of evidence values differs from that of this program, " +
+                            std::to_string(kEvidenceCount));
       continue;
     }
     const auto known = std::find(evidence_names().begin(), evidence_names().end(), name);
@@ -171,7 +171,8 @@ EnvironmentModel parse_environments(const std::string& text, const std::string& 
       good = (fields >> value) && std::isfinite(value);
     }
     if (!good || fields >> rest)
-      throw FileError(path, number, "a line is: evidence mean sigma, and a weight for every kind");
+      throw FileError(path, number,
+                      "a line must be: evidence mean sigma, and a weight for every kind");
     (name == "bias" ? has_bias : seen[i]) = true;
   }
   if (!has_bias || !std::all_of(seen.begin(), seen.end(), [](bool s) { return s; }))

@@ -15,22 +15,24 @@
 
 namespace placegraph {
 
-/// Multinomial logistic regression over standardized evidence; what was not looked at counts as
-/// the mean, so that it speaks for none.
+/// Multinomial logistic regression over standardized evidence.
+///
+/// Missing evidence counts as the mean, so that it favours no kind.
 struct EnvironmentModel {
   std::array<double, kEvidenceCount> mean{}, sigma{};
   std::array<double, kEnvironmentCount> bias{};
   std::array<std::array<double, kEvidenceCount>, kEnvironmentCount> weights{};
 
-  /// Of each kind, sum 1.
+  /// Probabilities of the kinds, sum 1.
   std::array<double, kEnvironmentCount> probabilities(const EnvironmentEvidence& evidence) const;
 };
 
-/// The model that comes with the library (docs/scene.md says what it was trained on).
+/// Model that is built into the library (docs/scene.md documents its training).
 const EnvironmentModel& built_in_environments();
 
-/// Text: `environment EVIDENCE`, `bias` with a number a kind, then `name mean sigma` and a weight a
-/// kind for every evidence. Reading throws FileError "path:line: ..." for anything else.
+/// Text of a model: `environment EVIDENCE`, `bias` with one number per kind, then `name mean sigma`
+/// and one weight per kind for every evidence. Reading throws FileError "path:line: ..." for
+/// anything else.
 std::string to_text(const EnvironmentModel& model);
 EnvironmentModel parse_environments(const std::string& text, const std::string& path);
 
@@ -39,19 +41,23 @@ struct EnvironmentSample {
   Environment kind = Environment::kStreet;
 };
 
-/// By gradient descent on the log loss with a quadratic penalty; kinds weigh the same in all,
-/// whatever their numbers. Every sample counts five times: as it is, without its points, its unit,
-/// its surfaces, and by its points alone. Same samples, same bits. Throws ArgumentError
-/// unless there are samples of two kinds.
+/// Trains a model by gradient descent on the log loss with a quadratic penalty.
+///
+/// All kinds have the same weight, for any number of samples. Every sample counts five times:
+/// complete, without its points, without metric scale, without its surfaces, and by its points
+/// alone. The same samples give the same bits. Throws ArgumentError unless there are samples of two
+/// kinds.
 EnvironmentModel train_environments(const std::vector<EnvironmentSample>& samples,
                                     double penalty = 1e-3);
 
-/// The kind of environment over views in order of travel: a hidden Markov model filtered forwards,
-/// and two thresholds, so that what is taken lasts.
+/// Filter of the kind of environment over views in order of travel.
+///
+/// A hidden Markov model, filtered forwards, with two thresholds (hysteresis) for the accepted
+/// kind.
 class EnvironmentFilter {
  public:
   explicit EnvironmentFilter(const EnvironmentFilterOptions& options);
-  /// The kind after one more view; nothing while it is unknown.
+  /// Adds a view and returns the kind; nothing while it is unknown.
   std::optional<Environment> add(const std::array<double, kEnvironmentCount>& probabilities);
   const std::array<double, kEnvironmentCount>& probabilities() const { return state_; }
   std::optional<Environment> kind() const { return kind_; }

@@ -21,10 +21,10 @@ struct Tilts {
 }  // namespace
 
 void visit(OptionVisitor& field, HorizonOptions& o) {
-  field("max_tilt_deg", o.max_tilt_deg, "of the camera from level", {0.1, 45});
-  field("prior_deg", o.prior_deg, "how level the camera is without any line", {0.01, 45});
-  field("structure_deg", o.structure_deg, "how upright and level the edges of a street are",
-        {0.01, 10});
+  field("max_tilt_deg", o.max_tilt_deg, "maximum tilt of the camera", {0.1, 45});
+  field("prior_deg", o.prior_deg, "standard deviation of the tilt without any line", {0.01, 45});
+  field("structure_deg", o.structure_deg,
+        "standard deviation of upright and level edges of a street", {0.01, 10});
   field.group("vanishing", o.vanishing, "search for vanishing points");
 }
 
@@ -72,10 +72,9 @@ Horizon estimate_horizon(const std::vector<LineSegment>& segments, const Camera&
   const Eigen::Matrix2d covariance = tilts.N.inverse();
   horizon.sigma_deg =
       std::sqrt(covariance.selfadjointView<Eigen::Lower>().eigenvalues().maxCoeff()) / kRadPerDeg;
-  horizon.outcome =
-      horizon.directions > 0
-          ? Outcome::ok()
-          : Outcome::failure(Outcome::Code::kTooFewData, "no edges show what is level or upright");
+  horizon.outcome = horizon.directions > 0
+                        ? Outcome::ok()
+                        : Outcome::failure(Outcome::Code::kTooFewData, "no level or upright edges");
   return horizon;
 }
 

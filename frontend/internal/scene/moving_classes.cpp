@@ -12,7 +12,7 @@ std::vector<bool> moving_classes(const std::string& names, const SceneModel& mod
   for (std::string name; std::getline(list, name, ',');) {
     const auto found = std::find(model.classes.begin(), model.classes.end(), name);
     require(found != model.classes.end(),
-            "moving: '" + name + "' is no class of the model of urban classes");
+            "moving: '" + name + "' is not a class of the model of urban classes");
     moving[static_cast<std::size_t>(found - model.classes.begin())] = true;
   }
   return moving;

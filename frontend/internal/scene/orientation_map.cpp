@@ -8,12 +8,12 @@
 namespace placegraph {
 namespace {
 
-/// Edges on a raster, a bit for each axis, and the walk from a cell towards a vanishing point.
+/// Edges on a raster, a bit for each axis, and the search from a cell towards a vanishing point.
 class Sweeper {
  public:
   struct Hit {
-    int axis = -1;        ///< of the edge that was met; -1: none, or edges of two axes
-    double distance = 0;  ///< [cells]
+    int axis = -1;        ///< axis of the edge that was met; -1: none, or edges of two axes
+    double distance = 0;  ///< distance of the edge [cells]
   };
 
   Sweeper(const std::vector<LineSegment>& segments, const std::vector<int>& axis,
@@ -32,26 +32,26 @@ class Sweeper {
   int cols() const { return bits_.cols; }
   bool is_edge(int u, int v) const { return bits_.at<std::uint8_t>(v, u) != 0; }
 
-  /// From the middle of a cell along the line through the vanishing point of `along`: towards it
-  /// (`sign` > 0) or away.
+  /// Searches from the middle of a cell along the line through the vanishing point of `along`,
+  /// towards it (`sign` > 0) or away from it.
   Hit walk(int u, int v, int along, int sign) const {
     const Eigen::Vector3d& w = vanishing_[along];
     const Eigen::Vector2d from(u, v), px = cell_px_ * (from.array() + 0.5).matrix();
-    Eigen::Vector2d way = w.head<2>() - w[2] * px;
-    const double length = way.cwiseAbs().maxCoeff();
+    Eigen::Vector2d direction = w.head<2>() - w[2] * px;
+    const double length = direction.cwiseAbs().maxCoeff();
     if (length < 1e-9) return {};
-    // Where the direction points behind the camera its image is on the other side, and the walk
-    // that leads to the vanishing point is the one against it.
+    // If the direction points behind the camera, its image is on the other side, and the opposite
+    // search leads to the vanishing point.
     double steps = reach_;
     if (sign * w[2] > 0) steps = std::min(steps, length / (std::abs(w[2]) * cell_px_));
-    way *= sign / length;
+    direction *= sign / length;
     for (int k = 1; k <= static_cast<int>(steps); ++k) {
-      const Eigen::Vector2d at = from + k * way;
+      const Eigen::Vector2d at = from + k * direction;
       const int x = static_cast<int>(std::lround(at[0])), y = static_cast<int>(std::lround(at[1]));
       if (x < 0 || y < 0 || x >= cols() || y >= rows()) break;
       const unsigned met = bits_.at<std::uint8_t>(y, x) & ~(1U << along);
       if (met == 0) continue;
-      const double distance = k * way.norm();
+      const double distance = k * direction.norm();
       for (int a = 0; a < 3; ++a)
         if (met == 1U << a) return {a, distance};
       return {-1, distance};
@@ -60,7 +60,7 @@ class Sweeper {
   }
 
  private:
-  /// Four-connected, so that no walk slips through.
+  /// Draws four-connected lines, so that no search passes through.
   void draw(const LineSegment& segment, std::uint8_t bit) {
     const double length = segment.length();
     const int steps = std::max(1, static_cast<int>(std::ceil(4 * length / cell_px_)));
@@ -77,10 +77,10 @@ class Sweeper {
   std::array<Eigen::Vector3d, 3> vanishing_;
 };
 
-/// Support of the three orientations at a cell: how many of the four sweeps of each speak for it,
-/// nearer edges more; 0 unless a sweep of each of its two axes does.
+/// Support of the three orientations at a cell: the number of the four sweeps of each that support
+/// it, with more weight for nearer edges; 0 without a sweep of each of its two axes.
 std::array<double, 3> support_of(const Sweeper& sweeper, int u, int v, double half_way) {
-  // for_[c][b]: support of normal c by walks along b.
+  // for_[c][b]: support of normal c by sweeps along b.
   double for_[3][3] = {};
   for (int b = 0; b < 3; ++b)
     for (const int sign : {-1, 1}) {
@@ -96,7 +96,7 @@ std::array<double, 3> support_of(const Sweeper& sweeper, int u, int v, double ha
   return support;
 }
 
-/// The best orientation, or 0 where the second is as good.
+/// The best orientation, or 0 if the second one is as good.
 std::uint8_t choose(const cv::Vec3f& support, double margin, float& confidence) {
   int best = 0;
   for (int c = 1; c < 3; ++c)
@@ -108,7 +108,8 @@ std::uint8_t choose(const cv::Vec3f& support, double margin, float& confidence) 
   return static_cast<std::uint8_t>(best + 1);
 }
 
-/// Sums over the neighbours that no edge parts from a cell would be dearer; edges are thin.
+/// Sums over all neighbours; to exclude those behind an edge would cost more time, and edges are
+/// thin.
 cv::Mat3f smoothed(const cv::Mat3f& support, int radius) {
   if (radius == 0) return support;
   cv::Mat3f mean;
@@ -135,7 +136,7 @@ OrientationMap compute_orientation_map(const std::vector<LineSegment>& segments,
                                        const SO3& R_cam_manhattan,
                                        const OrientationMapOptions& options) {
   options.check();
-  require(segments.size() == axis.size(), "orientation map: an axis for every segment is needed");
+  require(segments.size() == axis.size(), "orientation map: needs an axis for every segment");
   OrientationMap map;
   const Eigen::Matrix3d R = R_cam_manhattan.matrix();
   R.row(1).cwiseAbs().maxCoeff(&map.vertical_axis);
@@ -161,16 +162,17 @@ OrientationMap compute_orientation_map(const std::vector<LineSegment>& segments,
       labels(v, u) = choose(support(v, u), options.min_margin, confidence(v, u));
       if (confidence(v, u) < options.min_confidence) labels(v, u) = 0;
     }
-  std::size_t told = 0;
+  std::size_t labelled = 0;
   for (int v = 0; v < camera.height; ++v)
     for (int u = 0; u < camera.width; ++u) {
       const int y = static_cast<int>(v / options.cell_px),
                 x = static_cast<int>(u / options.cell_px);
       map.labels.at<std::uint8_t>(v, u) = labels(y, x);
       map.confidence.at<float>(v, u) = confidence(y, x);
-      told += labels(y, x) != 0;
+      labelled += labels(y, x) != 0;
     }
-  map.coverage = static_cast<double>(told) / (static_cast<double>(camera.width) * camera.height);
+  map.coverage =
+      static_cast<double>(labelled) / (static_cast<double>(camera.width) * camera.height);
   map.outcome = Outcome::ok();
   return map;
 }

@@ -14,10 +14,10 @@ namespace {
 
 constexpr int kSky = static_cast<int>(Surface::kSky), kGround = static_cast<int>(Surface::kGround);
 
-/// What stands without a break in a column, rows [top, bottom]; of one surface.
+/// Contiguous pixels of one surface in a column, rows [top, bottom].
 struct Run {
   int top, bottom, surface;
-  double foot_m = 0;  ///< distance of the ground it meets; 0 where it meets none
+  double foot_m = 0;  ///< distance of the ground at its foot; 0 without a visible foot
 };
 
 Eigen::Vector3d ray_of(const Camera& camera, double u, double v) {
@@ -48,8 +48,8 @@ std::vector<Run> runs_of(const Image& surfaces, const GroundView& view, int u, d
   return runs;
 }
 
-/// Inverse distances of the feet of one surface in every column: seen ones (the farthest of a
-/// column), straight between, the nearest one's outside; empty where none is seen.
+/// Inverse distances of the feet of one surface in every column: visible ones (the farthest of a
+/// column), linear interpolation between them, the nearest one's outside; empty if none is visible.
 std::vector<double> feet_of(const std::vector<std::vector<Run>>& columns, int surface) {
   std::vector<double> inverse(columns.size(), 0);
   std::vector<std::size_t> seen;
@@ -74,7 +74,7 @@ std::vector<double> feet_of(const std::vector<std::vector<Run>>& columns, int su
 void stand_up(const std::vector<Run>& runs, std::size_t u,
               const std::array<std::vector<double>, kSurfaceCount>& feet, double farthest_m,
               Image& distance) {
-  double before = 0;  // what lies below in the column is nearer
+  double before = 0;  // runs below in the column are nearer
   for (const Run& run : runs) {
     double m = run.foot_m;
     if (m <= 0) {
@@ -87,7 +87,7 @@ void stand_up(const std::vector<Run>& runs, std::size_t u,
   }
 }
 
-/// Forward and to the right over the ground.
+/// Directions forward and to the right over the ground.
 std::array<Eigen::Vector3d, 2> directions_of(const GroundView& view) {
   const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
   const Eigen::Vector3d forward = (z - z.dot(view.down) * view.down).normalized();
@@ -112,7 +112,7 @@ PopUp pop_up(const Image& surfaces, const GroundView& view, double farthest_m) {
   view.camera.check();
   require(surfaces.type() == CV_8UC1 && surfaces.cols == view.camera.width &&
               surfaces.rows == view.camera.height,
-          "pop_up: surfaces of another size than the camera's");
+          "pop_up: the surfaces do not have the camera's size");
   require(view.height_m > 0 && farthest_m > 0,
           "pop_up: height and farthest distance must be positive");
   PopUp popup{Image::zeros(surfaces.size(), CV_32FC1)};
@@ -147,7 +147,7 @@ std::optional<Eigen::Vector3d> popped_point(const PopUp& popup, const GroundView
 Image overlay_box(const Image& bgr, const PopUp& popup, const GroundView& view,
                   const StandingBox& box, Image* hidden) {
   require(bgr.type() == CV_8UC3 && bgr.size() == popup.distance.size(),
-          "overlay_box: a BGR picture of the camera's size is needed");
+          "overlay_box: needs a BGR image of the camera's size");
   std::array<std::vector<cv::Point>, 2> faces;  // the far one first
   std::vector<cv::Point> whole;
   for (const int back : {1, 0})
@@ -168,8 +168,8 @@ Image overlay_box(const Image& bgr, const PopUp& popup, const GroundView& view,
   cv::fillConvexPoly(mask, outline, cv::Scalar(255));
   cv::fillConvexPoly(drawn, outline, cv::Scalar(40, 120, 200));
   cv::fillConvexPoly(drawn, faces[1], cv::Scalar(60, 170, 250));
-  // As far as its middle over the ground: what stands nearer hides it, the ground before it never
-  // does.
+  // The box is at the distance of its middle over the ground: nearer surfaces hide it, but the
+  // ground in front of it does not.
   const double m = over_ground(ground_place(view, box.right_m, box.forward_m), view.down);
   for (int v = 0; v < bgr.rows; ++v)
     for (int u = 0; u < bgr.cols; ++u) {

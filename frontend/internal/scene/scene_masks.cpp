@@ -21,7 +21,7 @@ const float* of_pixel(const std::vector<float>& surfaces, const SceneView& view,
          static_cast<std::size_t>(view.superpixels.index.at<int>(v, u)) * kSurfaceCount;
 }
 
-/// 255 where a surface is at least so probable, at the size of the picture.
+/// 255 where a surface has at least this probability, at the size of the image.
 Image where(std::size_t surface, double least, const std::vector<float>& surfaces,
             const SceneView& view) {
   Image found(view.superpixels.rows, view.superpixels.cols, CV_8UC1);

@@ -7,20 +7,20 @@
 
 namespace placegraph {
 
-/// What the surfaces of a picture allow, images of the picture's size.
+/// Masks from the surfaces of an image, at the image's size.
 struct SceneMasks {
-  Image use;     ///< CV_8UC1, 0 = sky or what may move; empty if that leaves too little
-  Image still;   ///< CV_8UC1, 0 = what may move; empty as `use` is
-  Image ground;  ///< CV_8UC1, 0 = not ground; empty if it is not asked for
+  Image use;     ///< CV_8UC1, 0 = sky or objects that may move; empty if that leaves too little
+  Image still;   ///< CV_8UC1, 0 = objects that may move; empty if `use` is
+  Image ground;  ///< CV_8UC1, 0 = not ground; empty if it is switched off
 };
 
-/// Mean probabilities of the surfaces above and below the middle of a picture.
+/// Mean probabilities of the surfaces above and below the middle of an image.
 struct SurfaceShares {
   std::array<double, kSurfaceCount> above{}, below{};
 };
 
-/// `surfaces`: count x kSurfaceCount, as `classify_superpixels` tells with a model of surfaces.
-/// Throws ArgumentError if the sizes do not agree.
+/// Computes the masks. `surfaces`: count x kSurfaceCount, the result of `classify_superpixels` with
+/// a model of surfaces. Throws ArgumentError if the sizes do not agree.
 SceneMasks mask_scene(const std::vector<float>& surfaces, const SceneView& view,
                       const SceneMaskOptions& options);
 SurfaceShares surface_shares(const std::vector<float>& surfaces, const SceneView& view);

@@ -6,15 +6,16 @@ namespace placegraph {
 void SceneMaskOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, SceneMaskOptions& o) {
-  field("sky", o.sky, "nothing is looked for in the sky");
-  field("moving", o.moving, "nor on what may move: cars, people, bicycles");
-  field("ground", o.ground, "the road is measured only where it is ground");
-  field("min_sky", o.min_sky, "probability from which it is sky", {0, 1});
-  field("min_moving", o.min_moving, "probability from which it may move", {0, 1});
-  field("min_ground", o.min_ground, "probability from which it is ground", {0, 1});
-  field("margin_px", o.margin_px, "about what may move, as its contour moves too", {0, 50});
-  field("min_share", o.min_share, "of the picture that must be left, otherwise no mask is used",
-        {0, 1});
+  field("sky", o.sky, "mask the sky");
+  field("moving", o.moving, "mask objects that may move: cars, people, bicycles");
+  field("ground", o.ground, "align the ground plane only on ground pixels");
+  field("min_sky", o.min_sky, "minimum probability of sky", {0, 1});
+  field("min_moving", o.min_moving, "minimum probability of an object that may move", {0, 1});
+  field("min_ground", o.min_ground, "minimum probability of ground", {0, 1});
+  field("margin_px", o.margin_px, "margin around objects that may move, as their contours move too",
+        {0, 50});
+  field("min_share", o.min_share,
+        "minimum share of the image that a mask leaves; otherwise it is not used", {0, 1});
 }
 
 void EnvironmentFilterOptions::check() const {
@@ -23,56 +24,63 @@ void EnvironmentFilterOptions::check() const {
 }
 
 void visit(OptionVisitor& field, EnvironmentFilterOptions& o) {
-  field("stay", o.stay, "probability that the next view is of the same kind", {0.2, 1});
-  field("evidence", o.evidence, "power of a view's probabilities: neighbours err alike", {0, 1});
-  field("enter", o.enter, "probability from which a kind is taken", {0, 1});
-  field("leave", o.leave, "probability below which it is given up", {0, 1});
-  field("min_views", o.min_views, "before anything is said", {1, 1000});
+  field("stay", o.stay, "probability that the next keyframe is in the same kind", {0.2, 1});
+  field("evidence", o.evidence,
+        "exponent on a keyframe's probabilities, as errors of neighbours are correlated", {0, 1});
+  field("enter", o.enter, "probability from which a kind is accepted", {0, 1});
+  field("leave", o.leave, "probability below which the accepted kind is dropped", {0, 1});
+  field("min_views", o.min_views, "number of keyframes before a kind is accepted", {1, 1000});
 }
 
 void visit(OptionVisitor& field, OrientationMapOptions& o) {
-  field("cell_px", o.cell_px, "of the raster that lines are swept over", {1, 64});
-  field("max_sweep", o.max_sweep, "way from an edge that it still speaks for, in image widths",
-        {0.01, 10});
-  field("min_margin", o.min_margin, "the best orientation against the second", {1, 100});
-  field("min_confidence", o.min_confidence, "pixels below it have no orientation", {0, 1});
-  field("smoothing_cells", o.smoothing_cells, "radius of the vote among neighbours; 0: none",
-        {0, 50});
+  field("cell_px", o.cell_px, "side of the cells of the raster that lines are swept over", {1, 64});
+  field("max_sweep", o.max_sweep, "longest sweep of an edge [image widths]", {0.01, 10});
+  field("min_margin", o.min_margin,
+        "minimum ratio of the support of the best to the second orientation", {1, 100});
+  field("min_confidence", o.min_confidence, "pixels of less confidence get no orientation", {0, 1});
+  field("smoothing_cells", o.smoothing_cells,
+        "radius of the vote among neighbouring cells; 0: none", {0, 50});
 }
 
 void StreetLabellingOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, StreetLabellingOptions& o) {
-  field("step_px", o.step_px, "between points", {1, 100});
+  field("step_px", o.step_px, "distance of neighbouring points in the image", {1, 100});
   field("max_range_m", o.max_range_m, "farther points are not used", {1, 1000});
   field("max_residual", o.max_residual,
-        "standard deviations of a disparity from its superpixel's plane", {0.5, 1000});
-  field("moving", o.moving, "classes that are no part of the map, joined by commas");
-  field.group("geometry", o.geometry, "what height and normal say of the class");
-  field.group("labeller", o.labeller, "the labels of superpixels");
+        "maximum distance of a disparity from its superpixel's plane [sigma]", {0.5, 1000});
+  field("moving", o.moving, "classes that move, joined by commas; they are left out of the map");
+  field.group("geometry", o.geometry, "use of height and normal for the class");
+  field.group("labeller", o.labeller, "labelling of superpixels");
 }
 
 void visit(OptionVisitor& field, SeenThroughOptions& o) {
-  field("min_disparity_px", o.min_disparity_px, "by which what stands behind must be farther",
-        {0.1, 100});
-  field("radius_px", o.radius_px, "all around must be so", {0, 20});
+  field("min_disparity_px", o.min_disparity_px,
+        "minimum disparity between a point and the surface behind it", {0.1, 100});
+  field("radius_px", o.radius_px, "radius within which all depths must be farther", {0, 20});
 }
 
 void visit(OptionVisitor& field, UrbanGeometryOptions& o) {
-  field("disparity_sigma_px", o.disparity_sigma_px, "of one pixel", {0.01, 10});
-  field("ground_sigma_m", o.ground_sigma_m, "how even the ground is near by", {0.001, 10});
-  field("ground_sigma_rate", o.ground_sigma_rate, "more of it by the metre of distance", {0, 1});
-  field("outliers", o.outliers, "share of superpixels whose place says nothing", {1e-6, 1});
-  field("weight", o.weight, "of height and normal in the random field; 0: none", {0, 100});
+  field("disparity_sigma_px", o.disparity_sigma_px,
+        "minimum standard deviation of the disparity of one pixel", {0.01, 10});
+  field("ground_sigma_m", o.ground_sigma_m, "unevenness of the ground at the camera", {0.001, 10});
+  field("ground_sigma_rate", o.ground_sigma_rate,
+        "increase of that unevenness per metre of distance [m/m]", {0, 1});
+  field("outliers", o.outliers,
+        "share of superpixels whose geometry does not depend on their class", {1e-6, 1});
+  field("weight", o.weight, "weight of height and normal in the random field; 0: not used",
+        {0, 100});
 }
 
 void LabellerOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, LabellerOptions& o) {
-  field("context", o.context, "labels around count");
-  field("field", o.field, "neighbours that look alike tend to one label");
-  field("relations", o.relations, "which classes lie above and beside which counts");
-  field("rounds", o.rounds, "of the labels around", {1, 5});
+  field("context", o.context,
+        "whether a second forest uses the labels of neighbouring superpixels");
+  field("field", o.field, "whether a random field favours equal labels for similar neighbours");
+  field("relations", o.relations,
+        "whether the field uses a table of the classes above and beside each class");
+  field("rounds", o.rounds, "number of applications of the second forest", {1, 5});
 }
 
 }  // namespace placegraph

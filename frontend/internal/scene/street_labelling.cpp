@@ -33,9 +33,10 @@ StreetLabelling see_street(const Image& picture, const Image& depth_m, const Cam
                            double baseline_m, double camera_height_m, const SceneModel& urban,
                            const SceneModel& surfaces, const StreetLabellingOptions& options) {
   options.check();
-  require(depth_m.type() == CV_32FC1 && depth_m.size() == picture.size() &&
-              picture.cols == camera.width && picture.rows == camera.height && baseline_m > 0,
-          "see_street: a picture and its CV_32FC1 depths, of the camera's size, and a baseline");
+  require(
+      depth_m.type() == CV_32FC1 && depth_m.size() == picture.size() &&
+          picture.cols == camera.width && picture.rows == camera.height && baseline_m > 0,
+      "see_street: needs an image and its CV_32FC1 depths, of the camera's size, and a baseline");
   const std::vector<bool> moving = moving_classes(options.moving, urban);
   const double disparity_m_px = camera.fx * baseline_m;
   StreetLabelling seen;
@@ -73,7 +74,7 @@ StreetLabelling see_street(const Image& picture, const Image& depth_m, const Cam
     if (!kept[region]) continue;
     const RegionPlace& place = places[region];
     const Eigen::Vector3d p = sample.point.cast<double>();
-    if (place.plane.isZero()) continue;  // too few depths around it to trust one
+    if (place.plane.isZero()) continue;  // too few depths around it for a reliable one
     const double off = disparity_m_px / p[2] * std::abs(1 - place.plane.dot(p));
     if (off > options.max_residual * place.disparity_sigma_px) continue;
     SemanticPoint point;
@@ -92,7 +93,7 @@ std::vector<bool> seen_through(const std::vector<SemanticPoint>& points, const S
   options.check();
   require(depth_m.type() == CV_32FC1 && depth_m.cols == camera.width &&
               depth_m.rows == camera.height && baseline_m > 0,
-          "seen_through: a CV_32FC1 depth image of the camera's size, and a baseline");
+          "seen_through: needs a CV_32FC1 depth image of the camera's size, and a baseline");
   const double disparity_m_px = camera.fx * baseline_m;
   std::vector<bool> through(points.size(), false);
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -102,7 +103,7 @@ std::vector<bool> seen_through(const std::vector<SemanticPoint>& points, const S
     const int v = static_cast<int>(std::lround(camera.fy * p[1] / p[2] + camera.cy));
     const int r = options.radius_px;
     if (u < r || v < r || u + r >= depth_m.cols || v + r >= depth_m.rows) continue;
-    // What the first image is uncertain of, seen from here.
+    // Disparity error of the point in this image, from the uncertainty of the first one.
     const double sigma_px = static_cast<double>(points[i].sigma) * disparity_m_px / (p[2] * p[2]);
     const double limit = disparity_m_px / p[2] - std::max(options.min_disparity_px, 3 * sigma_px);
     int seen = 0, farther = 0;

@@ -12,10 +12,10 @@ namespace {
 
 constexpr int kLeastPoints = 4;
 
-/// The edge of one polarity nearest to the middle of a row of gradients across a segment: where
-/// the parabola through the steepest three has its top; nothing if none is steep enough.
+/// The edge of one polarity nearest to the middle of a row of gradients across a segment: the
+/// maximum of the parabola through the steepest three; nothing if none is steep enough.
 struct Peak {
-  double position = 0;  ///< in samples from the begin of the row
+  double position = 0;  ///< from the beginning of the row [samples]
   double gradient = 0;
 };
 std::optional<Peak> nearest_peak(const std::vector<double>& gradient, int sign, double least) {
@@ -75,8 +75,8 @@ std::vector<EdgePoint> EdgeRefiner::edge_points(const LineSegment& segment, int 
   return points;
 }
 
-/// Line, contrast and support of the edge through the points; `least` of them must be there, and
-/// half as many fit.
+/// Line, contrast and support of the edge through the points; nothing with fewer than `least`
+/// points or half as many inliers.
 std::optional<EdgeSegment> EdgeRefiner::fit(const std::vector<EdgePoint>& points, int least) const {
   if (static_cast<int>(points.size()) < std::max(kLeastPoints, least)) return std::nullopt;
   std::vector<Eigen::Vector2d> kept;
@@ -132,7 +132,7 @@ std::optional<EdgeSegment> EdgeRefiner::follow(const LineSegment& expected,
   const std::vector<EdgePoint> inside = edge_points(expected, 1);
   const auto core = fit(inside, static_cast<int>(options_.min_support * expected.length() / 2));
   if (!core) return std::nullopt;
-  // The line of the middle part decides what else belongs to it.
+  // Further points belong to the edge if they fit the line of the middle part.
   const double gate = std::max(0.5, 3 * std::sqrt(core->line.covariance(1, 1)));
   std::vector<EdgePoint> run, longest;
   for (const EdgePoint& point : edge_points(wide, 1)) {

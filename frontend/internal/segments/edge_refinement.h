@@ -13,33 +13,36 @@ namespace placegraph {
 struct EdgeSegment {
   LineSegment segment;
   ImageLine line;       ///< the infinite line, with the covariance of its support
-  double contrast = 0;  ///< median gradient across, grey levels / px
-  int support = 0;      ///< points that shaped the line
+  double contrast = 0;  ///< median gradient across [grey levels / px]
+  int support = 0;      ///< number of points used in the line
 };
 
-/// A place where an edge crosses a profile.
+/// Intersection of an edge with a profile.
 struct EdgePoint {
   Eigen::Vector2d px = Eigen::Vector2d::Zero();
-  double gradient = 0;  ///< along the normal of the segment, grey levels / px
-  double position = 0;  ///< of the profile along the segment, from its start [px]
+  double gradient = 0;  ///< along the normal of the segment [grey levels / px]
+  double position = 0;  ///< position of the profile along the segment, from its start [px]
 };
 
-/// Fits segments anew to the place of the steepest grey value across them: one point every pixel,
-/// sub-pixel by a parabola through three gradients, then a line by total least squares, points
-/// farther than 2.5 robust deviations left out. The deviation of a point is that of the residuals;
-/// as neighbouring points share the pixels of the blur, variances are those of points
-/// 2 sqrt(pi) blur apart.
+/// Refines segments to the steepest change of grey value across them.
+///
+/// One point every pixel, sub-pixel by a parabola through three gradients, then a line by total
+/// least squares without points beyond 2.5 robust deviations. The standard deviation of a point is
+/// that of the residuals; as neighbouring points share the pixels of the blur, variances are those
+/// of points 2 sqrt(pi) blur apart.
 class EdgeRefiner {
  public:
-  /// CV_8UC1, else ArgumentError.
+  /// Prepares the gradient of an image (CV_8UC1, else ArgumentError).
   EdgeRefiner(const Image& image, const EdgeRefinementOptions& options);
 
-  /// Nothing if fewer than `min_support` of the samples see an edge of one polarity. The ends are
-  /// the feet of the given ones on the line.
+  /// Refines a segment; its ends are the feet of the given ones on the line.
+  ///
+  /// Nothing if an edge of one polarity is found at less than `min_support` of the samples.
   std::optional<EdgeSegment> refine(const LineSegment& segment) const;
-  /// The same for an edge known from another image, its brighter side on the right of `expected`:
-  /// edges of the other polarity are passed over, and the ends are where the longest run of support
-  /// begins and ends, up to `growth.beyond_px` outside those expected.
+  /// Refines an edge from another image with its brighter side on the right of `expected`.
+  ///
+  /// Edges of the other polarity are ignored. The ends are those of the longest stretch of support,
+  /// up to `growth.beyond_px` outside the expected ones.
   std::optional<EdgeSegment> follow(const LineSegment& expected, const EdgeGrowth& growth) const;
 
  private:

@@ -15,7 +15,7 @@ using Row = Eigen::Matrix<double, 6, 1>;
 struct Equation {
   Row row;
   double value = 0, weight = 1;
-  int group = 0;  ///< equations of one piece of evidence are trusted or not together
+  int group = 0;  ///< the equations of one point or segment pair have a common weight
 };
 
 Row row_of(const Eigen::Vector2d& n, const Eigen::Vector2d& p) {
@@ -24,7 +24,7 @@ Row row_of(const Eigen::Vector2d& n, const Eigen::Vector2d& p) {
   return row;
 }
 
-/// Distance between two segments: that of the nearest of their ends and middles.
+/// Distance between two segments: the least between their ends and middles.
 double distance_between(const LineSegment& a, const LineSegment& b) {
   double nearest = a.distance_to(b.middle());
   for (const Eigen::Vector2d& p : {b.start, b.end}) nearest = std::min(nearest, a.distance_to(p));
@@ -55,7 +55,7 @@ Row solve_robust(const std::vector<Equation>& equations, int groups, const Eigen
     std::vector<double> squared(groups, 0);
     for (const Equation& e : equations)
       squared[e.group] += (e.row.dot(x) - e.value) * (e.row.dot(x) - e.value);
-    // Wide at first: until the worst are down, all of them look bad.
+    // A wide kernel at first: until the worst are downweighted, all residuals are large.
     const double scale = kScalePx * std::max(1.0, 8.0 / (1 << round));
     for (int i = 0; i < groups; ++i) group_weight[i] = 1 / (1 + squared[i] / (scale * scale));
   }
@@ -120,7 +120,7 @@ std::optional<LocalMotion> LocalMotionField::around(const LineSegment& a, int wi
     prior << median_of(entries[0]), median_of(entries[1]), median_of(entries[2]),
         median_of(entries[3]);
 
-  constexpr double kPriorPx = 12;  // the prior weighs like a point so far away
+  constexpr double kPriorPx = 12;  // the prior has the weight of a point at this distance
   std::vector<double> trust;
   const Row x =
       solve_robust(equations, static_cast<int>(evidence.size()), prior, kPriorPx * kPriorPx, trust);

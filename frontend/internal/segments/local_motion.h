@@ -7,12 +7,12 @@
 
 namespace placegraph {
 
-/// A segment of image a whose infinite line in image b is known.
+/// A segment of image a with a segment on its infinite line in image b.
 struct SegmentPair {
   LineSegment a, b;
 };
 
-/// How the surroundings of a segment move between two images: px_b = A px_a + t.
+/// Motion of the surroundings of a segment between two images: px_b = A px_a + t.
 struct LocalMotion {
   Eigen::Matrix2d A = Eigen::Matrix2d::Identity();
   Eigen::Vector2d t = Eigen::Vector2d::Zero();
@@ -22,18 +22,20 @@ struct LocalMotion {
   Eigen::Vector2d operator()(const Eigen::Vector2d& px_a) const { return A * px_a + t; }
 };
 
-/// The motion around segments, from point pairs and from segments whose lines are matched already:
-/// an affine map fitted to the nearest evidence (px_b - A px_a - t = 0 for a point;
-/// n_b^T (A px_a + t) = offset_b for both ends of a segment), robust (Cauchy), and held weakly to
-/// the similarity that the points' own frames show.
+/// Local motion around segments, from point pairs and matched segments.
+///
+/// An affine map fitted to the nearest evidence (px_b - A px_a - t = 0 for a point;
+/// n_b^T (A px_a + t) = offset_b for both ends of a segment), robust (Cauchy), with a weak prior
+/// from the scale and rotation of the point features.
 class LocalMotionField {
  public:
-  /// `nearest`: how many pieces of evidence shape one map.
+  /// Takes the evidence; `nearest`: number of point or segment pairs used in one map.
   explicit LocalMotionField(std::vector<PointPair> points, std::vector<SegmentPair> segments = {},
                             int nearest = 14);
 
-  /// The map around a segment of image a; nothing if there is less evidence than three pieces.
-  /// `without` is the number of a segment pair that is not asked, or -1.
+  /// The map around a segment of image a; nothing with fewer than three pairs.
+  ///
+  /// `without` is the index of a segment pair that is not used, or -1.
   std::optional<LocalMotion> around(const LineSegment& a, int without = -1) const;
 
  private:

@@ -10,12 +10,13 @@
 
 namespace placegraph {
 
-/// Straight edges of a grey image (CV_8UC1, else ArgumentError): LSD (von Gioi et al. 2010, by
-/// OpenCV), pieces of one edge merged, each fitted anew to the gradient at sub-pixel accuracy. All
-/// have their polarity: the brighter side is on the right. Longest first.
+/// Detects straight edges of a grey image (CV_8UC1, else ArgumentError), longest first.
+///
+/// LSD (von Gioi et al. 2010, by OpenCV), pieces of one edge merged, each refined on the gradient
+/// to sub-pixel accuracy. The direction encodes the polarity: the brighter side is on the right.
 std::vector<EdgeSegment> detect_segments(const Image& image, const SegmentDetectorOptions& options);
 
-/// The segments alone, in order.
+/// The segments of edges, in order.
 std::vector<LineSegment> segments_of(const std::vector<EdgeSegment>& edges);
 
 }  // namespace placegraph

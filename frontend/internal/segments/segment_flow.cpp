@@ -14,7 +14,7 @@ struct Grid {
   double step_px = 1;  ///< across, in pixels of the full image
 };
 
-/// Samples of both strips beside each other: grey values and gradients across.
+/// Corresponding samples of both strips: grey values and gradients across.
 struct Sample {
   double grey_from = 0, gradient_from = 0;
   double u = 0;  ///< along, -1 .. 1
@@ -46,7 +46,7 @@ std::vector<Sample> sample_strip(const LineProfileImage& image, const LineSegmen
   return samples;
 }
 
-/// One level of the alignment; false if there is nothing to hold on to.
+/// Aligns one level; false if there is too little gradient.
 bool align_level(const LineProfileImage& from, const LineSegment& segment,
                  const LineProfileImage& to, const LineSegment& expected, int level,
                  const SegmentFlowOptions& options, double& shift, double& lean) {
@@ -80,7 +80,7 @@ bool align_level(const LineProfileImage& from, const LineSegment& segment,
       ++used;
     }
     if (2 * used < static_cast<int>(samples.size()) || used < 20) return false;
-    H(2, 2) += 100.0 * used;  // grey levels^2: gain stays near where it was without contrast
+    H(2, 2) += 100.0 * used;  // [grey levels^2]: prior of the gain, for strips without contrast
     const Eigen::LDLT<Eigen::Matrix4d> ldlt(H + 1e-9 * H.trace() * Eigen::Matrix4d::Identity());
     Eigen::Vector4d step = -ldlt.solve(g);
     if (!step.allFinite()) return false;
@@ -102,8 +102,8 @@ std::optional<SegmentFlow> follow_segment(const LineProfileImage& from, const Li
   double shift = 0, lean = 0;
   for (int level = std::min(coarsest, to.level_of(1 << coarsest)); level >= 0; --level)
     if (!align_level(from, segment, to, expected, level, options, shift, lean)) return std::nullopt;
-  const double turn = std::abs(std::atan2(2 * lean, expected.length()));
-  if (turn > deg_to_rad(options.max_rotation_deg)) return std::nullopt;
+  const double angle = std::abs(std::atan2(2 * lean, expected.length()));
+  if (angle > deg_to_rad(options.max_rotation_deg)) return std::nullopt;
   SegmentFlow flow;
   flow.segment = moved(expected, shift, lean);
   flow.shift_px = shift;

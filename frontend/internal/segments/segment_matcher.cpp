@@ -12,10 +12,10 @@
 namespace placegraph {
 namespace {
 
-constexpr double kOneSidePenalty = 0.1;  // a strip that is half hidden must be that much better
-constexpr double kDistanceCost = 0.3;    // of the score, at the edge of the gate
-constexpr double kDoubtCost = 0.005;     // per px by which the gate is wider than at best
-constexpr double kPartCost = 0.1;        // where only a small part of the longer one is shared
+constexpr double kOneSidePenalty = 0.1;  // least advantage of a match on one side only
+constexpr double kDistanceCost = 0.3;    // reduction of the score at the edge of the gate
+constexpr double kDoubtCost = 0.005;     // per px by which the gate is wider than gate_px
+constexpr double kPartCost = 0.1;        // if only a small part of the longer segment is shared
 constexpr double kMaxGatePx = 40;
 constexpr double kBorderPx = 3.5;
 constexpr double kOnePieceAngleRad = 0.07, kOnePiecePx = 2.5;
@@ -23,10 +23,10 @@ constexpr double kOnePieceAngleRad = 0.07, kOnePiecePx = 2.5;
 struct View {
   const std::vector<LineSegment>& segments;
   LineProfileImage image;
-  std::vector<bool> scene;  ///< which segments are not the border of the picture itself
+  std::vector<bool> scene;  ///< false for segments on the border of the image
 };
 
-/// The frame of a picture gives straight edges that are no lines of the scene.
+/// A view whose segments on the border of the image, which are not lines of the scene, are marked.
 View view_of(const Image& image, const std::vector<LineSegment>& segments) {
   View view{segments, LineProfileImage(image), std::vector<bool>(segments.size(), true)};
   for (std::size_t i = 0; i < segments.size(); ++i) {
@@ -38,10 +38,10 @@ View view_of(const Image& image, const std::vector<LineSegment>& segments) {
   return view;
 }
 
-/// Where a segment of a should be seen in b.
+/// Predicted segment in b of a segment of a.
 struct Expectation {
   LocalMotion motion;
-  LineSegment segment;  ///< of a, moved
+  LineSegment segment;  ///< segment of a, moved by `motion`
   double gate_px = 0;
 };
 
@@ -58,17 +58,17 @@ std::optional<Expectation> expect(const LocalMotionField& field, const LineSegme
   return expected;
 }
 
-/// The part that a segment of a and one of b share, and how far b's lies from where it should.
+/// The common part of a segment of a and one of b, and the distance of b's from the prediction.
 struct Overlap {
   LineSegment a, b;  ///< the shared parts, from one scene point to the other
-  double share = 0;  ///< of the shorter segment
+  double share = 0;  ///< share of the shorter segment
   double share_of_longer = 0;
   double distance_px = 0;
   double rotation_rad = 0;  ///< from the expected direction to b's
 };
 
-/// Position along b's line of a point of a: where its epipolar line crosses, if it does so well,
-/// else the foot of the expected point.
+/// Position along b's line of a point of a: the intersection with its epipolar line, if well
+/// conditioned, else the foot of the predicted point.
 double position_along(const LineSegment& b, const Eigen::Vector2d& px_a,
                       const Eigen::Vector2d& expected, const Eigen::Matrix3d& F_b_a,
                       double gate_px) {
@@ -105,7 +105,7 @@ std::optional<Overlap> overlap(const LineSegment& a, const Expectation& expected
   result.a = {of_a(begin), of_a(end)};
   const double first = b.offset_of(expected.motion(result.a.start));
   const double last = b.offset_of(expected.motion(result.a.end));
-  // A line that only turns passes through the expected one: its ends must not lie far either.
+  // A line with another direction intersects the predicted one: its ends must also be near.
   result.distance_px = std::sqrt((first * first + first * last + last * last) / 3);
   if (result.distance_px > expected.gate_px) return std::nullopt;
   return result;
@@ -149,14 +149,15 @@ std::vector<SegmentMatch> score_candidates(const View& a, const View& b,
   return candidates;
 }
 
-/// Two pieces of what may be one edge.
+/// Whether two segments may be pieces of one edge.
 bool one_edge(const LineSegment& a, const LineSegment& b) {
   const Collinearity lie = collinearity(a, b);
   return lie.angle_rad < kOnePieceAngleRad && lie.distance_px < kOnePiecePx;
 }
 
-/// Candidates that no rival comes near to. A rival has one of the two segments and another one that
-/// is no piece of the same edge; it does not count where it has a better partner elsewhere.
+/// Candidates with a sufficient lead over their rivals. A rival has one of the two segments and
+/// another one that is not a piece of the same edge; it is ignored if it has a better partner
+/// elsewhere.
 std::vector<SegmentMatch> unrivalled(const std::vector<SegmentMatch>& candidates, const View& a,
                                      const View& b, const SegmentMatcherOptions& options) {
   std::vector<std::vector<int>> of_a(a.segments.size()), of_b(b.segments.size());
@@ -196,7 +197,7 @@ std::vector<SegmentPair> pairs_of(const std::vector<SegmentMatch>& matches, cons
   return pairs;
 }
 
-/// Matches that the points and all the other matches together expect where they are.
+/// Matches whose positions are predicted by the points and all other matches.
 std::vector<SegmentMatch> confirmed(const std::vector<SegmentMatch>& matches,
                                     const std::vector<PointPair>& points, const View& a,
                                     const View& b, const Eigen::Matrix3d& F_b_a,
@@ -217,17 +218,19 @@ std::vector<SegmentMatch> confirmed(const std::vector<SegmentMatch>& matches,
 void SegmentMatcherOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, SegmentMatcherOptions& o) {
-  field.group("points", o.points, "points that hold the geometry");
+  field.group("points", o.points, "points of the epipolar geometry");
   field("max_angle_deg", o.max_angle_deg,
-        "between a segment and where its line is expected, at most", {1, 60});
-  field("gate_px", o.gate_px, "distance from there where the evidence is near and agrees",
-        {0.5, 40});
-  field("min_overlap", o.min_overlap, "of the shorter of two segments with the other", {0, 1});
-  field("min_score", o.min_score, "correlation of the strips, less what the distance costs",
+        "maximum angle between a segment and its predicted line [deg]", {1, 60});
+  field("gate_px", o.gate_px,
+        "maximum distance from the prediction for near, consistent evidence [px]", {0.5, 40});
+  field("min_overlap", o.min_overlap, "minimum share of the shorter segment that the other covers",
         {0, 1});
-  field("min_lead", o.min_lead, "of the best score over that of the best rival", {0, 1});
-  field("strip_px", o.strip_px, "half width of the strips compared", {3, 50});
-  field("rounds", o.rounds, "each time the lines found help to find the next", {1, 10});
+  field("min_score", o.min_score,
+        "minimum correlation of the strips minus the cost of the distance", {0, 1});
+  field("min_lead", o.min_lead, "minimum lead of the best score over that of the best rival",
+        {0, 1});
+  field("strip_px", o.strip_px, "half the width of the compared strips [px]", {3, 50});
+  field("rounds", o.rounds, "rounds; the matches of each are evidence for the next", {1, 10});
 }
 
 SegmentMatches match_segments(const Image& image_a, const std::vector<LineSegment>& a,

@@ -9,7 +9,7 @@
 namespace placegraph {
 namespace {
 
-/// A piece with what most pairs can be told apart by.
+/// A piece with quantities by which most pairs are rejected quickly.
 struct Piece {
   LineSegment segment;
   Eigen::Vector2d direction = Eigen::Vector2d::Zero(), middle = Eigen::Vector2d::Zero();
@@ -26,7 +26,7 @@ bool joined(const Piece& a, const Piece& b, double least_cosine,
          lie.angle_rad <= deg_to_rad(options.max_angle_deg);
 }
 
-/// One segment over all pieces; nothing if an end lies too far from the common line.
+/// One segment over all pieces; nothing if an end is too far from the common line.
 std::optional<LineSegment> common(const std::vector<LineSegment>& pieces, double max_distance_px) {
   std::vector<Eigen::Vector2d> ends;
   std::vector<double> sigmas;

@@ -7,9 +7,11 @@
 
 namespace placegraph {
 
-/// Joins the pieces of edges that a detector broke: segments of the same sense (polarity) that lie
-/// on one line with a small gap. A chain of pieces that bends, so that no one line holds all ends,
-/// stays in pieces. The result is in the order of each edge's first piece.
+/// Joins pieces of edges that a detector has split.
+///
+/// Pieces have the same direction (polarity) and are on one line with a small gap. A bent chain,
+/// whose ends are not all near one line, stays in pieces. The result is in the order of each edge's
+/// first piece.
 std::vector<LineSegment> merge_segments(const std::vector<LineSegment>& pieces,
                                         const SegmentMergingOptions& options);
 

@@ -27,7 +27,7 @@ struct Correlation {
 }  // namespace
 
 LineProfileImage::LineProfileImage(const Image& image) {
-  require(!image.empty() && image.type() == CV_8UC1, "StripImage: grey image needed");
+  require(!image.empty() && image.type() == CV_8UC1, "LineProfileImage: grey image needed");
   constexpr int kLevels = 4;
   Image level;
   image.convertTo(level, CV_32F);
@@ -40,7 +40,7 @@ LineProfileImage::LineProfileImage(const Image& image) {
                cv::INTER_AREA);
     level = half;
   }
-  require(!levels_.empty(), "StripImage: image too small");
+  require(!levels_.empty(), "LineProfileImage: image too small");
 }
 
 int LineProfileImage::level_of(double step_px) const {
@@ -69,7 +69,7 @@ float LineProfileImage::grey(const Eigen::Vector2d& px, int level) const {
 LineProfileSimilarity compare_strips(const LineProfileImage& a, const LineProfile& frame_a,
                                      const LineProfileImage& b, const LineProfile& frame_b,
                                      int half_width) {
-  constexpr int kEdge = 1;  // rows so near belong to the edge itself and to both sides
+  constexpr int kEdge = 1;  // rows within this distance belong to the edge itself and to both sides
   const double step_a = frame_a.across.norm(), step_b = frame_b.across.norm();
   const double length = std::max((frame_a.to - frame_a.from).norm() / step_a,
                                  (frame_b.to - frame_b.from).norm() / step_b);

@@ -6,13 +6,12 @@
 
 namespace placegraph {
 
-/// An image at full size and halved again and again, smoothed enough for sampling [grey levels],
-/// CV_32FC1.
+/// An image pyramid, smoothed for sampling along line profiles [grey levels], CV_32FC1.
 class LineProfileImage {
  public:
-  /// CV_8UC1, else ArgumentError.
+  /// Builds the pyramid of an image (CV_8UC1, else ArgumentError).
   explicit LineProfileImage(const Image& image);
-  /// Grey value for samples `step_px` apart, bilinear; the border goes on outside.
+  /// Grey value on a level, bilinear; the border is replicated outside.
   float grey(const Eigen::Vector2d& px, int level) const;
   int level_of(double step_px) const;
   bool contains(const Eigen::Vector2d& px) const;
@@ -21,14 +20,16 @@ class LineProfileImage {
   std::vector<Image> levels_;
 };
 
-/// A parallelogram of samples around a piece of a line: row k is `across` * k beside it.
+/// A parallelogram of samples around a piece of a line; row k is displaced by k * `across`.
 struct LineProfile {
   Eigen::Vector2d from, to;  ///< ends of the piece
   Eigen::Vector2d across;    ///< from one row to the next
 };
 
-/// How alike two strips are: zero-mean normalized cross-correlation of both sides together and of
-/// each side alone with the edge itself; -1 where a side shows nothing or lies outside the image.
+/// Similarity of two strips by zero-mean normalized cross-correlation.
+///
+/// For both sides together and for each side with the edge itself; -1 if a side has no contrast or
+/// is outside the image.
 struct LineProfileSimilarity {
   double both = -1, left = -1, right = -1;
 };

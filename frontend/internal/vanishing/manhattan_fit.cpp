@@ -11,8 +11,8 @@ namespace {
 struct AxisEquations {
   Eigen::Matrix2d H = Eigen::Matrix2d::Zero();         ///< reweighted
   Eigen::Matrix2d expected = Eigen::Matrix2d::Zero();  ///< without the weights of the sample
-  Eigen::Vector2d g = Eigen::Vector2d::Zero();         ///< against the gradient
-  Eigen::Matrix<double, 2, 3> D;                       ///< of the axis by a turn on the right
+  Eigen::Vector2d g = Eigen::Vector2d::Zero();         ///< negative gradient
+  Eigen::Matrix<double, 2, 3> D;  ///< derivative of the axis by a rotation on the right
 };
 
 std::array<AxisEquations, 3> equations(const VanishingEvidence& evidence, const SO3& R,
@@ -41,7 +41,7 @@ std::array<AxisEquations, 3> equations(const VanishingEvidence& evidence, const 
   return result;
 }
 
-/// Normal equations of the turn, the axes' own offsets of variance s2 integrated out.
+/// Normal equations of the rotation, with the axes' own offsets of variance s2 integrated out.
 void reduce(const std::array<AxisEquations, 3>& axes, double s2, Eigen::Matrix3d& A,
             Eigen::Vector3d& b) {
   A.setZero();
@@ -53,39 +53,39 @@ void reduce(const std::array<AxisEquations, 3>& axes, double s2, Eigen::Matrix3d
   }
 }
 
-/// Restricted log-likelihood of the offsets' variance, at its optimal turn.
+/// Restricted log-likelihood of the offsets' variance, at its optimal rotation.
 double offset_likelihood(const std::array<AxisEquations, 3>& axes, double s2) {
   Eigen::Matrix3d A;
   Eigen::Vector3d b;
   reduce(axes, s2, A, b);
-  const Eigen::Vector3d turn = (A + 1e-6 * Eigen::Matrix3d::Identity()).ldlt().solve(b);
+  const Eigen::Vector3d rotation = (A + 1e-6 * Eigen::Matrix3d::Identity()).ldlt().solve(b);
   double value = -0.5 * std::log((A + Eigen::Matrix3d::Identity()).determinant());
   for (const AxisEquations& axis : axes) {
     const Eigen::Matrix2d H = axis.H;
-    const Eigen::Vector2d g = axis.g - H * axis.D * turn;
+    const Eigen::Vector2d g = axis.g - H * axis.D * rotation;
     const Eigen::Matrix2d held = Eigen::Matrix2d::Identity() + s2 * H;
-    const Eigen::Vector2d moved = axis.D * turn;
+    const Eigen::Vector2d moved = axis.D * rotation;
     value += 0.5 * s2 * g.dot(held.inverse() * g) - 0.5 * std::log(held.determinant());
     value += axis.g.dot(moved) - 0.5 * moved.dot(H * moved);
   }
   return value;
 }
 
-/// Turn by the directions that the normal equations fix; the rest stays.
+/// Rotation in the directions that the normal equations determine; the others do not change.
 Eigen::Vector3d observed_rotation(const Eigen::Matrix3d& A, const Eigen::Vector3d& b) {
   constexpr double kLeast = 30;  // a deviation of 10 degrees
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(A);
-  Eigen::Vector3d turn = Eigen::Vector3d::Zero();
+  Eigen::Vector3d rotation = Eigen::Vector3d::Zero();
   for (int k = 0; k < 3; ++k)
     if (eigen.eigenvalues()[k] > kLeast)
-      turn += eigen.eigenvectors().col(k) *
-              (eigen.eigenvectors().col(k).dot(b) / eigen.eigenvalues()[k]);
+      rotation += eigen.eigenvectors().col(k) *
+                  (eigen.eigenvectors().col(k).dot(b) / eigen.eigenvalues()[k]);
   constexpr double kMaxRotation = 0.2;
-  const double norm = turn.norm();
-  return norm > kMaxRotation ? Eigen::Vector3d(turn * (kMaxRotation / norm)) : turn;
+  const double norm = rotation.norm();
+  return norm > kMaxRotation ? Eigen::Vector3d(rotation * (kMaxRotation / norm)) : rotation;
 }
 
-/// Lines to the axes at the shares they have; evidence and cost by the lines' log-ratios.
+/// Assigns lines to the axes with the current shares; evidence and cost by the lines' log-ratios.
 void assign(const VanishingEvidence& evidence, double widen_rad, ManhattanFit& fit) {
   const std::size_t n = static_cast<std::size_t>(evidence.size());
   const Eigen::Matrix3d M = fit.R_cam_axes.matrix();
@@ -121,7 +121,7 @@ void assign(const VanishingEvidence& evidence, double widen_rad, ManhattanFit& f
     for (const double part : share) fit.cost += entropy_term(part, total);
     for (std::size_t a = 0; a < 3; ++a) {
       fit.cost -= gain[a];
-      // What the shares would cost if its lines pointed anywhere.
+      // Cost of the shares if the lines of the axis had no direction.
       const double merged = entropy_term(share[0] + share[a + 1], total);
       fit.evidence[a] =
           gain[a] - (entropy_term(share[0], total) + entropy_term(share[a + 1], total) - merged);

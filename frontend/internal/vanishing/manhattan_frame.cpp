@@ -17,7 +17,7 @@ struct Candidate {
   float score = 0;
 };
 
-/// Axes along v1, across it towards v2, and the third.
+/// Axes along v1, across it towards v2, and the third one.
 SO3 axes_of(const Eigen::Vector3d& v1, const Eigen::Vector3d& v2) {
   Eigen::Matrix3d R;
   R.col(0) = v1;
@@ -36,7 +36,7 @@ class Candidates {
     for (auto* gains : {&first_, &second_, &third_}) gains->resize(evidence.size());
   }
 
-  /// Two vanishing points about at right angles.
+  /// Adds frames of two vanishing points at about right angles.
   void add_pairs() {
     constexpr double kMaxSine = 0.14;  // 8 degrees
     for (std::size_t i = 0; i < points_.points.size(); ++i) {
@@ -46,7 +46,7 @@ class Candidates {
     }
   }
 
-  /// A vanishing point, and a line through the one at right angles: the longest lines.
+  /// Adds frames of a vanishing point and a line through an orthogonal one, for the longest lines.
   void add_lines(std::size_t max_points, std::size_t max_lines) {
     std::vector<int> longest(static_cast<std::size_t>(evidence_.size()));
     for (std::size_t i = 0; i < longest.size(); ++i) longest[i] = static_cast<int>(i);
@@ -66,7 +66,7 @@ class Candidates {
     }
   }
 
-  /// The best, no two alike.
+  /// The best frames, with a least angle between them.
   std::vector<SO3> best(std::size_t count) {
     std::stable_sort(found_.begin(), found_.end(),
                      [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
@@ -83,7 +83,7 @@ class Candidates {
   }
 
  private:
-  static constexpr double kSearchCost = 1.1;  ///< of an axis's share [nats]
+  static constexpr double kSearchCost = 1.1;  ///< cost of an axis's share [nats]
 
   const Eigen::Vector3d& direction(std::size_t p) const { return points_.points[p].direction; }
   void set_first(const Eigen::Vector3d& v) {
@@ -108,7 +108,7 @@ class Candidates {
 ManhattanFrame frame_of(const ManhattanFit& fit, const SO3& like) {
   ManhattanFrame frame;
   frame.R_cam_manhattan = nearest_axes(fit.R_cam_axes, like);
-  // Which old axis each new one is, up to its sign: coordinates w' = P w.
+  // Old axis that corresponds to each new one, up to its sign: coordinates w' = P w.
   const Eigen::Matrix3d P =
       (frame.R_cam_manhattan.matrix().transpose() * fit.R_cam_axes.matrix()).array().round();
   frame.information = P * fit.information * P.transpose();
@@ -128,7 +128,7 @@ ManhattanFrame frame_of(const ManhattanFit& fit, const SO3& like) {
   for (int k = 0; k < 3; ++k) frame.rank += eigen.eigenvalues()[k] > kLeast;
   if (frame.rank == 3) {
     frame.covariance = frame.information.inverse();
-  } else {  // nothing is said of what is not seen
+  } else {  // axes without observations get no information
     frame.information.setZero();
     for (int k = 0; k < 3; ++k)
       if (eigen.eigenvalues()[k] > kLeast)
@@ -142,8 +142,8 @@ bool seen(const ManhattanFit& fit, std::size_t a, const ManhattanOptions& option
   return fit.lines[a] >= options.min_segments && fit.evidence[a] >= options.min_evidence;
 }
 
-/// Log of the odds that the directions which the axes' lines show by themselves are at right angles
-/// on purpose: by how far they are from it, against any angle.
+/// Log odds that the directions which the axes' own lines determine are orthogonal: from their
+/// deviations from right angles, against any angle.
 double right_angle_odds(const VanishingEvidence& evidence, const ManhattanFit& fit,
                         const ManhattanOptions& options) {
   const double s = options.orthogonality_deg * kRadPerDeg;
@@ -165,13 +165,13 @@ double right_angle_odds(const VanishingEvidence& evidence, const ManhattanFit& f
   return pairs > 0 ? odds : -std::numeric_limits<double>::infinity();
 }
 
-/// Whether lines that no frame before has claimed show an axis of this one, and one that was found
-/// as a vanishing point.
+/// Whether an axis of this frame has enough lines that belong to no previous frame, and is also a
+/// vanishing point.
 bool shows_more(const VanishingEvidence& evidence, const ManhattanFit& fit,
                 const VanishingPoints& points, const std::vector<ManhattanFit>& before,
                 const ManhattanOptions& options) {
   if (before.empty()) return true;
-  constexpr double kShareCost = 2.3;  // of a tenth of the lines [nats]
+  constexpr double kShareCost = 2.3;  // cost of the share of a tenth of the lines [nats]
   for (int a = 0; a < 3; ++a) {
     const Eigen::Vector3d v = fit.R_cam_axes.matrix().col(a);
     int lines = 0;

@@ -10,14 +10,15 @@ namespace {
 
 constexpr double kSame = 0.9962;  ///< cosine of 5 degrees: axes nearer than that are one
 
-/// The axis `a` of a world as its own lines show it, held to where the world has it: as closely as
-/// the axes keep to right angles, and the world is known.
+/// Axis `a` of a frame from its own lines, constrained to the frame's axis with the accuracy of the
+/// right angles and of the frame.
 FittedDirection axis_direction(const VanishingEvidence& evidence, const ManhattanFrame& frame,
                                int a, const ManhattanOptions& options) {
   const Eigen::Matrix3d M = frame.R_cam_manhattan.matrix();
   const Eigen::Vector3d axis = M.col(a);
   const TangentBasis B = tangent_basis(axis);
-  // Three angles tell little of how right all are: what is expected is allowed in any case.
+  // Three angles are a poor estimate of the deviations from right angles: the expected one is
+  // always allowed.
   const double s = kRadPerDeg * std::max(frame.orthogonality_deg, options.orthogonality_deg);
   const TangentBasis J = (B.transpose() * -M * hat(Eigen::Vector3d::Unit(a))).transpose();
   const Eigen::Matrix2d prior =
@@ -43,7 +44,7 @@ FittedDirection axis_direction(const VanishingEvidence& evidence, const Manhatta
   return result;
 }
 
-/// The axes of all worlds that enough lines show; one that two worlds share once.
+/// Axes of all frames with enough lines; an axis that two frames share is listed once.
 std::vector<std::pair<PointRole, FittedDirection>> axes_of(
     const VanishingEvidence& evidence, const std::vector<ManhattanFrame>& frames,
     const ManhattanOptions& options) {
@@ -80,7 +81,7 @@ bool is_axis(const std::vector<int>& labels, int point, const std::vector<Manhat
   return false;
 }
 
-/// The axes of all worlds, one that two worlds share once, and which they are.
+/// Axes of all frames, one that two frames share once, with their roles.
 std::pair<DirectionPrior, std::vector<PointRole>> prior_of(
     const std::vector<ManhattanFrame>& frames, const SceneDirectionOptions& options) {
   DirectionPrior prior;
@@ -118,7 +119,7 @@ SceneDirections find_scene_directions(const std::vector<LineSegment>& segments,
   const auto [prior, roles_across] = prior_of(scene.frames, options);
   model = model.with_all(directions);
   model.expect(prior);
-  // The other points, as far as the axes have left something to them.
+  // Other points, as far as the axes have left lines for them.
   for (std::size_t p = 0; p < scene.vanishing.points.size(); ++p) {
     if (is_axis(scene.vanishing.labels, static_cast<int>(p), scene.frames, options.manhattan))
       continue;

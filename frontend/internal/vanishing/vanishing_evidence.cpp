@@ -34,12 +34,12 @@ VanishingEvidence::VanishingEvidence(const std::vector<LineSegment>& segments, c
     const auto start = ideal_point(camera, segments[i].start);
     const auto end = ideal_point(camera, segments[i].end);
     if (!start || !end) continue;
-    const Eigen::Vector2d way = *end - *start;
+    const Eigen::Vector2d extent = *end - *start;
     Line line;
     line.segment = static_cast<int>(i);
-    line.length = way.norm();
+    line.length = extent.norm();
     if (!(line.length > 0)) continue;
-    line.across = Eigen::Vector2d(-way.y(), way.x()) / line.length;
+    line.across = Eigen::Vector2d(-extent.y(), extent.x()) / line.length;
     line.middle = 0.5 * (*start + *end);
     line.normal = Eigen::Vector3d(line.across.x(), line.across.y(), -line.across.dot(line.middle))
                       .normalized();
@@ -71,8 +71,8 @@ void VanishingEvidence::weigh_collinear() {
   for (int k = 0; k < n; ++k) {
     for (int step = 1; step < n; ++step) {
       const std::size_t i = at(k), j = at((k + step) % n);
-      const double turn = angle[j] - angle[i] + (k + step >= n ? std::numbers::pi : 0);
-      if (turn > kMaxAngle) break;
+      const double difference = angle[j] - angle[i] + (k + step >= n ? std::numbers::pi : 0);
+      if (difference > kMaxAngle) break;
       const Line& base = lines_[i].length >= lines_[j].length ? lines_[i] : lines_[j];
       const Line& other = lines_[i].length >= lines_[j].length ? lines_[j] : lines_[i];
       const double offset = std::abs(base.across.dot(other.middle - base.middle));
@@ -100,48 +100,49 @@ void VanishingEvidence::pack() {
     column->resize(size());
   for (int i = 0; i < size(); ++i) {
     const Line& line = lines_[static_cast<std::size_t>(i)];
-    const double turn = variance(line, 1, 0);
+    const double rotation_variance = variance(line, 1, 0);
     a_[i] = static_cast<float>(line.across.x());
     b_[i] = static_cast<float>(line.across.y());
     c_[i] = static_cast<float>(-line.across.dot(line.middle));
     x_[i] = static_cast<float>(line.middle.x());
     y_[i] = static_cast<float>(line.middle.y());
-    rotation_[i] = static_cast<float>(turn);
+    rotation_[i] = static_cast<float>(rotation_variance);
     log_gain_[i] = static_cast<float>(std::log(std::numbers::pi) -
-                                      0.5 * std::log(2 * std::numbers::pi * turn));
+                                      0.5 * std::log(2 * std::numbers::pi * rotation_variance));
     weight_[i] = static_cast<float>(line.weight);
   }
 }
 
-/// Ends off by e each: the segment turns by sqrt(2) e / length, and its middle moves by e /
-/// sqrt(2), which is an angle seen from the vanishing point.
-double VanishingEvidence::variance(const Line& line, double way_squared, double depth) const {
-  const double turn = 2 * end_variance_ / (line.length * line.length);
-  const double shift = 0.5 * end_variance_ * depth * depth / std::max(way_squared, 1e-12);
-  return turn + shift + parallel_variance_;
+/// For errors e of each end the segment rotates by sqrt(2) e / length, and its middle moves by e /
+/// sqrt(2), which is an angle at the vanishing point.
+double VanishingEvidence::variance(const Line& line, double squared_distance, double depth) const {
+  const double rotation_variance = 2 * end_variance_ / (line.length * line.length);
+  const double shift = 0.5 * end_variance_ * depth * depth / std::max(squared_distance, 1e-12);
+  return rotation_variance + shift + parallel_variance_;
 }
 
 PointingError VanishingEvidence::error(int i, const Eigen::Vector3d& v) const {
   const Line& line = lines_[static_cast<std::size_t>(i)];
-  // The way from the middle to the vanishing point, times v_z: it has a limit at infinity.
-  const Eigen::Vector2d way = v.head<2>() - v.z() * line.middle;
-  const double squared = std::max(way.squaredNorm(), 1e-12), norm = std::sqrt(squared);
+  // Vector from the middle to the vanishing point, times v_z: it has a limit at infinity.
+  const Eigen::Vector2d to_point = v.head<2>() - v.z() * line.middle;
+  const double squared = std::max(to_point.squaredNorm(), 1e-12), norm = std::sqrt(squared);
   PointingError result;
-  result.sine = line.across.dot(way) / norm;
+  result.sine = line.across.dot(to_point) / norm;
   result.variance = variance(line, squared, v.z());
-  // d sine / d way, then d way / d v = [I, -middle].
-  const Eigen::Vector2d J = line.across / norm - (result.sine / squared) * way;
+  // d sine / d to_point, then d to_point / d v = [I, -middle].
+  const Eigen::Vector2d J = line.across / norm - (result.sine / squared) * to_point;
   result.J_sine_v << J.x(), J.y(), -J.dot(line.middle);
   return result;
 }
 
 double VanishingEvidence::log_ratio(int i, const Eigen::Vector3d& v, double widen_rad) const {
   const Line& line = lines_[static_cast<std::size_t>(i)];
-  const Eigen::Vector2d way = v.head<2>() - v.z() * line.middle;
-  const double squared = std::max(way.squaredNorm(), 1e-12), across = line.across.dot(way);
+  const Eigen::Vector2d to_point = v.head<2>() - v.z() * line.middle;
+  const double squared = std::max(to_point.squaredNorm(), 1e-12),
+               across = line.across.dot(to_point);
   const double spread = variance(line, squared, v.z()) + widen_rad * widen_rad;
   const double nu = noise_.tail_freedom, ratio = 1 + across * across / (squared * nu * spread);
-  // log(spread^-1/2 ratio^-(nu + 1)/2), in one logarithm where the tails are heavy as by default
+  // log(spread^-1/2 ratio^-(nu + 1)/2), in one logarithm for the default, heavy tails
   if (nu == 4)
     return log_constant_ - 0.5 * std::log(spread * ratio * ratio * ratio * ratio * ratio);
   return log_constant_ - 0.5 * (std::log(spread) + (nu + 1) * std::log(ratio));
@@ -162,20 +163,20 @@ void VanishingEvidence::quick_gains(const Eigen::Vector3d& v, double cost,
   const float shift = static_cast<float>(0.5 * end_variance_ * v.z() * v.z()) + 1e-12F;
   const float share = static_cast<float>(cost);
   const auto across = a_ * f.x() + b_ * f.y() + c_ * f.z();
-  const auto way_squared = (f.x() - f.z() * x_).square() + (f.y() - f.z() * y_).square();
-  gains =
-      weight_ *
-      (log_gain_ - share - 0.5F * across.square() / (rotation_ * way_squared + shift)).max(0.0F);
+  const auto squared_distance = (f.x() - f.z() * x_).square() + (f.y() - f.z() * y_).square();
+  gains = weight_ *
+          (log_gain_ - share - 0.5F * across.square() / (rotation_ * squared_distance + shift))
+              .max(0.0F);
 }
 
 void VanishingEvidence::fit_noise(const std::vector<Eigen::Vector3d>& directions,
                                   const std::vector<int>& of) {
-  require(of.size() == lines_.size(), "fit_noise: one direction a line needed");
+  require(of.size() == lines_.size(), "fit_noise: needs one direction per line");
   constexpr double kFactors[] = {0.35, 0.42, 0.5,  0.59, 0.71, 0.84, 1,
                                  1.19, 1.41, 1.68, 2,    2.38, 2.83};
-  constexpr double kHold = 0.5;  ///< deviation of the logarithms of both from the start
+  constexpr double kHold = 0.5;  ///< prior standard deviation of the logarithms of both
   struct Term {
-    double squared, end;  ///< sine^2; the variance from the ends at the present noise
+    double squared, end;  ///< sine^2; the variance from the ends at the current noise
   };
   std::vector<Term> terms;
   for (int i = 0; i < size(); ++i) {

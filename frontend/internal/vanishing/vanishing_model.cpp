@@ -8,7 +8,7 @@
 namespace placegraph {
 namespace {
 
-/// Of a line's share, while that of its direction is not known yet: a tenth of them [nats].
+/// Cost of a line's share while that of its direction is unknown: a tenth of the lines [nats].
 constexpr double kFirstCost = 2.3;
 
 }  // namespace
@@ -46,7 +46,7 @@ FittedDirection fit_direction(const VanishingEvidence& evidence, const Eigen::Ve
     if (iteration == iterations) break;
     Eigen::Vector2d step = A.inverse() * b;
     const double norm = step.norm();
-    if (norm > 0.3) step *= 0.3 / norm;  // the errors bend
+    if (norm > 0.3) step *= 0.3 / norm;  // the errors are nonlinear
     fit.v = (fit.v + B * step).normalized();
   }
   if (fit.v.z() < 0) fit.v = -fit.v;
@@ -68,8 +68,8 @@ FittedDirection fit_direction(const VanishingEvidence& evidence, const Eigen::Ve
 void DirectionPrior::pull(FittedDirection& fit) const {
   fit.across_axis = -1;
   if (axes.empty()) return;
-  // Densities over that of anywhere on half the sphere, 1 / (2 pi): normal across half a great
-  // circle, 1 / pi along it. Both are integrated over what the lines leave open.
+  // Densities relative to the uniform one on half the sphere, 1 / (2 pi): normal across half a
+  // great circle, 1 / pi along it. Both are integrated over the uncertainty of the lines.
   double sum = free_share, largest = free_share;
   for (std::size_t a = 0; a < axes.size(); ++a) {
     const double off = std::asin(std::clamp(axes[a].dot(fit.v), -1.0, 1.0));
@@ -125,7 +125,8 @@ void VanishingModel::remove(int direction) {
   for (int& which : of_) which = which == direction ? -1 : which - (which > direction);
 }
 
-/// Lines to directions at the present shares, then the shares anew; ends with the cost.
+/// Assigns lines to directions with the current shares, then updates the shares; computes the cost
+/// at the end.
 void VanishingModel::assign(int rounds) {
   const std::size_t n = static_cast<std::size_t>(evidence_->size()), m = directions_.size();
   of_.resize(n, -1);
@@ -163,7 +164,7 @@ std::optional<VanishingModel> VanishingModel::with(const Eigen::Vector3d& v) con
   FittedDirection direction;
   direction.v = v;
   larger.append(direction);
-  // The shares of a newcomer: those it would win at a share like the others'.
+  // Shares of a new direction: those that it would win at a share like the others'.
   const int z = larger.size() - 1;
   for (std::size_t i = 0; i < larger.of_.size(); ++i) {
     const int rival = larger.of_[i];

@@ -9,7 +9,7 @@
 namespace placegraph {
 namespace {
 
-/// Removes directions as long as the cost falls: those that others have made needless.
+/// Removes directions as long as the cost decreases: those that others have made redundant.
 void shrink(VanishingModel& model) {
   for (int z = model.size() - 1; z >= 0; --z) {
     if (z >= model.size()) continue;

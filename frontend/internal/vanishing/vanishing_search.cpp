@@ -5,7 +5,7 @@
 namespace placegraph {
 namespace {
 
-/// A line's share counts among this part of all, while its direction is only proposed [nats].
+/// Cost of a line's share while its direction is only a proposal [nats].
 constexpr double kSearchCost = 2.3;
 
 }  // namespace
@@ -15,7 +15,8 @@ VanishingSearch::VanishingSearch(const VanishingEvidence& evidence, int samples,
   draw(samples, {});
 }
 
-/// Pairs with a probability that grows with the lines' lengths, among those of no direction.
+/// Draws pairs with a probability that grows with the lines' lengths, among lines without a
+/// direction.
 void VanishingSearch::draw(int count, const std::vector<int>& of) {
   const std::size_t n = static_cast<std::size_t>(evidence_.size());
   std::vector<double> sum(n);
@@ -33,7 +34,7 @@ void VanishingSearch::draw(int count, const std::vector<int>& of) {
   for (int k = 0; k < count; ++k) {
     const int a = one(), b = one();
     const Eigen::Vector3d v = evidence_.normal(a).cross(evidence_.normal(b));
-    constexpr double kSamePlane = 0.005;  // two lines on one another fix nothing
+    constexpr double kSamePlane = 0.005;  // two collinear lines determine no direction
     if (v.norm() > kSamePlane) directions_.push_back(v.normalized());
   }
   gains_.conservativeResize(evidence_.size(), size());
@@ -49,7 +50,7 @@ void VanishingSearch::refresh() {
   for (Eigen::Index h = 0; h < size(); ++h) score(h);
 }
 
-/// What the lines have of the model's directions, as quick_gains counts.
+/// Gains of the lines with the model's directions, by quick_gains.
 Eigen::ArrayXf VanishingSearch::present_gains(const VanishingModel& model) const {
   Eigen::ArrayXf present = Eigen::ArrayXf::Zero(evidence_.size()), gains = present;
   for (const FittedDirection& direction : model.directions()) {
@@ -59,7 +60,8 @@ Eigen::ArrayXf VanishingSearch::present_gains(const VanishingModel& model) const
   return present;
 }
 
-/// The `count` proposals that add most to what the lines have, best first, no two close by.
+/// The `count` proposals that add most to the present gains, best first, no two close to each
+/// other.
 std::vector<Eigen::Vector3d> VanishingSearch::best(const Eigen::ArrayXf& present, int count) const {
   std::vector<float> scores(directions_.size());
   for (Eigen::Index h = 0; h < size(); ++h)

@@ -6,17 +6,19 @@
 
 namespace placegraph {
 
-/// Looks for directions that a VanishingModel lacks: pairs of lines propose some, each with the
-/// quick gain of every line; those that add most are tried one by one.
+/// Search for directions that a VanishingModel lacks.
+///
+/// Pairs of lines propose directions, each with the quick gain of every line; those that add most
+/// are tried one by one.
 class VanishingSearch {
  public:
   /// Draws the first `samples` pairs. The evidence and the random numbers must outlive the search.
   VanishingSearch(const VanishingEvidence& evidence, int samples, Random& random);
 
-  /// Adds directions to the model as long as its cost falls, up to `max_directions`. Where no
-  /// proposal helps, half as many pairs are drawn among the lines of no direction.
+  /// Adds directions to the model as long as its cost decreases, up to `max_directions`. If no
+  /// proposal reduces it, half as many pairs are drawn among the lines without a direction.
   void grow(VanishingModel& model, int max_directions);
-  /// The gains anew, after the noise of the evidence has changed.
+  /// Computes the gains again, after the noise of the evidence has changed.
   void refresh();
 
  private:
@@ -30,7 +32,7 @@ class VanishingSearch {
   int samples_ = 0;
   Random& random_;
   std::vector<Eigen::Vector3d> directions_;
-  Eigen::ArrayXXf gains_;  ///< a column a proposal
+  Eigen::ArrayXXf gains_;  ///< one column per proposal
   Eigen::Index scored_ = 0;
 };
 

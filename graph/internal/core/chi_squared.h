@@ -2,8 +2,8 @@
 
 namespace placegraph {
 
-// Boost.Math has both for any real degrees of freedom; whole ones need no more than these short
-// functions, and no further dependency.
+// Boost.Math has both functions for real degrees of freedom; integer degrees need only these short
+// functions and no further dependency.
 
 /// P(chi2 > x) for a chi-squared variable of `dof` >= 1 degrees of freedom; closed form of integer
 /// degrees (Abramowitz & Stegun 26.4.4, 26.4.5).

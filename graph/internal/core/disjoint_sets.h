@@ -5,8 +5,8 @@
 
 namespace placegraph {
 
-/// Sets of the numbers 0..n-1 that only ever grow together (Tarjan 1975, with path halving). The
-/// lowest member is the root of its set.
+/// Disjoint sets of the numbers 0..n-1 that can only be joined (Tarjan 1975, with path halving).
+/// The lowest member is the root of its set.
 class DisjointSets {
  public:
   explicit DisjointSets(std::size_t size) : parent_(size) {

@@ -1,10 +1,10 @@
 #pragma once
 
-// A function marked PLACEGRAPH_CLONES is compiled for the instructions of several processors, and
-// the one at hand chosen at run time (PLACEGRAPH_COUNTS_BITS: by how it counts bits); what it calls
-// must be PLACEGRAPH_INLINE to be compiled along. Asked for is what the instructions are, not whose
-// processor it is: arch=haswell would be chosen on that one alone, and not on what came after it.
-// Sanitizers do not know the dispatch.
+// A function marked PLACEGRAPH_CLONES is compiled for several instruction sets, one of which is
+// chosen at run time (PLACEGRAPH_COUNTS_BITS: by the instruction that counts bits). Functions that
+// it calls must be PLACEGRAPH_INLINE to be compiled with it. The choice depends on the instruction
+// set, not on the model of the processor: arch=haswell would be chosen on that model alone, not on
+// later ones. Sanitizers do not support the dispatch.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
     !defined(__SANITIZE_ADDRESS__)
 #define PLACEGRAPH_CLONES __attribute__((target_clones("arch=x86-64-v3", "default")))

@@ -7,7 +7,7 @@
 
 namespace placegraph {
 
-/// Formats the message, in the way of std::format, and hands it over, if there is a sink.
+/// Formats the message as std::format does and passes it to the sink, if there is one.
 template <class... Args>
 void log(const LogSink& sink, LogLevel level, fmt::format_string<Args...> message, Args&&... args) {
   if (sink) sink(level, fmt::format(message, std::forward<Args>(args)...));

@@ -5,7 +5,7 @@
 
 namespace placegraph {
 
-/// The upper median; at least one value needed.
+/// The upper median; needs at least one value.
 inline double median_of(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());

@@ -5,8 +5,8 @@
 
 namespace placegraph {
 
-/// The value that the share `share` of [0, 1] of the others lies below, rounded down to one of
-/// them; at least one value needed.
+/// The `share` quantile, `share` in [0, 1], rounded down to one of the values; needs at least one
+/// value.
 inline double quantile_of(std::vector<double> values, double share) {
   const auto at =
       values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));

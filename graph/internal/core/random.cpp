@@ -56,7 +56,7 @@ void Random::sample(int n, int k, std::vector<int>& out) {
     throw ArgumentError("random: cannot draw " + std::to_string(k) + " different indices of " +
                         std::to_string(n));
   out.clear();
-  if (k <= 32) {  // Floyd's algorithm: the look-up is cheap while k is small
+  if (k <= 32) {  // Floyd's algorithm: the search is fast for small k
     for (int j = n - k; j < n; ++j) {
       const int candidate = index(j + 1);
       const bool taken = std::find(out.begin(), out.end(), candidate) != out.end();

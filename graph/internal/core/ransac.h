@@ -11,8 +11,8 @@
 
 namespace placegraph {
 
-/// Samples still needed so that with probability `confidence` one holds inliers only
-/// (Fischler & Bolles 1981); at least 1, at most `max`.
+/// Number of samples of which one is free of outliers with probability `confidence` (Fischler &
+/// Bolles 1981); at least 1, at most `max`.
 int ransac_iterations(double inlier_ratio, int sample_size, double confidence, int max);
 
 template <class Model>
@@ -24,11 +24,11 @@ struct RansacResult {
   int iterations = 0;
 };
 
-/// MSAC (Torr & Zisserman 2000) over minimal samples, with non-minimal refinement, on the
-/// inliers of the model before, whenever a better model appears: as long as the score falls, four
-/// times at most (local optimization, Chum et al. 2003). Deterministic for a given `random`.
-/// OpenCV's robust estimators are tied to the models they come with, and OpenGV's counts inliers
-/// and draws from a generator of its own; here model, error, refinement and draws are the caller's.
+/// MSAC (Torr & Zisserman 2000) over minimal samples, with non-minimal refinement on the inliers of
+/// the previous model whenever a better model is found: while the score decreases, at most four
+/// times (local optimization, Chum et al. 2003). Deterministic for a given `random`. OpenCV's
+/// robust estimators are limited to their own models, and OpenGV's counts inliers and has its own
+/// random generator; here the caller supplies model, error, refinement and random generator.
 ///
 /// `solve(sample) -> std::vector<Model>` from `sample_size` indices;
 /// `squared_error(model, i) -> double`, to be compared with `threshold_squared`;
@@ -68,7 +68,8 @@ RansacResult<Model> ransac(int n, int sample_size, double threshold_squared,
     bool improved = false;
     for (const Model& model : solve(sample)) improved |= consider(model);
     if (!improved) continue;
-    // The inliers of a minimal model are a biased choice; those of the refined one less so.
+    // The inliers of a minimal model are a biased choice; those of the refined model are less
+    // biased.
     for (int round = 0; round < kRefinements; ++round)
       if (static_cast<int>(best.inliers.size()) <= sample_size ||
           !consider(refine(best.model, best.inliers)))

@@ -14,7 +14,7 @@ constexpr double kConverged = 1e-10;  ///< residual of the inversion, normalized
 using Quartic = std::array<double, 5>;
 
 /// Whether five Bernstein coefficients describe a polynomial that is positive on its interval:
-/// certainly if all are positive, certainly not if one at an end is not; else halves tell.
+/// yes if all are positive, no if one at an end is not positive, otherwise both halves are tested.
 bool bernstein_positive(const Quartic& b, int depth) {
   if (!(b[0] > 0 && b[4] > 0)) return false;
   if (b[1] > 0 && b[2] > 0 && b[3] > 0) return true;

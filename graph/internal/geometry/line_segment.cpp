@@ -33,8 +33,8 @@ Eigen::Vector2d ImageLine::foot(const Eigen::Vector2d& px) const {
 
 ImageLine::Carriers ImageLine::carriers(double sigma_floor_px) const {
   require(covariance(0, 0) > 0 && covariance(1, 1) > 0, "ImageLine: its covariance is not known");
-  // At an arm s from the anchor the distance varies by shift + s turn, at both arms independently
-  // if s^2 var(turn) = var(shift).
+  // At an arm s from the anchor the distance varies by shift + s rotation, independently at both
+  // arms if s^2 var(rotation) = var(shift).
   const double arm = std::sqrt(covariance(1, 1) / covariance(0, 0));
   const Eigen::Vector2d n = normal(), along(-n.y(), n.x());
   return {foot(anchor - arm * along), foot(anchor + arm * along),
@@ -43,7 +43,7 @@ ImageLine::Carriers ImageLine::carriers(double sigma_floor_px) const {
 
 double ImageLine::variance_at(const Eigen::Vector2d& px) const {
   const Eigen::Vector2d n = normal();
-  // Turning the normal by w moves the line at arm s along the direction (-n_v, n_u) by -s w.
+  // A rotation of the normal by w moves the line at arm s along the direction (-n_v, n_u) by -s w.
   const double arm = Eigen::Vector2d(-n.y(), n.x()).dot(px - anchor);
   const Eigen::Vector2d J(-arm, 1);
   return J.dot(covariance * J);

@@ -108,7 +108,8 @@ Plane3 transform_to(const SE3& T_a_b, const Plane3& plane_a, Eigen::Matrix<doubl
 }
 
 Eigen::Matrix3d tangent_covariance(const Plane3& plane, const Eigen::Matrix3d& covariance_closest) {
-  require(plane.distance() != 0, "plane: a closest point at the origin leaves its normal open");
+  require(plane.distance() != 0,
+          "plane: with a closest point at the origin the normal is undetermined");
   Eigen::Matrix3d J;
   plane.closest_point(&J);
   const Eigen::Matrix3d J_inverse = J.inverse();
@@ -120,7 +121,7 @@ Eigen::Matrix3d plane_information(const Plane3& plane, double sigma_normal_rad,
   require(std::isfinite(sigma_normal_rad) && sigma_normal_rad > 0 &&
               std::isfinite(sigma_distance_m) && sigma_distance_m > 0,
           "plane: standard deviations must be finite and positive");
-  // From the tangent to two turns across n and the distance.
+  // From the tangent to two rotations perpendicular to n and the distance.
   Eigen::Matrix3d J_normal;
   Eigen::RowVector3d J_distance;
   const Eigen::Vector3d n = plane.normal(&J_normal);

@@ -5,8 +5,8 @@ namespace placegraph::internal {
 
 /// The Stumpff functions S_k(x) = sum_j (-x)^j / (2j + k)! at x = angle^2: S_1 = sin(a) / a,
 /// S_2 = (1 - cos a) / a^2, S_3 = (a - sin a) / a^3, S_4 = (a^2 / 2 - 1 + cos a) / a^4,
-/// S_5 = (a^3 / 6 - a + sin a) / a^5. Every Jacobian of the rotation groups is made of them; here
-/// they hold full precision at any angle, which the closed forms lose to cancellation near zero.
+/// S_5 = (a^3 / 6 - a + sin a) / a^5. Every Jacobian of the rotation groups consists of them. Here
+/// they have full precision at any angle, which the closed forms lose by cancellation near zero.
 struct RotationSeries {
   double s0, s1, s2, s3, s4, s5;
 

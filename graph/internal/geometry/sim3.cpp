@@ -126,8 +126,8 @@ Sim3::Jacobian Sim3::ad(const Tangent& xi) {
 }
 
 Sim3::Jacobian Sim3::right_jacobian(const Tangent& xi) {
-  // A change of the unit of length brings a long translation to at most 1, so that it does not
-  // drive the number of doublings; a power of two, so that it costs no precision.
+  // Scaling reduces a long translation to at most 1, so that it does not increase the number of
+  // doublings. The factor is a power of two and costs no precision.
   const double length = xi.head<3>().stableNorm();
   const double unit = length > 1 ? std::ldexp(1, std::ilogb(length) + 1) : 1;
   Tangent scaled = xi;

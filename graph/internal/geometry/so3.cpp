@@ -13,7 +13,7 @@ SO3::SO3(const Eigen::Quaterniond& q) : q_(q) {
   const double squared_norm = q.squaredNorm();
   require(squared_norm > 0 && std::isfinite(squared_norm),
           "rotation: the quaternion is zero or not finite");
-  // One of unit length to rounding stays as it is: what was written down is read back.
+  // A quaternion of unit length within rounding is stored unchanged, so that files reproduce it.
   constexpr double kRounding = 8 * std::numeric_limits<double>::epsilon();
   if (std::abs(squared_norm - 1) > kRounding) q_.coeffs() /= std::sqrt(squared_norm);
 }

@@ -2,11 +2,11 @@
 
 namespace placegraph {
 
-/// Which pixels of a picture file are asked for. The EXIF orientation is never applied.
+/// The pixel format that is requested of a picture file. The EXIF orientation is never applied.
 enum class DecodedPixels {
-  kAsStored,      ///< grey, BGR or BGRA, of 8 or 16 bits: what the file has
-  kGreyOrColour,  ///< grey or BGR, of 8 or 16 bits: alpha is left out
-  kEightBits,     ///< grey or BGR of 8 bits: of 16 bits the upper ones
+  kAsStored,      ///< the format of the file: grey, BGR or BGRA, 8 or 16 bits
+  kGreyOrColour,  ///< grey or BGR, 8 or 16 bits; alpha is dropped
+  kEightBits,     ///< grey or BGR, 8 bits: the upper ones of 16 bits
 };
 
 }  // namespace placegraph

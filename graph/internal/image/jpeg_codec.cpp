@@ -12,7 +12,7 @@ namespace placegraph {
 namespace {
 
 // libjpeg reports errors by a jump out of its functions. A jump must not pass over a C++ object
-// that has a destructor: the functions below that call setjmp, and the callbacks, hold none.
+// that has a destructor: the functions below that call setjmp, and the callbacks, contain none.
 struct JpegErrors {
   jpeg_error_mgr base;
   std::jmp_buf jump;
@@ -24,7 +24,7 @@ struct JpegErrors {
 void ignore_jpeg_message(j_common_ptr) {}
 
 void do_nothing(j_decompress_ptr) {}
-/// There are no more bytes than those in memory.
+/// No more bytes exist than those in memory.
 boolean end_of_data(j_decompress_ptr) { return FALSE; }
 void skip_data(j_decompress_ptr info, long count) {
   jpeg_source_mgr& source = *info->src;
@@ -52,7 +52,7 @@ class JpegReader {
   JpegReader(const JpegReader&) = delete;
   JpegReader& operator=(const JpegReader&) = delete;
 
-  /// False if libjpeg refuses what comes before the pixels.
+  /// False if libjpeg refuses the data before the pixels.
   bool read_header() noexcept {
     if (setjmp(errors_.jump)) return false;
     jpeg_create_decompress(&info_);
@@ -86,13 +86,14 @@ class JpegReader {
   jpeg_decompress_struct info_{};
 };
 
-/// Whether so few bytes can hold so many pixels: a block of 8x8 takes one bit at least.
+/// Whether that number of bytes can contain that number of pixels: a block of 8x8 takes one bit at
+/// least.
 bool can_hold_blocks(std::size_t file_bytes, const JpegReader& reader) {
   return reader.arithmetic_code() ||
          std::uint64_t{reader.width()} * reader.height() / 512 <= file_bytes;
 }
 
-/// Colour of ink over white: what the ink lets through of the light that black lets through.
+/// Colour of ink over white: the light that passes both the ink and black.
 void inks_to_bgr(const std::vector<JSAMPLE>& inks, JSAMPROW bgr) {
   for (std::size_t i = 0; i < inks.size(); i += 4, bgr += 3) {
     const int black = inks[i + 3];

@@ -8,12 +8,13 @@ namespace placegraph {
 /// Whether the bytes begin as a JPEG does.
 bool is_jpeg(std::string_view bytes);
 
-/// Whether the end mark of a JPEG is missing. The one of a thumbnail in the head does not count.
+/// Whether the end mark of a JPEG is missing. The end mark of a thumbnail in the header does not
+/// count.
 bool is_truncated_jpeg(std::string_view bytes);
 
-/// Decodes a JPEG, baseline or progressive, to CV_8UC1 if it is grey and else to CV_8UC3 BGR; gives
-/// an empty image if the bytes are none. Inks (CMYK) become colours. The pixels are those of
-/// OpenCV's imdecode; the EXIF orientation is not applied.
+/// Decodes a JPEG, baseline or progressive, to CV_8UC1 if it is grey and else to CV_8UC3 BGR;
+/// returns an empty image if the bytes are not a JPEG. Inks (CMYK) are converted to colours. The
+/// pixels are those of OpenCV's imdecode; the EXIF orientation is not applied.
 Image decode_jpeg(std::string_view bytes);
 
 }  // namespace placegraph

@@ -27,8 +27,7 @@ std::string encode_picture(const std::string& path, const Image& image) {
   });
   if (extension == ".png") return encode_png(image);
   std::string bytes = picture_plugin(path).encode(extension, image, {});
-  if (bytes.empty())
-    throw FileError(path, "cannot be written as a picture: its extension is that of no format");
+  if (bytes.empty()) throw FileError(path, "cannot be written as a picture: unknown extension");
   return bytes;
 }
 

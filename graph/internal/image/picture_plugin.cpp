@@ -31,7 +31,7 @@ const PicturePlugin* open_module(const std::string& file, std::string& problem) 
   problem =
       version ? fmt::format("is of version {}, and {} is needed", version(), kPicturePluginVersion)
               : "is no module of placegraph";
-  return nullptr;  // it stays mapped: what its libraries have begun cannot be undone
+  return nullptr;  // it stays mapped: the initialization of its libraries cannot be undone
 }
 
 }  // namespace
@@ -56,7 +56,7 @@ const PicturePlugin& load_picture_plugin(const std::vector<std::string>& folders
 }
 
 const PicturePlugin& picture_plugin(const std::string& wanted) {
-  // What is loaded stays. Where that fails, the next call tries again.
+  // A loaded module stays loaded. After a failure the next call tries again.
   static const PicturePlugin& plugin = load_picture_plugin(plugin_folders(), wanted);
   return plugin;
 }

@@ -10,7 +10,7 @@ namespace placegraph {
 namespace fs = std::filesystem;
 namespace {
 
-/// The program or shared library that holds this code; empty if the system does not say.
+/// The program or shared library that contains this code; empty if the system does not report it.
 fs::path file_of_this_code() {
   std::error_code error;
   Dl_info info{};

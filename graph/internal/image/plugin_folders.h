@@ -4,9 +4,9 @@
 
 namespace placegraph {
 
-/// Where modules of the library are looked for, in this order: the folder that the environment
-/// variable PLACEGRAPH_PLUGIN_DIR names; that of the build tree, for what runs inside it;
-/// `../lib/placegraph` and `placegraph` beside the program or shared library that holds this
+/// Folders that are searched for modules of the library, in this order: the folder in the
+/// environment variable PLACEGRAPH_PLUGIN_DIR; the folder of the build tree, for programs inside
+/// it; `../lib/placegraph` and `placegraph` beside the program or shared library that contains this
 /// function; the folder of the installation that was configured.
 std::vector<std::string> plugin_folders();
 

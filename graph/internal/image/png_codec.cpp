@@ -16,7 +16,7 @@ namespace {
 constexpr std::string_view kPngSignature = "\x89PNG\r\n\x1a\n";
 
 // libpng reports errors by a jump out of its functions. A jump must not pass over a C++ object that
-// has a destructor: the functions below that call setjmp, and the callbacks, hold none.
+// has a destructor: the functions below that call setjmp, and the callbacks, contain none.
 [[noreturn]] void leave_png(png_structp png, png_const_charp) { png_longjmp(png, 1); }
 void ignore_png_warning(png_structp, png_const_charp) {}
 
@@ -46,7 +46,7 @@ class PngReader {
   PngReader(const PngReader&) = delete;
   PngReader& operator=(const PngReader&) = delete;
 
-  /// False if libpng refuses what comes before the pixels.
+  /// False if libpng refuses the data before the pixels.
   bool read_header() noexcept {
     if (!info_ || !end_ || setjmp(png_jmpbuf(png_))) return false;
     png_set_read_fn(png_, &bytes_, read_png_bytes);
@@ -100,7 +100,8 @@ class PngReader {
   png_infop info_ = nullptr, end_ = nullptr;
 };
 
-/// Whether so few bytes can hold so many: deflate writes at most 1032 bytes for one.
+/// Whether that number of bytes can contain that number of pixel bytes: deflate writes at most 1032
+/// bytes for one.
 bool can_hold(std::size_t file_bytes, std::uint64_t row_bytes, std::uint64_t rows) {
   return row_bytes * rows / 1032 <= file_bytes;
 }

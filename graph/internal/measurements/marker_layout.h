@@ -9,27 +9,27 @@
 
 namespace placegraph {
 
-/// A square marker that hangs or lies somewhere. Its frame: origin in the middle, x to the right
-/// and y up as somebody reads it, z out of its face towards the reader.
+/// A square marker at a known pose. Its frame: origin in the middle, x to the right and y up for a
+/// viewer in front of it, z out of its face towards the viewer.
 struct PlacedMarker {
-  int id = 0;         ///< in the layout's dictionary
-  double side_m = 0;  ///< of the black square
+  int id = 0;         ///< id in the layout's dictionary
+  double side_m = 0;  ///< side of the black square [m]
   SE3 T_world_marker;
 
-  /// Top left, top right, bottom right, bottom left, as somebody reads it.
+  /// Top left, top right, bottom right, bottom left, for a viewer in front of it.
   std::array<Eigen::Vector3d, 4> corners_marker() const {
     const double h = side_m / 2;
     return {{{-h, h, 0}, {h, h, 0}, {h, -h, 0}, {-h, -h, 0}}};
   }
 };
 
-/// What stands at known places of a room for a camera to find its position by.
+/// Markers and beacons at known positions of a room, for the localization of a camera.
 struct MarkerLayout {
-  std::string dictionary = "apriltag_36h11";  ///< one that MarkerDetector knows
+  std::string dictionary = "apriltag_36h11";  ///< a dictionary of MarkerDetector
   std::vector<PlacedMarker> markers;
-  std::vector<Eigen::Vector3d> beacons_world;  ///< bright spots (LEDs), all alike [m]
-  /// Sides [m] by id of markers whose place is not known: no position is found by them, but where
-  /// they are can be mapped.
+  std::vector<Eigen::Vector3d> beacons_world;  ///< bright spots (LEDs), indistinguishable [m]
+  /// Sides [m], by id, of markers with unknown pose: they do not localize the camera, but their
+  /// poses can be mapped.
   std::map<int, double> unplaced_sides_m;
 };
 

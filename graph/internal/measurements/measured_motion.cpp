@@ -25,21 +25,24 @@ std::vector<MotionStep> steps_of(const Trajectory& trajectory, const MotionNoise
 void MotionNoise::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, MotionNoise& o) {
-  field("translation", o.translation, "standard deviation after a metre of way [m]", {1e-6, 100});
-  field("rotation_deg", o.rotation_deg, "standard deviation after a metre of way", {1e-6, 180});
-  field("translation_m", o.translation_m, "standard deviation that every step adds [m]",
-        {1e-9, 100});
-  field("rotation_step_deg", o.rotation_step_deg, "standard deviation that every step adds",
-        {1e-9, 180});
+  field("translation", o.translation, "standard deviation of each coordinate after 1 m of path [m]",
+        {1e-6, 100});
+  field("rotation_deg", o.rotation_deg,
+        "standard deviation about each axis after 1 m of path [deg]", {1e-6, 180});
+  field("translation_m", o.translation_m,
+        "standard deviation of each coordinate that every step adds [m]", {1e-9, 100});
+  field("rotation_step_deg", o.rotation_step_deg,
+        "standard deviation about each axis that every step adds [deg]", {1e-9, 180});
 }
 
 Matrix6d MotionNoise::covariance(const SE3& T_from_to) const {
-  const double way_m = T_from_to.translation().norm();
+  const double length_m = T_from_to.translation().norm();
   Vector6d variance;
-  variance.head<3>().setConstant(translation * translation * way_m + translation_m * translation_m);
+  variance.head<3>().setConstant(translation * translation * length_m +
+                                 translation_m * translation_m);
   variance.tail<3>().setConstant(
       kRadPerDeg * kRadPerDeg *
-      (rotation_deg * rotation_deg * way_m + rotation_step_deg * rotation_step_deg));
+      (rotation_deg * rotation_deg * length_m + rotation_step_deg * rotation_step_deg));
   return variance.asDiagonal();
 }
 
@@ -49,7 +52,7 @@ MeasuredMotion::MeasuredMotion(std::vector<MotionStep> steps) : steps_(std::move
     const std::string name = "measured motion: step " + std::to_string(i);
     require(steps_[i].to_ns > steps_[i].from_ns, name + " takes no time");
     require(i == 0 || steps_[i].from_ns >= steps_[i - 1].to_ns,
-            name + " begins before the last one ended");
+            name + " begins before the end of the previous one");
     require(steps_[i].T_from_to.matrix().allFinite() && steps_[i].covariance.allFinite(),
             name + " is not finite");
   }

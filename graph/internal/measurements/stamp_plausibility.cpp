@@ -23,7 +23,7 @@ bool likely(double spacing_s) {
   return spacing_s >= kLikelyLeast_s && spacing_s <= kLikelyGreatest_s;
 }
 
-/// In which unit numbers that were read as so many seconds would be likely.
+/// Names the unit in which numbers that were read as seconds would be plausible.
 std::string likely_unit(double spacing_s) {
   if (likely(spacing_s * 1e-3)) return "are these milliseconds?";
   if (likely(spacing_s * 1e-6)) return "are these microseconds?";
@@ -59,7 +59,7 @@ std::string other_clock(const std::vector<std::int64_t>& stamps_ns,
     const char* unit = power == -3   ? "in milliseconds"
                        : power == -6 ? "in microseconds"
                        : power == -9 ? "in nanoseconds"
-                                     : "of another unit";
+                                     : "in another unit";
     return fmt::format("{} seems to have its times {}: times {:g} it {}", other, unit, factor,
                        overlap ? "fits" : "is as long, though at another time");
   }

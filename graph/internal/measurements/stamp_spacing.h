@@ -11,10 +11,10 @@ struct StampGap {
   double seconds = 0;
 };
 
-/// How far apart the stamps of a recording are. All 0 for fewer than two stamps.
+/// Distances between the stamps of a recording. All 0 for fewer than two stamps.
 struct StampSpacing {
   double median_s = 0, least_s = 0, greatest_s = 0;
-  std::vector<StampGap> gaps;  ///< of more than one and a half times the median, in time order
+  std::vector<StampGap> gaps;  ///< gaps of more than one and a half times the median, in time order
   std::size_t missing = 0;     ///< stamps that would fill the gaps at the median distance
 };
 

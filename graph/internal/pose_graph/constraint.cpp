@@ -6,7 +6,7 @@
 namespace placegraph {
 namespace {
 
-constexpr double kTolerance = 1e-9;  ///< of asymmetry and of eigenvalues below zero
+constexpr double kTolerance = 1e-9;  ///< tolerance of asymmetry and of eigenvalues below zero
 
 /// The usual, definite matrix costs one small factorization on the stack.
 template <int N>

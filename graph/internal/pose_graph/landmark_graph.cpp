@@ -14,7 +14,7 @@ void check_prior(const PosePriorConstraint& prior, PoseKind kind, const NodeInde
   require(kind_of(prior.T_world_node) == kind, name + "of another kind than the nodes");
   require(position_of(prior.T_world_node).allFinite(), name + "pose is not finite");
   require(prior.information.rows() == degrees_of_freedom(kind),
-          name + "information is of another size than the nodes");
+          name + "the size of the information does not fit the nodes");
   if (const char* fault = fault_of(prior.information)) throw ArgumentError(name + fault);
 }
 
@@ -49,7 +49,7 @@ void LandmarkGraph::check() const {
   for (std::size_t i = 0; i < priors.size(); ++i)
     check_prior(priors[i], kind, nodes, "prior " + std::to_string(i) + ": ");
   for (std::size_t i = 0; i < observations.size(); ++i)
-    check_observation(observations[i], nodes, by_id, "sight " + std::to_string(i) + ": ");
+    check_observation(observations[i], nodes, by_id, "observation " + std::to_string(i) + ": ");
 }
 
 }  // namespace placegraph

@@ -6,13 +6,13 @@
 
 namespace placegraph {
 namespace {
-constexpr std::uint64_t kTablePerNode = 4;  ///< a table may have this many places per node
+constexpr std::uint64_t kTablePerNode = 4;  ///< a table may have this many entries per node
 }
 
 NodeIndex::NodeIndex(const std::vector<NodeId>& ids) {
   if (ids.empty()) return;
   const auto [low, high] = std::minmax_element(ids.begin(), ids.end());
-  // Unsigned, since the ids may lie further apart than a signed number counts.
+  // Unsigned, since the distance of two ids may exceed the range of a signed number.
   const std::uint64_t span =
       static_cast<std::uint64_t>(high->value()) - static_cast<std::uint64_t>(low->value());
   if (span < kTablePerNode * ids.size()) {

@@ -99,7 +99,7 @@ struct Adjacency {
   struct Ends {
     int from, to;
   };
-  /// Of every constraint; nothing for those that join nothing.
+  /// The edge of every constraint; nothing for constraints that join no nodes.
   static std::vector<std::optional<Ends>> ends_of(const PoseGraph& graph) {
     const NodeIndex index = graph.index_by_id();
     std::vector<std::optional<Ends>> ends(graph.constraints.size());
@@ -114,7 +114,7 @@ struct Adjacency {
   }
 };
 
-/// The pose of the other end of an edge whose one end stands at T_world_known.
+/// The pose of the other end of an edge, one end of which is at T_world_known.
 Pose across(const RelativePoseConstraint& edge, const Pose& T_world_known, bool forward) {
   return std::visit(
       [&](const auto& T_from_to) -> Pose {
@@ -168,7 +168,7 @@ std::vector<int> PoseGraph::spanning_tree() const {
   std::vector<int> tree(nodes.size(), -1);
   std::vector<char> seen(nodes.size(), false);
   std::vector<int> open;        // reached nodes, in this order
-  std::vector<Edge> postponed;  // edges that are no odometry, tried when odometry leads no further
+  std::vector<Edge> postponed;  // edges of other sources, tried where odometry ends
   open.reserve(nodes.size());
   std::size_t next_open = 0, next_postponed = 0;
   const auto reach = [&](int node, int constraint) {

@@ -3,7 +3,7 @@
 
 namespace placegraph {
 
-/// Of the node in the world; z is 0 in the plane.
+/// Position of a node in the world; z is 0 in the plane.
 inline Eigen::Vector3d position_of(const Pose& T_world_node) {
   if (const SE2* planar = std::get_if<SE2>(&T_world_node))
     return {planar->translation().x(), planar->translation().y(), 0};

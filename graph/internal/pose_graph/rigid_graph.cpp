@@ -4,8 +4,8 @@
 namespace placegraph {
 namespace {
 
-/// Over [translation, rotation]: the log scale marginalized out, translations `scale` times as
-/// long.
+/// Information over [translation, rotation]: the log scale is marginalized out, translations are
+/// multiplied by `scale`.
 Information rigid_information(const Information& of_similarity, double scale) {
   Information information = of_similarity.topLeftCorner(6, 6);
   if (of_similarity(6, 6) > 0) {

@@ -5,15 +5,15 @@
 
 namespace placegraph {
 
-/// A building as it is known to be, seen from above: (x, z) of the frame of poses.txt [m].
+/// Ground truth of a building, seen from above: (x, z) of the frame of poses.txt [m].
 struct BuildingPlan {
   struct Room {
     std::string name;
-    Eigen::Vector2d low, high;  ///< reaches to the middle of its walls
+    Eigen::Vector2d low, high;  ///< corners; the room extends to the middle of its walls
     double ceiling_m = 0;
   };
   struct Wall {
-    Eigen::Vector2d a, b;  ///< of its middle line
+    Eigen::Vector2d a, b;  ///< ends of its middle line
     double thickness_m = 0, height_m = 0;
   };
   struct Door {

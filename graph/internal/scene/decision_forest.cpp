@@ -20,15 +20,16 @@ void DecisionForest::predict(const std::uint8_t* row, float* shares) const {
 std::optional<std::string> DecisionForest::problem() const {
   if (classes < 1 || dimension < 1 || roots.empty()) return "no classes, no features or no tree";
   const auto n = static_cast<std::size_t>(classes);
-  if (leaves.size() % n != 0) return "leaves of another number of classes";
+  if (leaves.size() % n != 0) return "the leaves do not fit the number of classes";
   for (const std::uint32_t root : roots)
     if (root >= nodes.size()) return "a tree without a root";
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const Node& node = nodes[i];
     if (node.feature == kLeaf) {
-      if (node.other >= leaves.size() / n) return "node " + std::to_string(i) + ": no such leaf";
+      if (node.other >= leaves.size() / n)
+        return "node " + std::to_string(i) + ": its leaf does not exist";
     } else if (node.feature >= dimension || node.other <= i + 1 || node.other >= nodes.size()) {
-      return "node " + std::to_string(i) + " leads astray";
+      return "node " + std::to_string(i) + " leads back or outside the tree";
     }
   }
   return std::nullopt;

@@ -25,13 +25,13 @@ std::optional<Environment> environment_of_name(const std::string& name) {
 Assumptions assumptions_of(Environment kind) {
   switch (kind) {
     case Environment::kStreet:
-      return {true, false, true};  // houses follow their street, which bends
+      return {true, false, true};  // houses follow their street, which is curved
     case Environment::kRoad:
       return {true, false, true};
     case Environment::kCorridor:
       return {true, true, false};
     case Environment::kRoom:
-      return {false, true, false};  // tables, beds and steps: the floor is seldom what lies ahead
+      return {false, true, false};  // tables, beds and steps hide the floor ahead
     case Environment::kHall:
       return {true, true, false};
   }

@@ -5,11 +5,11 @@
 
 namespace placegraph {
 
-/// What truly stands where: polygons of a static scene, each of a class.
+/// Ground truth of a static scene: polygons, each with a class.
 struct LabelledMesh {
   struct Face {
     std::vector<int> corners;  ///< three or more indices, convex and planar
-    int label = 0;             ///< of `classes`
+    int label = 0;             ///< position in `classes`
   };
   std::vector<std::string> classes;
   std::vector<Eigen::Vector3d> vertices;  ///< world frame [m]

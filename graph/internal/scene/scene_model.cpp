@@ -25,18 +25,18 @@ std::optional<std::string> SceneModel::problem() const {
   const std::size_t n = classes.size();
   if (n < 2 || n > 64 || surfaces.size() != n) return "classes and their surfaces do not agree";
   for (const DecisionForest* forest : {&first, &second}) {
-    if (forest->classes != class_count()) return "a forest of other classes";
+    if (forest->classes != class_count()) return "a forest has another number of classes";
     if (const auto problem = forest->problem()) return problem;
   }
   if (relations.above.size() != n * n || relations.beside.size() != n * n)
-    return "a table of relations of another size";
+    return "a table of relations has the wrong size";
   for (const std::vector<float>* table : {&relations.above, &relations.beside})
     for (const float value : *table)
-      if (!std::isfinite(value)) return "a relation that is no number";
+      if (!std::isfinite(value)) return "a relation is not finite";
   const auto within = [](float value, float most) { return value >= 0 && value <= most; };
   if (!within(smoothness, 100) || !within(relation_weight, 100) || !within(sharpness, 100) ||
       sharpness == 0)
-    return "weights out of their range";
+    return "weights are out of range";
   return std::nullopt;
 }
 

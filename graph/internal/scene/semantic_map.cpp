@@ -10,7 +10,7 @@ namespace placegraph {
 namespace {
 
 constexpr float kLeastShare = 1e-3F;
-constexpr int kBits = 21, kMiddle = 1 << (kBits - 1);  // of a coordinate in a cell's key
+constexpr int kBits = 21, kMiddle = 1 << (kBits - 1);  // coordinates in a cell's key
 
 std::uint64_t key_of(const Eigen::Vector3i& at) {
   std::uint64_t key = 0;
@@ -24,8 +24,8 @@ bool before(const Eigen::Vector3i& a, const Eigen::Vector3i& b) {
   return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
 }
 
-/// What one sight says of a cell.
-struct Told {
+/// The contribution of one keyframe to a cell.
+struct CellUpdate {
   float weight = 0, height = 0;
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
   std::vector<float> log_shares;
@@ -34,22 +34,25 @@ struct Told {
 }  // namespace
 
 void visit(OptionVisitor& field, SemanticGridOptions& o) {
-  field("cell_m", o.cell_m, "side of a cell", {0.05, 5});
-  field("max_sigma_m", o.max_sigma_m, "points whose depth is worse are left out", {0.01, 100});
+  field("cell_m", o.cell_m, "side of a cell [m]", {0.05, 5});
+  field("max_sigma_m", o.max_sigma_m, "largest standard deviation of the depth of a point [m]",
+        {0.01, 100});
   field("observation_weight", o.observation_weight,
-        "how much a further sight counts, as they err alike", {0.01, 1});
-  field("full_weight", o.full_weight, "points of a sight in a cell that make it count wholly",
-        {0.1, 1000});
-  field("min_weight", o.min_weight, "points of a cell that is known", {0, 1e6});
-  field("min_observations", o.min_observations, "sights of a cell that is known", {1, 1000});
-  field("min_confidence", o.min_confidence, "probability below which a cell is unknown", {0, 1});
+        "weight of a keyframe; below 1, as errors of keyframes are correlated", {0.01, 1});
+  field("full_weight", o.full_weight,
+        "weight of a keyframe's points in a cell at which it counts fully", {0.1, 1000});
+  field("min_weight", o.min_weight, "minimum weight of the points of a known cell", {0, 1e6});
+  field("min_observations", o.min_observations, "minimum number of keyframes of a known cell",
+        {1, 1000});
+  field("min_confidence", o.min_confidence, "minimum probability of the class of a known cell",
+        {0, 1});
 }
 
 SemanticGrid::SemanticGrid(const SemanticGridOptions& options, std::vector<std::string> classes,
                            const SO3& R_plan_map)
     : options_(options), classes_(std::move(classes)), R_plan_map_(R_plan_map) {
   options_.check();
-  require(classes_.size() > 1, "semantic grid: two classes at least");
+  require(classes_.size() > 1, "semantic grid: at least two classes needed");
 }
 
 std::size_t SemanticGrid::cell_at(const Eigen::Vector3i& at) {
@@ -72,38 +75,40 @@ void SemanticGrid::add(const KeyframeSemantics& observation, const SE3& T_map_ca
   const Eigen::Matrix3f R = T_plan_cam.rotation().matrix().cast<float>();
   const Eigen::Vector3d t = T_plan_cam.translation();
   const auto cell = static_cast<float>(options_.cell_m);
-  // In the order of first sight, so that sums do not depend on a hash.
-  std::unordered_map<std::size_t, std::size_t> told_of;
-  std::vector<std::pair<std::size_t, Told>> all;
+  // In the order of the first observation, so that sums do not depend on a hash.
+  std::unordered_map<std::size_t, std::size_t> update_of;
+  std::vector<std::pair<std::size_t, CellUpdate>> all;
   for (const SemanticPoint& p : observation.points) {
     require((p.region + std::size_t{1}) * n <= observation.shares.size(),
-            "semantic grid: a point of a region that the sight does not have");
+            "semantic grid: a point names a region that the observation does not have");
     if (static_cast<double>(p.sigma) > options_.max_sigma_m) continue;
     const Eigen::Vector3d at = (R * p.point).cast<double>() + t;
     if (!at.allFinite() || at.cwiseAbs().maxCoeff() >= (kMiddle - 1) * options_.cell_m) continue;
     const Eigen::Vector3i corner = (at / options_.cell_m).array().floor().cast<int>();
     const std::size_t index = cell_at(corner);
-    const auto [entry, fresh] = told_of.emplace(index, all.size());
-    if (fresh) all.emplace_back(index, Told{0, 0, Eigen::Vector3f::Zero(), std::vector<float>(n)});
-    Told& told = all[entry->second].second;
+    const auto [entry, fresh] = update_of.emplace(index, all.size());
+    if (fresh)
+      all.emplace_back(index, CellUpdate{0, 0, Eigen::Vector3f::Zero(), std::vector<float>(n)});
+    CellUpdate& update = all[entry->second].second;
     const float weight = 1 / (1 + p.sigma * p.sigma / (cell * cell));
-    told.weight += weight;
-    told.height += weight * p.height_m;
-    // From the cell's corner, for the sake of digits.
-    told.sum += weight * (at - options_.cell_m * corner.cast<double>()).cast<float>();
-    for (std::size_t l = 0; l < n; ++l) told.log_shares[l] += weight * log_shares[p.region * n + l];
+    update.weight += weight;
+    update.height += weight * p.height_m;
+    // Relative to the cell's corner, for numerical precision.
+    update.sum += weight * (at - options_.cell_m * corner.cast<double>()).cast<float>();
+    for (std::size_t l = 0; l < n; ++l)
+      update.log_shares[l] += weight * log_shares[p.region * n + l];
   }
   const float log_prior = -std::log(static_cast<float>(n));
-  for (const auto& [index, told] : all) {
+  for (const auto& [index, update] : all) {
     SemanticCell& known = cells_[index];
-    known.weight += told.weight;
-    known.mean += told.sum;
-    known.height_m += told.height;
+    known.weight += update.weight;
+    known.mean += update.sum;
+    known.height_m += update.height;
     ++known.observations;
     const float step = static_cast<float>(options_.observation_weight) *
-                       std::min(1.0F, told.weight / static_cast<float>(options_.full_weight));
+                       std::min(1.0F, update.weight / static_cast<float>(options_.full_weight));
     for (std::size_t l = 0; l < n; ++l)
-      log_odds_[index * n + l] += step * (told.log_shares[l] / told.weight - log_prior);
+      log_odds_[index * n + l] += step * (update.log_shares[l] / update.weight - log_prior);
   }
 }
 
@@ -113,7 +118,7 @@ SemanticMap SemanticGrid::map() const {
   map.R_plan_map = R_plan_map_;
   map.cell_m = options_.cell_m;
   if (cells_.empty()) {
-    map.outcome = Outcome::failure(Outcome::Code::kTooFewData, "nothing is seen");
+    map.outcome = Outcome::failure(Outcome::Code::kTooFewData, "nothing was observed");
     return map;
   }
   map.outcome = Outcome::ok();
@@ -143,8 +148,7 @@ SemanticMap SemanticGrid::map() const {
 
 namespace {
 
-/// Of the cells of one column that are in `standing` or not: the heaviest of the heaviest class,
-/// and the weight of all.
+/// The cells of one column that are in `standing`, or the others: weights by class and in total.
 struct Layer {
   std::map<int, float> by_class;
   float weight = 0;

@@ -11,8 +11,8 @@ namespace placegraph {
 namespace {
 
 constexpr const char* kUnrectified =
-    "baseline_m: a folder of stereo images must be rectified, without distortion; of others "
-    "Kalibr's camchain or OpenCV's K1 D1 K2 D2 R T tell both eyes";
+    "baseline_m: a folder of stereo images must be rectified, without distortion; use "
+    "Kalibr's camchain or OpenCV's K1 D1 K2 D2 R T for an unrectified pair";
 
 struct DistortionYaml {
   Distortion& model;
@@ -90,15 +90,16 @@ DepthCamera CalibrationYaml::depth_camera() const {
 }
 
 void visit(OptionVisitor& field, DepthYaml& yaml) {
-  field("unit_m", yaml.unit_m, "metres of one step of the 16-bit depth images", {1e-6, 1});
+  field("unit_m", yaml.unit_m, "depth per step of the 16-bit depth images [m]", {1e-6, 1});
   field("width", yaml.width, "width of the depth images [px]", {0, 20000});
   field("height", yaml.height, "height of the depth images [px]", {0, 20000});
-  field("fx", yaml.fx, "focal length [px]; absent: registered to the image", {0, 1e5});
+  field("fx", yaml.fx, "focal length [px]; absent: depth is registered to the image", {0, 1e5});
   field("fy", yaml.fy, "focal length [px]", {0, 1e5});
   field("cx", yaml.cx, "principal point [px]", {-1e5, 1e5});
   field("cy", yaml.cy, "principal point [px]", {-1e5, 1e5});
-  field("T_cam_depth", yaml.T_cam_depth, "row-major 3x4, depth camera to camera [m]", {-1e3, 1e3});
-  field("sigma_at_1m", yaml.sigma_at_1m, "depth noise at 1 m [m]", {0, 1});
+  field("T_cam_depth", yaml.T_cam_depth,
+        "pose of the depth camera in the camera, row-major 3x4 [m]", {-1e3, 1e3});
+  field("sigma_at_1m", yaml.sigma_at_1m, "standard deviation of depth at 1 m [m]", {0, 1});
 }
 
 void visit(OptionVisitor& field, CalibrationYaml& yaml) {
@@ -110,15 +111,17 @@ void visit(OptionVisitor& field, CalibrationYaml& yaml) {
   field("cy", yaml.cy, "principal point [px]", {-1e5, 1e5});
   DistortionYaml distortion{yaml.distortion, yaml.coefficients};
   field.group("distortion", distortion, "lens distortion of the raw images");
-  field("baseline_m", yaml.baseline_m, "distance of the right eye, images in right/ [m]", {0, 100});
-  field("camera_height_m", yaml.camera_height_m, "height above the ground driven on [m]", {0, 1e4});
-  field("fps", yaml.fps, "frames a second where there is no times.txt", {0, 1e5});
+  field("baseline_m", yaml.baseline_m,
+        "baseline to the right camera, whose images are in right/ [m]", {0, 100});
+  field("camera_height_m", yaml.camera_height_m, "camera height above the ground [m]", {0, 1e4});
+  field("fps", yaml.fps, "frame rate if there is no times.txt [Hz]", {0, 1e5});
   field.group("depth", yaml.depth, "depth images in depth/");
 }
 
 namespace {
 
-/// The baseline is that of eyes in right/; files of this form give one to RGB-D cameras, too.
+/// The baseline is used only with images in right/; files of this format also give one for RGB-D
+/// cameras.
 void take(const ForeignCalibration& foreign, bool has_right, CalibrationYaml& yaml) {
   const Camera& camera = foreign.raw.camera;
   yaml.width = camera.width, yaml.height = camera.height;

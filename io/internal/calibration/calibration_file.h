@@ -19,7 +19,7 @@ struct DepthYaml {
 };
 void visit(OptionVisitor& field, DepthYaml& yaml);
 
-/// What `calibration.yaml` holds, in the words of docs/datasets.md. 0 or empty: not given.
+/// The content of `calibration.yaml`, with the keys of docs/datasets.md. 0 or empty: not given.
 struct CalibrationYaml {
   int width = 0, height = 0;
   double fx = 0, fy = 0, cx = 0, cy = 0;
@@ -28,7 +28,7 @@ struct CalibrationYaml {
   double baseline_m = 0, camera_height_m = 0, fps = 0;
   DepthYaml depth;
 
-  /// Of eyes that are not rectified, which other programs' forms tell.
+  /// Right camera of a pair that is not rectified, from calibration formats of other programs.
   std::optional<RightCamera> right;
 
   RawCamera camera() const;
@@ -36,11 +36,11 @@ struct CalibrationYaml {
 };
 void visit(OptionVisitor& field, CalibrationYaml& yaml);
 
-/// Reads that form, or one of another program (read_foreign_calibration), which may leave width and
-/// height 0; see fit_to_image. Right eyes are those of images in right/ beside the file. Strict:
-/// unknown keys, wrong types and values out of range are FileErrors with the line; so are missing
-/// width, height, fx, fy, cx, cy, and coefficients that do not fit the distortion model. What the
-/// file does not give keeps the value it has in `yaml`.
+/// Reads that format, or one of another program (read_foreign_calibration), which may leave width
+/// and height 0; see fit_to_image. The right camera is that of images in right/ beside the file.
+/// Strict: unknown keys, wrong types and values out of range are FileErrors with the line; so are
+/// missing width, height, fx, fy, cx, cy, and coefficients that do not fit the distortion model.
+/// Keys that are missing in the file keep their values in `yaml`.
 void read_calibration_yaml(const std::string& path, CalibrationYaml& yaml);
 
 }  // namespace placegraph

@@ -10,26 +10,26 @@
 
 namespace placegraph {
 
-/// undistort_camera for the calibration that was read from `path`. Throws FileError where the lens
-/// model turns back within the image, so that it gives no ray for some pixels, and where less than
-/// a third of the image is left without distortion.
+/// undistort_camera for the calibration that was read from `path`. Throws FileError if the lens
+/// model is not monotonic within the image, so that some pixels have no ray, or if less than a
+/// third of the image remains after undistortion.
 UndistortedCamera undistort_plausibly(const std::string& path, const RawCamera& raw);
 
 /// Throws FileError for a raw camera as above, and for normalized intrinsics.
 void require_plausible_camera(const std::string& path, const RawCamera& raw);
 
-/// Makes intrinsics fit images of another size than they were given for: takes the size where there
-/// is none, scales the intrinsics where the aspect agrees to 1 %, and says so. Throws FileError
-/// that names the image if it does not.
+/// Fits intrinsics to images of another size than they were calibrated for: sets a missing size,
+/// scales the intrinsics if the aspect ratios agree to 1 %, and returns a note about it. Throws
+/// FileError that names the image if they do not agree.
 std::optional<DataNote> fit_to_image(const std::string& image_path, const Image& image,
                                      CalibrationYaml& yaml);
 
-/// What is odd about a calibration, with what to try: a principal point as of larger or smaller
-/// images or outside of them, a baseline, a
-/// camera height or a place of the depth camera that is no length in metres.
+/// Notes about implausible values of a calibration, with advice: a principal point that fits larger
+/// or smaller images or is outside of the image, a baseline, a camera height or a position of the
+/// depth camera that cannot be a length in metres.
 std::vector<DataNote> odd_calibration(const Calibration& calibration);
 
-/// Of a camera height that was given with the command.
+/// A note about an implausible camera height that was given on the command line.
 std::optional<DataNote> odd_camera_height(double height_m);
 
 }  // namespace placegraph

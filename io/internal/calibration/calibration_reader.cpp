@@ -38,7 +38,7 @@ std::vector<double> CalibrationReader::numbers(const YAML::Node& node, const cha
       values.push_back(*value);
     }
   if (values.empty() || values.size() > 64)
-    fail(node, std::string(what) + ": is no list of numbers");
+    fail(node, std::string(what) + ": is not a list of numbers");
   return values;
 }
 
@@ -91,8 +91,7 @@ void CalibrationReader::set_distortion(const std::string& model, const std::vect
   const bool known = name.empty() || name == "plumb_bob" || name == "radtan" ||
                      name == "radial-tangential" || name == "rational_polynomial" ||
                      name == "brown_conrady" || name == "pinhole";
-  if (!known)
-    fail(at, "the lens model " + in_quotes(model) + " is not known: undistort the images");
+  if (!known) fail(at, "the lens model " + in_quotes(model) + " is unknown: undistort the images");
   try {
     set_radial_tangential(d, raw);
   } catch (const ArgumentError& error) {

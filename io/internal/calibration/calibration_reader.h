@@ -19,18 +19,18 @@ class CalibrationReader {
 
   /// A list of numbers, a matrix with `data`, or a list of rows.
   std::vector<double> numbers(const YAML::Node& node, const char* what) const;
-  /// The same, of which there must be `count`.
+  /// The same with exactly `count` numbers.
   std::vector<double> numbers(const YAML::Node& node, const char* what, std::size_t count) const;
   double number(const YAML::Node& map, const std::string& key) const;
   double number_or_zero(const YAML::Node& map, const std::string& key) const;
-  /// A width or height; 0 is none.
+  /// A width or height; 0 means none.
   int side(double value, const YAML::Node& at) const;
   /// Focal lengths and principal point from a 3x3 matrix.
   void set_matrix(const YAML::Node& node, Camera& camera) const;
-  /// `model` in any program's words; empty: radial-tangential.
+  /// `model` is the name in any of the programs; empty: radial-tangential.
   void set_distortion(const std::string& model, const std::vector<double>& d, const YAML::Node& at,
                       RawCamera& raw) const;
-  /// A motion; an error at `at` if R is no rotation.
+  /// A rigid motion; an error at `at` if R is not a rotation.
   SE3 motion(const Eigen::Matrix3d& R, const Eigen::Vector3d& t, const YAML::Node& at) const;
 
  private:
@@ -38,7 +38,7 @@ class CalibrationReader {
   std::string program_;
 };
 
-/// The value of the first of these keys that there is; undefined if there is none.
+/// The value of the first of these keys that exists; undefined if there is none.
 YAML::Node first_of(const YAML::Node& map, std::initializer_list<const char*> keys);
 
 std::string lower(std::string text);

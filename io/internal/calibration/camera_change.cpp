@@ -39,8 +39,8 @@ CameraChange::CameraChange(const Camera& from, const Camera& to) {
       seen_.at<std::uint8_t>(v, u) = from.contains({x, y}) ? 255 : 0;
     }
   seen_share_ = cv::countNonZero(seen_) / static_cast<double>(seen_.total());
-  // What is described around a feature is to lie within what is seen; the image's own border counts
-  // as for any image.
+  // The patch of a feature's descriptor must be within the visible part; the border of the image
+  // itself counts as in any image.
   constexpr int kPatchPx = 31;
   cv::erode(seen_, seen_, cv::Mat::ones(kPatchPx, kPatchPx, CV_8UC1));
   const double shrinks = std::sqrt(from.fx * from.fy / (to.fx * to.fy));

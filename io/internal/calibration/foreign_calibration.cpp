@@ -12,7 +12,7 @@
 namespace placegraph {
 namespace {
 
-/// `prefix`: "Camera." or, since its third version, "Camera1.".
+/// `prefix`: "Camera." or, since ORB-SLAM's third version, "Camera1.".
 ForeignCalibration read_orb_slam(const YamlDocument& yaml, const std::string& prefix) {
   const YAML::Node& root = yaml.root();
   const CalibrationReader reader(yaml, "ORB-SLAM");
@@ -76,8 +76,8 @@ std::optional<ForeignCalibration> read_yaml(const std::string& path, bool with_r
   return std::nullopt;
 }
 
-/// "CAMERA_ID MODEL WIDTH HEIGHT PARAMS...", of which the first line is taken. (0.5, 0.5) is the
-/// centre of COLMAP's first pixel.
+/// Reads the first line "CAMERA_ID MODEL WIDTH HEIGHT PARAMS...". The centre of COLMAP's first
+/// pixel is (0.5, 0.5).
 std::optional<ForeignCalibration> read_colmap(const std::string& path) {
   TextFile file(path);
   std::string_view line;
@@ -108,7 +108,7 @@ std::optional<ForeignCalibration> read_colmap(const std::string& path) {
     if (model == "OPENCV" || model == "OPENCV_FISHEYE") return 4;
     if (model == "FULL_OPENCV") return 8;
     file.fail("COLMAP's calibration: the model " + in_quotes(model) +
-              " is not known: undistort the images");
+              " is unknown: undistort the images");
   }();
   if (p.size() != intrinsics + count)
     file.fail(fmt::format("COLMAP's calibration: {} has {} parameters, not {}", model,

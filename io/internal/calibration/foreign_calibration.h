@@ -6,23 +6,23 @@
 
 namespace placegraph {
 
-/// What the calibration file of another program says of one camera, or of two eyes.
+/// The content of another program's calibration file, for one camera or a stereo pair.
 struct ForeignCalibration {
   std::string program;  ///< "OpenCV", "ROS", "Kalibr", "ORB-SLAM", "RealSense", "COLMAP"
-  RawCamera raw;        ///< width and height 0 where the file does not tell them
-  std::optional<RightCamera> right;  ///< of eyes that are not rectified
-  double baseline_m = 0;             ///< of rectified eyes; 0: not told
+  RawCamera raw;        ///< width and height are 0 if the file does not contain them
+  std::optional<RightCamera> right;  ///< right camera of a pair that is not rectified
+  double baseline_m = 0;             ///< baseline of a rectified pair; 0: unknown
   double fps = 0;
-  double depth_unit_m = 0;  ///< metres of one step of depth images; 0: not told
+  double depth_unit_m = 0;  ///< metres of one step of depth images; 0: unknown
 };
 
-/// Reads a calibration in the form of OpenCV (YAML or XML), ROS (camera_info), Kalibr (camchain),
-/// ORB-SLAM (YAML), RealSense (JSON) or COLMAP (cameras.txt: its first camera). Nothing if
-/// the file is of none of these forms. Distortion: none, radial-tangential, rational, equidistant;
-/// OpenCV's models of more than eight coefficients where all behind the eighth are zero. Of two
-/// cameras (Kalibr's cam1, OpenCV's K2 D2 R T) the second is read if `with_right`. Throws
-/// FileError, with the line where there is one, if a file of such a form lacks something or has a
-/// model that is not known here.
+/// Reads a calibration in the format of OpenCV (YAML or XML), ROS (camera_info), Kalibr (camchain),
+/// ORB-SLAM (YAML), RealSense (JSON) or COLMAP (cameras.txt: its first camera). Returns nothing if
+/// the file is in none of these formats. Distortion: none, radial-tangential, rational,
+/// equidistant; OpenCV's models of more than eight coefficients if all after the eighth are zero.
+/// Of two cameras (Kalibr's cam1, OpenCV's K2 D2 R T) the second is read if `with_right`. Throws
+/// FileError, with the line where there is one, if a file in such a format lacks something or has
+/// an unknown model.
 std::optional<ForeignCalibration> read_foreign_calibration(const std::string& path,
                                                            bool with_right = false);
 

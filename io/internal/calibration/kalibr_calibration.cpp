@@ -9,7 +9,7 @@ namespace {
 RawCamera read_kalibr_camera(const CalibrationReader& reader, const YAML::Node& cam) {
   const std::string model = cam["camera_model"].IsDefined() ? cam["camera_model"].Scalar() : "";
   if (model != "pinhole")
-    reader.fail(cam, "camera_model: " + in_quotes(model) + " is not known, only pinhole is");
+    reader.fail(cam, "camera_model: " + in_quotes(model) + " is not supported, only pinhole");
   if (!cam["intrinsics"].IsDefined()) reader.fail(cam, "intrinsics: is missing");
   const std::vector<double> k = reader.numbers(cam["intrinsics"], "intrinsics", 4);
   RawCamera raw;
@@ -27,11 +27,11 @@ RawCamera read_kalibr_camera(const CalibrationReader& reader, const YAML::Node& 
   return raw;
 }
 
-/// T_cn_cnm1 maps points of the camera before into this one.
+/// T_cn_cnm1 maps points from the previous camera into this one.
 SE3 chain_T_left_right(const CalibrationReader& reader, const YAML::Node& cam1) {
   const YAML::Node node = cam1["T_cn_cnm1"];
   if (!node.IsDefined())
-    reader.fail(cam1, "T_cn_cnm1: is missing; it tells where cam1 is, whose images are in right/");
+    reader.fail(cam1, "T_cn_cnm1: is missing; it is the pose of cam1, whose images are in right/");
   const std::vector<double> numbers = reader.numbers(node, "T_cn_cnm1", 16);
   const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> T_right_left(numbers.data());
   return reader
@@ -47,7 +47,7 @@ ForeignCalibration read_kalibr(const YamlDocument& yaml, bool with_right) {
   const CalibrationReader reader(yaml, result.program);
   result.raw = read_kalibr_camera(reader, yaml.root()["cam0"]);
   if (const YAML::Node cam1 = yaml.root()["cam1"]; with_right && cam1.IsDefined()) {
-    if (!cam1.IsMap()) reader.fail(cam1, "cam1: is no camera");
+    if (!cam1.IsMap()) reader.fail(cam1, "cam1: is not a camera");
     result.right = RightCamera{read_kalibr_camera(reader, cam1), chain_T_left_right(reader, cam1)};
   }
   return result;

@@ -5,8 +5,8 @@
 
 namespace placegraph {
 
-/// Kalibr's camchain: cam0 and, if asked for and there, cam1 as its right eye (T_cn_cnm1). Throws
-/// FileError with the line.
+/// Kalibr's camchain: cam0 and, if requested and present, cam1 as its right camera (T_cn_cnm1).
+/// Throws FileError with the line.
 ForeignCalibration read_kalibr(const YamlDocument& yaml, bool with_right);
 
 }  // namespace placegraph

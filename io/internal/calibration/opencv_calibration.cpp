@@ -39,7 +39,7 @@ SE3 stereo_T_left_right(const CalibrationReader& reader, const YAML::Node& root)
                    T_node = first_of(root, {"T", "Translation"});
   if (!R_node.IsDefined() || !T_node.IsDefined())
     reader.fail(root,
-                "R, T: are missing; they tell where the second camera is, whose images are in "
+                "R, T: are missing; they are the pose of the second camera, whose images are in "
                 "right/");
   const std::vector<double> r = reader.numbers(R_node, "R"), t = reader.numbers(T_node, "T", 3);
   if (r.size() != 9 && r.size() != 3)
@@ -53,7 +53,7 @@ SE3 stereo_T_left_right(const CalibrationReader& reader, const YAML::Node& root)
   return reader.motion(R_right_left, {t[0], t[1], t[2]}, R_node).inverse();
 }
 
-/// Two cameras in one file.
+/// Reads two cameras from one file.
 std::optional<ForeignCalibration> read_stereo(const YamlDocument& yaml, bool with_right) {
   const YAML::Node& root = yaml.root();
   const YAML::Node K1 = first_of(root, {"K1", "M1", "cameraMatrix1", "camera_matrix_1"});

@@ -88,12 +88,12 @@ RectifiedStereo rectify_stereo(const RawCamera& raw_left, const RawCamera& raw_r
   const Camera &left = raw_left.camera, &right = raw_right.camera;
   const bool fisheye = left.distortion == Distortion::kEquidistant;
   if (fisheye != (right.distortion == Distortion::kEquidistant)) {
-    throw ArgumentError("stereo: the two eyes have different distortion models");
+    throw ArgumentError("stereo: the two cameras have different distortion models");
   }
   if (left.width != right.width || left.height != right.height) {
-    throw ArgumentError("stereo: the two eyes have different image sizes");
+    throw ArgumentError("stereo: the two cameras have different image sizes");
   }
-  // OpenCV takes the motion of points from the left camera's frame to the right one's.
+  // OpenCV expects the transformation of points from the left camera's frame to the right one's.
   const SE3 T_right_left = T_left_right.inverse();
   const Eigen::Matrix3d R_eigen = T_right_left.rotation().matrix();
   const Eigen::Vector3d t_eigen = T_right_left.translation();
@@ -116,7 +116,7 @@ RectifiedStereo rectify_stereo(const RawCamera& raw_left, const RawCamera& raw_r
   result.camera = pinhole(left, P1);
   result.baseline_m = -P2.at<double>(0, 3) / P2.at<double>(0, 0);
   if (P2.at<double>(1, 3) != 0 || !(result.baseline_m > 0)) {
-    throw ArgumentError("stereo: the right eye is not to the right of the left one");
+    throw ArgumentError("stereo: the right camera is not to the right of the left one");
   }
   result.camera.check();
   result.left = make_remap(raw_left, R1, P1);

@@ -16,7 +16,7 @@ namespace placegraph {
 namespace internal {
 namespace {
 
-/// Throws an error about the present key; `node` tells the line.
+/// Throws an error about the present key; the line is that of `node`.
 using Fail = std::function<void(const YAML::Node& node, const std::string& message)>;
 
 std::string joined(const std::vector<std::string>& prefix, std::string_view key) {
@@ -36,7 +36,7 @@ void require_range(double value, Range range, const YAML::Node& node, const Fail
   fail(node, fmt::format("{} lies outside [{}, {}]", seen(node), range.min, range.max));
 }
 
-/// A plain scalar; quoted ones are texts, whatever they spell.
+/// Whether a node is a plain scalar; quoted ones are always texts.
 bool is_plain(const YAML::Node& node) { return node.IsScalar() && node.Tag() != "!"; }
 
 template <class Integer>
@@ -96,7 +96,8 @@ void assign_choice(const YAML::Node& node, int& index, const std::vector<std::st
 
 }  // namespace
 
-/// The visitor's seven doors lead into one: find the value of a key, then assign it.
+/// Base of the visitors that assign values: all seven overloads find the value of a key and assign
+/// it.
 class AssigningVisitor : public OptionVisitor {
  public:
   void operator()(const char* key, bool& value, const char*) override {
@@ -213,7 +214,7 @@ class OptionsFile::Reader : public AssigningVisitor {
     levels_.push_back({node, {}, {}});
   }
 
-  /// Keeps the unknown key that stands first in the file; thrown at the end, after wrong values.
+  /// Records the first unknown key of the file; it is thrown at the end, after wrong values.
   void leave() {
     for (const auto& entry : levels_.back().map) {
       const std::string& key = entry.first.Scalar();
@@ -258,7 +259,7 @@ class OptionAssignment::Setter : public AssigningVisitor {
     try {
       value_ = YAML::Load(assignment.substr(equals + 1));
     } catch (const YAML::Exception& error) {
-      fail("the value is no YAML: " + error.msg);
+      fail("the value is not YAML: " + error.msg);
     }
   }
 

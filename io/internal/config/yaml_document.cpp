@@ -15,7 +15,7 @@ std::string read_text(const std::string& path) {
   std::string text;
   std::string_view line;
   while (file.next(line)) {
-    // OpenCV's "%YAML:1.0" is no directive of YAML.
+    // OpenCV's "%YAML:1.0" is not a valid directive of YAML.
     if (!line.starts_with("%YAML:")) text.append(line);
     text.push_back('\n');
     if (text.size() > kMaxBytes) throw FileError(path, "is larger than 16 MiB");

@@ -13,7 +13,7 @@ namespace placegraph {
 class YamlDocument {
  public:
   explicit YamlDocument(std::string path);
-  /// From a text; errors name `path`.
+  /// Parses a text; errors name `path`.
   YamlDocument(std::string path, const std::string& text);
 
   const YAML::Node& root() const { return root_; }
@@ -39,7 +39,7 @@ class YamlDocument {
 /// 1-based line of a node, 0 if it has none.
 int yaml_line(const YAML::Node& node);
 
-/// The finite number or .inf a plain scalar holds; nothing for quoted ones, nan and other text.
+/// The finite number or .inf in a plain scalar; nothing for quoted ones, nan and other text.
 std::optional<double> yaml_number(const YAML::Node& node);
 
 }  // namespace placegraph

@@ -4,7 +4,7 @@
 namespace placegraph {
 namespace {
 
-/// Of a dataset as all sensors together see it.
+/// The calibration of a dataset for all its sensors together.
 Calibration whole_calibration(const Dataset& dataset) {
   Calibration whole = dataset.calibration(Sensor::kMono);
   for (const Sensor sensor : dataset.sensors()) {

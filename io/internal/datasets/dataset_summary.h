@@ -4,26 +4,26 @@
 
 namespace placegraph {
 
-/// What a recorded sequence holds, in figures; nothing of its images is read for it.
+/// Statistics of a recorded sequence; no images are read for them.
 struct DatasetSummary {
   std::string name, format;
   std::size_t frames = 0;
   std::int64_t first_ns = 0, last_ns = 0;
   StampSpacing spacing;
-  std::vector<Sensor> sensors;  ///< what it can be run as, best first
-  Calibration calibration;      ///< of everything it hands out for any sensor
+  std::vector<Sensor> sensors;  ///< supported sensors, best first
+  Calibration calibration;      ///< calibration of all images for any sensor
   struct GroundTruth {
     std::size_t posed = 0;  ///< frames that have a pose
-    double path_m = 0;      ///< length of the way through the poses
+    double path_m = 0;      ///< path length through the poses
   };
   std::optional<GroundTruth> truth;
-  std::vector<DataNote> notes;  ///< what was left out in reading, and what is odd
+  std::vector<DataNote> notes;  ///< skipped data and implausible data
 };
 
 DatasetSummary summarize(const Dataset& dataset);
 
-/// Where lengths in metres come from when `sensor` runs with `calibration`: "the baseline of 0.537
-/// m", "the depth images", "the camera's height of 1.65 m"; empty where nothing tells them.
+/// The source of metric scale when `sensor` runs with `calibration`: "the baseline of 0.537 m",
+/// "the depth images", "the camera's height of 1.65 m"; empty if the scale is unknown.
 std::string metric_by(Sensor sensor, const Calibration& calibration);
 
 }  // namespace placegraph

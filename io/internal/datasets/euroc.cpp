@@ -32,7 +32,7 @@ struct ImageList {
   std::vector<std::string> paths;
 };
 
-/// A camera's folder without data.csv: images that are named by their stamps [ns].
+/// Lists a camera's folder without data.csv: the names of the images are their stamps [ns].
 ImageList list_of_names(const fs::path& camera_folder) {
   const std::string missing = (camera_folder / "data.csv").string(),
                     folder = (camera_folder / "data").string();
@@ -58,7 +58,7 @@ bool has_images(const fs::path& camera_folder) {
   return fs::exists(camera_folder / "data.csv") || fs::is_directory(camera_folder / "data");
 }
 
-/// "timestamp [ns],filename" a line.
+/// Reads lines "timestamp [ns],filename".
 ImageList read_list(const fs::path& camera_folder) {
   if (!fs::exists(camera_folder / "data.csv")) return list_of_names(camera_folder);
   TextFile file((camera_folder / "data.csv").string());
@@ -89,10 +89,10 @@ struct BodyCamera {
 BodyCamera read_sensor(const fs::path& camera_folder) {
   const YamlDocument yaml((camera_folder / "sensor.yaml").string());
   const YAML::Node& root = yaml.root();
-  if (!root.IsMap()) yaml.fail(root, "is no camera's sensor.yaml");
+  if (!root.IsMap()) yaml.fail(root, "is not the sensor.yaml of a camera");
   BodyCamera result;
   if (yaml.text(root, "camera_model") != "pinhole") {
-    yaml.fail(root["camera_model"], "camera_model: only pinhole is known");
+    yaml.fail(root["camera_model"], "camera_model: only pinhole is supported");
   }
   Camera& camera = result.camera;
   const std::vector<double> size = yaml.numbers(root, "resolution", 2);
@@ -136,10 +136,10 @@ Trajectory stamps_of(const ImageList& images) {
   return stamps;
 }
 
-/// Eyes are triggered together: what is further apart than a tenth of a frame is no pair.
+/// The cameras are triggered together: images more than a tenth of a frame apart are not a pair.
 constexpr double kMaxPairShare = 0.1;
 
-/// Pairs images by their nearest stamps; says what is left out.
+/// Pairs images by their nearest stamps; adds a note about skipped images.
 void take_pairs(const ImageList& left, const ImageList& right, RecordedSequence& sequence) {
   std::vector<double> gaps_s;
   for (std::size_t i = 1; i < left.stamps_ns.size(); ++i)
@@ -157,16 +157,16 @@ void take_pairs(const ImageList& left, const ImageList& right, RecordedSequence&
   const std::size_t pairs = sequence.left.size();
   if (pairs < left.paths.size() || pairs < right.paths.size())
     sequence.notes.push_back({fmt::format(
-        "{} pairs of eyes: {} of {} images of cam0 and {} of {} of cam1 are left out, having no "
+        "{} stereo pairs: {} of {} images of cam0 and {} of {} of cam1 are skipped, having no "
         "partner within {:.3g} ms",
         pairs, left.paths.size() - pairs, left.paths.size(), right.paths.size() - pairs,
         right.paths.size(), 1e3 * nearest.max_difference_s)});
   if (apart_s > 0)
     sequence.notes.push_back(
-        {fmt::format("the eyes' stamps differ by up to {:.3g} ms", 1e3 * apart_s)});
+        {fmt::format("the stamps of the two cameras differ by up to {:.3g} ms", 1e3 * apart_s)});
 }
 
-/// Fills cameras and images; returns T_body_cam of the left camera as handed over.
+/// Fills cameras and images; returns T_body_cam of the returned left camera.
 SE3 read_mav_cameras(const fs::path& mav, RecordedSequence& sequence) {
   const ImageList left_images = read_list(mav / "cam0");
   const BodyCamera left = read_sensor(mav / "cam0");

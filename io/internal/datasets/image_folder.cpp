@@ -17,7 +17,7 @@ namespace placegraph {
 namespace fs = std::filesystem;
 namespace {
 
-/// The last number in the name of an image: of a frame, or its time.
+/// The last number in the name of an image: its frame number or its time.
 std::optional<double> number_of(const std::string& path) {
   const std::string stem = fs::path(path).stem().string();
   const std::size_t last = stem.find_last_of("0123456789");
@@ -29,8 +29,8 @@ std::optional<double> number_of(const std::string& path) {
   return parse_double(number);
 }
 
-/// Refuses images whose numbers are not those of the left ones: they would be paired by their place
-/// in the folder. Times may differ by half of what lies between two images.
+/// Rejects images whose numbers differ from those of the left ones, because pairs are formed by the
+/// position in the folder. Times may differ by half of the time between two images.
 void require_same_numbers(const std::vector<std::string>& left,
                           const std::vector<std::string>& images) {
   std::vector<double> of_left, of_images, steps;
@@ -58,7 +58,7 @@ std::vector<std::string> list_as_many(const fs::path& folder,
   return images;
 }
 
-/// Where the images of the (left) eye are: in the folder itself, or in one of these inside it.
+/// The folder of the (left) camera's images: the folder itself, or one of these inside it.
 std::string folder_of_images(const fs::path& folder) {
   if (holds_images(folder.string())) return folder.string();
   for (const char* name : {"images", "image", "left", "rgb"})
@@ -83,7 +83,7 @@ void read_ground_truth(const fs::path& path, const SE3& T_left_rectified,
   sequence.ground_truth = std::move(truth);
 }
 
-/// One eye, or a rectified pair whose distance `yaml` tells.
+/// Sets one camera, or a rectified pair with the baseline of `yaml`.
 void take_cameras(const std::string& yaml_path, const CalibrationYaml& yaml, const fs::path& folder,
                   RecordedSequence& sequence) {
   const UndistortedCamera undistorted = undistort_plausibly(yaml_path, yaml.camera());
@@ -94,14 +94,14 @@ void take_cameras(const std::string& yaml_path, const CalibrationYaml& yaml, con
   sequence.calibration.baseline_m = yaml.baseline_m;
 }
 
-/// A pair that is rectified here; returns T_left_rectified.
+/// Rectifies a pair; returns T_left_rectified.
 SE3 take_raw_cameras(const std::string& yaml_path, const CalibrationYaml& yaml,
                      const fs::path& folder, RecordedSequence& sequence) {
   require_plausible_camera(yaml_path, yaml.camera());
   require_plausible_camera(yaml_path, yaml.right->raw);
   if (fs::is_directory(folder / "depth"))
     throw FileError(yaml_path,
-                    "tells two eyes that are not rectified, which is not possible together with "
+                    "describes a pair that is not rectified, which cannot be combined with "
                     "depth/");
   sequence.right = list_as_many(folder / "right", sequence.left);
   const Camera& right = yaml.right->raw.camera;
@@ -125,7 +125,7 @@ void take_depth(const CalibrationYaml& yaml, const fs::path& folder, RecordedSeq
   sequence.depth_unit_m = yaml.depth.unit_m;
   sequence.calibration.depth = yaml.depth_camera();
   if (yaml.depth.fx > 0) return;
-  // Registered: it shares the lens distortion of the image.
+  // Registered depth shares the lens distortion of the image.
   sequence.calibration.depth->camera = sequence.calibration.camera;
   sequence.depth_remap = sequence.left_remap;
 }

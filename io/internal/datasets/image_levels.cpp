@@ -10,12 +10,12 @@ namespace placegraph {
 namespace {
 
 constexpr std::size_t kSampled = 8, kImagesASample = 20;
-/// 99 % of the pixels are below it: corners are lost in the noise and the rounding.
+/// Dark if 99 % of the pixels are below it: corners are lost in the noise and the rounding.
 constexpr int kDark = 32;
-/// Of 98 % of the pixels.
+/// Least range of grey levels of 98 % of the pixels.
 constexpr int kLittleContrast = 12;
 
-/// The grey level [0, 255] that this share of the pixels is below.
+/// The grey level [0, 255] with this share of the pixels below it.
 int percentile(const std::vector<std::size_t>& histogram, double share) {
   std::size_t all = 0, below = 0;
   for (const std::size_t count : histogram) all += count;
@@ -33,7 +33,7 @@ int bits_of(double greatest) {
   return bits;
 }
 
-/// Adds the pixels as they will be handed over, in 8 bits.
+/// Adds the pixels after their conversion to 8 bits.
 void add_pixels(const Image& stored, int bits, std::vector<std::size_t>& histogram) {
   Image grey = stored;
   if (stored.depth() == CV_16U) stored.convertTo(grey, CV_8U, 1.0 / (1 << (bits - 8)));
@@ -42,8 +42,8 @@ void add_pixels(const Image& stored, int bits, std::vector<std::size_t>& histogr
     for (int x = 0; x < grey.cols; ++x) ++histogram[grey.at<unsigned char>(y, x)];
 }
 
-/// `count` images, evenly spaced, as they are stored; those that are none of 8 or 16 bits are
-/// passed over.
+/// Reads `count` images, evenly spaced, as they are stored; those of neither 8 nor 16 bits are
+/// skipped.
 std::vector<Image> some_images(const std::vector<std::string>& paths, std::size_t count) {
   std::vector<Image> images;
   for (std::size_t k = 0; k < count; ++k) {
@@ -78,8 +78,8 @@ ImageLevels sample_levels(const std::vector<std::string>& paths) {
   if (levels.of_16) levels.bits = bits_of(greatest_of_16);
   if (levels.bits < 16)
     levels.notes.push_back(
-        {fmt::format("the images of 16 bits use {} of them (up to {:.0f}): they are "
-                     "scaled by that, once for the sequence",
+        {fmt::format("the 16-bit images use only {} bits (up to {:.0f}): they are "
+                     "scaled by that, uniformly for the sequence",
                      levels.bits, greatest_of_16)});
   std::vector<std::size_t> histogram(256, 0);
   for (const Image& image : images) add_pixels(image, levels.bits, histogram);

@@ -6,18 +6,18 @@
 
 namespace placegraph {
 
-/// How images use the grey levels that their files have room for.
+/// The range of grey levels that images use, out of those that their files can store.
 struct ImageLevels {
-  bool of_16 = false;  ///< whether there are images of 16 bits
-  /// Bits in use of images of 16: 8 to 16. One number for a sequence, so that brightness stays
-  /// comparable from image to image.
+  bool of_16 = false;  ///< whether there are 16-bit images
+  /// Number of used bits of 16-bit images: 8 to 16. One number for a sequence, so that brightness
+  /// remains comparable from image to image.
   int bits = 16;
   std::vector<DataNote> notes;  ///< few bits of 16, very dark images, hardly any contrast
 };
 
-/// Looks at up to eight images, evenly spaced in the list; of 8 bits at one in twenty, as each of
-/// them costs what reading it costs. Unreadable ones are passed over: whoever
-/// needs them says so.
+/// Samples up to eight images, evenly spaced in the list, but at most one in twenty of 8-bit
+/// images, because sampling an image costs as much as reading it. Unreadable images are skipped:
+/// the error is thrown where they are needed.
 ImageLevels sample_levels(const std::vector<std::string>& paths);
 
 }  // namespace placegraph

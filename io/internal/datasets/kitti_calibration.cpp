@@ -6,7 +6,7 @@
 namespace placegraph {
 namespace {
 
-/// Where the camera of P = K [I | t] stands in the frame of camera 0: -t.
+/// The position of the camera of P = K [I | t] in the frame of camera 0: -t.
 Eigen::Vector3d kitti_position(const KittiLine& P) {
   const std::vector<double>& p = P.numbers;
   const double z = p[11];
@@ -47,7 +47,7 @@ Camera kitti_camera(const std::string& path, const std::string& key, const Kitti
   const bool pinhole =
       p[0] > 0 && p[5] > 0 && p[1] == 0 && p[4] == 0 && p[8] == 0 && p[9] == 0 && p[10] == 1;
   if (!pinhole) {
-    throw FileError(path, P.line, key + ": is no projection matrix fx 0 cx . 0 fy cy . 0 0 1 .");
+    throw FileError(path, P.line, key + ": is not a projection matrix fx 0 cx . 0 fy cy . 0 0 1 .");
   }
   Camera camera;
   camera.fx = p[0], camera.cx = p[2], camera.fy = p[5], camera.cy = p[6];

@@ -21,13 +21,13 @@ fs::path camera_folder(const fs::path& drive, int camera) {
   return drive / fmt::format("image_{:02d}", camera);
 }
 
-/// The images of an eye by their numbers.
+/// The images of a camera by their numbers.
 std::map<std::int64_t, std::string> numbered_images(const fs::path& data) {
   std::map<std::int64_t, std::string> images;
   for (const std::string& path : list_images(data.string())) {
     const auto number = parse_integer(fs::path(path).stem().string());
     if (!number || *number < 0)
-      throw FileError(path, "is no image of a drive: 0000000000.png, 0000000001.png, ...");
+      throw FileError(path, "is not an image of a drive: 0000000000.png, 0000000001.png, ...");
     images.emplace(*number, path);
   }
   return images;
@@ -43,7 +43,7 @@ std::string calibration_file(const fs::path& drive) {
                   "calib_cam_to_cam.txt (the archive 2011_.._calib.zip) or calib.txt");
 }
 
-/// Images of both eyes by their numbers; those of one eye alone are counted.
+/// Takes the images of both cameras by their numbers; those without a partner are counted.
 void take_images(const fs::path& drive, int left, bool has_right, RecordedSequence& sequence,
                  std::vector<std::int64_t>& numbers) {
   const auto lefts = numbered_images(camera_folder(drive, left) / "data");
@@ -56,16 +56,17 @@ void take_images(const fs::path& drive, int left, bool has_right, RecordedSequen
     numbers.push_back(number);
   }
   if (numbers.empty())
-    throw FileError(drive.string(), "no image of the left eye has one of the right eye");
+    throw FileError(drive.string(),
+                    "no image of the left camera has a partner from the right camera");
   if (has_right && numbers.size() < std::max(lefts.size(), rights.size()))
     sequence.notes.push_back({fmt::format(
-        "{} of {} images of the left eye and {} of {} of the right eye are left out: the "
-        "other eye has none of that number",
+        "{} of {} images of the left camera and {} of {} of the right camera are skipped: the "
+        "other camera has none of that number",
         lefts.size() - numbers.size(), lefts.size(), rights.size() - numbers.size(),
         rights.size())});
 }
 
-/// The images' times from the first image on, by their numbers, which are those of the lines.
+/// Times of the images relative to the first one, by their numbers, which are line numbers.
 void take_times(const fs::path& drive, int left, const std::vector<std::int64_t>& numbers,
                 RecordedSequence& sequence) {
   const fs::path path = camera_folder(drive, left) / "timestamps.txt";
@@ -86,7 +87,7 @@ void take_times(const fs::path& drive, int left, const std::vector<std::int64_t>
   }
 }
 
-/// The size that rectified images have must be that of the images.
+/// Rejects images whose size differs from that of the rectified images in the calibration.
 void require_rectified(const std::string& path, int left, const std::string& image_path,
                        const Image& image) {
   const std::string key = fmt::format("S_rect_{:02d}", left);

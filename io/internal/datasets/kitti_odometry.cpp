@@ -22,8 +22,9 @@ void require_count(const std::string& path, std::size_t found, std::size_t image
                   fmt::format("holds {} entries, but there are {} left images", found, images));
 }
 
-/// The left eye (image_0, else image_2) and, where calibrated, the right one (image_1 / image_3).
-/// Returns the left camera's position in the frame of camera 0, which ground truth refers to.
+/// Reads the left camera (image_0, else image_2) and, if calibrated, the right one (image_1 /
+/// image_3). Returns the left camera's position in the frame of camera 0, to which ground truth
+/// refers.
 Eigen::Vector3d read_cameras(const fs::path& folder, RecordedSequence& sequence) {
   const int left = fs::is_directory(folder / "image_0") ? 0 : 2;
   const fs::path right_folder = folder / fmt::format("image_{}", left + 1);
@@ -42,8 +43,8 @@ Eigen::Vector3d read_cameras(const fs::path& folder, RecordedSequence& sequence)
   return kitti_cameras.position_in_cam0;
 }
 
-/// depth_0, with its own camera in calib_depth.txt; without that file it is registered to the left
-/// eye.
+/// Reads depth_0 with its own camera in calib_depth.txt; without that file it is registered to the
+/// left camera.
 void read_depth_camera(const fs::path& folder, RecordedSequence& sequence) {
   if (!fs::is_directory(folder / "depth_0")) return;
   sequence.depth = list_numbered_images((folder / "depth_0").string());
@@ -83,7 +84,7 @@ void read_depth_camera(const fs::path& folder, RecordedSequence& sequence) {
   sequence.calibration.depth = depth;
 }
 
-/// world.yaml stands beside rendered sequences and says what KITTI's files have no place for.
+/// Reads world.yaml of rendered sequences, which contains what KITTI's files cannot express.
 void read_world(const fs::path& folder, RecordedSequence& sequence) {
   const std::string path = (folder / "world.yaml").string();
   if (!fs::exists(path)) return;

@@ -18,13 +18,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A layout and how it is told from the others.
+/// A layout: its test and its reader.
 struct Layout {
   bool (*is)(const std::string& path);
   std::unique_ptr<Dataset> (*open)(const std::string& path);
 };
 
-/// In the order they are looked for.
+/// Layouts in the order of their tests.
 constexpr Layout kLayouts[] = {
     {is_video_file, open_video_file},    {is_euroc, open_euroc},
     {is_tum_rgbd, open_tum_rgbd},        {is_kitti_odometry, open_kitti_odometry},
@@ -37,7 +37,7 @@ const Layout* layout_of(const std::string& path) {
   return nullptr;
 }
 
-/// The folders inside that are sequences: "seq-01, seq-02 and 3 more"; empty if there are none.
+/// Names of the folders inside that are sequences: "seq-01, seq-02 and 3 more"; empty if none.
 std::string sequences_inside(const fs::path& folder) {
   constexpr std::size_t kNamed = 3;
   std::vector<std::string> names;
@@ -53,16 +53,17 @@ std::string sequences_inside(const fs::path& folder) {
   return text;
 }
 
-/// What is missing to make a sequence of a folder; empty if that is not evident.
+/// Describes what a folder lacks to be a sequence; empty if that is not evident.
 std::string what_is_missing(const fs::path& folder) {
   if (const std::string inside = sequences_inside(folder); !inside.empty())
-    return "it holds the sequences " + inside + ": name one of them";
-  for (const char* eye : {"image_0", "image_2"})
-    if (holds_images((folder / eye).string()))
-      return fmt::format("calib.txt is missing (KITTI: a line P{}: with twelve numbers)", eye + 6);
+    return "it contains the sequences " + inside + ": name one of them";
+  for (const char* camera : {"image_0", "image_2"})
+    if (holds_images((folder / camera).string()))
+      return fmt::format("calib.txt is missing (KITTI: a line P{}: with twelve numbers)",
+                         camera + 6);
   for (const char* images : {"left", "images", "image", "rgb"})
     if (holds_images((folder / images).string()))
-      return "calibration.yaml is missing (docs/datasets.md says what it holds)";
+      return "calibration.yaml is missing (docs/datasets.md describes its keys)";
   return "";
 }
 

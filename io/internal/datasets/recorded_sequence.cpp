@@ -76,17 +76,17 @@ class RecordedDataset : public Dataset {
   }
 
   GreyAndColour read_camera_images(const std::string& path, const Remap& remap) const {
-    GreyAndColour eye = read_image(path, bits_);
-    require_size(path, eye.grey, s_.raw_camera.width, s_.raw_camera.height);
-    if (remap.is_identity()) return eye;
-    if (eye.colour.empty()) return {remap.bilinear(eye.grey), {}};
-    eye.colour = remap.bilinear(eye.colour);
-    eye.grey = to_grey(eye.colour);
-    return eye;
+    GreyAndColour images = read_image(path, bits_);
+    require_size(path, images.grey, s_.raw_camera.width, s_.raw_camera.height);
+    if (remap.is_identity()) return images;
+    if (images.colour.empty()) return {remap.bilinear(images.grey), {}};
+    images.colour = remap.bilinear(images.colour);
+    images.grey = to_grey(images.colour);
+    return images;
   }
 
   RecordedSequence s_;
-  int bits_ = 16;  ///< in use of images of 16 bits
+  int bits_ = 16;  ///< number of used bits of 16-bit images
 };
 
 }  // namespace
@@ -99,7 +99,8 @@ Calibration calibration_for(Sensor sensor, const Calibration& calibration,
                             const std::string& name) {
   Calibration result = calibration;
   if (sensor == Sensor::kStereo && !(calibration.baseline_m > 0)) {
-    throw ArgumentError(name + ": has no calibrated right eye, so that it cannot be run as stereo");
+    throw ArgumentError(name +
+                        ": has no calibrated right camera, so that it cannot be run as stereo");
   }
   if (sensor == Sensor::kRgbd && !calibration.depth) {
     throw ArgumentError(name + ": has no depth images, so that it cannot be run as rgbd");

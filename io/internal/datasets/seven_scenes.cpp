@@ -17,7 +17,7 @@ namespace {
 constexpr double kRateHz = 30;
 const std::string kPrefix = "frame-";
 
-/// What there is of a frame; paths that are not there are empty.
+/// The files of a frame; paths of missing files are empty.
 struct SceneFrame {
   std::string colour, depth, pose;
 };
@@ -40,7 +40,7 @@ std::map<std::int64_t, SceneFrame> frames_in(const fs::path& folder) {
   return frames;
 }
 
-/// Four lines of four numbers; nothing where one is not finite.
+/// Reads four lines of four numbers; nothing if one is not finite.
 std::optional<Eigen::Isometry3d> read_pose(const std::string& path) {
   TextFile file(path);
   Eigen::Matrix4d T;
@@ -62,7 +62,7 @@ std::optional<Eigen::Isometry3d> read_pose(const std::string& path) {
   }
 }
 
-/// That of calibration.yaml, else what the data are used with.
+/// The calibration of calibration.yaml, else the usual one for these data.
 CalibrationYaml read_calibration(const fs::path& folder, const Image& first,
                                  RecordedSequence& sequence) {
   CalibrationYaml yaml;
@@ -80,10 +80,10 @@ CalibrationYaml read_calibration(const fs::path& folder, const Image& first,
   yaml.depth.fx = yaml.depth.fy = kDepthFocal * scale;
   yaml.cx = yaml.depth.cx = 0.5 * first.cols;
   yaml.cy = yaml.depth.cy = 0.5 * first.rows;
-  sequence.notes.push_back(
-      {fmt::format("7-Scenes ships no calibration: focal lengths of {:g} px (colour) and {:g} px "
-                   "(depth) are taken, both cameras at one place; a calibration.yaml tells better",
-                   yaml.fx, yaml.depth.fx)});
+  sequence.notes.push_back({fmt::format(
+      "7-Scenes has no calibration: focal lengths of {:g} px (colour) and {:g} px "
+      "(depth) are assumed, both cameras at one position; a calibration.yaml is more accurate",
+      yaml.fx, yaml.depth.fx)});
   return yaml;
 }
 
@@ -114,7 +114,7 @@ std::unique_ptr<Dataset> open_seven_scenes(const std::string& folder) {
     throw FileError(folder, "no frame has both a colour and a depth image");
   if (sequence.left.size() < frames.size())
     sequence.notes.push_back(
-        {fmt::format("{} of {} frames are left out: without a colour or a depth image",
+        {fmt::format("{} of {} frames are skipped: without a colour or a depth image",
                      frames.size() - sequence.left.size(), frames.size())});
   const Image first = read_image(sequence.left[0]).grey;
   CalibrationYaml yaml = read_calibration(folder, first, sequence);

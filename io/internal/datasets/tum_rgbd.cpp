@@ -20,11 +20,11 @@ constexpr double kMaxTruthGap_s = 0.2;
 constexpr double kDepthUnit_m = 1.0 / 5000;
 
 struct ImageList {
-  Trajectory stamps;  ///< without poses: what associate_by_time takes
+  Trajectory stamps;  ///< without poses: input of associate_by_time
   std::vector<std::string> paths;
 };
 
-/// "time filename" a line.
+/// Reads lines "time filename".
 ImageList read_list(const fs::path& folder, const char* name) {
   TextFile file((folder / name).string());
   ImageList list;
@@ -49,15 +49,15 @@ ImageList read_list(const fs::path& folder, const char* name) {
 constexpr const char* kAssociations[] = {"associations.txt", "association.txt", "associated.txt",
                                          "associate.txt"};
 
-/// The file of pairs that stands in the place of rgb.txt and depth.txt; empty if there is none.
+/// The file of pairs that replaces rgb.txt and depth.txt; empty if there is none.
 fs::path associations_of(const fs::path& folder) {
   for (const char* name : kAssociations)
     if (fs::exists(folder / name)) return folder / name;
   return {};
 }
 
-/// "time image time depth_image" a line, as the benchmark's script writes it, or depth first, told
-/// by the folder's name. Times are the images'.
+/// Reads lines "time image time depth_image", as the benchmark's script writes them, or with depth
+/// first, recognized by the folder's name. The times of the images are used.
 void read_associations(const fs::path& path, RecordedSequence& sequence) {
   TextFile file(path.string());
   std::string_view line;
@@ -79,8 +79,8 @@ void read_associations(const fs::path& path, RecordedSequence& sequence) {
   if (sequence.left.empty()) throw FileError(path.string(), "holds no images");
 }
 
-/// Whether a name has a word, with neither letters or digits before it nor digits behind it, as in
-/// the benchmark's "rgbd_dataset_freiburg1_xyz".
+/// Whether a name contains a word that has neither letters nor digits before it and no digits after
+/// it, as in the benchmark's "rgbd_dataset_freiburg1_xyz".
 bool has_word(const std::string& name, const std::string& word) {
   const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
   for (std::size_t at = name.find(word); at != name.npos; at = name.find(word, at + 1)) {
@@ -112,11 +112,11 @@ std::optional<Camera> benchmark_camera(const std::string& name) {
   return std::nullopt;
 }
 
-/// ICL-NUIM's (Handa et al. 2014). Its own calibration has a negative fy, because its axis y points
-/// up: the truth is turned over instead.
+/// Camera of ICL-NUIM (Handa et al. 2014). Its own calibration has a negative fy, because its axis
+/// y points up; instead, the ground truth is flipped.
 constexpr Camera kIclNuim{640, 480, 481.20, 480.00, 319.5, 239.5, Distortion::kNone, {}};
 
-/// The truth of ICL-NUIM in TUM's form, "livingRoom0.gt.freiburg"; empty in other folders.
+/// The ground truth of ICL-NUIM in TUM's format, "livingRoom0.gt.freiburg"; empty in other folders.
 fs::path icl_nuim_truth(const fs::path& folder) {
   std::error_code error;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
@@ -124,7 +124,7 @@ fs::path icl_nuim_truth(const fs::path& folder) {
   return {};
 }
 
-/// Times that are numbers of frames (0, 1, 2, ...), as ICL-NUIM's, count frames of 30 Hz.
+/// Whether times are frame numbers (0, 1, 2, ...) at 30 Hz, as in ICL-NUIM.
 bool are_frame_numbers(const std::vector<std::int64_t>& stamps_ns) {
   constexpr std::int64_t kSecond_ns = 1'000'000'000;
   for (std::size_t i = 1; i < stamps_ns.size(); ++i)
@@ -134,7 +134,7 @@ bool are_frame_numbers(const std::vector<std::int64_t>& stamps_ns) {
 
 constexpr std::int64_t kIclNuimRate_Hz = 30;
 
-/// Times by numbers of frames, and y down.
+/// Reads poses with frame numbers as times, and converts them to y down.
 Trajectory read_icl_nuim_truth(const fs::path& path) {
   Trajectory truth = read_timed_poses(path.string());
   const Eigen::Vector3d flip(1, -1, 1);
@@ -148,7 +148,7 @@ Trajectory read_icl_nuim_truth(const fs::path& path) {
   return truth;
 }
 
-/// That of calibration.yaml, else the benchmark's, as the folder's name says.
+/// The calibration of calibration.yaml, else the benchmark's, selected by the folder's name.
 CalibrationYaml read_calibration(const fs::path& folder, const std::string& name) {
   CalibrationYaml yaml;
   yaml.depth.unit_m = kDepthUnit_m;
@@ -156,7 +156,7 @@ CalibrationYaml read_calibration(const fs::path& folder, const std::string& name
   if (fs::exists(path)) {
     read_calibration_yaml(path.string(), yaml);
     if (yaml.baseline_m > 0)
-      throw FileError(path.string(), "baseline_m: a TUM sequence has one eye");
+      throw FileError(path.string(), "baseline_m: a TUM sequence has one camera");
     return yaml;
   }
   const auto camera = icl_nuim_truth(folder).empty() ? benchmark_camera(name) : kIclNuim;
@@ -190,7 +190,7 @@ void take_images(const ImageList& colour, const ImageList* depth, RecordedSequen
   const std::size_t pairs = sequence.left.size();
   if (pairs < colour.paths.size())
     sequence.notes.push_back({fmt::format(
-        "{} of {} images are left out: no depth image within {:g} ms (depth.txt has {})",
+        "{} of {} images are skipped: no depth image within {:g} ms (depth.txt has {})",
         colour.paths.size() - pairs, colour.paths.size(), 1e3 * kMaxDepthDelay_s,
         depth->paths.size())});
 }
@@ -216,13 +216,13 @@ std::unique_ptr<Dataset> open_tum_rgbd(const std::string& folder) {
     take_images(colour, has_depth ? &depth : nullptr, sequence);
     if (!has_depth && fs::is_directory(path / "depth"))
       sequence.notes.push_back(
-          {"depth.txt is missing, so that depth/ is not used: the sequence is run as one eye"});
+          {"depth.txt is missing, so that depth/ is not used: the sequence is run as monocular"});
   } else {
     read_associations(associations_of(path), sequence);
   }
   if (sequence.left.empty()) {
     throw FileError((path / "depth.txt").string(),
-                    "no depth image lies within 20 ms of any image of rgb.txt");
+                    "no depth image is within 20 ms of any image of rgb.txt");
   }
   if (auto note = fit_to_image(sequence.left[0], read_image(sequence.left[0]).grey, yaml))
     sequence.notes.push_back(*note);

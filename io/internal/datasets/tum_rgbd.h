@@ -3,7 +3,7 @@
 
 namespace placegraph {
 
-/// Whether a folder holds `rgb.txt`.
+/// Whether a folder contains `rgb.txt`.
 bool is_tum_rgbd(const std::string& folder);
 
 /// A sequence of the TUM RGB-D benchmark (Sturm et al. 2012): `rgb.txt`, `depth.txt` (1/5000 m,

@@ -24,20 +24,20 @@ namespace {
 
 std::unique_ptr<VideoReader> open_video(const std::string& path) {
   std::unique_ptr<VideoReader> video = picture_plugin(path).open_video(path);
-  if (!video) throw FileError(path, "is no readable video");
+  if (!video) throw FileError(path, "is not a readable video");
   return video;
 }
 
-/// The reader tells no times of the last frames, those that the decoder still holds when the file
-/// ends (as many as frames are predicted from later ones): they go on at the distance of the last
-/// two.
+/// Extrapolates the times of the last frames with the time step before them. The reader returns no
+/// times for frames that the decoder still buffers at the end of the file (as many as frames are
+/// predicted from later ones).
 void continue_times(std::vector<std::int64_t>& stamps_ns) {
   constexpr std::size_t kMostHeld = 16;
-  std::size_t told = 1;
-  while (told < stamps_ns.size() && stamps_ns[told] > stamps_ns[told - 1]) ++told;
-  if (told < 2 || stamps_ns.size() - told > kMostHeld) return;
-  const std::int64_t step_ns = stamps_ns[told - 1] - stamps_ns[told - 2];
-  for (; told < stamps_ns.size(); ++told) stamps_ns[told] = stamps_ns[told - 1] + step_ns;
+  std::size_t timed = 1;
+  while (timed < stamps_ns.size() && stamps_ns[timed] > stamps_ns[timed - 1]) ++timed;
+  if (timed < 2 || stamps_ns.size() - timed > kMostHeld) return;
+  const std::int64_t step_ns = stamps_ns[timed - 1] - stamps_ns[timed - 2];
+  for (; timed < stamps_ns.size(); ++timed) stamps_ns[timed] = stamps_ns[timed - 1] + step_ns;
 }
 
 class VideoDataset : public Dataset {
@@ -86,12 +86,15 @@ class VideoDataset : public Dataset {
   }
 
  private:
-  /// Those of the container where its rate varies, else counted at its rate or at the given one.
+  /// Sets times at the given rate, else the container's times if its rate varies, else times at its
+  /// rate.
   void read_times(double given_hz) {
     const std::unique_ptr<VideoReader> video = open_video(path_);
-    const double told_hz = video->rate_hz();
-    const bool rate_is_told = told_hz > 0.01 && told_hz < 1e5;
-    const double rate_hz = given_hz > 0 ? given_hz : rate_is_told ? told_hz : kDefaultRateHz;
+    const double container_hz = video->rate_hz();
+    const bool has_container_rate = container_hz > 0.01 && container_hz < 1e5;
+    const double rate_hz = given_hz > 0         ? given_hz
+                           : has_container_rate ? container_hz
+                                                : kDefaultRateHz;
     const double announced = video->announced_frames();
     std::vector<std::int64_t> container_ns;
     while (video->grab()) container_ns.push_back(std::llround(video->time_ms() * 1e6));
@@ -101,8 +104,8 @@ class VideoDataset : public Dataset {
     const bool increase = std::ranges::adjacent_find(container_ns, std::ranges::greater_equal()) ==
                           container_ns.end();
     stamps_ns_ = synthetic_stamps_ns(count, rate_hz);
-    if (rate_is_told)
-      note_if_cut_short(announced, told_hz, increase ? seconds(0, container_ns.back()) : 0);
+    if (has_container_rate)
+      note_if_cut_short(announced, container_hz, increase ? seconds(0, container_ns.back()) : 0);
     if (given_hz > 0 || count < 2) return;
     double furthest_s = 0;
     for (std::size_t i = 1; i < count; ++i)
@@ -111,17 +114,17 @@ class VideoDataset : public Dataset {
     if (furthest_s < 0.5 / rate_hz) return;
     if (increase) {
       stamps_ns_ = std::move(container_ns);
-      notes_.push_back({"the frame rate varies: times are those of the video"});
+      notes_.push_back({"the frame rate varies: the times of the video are used"});
     } else {
       notes_.push_back(
-          {fmt::format("the video has no times that increase: they are counted at {:g} Hz; "
+          {fmt::format("the times of the video do not increase: {:g} Hz is assumed; "
                        "fps in its yaml sets the rate",
                        rate_hz)});
     }
   }
 
-  /// What is announced is an estimate in some containers, by the length and a rate: only a clear
-  /// difference in both means something.
+  /// The announced number is an estimate from length and rate in some containers: only a clear
+  /// difference in both is meaningful.
   void note_if_cut_short(double announced, double rate_hz, double last_s) {
     const auto count = static_cast<double>(stamps_ns_.size());
     const bool fewer = announced > 1.05 * count + 2;
@@ -189,9 +192,9 @@ std::unique_ptr<Dataset> open_video_file(const std::string& path) {
   const std::string yaml_path = fs::exists(full) ? full : beside;
   CalibrationYaml yaml;
   read_calibration_yaml(yaml_path, yaml);
-  if (yaml.baseline_m > 0) throw FileError(yaml_path, "baseline_m: a video has one eye");
+  if (yaml.baseline_m > 0) throw FileError(yaml_path, "baseline_m: a video has one camera");
   auto dataset = std::make_unique<VideoDataset>(path, yaml_path, yaml);
-  dataset->frame(0, Sensor::kMono);  // of the size the calibration says, or refused now
+  dataset->frame(0, Sensor::kMono);  // rejects a size that differs from the calibration
   return dataset;
 }
 

@@ -7,10 +7,10 @@ namespace placegraph {
 bool is_video_file(const std::string& path);
 
 /// A video with its calibration in `VIDEO.EXT.yaml` or `VIDEO.yaml` beside it (schema in
-/// docs/datasets.md; no right eye, no depth). All frames are decoded once to count them: what a
-/// container claims is not trusted. Frames read in order cost one decoding each, a step back
-/// decodes from the start. Stamps come from `fps`, of the yaml or else of the container, else 10
-/// Hz. Throws FileError.
+/// docs/datasets.md; no right camera, no depth). All frames are decoded once to count them: the
+/// count in the container is not trusted. Reading a frame costs one decoding if frames are read in
+/// order; a step back decodes from the start. Stamps come from `fps` of the yaml, or else of the
+/// container, or else 10 Hz. Throws FileError.
 std::unique_ptr<Dataset> open_video_file(const std::string& path);
 
 }  // namespace placegraph

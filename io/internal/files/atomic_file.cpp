@@ -11,7 +11,7 @@ namespace placegraph {
 namespace fs = std::filesystem;
 namespace {
 
-/// Creates a file that did not exist before, so that two writers never share a temporary.
+/// Creates a new file, so that two writers never share a temporary file.
 std::string create_temporary(const std::string& path) {
   const fs::path target(path);
   for (int attempt = 0; attempt < 1000; ++attempt) {
@@ -65,7 +65,7 @@ void make_output_folder(const std::string& path) {
   if (path.empty()) throw ArgumentError("the path of the output folder is empty");
   std::error_code error;
   fs::create_directories(path, error);
-  if (error) throw FileError(path, "cannot be made: " + error.message());
+  if (error) throw FileError(path, "cannot be created: " + error.message());
   if (!fs::is_directory(path)) throw FileError(path, "exists and is not a folder");
 }
 

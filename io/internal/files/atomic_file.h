@@ -5,10 +5,10 @@
 namespace placegraph {
 
 /// Writes to a temporary file beside `path` (its name with a suffix before the extension, so that
-/// libraries that go by the extension can write it too) and renames it on commit(): a reader sees
-/// the old file or the whole new one. Without commit() the temporary is removed. Where `path` is a
-/// link to a file, that file is replaced; what is no file, as /dev/stdout, is written as it comes.
-/// Throws FileError if it cannot be opened, written or renamed.
+/// libraries that depend on the extension can write it too) and renames it on commit(): a reader
+/// sees the old file or the whole new one. Without commit() the temporary file is removed. If
+/// `path` is a link to a file, that file is replaced; a path that is not a file, such as
+/// /dev/stdout, is written directly. Throws FileError if it cannot be opened, written or renamed.
 class AtomicFile {
  public:
   explicit AtomicFile(std::string path);
@@ -17,18 +17,18 @@ class AtomicFile {
   AtomicFile& operator=(const AtomicFile&) = delete;
 
   std::ofstream& stream() { return stream_; }
-  /// For libraries that open files.
+  /// The path for libraries that open files themselves.
   const std::string& temporary_path() const { return temporary_.empty() ? path_ : temporary_; }
   void commit();
 
  private:
-  std::string path_, temporary_;  ///< temporary_: empty where there is none
+  std::string path_, temporary_;  ///< temporary_ is empty if there is none
   std::ofstream stream_;
   bool committed_ = false;
 };
 
-/// Makes the folder and its parents; one that exists is taken as it is (whether anything in it may
-/// be overwritten is the caller's question). Throws FileError if it cannot be made.
+/// Creates the folder and its parents; an existing one is accepted (the caller decides whether its
+/// content may be overwritten). Throws FileError if it cannot be created.
 void make_output_folder(const std::string& path);
 
 }  // namespace placegraph

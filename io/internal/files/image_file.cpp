@@ -13,7 +13,7 @@ namespace placegraph {
 namespace {
 
 constexpr std::uintmax_t kMaxImageBytes = std::uintmax_t{1} << 30;
-constexpr int kLeastSide = 4;  ///< of a picture [px]: less is a line, no picture
+constexpr int kLeastSide = 4;  ///< smallest side of an image [px]: less is only a line
 
 std::string read_bytes(const std::string& path) {
   std::error_code error;

@@ -38,7 +38,7 @@ std::vector<fs::path> images_in(const std::string& folder) {
   return images;
 }
 
-/// Refuses `7.png` beside `7.jpg`: which of them is the frame?
+/// Rejects `7.png` beside `7.jpg`, because the frame is ambiguous.
 void require_one_a_name(const std::vector<std::string>& images) {
   std::vector<std::pair<std::string, std::string>> stems;
   for (const std::string& image : images)

@@ -5,19 +5,19 @@
 namespace placegraph {
 
 /// The images `000000.*`, `000001.*`, ... of a folder (png, jpg, jpeg, pgm, ppm, bmp, tif, tiff),
-/// in order; other files are ignored. Throws FileError if the folder is missing or has none, a
-/// number is missing between 0 and the last, or one is there twice.
+/// in order; other files are ignored. Throws FileError if the folder is missing or has none, or if
+/// a number between 0 and the last is missing or occurs twice.
 std::vector<std::string> list_numbered_images(const std::string& folder);
 
 /// All images of a folder in the order of their names (sort_by_name). Throws FileError if the
-/// folder is missing or has none, which says where there are some, or if two differ in their
-/// extension alone.
+/// folder is missing or has none (the message lists folders with images), or if two names differ
+/// only in their extension.
 std::vector<std::string> list_images(const std::string& folder);
 
 bool holds_images(const std::string& folder);
 
-/// "60 images in images/, 60 images in depth/", of a folder and those inside it: for messages where
-/// images were expected elsewhere. Empty if there are none.
+/// "60 images in images/, 60 images in depth/" for a folder and its subfolders, for messages about
+/// images in an unexpected place. Empty if there are none.
 std::string images_around(const std::string& folder);
 
 }  // namespace placegraph

@@ -40,10 +40,11 @@ bool natural_less(const std::string& a, const std::string& b) {
 /// A name with one decimal number in it.
 struct DecimalName {
   std::string_view before, whole, fraction, behind;
-  double decimal_s = 0, nanoseconds_s = 0;  ///< its two readings
+  double decimal_s = 0, nanoseconds_s = 0;  ///< its two interpretations
 };
 
-/// Of "img_9.5s.png": the last number with a point that digits follow; not the extension's point.
+/// The last number with a point followed by digits, as in "img_9.5s.png"; not the extension's
+/// point.
 std::optional<DecimalName> decimal_name(std::string_view name) {
   for (std::size_t point = name.rfind('.'); point != name.npos && point > 0;
        point = name.rfind('.', point - 1)) {
@@ -62,8 +63,8 @@ std::optional<DecimalName> decimal_name(std::string_view name) {
   return std::nullopt;
 }
 
-/// The share of the distances that are within a tenth of their median: most of them, if frames are
-/// evenly spaced, some left out.
+/// Share of the time steps within a tenth of their median: most of them, if frames are evenly
+/// spaced and some are missing.
 double evenness(std::vector<double> times) {
   std::sort(times.begin(), times.end());
   std::vector<double> distances;
@@ -76,7 +77,8 @@ double evenness(std::vector<double> times) {
   return static_cast<double>(near) / static_cast<double>(distances.size());
 }
 
-/// Whether all names differ in one decimal number, whose reading as a decimal is the likelier one.
+/// Whether all names differ in one decimal number that is more likely a decimal than seconds and
+/// nanoseconds.
 bool are_decimal_times(const std::vector<std::string>& names) {
   std::vector<double> decimal, nanoseconds;
   std::optional<DecimalName> first;

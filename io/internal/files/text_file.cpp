@@ -29,7 +29,7 @@ std::string read_whole(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw FileError(path, "cannot be opened for reading");
   std::string text;
-  std::error_code unknown;  // of a pipe, say: then it is read piece by piece from the begin
+  std::error_code unknown;  // e.g. size of a pipe, which is read piece by piece from the begin
   const std::uintmax_t size = std::filesystem::file_size(path, unknown);
   std::size_t piece =
       unknown ? std::size_t{1} << 16 : std::min<std::size_t>(size, kMaxFileBytes) + 1;
@@ -197,7 +197,7 @@ std::optional<std::int64_t> parse_decimal(std::string_view field, int power, boo
   }
   if (exact) *exact = true;
   if (digits.empty()) return 0;
-  // 0.d1 d2 d3 ... times 10^point_at.
+  // The number is 0.d1 d2 d3 ... times 10^point_at.
   const int point_at = before_point + exponent + power;
   if (point_at > 19) return std::nullopt;
   const auto kept = static_cast<std::size_t>(std::max(point_at, 0));

@@ -9,28 +9,28 @@ namespace placegraph {
 
 inline bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// A text file read whole and handed out line by line. It keeps the line number, so that whoever
-/// parses a line can say `file:line` in its error. A UTF-8 byte order mark is no part of the text.
-/// Throws FileError if the file is missing, a folder, unreadable, larger than 2 GiB or UTF-16. What
-/// is read is what the file holds: no count found inside it ever sizes an allocation.
+/// A text file that is read whole and parsed line by line. It keeps the line number, so that errors
+/// of the parser can name `file:line`. A UTF-8 byte order mark is not part of the text. Throws
+/// FileError if the file is missing, a folder, unreadable, larger than 2 GiB or UTF-16. No count
+/// found inside the file ever sizes an allocation.
 class TextFile {
  public:
   explicit TextFile(std::string path);
 
   /// The next line without its line end; false at the end of the file.
   bool next(std::string_view& line);
-  /// The next line that is neither blank nor a comment: `#` at its begin, or behind a blank, a
-  /// comma or a semicolon, whence the rest is left out.
+  /// The next line that is neither blank nor a comment. A `#` at its begin, or after a blank, a
+  /// comma or a semicolon, begins a comment, which is removed.
   bool next_data(std::string_view& line);
-  /// Back to the begin.
+  /// Returns to the begin.
   void rewind() { position_ = begin_, line_ = 0; }
 
-  int line() const { return line_; }  ///< of the line handed out last, from 1; 0 before the first
+  int line() const { return line_; }  ///< number of the last line, from 1; 0 before the first
   const std::string& path() const { return path_; }
-  /// Throws FileError "path:line: message" for the line handed out last.
+  /// Throws FileError "path:line: message" for the last line.
   [[noreturn]] void fail(const std::string& message) const;
 
-  /// Number parsing with `file:line: what: ...` errors; whole field, C locale. `number` refuses nan
+  /// Number parsing with `file:line: what: ...` errors; whole field, C locale. `number` rejects nan
   /// and infinity.
   double number(std::string_view field, const char* what) const;
   double number_or_nan(std::string_view field, const char* what) const;
@@ -45,17 +45,17 @@ class TextFile {
   int line_ = 0;
 };
 
-/// The line without a comment: from a `#` behind a blank, a comma or a semicolon on; a `#` in a
-/// name begins none.
+/// The line without a comment, which begins at a `#` after a blank, a comma or a semicolon; a `#`
+/// inside a name does not begin one.
 std::string_view without_comment(std::string_view line);
-/// Splits at blanks and tabs into `fields`, empty fields dropped.
+/// Splits at blanks and tabs into `fields`; empty fields are dropped.
 void split_blank(std::string_view line, std::vector<std::string_view>& fields);
 /// Splits at every separator; blanks around a field are dropped, empty fields kept.
 void split_at(char separator, std::string_view line, std::vector<std::string_view>& fields);
 /// Likewise at commas.
 void split_comma(std::string_view line, std::vector<std::string_view>& fields);
 
-/// The whole field as a number (nan and infinity included), nothing if it is not one or overflows.
+/// The whole field as a number (nan and infinity included); nothing if it is not one or overflows.
 std::optional<double> parse_double(std::string_view field);
 std::optional<std::int64_t> parse_integer(std::string_view field);
 /// The nearest integer to a decimal number, with or without exponent, times 10^power: exact, not
@@ -66,7 +66,7 @@ std::optional<std::int64_t> parse_seconds_as_ns(std::string_view field);
 /// The text in quotes as error messages show it: at most 40 characters, unprintable ones as '?'.
 std::string in_quotes(std::string_view text);
 
-/// One time [s] a line, strictly increasing, at least one. Throws FileError with the line.
+/// Reads one time [s] per line, strictly increasing, at least one. Throws FileError with the line.
 std::vector<std::int64_t> read_times(const std::string& path);
 
 }  // namespace placegraph

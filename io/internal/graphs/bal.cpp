@@ -7,10 +7,12 @@
 namespace placegraph {
 namespace {
 
-/// From the file's camera axes (y up, z backward) to ours (y down, z forward), and back.
-SE3 turned_over() { return SE3(SO3(Eigen::Quaterniond(0, 1, 0, 0)), Eigen::Vector3d::Zero()); }
+/// Conversion from the file's camera axes (y up, z backward) to ours (y down, z forward), and back.
+SE3 half_turn_about_x() {
+  return SE3(SO3(Eigen::Quaterniond(0, 1, 0, 0)), Eigen::Vector3d::Zero());
+}
 
-/// The numbers of a file one after the other, whatever lines they stand in.
+/// Reads the numbers of a file one after the other, independent of line breaks.
 class NumberStream {
  public:
   explicit NumberStream(const std::string& path) : file_(path) {}
@@ -29,7 +31,7 @@ class NumberStream {
     return value;
   }
   void expect_end() {
-    if (advance()) file_.fail("more numbers than the counts in the first line say");
+    if (advance()) file_.fail("more numbers than the counts in the first line require");
   }
   const TextFile& file() const { return file_; }
 
@@ -58,7 +60,7 @@ BundleCamera parse_camera(NumberStream& numbers) {
   for (double& x : v) x = numbers.number("camera parameter");
   if (!(v[6] > 0)) numbers.file().fail(fmt::format("the focal length {} is not positive", v[6]));
   const SE3 T_cam_world(SO3::exp({v[0], v[1], v[2]}), Eigen::Vector3d(v[3], v[4], v[5]));
-  return {(turned_over() * T_cam_world).inverse(), v[6], v[7], v[8]};
+  return {(half_turn_about_x() * T_cam_world).inverse(), v[6], v[7], v[8]};
 }
 
 }  // namespace
@@ -96,7 +98,7 @@ void write_bal(const std::string& path, const Bundle& bundle) {
   for (const BundleObservation& o : bundle.observations)
     out << fmt::format("{} {} {:.17g} {:.17g}\n", o.camera, o.point, o.px[0], -o.px[1]);
   for (const BundleCamera& camera : bundle.cameras) {
-    const SE3 T_cam_world = turned_over() * camera.T_world_cam.inverse();
+    const SE3 T_cam_world = half_turn_about_x() * camera.T_world_cam.inverse();
     const Eigen::Vector3d w = T_cam_world.rotation().log(), t = T_cam_world.translation();
     for (const double x :
          {w[0], w[1], w[2], t[0], t[1], t[2], camera.focal_px, camera.k1, camera.k2})

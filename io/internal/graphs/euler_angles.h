@@ -4,7 +4,7 @@
 
 namespace placegraph {
 
-/// R = R_z(yaw) R_y(pitch) R_x(roll) [rad]: the angles of TORO's and iSAM's text forms.
+/// R = R_z(yaw) R_y(pitch) R_x(roll) [rad]: the angles of the TORO and iSAM formats.
 SO3 rotation_of_euler_angles(double roll, double pitch, double yaw);
 
 /// Six fields "x y z roll pitch yaw". Throws FileError with the line.

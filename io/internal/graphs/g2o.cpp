@@ -16,7 +16,7 @@ using Fields = PoseGraphBuilder::Fields;
 
 constexpr double kQuaternionTolerance = 1e-2;
 constexpr double kMaxLogScale = 300;
-/// Where g2o's [rotation, translation, log scale] stand in our tangent.
+/// Positions of g2o's [rotation, translation, log scale] in our tangent.
 constexpr int kSim3Order[] = {3, 4, 5, 0, 1, 2, 6};
 
 SE3 parse_se3(const TextFile& file, const Fields& fields, std::size_t at) {
@@ -29,7 +29,7 @@ SE3 parse_se3(const TextFile& file, const Fields& fields, std::size_t at) {
   return {SO3(q), Eigen::Vector3d(v[0], v[1], v[2])};
 }
 
-/// Two or three numbers, z 0 where there are two.
+/// Parses two or three numbers; z is 0 if there are two.
 Eigen::Vector3d parse_point(const TextFile& file, const Fields& fields, std::size_t at, int dim) {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   for (int i = 0; i < dim; ++i)
@@ -54,7 +54,7 @@ Information parse_sim3_information(const PoseGraphBuilder& builder, const Fields
   return information;
 }
 
-/// Priors, point landmarks and where sensors sit; false for any other tag.
+/// Parses priors, point landmarks and the mounting of sensors; false for any other tag.
 bool parse_landmark_line(const TextFile& file, const Fields& fields, PoseGraphBuilder& builder) {
   const std::string_view tag = fields[0];
   LandmarkLines& lines = builder.landmarks();
@@ -116,7 +116,7 @@ void parse_g2o_line(const TextFile& file, const Fields& fields, PoseGraphBuilder
     builder.add_edge(fields[1], fields[2], parse_se3(file, fields, 3),
                      builder.symmetric(fields, 10, 6));
   } else if (tag == "VERTEX_SIM3:EXPMAP") {
-    // Four numbers of a camera follow in what g2o writes.
+    // g2o writes four camera parameters after the pose.
     builder.require_count(fields, fields.size() == 13 ? 12 : 8);
     builder.add_node(fields[1], parse_sim3(file, fields, 2));
   } else if (tag == "EDGE_SIM3:EXPMAP") {
@@ -188,13 +188,13 @@ void format_point(Buffer out, const Eigen::Vector3d& point, bool planar) {
 
 void format_position(Buffer out, const PositionConstraint& position, PoseKind kind) {
   require(kind == PoseKind::kSE2 && position.lever_arm.isZero(0),
-          "g2o: there is no text form for positions in space or beside a node");
+          "g2o: the format cannot express positions in space or beside a node");
   fmt::format_to(out, "EDGE_PRIOR_SE2_XY {}", position.node);
   format_point(out, position.position_world, true);
   format_information(out, position.information, 2);
 }
 
-/// Of the node itself: parameters 0 are the identity.
+/// Writes a prior of the node itself: parameters 0 are the identity.
 void format_prior(Buffer out, const PosePriorConstraint& prior) {
   const bool planar = kind_of(prior.T_world_node) == PoseKind::kSE2;
   fmt::format_to(out, "{} {}{}", planar ? "EDGE_PRIOR_SE2" : "EDGE_SE3_PRIOR", prior.node,

@@ -18,7 +18,7 @@ namespace {
 using Buffer = std::back_insert_iterator<fmt::memory_buffer>;
 using Line = std::vector<GeodeticPosition>;
 
-/// Cuts a line where two neighbours lie on both sides of the 180th meridian; both ends of a cut lie
+/// Cuts a line where two neighbours are on both sides of the 180th meridian; both ends of a cut are
 /// on it (RFC 7946, 3.1.9).
 std::vector<Line> cut_at_180(const Line& line) {
   std::vector<Line> parts(1);

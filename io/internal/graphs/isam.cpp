@@ -30,7 +30,7 @@ void parse_isam_line(const TextFile& file, const Fields& fields, PoseGraphBuilde
     builder.add_edge(fields[1], fields[2], parse_euler_pose(file, fields, 3),
                      information_of_root(file, builder, fields, 9, 6));
   } else if (tag == "LANDMARK" || tag == "POINT3") {
-    file.fail(std::string(tag) + ": landmarks are no part of a pose graph");
+    file.fail(std::string(tag) + ": a pose graph has no landmarks");
   } else {
     file.fail(in_quotes(tag) + ": unknown tag; known in iSAM's form are ODOMETRY, EDGE2 and EDGE3");
   }

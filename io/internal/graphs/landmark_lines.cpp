@@ -10,7 +10,8 @@
 namespace placegraph {
 namespace {
 
-/// A prior of a sensor as one of its node: of E = Z^-1 T O, Log(E) = Ad(O^-1) Log((Z O^-1)^-1 T).
+/// Converts a prior of a sensor into one of its node. With E = Z^-1 T O, Log(E) = Ad(O^-1) Log((Z
+/// O^-1)^-1 T).
 PosePriorConstraint of_node(PosePriorConstraint prior, const SE3& T_node_sensor) {
   if (const SE3* T_world_sensor = std::get_if<SE3>(&prior.T_world_node)) {
     const Matrix6d J = T_node_sensor.inverse().adjoint();
@@ -52,7 +53,7 @@ int LandmarkLines::first_line() const {
 
 void LandmarkLines::add_offset(std::string_view number, const SE3& T_node_sensor) {
   if (!offsets_.emplace(number, T_node_sensor).second)
-    file_->fail(fmt::format("parameters {} are there twice", number));
+    file_->fail(fmt::format("parameters {} are defined twice", number));
 }
 
 void LandmarkLines::add_prior(std::string_view node, const Pose& T_world_sensor,
@@ -87,7 +88,7 @@ bool LandmarkLines::fix(NodeId id) {
   return true;
 }
 
-/// Files without any parameters name number 0 for none.
+/// Files without parameters use number 0 for no offset.
 SE3 LandmarkLines::T_node_sensor(const std::string& offset, int line) const {
   if (offset.empty() || offsets_.empty()) return {};
   const auto found = offsets_.find(offset);
@@ -111,8 +112,8 @@ void LandmarkLines::add_to(LandmarkGraph& graph) const {
   };
   const auto require_planar = [&](bool planar, int line) {
     if (planar != (graph.poses.kind() == PoseKind::kSE2))
-      fail(line, planar ? "is of the plane, and the poses are not"
-                        : "is of space, and the poses are not in SE3");
+      fail(line, planar ? "is planar, but the poses are not"
+                        : "is spatial, but the poses are not in SE3");
   };
   for (const Prior& prior : priors_) {
     require_planar(kind_of(prior.prior.T_world_node) == PoseKind::kSE2, prior.line);

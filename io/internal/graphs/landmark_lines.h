@@ -9,34 +9,36 @@
 
 namespace placegraph {
 
-/// What lines of a graph file say beside poses and the edges between them: priors, point landmarks,
-/// what sees them, and where sensors sit on a node. Members throw FileError for the line that the
-/// file stands at, `add_to` for the line that added what is wrong.
+/// The lines of a graph file beside poses and the edges between them: priors, point landmarks,
+/// their observations, and the mounting of sensors on a node. Members throw FileError for the
+/// current line of the file, `add_to` for the line that added the faulty data.
 class LandmarkLines {
  public:
   explicit LandmarkLines(const TextFile& file) : file_(&file) {}
 
   bool empty() const { return priors_.empty() && points_.empty() && observations_.empty(); }
-  /// Of the first one; precondition: there is one.
+  /// Line number of the first such line; precondition: there is one.
   int first_line() const;
 
-  /// A sensor's pose on a node: T_node_sensor. Other lines name it by its number, in any order.
+  /// Adds a sensor's pose on a node: T_node_sensor. Other lines refer to it by its number, in any
+  /// order.
   void add_offset(std::string_view number, const SE3& T_node_sensor);
-  /// A measured pose of a node, or of a sensor on it (an offset's number; none: of the node).
+  /// Adds a measured pose of a node, or of a sensor on it (number of an offset; empty: of the
+  /// node).
   void add_prior(std::string_view node, const Pose& T_world_sensor, const Information& information,
                  std::string_view offset = {});
   void add_point(std::string_view id, const Eigen::Vector3d& position_world, bool planar);
-  /// A point as a node, or a sensor on it, sees it.
+  /// Adds an observation of a point from a node, or from a sensor on it.
   void add_observation(std::string_view node, std::string_view point,
                        const Eigen::Vector3d& position, const Eigen::Matrix3d& information,
                        bool planar, std::string_view offset = {});
 
-  /// Fixes the point of this id, if there is one.
+  /// Fixes the point with this id, if there is one.
   bool fix(NodeId id);
 
-  /// Adds what the lines say. Points that no line gives a place to are where their first sight
-  /// says. Throws FileError for nodes and offsets that are not there, ids that are there twice, and
-  /// what is of the plane in space or the other way round.
+  /// Adds the content of the lines to a graph. A point without a given position is placed by its
+  /// first observation. Throws FileError for missing nodes and offsets, duplicate ids, and planar
+  /// data in a spatial graph or the other way round.
   void add_to(LandmarkGraph& graph) const;
 
  private:

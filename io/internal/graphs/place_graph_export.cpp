@@ -46,7 +46,7 @@ double length_between(const PlaceGraph& graph, PlaceId a, PlaceId b) {
       .norm();
 }
 
-/// Pairs of places that loop closures join, each once.
+/// Pairs of places that are connected by loop closures, each once.
 std::set<std::pair<PlaceId, PlaceId>> loops_of(const PlaceGraph& graph) {
   std::set<std::pair<PlaceId, PlaceId>> loops;
   for (const RelativePoseConstraint& constraint : graph.constraints)
@@ -108,7 +108,7 @@ std::string to_graphml(const PlaceGraph& graph, const std::vector<PlaceTransitio
 }
 
 std::string to_dot(const PlaceGraph& graph, const std::vector<PlaceTransition>& transitions) {
-  // Two neighbours lie about an inch apart.
+  // Two neighbours are about an inch apart.
   double shortest = 0;
   for (const PlaceTransition& t : transitions) {
     const double length = length_between(graph, t.from, t.to);

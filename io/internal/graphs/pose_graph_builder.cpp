@@ -13,7 +13,7 @@
 namespace placegraph {
 namespace {
 
-/// What solvers multiply these with each other and square stays finite.
+/// Limits that keep the products and squares in solvers finite.
 constexpr double kMaxInformation = 1e100, kMaxDistance_m = 1e50;
 
 RelativePoseConstraint& edge_of(Constraint& constraint) {
@@ -45,23 +45,24 @@ void PoseGraphBuilder::require_count_before_stamp(const Fields& fields, std::siz
   }
   const std::optional<double> stamp = parse_double(fields.back());
   if (!stamp || !std::isfinite(*stamp) || (stamped_ > 0 && *stamp <= last_stamp_))
-    file_->fail(fmt::format(
-        "{}: expected {} numbers, found {}, the last of which does not rise from line to line as a "
-        "time stamp would",
-        fields[0], count, count + 1));
+    file_->fail(
+        fmt::format("{}: expected {} numbers, found {}, the last of which does not increase from "
+                    "line to line as a "
+                    "time stamp would",
+                    fields[0], count, count + 1));
   if (stamped_++ == 0) first_stamp_line_ = file_->line();
   last_stamp_ = *stamp;
 }
 
-void PoseGraphBuilder::tell_stamps(const PoseGraphReading& reading) const {
-  constexpr int kFewest = 3;  // for numbers to rise
+void PoseGraphBuilder::report_stamps(const PoseGraphReading& reading) const {
+  constexpr int kFewest = 3;  // to recognize an increase
   if (stamped_ == 0) return;
   if (stamped_ < kFewest || !reading.remarks)
     throw FileError(file_->path(), first_stamp_line_, "a number too many for a vertex");
-  reading.remarks->push_back(
-      fmt::format("behind the pose {} vertices have one number more, which rises from line to line "
-                  "as a time stamp does: it was passed over",
-                  stamped_));
+  reading.remarks->push_back(fmt::format(
+      "{} vertices have one more number after the pose, which increases from line to line "
+      "like a time stamp: it was skipped",
+      stamped_));
 }
 
 SE2 PoseGraphBuilder::se2(const Fields& fields, std::size_t at) const {
@@ -138,7 +139,7 @@ void PoseGraphBuilder::add_edge(std::string_view from, std::string_view to, cons
   const bool consecutive = ++NodeId(std::min(edge.from, edge.to)) == std::max(edge.from, edge.to);
   edge.source =
       source.value_or(consecutive ? ConstraintSource::kOdometry : ConstraintSource::kLoop);
-  source_is_told_.push_back(source.has_value());
+  source_is_given_.push_back(source.has_value());
   edge_lines_.push_back(file_->line());
 }
 
@@ -179,12 +180,12 @@ void PoseGraphBuilder::require_connected(const PoseGraph& graph) const {
   throw FileError(
       file_->path(), node_lines_[apart],
       fmt::format("vertex {} is not connected with vertex {}: the graph falls into {} components; "
-                  "--components optimizes each by itself, FIX holds a vertex of each",
+                  "--components optimizes each separately, FIX fixes a vertex of each",
                   graph.nodes[apart].id, graph.nodes[0].id, count));
 }
 
-void PoseGraphBuilder::tell_odometry_by_order() {
-  // Of so many steps to the next id at most one is to id + 1.
+void PoseGraphBuilder::find_odometry_by_order() {
+  // At most one in so many steps to the next id leads to id + 1.
   constexpr std::size_t kHardly = 10;
   std::vector<NodeId> ids;
   for (const PoseNode& node : graph_.nodes) ids.push_back(node.id);
@@ -193,7 +194,7 @@ void PoseGraphBuilder::tell_odometry_by_order() {
   std::vector<int> steps;
   std::vector<std::size_t> edges;
   for (std::size_t i = 0; i < graph_.constraints.size(); ++i) {
-    if (source_is_told_[i]) continue;
+    if (source_is_given_[i]) continue;
     const RelativePoseConstraint& edge = edge_of(graph_.constraints[i]);
     const auto low = std::lower_bound(ids.begin(), ids.end(), std::min(edge.from, edge.to));
     if (low + 1 == ids.end() || low[1] != std::max(edge.from, edge.to)) continue;
@@ -204,7 +205,7 @@ void PoseGraphBuilder::tell_odometry_by_order() {
   steps.erase(std::unique(steps.begin(), steps.end()), steps.end());
   const auto consecutive = std::count_if(steps.begin(), steps.end(),
                                          [&](int k) { return ++NodeId(ids[k]) == ids[k + 1]; });
-  // A path through at least half of the nodes, or it is none; too few steps tell nothing.
+  // The steps must form a path through at least half of the nodes; too few steps are not evidence.
   if (kHardly * static_cast<std::size_t>(consecutive) > steps.size() ||
       2 * steps.size() + 1 < ids.size() || steps.size() < kHardly)
     return;
@@ -216,8 +217,8 @@ PoseGraph PoseGraphBuilder::finish(const PoseGraphReading& reading) {
   if (!landmarks_.empty())
     throw FileError(
         file_->path(), landmarks_.first_line(),
-        "the graph has priors or point landmarks, which only optimize and convert take");
-  tell_stamps(reading);
+        "the graph has priors or point landmarks, which only optimize and convert accept");
+  report_stamps(reading);
   PoseGraph graph = finish_poses();
   if (reading.connected) require_connected(graph);
   return graph;
@@ -225,7 +226,7 @@ PoseGraph PoseGraphBuilder::finish(const PoseGraphReading& reading) {
 
 LandmarkGraph PoseGraphBuilder::finish_landmarks(const PoseGraphReading& reading) {
   if (landmarks_.empty()) return {finish(reading), {}, {}, {}};
-  tell_stamps(reading);
+  report_stamps(reading);
   LandmarkGraph graph;
   graph.poses = finish_poses();
   landmarks_.add_to(graph);
@@ -247,7 +248,7 @@ PoseGraph PoseGraphBuilder::finish_poses() {
     find(index, edge.from, edge_lines_[i]);
     find(index, edge.to, edge_lines_[i]);
   }
-  tell_odometry_by_order();
+  find_odometry_by_order();
   for (const auto& [id, line] : fixed_)
     if (!landmarks_.fix(id)) graph_.nodes[find(index, id, line)].fixed = true;
   for (const auto& [position, line] : positions_) find(index, position.node, line);
@@ -257,7 +258,7 @@ PoseGraph PoseGraphBuilder::finish_poses() {
 }
 
 void PoseGraphBuilder::add_nodes_of_edges() {
-  std::vector<std::pair<NodeId, int>> ids;  // and the line that names them first
+  std::vector<std::pair<NodeId, int>> ids;  // with the line that first names them
   for (std::size_t i = 0; i < graph_.constraints.size(); ++i) {
     const RelativePoseConstraint& edge = edge_of(graph_.constraints[i]);
     ids.emplace_back(edge.from, edge_lines_[i]);

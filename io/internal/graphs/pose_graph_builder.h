@@ -11,9 +11,9 @@
 
 namespace placegraph {
 
-/// Puts a pose graph together from the lines of a text file, whatever the format; edges may precede
-/// their vertices. What is wrong is said with the line it came from: members throw FileError for
-/// the line the file stands at, finish() for the line that added what is wrong.
+/// Builds a pose graph from the lines of a text file in any format; edges may precede their
+/// vertices. Errors name the line of their cause: members throw FileError for the current line of
+/// the file, finish() for the line that added the faulty data.
 class PoseGraphBuilder {
  public:
   using Fields = std::vector<std::string_view>;
@@ -27,67 +27,66 @@ class PoseGraphBuilder {
   Information upper_triangle(const Fields& fields, std::size_t at, int n) const;
   /// The same, mirrored into the lower triangle.
   Information symmetric(const Fields& fields, std::size_t at, int n) const;
-  /// Refuses the line unless `count` fields follow its tag.
+  /// Rejects the line unless `count` fields follow its tag.
   void require_count(const Fields& fields, std::size_t count) const;
-  /// The same of a vertex, whose line may have a time stamp behind its numbers, where all vertices
-  /// have one: a number that rises from line to line. Anything else may be a part of the pose.
+  /// The same for a vertex, whose line may have a time stamp after its numbers if all vertices have
+  /// one: a number that increases from line to line. Any other number may be a part of the pose.
   void require_count_before_stamp(const Fields& fields, std::size_t count);
-  /// The matrix, or the semi-definite one that its printed digits stand for. Refuses what is
-  /// indefinite by more than that, all zero or above 1e100.
+  /// The matrix, or the semi-definite one that its printed digits represent. Rejects a matrix that
+  /// is indefinite by more than that, all zero or above 1e100.
   Information plausible(const Information& information) const;
-  /// Refuses positions beyond 1e50 m.
+  /// Rejects positions beyond 1e50 m.
   void require_near(const Eigen::Vector3d& position) const;
 
-  /// Refuses SE2, SE3 and Sim3 mixed, and positions beyond 1e50 m.
+  /// Rejects SE2, SE3 and Sim3 mixed, and positions beyond 1e50 m.
   void add_node(std::string_view id, const Pose& T_world_node);
-  /// Refuses mixed kinds, an edge from a node to itself, information that is indefinite (by more
-  /// than its printed digits allow), all
-  /// zero or above 1e100, and positions beyond 1e50 m. Edges of
-  /// consecutive ids are odometry, others loops, unless `source` says what they are; see finish().
+  /// Rejects mixed kinds, an edge from a node to itself, information that is indefinite (by more
+  /// than its printed digits allow), all zero or above 1e100, and positions beyond 1e50 m. Edges of
+  /// consecutive ids are odometry, others loops, unless `source` is given; see finish().
   void add_edge(std::string_view from, std::string_view to, const Pose& T_from_to,
                 const Information& information, std::optional<ConstraintSource> source = {});
-  /// A measured position of a node in the plane [m].
+  /// Adds a measured position of a node in the plane [m].
   void add_position(std::string_view node, const Eigen::Vector2d& position_world,
                     const Eigen::Matrix2d& information);
   void fix(std::string_view id);
   LandmarkLines& landmarks() { return landmarks_; }
 
-  /// The graph, in the order of the file. Of edges alone the vertices are those the edges name, by
-  /// ascending id, with poses chained along the spanning tree (odometry first) from the origin.
-  /// Where ids leave gaps so that hardly an edge joins
-  /// consecutive ones (every tenth frame is a node), edges from an id to the next larger one that
-  /// is there are the odometry instead. Refuses ids that are there twice, edges and fixes on
-  /// vertices that are not there, neither, and what `reading` asks to refuse.
-  /// Priors and landmarks are refused.
+  /// The graph, in the order of the file. If the file has only edges, the vertices are those that
+  /// the edges name, by ascending id, with poses chained along the spanning tree (odometry first)
+  /// from the origin. If ids have gaps such that hardly an edge joins consecutive ones (every tenth
+  /// frame is a node), edges from an id to the next larger existing one are the odometry instead.
+  /// Rejects duplicate ids, edges and fixes with missing vertices, an empty file, and the graphs
+  /// that `reading` excludes. Priors and landmarks are rejected.
   [[nodiscard]] PoseGraph finish(const PoseGraphReading& reading);
-  /// The same with them. Parts of which each is tied to the world need not be connected.
+  /// The same with priors and landmarks. Components that are each fixed in the world need not be
+  /// connected.
   [[nodiscard]] LandmarkGraph finish_landmarks(const PoseGraphReading& reading);
 
  private:
   PoseGraph finish_poses();
   void require_kind(PoseKind kind);
-  void tell_stamps(const PoseGraphReading& reading) const;
+  void report_stamps(const PoseGraphReading& reading) const;
   int find(const NodeIndex& index, NodeId id, int line) const;
   void require_connected(const PoseGraph& graph) const;
   void add_nodes_of_edges();
-  void tell_odometry_by_order();
+  void find_odometry_by_order();
 
   const TextFile* file_;
-  /// Where the last matrix was read from, in the present line.
+  /// Fields of the last matrix in the present line.
   mutable std::span<const std::string_view> information_fields_;
   PoseGraph graph_;
   std::optional<PoseKind> kind_;
   std::vector<int> node_lines_, edge_lines_;
-  std::vector<std::pair<PositionConstraint, int>> positions_;  ///< and their lines
+  std::vector<std::pair<PositionConstraint, int>> positions_;  ///< with their lines
   LandmarkLines landmarks_;
-  /// Of the vertices: how many had a time stamp and not, the last one, the line of the first.
+  /// Numbers of vertices with and without a time stamp, the line of the first stamp.
   int stamped_ = 0, unstamped_ = 0, first_stamp_line_ = 0;
   double last_stamp_ = 0;
-  std::vector<char> source_is_told_;           ///< of the edges, by their tags
+  std::vector<char> source_is_given_;  ///< whether the tag of each edge determines its source
   std::vector<std::pair<NodeId, int>> fixed_;  ///< id and line
 };
 
-/// Hands every line that is neither blank nor a comment to `parse_line`, split into fields.
+/// Passes every line that is neither blank nor a comment, split into fields, to `parse_line`.
 PoseGraphBuilder parse_lines(TextFile& file,
                              void (*parse_line)(const TextFile&, const PoseGraphBuilder::Fields&,
                                                 PoseGraphBuilder&));

@@ -13,9 +13,9 @@ std::string_view tag_of(std::string_view line) {
   return line.substr(0, line.find_first_of(" \t\v\f\r"));
 }
 
-/// Whether the six numbers of an EDGE2 are TORO's information. iSAM's root of it has the diagonal
-/// in the first, fourth and sixth place, TORO's correlations stand in the fifth and sixth: a zero
-/// there cannot be iSAM's.
+/// Whether the six numbers of an EDGE2 are TORO's information. iSAM's root has its diagonal at the
+/// first, fourth and sixth number, TORO has correlations at the fifth and sixth: a zero there
+/// excludes iSAM.
 bool has_toro_information(std::string_view line) {
   std::vector<std::string_view> fields;
   split_blank(line, fields);
@@ -42,7 +42,7 @@ PoseGraphFormat pose_graph_format(TextFile& file) {
     else if (tag == "EDGE2" || tag == "EDGE3")
       edges = true, toro_edges = toro_edges || (tag == "EDGE2" && has_toro_information(line));
     else
-      file.fail(in_quotes(tag) + ": no tag of a pose graph in the form of g2o, TORO or iSAM");
+      file.fail(in_quotes(tag) + ": not a tag of a pose graph in the g2o, TORO or iSAM format");
   }
   if (!format && edges) format = toro_edges ? PoseGraphFormat::kToro : PoseGraphFormat::kIsam;
   if (!format) throw FileError(file.path(), "holds no vertices");

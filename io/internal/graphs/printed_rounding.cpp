@@ -22,7 +22,7 @@ double printed_rounding(std::string_view number) {
 }
 
 Information without_rounding(const Information& information, double rounding) {
-  constexpr double kMostRounding = 1e-3;  // of the largest eigenvalue
+  constexpr double kMostRounding = 1e-3;  // as a share of the largest eigenvalue
   const Eigen::SelfAdjointEigenSolver<Information> eigen(information);
   const double largest = eigen.eigenvalues()[information.rows() - 1];
   const double least = static_cast<double>(information.rows()) * rounding;

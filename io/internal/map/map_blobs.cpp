@@ -74,8 +74,8 @@ void BlobWriter::view(const PlaceView& view) {
 
 void BlobReader::require_left(std::uint64_t count, std::size_t bytes_each) const {
   if (count > bytes_.size() / bytes_each)
-    throw ArgumentError("is cut off: " + std::to_string(count) + " things of " +
-                        std::to_string(bytes_each) + " bytes are said to follow, and " +
+    throw ArgumentError("is cut off: " + std::to_string(count) + " elements of " +
+                        std::to_string(bytes_each) + " bytes should follow, but " +
                         std::to_string(bytes_.size()) + " bytes are left");
 }
 

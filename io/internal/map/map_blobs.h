@@ -7,8 +7,8 @@
 
 namespace placegraph {
 
-/// The blobs of a saved map (docs/map.md): little-endian numbers one after the other, no padding.
-/// Writing appends to `bytes`. Reading throws ArgumentError with what is wrong with the bytes.
+/// Writer of the blobs of a saved map (docs/map.md): little-endian numbers in sequence, no padding.
+/// Writing appends to `bytes`. Reading throws ArgumentError with the fault of the bytes.
 class BlobWriter {
  public:
   explicit BlobWriter(std::string& bytes) : bytes_(bytes) {}
@@ -57,7 +57,7 @@ class BlobReader {
   Number number();
   template <class Number>
   Number finite(const char* name);
-  /// Throws unless `count` things of so many bytes are left, before memory is asked for.
+  /// Throws unless `count` elements of this size are left, before memory is allocated.
   void require_left(std::uint64_t count, std::size_t bytes_each) const;
   CueGrid grid();
   std::string_view bytes_;

@@ -27,7 +27,7 @@ Keyframe& keyframe_of(StoredMap& stored, const SqliteRows& rows, std::int64_t id
       std::lower_bound(all.begin(), all.end(), id,
                        [](const Keyframe& k, std::int64_t value) { return k.id.value() < value; });
   if (found == all.end() || found->id.value() != id)
-    rows.refuse(std::string(column) + " " + std::to_string(id) + " is no keyframe of the map");
+    rows.refuse(std::string(column) + " " + std::to_string(id) + " is not a keyframe of the map");
   return *found;
 }
 
@@ -37,7 +37,7 @@ Place& place_of(StoredMap& stored, const SqliteRows& rows, std::int64_t id, cons
       std::lower_bound(all.begin(), all.end(), id,
                        [](const Place& p, std::int64_t value) { return p.id.value() < value; });
   if (found == all.end() || found->id.value() != id)
-    rows.refuse(std::string(column) + " " + std::to_string(id) + " is no place of the map");
+    rows.refuse(std::string(column) + " " + std::to_string(id) + " is not a place of the map");
   return *found;
 }
 

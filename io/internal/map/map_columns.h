@@ -10,7 +10,7 @@
 // column.
 namespace placegraph {
 
-/// What `read` makes of the bytes of a column, all of them.
+/// The result of `read` for all bytes of a column.
 template <class Read>
 auto decoded(const SqliteRows& rows, std::string_view bytes, const char* column, Read read) {
   try {
@@ -33,7 +33,7 @@ Keyframe& keyframe_of(StoredMap& stored, const SqliteRows& rows, std::int64_t id
                       const char* column);
 Place& place_of(StoredMap& stored, const SqliteRows& rows, std::int64_t id, const char* column);
 
-/// The first column counts the rows from 0: this is row number `expected`.
+/// Checks that the row number in the first column, from 0, is `expected`.
 void require_next(const SqliteRows& rows, std::size_t expected);
 
 }  // namespace placegraph

@@ -13,17 +13,18 @@ void remove_with_journal(const std::string& path) {
   for (const char* ending : {"", "-wal", "-shm", "-journal"}) fs::remove(path + ending);
 }
 
-/// Where a map of that name is written: what a link names, never what is no plain file.
+/// The path that a map of that name is written to: the target of a link; only a plain file is
+/// allowed.
 std::string target_of(const std::string& path) {
   std::error_code ignored;
   const std::string target =
       fs::is_symlink(path, ignored) ? fs::weakly_canonical(path).string() : path;
   if (fs::exists(target, ignored) && !fs::is_regular_file(target, ignored))
-    throw FileError(path, "cannot be written: is no plain file");
+    throw FileError(path, "cannot be written: is not a plain file");
   return target;
 }
 
-/// Puts `fresh` in the place of `path`, at no time without either; the log of the old one goes.
+/// Replaces `path` with `fresh` atomically; the log of the old file is removed.
 void replace(const std::string& fresh, const std::string& path) {
   for (const char* ending : {"-wal", "-shm", "-journal"}) fs::remove(path + ending);
   std::error_code code;
@@ -40,7 +41,7 @@ void insert_camera(SqliteDatabase& database, std::int64_t id, const Camera& came
   put.run();
 }
 
-/// Origin and cameras, in place of those that are there.
+/// Replaces origin and cameras.
 void write_origin(SqliteDatabase& database, const MapOrigin& origin) {
   database.execute("DELETE FROM origin");
   database.execute("DELETE FROM camera");
@@ -74,7 +75,7 @@ MapDatabase::~MapDatabase() = default;
 
 std::unique_ptr<MapWriter> MapDatabase::made(const std::string& path, const MapOrigin& origin,
                                              bool synchronized) {
-  // A file of that name has its tables and its origin, or there is none.
+  // The file is created under another name, so that it has its tables and origin when it appears.
   const std::string fresh = path + ".new";
   remove_with_journal(fresh);
   {
@@ -137,7 +138,7 @@ void write_map(const std::string& path, const StoredMap& stored) {
   changes.metric = map.metric;
   const std::string target = target_of(path), fresh = target + ".part";
   try {
-    // Nobody sees it before it is whole.
+    // The file appears only when it is complete.
     MapDatabase database(MapDatabase::made(fresh, stored.origin, true));
     if (stored.finished) {
       database.finish(changes);

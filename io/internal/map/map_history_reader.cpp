@@ -28,7 +28,7 @@ void read_links(SqliteDatabase& database, StoredMap& stored) {
     if (!rows.is_null(3)) {
       KeyframeLink& link = keyframe.link.emplace();
       link.from = keyframe_of(stored, rows, rows.integer(3), "from_keyframe").id;
-      if (link.from >= keyframe.id) rows.refuse("from_keyframe is no older one");
+      if (link.from >= keyframe.id) rows.refuse("from_keyframe is not older");
       link.T_from_this = pose_column(rows, 4, "T_from_this");
       link.information = symmetric_column(rows, 5, "information", 6);
       link.source = static_cast<ConstraintSource>(rows.integer(6, 0, 2));
@@ -60,7 +60,7 @@ std::set<KeyframeId> read_parts(SqliteDatabase& database, StoredMap& stored) {
   SqliteRows links(database, "link", "keyframe, part");
   while (links.next())
     if (!segments.count(KeyframeId(links.integer(1))))
-      links.refuse("part " + std::to_string(links.integer(1)) + " is no part of the map");
+      links.refuse("part " + std::to_string(links.integer(1)) + " is not a part of the map");
   return segments;
 }
 
@@ -74,7 +74,7 @@ void read_motions(SqliteDatabase& database, StoredMap& stored,
     motion.from = KeyframeId(motions.integer(1));
     motion.to = KeyframeId(motions.integer(2));
     if (!segments.count(motion.from) || !segments.count(motion.to))
-      motions.refuse("its ends are no parts of the map");
+      motions.refuse("its ends are not parts of the map");
     motion.T_from_to = pose_column(motions, 3, "T_from_to");
     motion.covariance = symmetric_column(motions, 4, "covariance", 6);
   }
@@ -100,14 +100,15 @@ void read_mergers(SqliteDatabase& database, StoredMap& stored,
       require_next(rows, history.merged.size());
       const KeyframeId anchor(rows.integer(1));
       history.merged.push_back({anchor, {}});
-      if (!segments.count(anchor)) rows.refuse("anchor is no part of the map");
+      if (!segments.count(anchor)) rows.refuse("anchor is not a part of the map");
     }
   }
   const auto mergers = static_cast<std::int64_t>(history.merged.size());
   SqliteRows rows(database, "merged_part", "number, merged, part, covariance");
   while (rows.next()) {
     const KeyframeId segment(rows.integer(2));
-    if (!segments.count(segment)) rows.refuse("part " + to_string(segment) + " is none of the map");
+    if (!segments.count(segment))
+      rows.refuse("part " + to_string(segment) + " is not a part of the map");
     history.merged[static_cast<std::size_t>(rows.integer(1, 0, mergers - 1))]
         .covariance_of_segment[segment] = symmetric_column(rows, 3, "covariance", 7);
   }

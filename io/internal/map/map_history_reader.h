@@ -5,9 +5,9 @@ namespace placegraph {
 
 class SqliteDatabase;
 
-/// Reads the tables that a map is gone on with (runs, links, parts, motions, revisits, mergers)
-/// into `stored.history`; keyframes and places of the map must have been read. Throws FileError
-/// naming the table and row of what contradicts them.
+/// Reads the tables that are needed to continue a map (runs, links, parts, motions, revisits,
+/// mergers) into `stored.history`; keyframes and places of the map must have been read. Throws
+/// FileError that names the table and row of contradictory data.
 void read_history(SqliteDatabase& database, StoredMap& stored);
 
 }  // namespace placegraph

@@ -4,10 +4,11 @@
 
 namespace placegraph {
 
-/// The tables that a map is gone on with: what of them is written already, and what is to be.
+/// Writes the tables that are needed to continue a map, and tracks the rows that are already
+/// written.
 class MapHistoryWriter {
  public:
-  /// `database` outlives it.
+  /// `database` must outlive the writer.
   explicit MapHistoryWriter(SqliteDatabase& database);
   /// Writes the rows that have changed.
   void put(const PlaceHistory& history);

@@ -136,7 +136,7 @@ void MapReader::read_members() {
     const Keyframe& anchor =
         keyframe_of(stored_, places, place.anchor_keyframe.value(), "anchor_keyframe");
     if (anchor.place != place.id)
-      places.refuse("anchor_keyframe " + to_string(anchor.id) + " hangs on place " +
+      places.refuse("anchor_keyframe " + to_string(anchor.id) + " belongs to place " +
                     to_string(anchor.place));
   }
 }
@@ -164,7 +164,7 @@ void MapReader::read_views() {
                          view.gradients.size() == first->gradients.size() &&
                          view.colour.channels == first->colour.channels &&
                          view.coarse.channels == first->coarse.channels;
-    if (!similar) rows.refuse("data: a view of other cues than the first");
+    if (!similar) rows.refuse("data: a view with other cues than the first");
   }
 }
 
@@ -184,7 +184,7 @@ void MapReader::read_edges() {
     edge.kernel.width = rows.positive(5);
     const std::size_t bytes = rows.blob(6).size();
     if (motion_bytes.value_or(bytes) != bytes)
-      rows.refuse("motion: of another kind than the first");
+      rows.refuse("motion: differs in kind from the first");
     motion_bytes = bytes;
     const bool scaled = bytes == kSimilarityBytes;
     if (scaled)
@@ -247,10 +247,10 @@ void MapReader::read_loops() {
     loop.inliers = static_cast<int>(rows.integer(3, 0, kMost));
     loop.T_match_query = pose_column(rows, 6, "T_match_query");
     const auto model = loop_model(rows.text(7));
-    if (!model) rows.refuse("model: none that loops are found by");
+    if (!model) rows.refuse("model: not a model of loop closures");
     loop.model = *model;
     const auto stage = loop_stage(rows.text(5), loop.model);
-    if (!stage) rows.refuse("stage: none that loops go through: " + std::string(rows.text(5)));
+    if (!stage) rows.refuse("stage: not a loop stage: " + std::string(rows.text(5)));
     loop.stage = *stage;
     if ((rows.integer(4, 0, 1) == 1) != loop.accepted())
       rows.refuse("accepted: contradicts stage " + std::string(rows.text(5)));

@@ -8,7 +8,7 @@
 
 namespace placegraph {
 
-/// Reads the tables in turn; what refers to others is checked against what has been read.
+/// Reads the tables in turn; references to other tables are checked against the rows already read.
 class MapReader {
  public:
   explicit MapReader(const std::string& path) : database_(path, SqliteDatabase::Access::kRead) {

@@ -97,7 +97,7 @@ void check_map_schema(SqliteDatabase& database) {
                                          std::to_string(kMapSchema));
   if (version < 1)
     throw FileError(database.path(),
-                    "is a map of schema " + std::to_string(version) + ", which there never was");
+                    "is a map of schema " + std::to_string(version) + ", which does not exist");
 }
 
 void upgrade_map_schema(SqliteDatabase& database) {

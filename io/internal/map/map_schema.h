@@ -3,11 +3,11 @@
 
 namespace placegraph {
 
-/// Makes the tables of a saved map (docs/map.md).
+/// Creates the tables of a saved map (docs/map.md).
 void create_map_tables(SqliteDatabase& database);
-/// Throws FileError unless the database is a saved map of a schema this program knows.
+/// Throws FileError unless the database is a saved map of a supported schema.
 void check_map_schema(SqliteDatabase& database);
-/// Brings the tables of an older schema up to the present one; what they did not tell is zero.
+/// Upgrades the tables of an older schema to the present one; missing data become zero.
 void upgrade_map_schema(SqliteDatabase& database);
 /// Names of all tables but `origin` and `camera`.
 constexpr const char* kMapTables[] = {

@@ -46,7 +46,7 @@ class MapRow {
   bool operator==(const MapRow&) const = default;
 
  private:
-  /// Equal if its bits are: NaN is what it was, and -0 is not 0.
+  /// Equal if the bits are equal: NaN equals NaN, and -0 differs from 0.
   struct Real {
     double value;
     bool operator==(const Real& other) const {
@@ -76,21 +76,21 @@ class MapRow {
   std::vector<Value> values_;
 };
 
-/// A table with one whole number as its key, and what has been written to it.
+/// A table with one whole number as its key, and the rows that have been written to it.
 class MapTable {
  public:
   MapTable(SqliteDatabase& database, const std::string& name, const std::string& key, int columns)
       : put_(database, put_sql(name, columns)),
         erase_(database, "DELETE FROM " + name + " WHERE " + key + " = ?") {}
 
-  /// Writes the row unless it stands there already.
+  /// Writes the row unless the table has it already.
   void put(std::int64_t key, const MapRow& row) {
     MapRow& written = written_[key];
     if (written == row) return;
     written = row;
     write(key, row);
   }
-  /// Without remembering what was written.
+  /// Writes the row without recording it.
   void write(std::int64_t key, const MapRow& row) {
     put_ << key;
     row.bind(put_);
@@ -101,12 +101,12 @@ class MapTable {
     erase_.run();
     written_.erase(key);
   }
-  /// Rows that are there, whatever they say.
+  /// Records the existing keys without their content.
   void take_keys(SqliteDatabase& database, const std::string& sql) {
     SqliteRows rows(database, sql.substr(sql.find(' ') + 1), sql.substr(0, sql.find(' ')));
     while (rows.next()) written_[rows.integer(0)];
   }
-  /// Erases what is not among `keys`, and says what that was.
+  /// Erases the rows whose keys are not in `keys`, and returns the erased keys.
   std::vector<std::int64_t> keep(const std::set<std::int64_t>& keys) {
     std::vector<std::int64_t> gone;
     for (const auto& [key, row] : written_)

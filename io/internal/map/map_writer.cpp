@@ -130,7 +130,8 @@ void MapWriter::put_constraints(const MapChanges& changes) {
   }
 }
 
-/// In rows of a thousand: single ones would cost more to find than to write.
+/// Writes rows of a thousand landmarks, because finding single ones would cost more than writing
+/// them.
 void MapWriter::put_landmarks(const MapChanges& changes) {
   const std::size_t first = changes.first_landmark;
   require(first % kLandmarksARow == 0, "map: landmarks begin within a row");
@@ -166,7 +167,7 @@ void MapWriter::commit(const MapChanges& changes, bool finished) {
   } catch (...) {
     try {
       database.execute("ROLLBACK");
-    } catch (const Error&) {  // the first fault is the one to tell
+    } catch (const Error&) {  // the first fault is the one to report
     }
     throw;
   }

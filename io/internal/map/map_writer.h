@@ -13,7 +13,7 @@
 
 namespace placegraph {
 
-/// The open file of a MapDatabase: its tables, and what of them is written already.
+/// The open file of a MapDatabase: its tables, and the rows that are already written.
 struct MapWriter {
   MapWriter(const std::string& path, bool synchronized)
       : database(path, SqliteDatabase::Access::kWrite),
@@ -36,19 +36,19 @@ struct MapWriter {
       keyframe_times[KeyframeId(known.integer(0))] = {FrameId(known.integer(1)), known.integer(2)};
   }
 
-  /// The file belongs to this connection alone. A write-ahead log: a commit appends to it without
-  /// waiting for the disk; when a program is killed, all that it committed is there.
+  /// Prepares the database: an exclusive lock and a write-ahead log. A commit appends to the log
+  /// without waiting for the disk; if the program is killed, all committed data are in the file.
   SqliteDatabase& prepared(bool synchronized) {
     database.execute("PRAGMA locking_mode = EXCLUSIVE");
     check_map_schema(database);
     database.text("PRAGMA journal_mode = WAL");
     upgrade_map_schema(database);
-    // A power cut, unlike a kill, may take the last commits along, but leaves the file whole.
+    // A power cut, unlike a kill, may lose the last commits, but leaves the file intact.
     database.execute(synchronized ? "PRAGMA synchronous = NORMAL" : "PRAGMA synchronous = OFF");
     return database;
   }
 
-  /// All of `changes` in one transaction, or nothing of them.
+  /// Writes all of `changes` in one transaction, or nothing.
   void commit(const MapChanges& changes, bool finished);
   void put_places(const MapChanges& changes);
   void put_keyframes(const MapChanges& changes);

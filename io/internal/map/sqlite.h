@@ -10,7 +10,7 @@ struct sqlite3_stmt;
 
 namespace placegraph {
 
-/// An open SQLite database. Whatever goes wrong is a FileError that names the file.
+/// An open SQLite database. Every failure is a FileError that names the file.
 class SqliteDatabase {
  public:
   enum class Access { kRead, kWrite, kCreate };
@@ -44,12 +44,12 @@ class SqliteStatement {
   SqliteStatement& operator<<(std::int64_t value);
   SqliteStatement& operator<<(double value);  ///< not a number becomes NULL
   SqliteStatement& text(std::string_view value);
-  /// Bytes that stay where they are until run().
+  /// Binds bytes that must remain valid until run().
   SqliteStatement& blob(std::string_view bytes);
   SqliteStatement& null();
-  /// Runs to the end and is ready to be bound anew.
+  /// Runs the statement to its end; it can then be bound again.
   void run();
-  /// The next row of a query.
+  /// Advances to the next row of a query.
   bool next();
   sqlite3_stmt* handle() const { return handle_; }
 
@@ -60,10 +60,10 @@ class SqliteStatement {
 };
 
 /// The rows of a table, checked as they are read: a value of another type, out of range or not
-/// finite is a FileError with file, table and row, the row being named by its first column.
+/// finite is a FileError with file, table and row, which is named by its first column.
 class SqliteRows {
  public:
-  /// `columns`: names, the row's number first; `rest`: as "ORDER BY id".
+  /// `columns`: names, the row's number first; `rest`: e.g. "ORDER BY id".
   SqliteRows(SqliteDatabase& database, const std::string& table, const std::string& columns,
              const std::string& rest = "ORDER BY 1");
   bool next() { return statement_.next(); }
@@ -73,9 +73,9 @@ class SqliteRows {
                        std::int64_t max = std::numeric_limits<std::int64_t>::max()) const;
   double real(int column) const;  ///< finite
   double positive(int column) const;
-  std::string_view text(int column) const;  ///< until the next row
-  std::string_view blob(int column) const;  ///< until the next row
-  /// Of exactly this many bytes.
+  std::string_view text(int column) const;  ///< valid until the next row
+  std::string_view blob(int column) const;  ///< valid until the next row
+  /// A blob of exactly this many bytes.
   std::string_view blob(int column, std::size_t bytes) const;
   [[noreturn]] void refuse(const std::string& what) const;
 

@@ -18,7 +18,7 @@ std::vector<SceneClass> read_class_list(const std::string& path) {
       file.fail(std::to_string(fields.size()) + " columns, expected: number name surface");
     const std::int64_t id = file.integer(fields[0], "number");
     if (id < 0 || id > kLargest)
-      file.fail("number: " + in_quotes(fields[0]) + " is none of a class");
+      file.fail("number: " + in_quotes(fields[0]) + " is not the number of a class");
     SceneClass read{static_cast<int>(id), std::string(fields[1]),
                     surface_of_name(std::string(fields[2]))};
     if (!read.surface && fields[2] != "-")
@@ -34,7 +34,7 @@ std::vector<SceneClass> read_class_list(const std::string& path) {
   }
   if (std::none_of(classes.begin(), classes.end(),
                    [](const SceneClass& c) { return c.surface.has_value(); }))
-    throw FileError(path, "no class that is scored");
+    throw FileError(path, "no class is scored");
   std::sort(classes.begin(), classes.end(),
             [](const SceneClass& a, const SceneClass& b) { return a.id < b.id; });
   return classes;

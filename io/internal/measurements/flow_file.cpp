@@ -40,7 +40,7 @@ Image read_middlebury(const std::string& path) {
   std::array<std::int32_t, 2> sides{};
   stream.read(reinterpret_cast<char*>(&tag), sizeof tag);
   stream.read(reinterpret_cast<char*>(sides.data()), sizeof sides);
-  if (!stream || tag != kMiddleburyTag) throw FileError(path, "is no Middlebury flow");
+  if (!stream || tag != kMiddleburyTag) throw FileError(path, "is not Middlebury flow");
   const auto [width, height] = sides;
   if (width < 1 || height < 1 || width > kMaxSide || height > kMaxSide)
     throw FileError(path, fmt::format("flow of {}x{} pixels", width, height));

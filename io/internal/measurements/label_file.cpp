@@ -18,8 +18,10 @@ std::map<FrameId, int> read_labels(const std::string& path) {
       file.fail(std::to_string(fields.size()) + " columns, expected: image label");
     const std::int64_t image = file.integer(fields[0], "image");
     const std::int64_t label = file.integer(fields[1], "label");
-    if (image < 0 || image > kLargest) file.fail("image: " + in_quotes(fields[0]) + " is none");
-    if (label < 0 || label > kLargest) file.fail("label: " + in_quotes(fields[1]) + " is none");
+    if (image < 0 || image > kLargest)
+      file.fail("image: " + in_quotes(fields[0]) + " is out of range");
+    if (label < 0 || label > kLargest)
+      file.fail("label: " + in_quotes(fields[1]) + " is out of range");
     if (!labels.emplace(FrameId(image), static_cast<int>(label)).second)
       file.fail("image " + std::to_string(image) + " is labelled already");
   }

@@ -7,9 +7,9 @@
 
 namespace placegraph {
 
-/// Which place each image of a set shows, as `image label` lines, both whole numbers from 0. Throws
-/// FileError with the line: another form, numbers beyond 1e9, an image labelled twice; or if there
-/// is no label.
+/// Reads the place that each image of a set shows, as `image label` lines, both whole numbers from
+/// 0. Throws FileError with the line: another format, numbers beyond 1e9, an image labelled twice;
+/// or if there is no label.
 std::map<FrameId, int> read_labels(const std::string& path);
 
 }  // namespace placegraph

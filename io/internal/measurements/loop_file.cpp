@@ -16,7 +16,7 @@ constexpr std::int64_t kMaxImages = 1'000'000'000;
 FrameId image_of(const TextFile& file, std::string_view field, const char* what) {
   const std::int64_t image = file.integer(field, what);
   if (image < 0 || image >= kMaxImages)
-    file.fail(std::string(what) + ": " + in_quotes(field) + " is no image");
+    file.fail(std::string(what) + ": " + in_quotes(field) + " is not an image");
   return FrameId(image);
 }
 
@@ -91,7 +91,7 @@ std::vector<LoopPrediction> read_run(TextFile& file) {
     prediction.stage = fields[stage];
     prediction.score = file.number(fields[probability], "probability");
     if (prediction.score < 0 || prediction.score > 1)
-      file.fail("probability: " + in_quotes(fields[probability]) + " is none");
+      file.fail("probability: " + in_quotes(fields[probability]) + " is not in [0, 1]");
     prediction.line = file.line();
     predictions.push_back(std::move(prediction));
   }
@@ -99,7 +99,7 @@ std::vector<LoopPrediction> read_run(TextFile& file) {
 }
 
 using LoopRow = std::vector<std::int64_t>;
-constexpr std::int64_t kNone = -1;  // how `-` is kept
+constexpr std::int64_t kNone = -1;  // represents `-`
 
 struct Table {
   std::vector<LoopRow> rows;
@@ -141,7 +141,8 @@ bool is_matrix(const Table& table) {
   return true;
 }
 
-// A list ascends; in a line of ranges the first match does not lie beyond the last candidate.
+// The images of a list ascend; in a line of ranges the first match is not beyond the last
+// candidate.
 bool are_ranges(const Table& table) {
   if (table.has_none) return true;
   for (const LoopRow& row : table.rows) {
@@ -184,7 +185,7 @@ LoopQuery query_of_row(const LoopRow& row, bool ranges, const std::string& path,
     const FrameId match(row[i]);
     if (match < query.first || match > query.last)
       throw FileError(path, line,
-                      "match " + to_string(match) + " is none of the candidates " +
+                      "match " + to_string(match) + " is not among the candidates " +
                           to_string(query.first) + " to " + to_string(query.last));
     if (!query.matches.empty() && match <= query.matches.back())
       throw FileError(path, line, "the matches do not ascend");

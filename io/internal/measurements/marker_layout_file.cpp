@@ -25,7 +25,7 @@ void refuse_unknown(const YamlDocument& yaml, const YAML::Node& map,
 
 YAML::Node list(const YamlDocument& yaml, const char* key) {
   const YAML::Node node = yaml.root()[key];
-  if (node.IsDefined() && !node.IsSequence()) yaml.fail(node, std::string(key) + ": is no list");
+  if (node.IsDefined() && !node.IsSequence()) yaml.fail(node, std::string(key) + ": is not a list");
   return node;
 }
 
@@ -40,18 +40,19 @@ Eigen::Vector3d position(const YamlDocument& yaml, const YAML::Node& at, const Y
   return p;
 }
 
-/// Whether its place is given; if not, that of `marker` means nothing.
+/// Reads a marker; returns false if its pose is not given, and then the pose of `marker` is not
+/// set.
 bool read_marker(const YamlDocument& yaml, const YAML::Node& node, PlacedMarker& marker) {
   refuse_unknown(yaml, node, {"id", "side_m", "position", "quaternion"});
   const double id = yaml.number(node, "id");
   constexpr double kMaxId = 1e6;
   if (!(id >= 0 && id <= kMaxId && id == std::floor(id)))
-    yaml.fail(node["id"], "id: is no whole number from 0 on");
+    yaml.fail(node["id"], "id: is not a whole number from 0 on");
   marker.id = static_cast<int>(id);
   marker.side_m = yaml.number(node, "side_m");
   constexpr double kMaxSide_m = 1000;
   if (!(marker.side_m > 0 && marker.side_m <= kMaxSide_m))
-    yaml.fail(node["side_m"], fmt::format("side_m: {} is no length of a side", marker.side_m));
+    yaml.fail(node["side_m"], fmt::format("side_m: {} is not a valid side length", marker.side_m));
   if (!node["position"].IsDefined() && !node["quaternion"].IsDefined()) return false;
   const Eigen::Vector3d p =
       position(yaml, yaml.member(node, "position"), yaml.member(node, "position"));

@@ -8,12 +8,12 @@
 namespace placegraph {
 namespace {
 
-/// Larger than any image or scene; its fourth power is far from overflow.
+/// Larger than any image or scene; its fourth power does not overflow by far.
 constexpr double kMostMatch = 1e6;
 
 using MatchRow = std::array<double, 6>;
 
-/// The first columns of every line, named in turn.
+/// Reads the first columns of every line, with the given names.
 std::vector<MatchRow> read_rows(const std::string& path, const std::vector<const char*>& names) {
   TextFile file(path);
   std::vector<MatchRow> rows;
@@ -31,7 +31,7 @@ std::vector<MatchRow> read_rows(const std::string& path, const std::vector<const
     for (std::size_t i = 0; i < names.size(); ++i) {
       row[i] = file.number(fields[i], names[i]);
       if (std::abs(row[i]) > kMostMatch)
-        file.fail(std::string(names[i]) + ": " + in_quotes(fields[i]) + " is beyond all measure");
+        file.fail(std::string(names[i]) + ": " + in_quotes(fields[i]) + " is above 1e6");
     }
     rows.push_back(row);
   }

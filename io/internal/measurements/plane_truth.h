@@ -5,8 +5,8 @@
 
 namespace placegraph {
 
-/// The planes of a sequence with exact ground truth: lines `nx ny nz d` with n . p = d in the frame
-/// of poses.txt, the first unused. Throws FileError with the line: other than four numbers, a
+/// Reads the planes of a sequence with exact ground truth: lines `nx ny nz d` with n . p = d in the
+/// frame of poses.txt, the first unused. Throws FileError with the line: other than four numbers, a
 /// normal (but the first) that is not of unit length; or if there is no line.
 std::vector<Eigen::Vector4d> read_planes(const std::string& path);
 

@@ -13,8 +13,8 @@
 namespace placegraph {
 namespace {
 
-constexpr double kMost = 1e6;                    ///< [m], beyond all measure
-constexpr std::uintmax_t kLargest = 1ull << 31;  ///< [bytes]
+constexpr double kMost = 1e6;                    ///< largest accepted coordinate [m]
+constexpr std::uintmax_t kLargest = 1ull << 31;  ///< largest accepted file [bytes]
 
 std::string read_bytes(const std::string& path) {
   std::error_code error;
@@ -32,13 +32,13 @@ bool sound(const Eigen::Vector3d& p) { return p.allFinite() && p.cwiseAbs().maxC
 
 void require_sound(const std::string& path, std::size_t i, const Eigen::Vector3d& p) {
   if (!sound(p))
-    throw FileError(path, "point " + std::to_string(i) + " is not finite or beyond all measure");
+    throw FileError(path, "point " + std::to_string(i) + " is not finite or above 1e6 m");
 }
 
 double coordinate(const TextFile& file, std::string_view field, const char* name) {
   const double value = file.number(field, name);
   if (std::abs(value) > kMost)
-    file.fail(std::string(name) + ": " + in_quotes(field) + " is beyond all measure");
+    file.fail(std::string(name) + ": " + in_quotes(field) + " is above 1e6 m");
   return value;
 }
 
@@ -62,7 +62,7 @@ PointCloud read_kitti_cloud(const std::string& path) {
   const std::string bytes = read_bytes(path);
   if (bytes.size() % kPoint != 0)
     throw FileError(path, std::to_string(bytes.size()) +
-                              " bytes are no whole number of points of four float32");
+                              " bytes are not a whole number of points of four float32");
   PointCloud cloud;
   for (std::size_t i = 0; i * kPoint < bytes.size(); ++i) {
     float values[4];
@@ -73,7 +73,7 @@ PointCloud read_kitti_cloud(const std::string& path) {
   return cloud;
 }
 
-/// A type of a PLY property: its size, and whether it is a number of a coordinate.
+/// A type of a PLY property: its size, and whether it is valid for a coordinate.
 struct PlyType {
   std::size_t size = 0;
   bool is_float = false, is_double = false;
@@ -129,7 +129,7 @@ PlyHeader read_ply_header(const std::string& path, const std::string& bytes) {
     } else if (fields[0] == "element" && fields.size() == 3) {
       in_vertices = fields[1] == "vertex";
       const auto count = parse_integer(fields[2]);
-      if (!count || *count < 0) fail("element: " + in_quotes(fields[2]) + " is no count");
+      if (!count || *count < 0) fail("element: " + in_quotes(fields[2]) + " is not a count");
       if (in_vertices && header.vertices >= 0) fail("a second element vertex");
       if (in_vertices) header.vertices = *count;
       if (!in_vertices && header.vertices < 0 && *count > 0)
@@ -137,7 +137,7 @@ PlyHeader read_ply_header(const std::string& path, const std::string& bytes) {
     } else if (fields[0] == "property" && in_vertices) {
       if (fields.size() != 3) fail("vertices with lists are not read");
       const PlyType type = ply_type(fields[1]);
-      if (type.size == 0) fail(in_quotes(fields[1]) + " is no type of a property");
+      if (type.size == 0) fail(in_quotes(fields[1]) + " is not a type of a property");
       for (std::size_t axis = 0; axis < 3; ++axis)
         if (fields[2] == std::array{"x", "y", "z"}[axis]) {
           if (!type.is_float && !type.is_double) fail("x, y and z are float or double");
@@ -148,7 +148,7 @@ PlyHeader read_ply_header(const std::string& path, const std::string& bytes) {
       header.stride += type.size;
       ++header.columns;
     } else if (fields[0] != "property") {
-      fail(in_quotes(line) + " is no line of a PLY header");
+      fail(in_quotes(line) + " is not a line of a PLY header");
     }
   }
   if (!has_format) fail("no format line in a PLY header");

@@ -8,19 +8,19 @@
 
 namespace placegraph {
 
-/// Reads a cloud, by what the file is called: `.ply` (ascii or binary little endian, the properties
-/// x y z of its vertices, float or double), `.bin` (KITTI: four float32 a point, x y z intensity),
-/// and text otherwise: `x y z` a line, further columns are not read. The scan keeps its axes.
-/// Throws FileError, with the line in text, if the file is missing, truncated, has other counts
-/// than it says, a number that is not finite or beyond 1e6, or no point.
+/// Reads a cloud in the format of the file's extension: `.ply` (ascii or binary little endian, the
+/// properties x y z of its vertices, float or double), `.bin` (KITTI: four float32 per point, x y z
+/// intensity), and otherwise text: `x y z` per line, further columns are not read. The axes of the
+/// scan are kept. Throws FileError, with the line in text, if the file is missing, truncated,
+/// inconsistent with its own counts, has a number that is not finite or beyond 1e6, or no point.
 PointCloud read_point_cloud(const std::string& path);
 
-/// An organised cloud of a depth image (CV_32FC1 metres, 0 where nothing was measured) of a camera
-/// without distortion. `step_m`: what its depths are multiples of. Throws ArgumentError if the
-/// image is not the camera's size.
+/// The organised cloud of a depth image (CV_32FC1 metres, 0 where nothing was measured) of a camera
+/// without distortion. `step_m`: quantization step of the depths. Throws ArgumentError if the image
+/// does not have the camera's size.
 PointCloud cloud_of_depth(const Image& depth, const Camera& camera, double step_m);
 
-/// One label a point: the last column of the lines of a text file that has four or more, or the
+/// Reads one label per point: the last column if the lines of a text file have four or more, or the
 /// only one. Throws FileError for anything else.
 std::vector<int> read_point_labels(const std::string& path);
 

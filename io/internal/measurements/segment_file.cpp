@@ -24,7 +24,7 @@ std::vector<LineSegment> read(const std::string& path, bool further_columns) {
     for (std::size_t i = 0; i < 4; ++i) {
       px[i] = file.number(fields[i], kNames[i]);
       if (std::abs(px[i]) > kMaxPixel)
-        file.fail(std::string(kNames[i]) + ": " + in_quotes(fields[i]) + " is no pixel");
+        file.fail(std::string(kNames[i]) + ": " + in_quotes(fields[i]) + " is not a pixel");
     }
     const LineSegment segment{{px[0], px[1]}, {px[2], px[3]}};
     if (!(segment.length() > 0)) file.fail("the segment has no length");

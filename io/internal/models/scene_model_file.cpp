@@ -16,7 +16,7 @@ static_assert(std::endian::native == std::endian::little,
               "numbers are written as they lie in memory");
 
 constexpr std::array<char, 8> kSceneMagic = {'P', 'G', 'S', 'C', 'E', 'N', 'E', '\n'};
-/// Of the bytes as of the features: 2 is that of superpixels of 10 pixels, 1 that of 14.
+/// Version of the format and of the features: 2 has superpixels of 10 pixels, 1 of 14.
 constexpr std::uint32_t kSceneVersion = 2;
 
 struct SceneHeader {
@@ -25,7 +25,7 @@ struct SceneHeader {
 };
 static_assert(sizeof(SceneHeader) == 20);
 
-/// CRC-32 as of PNG and zip.
+/// CRC-32 of PNG and zip.
 std::uint32_t crc_of(const std::vector<char>& bytes) {
   std::uint32_t crc = ~0u;
   for (const char byte : bytes) {
@@ -49,7 +49,8 @@ class Writer {
   std::vector<char> bytes;
 };
 
-/// Throws FileError where the payload ends too early: it was made so, its CRC being right.
+/// Reads the payload; throws FileError if it ends too early. Its CRC is right, so the writer was
+/// wrong.
 class Reader {
  public:
   Reader(const std::string& path, const std::vector<char>& bytes) : path_(path), bytes_(bytes) {}
@@ -76,8 +77,8 @@ class Reader {
   std::size_t at_ = 0;
 };
 
-// A node is its feature and threshold, a leaf a mark, the bits of the classes that have a share,
-// and these shares. Where the other branch begins follows from the order.
+// A node is written as its feature and threshold, a leaf as a mark, the bits of the classes with a
+// share, and these shares. The order determines where the other branch begins.
 void put_forest(Writer& out, const DecisionForest& forest) {
   const auto n = static_cast<std::size_t>(forest.classes);
   out.put(static_cast<std::uint32_t>(forest.dimension));
@@ -148,11 +149,11 @@ std::vector<char> payload_of(const std::string& path) {
   stream.read(reinterpret_cast<char*>(&header), sizeof(SceneHeader));
   const auto begin = static_cast<std::size_t>(stream.gcount());
   if (begin < kSceneMagic.size() || header.magic != kSceneMagic)
-    throw FileError(path, "byte 0: no model of scenes (it does not begin with PGSCENE)");
+    throw FileError(path, "byte 0: not a scene model (it does not begin with PGSCENE)");
   if (begin < sizeof(SceneHeader))
     throw FileError(path, fmt::format("byte {}: ends within the header", begin));
   if (header.version != kSceneVersion)
-    throw FileError(path, fmt::format("byte 8: version {} of a model of scenes, and {} is known",
+    throw FileError(path, fmt::format("byte 8: version {} of a scene model; only {} is supported",
                                       header.version, kSceneVersion));
   const std::uint64_t size = std::filesystem::file_size(path),
                       whole = sizeof(SceneHeader) + std::uint64_t{header.bytes};
@@ -163,7 +164,7 @@ std::vector<char> payload_of(const std::string& path) {
   stream.read(payload.data(), static_cast<std::streamsize>(payload.size()));
   if (!stream) throw FileError(path, "cannot be read to its end");
   if (const std::uint32_t crc = crc_of(payload); crc != header.crc)
-    throw FileError(path, fmt::format("changed since it was written: its sum is {:08x}, not {:08x}",
+    throw FileError(path, fmt::format("changed since it was written: its CRC is {:08x}, not {:08x}",
                                       crc, header.crc));
   return payload;
 }

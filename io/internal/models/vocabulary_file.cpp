@@ -47,11 +47,11 @@ WordsHeader read_header(std::ifstream& stream, const std::string& path, std::uin
   stream.read(reinterpret_cast<char*>(&header), sizeof(WordsHeader));
   const auto begin = static_cast<std::size_t>(stream.gcount());
   if (begin < kWordsMagic.size() || header.magic != kWordsMagic)
-    throw FileError(path, "byte 0: no vocabulary (it does not begin with PGWORDS)");
+    throw FileError(path, "byte 0: not a vocabulary (it does not begin with PGWORDS)");
   if (begin < sizeof(WordsHeader))
     throw FileError(path, fmt::format("byte {}: ends within the header", begin));
   if (header.version != kWordsVersion)
-    throw FileError(path, fmt::format("byte 8: version {} of a vocabulary, and {} is known",
+    throw FileError(path, fmt::format("byte 8: version {} of a vocabulary; only {} is supported",
                                       header.version, kWordsVersion));
   if (header.kind > 1) throw FileError(path, fmt::format("byte 12: kind {}", header.kind));
   constexpr std::uint32_t kMostNumbers = 65536;

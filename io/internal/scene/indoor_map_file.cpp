@@ -42,11 +42,11 @@ json read_document(const std::string& path) {
   try {
     return json::parse(file);
   } catch (const json::exception& error) {
-    throw FileError(path, std::string("is no JSON: ") + error.what());
+    throw FileError(path, std::string("is not JSON: ") + error.what());
   }
 }
 
-/// What `read` makes of the document; its complaints become the file's.
+/// The result of `read` for the document; its errors are rethrown with the file's path.
 template <class Read>
 auto read_as(const std::string& path, const char* form, Read read) {
   const json document = read_document(path);

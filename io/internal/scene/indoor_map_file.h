@@ -9,11 +9,11 @@ namespace placegraph {
 /// A plan as JSON (docs/indoor.md): walls, doors, rooms in plan coordinates [m]; without the cells.
 std::string to_json(const IndoorMap& plan);
 
-/// Reads what `to_json` writes. Throws FileError for what is no such file.
+/// Reads the output of `to_json`. Throws FileError for any other file.
 IndoorMap read_indoor_map(const std::string& path);
 
-/// The true plan of a rendered building, as `placegraph synth` writes it (floorplan.json). Throws
-/// FileError for a file that is missing or of another form.
+/// Reads the true plan of a rendered building, as written by `placegraph synth` (floorplan.json).
+/// Throws FileError for a file that is missing or in another format.
 BuildingPlan read_building_plan(const std::string& path);
 
 }  // namespace placegraph

@@ -12,7 +12,7 @@ struct PlyHeader {
   std::int64_t vertices = -1, faces = -1;
 };
 
-/// Reads up to end_header; nothing in it sizes an allocation.
+/// Reads the header up to end_header; nothing in it sizes an allocation.
 PlyHeader read_header(TextFile& file, LabelledMesh& mesh) {
   PlyHeader header;
   std::string_view line;
@@ -23,7 +23,7 @@ PlyHeader read_header(TextFile& file, LabelledMesh& mesh) {
     if (fields.empty()) continue;
     if (fields[0] == "end_header") {
       if (header.vertices < 0 || header.faces < 0 || mesh.classes.empty())
-        file.fail("no scene with classes, vertices and faces");
+        file.fail("not a scene with classes, vertices and faces");
       return header;
     }
     if (fields[0] == "format" && (fields.size() != 3 || fields[1] != "ascii"))
@@ -88,12 +88,12 @@ LabelledMesh read_labelled_mesh(const std::string& path) {
     for (std::size_t k = 1; k + 1 < fields.size(); ++k) {
       const std::int64_t vertex = file.integer(fields[k], "corner");
       if (vertex < 0 || vertex >= header.vertices)
-        file.fail("corner: " + in_quotes(fields[k]) + " is no vertex");
+        file.fail("corner: " + in_quotes(fields[k]) + " is not a vertex");
       face.corners.push_back(static_cast<int>(vertex));
     }
     const std::int64_t label = file.integer(fields.back(), "label");
     if (label < 0 || label >= static_cast<std::int64_t>(mesh.classes.size()))
-      file.fail("label: " + in_quotes(fields.back()) + " is no class");
+      file.fail("label: " + in_quotes(fields.back()) + " is not a class");
     face.label = static_cast<int>(label);
     mesh.faces.push_back(std::move(face));
   }

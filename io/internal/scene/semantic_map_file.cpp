@@ -57,7 +57,7 @@ MapHeader read_header(const std::string& path, const std::string& bytes, Semanti
   std::string properties;
   const std::size_t end = bytes.find("end_header\n");
   if (bytes.compare(0, 4, "ply\n") != 0 || end == std::string::npos || end > (1U << 16))
-    throw FileError(path, "is no semantic map: no PLY header");
+    throw FileError(path, "is not a semantic map: no PLY header");
   header.body = end + std::strlen("end_header\n");
   std::istringstream lines(bytes.substr(0, end));
   bool binary = false, rotated = false;
@@ -76,18 +76,19 @@ MapHeader read_header(const std::string& path, const std::string& bytes, Semanti
       Eigen::Matrix3d R;
       for (int i = 0; i < 9; ++i)
         R(i / 3, i % 3) = number_of(path, words[static_cast<std::size_t>(i) + 2]);
-      if (!(R * R.transpose()).isIdentity(1e-4)) throw FileError(path, "R_plan_map: no rotation");
+      if (!(R * R.transpose()).isIdentity(1e-4))
+        throw FileError(path, "R_plan_map: not a rotation");
       map.R_plan_map = SO3(Eigen::Quaterniond(R).normalized());
       rotated = true;
     }
   }
   if (!binary || properties != kProperties || header.cells < 0 || map.classes.size() < 2 ||
       !rotated || !(map.cell_m > 0))
-    throw FileError(path, "is no semantic map of placegraph");
+    throw FileError(path, "is not a semantic map of placegraph");
   return header;
 }
 
-/// In the frame of the map.
+/// Converts a position to the frame of the map.
 Eigen::Vector3d place_of(const SemanticMap& map, const Eigen::Vector3d& p_plan) {
   return map.R_plan_map.inverse().matrix() * p_plan;
 }
@@ -139,7 +140,7 @@ SemanticMap read_semantic_map(const std::string& path) {
     SemanticCell cell;
     Eigen::Vector3f p;
     for (int k = 0; k < 3; ++k) p[k] = take<float>(at);
-    at += 3;  // the colour is the class's
+    at += 3;  // the class determines the colour
     cell.label = take<std::uint8_t>(at);
     cell.confidence = take<float>(at);
     cell.height_m = take<float>(at);
@@ -149,7 +150,7 @@ SemanticMap read_semantic_map(const std::string& path) {
     if (!p.allFinite() || p.cwiseAbs().maxCoeff() > 1e6F || *cell.label >= map.class_count() ||
         !(cell.confidence >= 0 && cell.confidence <= 1) || !std::isfinite(cell.height_m) ||
         !std::isfinite(cell.weight))
-      throw FileError(path, fmt::format("cell {} holds what cannot be", i));
+      throw FileError(path, fmt::format("cell {} has an impossible value", i));
     cell.mean = p_plan.cast<float>();
     cell.at = (p_plan / map.cell_m).array().floor().cast<int>();
     map.cells.push_back(cell);
@@ -186,10 +187,10 @@ std::string to_json(const SemanticMap& map,
   document["places"] = ordered_json::array();
   for (const auto& [place, of] : shares) {
     if (of.empty()) continue;
-    ordered_json told;
+    ordered_json shares_by_class;
     for (std::size_t c = 0; c < of.size(); ++c)
-      told[map.classes[c]] = rounded(static_cast<double>(of[c]), 1e4);
-    document["places"].push_back({{"place", place}, {"shares", told}});
+      shares_by_class[map.classes[c]] = rounded(static_cast<double>(of[c]), 1e4);
+    document["places"].push_back({{"place", place}, {"shares", shares_by_class}});
   }
   return document.dump(1) + "\n";
 }
@@ -198,13 +199,14 @@ namespace {
 
 using Ring = std::vector<Eigen::Vector2i>;
 
-/// Patches of one class in a top view: connected by their sides, each its rings, the outer first.
+/// Patches of one class in a top view, connected by their sides; each has its rings, the outer
+/// first.
 class Patches {
  public:
   Patches(int columns, int rows, std::vector<int> labels)
       : columns_(columns), rows_(rows), labels_(std::move(labels)), patch_(labels_.size(), -1) {}
 
-  /// Rings of the next patches in turn: f(label, cells, rings).
+  /// Calls f(label, cells, rings) for each of the next patches.
   template <class F>
   void for_each(const F& f) {
     for (int row = 0; row < rows_; ++row)
@@ -243,10 +245,10 @@ class Patches {
     return cells;
   }
 
-  /// Sides of cells that the patch has on their left, joined to rings; where two meet in a corner
-  /// the ring stays with its cell.
+  /// Sides of cells with the patch on their left, joined to rings; where two rings meet in a
+  /// corner, the ring continues along its cell.
   std::vector<Ring> rings(const std::vector<Eigen::Vector2i>& cells) const {
-    std::map<std::array<int, 2>, std::vector<int>> sides;  // by their first end: direction
+    std::map<std::array<int, 2>, std::vector<int>> sides;  // directions by start point
     for (const Eigen::Vector2i& cell : cells)
       for (int d = 0; d < 4; ++d) {
         const Eigen::Vector2i& out = kSteps[static_cast<std::size_t>((d + 3) % 4)];
@@ -279,7 +281,7 @@ class Patches {
     return all;
   }
 
-  /// Whether a ring goes round counter-clockwise.
+  /// Whether a ring is counter-clockwise.
   static bool rotations(const Ring& ring) {
     std::int64_t area = 0;
     for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -291,7 +293,7 @@ class Patches {
 
   static inline const std::array<Eigen::Vector2i, 4> kSteps = {
       Eigen::Vector2i(1, 0), Eigen::Vector2i(0, 1), Eigen::Vector2i(-1, 0), Eigen::Vector2i(0, -1)};
-  /// Where the side of a cell begins that goes in each direction, with the cell on its left.
+  /// Start corner of the side of a cell in each direction, with the cell on its left.
   static inline const std::array<Eigen::Vector2i, 4> kCorners = {
       Eigen::Vector2i(0, 0), Eigen::Vector2i(1, 0), Eigen::Vector2i(1, 1), Eigen::Vector2i(0, 1)};
   int columns_, rows_, count_ = 0;

@@ -10,21 +10,21 @@
 namespace placegraph {
 
 /// The known cells as a binary little-endian PLY: x y z [m, frame of the map], red green blue of
-/// the class, label, confidence, height above the ground [m], weight, sights. Classes are comments
-/// (`comment class NUMBER NAME`), so are cell_m and R_plan_map.
+/// the class, label, confidence, height above the ground [m], weight, `sights` (number of
+/// observations). Classes are comments (`comment class NUMBER NAME`), as are cell_m and R_plan_map.
 std::string to_ply(const SemanticMap& map);
 
-/// Reads it again, without log_odds and unknown cells. Throws FileError if the file is missing,
-/// truncated, of another form, or holds what cannot be.
+/// Reads such a file, without log_odds and unknown cells. Throws FileError if the file is missing,
+/// truncated, in another format, or has impossible values.
 SemanticMap read_semantic_map(const std::string& path);
 
-/// semantic_map.json: frame, size of the cells, for every class its colour, number of cells and
-/// area seen from above [m^2]; for every place the shares of the classes seen from it.
+/// The content of semantic_map.json: frame, size of the cells, for every class its colour, number
+/// of cells and area seen from above [m^2]; for every place the shares of the classes seen from it.
 std::string to_json(
     const SemanticMap& map,
     const std::vector<std::pair<PlaceId, std::vector<float>>>& shares_by_place = {});
 
-/// The top view of a map whose frame is east, north, up about `origin`, as GeoJSON (RFC 7946): a
+/// The top view of a map as GeoJSON (RFC 7946), for a map frame east, north, up about `origin`: a
 /// MultiPolygon for every class, with properties class, area_m2 and colour. Patches smaller than
 /// `min_area_m2` are left out. Throws ArgumentError for an invalid origin.
 std::string to_geojson(const SemanticMap& map, const GeodeticPosition& origin,

@@ -5,10 +5,10 @@
 
 namespace placegraph {
 
-/// T_BS of a sensor.yaml in EuRoC's form: T_body_sensor. Throws FileError with the line.
+/// Reads T_BS of a sensor.yaml in EuRoC's format: T_body_sensor. Throws FileError with the line.
 SE3 read_T_body_sensor(const YamlDocument& yaml);
 
-/// The same as lines of a sensor.yaml.
+/// The same pose as lines of a sensor.yaml.
 std::string T_body_sensor_yaml(const SE3& T_body_sensor);
 
 }  // namespace placegraph

@@ -19,7 +19,7 @@ double positive(const YamlDocument& yaml, const char* key) {
 
 void read_sensor(const fs::path& path, ImuRecording& recording) {
   const YamlDocument yaml(path.string());
-  if (!yaml.root().IsMap()) yaml.fail(yaml.root(), "is no inertial sensor's sensor.yaml");
+  if (!yaml.root().IsMap()) yaml.fail(yaml.root(), "is not the sensor.yaml of an inertial sensor");
   const SE3 T_body_imu = read_T_body_sensor(yaml);
   constexpr double kSame = 1e-6;
   if (T_body_imu.log().norm() > kSame)

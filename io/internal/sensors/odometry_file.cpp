@@ -11,7 +11,7 @@ namespace {
 
 using Fields = std::vector<std::string_view>;
 
-constexpr double kMaxStep_m = 1e9;  ///< no body goes so far; its square is far from overflowing
+constexpr double kMaxStep_m = 1e9;  ///< longer than any real step; its square does not overflow
 
 SE3 parse_pose(const TextFile& file, const Fields& fields, std::size_t at) {
   double v[7];
@@ -21,7 +21,7 @@ SE3 parse_pose(const TextFile& file, const Fields& fields, std::size_t at) {
   return SE3(q.normalized().toRotationMatrix(), Eigen::Vector3d(v[0], v[1], v[2]));
 }
 
-/// Six standard deviations or the 21 numbers of an upper triangle.
+/// Parses six standard deviations or the 21 numbers of an upper triangle.
 Matrix6d parse_covariance(const TextFile& file, const Fields& fields, std::size_t at) {
   Matrix6d covariance = Matrix6d::Zero();
   if (fields.size() - at == 6) {
@@ -39,7 +39,7 @@ Matrix6d parse_covariance(const TextFile& file, const Fields& fields, std::size_
   return covariance;
 }
 
-/// Poses of the frames, or with times of their own, in any form that is read of trajectories.
+/// Reads poses of the frames, or poses with their own times, in any format of read_trajectory.
 MeasuredMotion read_poses(const std::string& path, const MotionNoise& noise,
                           const std::vector<std::int64_t>& stamps_ns) {
   Trajectory trajectory = read_trajectory(path);

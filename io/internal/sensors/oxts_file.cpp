@@ -12,11 +12,11 @@ namespace placegraph {
 namespace fs = std::filesystem;
 namespace {
 
-/// The fields of a reading that are used, by position.
+/// The used fields of a reading, by position.
 enum Field { kLat, kLon, kAlt, kRoll, kPitch, kYaw, kForward = 8, kLeft, kUp, kAccuracy = 23 };
 constexpr std::size_t kFields = 30;
 
-/// The reading on the line handed out last.
+/// Parses the reading on the last line.
 GpsFix parse_reading(const TextFile& file, std::string_view line) {
   std::vector<std::string_view> fields;
   split_blank(line, fields);
@@ -41,7 +41,7 @@ GpsFix parse_reading(const TextFile& file, std::string_view line) {
   return fix;
 }
 
-/// "YYYY-MM-DD" and "hh:mm:ss.f": nanoseconds since 1970, nothing if it is no such date.
+/// Parses "YYYY-MM-DD" and "hh:mm:ss.f" into nanoseconds since 1970; nothing for any other text.
 std::optional<std::int64_t> parse_date(std::string_view day, std::string_view time) {
   const auto integer = [](std::string_view text, std::size_t at, std::size_t count) {
     const auto value = parse_integer(text.substr(at, count));
@@ -70,7 +70,7 @@ void require_same_count(const std::string& path, std::size_t readings, const std
                                       fs::path(times).filename().string(), stamps));
 }
 
-/// One reading a line.
+/// Reads one reading per line.
 std::vector<GpsFix> read_lines(const std::string& path, const std::string& times_path) {
   TextFile file(path);
   std::vector<GpsFix> fixes;
@@ -82,7 +82,7 @@ std::vector<GpsFix> read_lines(const std::string& path, const std::string& times
   return fixes;
 }
 
-/// One reading a file.
+/// Reads one reading per file.
 std::vector<GpsFix> read_files(const fs::path& oxts) {
   const std::string times_path = (oxts / "timestamps.txt").string();
   const fs::path data = oxts / "data";
@@ -127,7 +127,7 @@ std::vector<std::int64_t> read_kitti_times(const std::string& path) {
     split_blank(line, fields);
     if (stamps_ns.empty() && fields.size() != 2) break;
     const auto date = fields.size() == 2 ? parse_date(fields[0], fields[1]) : std::nullopt;
-    if (!date) file.fail(in_quotes(line) + " is no date yyyy-mm-dd hh:mm:ss.f");
+    if (!date) file.fail(in_quotes(line) + " is not a date yyyy-mm-dd hh:mm:ss.f");
     if (!stamps_ns.empty() && *date <= stamps_ns.back())
       file.fail("time " + in_quotes(line) + " does not increase");
     stamps_ns.push_back(*date);

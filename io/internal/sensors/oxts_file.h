@@ -21,8 +21,9 @@ namespace placegraph {
 /// increasing, more or fewer readings than times, none at all.
 std::vector<GpsFix> read_oxts(const std::string& path);
 
-/// Times as KITTI writes them, strictly increasing, at least one: seconds (times.txt) or dates
-/// "2011-09-26 13:02:25.594360375" (timestamps.txt), taken as UTC since 1970. Throws FileError.
+/// Reads times of KITTI, strictly increasing, at least one: seconds (times.txt) or dates
+/// "2011-09-26 13:02:25.594360375" (timestamps.txt), interpreted as UTC since 1970. Throws
+/// FileError.
 std::vector<std::int64_t> read_kitti_times(const std::string& path);
 
 }  // namespace placegraph

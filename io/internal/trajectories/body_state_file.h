@@ -6,13 +6,13 @@
 
 namespace placegraph {
 
-/// Reads states as EuRoC's `state_groundtruth_estimate0/data.csv` holds them: t_ns, position [m],
-/// quaternion (w first), velocity [m/s], gyro's bias [rad/s], accelerometer's bias [m/s^2], 17
-/// numbers a line, in the order of their stamps. Their covariances are zero. Throws FileError with
-/// file and line.
+/// Reads states in the format of EuRoC's `state_groundtruth_estimate0/data.csv`: t_ns, position
+/// [m], quaternion (w first), velocity [m/s], gyro bias [rad/s], accelerometer bias [m/s^2], 17
+/// numbers per line, in the order of their stamps. Their covariances are zero. Throws FileError
+/// with file and line.
 std::vector<BodyState> read_body_states(const std::string& path);
 
-/// Writes that form; covariances are left out. Throws FileError.
+/// Writes states in that format; covariances are left out. Throws FileError.
 void write_body_states(const std::string& path, const std::vector<BodyState>& states);
 
 }  // namespace placegraph

@@ -105,7 +105,7 @@ PoseLine parse_position(const TextFile& file, const Fields& fields, const PoseCo
     nans += std::isnan(T.translation()(i));
   }
   double q[4] = {0, 0, 0, 0};
-  bool nowhere = true;  // the quaternion is four times nan
+  bool nowhere = true;  // all four numbers of the quaternion are nan
   if (columns.quaternion)
     for (std::size_t i = 0; i < 4; ++i) {
       q[i] = file.number_or_nan(fields[(*columns.quaternion)[i]], "pose");

@@ -22,15 +22,15 @@ enum class StampUnit {
 /// One line of a table of poses.
 struct PoseLine {
   std::int64_t stamp = 0;  ///< [ns], or the number of the frame; 0 where the table has no stamps
-  std::optional<Eigen::Isometry3d> T_world_body;  ///< nothing if all its numbers are nan: lost
+  std::optional<Eigen::Isometry3d> T_world_body;  ///< empty if all its numbers are nan (lost)
   bool oriented = false;  ///< false: position alone, or a quaternion of four zeros or four nan
 };
 
-/// Which column of a table of poses holds what. Columns count from 0.
+/// Assignment of the columns of a table of poses. Columns count from 0.
 struct PoseColumns {
   char separator = ' ';              ///< ' ' (blanks and tabs), ',' or ';'
-  std::size_t fields = 0;            ///< of a line
-  bool more = false;                 ///< lines may have more fields, which are passed over
+  std::size_t fields = 0;            ///< number of fields in a line
+  bool more = false;                 ///< lines may have more fields, which are skipped
   std::optional<std::size_t> stamp;  ///< none: lines are frames 0, 1, 2, ...
   StampUnit unit = StampUnit::kUnknown;
   /// Columns of the 3x4 matrix T_world_body, row by row.
@@ -41,10 +41,10 @@ struct PoseColumns {
   std::optional<std::array<std::size_t, 4>> last_row;
 
   bool has_times() const { return stamp && unit != StampUnit::kFrameNumber; }
-  /// What every column holds, "t x y z qx qy qz qw": for messages.
+  /// Content of every column, e.g. "t x y z qx qy qz qw", for messages.
   std::string text() const;
-  /// A line from its fields. Throws FileError with the line that `file` stands at: another number
-  /// of fields, what is no number, no rotation (1e-2) or no stamp of the unit.
+  /// Parses a line from its fields. Throws FileError with the current line of `file`: another
+  /// number of fields, not a number, not a rotation (1e-2), not a stamp in this unit.
   PoseLine parse(const TextFile& file, const std::vector<std::string_view>& fields) const;
 };
 

@@ -7,20 +7,20 @@
 namespace placegraph {
 namespace {
 
-/// What a column is, by its name.
+/// The content of a column, derived from its name.
 struct Role {
   enum Kind { kUnknown, kIgnored, kStamp, kNumber, kPosition, kQuaternion, kAngle, kMatrix };
   Kind kind = kUnknown;
-  int index = 0;  ///< of x y z, of w x y z, or 10 row + column of a matrix
+  int index = 0;  ///< index in x y z or in w x y z, or 10 row + column of a matrix
   StampUnit unit = StampUnit::kSeconds;
-  bool unit_told = false;
+  bool has_unit = false;
 };
 
 bool one_of(std::string_view text, std::initializer_list<std::string_view> list) {
   return std::find(list.begin(), list.end(), text) != list.end();
 }
 
-/// Lower case, runs of other characters as one `_`, none at the ends.
+/// Converts a name to lower case with a single `_` for other characters, none at the ends.
 std::string plain_name(std::string_view text) {
   std::string name;
   for (const char c : text) {
@@ -33,7 +33,7 @@ std::string plain_name(std::string_view text) {
   return name;
 }
 
-/// Takes "[unit]" or "(unit)" off a name and returns it.
+/// Removes "[unit]" or "(unit)" from a name and returns it.
 std::string take_unit(std::string& name) {
   const std::size_t open = name.find_first_of("[(");
   if (open == name.npos) return {};
@@ -54,7 +54,7 @@ std::optional<StampUnit> unit_of(std::string_view word) {
   return std::nullopt;
 }
 
-/// The part behind the last `_`, and what stands before it.
+/// The part before the last `_`, and the part after it.
 std::pair<std::string_view, std::string_view> split_last(std::string_view name) {
   const std::size_t at = name.rfind('_');
   if (at == name.npos) return {"", name};
@@ -72,18 +72,18 @@ std::optional<Role> stamp_role(std::string_view name, const std::string& bracket
   std::string_view stem = name;
   if (const auto unit = unit_of(tail)) {
     role.unit = *unit;
-    role.unit_told = true;
+    role.has_unit = true;
     stem = head;
   }
   if (const auto unit = unit_of(bracket)) {
     role.unit = *unit;
-    role.unit_told = true;
+    role.has_unit = true;
   }
   const std::string_view last = split_last(stem).second;
   if (!one_of(last, {"t", "ts", "time", "times", "timestamp", "timestamps", "stamp", "", "utc"}))
     return std::nullopt;
-  // "t_x" never comes here, "t" alone is the time; "" is a bare unit such as "seconds".
-  if (last.empty() && !role.unit_told) return std::nullopt;
+  // "t_x" does not reach this line, "t" alone is the time; "" is a bare unit such as "seconds".
+  if (last.empty() && !role.has_unit) return std::nullopt;
   role.kind = Role::kStamp;
   return role;
 }
@@ -114,7 +114,7 @@ Role role_of(std::string_view written) {
                          "field_header_frame_id", "name", "file", "state", "status", "error"})
                ? Role{Role::kIgnored}
                : Role{};
-  // What is named besides the axis: "p_rs_r" of p_RS_R_x, "q" of qx, "orientation".
+  // The name without the axis: "p_rs_r" of p_RS_R_x, "q" of qx, "orientation".
   const std::string of =
       std::string(head) + (head.empty() ? "" : "_") + std::string(tail.substr(0, tail.size() - 1));
   const std::string_view stem =
@@ -134,7 +134,7 @@ Role role_of(std::string_view written) {
   return {};
 }
 
-/// The names of a header: at commas or semicolons if it has any, else at blanks.
+/// The names of a header, separated by commas or semicolons if it has any, else by blanks.
 std::vector<std::string> names_of(std::string_view line) {
   while (!line.empty() && (line.front() == '#' || line.front() == '%' || line.front() == ' ' ||
                            line.front() == '\t'))
@@ -147,7 +147,7 @@ std::vector<std::string> names_of(std::string_view line) {
     split_blank(line, fields);
   std::vector<std::string> names;
   for (const std::string_view field : fields) {
-    // "timestamp [s] tx [m]": a unit that stands alone belongs to the name before it.
+    // "timestamp [s] tx [m]": a separate unit belongs to the name before it.
     if (!names.empty() && separator == line.npos && field.find_first_of("[(") == 0)
       names.back() += std::string(field);
     else
@@ -157,7 +157,7 @@ std::vector<std::string> names_of(std::string_view line) {
   return names;
 }
 
-/// Columns by the roles of their names; what is named twice is taken where it is named first.
+/// Columns by the roles of their names; of duplicate names the first is used.
 struct NamedColumns {
   std::optional<std::size_t> stamp, number;
   Role stamp_role;
@@ -188,7 +188,7 @@ struct NamedColumns {
     return static_cast<int>(std::count_if(quaternion.begin(), quaternion.end(),
                                           [](const auto& part) { return part.has_value(); }));
   }
-  /// The 3x4 matrix, counted from 0 or from 1; its last column may be named x, y, z.
+  /// Columns of the 3x4 matrix, counted from 0 or from 1; its last column may be named x, y, z.
   std::optional<std::array<std::size_t, 12>> rows() const {
     int lowest = 99;
     for (const auto& [entry, k] : matrix) lowest = std::min({lowest, entry / 10, entry % 10});
@@ -223,7 +223,7 @@ PoseHeader parse_pose_header(std::string_view line, std::size_t fields) {
   const NamedColumns named(names);
   const bool whole_pose = named.rows().has_value() || named.has_position();
   if (!whole_pose) return {};
-  // A remark may hold x, y and z among other words; a header is nothing but names of columns.
+  // A remark may contain x, y and z among other words; a header contains only names of columns.
   const bool only_names = named.known == names.size();
   if (!only_names && names.size() != fields) {
     if (named.quaternion_parts() == 4 || named.stamp)
@@ -255,7 +255,7 @@ PoseHeader parse_pose_header(std::string_view line, std::size_t fields) {
   }
   if (named.stamp) {
     columns.stamp = *named.stamp;
-    columns.unit = named.stamp_role.unit_told ? named.stamp_role.unit : StampUnit::kUnknown;
+    columns.unit = named.stamp_role.has_unit ? named.stamp_role.unit : StampUnit::kUnknown;
   } else if (named.number) {
     columns.stamp = *named.number;
     columns.unit = StampUnit::kFrameNumber;

@@ -5,13 +5,13 @@
 
 namespace placegraph {
 
-/// What a line that names columns says of them. Names are those of TUM, EuRoC, ROS, pandas and
-/// their like: `timestamp [ns]`, `tx`, `p_RS_R_x [m]`, `field.pose.orientation.w`, `r11`.
+/// The columns that a header line names. Names are those of TUM, EuRoC, ROS, pandas and similar
+/// sources: `timestamp [ns]`, `tx`, `p_RS_R_x [m]`, `field.pose.orientation.w`, `r11`.
 struct PoseHeader {
   enum class Kind {
     kNone,     ///< names no columns: a remark
-    kColumns,  ///< `columns` holds them; separator and more are not set
-    kRefused,  ///< names columns that cannot be read: `reason`
+    kColumns,  ///< names columns, in `columns`; separator and more are not set
+    kRefused,  ///< names columns that cannot be read, for the given `reason`
   };
   Kind kind = Kind::kNone;
   PoseColumns columns;

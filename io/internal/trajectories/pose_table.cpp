@@ -16,14 +16,14 @@ constexpr int kSampledLines = 50;
 constexpr double kLeastNanosecondsSince1970 = 1e17;
 
 constexpr const char* kForms =
-    "read are 12 or 16 numbers (KITTI; 13 or 17 with the number of the frame), 8 (TUM: t x y z qx "
-    "qy qz qw; 9 with an id; EuRoC: t_ns,x,y,z,qw,qx,qy,qz,...), 4 (t x y z), 3 (x y z), or what "
-    "a header names";
+    "readable are 12 or 16 numbers (KITTI; 13 or 17 with the number of the frame), 8 (TUM: t x y z "
+    "qx qy qz qw; 9 with an id; EuRoC: t_ns,x,y,z,qw,qx,qy,qz,...), 4 (t x y z), 3 (x y z), or the "
+    "columns that a header names";
 
-/// A form a table may have.
+/// A possible format of a table.
 struct Form {
   PoseColumns columns;
-  bool certain = true;  ///< no other form has as many fields
+  bool certain = true;  ///< no other format has as many fields
 };
 
 PoseColumns quaternion_columns(std::size_t fields, std::optional<std::size_t> stamp,
@@ -55,7 +55,7 @@ PoseColumns matrix_columns(std::size_t fields, std::optional<std::size_t> stamp)
   return columns;
 }
 
-/// What the numbers of a column of stamps are, where no header tells.
+/// The unit of a column of stamps without a unit in the header.
 StampUnit unit_of(const std::vector<Fields>& lines, std::size_t column, char separator,
                   bool may_be_number) {
   bool whole = true, since_1970 = true;
@@ -71,7 +71,7 @@ StampUnit unit_of(const std::vector<Fields>& lines, std::size_t column, char sep
   return whole && separator != ' ' ? StampUnit::kNanoseconds : StampUnit::kSeconds;
 }
 
-/// The forms of tables without a header whose lines have as many fields as the first.
+/// The formats of tables without a header whose lines have as many fields as the first.
 std::vector<Form> forms_of(const std::vector<Fields>& lines, char separator) {
   const std::size_t n = lines.front().size();
   std::vector<Form> forms;
@@ -126,7 +126,7 @@ struct Sample {
     std::string_view text;
     int line;
   };
-  std::vector<Remark> remarks;  ///< comments, and a first line that is no numbers
+  std::vector<Remark> remarks;  ///< comments, and a first line without numbers
   bool words = false;           ///< the last remark is a line without `#`
   std::vector<Fields> lines;
   std::string_view first;

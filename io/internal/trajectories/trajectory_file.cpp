@@ -63,7 +63,7 @@ void format_kitti(const StampedPose& pose, Buffer out) {
   }
 }
 
-/// The rotation re-orthonormalized, so that the quaternion written has length 1.
+/// The re-orthonormalized rotation, so that the written quaternion has length 1.
 Eigen::Quaterniond unit_quaternion(const Eigen::Isometry3d& T) {
   return SO3::from_matrix(T.linear()).quaternion();
 }

@@ -5,114 +5,125 @@ namespace placegraph {
 void GroundPlaneScaleOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, GroundPlaneScaleOptions& o) {
-  field.group("plane", o.plane, "direct alignment of the road");
+  field.group("plane", o.plane, "direct alignment of the ground");
   field("enabled", o.enabled, "use the ground plane where the camera height is known");
   field("sigma_relative", o.sigma_relative,
-        "noise of a single scale beyond that of the alignment: the road is not flat", {0, 1});
+        "relative standard deviation of one scale, beyond that of the alignment", {0, 1});
   field("max_log_jump", o.max_log_jump,
-        "a scale further from the median of the last ones (in logarithm) is not believed",
-        {0.01, 5});
+        "maximum distance of a used scale from the median of the last five (logarithm)", {0.01, 5});
   field("mounting_sigma_deg", o.mounting_sigma_deg,
-        "pitch and roll of the camera before anything was seen", {0.01, 45});
-  field("pitching_sigma_deg", o.pitching_sigma_deg, "pitch and roll of one view about the mean",
-        {0.01, 45});
-  field("mounting_drift_deg", o.mounting_drift_deg, "of the mean between measurements", {0, 10});
+        "initial standard deviation of the camera's pitch and roll [deg]", {0.01, 45});
+  field("pitching_sigma_deg", o.pitching_sigma_deg,
+        "standard deviation of one frame's pitch and roll about their mean [deg]", {0.01, 45});
+  field("mounting_drift_deg", o.mounting_drift_deg,
+        "random walk of mean pitch and roll per measurement [deg]", {0, 10});
   field("level_sigma_deg", o.level_sigma_deg,
-        "of a floor that edges show to be level, beside that of the edges", {0.001, 45});
+        "standard deviation of a level floor's normal, beyond that of the edges [deg]",
+        {0.001, 45});
   field("min_baseline_heights", o.min_baseline_heights,
-        "motion between the two views, in camera heights", {0.01, 10});
+        "minimum translation between the two frames, in camera heights", {0.01, 10});
 }
 
 void FloorLineScaleOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, FloorLineScaleOptions& o) {
-  field.group("floor", o.floor, "which lines lie on the floor");
-  field("sigma_relative", o.sigma_relative, "of a single height, beyond that of its lines", {0, 1});
+  field.group("floor", o.floor, "selection of the lines on the floor");
+  field("sigma_relative", o.sigma_relative,
+        "relative standard deviation of one height, beyond that of its lines", {0, 1});
   field("max_log_jump", o.max_log_jump,
-        "a scale further from the median of the last ones (in logarithm) is not believed",
-        {0.01, 5});
-  field("max_sigma_at_first", o.max_sigma_at_first, "of the height that gives the unit, relative",
-        {0.001, 1});
+        "maximum distance of a used scale from the median of the last five (logarithm)", {0.01, 5});
+  field("max_sigma_at_first", o.max_sigma_at_first,
+        "maximum relative standard deviation of the height for the first scale", {0.001, 1});
 }
 
 void LineCueOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, LineCueOptions& o) {
-  field.group("tracker", o.tracker, "lines followed over time");
-  field.group("stereo", o.stereo, "lines in the right eye");
-  field.group("triangulation", o.triangulation, "when a line's place is known");
+  field.group("tracker", o.tracker, "tracking of lines");
+  field.group("stereo", o.stereo, "matching of lines in the right image");
+  field.group("triangulation", o.triangulation, "conditions for the triangulation of a line");
   field.group("pose", o.pose, "pose of a frame from lines");
-  field.group("start", o.start, "first views of a single eye without points");
+  field.group("start", o.start, "first keyframes of a monocular camera without points");
   field.group("floor", o.floor, "metric scale from lines on the floor, without points");
-  field("sigma_floor_px", o.sigma_floor_px, "no line is placed better across", {0.01, 10});
+  field("sigma_floor_px", o.sigma_floor_px, "minimum standard deviation across a line [px]",
+        {0.01, 10});
   field("similar_observations", o.similar_observations,
-        "sightings of one edge in the window that are worth one independent one", {1, 1000});
+        "observations of an edge in the window that count as one independent one", {1, 1000});
   field("min_rotation_steered_deg", o.min_rotation_steered_deg,
-        "triangulation.min_turn_deg where directions show the rotation", {0.01, 45});
+        "triangulation.min_rotation_deg where directions provide the rotation [deg]", {0.01, 45});
   field("stay_frames", o.stay_frames,
-        "an edge that the motion takes out of the image before is begun last", {0, 100});
-  field("outlier_px", o.outlier_px, "a line that is missed by more is dropped", {0.5, 100});
+        "prediction horizon in which a preferred new edge stays in the image [frames]", {0, 100});
+  field("outlier_px", o.outlier_px, "residual above which a line is removed [px]", {0.5, 100});
 }
 
 void visit(OptionVisitor& field, ManhattanFrameOptions& o) {
   field("sigma_floor_deg", o.sigma_floor_deg,
-        "of the directions of one view beyond the noise of its lines", {1e-3, 10});
-  field("correlation", o.correlation, "so many neighbouring views count as one", {1, 1000});
-  field("sigma_drift_deg", o.sigma_drift_deg,
-        "of a world seen from a new keyframe, beyond what the window claims", {1e-3, 10});
-  field("persistence", o.persistence, "keyframes of the window that must show a new world",
+        "standard deviation of one frame's directions, beyond its lines' noise [deg]", {1e-3, 10});
+  field("correlation", o.correlation, "number of neighbouring keyframes that count as one",
         {1, 1000});
-  field("max_frames", o.max_frames, "remembered; the one unseen for longest is forgotten",
+  field("sigma_drift_deg", o.sigma_drift_deg,
+        "standard deviation in a new keyframe, beyond the window's covariance [deg]", {1e-3, 10});
+  field("persistence", o.persistence,
+        "keyframes of the window that must observe a new Manhattan frame", {1, 1000});
+  field("max_frames", o.max_frames, "maximum number; the one unobserved for longest is removed",
         {1, 100});
 }
 
 void ManhattanCueOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, ManhattanCueOptions& o) {
-  field.group("segments", o.segments, "straight edges");
-  field.group("directions", o.directions, "vanishing points and rectangular worlds");
-  field.group("manhattan_frames", o.manhattan_frames, "the worlds of the window");
-  field("max_width_px", o.max_width_px, "wider images are halved first", {16, 1e5});
-  field("max_sigma_deg", o.max_sigma_deg, "directions known less well are not believed",
+  field.group("segments", o.segments, "detection of straight edges");
+  field.group("directions", o.directions, "detection of vanishing points and Manhattan frames");
+  field.group("manhattan_frames", o.manhattan_frames, "Manhattan frames of the sliding window");
+  field("max_width_px", o.max_width_px, "image width above which images are halved first [px]",
+        {16, 1e5});
+  field("max_sigma_deg", o.max_sigma_deg, "maximum standard deviation of used directions [deg]",
         {0.01, 30});
   field("few_points", o.few_points,
-        "a frame between keyframes that is posed by fewer is turned by the worlds, too", {0, 1e6});
+        "inliers below which frames also take their rotation from Manhattan frames", {0, 1e6});
 }
 
 void PlaneLandmarkOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, PlaneLandmarkOptions& o) {
-  field("enabled", o.enabled, "walls, floors and tables in the depth of keyframes as landmarks");
-  field.group("depth", o.depth, "planes of a depth image");
-  field("correlation", o.correlation, "so many neighbouring views count as one", {1, 1000});
+  field("enabled", o.enabled, "planes in the depth images of keyframes as landmarks");
+  field.group("depth", o.depth, "detection of planes in a depth image");
+  field("correlation", o.correlation, "number of neighbouring keyframes that count as one",
+        {1, 1000});
   field("drift_deg", o.drift_deg,
-        "of a plane seen from a new keyframe, beyond what the window claims", {0, 10});
-  field("drift_m", o.drift_m, "the same of its distance", {0, 10});
-  field("min_overlap", o.min_overlap, "of the smaller of a plane seen and a landmark", {0, 1});
-  field("patience", o.patience, "keyframes that a landmark is remembered unseen", {0, 100000});
-  field("max_landmarks", o.max_landmarks, "the one unseen for longest is forgotten", {1, 1000});
+        "standard deviation of a normal, beyond the window's covariance [deg]", {0, 10});
+  field("drift_m", o.drift_m,
+        "standard deviation of a distance, beyond the window's covariance [m]", {0, 10});
+  field("min_overlap", o.min_overlap,
+        "minimum overlap of plane and landmark, as a share of the smaller one", {0, 1});
+  field("patience", o.patience, "keyframes for which an unobserved landmark is kept", {0, 100000});
+  field("max_landmarks", o.max_landmarks,
+        "maximum number; the one unobserved for longest is removed", {1, 1000});
 }
 
 void DirectCueOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, DirectCueOptions& o) {
-  field.group("surface", o.surface, "the ground under a vehicle, by depths");
-  field.group("planes", o.planes, "planes through the depths of the whole image");
-  field.group("align", o.align, "motion by the grey values of surfaces");
-  field("depths", o.depths, "asked for over the whole image, where planes are sought",
+  field.group("surface", o.surface, "ground under a vehicle, from depths");
+  field.group("planes", o.planes, "fit of planes to the depths of the whole image");
+  field.group("align", o.align, "direct alignment of surfaces");
+  field("depths", o.depths, "number of depths measured over the image to find planes",
         {50, 1000000});
-  field("max_planes", o.max_planes, "at once", {1, 50});
-  field("min_plane_share", o.min_plane_share, "of the depths, for a plane", {0, 1});
-  field("evenness_distance", o.evenness_distance,
-        "no surface's distance is known better, as a share of it", {0, 1});
-  field("evenness_deg", o.evenness_deg, "no surface's normal is known better", {0, 45});
-  field("nodding_deg", o.nodding_deg, "of a vehicle about its mean pitch and roll, for one eye",
-        {0, 45});
-  field("sigma_height", o.sigma_height, "of the height of one eye, as a share of it", {1e-4, 1});
-  field("keyframe_share", o.keyframe_share, "of the surfaces in view below which a keyframe is due",
+  field("max_planes", o.max_planes, "maximum number of planes aligned at once", {1, 50});
+  field("min_plane_share", o.min_plane_share, "minimum share of the depths that support a plane",
         {0, 1});
+  field("evenness_distance", o.evenness_distance,
+        "minimum relative standard deviation of a plane's distance", {0, 1});
+  field("evenness_deg", o.evenness_deg, "minimum standard deviation of a plane's normal [deg]",
+        {0, 45});
+  field("nodding_deg", o.nodding_deg,
+        "standard deviation of pitch and roll about their mean; monocular [deg]", {0, 45});
+  field("sigma_height", o.sigma_height,
+        "relative standard deviation of the camera height; monocular", {1e-4, 1});
+  field("keyframe_share", o.keyframe_share,
+        "share of the samples in view or inlying below which a keyframe is created", {0, 1});
   field("max_disagreement", o.max_disagreement,
-        "of the motions there and back, in standard deviations", {0.1, 1000});
+        "maximum difference of forward and backward motion, in standard deviations", {0.1, 1000});
 }
 
 }  // namespace placegraph

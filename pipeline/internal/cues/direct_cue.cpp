@@ -15,7 +15,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector2f;
 using Eigen::Vector3d;
 
-/// Covariance of n / d from the deviations of normal and distance.
+/// Covariance of n / d from the standard deviations of normal and distance.
 Matrix3d covariance_of(const Vector3d& g, double sigma_normal_rad, double sigma_log_distance) {
   const Vector3d n = g.normalized();
   const Matrix3d along = n * n.transpose();
@@ -23,7 +23,7 @@ Matrix3d covariance_of(const Vector3d& g, double sigma_normal_rad, double sigma_
                             sigma_log_distance * sigma_log_distance * along);
 }
 
-/// Step of a regular grid, from pixels of it in the order of rows.
+/// Step of a regular grid, from its pixels in row order.
 double step_of(const std::vector<Vector2f>& px) {
   double step = 64;
   for (std::size_t i = 1; i < px.size(); ++i)
@@ -83,7 +83,8 @@ int DirectCue::grid_step(int count) const {
       2, static_cast<int>(std::sqrt(static_cast<double>(camera.width) * camera.height / count)));
 }
 
-/// Of every cell of a regular grid the pixel that changes most along its row, as two eyes need it.
+/// The pixel with the largest change along its row, as required for stereo, in every cell of a
+/// regular grid.
 std::vector<Vector2f> DirectCue::grid(int count) const {
   const Camera& camera = calibration_.camera;
   const int step = grid_step(count);
@@ -117,7 +118,8 @@ SurfacePatch DirectCue::patch(const Vector3d& g, const Matrix3d& covariance,
   return patch;
 }
 
-/// Two eyes without a known height: the plane below that most of the lower image lies on.
+/// Ground for a stereo camera of unknown height: the plane below that contains most depths of the
+/// lower image.
 void DirectCue::find_ground(const RectificationError& rectification, Random& random) {
   constexpr double kMostTilt_rad = 0.4;
   const Camera& camera = calibration_.camera;
@@ -143,7 +145,8 @@ Image DirectCue::mask_of_ground() const {
   return frame_.mask & ground_mask_;
 }
 
-/// The ground by its filter; for one eye, of the height that is known and the normal learned.
+/// The ground from its filter; for a monocular camera, from the known height and the estimated
+/// normal.
 std::vector<SurfacePatch> DirectCue::ground(const SE3& T_last_cur,
                                             const RectificationError& rectification,
                                             Random& random) {
@@ -157,24 +160,24 @@ std::vector<SurfacePatch> DirectCue::ground(const SE3& T_last_cur,
     const double reach = 0.5 * step_of(px);
     return {patch(g, covariance_of(g, sigma_rad, options_.sigma_height), std::move(px), reach)};
   }
-  SurfaceAppearance look = ground_->look(
+  SurfaceAppearance appearance = ground_->look(
       [&](const std::vector<Vector2f>& px, const std::vector<double>& expected) {
         return depth_.measure(frame_, rectification, px,
                               depth_.disparities_px(px, expected, rectification));
       },
       T_last_cur.inverse(), mask_of_ground(), random);
-  if (!look.outcome) return {};
-  const Vector3d g = look.plane_cam.normal / look.plane_cam.distance_m;
-  // The whole region but what lies off the surface: where depths are not told there may be grey
-  // values all the same.
-  std::vector<Vector2f> px = ground_->pixels_of(look.region, mask_of_ground());
+  if (!appearance.outcome) return {};
+  const Vector3d g = appearance.plane_cam.normal / appearance.plane_cam.distance_m;
+  // The whole region except pixels off the surface: there may be usable intensities where no depth
+  // was measured.
+  std::vector<Vector2f> px = ground_->pixels_of(appearance.region, mask_of_ground());
   const double step = step_of(px);
   std::erase_if(px, [&](const Vector2f& p) {
-    return std::any_of(look.off_px.begin(), look.off_px.end(),
+    return std::any_of(appearance.off_px.begin(), appearance.off_px.end(),
                        [&](const Vector2f& off) { return (off - p).norm() < step; });
   });
-  return {patch(g, covariance_of(g, look.sigma_normal_rad, look.sigma_log_distance), std::move(px),
-                0.5 * step)};
+  return {patch(g, covariance_of(g, appearance.sigma_normal_rad, appearance.sigma_log_distance),
+                std::move(px), 0.5 * step)};
 }
 
 /// Depths over the whole image.
@@ -187,7 +190,7 @@ std::vector<KnownPixel> DirectCue::search_around(const RectificationError& recti
   return known;
 }
 
-/// Planes in known depths, one after the other, those with most pixels first.
+/// Planes in known depths, found sequentially, those with most pixels first.
 std::vector<SurfacePatch> DirectCue::planes(std::vector<KnownPixel> rest, double reach_px,
                                             Random& random) const {
   const double all = static_cast<double>(rest.size());
@@ -203,28 +206,29 @@ std::vector<SurfacePatch> DirectCue::planes(std::vector<KnownPixel> rest, double
     for (const int i : plane.inliers) on.push_back(rest[static_cast<std::size_t>(i)].px);
     for (auto i = plane.inliers.rbegin(); i != plane.inliers.rend(); ++i)
       rest.erase(rest.begin() + *i);
-    // What leaves its plane open, as something far away does, is no help but in the way of others.
+    // A plane that remains underdetermined, as of distant points, is dropped, but its pixels stay
+    // removed so that they do not disturb the others.
     if (plane.outcome)
       found.push_back(patch(plane.g_cam, plane.covariance, std::move(on), reach_px));
   }
   return found;
 }
 
-/// Two eyes: planes are corrected until the right one sees what the left one does, where depths of
-/// single pixels were not told.
+/// Stereo refinement: planes are corrected until the right image agrees with the left one, where
+/// depths of single pixels were not measured.
 void DirectCue::refine(std::vector<SurfacePatch>& patches,
                        const RectificationError& rectification) const {
-  constexpr double kPixelsSimilar = 8;  // so many neighbours count as one
+  constexpr double kPixelsSimilar = 8;  // number of neighbours that count as one
   if (calibration_.baseline_m <= 0 || frame_.right.empty()) return;
   const double known = 1e12;
-  const MotionGuess kitti_cameras{SE3(SO3(), Vector3d(calibration_.baseline_m, 0, 0)),
+  const MotionGuess left_to_right{SE3(SO3(), Vector3d(calibration_.baseline_m, 0, 0)),
                                   known * Matrix6d::Identity()};
   const DirectReference reference(pyramid_, calibration_.camera, patches, options_.align);
   const DirectMotion seen =
       align_motion(reference, grey_pyramid(frame_.right, options_.align.levels),
-                   kitti_cameras.T_ref_cur, kitti_cameras, options_.align);
+                   left_to_right.T_ref_cur, left_to_right, options_.align);
   if (!seen.outcome) return;
-  // What the eyes are off by is a plane of disparities of its own.
+  // The rectification error is itself a plane of disparities.
   const double px_per_inverse = calibration_.camera.fx * calibration_.baseline_m;
   const Vector3d off(rectification.by_x_px, rectification.by_y_px, rectification.offset_px);
   for (std::size_t k = 0; k < patches.size(); ++k) {
@@ -244,7 +248,7 @@ bool DirectCue::become_reference(const SE3& T_last_cur, const RectificationError
         mono_ ? planes(landmarks, kAroundLandmark_px, random)
               : planes(search_around(rectification), 0.5 * grid_step(options_.depths), random);
     if (!several_ && !others.empty()) {
-      // The surface that was followed, while it shows half as much as the one that shows most.
+      // The surface that was used before, while it has at least half as many pixels as the largest.
       const Plane before{dominant_g_.normalized(), 1 / std::max(1e-9, dominant_g_.norm())};
       const Plane here = transform(T_last_cur.inverse(), before);
       const Vector3d g = here.normal / here.distance_m;
@@ -254,7 +258,7 @@ bool DirectCue::become_reference(const SE3& T_last_cur, const RectificationError
             2 * it->support_px.size() > others.front().support_px.size())
           best = it;
       std::rotate(others.begin(), best, best + 1);
-      // One surface where it dominates; else so many that together they do.
+      // One surface where it dominates; otherwise as many as are needed to dominate together.
       constexpr double kDominates = 0.6;
       double all = 0, taken = 0;
       for (const SurfacePatch& other : others) all += static_cast<double>(other.support_px.size());
@@ -288,13 +292,14 @@ DirectMotion DirectCue::confirm(const DirectMotion& forward) const {
   DirectMotion both = forward;
   const double chi2 = off.dot((forward.covariance + covariance).ldlt().solve(off));
   if (!(chi2 < 6 * options_.max_disagreement * options_.max_disagreement)) {
-    both.outcome = Outcome::failure(Outcome::Code::kInconsistent,
-                                    "there and back differ, chi2 " + std::to_string(chi2));
+    both.outcome =
+        Outcome::failure(Outcome::Code::kInconsistent,
+                         "forward and backward motion differ, chi2 " + std::to_string(chi2));
     both.covariance += off * off.transpose() + covariance;
     return both;
   }
-  // Both look at the same grey values, so that they count as one, but by planes of their own: what
-  // they differ by tells how far planes mislead.
+  // Both alignments use the same intensities, so that they count as one, but with different planes:
+  // their difference shows the error caused by the planes.
   constexpr double kMisled = 0.5;
   const Matrix6d weight = covariance.ldlt().solve(Matrix6d::Identity());
   const Matrix6d sum = forward.covariance.ldlt().solve(Matrix6d::Identity()) + weight;

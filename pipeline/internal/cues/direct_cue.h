@@ -20,37 +20,40 @@ struct KnownPixel {
   InverseDepth depth;
 };
 
-/// The share of surfaces in motion memory (Siddiqui 2015): finds the dominant surface, or several,
-/// in a keyframe, and aligns later frames with it as a whole, under one motion.
+/// Motion from direct alignment of surfaces (Siddiqui 2015): detects the dominant surface, or
+/// several, in a keyframe, and aligns later frames with all of them under one motion.
 class DirectCue {
  public:
-  /// `several`: all planes that are found, not the dominant one alone.
+  /// `several`: use all planes that are found, not only the dominant one.
   DirectCue(const DirectCueOptions& options, const Calibration& calibration,
             const StereoMatcherOptions& stereo, bool several);
 
-  /// The newest image; everything below speaks of it.
+  /// Sets the newest image, which all functions below use.
   void see(const Frame& frame);
-  /// Where in it the ground may be looked at: 0 = not there, CV_8UC1 of its size or empty.
+  /// Restricts the search for the ground in the newest image: 0 = no ground, CV_8UC1 of its size or
+  /// empty.
   void restrict_ground(const Image& mask) { ground_mask_ = mask; }
-  /// Its motion from the reference: from the guess, or after a search about it by `sigmas`.
+  /// Estimates the motion of the newest image from the reference: starting at the guess, or after a
+  /// search around it within `sigmas`.
   [[nodiscard]] DirectMotion align(const MotionGuess& guess) const;
   [[nodiscard]] DirectMotion search(const MotionGuess& guess, const Vector6d& sigmas) const;
-  /// Makes it the reference; `landmarks` show a single eye what planes there are beside the ground.
-  /// False where no surface is found: then the last reference stays.
+  /// Makes the newest image the reference; `landmarks` provide the planes of a monocular camera
+  /// besides the ground. Returns false if no surface is found; the last reference then remains.
   bool become_reference(const SE3& T_last_cur, const RectificationError& rectification,
                         const std::vector<KnownPixel>& landmarks, Random& random);
-  /// The motion from the last reference to this one, which is now known from both ends: the mean of
-  /// `forward` and of the alignment back, by their covariances; if they contradict each other,
-  /// `forward` with so much more covariance, and an outcome (inconsistent) that says so.
+  /// Motion from the last reference to this one, which is estimated in both directions: the mean of
+  /// `forward` and of the backward alignment, weighted by their covariances. If they contradict
+  /// each other, `forward` with its covariance increased accordingly and the outcome
+  /// `inconsistent`.
   [[nodiscard]] DirectMotion confirm(const DirectMotion& forward) const;
-  /// What a single eye learns of how its camera is mounted.
+  /// Updates the mounting angles of a monocular camera.
   void learn(const DirectMotion& motion);
 
   bool has_reference() const { return !reference_.patches().empty(); }
   /// Median depth of the reference's surfaces [m].
   double median_depth_m() const;
   void reset();
-  /// For drawing: the newest alignment's pixels.
+  /// Pixels of the newest alignment, for drawing.
   std::vector<FrameView::SurfacePixel> view(const DirectMotion& motion) const;
 
  private:
@@ -72,9 +75,10 @@ class DirectCue {
   DepthSensor depth_;
   bool several_, mono_;
   std::optional<DominantSurface> ground_;
-  Eigen::Vector3d mounting_ = Eigen::Vector3d::UnitY();  // mean normal of the ground, for one eye
+  Eigen::Vector3d mounting_ = Eigen::Vector3d::UnitY();  // mean normal of the ground; monocular
   double mounting_variance_rad2_;
-  Eigen::Vector3d dominant_g_ = Eigen::Vector3d::Zero();  // of the last reference, in its camera
+  // Dominant plane of the last reference, in its camera.
+  Eigen::Vector3d dominant_g_ = Eigen::Vector3d::Zero();
   Frame frame_;
   Image ground_mask_;
   std::vector<Image> pyramid_, reference_pyramid_, last_pyramid_;

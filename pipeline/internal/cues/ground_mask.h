@@ -6,12 +6,13 @@
 
 namespace placegraph {
 
-/// What labels and edges tell of the ground in a view.
+/// Ground in an image, according to labels and edges.
 struct GroundMask {
-  Image mask;  ///< 0 = not the ground, CV_8UC1 of the image's size; empty: all may be
-  /// Its normal (unit, down, in the camera) where edges show it to be a level floor.
+  Image mask;  ///< 0 = not the ground, CV_8UC1 of the image's size; empty: all pixels may be ground
+  /// Normal of the ground (unit, down, in the camera) if edges show that it is a level floor.
   std::optional<Eigen::Vector3d> level;
-  double level_sigma_rad = 0;  ///< of either tilt of `level`, by the noise of the edges
+  /// Standard deviation of either tilt of `level`, from the noise of the edges.
+  double level_sigma_rad = 0;
 };
 
 }  // namespace placegraph

@@ -34,8 +34,8 @@ void KeyframeAlignment::add(const Keyframe& keyframe, const std::optional<Keyfra
   if (!motion.outcome) return;
   Matrix6d covariance = motion.covariance;
   if (!measures_depth_) {
-    // The camera's height has given the map its scale already: its landmarks say the same of the
-    // motion's length, which is not counted twice.
+    // The camera's height has already provided the scale of the map: its landmarks carry the same
+    // information about the length of the motion, which must not be counted twice.
     const Eigen::Vector3d t =
         motion.T_ref_cur.rotation().inverse() * motion.T_ref_cur.translation();
     covariance.topLeftCorner<3, 3>() += t * t.transpose();

@@ -6,8 +6,8 @@
 
 namespace placegraph {
 
-/// Direct alignment beside other cues: the motion between two keyframes by the intensities of
-/// surfaces goes into the window. The map must be metric.
+/// Direct alignment as an additional cue: adds the motion between two keyframes, estimated from the
+/// intensities of surfaces, to the window. The map must be metric.
 class KeyframeAlignment {
  public:
   KeyframeAlignment(const DirectCueOptions& options, const Calibration& calibration,
@@ -16,22 +16,22 @@ class KeyframeAlignment {
   struct Keyframe {
     KeyframeId id;
     Frame frame;
-    Image ground;  ///< 0 = no ground there, CV_8UC1 of the image's size, or empty
-    std::vector<KnownPixel> landmarks;  ///< seen in it
+    Image ground;                       ///< 0 = no ground, CV_8UC1 of the image's size, or empty
+    std::vector<KnownPixel> landmarks;  ///< landmarks observed in the keyframe
   };
   /// Aligns the newest keyframe of the window with `previous`, if there is one, and makes it the
   /// reference of the next.
   void add(const Keyframe& keyframe, const std::optional<KeyframeId>& previous,
            const RectificationError& rectification, SlidingWindow& window, Random& random);
-  /// The pixels that were aligned last.
+  /// Pixels of the last alignment.
   std::vector<FrameView::SurfacePixel> view() const { return cue_.view(newest_); }
   void forget_newest() { newest_ = DirectMotion(); }
   void reset();
 
  private:
   DirectCue cue_;
-  bool measures_depth_;  // otherwise the lengths of the map are those of the camera's height
-  DirectMotion newest_;  // from the keyframe before it
+  bool measures_depth_;  // otherwise the map's scale comes from the camera's height
+  DirectMotion newest_;  // motion from the previous keyframe
 };
 
 }  // namespace placegraph

@@ -27,7 +27,7 @@ Image filled(const std::vector<Eigen::Vector2d>& outline_px, const cv::Size& siz
   return inside;
 }
 
-/// What lies before the walls: of every column what is below the lowest of them.
+/// The region in front of the walls: in every column the pixels below the lowest wall.
 Image below_walls(const Image& surfaces) {
   Image below(surfaces.size(), CV_8UC1, cv::Scalar(0));
   for (int u = 0; u < surfaces.cols; ++u)
@@ -57,7 +57,7 @@ void ManhattanCue::reset() {
   observation_.reset();
 }
 
-/// Pixels of the whole image; one of the halved image covers about four.
+/// Segments in pixels of the full image; a pixel of the halved image covers about four.
 std::vector<LineSegment> ManhattanCue::detect(const Image& image) const {
   if (image.cols <= options_.max_width_px)
     return segments_of(detect_segments(image, options_.segments));
@@ -72,7 +72,8 @@ std::vector<LineSegment> ManhattanCue::detect(const Image& image) const {
   return segments;
 }
 
-/// Near where the window has it: farther off it is no sighting of that world.
+/// Tracks near the predicted rotation: a result farther away is no observation of that Manhattan
+/// frame.
 ManhattanFrame ManhattanCue::track(const std::vector<LineSegment>& segments,
                                    const ManhattanFrames::Expected& manhattan_frame) const {
   const double reach_rad =
@@ -120,8 +121,8 @@ bool ManhattanCue::take(KeyframeId keyframe, const std::vector<LineSegment>& seg
   if (log_) {
     const Eigen::Vector3d w = frame.R_cam_manhattan.log();
     std::ostringstream text;
-    text << "directions " << keyframe << " world "
-         << (manhattan_frame ? manhattan_frame->value() : -1) << " turn " << w.transpose()
+    text << "directions " << keyframe << " frame "
+         << (manhattan_frame ? manhattan_frame->value() : -1) << " rotation " << w.transpose()
          << " sigma_deg " << frame.covariance.diagonal().cwiseSqrt().transpose() / kRadPerDeg;
     log_(LogLevel::kDebug, text.str());
   }
@@ -161,11 +162,11 @@ GroundMask ManhattanCue::ground(const std::vector<Eigen::Vector2d>& outline_px) 
               floor = surfaces == static_cast<int>(IndoorSurface::kFloor);
   const Image outline = filled(outline_px, surfaces.size());
   const auto in_outline = [&](const Image& part) { return cv::countNonZero(outline & part); };
-  constexpr double kStanding = 0.2, kShown = 0.2;  // of what is taken for ground
+  constexpr double kStanding = 0.2, kShown = 0.2;  // shares of the assumed ground
   const double all = cv::countNonZero(outline);
   if (all == 0 || in_outline(walls) < kStanding * all) return {};
   if (in_outline(floor) < kShown * all) return {below_walls(surfaces), std::nullopt};
-  // A tilt of the vertical: turns about the other axes.
+  // Standard deviation of the vertical: rotations about the other axes.
   Eigen::Vector3d tilts = observation_->covariance.diagonal();
   tilts[map.vertical_axis] = 0;
   const Eigen::Vector3d vertical = observation_->R_cam_manhattan.matrix().col(map.vertical_axis);
@@ -180,7 +181,7 @@ SE3 with_heading(const SE3& T_odom_cam, const Matrix6d& information,
       heading ? window.manhattan_frame(heading->manhattan_frame) : std::nullopt;
   if (!R_odom_manhattan) return T_odom_cam;
   const SO3 R_odom_cam = *R_odom_manhattan * heading->R_cam_frame.inverse();
-  // The heading's covariance is of R_cam_frame's right tangent; that of R_odom_cam is rotated.
+  // The heading's covariance is in R_cam_frame's right tangent; that of R_odom_cam is rotated.
   const Eigen::Matrix3d R = heading->R_cam_frame.matrix();
   const Eigen::Matrix3d weight = R * heading->information * R.transpose();
   Matrix6d H = information;

@@ -11,22 +11,24 @@
 
 namespace placegraph {
 
-/// The share of rectangular worlds in motion memory: the straight edges of a keyframe give the
-/// directions of its scene, which are sightings of the window's worlds (ManhattanFrames). Known
-/// worlds are followed from where the window expects them; only where none is seen, all directions
-/// are looked for. Believed is what shows two axes at least, is known well enough in all three
-/// turns, and agrees with its world.
+/// Adds rotation measurements from Manhattan frames to the window: the straight edges of a keyframe
+/// provide the directions of its scene, which are observations of the window's Manhattan frames
+/// (ManhattanFrames). Known Manhattan frames are tracked from their predicted rotation; only if
+/// none is observed, all directions are searched. An observation is accepted if it shows at least
+/// two axes, is sufficiently accurate about all three rotation axes, and agrees with its Manhattan
+/// frame.
 class ManhattanCue {
  public:
   ManhattanCue(const ManhattanCueOptions& options, const Camera& camera, std::uint64_t seed,
                LogSink log);
 
-  /// `segments`: edges of the image, if they are known already.
+  /// Adds the directions of a keyframe to the window. `segments`: edges of the image, if they have
+  /// already been detected.
   void observe(KeyframeId keyframe, const Image& image,
                const std::optional<std::vector<LineSegment>>& segments, SlidingWindow& window);
   void settle(const SlidingWindow& window) { manhattan_frames_.settle(window); }
-  /// A world of the window as a frame sees it, which is taken from about R_odom_cam: the one seen
-  /// last that is believed. Nothing if none is.
+  /// Observation of a Manhattan frame of the window in an image taken at about R_odom_cam: the most
+  /// recently observed one that is accepted. Nothing if none is accepted.
   struct RotationEstimate {
     ManhattanFrameId manhattan_frame;
     SO3 R_cam_frame;
@@ -34,16 +36,16 @@ class ManhattanCue {
   };
   std::optional<RotationEstimate> heading(const Image& image, const SO3& R_odom_cam,
                                           const SlidingWindow& window, KeyframeId keyframe) const;
-  /// The edges of the last keyframe's image that were looked at, with their world and axis.
+  /// Edges of the last keyframe's image that were examined, with their Manhattan frame and axis.
   const std::vector<FrameView::DirectedLine>& view() const { return view_; }
-  /// What the edges of the last keyframe tell of the ground, if walls stand in what is taken for it
-  /// (`outline_px`), as they do in corridors: where a floor is shown, it is that, and level; else
-  /// it is whatever may lie before the walls.
+  /// Ground mask from the edges of the last keyframe, if walls cover part of the assumed ground
+  /// (`outline_px`), as in corridors: if edges show a floor, the mask is that floor, which is
+  /// level; otherwise it is the area in front of the walls.
   GroundMask ground(const std::vector<Eigen::Vector2d>& outline_px) const;
   void reset();
 
  private:
-  /// What the last keyframe saw of a rectangular world, known already or not.
+  /// Observation of a Manhattan frame, known or new, in the last keyframe.
   struct Observation {
     std::vector<LineSegment> segments;
     std::vector<int> axis;
@@ -66,9 +68,9 @@ class ManhattanCue {
   std::vector<FrameView::DirectedLine> view_;
 };
 
-/// A pose, known by `information` (right tangent), where a heading agrees with it best: the
-/// position follows the rotation as far as the information lets it. The pose as it is without a
-/// heading, or if the window does not hold its Manhattan frame.
+/// Pose with covariance `information`^-1 (right tangent) that agrees best with a heading: the
+/// position follows the rotation according to the information. Returns the pose unchanged without a
+/// heading, or if the window does not contain its Manhattan frame.
 SE3 with_heading(const SE3& T_odom_cam, const Matrix6d& information,
                  const std::optional<ManhattanCue::RotationEstimate>& heading,
                  const SlidingWindow& window);

@@ -9,13 +9,13 @@
 namespace placegraph {
 namespace {
 
-/// Squared distance in deviations between two rotations.
+/// Squared distance between two rotations in standard deviations.
 double frame_chi2(const SO3& a, const SO3& b, const Eigen::Matrix3d& covariance) {
   const Eigen::Vector3d e = (a.inverse() * b).log();
   return e.dot(covariance.llt().solve(e));
 }
 
-/// What a chance of one in a hundred reaches.
+/// Gate that chance exceeds with a probability of one in a hundred.
 double frame_gate() {
   static const double value = chi_squared_quantile(0.99, 3);
   return value;
@@ -30,7 +30,7 @@ Eigen::Matrix3d ManhattanFrames::honest(const Eigen::Matrix3d& covariance) const
 
 std::vector<ManhattanFrames::Expected> ManhattanFrames::expected(const SlidingWindow& window,
                                                                  KeyframeId keyframe) const {
-  std::vector<std::pair<KeyframeId, ManhattanFrameId>> order;  // when, which
+  std::vector<std::pair<KeyframeId, ManhattanFrameId>> order;  // last observation and id
   for (const auto& [manhattan_frame, seen] : last_seen_)
     if (covariance_.contains(manhattan_frame)) order.emplace_back(seen, manhattan_frame);
   std::sort(order.rbegin(), order.rend());
@@ -70,7 +70,7 @@ std::optional<ManhattanFrameId> ManhattanFrames::add(KeyframeId keyframe,
   return best->manhattan_frame;
 }
 
-/// A candidate waits until enough of the window agree with it.
+/// A candidate waits until enough others in the window agree with it.
 std::optional<ManhattanFrameId> ManhattanFrames::begin_frame(const Candidate& newest,
                                                              SlidingWindow& window) {
   const KeyframeId oldest = window.keyframes().front();
@@ -78,7 +78,8 @@ std::optional<ManhattanFrameId> ManhattanFrames::begin_frame(const Candidate& ne
   const auto R_map = [&](const Candidate& c) {
     return window.pose(c.keyframe).rotation() * c.R_cam_manhattan;
   };
-  constexpr double kMotionRad = 0.1 * kRadPerDeg;  // between keyframes of one window
+  // Uncertainty of the rotation between keyframes of one window.
+  constexpr double kMotionRad = 0.1 * kRadPerDeg;
   std::vector<Candidate> agreeing{newest}, others;
   for (Candidate other : candidates_) {
     const SO3 R_map_cam = window.pose(other.keyframe).rotation();

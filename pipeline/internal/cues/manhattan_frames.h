@@ -10,15 +10,16 @@
 
 namespace placegraph {
 
-/// The rectangular worlds that a sliding window knows. A view's directions are a sighting of the
-/// world they agree with, of the 24 frames along the same axes the one nearest to it; those that
-/// agree with none wait, and several of them that agree with each other begin a new world. Worlds
-/// go on unseen, known ever less well as the motion goes on.
+/// The Manhattan frames of a sliding window. The directions of a keyframe are an observation of the
+/// Manhattan frame with which they agree; of the 24 equivalent rotations, the nearest one is used.
+/// Directions that agree with none are kept as candidates, and several candidates that agree with
+/// each other begin a new Manhattan frame. Frames remain while they are unobserved, with increasing
+/// uncertainty as the camera moves on.
 ///
-/// The axes of the map are a world of their own, seen once, exactly, by the oldest keyframe at the
-/// time when the first rectangular one begins. They hold the window
-/// (SlidingWindow::hold_manhattan_frame): what the others say about the heading turns the
-/// keyframes, and not the map under them.
+/// The axes of the map are a Manhattan frame of their own, which is observed once, exactly, by the
+/// oldest keyframe at the time when the first Manhattan frame of the scene begins. They fix the
+/// rotation of the window (SlidingWindow::hold_manhattan_frame): the heading from other frames
+/// rotates the keyframes relative to the map, and does not rotate the map.
 class ManhattanFrames {
  public:
   static constexpr ManhattanFrameId kMapAxes{};
@@ -27,23 +28,24 @@ class ManhattanFrames {
     options_.check();
   }
 
-  /// How the newest keyframe should see a world.
+  /// Predicted observation of a Manhattan frame in the newest keyframe.
   struct Expected {
     ManhattanFrameId manhattan_frame;
     SO3 R_cam_frame;
     Eigen::Matrix3d covariance;  ///< right tangent [rad^2]
   };
-  /// Those seen last first.
+  /// Predictions, the most recently observed frame first.
   std::vector<Expected> expected(const SlidingWindow& window, KeyframeId keyframe) const;
 
-  /// Hands the directions of a keyframe's view over, with the covariance of their lines' noise.
-  /// Returns the world they are of, which they may begin; nothing while they wait.
+  /// Adds the directions of a keyframe, with the covariance from the noise of their lines. Returns
+  /// their Manhattan frame, which may be new; nothing while they are a candidate.
   std::optional<ManhattanFrameId> add(KeyframeId keyframe, const SO3& R_cam_manhattan,
                                       const Eigen::Matrix3d& covariance, SlidingWindow& window);
-  /// After the window has been optimized: how well the newest keyframe knows the worlds.
+  /// Updates the covariances of the Manhattan frames in the newest keyframe, after the window has
+  /// been optimized.
   void settle(const SlidingWindow& window);
   void reset();
-  /// Of the directions of one view, with what is beyond the noise of its lines.
+  /// Covariance of the directions of one keyframe, including errors beyond the noise of its lines.
   Eigen::Matrix3d honest(const Eigen::Matrix3d& covariance) const;
 
  private:
@@ -58,10 +60,10 @@ class ManhattanFrames {
 
   ManhattanFrameOptions options_;
   ManhattanFrameId next_frame_ = ++ManhattanFrameId(kMapAxes);
-  std::vector<Candidate> candidates_;                 // of keyframes in the window, ascending
-  std::map<ManhattanFrameId, KeyframeId> last_seen_;  // of worlds
-  std::map<ManhattanFrameId, Eigen::Matrix3d>
-      covariance_;  // of worlds, as the last keyframe knew them
+  std::vector<Candidate> candidates_;  // observations in keyframes of the window, ascending
+  std::map<ManhattanFrameId, KeyframeId> last_seen_;  // last observation of each Manhattan frame
+  // Covariance of each Manhattan frame in the last keyframe.
+  std::map<ManhattanFrameId, Eigen::Matrix3d> covariance_;
 };
 
 }  // namespace placegraph

@@ -8,14 +8,14 @@
 
 namespace placegraph {
 
-/// A pixel whose depth is known.
+/// A pixel of known depth.
 struct KnownDepth {
   Eigen::Vector2f px;
   double depth;
 };
 
-/// Of a pixel without depth: the median of those of the three nearest that have one; `otherwise`
-/// where fewer are known.
+/// Depth of a pixel without a measurement: the median of the depths of the three nearest pixels
+/// that have one; `otherwise` if fewer are known.
 inline double depth_nearby(const std::vector<KnownDepth>& known, const Eigen::Vector2f& px,
                            double otherwise) {
   constexpr std::size_t kNeighbours = 3;

@@ -11,9 +11,9 @@
 namespace placegraph {
 namespace {
 
-constexpr std::size_t kMostPoints = 400;  ///< of a landmark that are remembered
+constexpr std::size_t kMostPoints = 400;  ///< maximum number of stored points of a landmark
 
-/// What a chance of one in a hundred reaches.
+/// Gate that chance exceeds with a probability of one in a hundred.
 double plane_gate() {
   static const double value = chi_squared_quantile(0.99, 3);
   return value;
@@ -24,12 +24,12 @@ double plane_chi2(const Plane3& a, const Plane3& b, const Eigen::Matrix3d& covar
   return e.dot(covariance.llt().solve(e));
 }
 
-/// The normal of a plane to the side that `eye` lies on.
-Eigen::Vector3d toward(const Plane3& plane, const Eigen::Vector3d& eye) {
-  return plane.distance_to(eye) < 0 ? Eigen::Vector3d(-plane.normal()) : plane.normal();
+/// The normal of a plane, directed to the side of `viewpoint`.
+Eigen::Vector3d toward(const Plane3& plane, const Eigen::Vector3d& viewpoint) {
+  return plane.distance_to(viewpoint) < 0 ? Eigen::Vector3d(-plane.normal()) : plane.normal();
 }
 
-/// How near two points on planes must be to be of one place: what cells of the image are apart.
+/// Maximum distance of two points in one place: the spacing of cells of the image.
 double reach_m(const Eigen::Vector3d& p_cam) { return 0.08 * p_cam.norm(); }
 
 bool near_one(const Eigen::Vector3d& p, const std::vector<Eigen::Vector3d>& others, double reach) {
@@ -46,7 +46,7 @@ std::vector<Eigen::Vector3d> thinned(const std::vector<Eigen::Vector3d>& points,
   return result;
 }
 
-/// The share of the points of the smaller of both that lie where the larger is.
+/// The share of the points of the smaller set that are within the larger one.
 double overlap(const std::vector<Eigen::Vector3d>& points_cam,
                const std::vector<Eigen::Vector3d>& others_cam) {
   constexpr std::size_t kSamples = 150;
@@ -74,7 +74,7 @@ Eigen::Matrix3d PlaneCue::drift(const Plane3& plane_cam) const {
       .inverse();
 }
 
-/// Every plane and landmark that agree, the best first.
+/// All pairs of planes and landmarks that agree, the best first.
 std::vector<PlaneCue::Match> PlaneCue::matches(KeyframeId keyframe,
                                                const std::vector<DepthPlane>& seen,
                                                const SlidingWindow& window) const {
@@ -93,7 +93,7 @@ std::vector<PlaneCue::Match> PlaneCue::matches(KeyframeId keyframe,
       if (!(distance < plane_gate())) continue;
       const double share = overlap(seen[k].points_cam, points_cam);
       if (share < options_.min_overlap) continue;
-      // The larger it is, the sooner what is seen there is that plane.
+      // A larger overlap makes a match more probable.
       const double cells =
           share * static_cast<double>(std::min(points_cam.size(), seen[k].points_cam.size()));
       result.push_back({distance, share, distance - 2 * std::log(1 + cells), k, id});
@@ -117,13 +117,13 @@ void PlaneCue::see(KeyframeId keyframe, const DepthPlane& plane, PlaneId id,
     if (!near_one(p_map, landmark.points_map, 0.5 * reach_m(p_cam)))
       landmark.points_map.push_back(p_map);
   }
-  // What was seen long ago goes first.
+  // The oldest points are removed first.
   if (landmark.points_map.size() > kMostPoints)
     landmark.points_map.erase(landmark.points_map.begin(),
                               landmark.points_map.end() - static_cast<std::ptrdiff_t>(kMostPoints));
 }
 
-/// The one of those that wait which a plane of the newest keyframe agrees with best.
+/// The candidate with which a plane of the newest keyframe agrees best.
 std::optional<std::size_t> PlaneCue::partner(KeyframeId keyframe, const DepthPlane& plane,
                                              const SlidingWindow& window) const {
   double least = plane_gate();
@@ -152,7 +152,7 @@ std::optional<std::size_t> PlaneCue::partner(KeyframeId keyframe, const DepthPla
   return best;
 }
 
-/// Two planes that agree become a landmark.
+/// Makes a landmark of two planes that agree.
 PlaneId PlaneCue::begin(const Waiting& before, const Waiting& now, SlidingWindow& window) {
   const PlaneId id = next_++;
   window.add_plane(id, transform_to(window.pose(now.keyframe).inverse(), now.plane.plane_cam));
@@ -176,13 +176,14 @@ void PlaneCue::forget(KeyframeId keyframe, SlidingWindow& window) {
   }
 }
 
-/// Each landmark to the plane that agrees with it best. A plane that agrees about as well with a
-/// landmark of the same place that no other plane is a sighting of gets none; nor does one whose
-/// landmark another plane agrees with about as well, unless that one is a sighting of its own.
+/// Assigns each landmark to the plane with which it agrees best. A plane gets none if it agrees
+/// about equally well with a landmark of the same place that is observed by no other plane, or if
+/// another plane agrees about equally well with its landmark, unless that plane observes another
+/// one.
 std::vector<std::optional<PlaneId>> PlaneCue::assign(const std::vector<Match>& all,
                                                      std::size_t count) {
-  constexpr double kClearly = 6;  // so much of plane_chi2 makes one of two landmarks the better one
-  constexpr double kUndecided = 2;  // so little of a score makes neither of two planes the better
+  constexpr double kClearly = 6;    // difference of plane_chi2 that distinguishes two landmarks
+  constexpr double kUndecided = 2;  // difference of scores below which two planes are ambiguous
   std::vector<const Match*> chosen(count, nullptr);
   std::set<PlaneId> taken;
   for (const Match& match : all)
@@ -210,7 +211,7 @@ std::vector<std::optional<PlaneId>> PlaneCue::add(KeyframeId keyframe,
                                                   SlidingWindow& window) {
   const KeyframeId oldest = window.keyframes().front();
   std::erase_if(waiting_, [&](const Waiting& w) { return w.keyframe < oldest; });
-  // First all that is asked of the window, then all that changes it.
+  // All queries to the window precede all changes of it.
   const std::vector<Match> all = matches(keyframe, seen, window);
   std::vector<std::optional<PlaneId>> result = assign(all, seen.size());
   std::vector<char> known(seen.size(), 0);

@@ -12,13 +12,14 @@
 
 namespace placegraph {
 
-/// The planes that a sliding window knows as landmarks. A plane seen in a keyframe is a sighting of
-/// the landmark it agrees with: by the Mahalanobis distance with the marginal covariance that the
-/// window has of the landmark from that keyframe (99 % of chi2), by the side it is seen from, and
-/// by where on it things were seen before, so that a coplanar surface elsewhere is another one.
-/// What agrees with two landmarks of one place about alike, as a door leaf before its wall may, is
-/// left alone. What agrees with none waits for a second keyframe that sees it too. Landmarks go on
-/// unseen for a while, known ever less well.
+/// Plane landmarks of a sliding window. A plane seen in a keyframe is an observation of the
+/// landmark with which it agrees: in Mahalanobis distance with the landmark's marginal covariance
+/// in that keyframe (99 % of chi2), in the side from which it is seen, and in the positions at
+/// which points on it were seen before, so that a coplanar surface elsewhere is another landmark. A
+/// plane that agrees about equally well with two landmarks of one place, such as a door leaf in
+/// front of its wall, is ignored. A plane that agrees with none becomes a landmark when a second
+/// keyframe sees it. Landmarks remain for a while without observations, with increasing
+/// uncertainty.
 class PlaneCue {
  public:
   explicit PlaneCue(const PlaneLandmarkOptions& options, LogSink log = {})
@@ -26,24 +27,24 @@ class PlaneCue {
     options_.check();
   }
 
-  /// Hands the planes seen in the newest keyframe over, in its camera's frame. Returns the landmark
-  /// each is a sighting of; nothing of those that wait or are left alone.
+  /// Adds the planes seen in the newest keyframe, in its camera's frame. Returns the landmark of
+  /// each plane; nothing for planes that are candidates or ignored.
   std::vector<std::optional<PlaneId>> add(KeyframeId keyframe, const std::vector<DepthPlane>& seen,
                                           SlidingWindow& window);
-  /// After the window has been optimized: sightings that do not fit are taken out, with a landmark
-  /// whose sightings do not fit again and again.
+  /// Removes observations that do not fit, after the window has been optimized, and landmarks with
+  /// repeated misfits.
   void prune(SlidingWindow& window);
-  /// The ids of the landmarks, ascending.
+  /// Ids of the landmarks, ascending.
   std::vector<PlaneId> landmarks() const;
   void reset();
 
  private:
   struct Landmark {
     KeyframeId last_seen;
-    int misfits = 0;  ///< since it last fitted
-    /// Its normal, to the side it is seen from.
+    int misfits = 0;  ///< number of misfits since the last observation that fitted
+    /// Normal of the plane, towards the side from which it is seen.
     Eigen::Vector3d toward_map = Eigen::Vector3d::Zero();
-    std::vector<Eigen::Vector3d> points_map;  ///< where it was seen
+    std::vector<Eigen::Vector3d> points_map;  ///< points of earlier observations
   };
   struct Waiting {
     KeyframeId keyframe;
@@ -69,7 +70,7 @@ class PlaneCue {
   LogSink log_;
   PlaneId next_{1};
   std::map<PlaneId, Landmark> landmarks_;
-  std::vector<Waiting> waiting_;  ///< of keyframes in the window, ascending
+  std::vector<Waiting> waiting_;  ///< planes in keyframes of the window, ascending
 };
 
 }  // namespace placegraph

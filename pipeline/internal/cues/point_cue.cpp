@@ -42,8 +42,8 @@ void PointCue::reset() {
   observations_.clear();
 }
 
-/// Where the tracks are seen from `T_odom_cam`: landmarks where they are, other points as deep as
-/// the landmarks beside them.
+/// Predicted pixels of the tracks from `T_odom_cam`: landmarks at their positions, other points at
+/// the depth of neighbouring landmarks.
 std::vector<Eigen::Vector2f> PointCue::predict(const SlidingWindow& window, const SE3& T_odom_last,
                                                const SE3& T_odom_cam, double median_depth) const {
   const SE3 T_cam_odom = T_odom_cam.inverse(), T_last_odom = T_odom_last.inverse();
@@ -71,9 +71,9 @@ std::vector<Eigen::Vector2f> PointCue::predict(const SlidingWindow& window, cons
   return predicted;
 }
 
-/// Where the points of the last frame were near to where the velocity had them, those of this frame
-/// are sought nearby; where half of the landmarks are not found again so, the camera has jerked,
-/// and they are sought all around.
+/// If the prediction of the last frame was accurate, the points of this one are searched nearby; if
+/// half of the landmarks are not found in this manner, the camera has jerked, and they are searched
+/// in a larger area.
 PointCue::TrackedPose PointCue::follow(const Image& image, const SlidingWindow& window,
                                        const SE3& T_odom_last, const SE3& T_odom_expected,
                                        bool velocity_known, double median_depth, Random& random) {
@@ -171,14 +171,15 @@ std::vector<std::optional<InverseDepth>> PointCue::measure_depth(
   return depth_.measure(frame, rectification, px, expected_px);
 }
 
-/// Where a point that the window does not hold yet lies [m], in the odometry frame: by its depth,
-/// or where the rays of its observations meet. Nothing where neither is certain enough.
+/// Position [m] in the odometry frame of a point that is not yet in the window: from its depth, or
+/// from the intersection of the rays of its observations. Nothing if neither is certain enough.
 std::optional<Eigen::Vector3d> PointCue::place_point(const Observation& now,
                                                      const std::vector<Observation>& before,
                                                      const std::optional<InverseDepth>& depth,
                                                      const SlidingWindow& window) const {
   const SE3 T_odom_cam = window.pose(now.keyframe);
-  constexpr double kCertain = 0.2;  // of the inverse depth, for a depth alone to place a point
+  // Maximum relative standard deviation of an inverse depth that alone determines a point.
+  constexpr double kCertain = 0.2;
   if (depth && depth->sigma < kCertain * depth->value) {
     const auto ray = camera_.unproject(now.px);
     if (!ray) return std::nullopt;
@@ -206,7 +207,7 @@ void PointCue::observe(KeyframeId keyframe, const Frame& frame,
       for (const Observation& o : old->second)
         if (o.keyframe >= oldest) observations.push_back(o);
     // The error of a patch that is warped or half occluded changes slowly: the observations of a
-    // track are not independent, and count for less the more there are.
+    // track are not independent, and their weight decreases with their number.
     const double correlated = 1 + static_cast<double>(observations.size());
     const Observation now{keyframe, tracks()[i].px.cast<double>(),
                           correlated * tracks()[i].covariance.cast<double>()};
@@ -243,8 +244,8 @@ void PointCue::observe_new_tracks(KeyframeId keyframe) {
   }
 }
 
-/// Whether a landmark is no point of the scene: where one contour covers another, their crossing
-/// moves along with both, and misses every projection by a little.
+/// Whether a landmark is no point of the scene: where one contour occludes another, their crossing
+/// moves along with both, and every projection has a small error.
 bool PointCue::contradicts_itself(LandmarkId landmark, const SlidingWindow& window) const {
   double sum_px = 0, sum_sigmas = 0;
   int views = 0;

@@ -14,8 +14,8 @@
 
 namespace placegraph {
 
-/// Point features: tracks them from frame to frame, poses frames against the landmarks of the
-/// sliding window, and hands what keyframes observe to it.
+/// Tracks point features from frame to frame, poses frames against the landmarks of the sliding
+/// window, and adds the observations of keyframes to it.
 class PointCue {
  public:
   /// `times`, which must outlive the cue, receives the CPU time of its stages.
@@ -25,66 +25,67 @@ class PointCue {
   const std::vector<PointTrack>& tracks() const { return tracker_.tracks(); }
   const PointCueOptions& options() const { return options_; }
 
-  /// Follows the tracks into an image without a map.
+  /// Tracks the points into an image without a map.
   void track(const Image& image);
   struct TrackedPose {
     Pose3d2dResult pose;     ///< T_ref_cam is T_odom_cam
     std::vector<bool> keep;  ///< one flag per track: whether it agrees with the pose
   };
-  /// Follows the tracks into an image that is expected at `T_odom_expected`, and poses it against
-  /// the landmarks of the window. `T_odom_last`: pose of the image before. `velocity_known`:
-  /// whether the expectation rests on a measured velocity. Points without a landmark are taken to
-  /// be as deep as those beside them, or else `median_depth` away.
+  /// Tracks the points into an image whose predicted pose is `T_odom_expected`, and estimates its
+  /// pose against the landmarks of the window. `T_odom_last`: pose of the previous image.
+  /// `velocity_known`: whether the prediction is based on a measured velocity. The depth of points
+  /// without a landmark is assumed to be that of neighbouring points, or else `median_depth`.
   [[nodiscard]] TrackedPose follow(const Image& image, const SlidingWindow& window,
                                    const SE3& T_odom_last, const SE3& T_odom_expected,
                                    bool velocity_known, double median_depth, Random& random);
-  /// The pose of the newest image by its tracks as they are.
+  /// Pose of the newest image from its current tracks.
   [[nodiscard]] TrackedPose pose(const SlidingWindow& window, const SE3& T_odom_prior,
                                  Random& random) const;
   /// Drops the tracks whose flag is false.
   void keep(const std::vector<bool>& flags) { tracker_.keep(flags); }
 
-  /// Moves the tracks to where their reference patches are found in the newest image. Returns what
-  /// each was moved by [px]: the drift that it had accumulated.
+  /// Moves the tracks to the positions at which their reference patches are found in the newest
+  /// image. Returns the displacement of each [px]: its accumulated drift.
   std::map<LandmarkId, Eigen::Vector2d> anchor();
-  /// Drops tracks where `still` is 0 (CV_8UC1, the image's size), if enough others are left.
+  /// Drops tracks where `still` is 0 (CV_8UC1, the image's size), if enough others remain.
   void drop_tracks_on_movable_objects(const Image& still);
-  /// Detects new points in the newest image where `mask` allows them. If it was made from semantic
-  /// labels (`labelled`) and too few are found so, then wherever `given_mask` allows them.
+  /// Detects new points in the newest image where `mask` allows them. If the mask was made from
+  /// semantic labels (`labelled`) and too few points are found, detects points wherever
+  /// `given_mask` allows them.
   void detect(const Image& mask, bool labelled, const Image& given_mask);
-  /// Hands the newest image's tracks to the window as observations of `keyframe`. Points with depth
+  /// Adds the newest image's tracks to the window as observations of `keyframe`. Points with depth
   /// or enough parallax become landmarks.
   void observe(KeyframeId keyframe, const Frame& frame, const RectificationError& rectification,
                SlidingWindow& window);
-  /// A point of two views that start a map.
+  /// A point in the two views that initialize a map.
   struct TwoViewPoint {
     LandmarkId track;
     Eigen::Vector2d px_ref, px_cur;
     Eigen::Matrix2d covariance_px;
     std::optional<Eigen::Vector3d> point_odom;  ///< nothing: not triangulated
   };
-  /// Hands the points of the two first keyframes of a monocular map to the window.
+  /// Adds the points of the first two keyframes of a monocular map to the window.
   void observe_two_views(KeyframeId ref, KeyframeId cur, const std::vector<TwoViewPoint>& points,
                          SlidingWindow& window);
-  /// Remembers that `keyframe`, the newest image, observes tracks that were detected after it was
-  /// handed over.
+  /// Stores observations, by `keyframe` (the newest image), of tracks that were detected after it
+  /// was added.
   void observe_new_tracks(KeyframeId keyframe);
-  /// Removes landmarks that do not fit from the window. Returns the depths of the other landmarks
-  /// that are tracked, in keyframe `newest` [m, or the map's unit].
+  /// Removes landmarks that do not fit from the window. Returns the depths of the other tracked
+  /// landmarks in keyframe `newest` [m, or in the scale of the map].
   std::vector<double> prune(SlidingWindow& window, KeyframeId newest);
 
-  /// Landmarks that are tracked, with their pixel in the newest image.
+  /// Tracked landmarks with their pixel in the newest image.
   std::vector<std::pair<LandmarkId, Eigen::Vector2d>> landmark_pixels(
       const SlidingWindow& window) const;
-  /// The same with their depths in keyframe `keyframe`, which the newest image is, for a cue that
-  /// needs depths: they are taken to be certain to a few per cent.
+  /// The same with their depths in `keyframe`, which must be the newest image, for a cue that needs
+  /// depths: they are assumed to be accurate to a few per cent.
   std::vector<KnownPixel> landmark_depths(const SlidingWindow& window, KeyframeId keyframe) const;
   int tracked_landmarks(const SlidingWindow& window) const;
 
-  /// The tracks as they stand, to go back to if a frame cannot be posed.
+  /// Copy of the tracks, to be restored if a frame cannot be posed.
   PointTracker checkpoint() const { return tracker_; }
   void restore(PointTracker checkpoint) { tracker_ = std::move(checkpoint); }
-  /// Forgets tracks but not what keyframes observed.
+  /// Drops all tracks but keeps the observations of keyframes.
   void drop_tracks() { tracker_.reset(); }
   void reset();
 
@@ -111,8 +112,8 @@ class PointCue {
   DepthSensor depth_;
   StageTimes& times_;
   PointTracker tracker_;
-  std::map<LandmarkId, std::vector<Observation>> observations_;  // of live tracks, in the window
-  double prediction_error_px_ = 0;                               // median, of the last frame
+  std::map<LandmarkId, std::vector<Observation>> observations_;  // current tracks, in the window
+  double prediction_error_px_ = 0;                               // median of the last frame
 };
 
 }  // namespace placegraph

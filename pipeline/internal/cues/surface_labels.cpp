@@ -12,7 +12,7 @@ SurfaceLabeller::SurfaceLabeller(std::shared_ptr<const SceneModel> surfaces,
   options_.check();
   require(surfaces_ && surfaces_->kind == SceneModel::Kind::kSurfaces &&
               surfaces_->class_count() == kSurfaceCount,
-          "SceneEye: a model of surfaces is needed");
+          "SurfaceLabeller: a model of surfaces is required");
 }
 
 SurfaceLabels SurfaceLabeller::look(const Frame& frame, bool masks) const {
@@ -37,7 +37,7 @@ std::pair<std::vector<LineSegment>, Camera> edges_of(const Image& grey, const Ca
     of.height = image.rows;
     of.fx /= 2;
     of.fy /= 2;
-    of.cx = (of.cx - 0.5) / 2;  // a pixel of the halved image lies in the middle of four
+    of.cx = (of.cx - 0.5) / 2;  // a pixel of the halved image is in the middle of four
     of.cy = (of.cy - 0.5) / 2;
   }
   SegmentDetectorOptions options;

@@ -8,19 +8,20 @@
 
 namespace placegraph {
 
-/// What the surfaces of a keyframe's picture are good for.
+/// Labels of the surfaces in a keyframe's image.
 struct SurfaceLabels {
   FrameId frame;
-  SceneMasks masks;  ///< empty images where no masks are wanted or the labels are not trusted
+  SceneMasks masks;  ///< empty images where no masks are requested or the labels are not trusted
   SurfaceShares shares;
 };
 
-/// Labels the surfaces of pictures for motion, places and context. A picture costs some 80 ms.
+/// Labels the surfaces of images for odometry, place recognition and environment classification. An
+/// image costs some 80 ms.
 class SurfaceLabeller {
  public:
   /// `surfaces`: a model of kind kSurfaces (ArgumentError otherwise), which must not be null.
   SurfaceLabeller(std::shared_ptr<const SceneModel> surfaces, const SceneMaskOptions& options);
-  /// In colour where the frame has it. `masks`: whether they are wanted.
+  /// Labels a frame, in colour if it has it. `masks`: whether masks are requested.
   SurfaceLabels look(const Frame& frame, bool masks) const;
 
  private:
@@ -28,8 +29,8 @@ class SurfaceLabeller {
   SceneMaskOptions options_;
 };
 
-/// The straight edges of a picture for EnvironmentEvidence, from the picture shrunk to at most 640
-/// pixels across, with the camera they belong to.
+/// Straight edges of an image for EnvironmentEvidence, detected in the image reduced to a width of
+/// at most 640 pixels, and the camera that corresponds to it.
 std::pair<std::vector<LineSegment>, Camera> edges_of(const Image& grey, const Camera& camera);
 
 }  // namespace placegraph

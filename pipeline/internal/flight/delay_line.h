@@ -9,8 +9,8 @@
 
 namespace placegraph {
 
-/// Measurements that become available a fixed time after they were taken, such as poses that
-/// another computer finds. `Measurement` has a member `stamp_ns`, the time when it was taken.
+/// Measurements that become available a fixed time after they were taken, such as poses computed on
+/// another computer. `Measurement` has a member `stamp_ns`, the time when it was taken.
 template <class Measurement>
 class DelayLine {
  public:
@@ -19,7 +19,7 @@ class DelayLine {
     require(delay_s >= 0, "DelayLine: the delay is negative");
   }
 
-  /// Throws ArgumentError if the measurement is older than the newest one that waits.
+  /// Adds a measurement. Throws ArgumentError if it is older than the newest waiting one.
   void push(Measurement measurement) {
     require(waiting_.empty() || measurement.stamp_ns >= waiting_.back().stamp_ns,
             "DelayLine: the measurement is older than the last one");

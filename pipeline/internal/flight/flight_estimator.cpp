@@ -75,7 +75,7 @@ FlightFrame FlightEstimator::add(const FlightMeasurements& observations) {
   if (result.markers && !delivered) result.markers = delivered;
   if (markers_) markers_->report(result.markers, !observations.markers.empty());
 
-  // 3. The state with all that has come until now.
+  // 3. The state with all measurements available until now.
   const PositionFilter::StateEstimate answer = filter_.at(now_ns);
   result.outcome = answer.outcome;
   result.state = answer.state;
@@ -121,7 +121,7 @@ void FlightEstimator::use_markers(const FlightMeasurements& observations,
     delayed_poses_.push(answer.observation);
 }
 
-/// Starts, or starts anew, where markers are; the biases that the filter knows are kept.
+/// Starts, or restarts, at the pose from markers; the biases that the filter knows are kept.
 Outcome FlightEstimator::start_by(const PoseMeasurement& pose) {
   if (!imu_.reaches(pose.stamp_ns, options_.filter.max_prediction_s))
     return Outcome::failure(Code::kTooFewData, "no inertial samples to begin with");
@@ -129,7 +129,8 @@ Outcome FlightEstimator::start_by(const PoseMeasurement& pose) {
   return Outcome::ok();
 }
 
-/// Hands the filter the poses whose delay has passed; those older than its history it refuses.
+/// Passes the poses whose delay has passed to the filter, which rejects those older than its
+/// history.
 Outcome FlightEstimator::deliver_poses(std::int64_t now_ns) {
   Outcome last = Outcome::ok();
   for (const PoseMeasurement& pose : delayed_poses_.take(now_ns)) last = filter_.add(pose);

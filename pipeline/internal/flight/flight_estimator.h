@@ -15,59 +15,59 @@
 
 namespace placegraph {
 
-/// What is seen in one image.
+/// Measurements in one image.
 struct FlightMeasurements {
   std::int64_t stamp_ns = 0;
-  std::vector<FlowVector> flow = {};  ///< from the last image to this one
+  std::vector<FlowVector> flow = {};  ///< flow from the previous image to this one
   std::vector<MarkerObservation> markers = {};
   std::vector<BeaconObservation> beacons = {};
 };
 
-/// What became of one image.
+/// Result of one image.
 struct FlightFrame {
   std::int64_t stamp_ns = 0;
-  Outcome outcome;  ///< of `state`: see PositionFilter::at
+  Outcome outcome;  ///< outcome of `state`: see PositionFilter::at
   BodyState state;
   Outcome flow;          ///< whether flow over the floor was measured and accepted
   int flow_points = 0;   ///< inliers of the flow
-  double flow_chi2 = 0;  ///< of the inliers, per degree of freedom
+  double flow_chi2 = 0;  ///< chi2 of the inliers, per degree of freedom
   Outcome markers;       ///< whether a pose by markers was measured and accepted
-  /// The measurements, accepted or not, for a smoother beside the filter.
+  /// The measurements, accepted or not, for a smoother that runs in addition to the filter.
   std::optional<FlowMeasurement> flow_measurement;
   std::optional<PoseMeasurement> pose_measurement;
-  int markers_seen = 0, beacons_seen = 0;  ///< that the pose was computed from
+  int markers_seen = 0, beacons_seen = 0;  ///< number used to compute the pose
 };
 
-/// The pose of a small flying robot, image by image: flow over the floor without the rotation that
-/// the gyro measured is velocity over height (FloorFlow), markers become poses (MarkerSensor), and
-/// the position filter joins both with the inertial sensor. It starts with the first markers that
-/// leave one pose only, and anew where markers contradict it persistently; before the start, and
-/// whenever its inputs stop, it has no state.
+/// Estimates the pose of a small flying robot image by image: flow over the floor without the
+/// rotation measured by the gyro is velocity over height (FloorFlow), markers provide poses
+/// (MarkerSensor), and the position filter fuses both with the inertial sensor. It starts with the
+/// first markers that determine a unique pose, and restarts if markers contradict it persistently;
+/// before the start, and whenever its inputs stop, it has no state.
 class FlightEstimator {
  public:
   /// `camera` has no distortion. World: z up. Throws ArgumentError if an option is out of range.
   FlightEstimator(const FlightOptions& options, const Camera& camera, const SE3& T_body_cam,
                   const MarkerLayout& layout);
 
-  /// Inertial samples in the order of their stamps, before the images at or after them. Outcomes as
-  /// PositionFilter's; samples before the start are kept.
+  /// Adds inertial samples in the order of their stamps, before the images at or after them.
+  /// Outcomes as PositionFilter's; samples before the start are kept.
   Outcome add(const ImuSample& sample);
-  /// The next image; with `markers_visible` false it is not searched for markers.
+  /// Processes the next image; with `markers_visible` false it is not searched for markers.
   FlightFrame add(const Frame& frame, bool markers_visible = true);
-  /// The same where the measurements of the image are made elsewhere. Throws ArgumentError if its
-  /// stamp is not after the last one's.
+  /// Processes measurements of an image that were made elsewhere. Throws ArgumentError if its stamp
+  /// is not after that of the previous image.
   FlightFrame add(const FlightMeasurements& observations);
-  /// Starts with a state that something else knows, instead of by markers.
+  /// Starts with an externally given state instead of with markers.
   void start(const BodyState& state);
 
-  /// The state at a time from the last image on, by the last inertial sample.
+  /// State at a time from the last image on, predicted to the last inertial sample.
   PositionFilter::StateEstimate at(std::int64_t stamp_ns) const { return filter_.at(stamp_ns); }
   const StageTimes& times() const { return times_; }
 
  private:
   struct LastImage {
     std::int64_t stamp_ns = 0;
-    std::optional<BodyState> state;  // if it was known
+    std::optional<BodyState> state;  // state at the image, if it was known
   };
 
   void use_flow(const FlightMeasurements& observations, const KnownRotation& rotation,

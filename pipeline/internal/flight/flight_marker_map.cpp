@@ -14,34 +14,38 @@ Matrix3d block(const BodyState& state, int part) {
   return state.covariance.block<3, 3>(part, part);
 }
 
-/// What of it is no less than nothing.
+/// Projection of a symmetric matrix to the positive semi-definite ones.
 Matrix3d positive_part(const Matrix3d& symmetric) {
   const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(symmetric);
   return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() *
          eigen.eigenvectors().transpose();
 }
 
-/// Of the body's motion from one image to the next, right tangent.
+/// Covariance of the body's motion from one image to the next, right tangent.
 Matrix6d step_covariance(const BodyState& before, const FlightFrame& frame, const SE3& T_body_cam,
                          const FlightOptions& options) {
   const BodyState& now = frame.state;
   const double dt = 1e-9 * static_cast<double>(now.stamp_ns - before.stamp_ns);
   const Matrix3d R_world_cam = (before.T_world_body * T_body_cam).rotation().matrix();
-  Matrix3d way_world = dt * dt * block(now, kVelocity);
+  Matrix3d translation_covariance = dt * dt * block(now, kVelocity);
   if (frame.flow && frame.flow_measurement) {
     const double height = (before.T_world_body * T_body_cam).translation().z() - options.floor_z_m;
-    way_world = height * height * R_world_cam * frame.flow_measurement->covariance *
-                R_world_cam.transpose();
+    translation_covariance = height * height * R_world_cam * frame.flow_measurement->covariance *
+                             R_world_cam.transpose();
   }
   const double gyro = options.filter.gyro_noise;
-  const Matrix3d turn = gyro * gyro * dt * Matrix3d::Identity() + dt * dt * block(now, kGyroBias);
-  // A filter that was corrected has jumped by what it knows more now.
+  const Matrix3d rotation_covariance =
+      gyro * gyro * dt * Matrix3d::Identity() + dt * dt * block(now, kGyroBias);
+  // A correction of the filter is a jump; its covariance is the reduction of the uncertainty.
   const Matrix3d R_world_body = now.T_world_body.rotation().matrix();
-  const Matrix3d jump = positive_part(block(before, kPosition) + way_world - block(now, kPosition));
+  const Matrix3d jump =
+      positive_part(block(before, kPosition) + translation_covariance - block(now, kPosition));
   Matrix6d covariance = Matrix6d::Zero();
-  covariance.topLeftCorner<3, 3>() = R_world_body.transpose() * (way_world + jump) * R_world_body;
+  covariance.topLeftCorner<3, 3>() =
+      R_world_body.transpose() * (translation_covariance + jump) * R_world_body;
   covariance.bottomRightCorner<3, 3>() =
-      turn + positive_part(block(before, kAttitude) + turn - block(now, kAttitude));
+      rotation_covariance +
+      positive_part(block(before, kAttitude) + rotation_covariance - block(now, kAttitude));
   return covariance;
 }
 
@@ -50,11 +54,12 @@ Matrix6d step_covariance(const BodyState& before, const FlightFrame& frame, cons
 MarkerMap map_flight_markers(const Dataset& images, const FlightRun& run, const SE3& T_body_cam,
                              const MarkerLayout& layout, const FlightOptions& options) {
   options.check();
-  require(run.frames.size() == images.size(), "map_hover_markers: one frame an image is needed");
+  require(run.frames.size() == images.size(), "map_flight_markers: one frame per image is needed");
   const MarkerDetector detector(options.marker_sensor.detector, layout.dictionary);
   const Matrix6d J_cam_body = T_body_cam.inverse().adjoint();
   std::vector<MarkerFrame> frames;
-  Matrix6d since = Matrix6d::Zero();  // of the motion since the last of them, body
+  // Covariance of the motion since the last frame in `frames`, body.
+  Matrix6d since = Matrix6d::Zero();
   std::int64_t last_ns = 0;
   const BodyState* before = nullptr;
   for (std::size_t i = 0; i < run.frames.size(); ++i) {

@@ -4,12 +4,12 @@
 
 namespace placegraph {
 
-/// Where the markers of `layout.unplaced_sides_m` are, after a flight: its images are searched
-/// again, and `map_markers` is asked with the motions between them as the flight knew them. How
-/// sure those are: the flow's covariance over the floor (the velocity's where there was none), the
-/// gyro's noise, what is not known of its bias, and what the filter corrected itself by in between.
-/// Markers of the layout anchor the map; where none is, the world is the flight's. Throws as the
-/// data set does. Outcomes: those of map_markers.
+/// Maps the markers of `layout.unplaced_sides_m` after a flight: its images are searched again, and
+/// `map_markers` is called with the estimated motions between them. The uncertainty of the motions
+/// consists of the flow's covariance over the floor (the velocity's where there was no flow), the
+/// gyro's noise, the uncertainty of its bias, and the filter's corrections in between. Markers of
+/// the layout anchor the map; without such a marker, the world frame is that of the flight. Throws
+/// as the data set does. Outcomes: those of map_markers.
 [[nodiscard]] MarkerMap map_flight_markers(const Dataset& images, const FlightRun& run,
                                            const SE3& T_body_cam, const MarkerLayout& layout,
                                            const FlightOptions& options);

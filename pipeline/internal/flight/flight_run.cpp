@@ -10,7 +10,7 @@ FlightRun run_flight(const Dataset& images, const ImuRecording& imu, const SE3& 
                      const std::function<void(std::size_t done)>& progress) {
   FlightRun run;
   StageTimes reading;
-  FlightEstimator estimator(options.hover, images.calibration(Sensor::kMono).camera, T_body_cam,
+  FlightEstimator estimator(options.flight, images.calibration(Sensor::kMono).camera, T_body_cam,
                             layout);
   const auto ahead_ns = static_cast<std::int64_t>(std::llround(1e9 * options.predict_ahead_s));
   std::optional<BodyState> start = options.start;

@@ -11,7 +11,7 @@ using Eigen::Vector3d;
 
 constexpr double kEnoughTracks = 0.7;  // share of the tracks; with fewer, corners are detected
 /// Images between two detections, while tracks are being lost, and where the last detection found
-/// few: a floor that offers few corners does not offer more in the next image.
+/// few: a floor with few corners is unlikely to have more in the next image.
 constexpr int kDetectionInterval = 2, kVainDetectionInterval = 5;
 
 }  // namespace
@@ -27,7 +27,8 @@ FloorFlow::FloorFlow(const FloorFlowOptions& options, const Camera& camera, cons
   camera_.check();
 }
 
-/// Where the tracked points of the floor are in the next image; points that leave it stay.
+/// Predicted pixels of the tracked points on the floor in the next image; points that leave it keep
+/// their position.
 std::vector<Eigen::Vector2f> FloorFlow::predicted_px(const BodyState& previous,
                                                      const BodyState& expected) const {
   const SE3 T_world_1 = previous.T_world_body * T_body_cam_;

@@ -16,22 +16,22 @@
 
 namespace placegraph {
 
-/// All but `tracker`.
+/// All options except `tracker`.
 void visit(OptionVisitor& field, FloorFlowOptions& options);
 
-/// What the flow between two images says.
+/// Flow measurement between two images.
 struct FloorFlowMeasurement {
   /// Outcomes: not attempted (no state at the first image), too few data (fewer than
   /// `FloorFlowOptions::min_points` inliers), those of `ventral_motion`.
   Outcome outcome;
   int inliers = 0;
-  double chi2_per_dof = 0;  ///< of the inliers
-  /// For a filter; empty if `outcome` is no success or if flow is not `enabled`.
+  double chi2_per_dof = 0;  ///< chi2 of the inliers
+  /// Measurement for a filter; empty if `outcome` is no success or if flow is not `enabled`.
   std::optional<FlowMeasurement> observation;
 };
 
-/// Optical flow over a level floor: tracks corners from image to image, and turns their flow
-/// without the camera's rotation into the camera's translation over its height.
+/// Optical flow over a level floor: tracks corners from image to image, and converts their flow
+/// without the camera's rotation to the camera's translation over its height.
 class FloorFlow {
  public:
   /// World: z up, the floor at z = `floor_z_m`. The camera has no distortion. Throws ArgumentError
@@ -39,15 +39,15 @@ class FloorFlow {
   FloorFlow(const FloorFlowOptions& options, const Camera& camera, const SE3& T_body_cam,
             double floor_z_m);
 
-  /// Tracks the corners into the next image (CV_8UC1) and detects new ones where too few are left.
-  /// Returns the flow from the previous image to this one, with covariances. Where the states at
-  /// both images are known, points are searched for near where the floor's points must be. Throws
+  /// Tracks the corners into the next image (CV_8UC1) and detects new ones where too few remain.
+  /// Returns the flow from the previous image to this one, with covariances. If the states at both
+  /// images are known, points are searched for near their predicted positions on the floor. Throws
   /// ArgumentError if the image does not have the camera's size.
   std::vector<FlowVector> track(const Image& image, const std::optional<BodyState>& previous,
                                 const std::optional<BodyState>& expected, StageTimes& times);
 
-  /// From the flow between the image of `previous` and the one at `to_ns`; `rotation` is the
-  /// camera's between them by the gyro.
+  /// Measures the motion from the flow between the image of `previous` and the one at `to_ns`;
+  /// `rotation` is the camera's rotation between them by the gyro.
   FloorFlowMeasurement measure(const std::vector<FlowVector>& flow,
                                const std::optional<BodyState>& previous, std::int64_t to_ns,
                                const KnownRotation& rotation) const;
@@ -55,7 +55,7 @@ class FloorFlow {
  private:
   /// The last search for corners.
   struct Detection {
-    std::size_t tracks = 0;  // after it
+    std::size_t tracks = 0;  // number of tracks after it
     int images_since = 0;
   };
 

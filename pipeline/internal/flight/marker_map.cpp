@@ -30,21 +30,22 @@ struct Chosen {
 /// A marker that frames show.
 struct SeenMarker {
   double side_m = 0;
-  const PlacedMarker* placed = nullptr;  ///< in the layout that is known; nothing: to be mapped
+  const PlacedMarker* placed = nullptr;  ///< the marker in the known layout; null: to be mapped
   std::vector<View> views;
-  SE3 T_odom_marker;           ///< after `located`
-  std::vector<Chosen> chosen;  ///< after `located`: of each view that agrees the pose that does
+  SE3 T_odom_marker;           ///< set by `located`
+  std::vector<Chosen> chosen;  ///< set by `located`: the agreeing pose of each agreeing view
 };
 using SeenMarkers = std::map<int, SeenMarker>;  // by id
 
-/// Squared deviation of one view's pose from where the marker is taken to be, odometry believed.
+/// Squared distance, in standard deviations, of one view's pose from the assumed pose of the
+/// marker, with odometry assumed to be correct.
 double deviation2(const MarkerFrame& frame, const MarkerPose& pose, const SE3& T_odom_marker) {
   const Vector6d d =
       (pose.T_cam_marker.inverse() * frame.T_odom_cam.inverse() * T_odom_marker).log();
   return d.dot(pose.covariance.ldlt().solve(d));
 }
 
-/// Where the marker is: the pose of one view that most others agree with, each by its better pose.
+/// Pose of the marker: the pose of one view with which most others agree, each by its better pose.
 std::optional<SE3> consensus(const std::vector<MarkerFrame>& frames, const std::vector<View>& views,
                              double gate) {
   std::optional<SE3> best;
@@ -66,7 +67,7 @@ std::optional<SE3> consensus(const std::vector<MarkerFrame>& frames, const std::
   return best;
 }
 
-/// Of every view the pose near the consensus.
+/// The pose near the consensus, for every view.
 std::vector<Chosen> choose(const std::vector<MarkerFrame>& frames, const std::vector<View>& views,
                            const SE3& T_odom_marker) {
   std::vector<Chosen> chosen;
@@ -76,7 +77,7 @@ std::vector<Chosen> choose(const std::vector<MarkerFrame>& frames, const std::ve
                                            return deviation2(frames[view.frame], a, T_odom_marker) <
                                                   deviation2(frames[view.frame], b, T_odom_marker);
                                          });
-    // Mirrored poses are far apart where they matter: odometry may drift without changing which.
+    // Mirrored poses are far apart where the choice matters: odometry drift does not change it.
     const SE3 off =
         nearer->T_cam_marker.inverse() * frames[view.frame].T_odom_cam.inverse() * T_odom_marker;
     constexpr double kMisled_rad = 0.35;
@@ -129,7 +130,7 @@ SeenMarkers collect_views(const std::vector<MarkerFrame>& frames, const MarkerLa
   return markers;
 }
 
-/// The markers that enough views agree on, placed in the odometry's world.
+/// The markers on which enough views agree, in the odometry's world frame.
 SeenMarkers located(const std::vector<MarkerFrame>& frames, const MarkerMapOptions& options,
                     const SeenMarkers& seen) {
   const double gate = chi_squared_quantile(options.gate, 6);
@@ -146,7 +147,7 @@ SeenMarkers located(const std::vector<MarkerFrame>& frames, const MarkerMapOptio
   return result;
 }
 
-/// By the first marker whose place is known; identity if there is none.
+/// From the first marker of known pose; identity if there is none.
 SE3 world_of_odometry(const SeenMarkers& markers) {
   for (const auto& [id, marker] : markers)
     if (marker.placed) return marker.placed->T_world_marker * marker.T_odom_marker.inverse();
@@ -215,7 +216,8 @@ MarkerMap map_markers(const std::vector<MarkerFrame>& frames, const MarkerLayout
   const SE3 T_world_odom = world_of_odometry(markers);
   add_frames(frames, T_world_odom, map.graph);
   add_markers(markers, T_world_odom, map.graph);
-  // The start is good, and a fixed marker far down the list must not be outweighed by another one.
+  // The initialization is accurate, and a fixed marker late in the list must not be outweighed by
+  // another one.
   PoseGraphOptions solver;
   solver.start = PoseGraphInitialization::kFile;
   const PoseGraphReport solved = optimize_pose_graph(std::move(map.graph), solver);

@@ -11,18 +11,19 @@
 
 namespace placegraph {
 
-/// A frame whose motion is known from elsewhere, and the markers it shows.
+/// A frame with externally known motion, and the markers in it.
 struct MarkerFrame {
   SE3 T_odom_cam;
-  /// Of the motion from the frame before (right tangent of T_before_this); not used of the first.
+  /// Covariance of the motion from the previous frame (right tangent of T_before_this); not used
+  /// for the first frame.
   Matrix6d step_covariance = Matrix6d::Identity();
   std::vector<MarkerObservation> markers;
 };
 
 struct MappedMarker {
   PlacedMarker marker;
-  Matrix6d covariance =
-      Matrix6d::Zero();  ///< right tangent of T_world_marker; zero if it was known
+  /// Right tangent of T_world_marker; zero if the marker was known.
+  Matrix6d covariance = Matrix6d::Zero();
   int views = 0;
 };
 
@@ -38,11 +39,11 @@ struct MarkerMap {
 /// The node of a marker in the graph.
 NodeId marker_node(int id);
 
-/// Markers as landmarks of a pose graph: frames are tied by their motions, frames and markers by
-/// the marker's pose in the frame with its covariance; of the two poses of a sighting the one that
-/// agrees with the other frames. Markers of `known` are held where they are and so give the world;
-/// without any the first frame's odometry does. `sides_m`: of the markers that are not known;
-/// others are left out. Throws ArgumentError for a side that is not positive.
+/// Estimates markers as landmarks of a pose graph: frames are connected by their motions, frames
+/// and markers by the marker's pose in the frame with its covariance; of the two poses of an
+/// observation, the one that agrees with the other frames is used. Markers of `known` are fixed and
+/// define the world frame; without any, the first frame's odometry does. `sides_m`: sides of the
+/// unknown markers; others are ignored. Throws ArgumentError for a side that is not positive.
 [[nodiscard]] MarkerMap map_markers(const std::vector<MarkerFrame>& frames,
                                     const MarkerLayout& known, const std::map<int, double>& sides_m,
                                     const Camera& camera, const MarkerMapOptions& options = {});

@@ -17,7 +17,7 @@ Matrix6d pose_covariance(const BodyState& state) {
   for (int i = 0; i < 2; ++i)
     for (int j = 0; j < 2; ++j)
       covariance.block<3, 3>(3 * i, 3 * j) = state.covariance.block<3, 3>(kPart[i], kPart[j]);
-  // The state's position errs in the axes of the world, the tangent in those of the body.
+  // The state's position error is in the axes of the world, the tangent in those of the body.
   Matrix6d J = Matrix6d::Identity();
   J.topLeftCorner<3, 3>() = state.T_world_body.rotation().matrix().transpose();
   return J * covariance * J.transpose();
@@ -50,7 +50,7 @@ std::vector<ExpectedSquare> MarkerSensor::expected_squares(const BodyState& expe
                    });
   if (static_cast<int>(squares.size()) > options_.max_markers)
     squares.resize(static_cast<std::size_t>(options_.max_markers));
-  // A state that markers contradict is not as certain as its covariance says.
+  // A state that markers contradict is less certain than its covariance states.
   if (contradictions_ > 0)
     for (ExpectedSquare& square : squares) square.within_px.reset();
   return squares;

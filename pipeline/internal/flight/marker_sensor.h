@@ -22,9 +22,9 @@ struct MarkerDetections {
   std::vector<BeaconObservation> beacons;
 };
 
-/// Poses of the body by markers and beacons of a layout, and where in the image they are searched
-/// for: near where an estimator expects them, and in the whole image where nothing is expected or
-/// no marker has been accepted for a while.
+/// Estimates poses of the body from markers and beacons of a layout, and selects the image regions
+/// to search: near their expected positions, or the whole image if there is no expectation or no
+/// marker has been accepted for a while.
 class MarkerSensor {
  public:
   /// The camera has no distortion. Throws ArgumentError if an option is out of range, or if the
@@ -32,18 +32,19 @@ class MarkerSensor {
   MarkerSensor(const MarkerSensorOptions& options, const Camera& camera, const SE3& T_body_cam,
                const MarkerLayout& layout);
 
-  /// Searches an image (CV_8UC1). `expected` is the body at that image, if something knows it.
-  /// Beacons are searched for where one may be in view and fewer than three markers are found.
+  /// Searches an image (CV_8UC1). `expected` is the state of the body at that image, if it is
+  /// known. Beacons are searched for where one may be in view and fewer than three markers are
+  /// found.
   MarkerDetections detect(const Image& image, const std::optional<BodyState>& expected,
                           StageTimes& times);
-  /// The pose by what one image shows, with the help of the expectation if it `relies_on` that.
-  /// Outcomes: those of MarkerFilter::observe.
+  /// Estimates the pose from the detections in one image, with the help of the expectation if it
+  /// `relies_on` that. Outcomes: those of MarkerFilter::observe.
   MarkerPoseEstimate estimate(const MarkerView& view, const BodyExpectation& expectation);
-  /// What became of the pose of one image: accepted by the estimator that expects states, or not,
-  /// and whether the image shows markers.
+  /// Reports the result of the pose of one image: whether the estimator accepted it, and whether
+  /// the image shows markers.
   void report(const Outcome& accepted, bool markers_in_view);
-  /// Whether markers have contradicted the expected states in `restart_after` images in a row, so
-  /// that the markers are right. Until a pose is accepted.
+  /// Whether markers have contradicted the expected states in `restart_after` consecutive images,
+  /// so that the markers are assumed to be correct, until a pose is accepted.
   bool is_refuted() const { return contradictions_ >= options_.restart_after; }
   /// Whether there is an expected state, and markers have not refuted such states.
   bool relies_on(const BodyExpectation& expectation) const {
@@ -60,8 +61,8 @@ class MarkerSensor {
   std::vector<Eigen::Vector3d> beacons_world_;
   std::optional<MarkerDetector> detector_;  // nothing: the layout has beacons only
   MarkerFilter filter_;
-  int contradictions_ = 0;      // images in a row
-  int images_since_found_ = 0;  // since a pose was accepted or an image was searched whole
+  int contradictions_ = 0;      // number of consecutive images
+  int images_since_found_ = 0;  // since a pose was accepted or a whole image was searched
 };
 
 }  // namespace placegraph

@@ -8,9 +8,9 @@
 
 namespace placegraph {
 
-/// The state of a body of which markers tell the pose: velocity zero, as uncertain as the options
-/// say, and so are the biases, unless `before`, an earlier estimate for the same time, knows them:
-/// then its biases and their covariance are kept.
+/// Initial state of a body whose pose is given by markers. Velocity and biases are zero with the
+/// uncertainty of the options; if `before`, an earlier estimate for the same time, is given, its
+/// biases and their covariance are kept.
 BodyState start_state(const PoseMeasurement& pose, const FlightInitializationOptions& options,
                       const std::optional<BodyState>& before = std::nullopt);
 

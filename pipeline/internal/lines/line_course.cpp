@@ -9,16 +9,16 @@
 namespace placegraph {
 namespace {
 
-/// The plane of a line along d, and how well the turn of such planes is seen.
+/// The plane of a line along d, and the accuracy of its rotation.
 struct PlaneAlong {
-  Eigen::Vector3d n;  ///< unit, at right angles to d
-  double reach;       ///< sine of the angle from d to the outer end of what is seen
-  double sigma_rad;   ///< of a turn about d
+  Eigen::Vector3d n;  ///< unit vector, perpendicular to d
+  double reach;       ///< sine of the angle from d to the outer end of the visible part
+  double sigma_rad;   ///< standard deviation of a rotation about d
 };
 
 std::optional<PlaneAlong> plane_along(const Camera& camera, const ImageLine::Carriers& seen,
                                       const Eigen::Vector3d& d_cam) {
-  constexpr double kPasses = 0.99;  // it does point along d
+  constexpr double kPasses = 0.99;  // minimum for a line along d
   const Eigen::Vector3d n = plane_normal(camera, seen.first, seen.second);
   const Eigen::Vector3d across = n - n.dot(d_cam) * d_cam;
   if (!(across.norm() > kPasses)) return std::nullopt;
@@ -35,24 +35,26 @@ std::optional<PlaneAlong> plane_along(const Camera& camera, const ImageLine::Car
 
 }  // namespace
 
-/// With t the way in the earlier keyframe, n the plane's normal there and r the line's distance
-/// across, n^T t = r sin(turn). r is known to a factor only, so that the turn itself counts as its
-/// deviation.
+/// With t the translation in the earlier keyframe, n the plane's normal there and r the line's
+/// perpendicular distance, n^T t = r sin(angle). r is known to a factor only, so that the angle
+/// itself is used as the standard deviation.
 std::vector<MotionObservation> course_along_lines(
     const SlidingWindow& window, const Camera& camera,
     const std::vector<VanishingDirectionTracker::DirectionCluster>& clusters,
     const LineObservations& observations, KeyframeId keyframe, double depth,
     double max_rotation_rad) {
-  constexpr std::size_t kBack = 5;        // keyframes
-  constexpr double kAlong = 0.96;         // cosine to the way: others are placed, or far
-  constexpr double kRollSigmaRad = 1e-3;  // between two keyframes
-  constexpr double kFactor = 2;           // of the distance
+  constexpr std::size_t kBack = 5;  // number of earlier keyframes used
+  // Cosine to the translation: other lines are triangulated, or far away.
+  constexpr double kAlong = 0.96;
+  constexpr double kRollSigmaRad = 1e-3;  // roll between two keyframes
+  constexpr double kFactor = 2;           // uncertainty of the distance
   const auto keyframes = window.keyframes();
   const KeyframeId oldest = keyframes[keyframes.size() - std::min(keyframes.size(), kBack + 1)];
   const SE3 T_odom_to = window.pose(keyframe);
   std::vector<MotionObservation> motions;
   for (const auto& cluster : clusters) {
-    std::map<KeyframeId, Eigen::Matrix3d> held;  // by the earlier keyframe, in its frame
+    // Constraint by the earlier keyframe, in its frame.
+    std::map<KeyframeId, Eigen::Matrix3d> constraints;
     for (const LineId id : cluster.tracks) {
       const auto track = observations.find(id);
       if (track == observations.end() || window.line(id)) continue;
@@ -75,10 +77,10 @@ std::vector<MotionObservation> course_along_lines(
       const double sigma =
           kFactor * depth * b->reach *
           std::hypot(rotation_rad, std::hypot(a->sigma_rad, b->sigma_rad), kRollSigmaRad);
-      held.try_emplace(then->keyframe, Eigen::Matrix3d::Zero()).first->second +=
+      constraints.try_emplace(then->keyframe, Eigen::Matrix3d::Zero()).first->second +=
           a->n * a->n.transpose() / (sigma * sigma);
     }
-    for (const auto& [from, across] : held) {
+    for (const auto& [from, across] : constraints) {
       const SE3 T_odom_from = window.pose(from);
       const SE3 T_from_to = T_odom_from.inverse() * T_odom_to;
       const Eigen::Vector3d d_from = T_odom_from.rotation().inverse() * cluster.d_ref;

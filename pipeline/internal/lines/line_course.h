@@ -11,12 +11,12 @@ namespace placegraph {
 
 class SlidingWindow;
 
-/// Motions between earlier keyframes and the newest one that lines along the way of the camera
-/// allow. Such lines are never triangulated, but a camera that leaves their direction sees their
-/// planes turn: what did not turn says where the newest keyframe does not lie.
-/// `families`: directions that lines share, in the window's frame, with the tracks along them.
-/// `depth` [m]: of the scene. `max_rotation_rad`: a line whose plane turns by more can be
-/// triangulated.
+/// Constraints on the motion between earlier keyframes and the newest one from lines along the
+/// direction of travel. Such lines are never triangulated, but if the camera moves away from their
+/// direction, their planes rotate; a plane that has not rotated excludes positions of the newest
+/// keyframe. `clusters`: directions shared by several lines, in the window's frame, with the tracks
+/// along them. `depth` [m]: depth of the scene. `max_rotation_rad`: a line whose plane rotates by
+/// more can be triangulated.
 std::vector<MotionObservation> course_along_lines(
     const SlidingWindow& window, const Camera& camera,
     const std::vector<VanishingDirectionTracker::DirectionCluster>& clusters,

@@ -35,10 +35,11 @@ void LineCue::reset() {
   if (compass_) use_compass();
 }
 
-/// With what is not known of its place, a line that hardly turned is of use where few are better.
+/// With its uncertainty taken into account, a line whose plane hardly rotated is useful if few
+/// better ones exist.
 LineTriangulationOptions LineCue::triangulation(const SlidingWindow& window) const {
   constexpr int kFew = 15;
-  constexpr std::size_t kFewestSteered = 7;  // keyframes: not to begin with
+  constexpr std::size_t kFewestSteered = 7;  // number of keyframes; not used during initialization
   LineTriangulationOptions options = options_.triangulation;
   if (compass_ && window.keyframes().size() > kFewestSteered && followed(window) < kFew)
     options.min_rotation_deg =
@@ -48,7 +49,7 @@ LineTriangulationOptions LineCue::triangulation(const SlidingWindow& window) con
 
 void LineCue::use_compass() { compass_.emplace(options_.start.directions); }
 
-/// What directions say of a keyframe's rotation goes into the window.
+/// Adds the rotation of a keyframe according to shared directions to the window.
 void LineCue::steer(KeyframeId keyframe, const LineView& seen, SlidingWindow& window) {
   if (!compass_) return;
   constexpr double kSigmaRad = 0.02;
@@ -84,7 +85,7 @@ void LineCue::track(const Image& image, const SlidingWindow& window, const SE3& 
   follow_mergers();
 }
 
-/// What was known of a track that turned out to be part of another goes with it.
+/// Transfers the observations of a track that was merged into another.
 void LineCue::follow_mergers() {
   for (const auto& [from, to] : tracker_.merged()) {
     if (!observations_.contains(to) && observations_.contains(from))
@@ -93,7 +94,8 @@ void LineCue::follow_mergers() {
   }
 }
 
-/// The guess and what directions say of the rotation, weighted; nothing where they leave it open.
+/// The guess combined with the rotation from shared directions; nothing if they leave it
+/// underdetermined.
 std::optional<PoseGuess> LineCue::with_heading(const PoseGuess& guess) const {
   const Eigen::Matrix3d known = guess.information.bottomRightCorner<3, 3>();
   const double weakest = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(known).eigenvalues()[0];
@@ -106,9 +108,9 @@ std::optional<PoseGuess> LineCue::with_heading(const PoseGuess& guess) const {
         1 / (kKnownRad * kKnownRad)))
     return std::nullopt;
   const Eigen::Matrix3d both = known + heading.information;
-  const Eigen::Vector3d turn = both.ldlt().solve(
+  const Eigen::Vector3d correction = both.ldlt().solve(
       heading.information * (guess.T_ref_cam.rotation().inverse() * heading.R_ref_cam).log());
-  PoseGuess result{SE3(guess.T_ref_cam.rotation().plus(turn), guess.T_ref_cam.translation()),
+  PoseGuess result{SE3(guess.T_ref_cam.rotation().plus(correction), guess.T_ref_cam.translation()),
                    guess.information};
   result.information.bottomRightCorner<3, 3>() = both;
   return result;
@@ -121,7 +123,7 @@ PoseFromLines LineCue::pose(const SlidingWindow& window, const PoseGuess& guess,
     const auto line = window.line(track.id);
     if (!line) continue;
     SeenLine seen{*line, track.edge.line.carriers(options_.sigma_floor_px)};
-    // What is not known of the line's place counts as if it were the image's.
+    // The uncertainty of the line's position is added to that of the image.
     Eigen::Matrix<double, 2, 4> J;
     const auto covariance = covariances_.find(track.id);
     if (covariance != covariances_.end() &&
@@ -134,7 +136,7 @@ PoseFromLines LineCue::pose(const SlidingWindow& window, const PoseGuess& guess,
   }
   const auto steered = compass_ ? with_heading(guess) : std::nullopt;
   PoseFromLinesOptions pose = options_.pose;
-  // With the rotation known, three lines are as much as six without.
+  // With a known rotation, three lines constrain the pose as well as six without.
   if (steered) pose.ransac.min_inliers = std::min(pose.ransac.min_inliers, 3);
   return estimate_pose_from_lines(calibration_.camera, lines, pose, random,
                                   steered ? &*steered : &guess);
@@ -178,7 +180,7 @@ void LineCue::observe(KeyframeId keyframe, const Frame& frame,
     tracker_.track(frame.image);
     T_odom_before_ = T_odom_last_;
   }
-  // The longer an edge will be seen, the more it tells.
+  // Prefer edges that will remain visible for longer, because they provide more information.
   SE3 T_later_now;
   for (int k = 0; k < options_.stay_frames; ++k)
     T_later_now = T_odom_last_.inverse() * T_odom_before_ * T_later_now;
@@ -204,7 +206,7 @@ void LineCue::observe(KeyframeId keyframe, const Frame& frame,
   for (const LineTrack& track : tracker_.tracks()) at_keyframe_[track.id] = track.edge.segment;
 }
 
-/// The newest sighting of each track, and of those that are known well enough a place.
+/// Adds the newest observation of each track, and triangulates tracks of sufficient accuracy.
 void LineCue::add_observations(KeyframeId keyframe, const std::map<LineId, LineInKeyframe>& all_now,
                                SlidingWindow& window) {
   const KeyframeId oldest = window.keyframes().front();
@@ -304,19 +306,19 @@ std::vector<DisparitySample> LineCue::disparity_samples(const SlidingWindow& win
                                                         const RectificationError& rectification) {
   constexpr std::size_t kViews = 4;
   std::vector<DisparitySample> samples;
-  std::set<LineId> heard;
+  std::set<LineId> used;
   for (const LineId id : window.lines()) {
     if (calibrated_.contains(id)) {
-      heard.insert(id);
+      used.insert(id);
     } else if (window.line_observations(id).size() >= kViews) {
       if (const auto sample =
               disparity_of_line(window, id, calibration_, rectification, options_.triangulation)) {
         samples.push_back(*sample);
-        heard.insert(id);
+        used.insert(id);
       }
     }
   }
-  calibrated_ = std::move(heard);
+  calibrated_ = std::move(used);
   return samples;
 }
 

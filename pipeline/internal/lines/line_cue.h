@@ -18,65 +18,66 @@
 
 namespace placegraph {
 
-/// The share of lines in motion memory: follows edges from frame to frame, poses a frame against
-/// the lines of the window, and gives keyframes' sightings to it, with second eyes where there is a
-/// right one or depth.
+/// Tracks edges from frame to frame, estimates the pose of a frame against the lines of the window,
+/// and adds the observations of keyframes to it, with a second camera if a right image or depth is
+/// available.
 class LineCue {
  public:
   LineCue(const LineCueOptions& options, const Calibration& calibration,
           const StereoMatcherOptions& stereo);
 
-  /// Follows all lines into an image taken at about `T_odom_cam`; those not in the window are
-  /// thought to lie at `depth`.
+  /// Tracks all lines into an image taken at about `T_odom_cam`; lines outside the window are
+  /// assumed to be at `depth`.
   void track(const Image& image, const SlidingWindow& window, const SE3& T_odom_cam, double depth);
   /// Pose of the newest image against the lines of the window.
   PoseFromLines pose(const SlidingWindow& window, const PoseGuess& guess, Random& random) const;
-  /// Tells where the newest image was taken. Lines that contradict it are no longer followed.
+  /// Sets the pose of the newest image. Lines that contradict it are dropped.
   void accept(const SlidingWindow& window, const SE3& T_odom_cam);
-  /// Detects new lines in the newest image, which is that of `keyframe`, and adds what it sees to
-  /// the window; lines with enough parallax become lines of the window. `rectification`: what the
-  /// two eyes, where there are two, are thought to be off by. `depth`: of what no line is beside.
+  /// Detects new lines in the newest image, which is that of `keyframe`, and adds all observations
+  /// to the window; lines with enough parallax become lines of the window. `rectification`:
+  /// estimated rectification error of a stereo pair. `depth`: depth of edges without a line nearby.
   void observe(KeyframeId keyframe, const Frame& frame, const RectificationError& rectification,
                double depth, SlidingWindow& window);
-  /// Rotation is seen by the directions that lines share, too: for a single eye without points,
-  /// which knows the place of few lines in a turn.
+  /// Enables rotation measurements from directions that lines share, for a monocular camera without
+  /// points, which has few triangulated lines during a rotation.
   void use_compass();
-  /// Begins with an image, or follows into it what was begun, while there is no window yet: nothing
-  /// is known of the motion. Edges that are new are followed from here on.
+  /// Starts with an image, or tracks into it the edges found so far, while there is no window yet
+  /// and the motion is unknown. New edges are tracked from here on.
   void wait(const Frame& frame, const SE3& T_odom_start);
-  /// Where the tracks are seen in the newest image.
+  /// Tracks in the newest image.
   LineView seen() const { return line_view(tracker_.tracks(), options_.sigma_floor_px); }
-  /// Adds what an earlier keyframe saw to the window: to begin with, in order of time.
+  /// Adds observations of an earlier keyframe to the window, for the initialization, in order of
+  /// time.
   void observe_earlier(KeyframeId keyframe, const LineView& seen, SlidingWindow& window);
-  /// Edges of the newest image, taken at T_odom_cam, with their lines where the window has them;
-  /// not described.
+  /// Edges of the newest image, taken at T_odom_cam, with their lines where the window contains
+  /// them; without descriptors.
   std::vector<LineFeature> features(const SlidingWindow& window, const SE3& T_odom_cam) const {
     return features_of_lines(calibration_.camera, tracker_.tracks(), window, T_odom_cam);
   }
-  /// Lines of the window as the newest image sees them.
+  /// Lines of the window in the coordinates of the newest image.
   std::vector<PlacedLine> placed(const SlidingWindow& window) const;
   /// Directions that several of the lines in the newest keyframe share, in the window's frame.
   std::vector<SharedDirection> shared_directions() const;
-  /// Lines along the way, at about `depth`, are never placed: their planes hold the way instead. A
-  /// camera that leaves the direction of such a line sees its plane turn, so what did not turn says
-  /// where the newest keyframe does not lie.
+  /// Constrains the direction of travel with lines along it at about `depth`, which are never
+  /// triangulated. If the camera moves away from the direction of such a line, the line's plane
+  /// rotates; a plane that has not rotated excludes positions of the newest keyframe.
   void hold_course(KeyframeId keyframe, double depth, SlidingWindow& window) const;
-  /// Disparities of lines of the window beside what the left eye's motion says of them, each line's
-  /// once.
+  /// Disparities of lines of the window, with their predictions from the motion of the left camera;
+  /// each line is used once.
   std::vector<DisparitySample> disparity_samples(const SlidingWindow& window,
                                                  const RectificationError& rectification);
-  /// What right eyes saw follows a better calibration.
+  /// Corrects the observations of the right camera after an update of the calibration.
   void revise_second_cameras(SlidingWindow& window, const RectificationError& before,
                              const RectificationError& now);
   /// Drops lines of the window that the newest keyframe contradicts.
   void prune(SlidingWindow& window);
-  /// Depths, in the newest image, of the lines of the window that it sees.
+  /// Depths, in the newest image, of the lines of the window observed in it.
   std::vector<double> depths(const SlidingWindow& window) const {
     return depths_of_lines(calibration_.camera, tracker_.tracks(), window, T_odom_last_);
   }
-  /// How far lines have moved across since the last keyframe [px].
+  /// Displacement of lines perpendicular to their direction since the last keyframe [px].
   std::vector<double> flow_px() const;
-  /// Lines of the window that are followed.
+  /// Number of tracked lines of the window.
   int followed(const SlidingWindow& window) const { return count_lines(tracker_.tracks(), window); }
   std::vector<FrameView::Line> view(const SlidingWindow& window, const SE3& T_odom_cam) const {
     return view_of_lines(calibration_.camera, tracker_.tracks(), window, T_odom_cam);
@@ -98,13 +99,13 @@ class LineCue {
   Calibration calibration_;
   LineTracker tracker_;
   std::optional<VanishingDirectionTracker> compass_;
-  SE3 T_odom_last_;                // of the newest image, once accepted
-  SE3 T_odom_before_;              // of the image before
-  LineObservations observations_;  // of live tracks
+  SE3 T_odom_last_;                // pose of the newest image, once accepted
+  SE3 T_odom_before_;              // pose of the previous image
+  LineObservations observations_;  // observations of current tracks
   std::map<LineId, LineSegment> at_keyframe_;
-  std::map<LineId, Eigen::Matrix4d> covariances_;  // of lines of the window
-  std::set<LineId> calibrated_;        // lines of the window whose disparity was given out
-  std::map<LineId, double> drift_px_;  // across, beyond what was predicted last
+  std::map<LineId, Eigen::Matrix4d> covariances_;  // covariances of lines of the window
+  std::set<LineId> calibrated_;                    // lines of the window whose disparity was used
+  std::map<LineId, double> drift_px_;  // perpendicular to the line, beyond the last prediction
 };
 
 }  // namespace placegraph

@@ -10,14 +10,15 @@
 
 namespace placegraph {
 
-/// What one keyframe saw of a line that is followed.
+/// Observation of a tracked line in one keyframe.
 struct LineInKeyframe {
   KeyframeId keyframe;
   ImageLine::Carriers seen;
-  std::optional<LineObservation::SecondCamera> second;  ///< by the right camera, or made from depth
+  /// In the right camera, or computed from depth.
+  std::optional<LineObservation::SecondCamera> second;
 };
 
-/// By id of the track, in order of the keyframes.
+/// Observations by id of the track, in order of the keyframes.
 using LineObservations = std::map<LineId, std::vector<LineInKeyframe>>;
 
 }  // namespace placegraph

@@ -8,7 +8,7 @@ namespace placegraph {
 LineSegment moved_segment(const Camera& camera, const LineSegment& seen,
                           const std::array<double, 2>& depths, const SE3& T_new_old,
                           double typical_depth) {
-  constexpr double kNear = 0.05;  // of the typical depth
+  constexpr double kNear = 0.05;  // share of the typical depth
   const double least = kNear * typical_depth;
   std::array<Eigen::Vector3d, 2> ends;
   for (std::size_t k = 0; k < 2; ++k) {

@@ -11,9 +11,9 @@
 
 namespace placegraph {
 
-/// Where a camera that has moved sees a segment whose ends lie at `depths` [m] along its axis. What
-/// comes nearer than a twentieth of `typical_depth` [m] is cut off; a segment of which nothing is
-/// left has no length.
+/// Projection of a segment, whose ends are at `depths` [m] along the optical axis, into a camera
+/// that has moved. The part nearer than a twentieth of `typical_depth` [m] is cut off; a segment of
+/// which no part remains has length zero.
 LineSegment moved_segment(const Camera& camera, const LineSegment& seen,
                           const std::array<double, 2>& depths, const SE3& T_new_old,
                           double typical_depth);
@@ -23,16 +23,16 @@ LineSegment moved_segment(const Camera& camera, const LineSegment& seen,
 std::vector<KnownDepth> known_depths(const Camera& camera, const std::vector<LineTrack>& tracks,
                                      const SlidingWindow& window, const SE3& T_odom_cam);
 
-/// Where tracks of the image taken at `T_odom_last` are expected in one taken at `T_odom_cam`.
+/// Parameters of the prediction of tracks from the image at `T_odom_last` to one at `T_odom_cam`.
 struct LinePrediction {
   SE3 T_odom_last, T_odom_cam;
-  double depth = 1;  ///< [m] of tracks that no line of the window is near
+  double depth = 1;  ///< depth of tracks without a nearby line of the window [m]
 };
 
-/// A segment for each track: the points at its ends, on its line of the window or as deep as the
-/// lines beside it, are moved. Tracks that are no line of the window drift on as they did:
-/// `drift_px` holds, by track, how far it moved across its direction beyond what was expected the
-/// last time.
+/// Predicts a segment for each track: the points at its ends are moved, on its line of the window
+/// or at the depth of neighbouring lines. Tracks that are no line of the window continue their
+/// drift: `drift_px` contains, by track, the last displacement across its direction beyond the
+/// prediction.
 std::vector<LineSegment> predict_segments(const Camera& camera,
                                           const std::vector<LineTrack>& tracks,
                                           const SlidingWindow& window,

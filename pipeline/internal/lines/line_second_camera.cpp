@@ -11,12 +11,13 @@ namespace {
 
 using SecondCamera = LineObservation::SecondCamera;
 
-/// Where the line through two pixels crosses a row; it must not run along the rows.
+/// Column at which the line through two pixels crosses a row; the line must not be parallel to the
+/// rows.
 double column_at(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double row) {
   return a.x() + (row - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
 }
 
-/// Of the depth of the line at a pixel, from the covariance of its place.
+/// Standard deviation of the depth of the line at a pixel, from the covariance of the line.
 double depth_sigma(const Camera& camera, const SE3& T_ref_cam, const TriangulatedLine& line,
                    const Eigen::Vector2d& px, double depth) {
   constexpr double kStep = 1e-6;
@@ -63,10 +64,11 @@ std::vector<std::optional<SecondCamera>> second_cameras(const Frame& frame,
         lookup_depth_along(frame.depth, calibration.camera, *calibration.depth, segments);
     for (std::size_t i = 0; i < depths.size(); ++i) {
       if (!depths[i]) continue;
-      const VirtualCamera eye =
+      const VirtualCamera virtual_camera =
           virtual_camera_from_depth(calibration.camera, segments[i], *depths[i]);
-      result[i] = {eye.second_in_cam, eye.seen.first, eye.seen.second,
-                   std::hypot(eye.seen.sigma_px, options.sigma_floor_px)};
+      result[i] = {virtual_camera.second_in_cam, virtual_camera.seen.first,
+                   virtual_camera.seen.second,
+                   std::hypot(virtual_camera.seen.sigma_px, options.sigma_floor_px)};
     }
   }
   return result;

@@ -7,14 +7,15 @@
 
 #include <vector>
 
-// What is asked of the lines that are followed in the newest image, taken at T_odom_cam. Lines of
-// the window are those that it holds by the id of the track.
+// Queries about the tracked lines of the newest image, taken at T_odom_cam. Lines of the window are
+// those that it contains under the id of the track.
 namespace placegraph {
 
-/// Segments and carriers of the tracks; no carrier is known better than `sigma_floor_px` across.
+/// Segments and carriers of the tracks; the standard deviation of a carrier across the line is at
+/// least `sigma_floor_px`.
 LineView line_view(const std::vector<LineTrack>& tracks, double sigma_floor_px);
 
-/// Depths [m] at the middles of the tracks that are lines of the window, as far as these lie before
+/// Depths [m] at the middles of the tracks that are lines of the window, if these are in front of
 /// the camera.
 std::vector<double> depths_of_lines(const Camera& camera, const std::vector<LineTrack>& tracks,
                                     const SlidingWindow& window, const SE3& T_odom_cam);
@@ -22,13 +23,13 @@ std::vector<double> depths_of_lines(const Camera& camera, const std::vector<Line
 /// Number of tracks that are lines of the window.
 int count_lines(const std::vector<LineTrack>& tracks, const SlidingWindow& window);
 
-/// The tracks with their residuals [px], where they are lines of the window: to be drawn.
+/// All tracks, with residuals [px] where they are lines of the window, for drawing.
 std::vector<FrameView::Line> view_of_lines(const Camera& camera,
                                            const std::vector<LineTrack>& tracks,
                                            const SlidingWindow& window, const SE3& T_odom_cam);
 
-/// Features of the tracks that lie in the image, in the camera's frame with their lines where the
-/// window has them; without descriptors.
+/// Features of the tracks in the image, in the camera's frame with their lines where the window
+/// contains them; without descriptors.
 std::vector<LineFeature> features_of_lines(const Camera& camera,
                                            const std::vector<LineTrack>& tracks,
                                            const SlidingWindow& window, const SE3& T_odom_cam);

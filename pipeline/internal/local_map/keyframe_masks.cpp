@@ -22,7 +22,7 @@ KeyframeImages KeyframeMasks::apply(const Frame& frame) {
   if (frame.mask.empty()) {
     images.frame.mask = use;
   } else {
-    images.frame.mask = Image();  // that of the caller must not change
+    images.frame.mask = Image();  // the caller's mask must not change
     cv::bitwise_and(frame.mask, use, images.frame.mask);
   }
   return images;

@@ -6,35 +6,36 @@
 
 namespace placegraph {
 
-/// A keyframe as the cues use it.
+/// A keyframe in the form used by the cues.
 struct KeyframeImages {
-  Frame frame;                                  ///< its mask leaves out what its labels say
-  Image given_mask;                             ///< the mask that it came with
-  std::shared_ptr<const SurfaceLabels> labels;  ///< of its surfaces; null: not labelled
-  /// 0 where the labels say that the frame shows no ground (CV_8UC1); empty where they say nothing.
+  Frame frame;       ///< its mask excludes pixels according to the labels
+  Image given_mask;  ///< original mask of the frame
+  std::shared_ptr<const SurfaceLabels> labels;  ///< labels of its surfaces; null: not labelled
+  /// 0 where the labels show that there is no ground (CV_8UC1); empty without such labels.
   Image ground() const { return labels ? labels->masks.ground : Image(); }
-  /// Whether labels have a part in the frame's mask.
+  /// Whether labels contributed to the frame's mask.
   bool masked_by_labels() const { return labels && !labels->masks.use.empty(); }
 };
 
-/// Labels the surfaces of keyframes, and masks what they say is not to be used: the sky, what may
-/// move. Without a model it leaves frames as they are.
+/// Labels the surfaces of keyframes, and masks those that must not be used: the sky and movable
+/// objects. Without a model, frames remain unchanged.
 class KeyframeMasks {
  public:
-  /// `times`, which must outlive it, receives the CPU time of labelling.
+  /// `times`, which must outlive the object, receives the CPU time of labelling.
   explicit KeyframeMasks(StageTimes& times) : times_(times) {}
-  /// `masks`: whether the labels mask anything.
+  /// Sets the model; `masks`: whether the labels are used as masks.
   void set_model(std::shared_ptr<const SurfaceLabeller> labeller, bool masks);
-  /// Whether labels are trusted to tell where motion may be measured.
+  /// Sets whether labels are trusted as masks for tracking.
   void trust(bool trusted) { trusted_ = trusted; }
-  /// A frame that becomes a keyframe, or may become one. The labels of the last frame are kept.
+  /// Masks a frame that becomes a keyframe, or may become one. The labels of the last frame are
+  /// cached.
   [[nodiscard]] KeyframeImages apply(const Frame& frame);
 
  private:
   StageTimes& times_;
   std::shared_ptr<const SurfaceLabeller> labeller_;
   bool masks_ = false, trusted_ = true;
-  std::shared_ptr<const SurfaceLabels> labels_;  // of the frame last labelled
+  std::shared_ptr<const SurfaceLabels> labels_;  // labels of the last labelled frame
 };
 
 }  // namespace placegraph

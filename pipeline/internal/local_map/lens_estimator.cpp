@@ -36,7 +36,8 @@ double LensEstimator::sigma_k1() const {
     squares += window.information * window.information;
     scatter += window.information * off * off;
   }
-  // A few of much information, turns among straight roads, are not many windows.
+  // A few windows with much information, such as curves between straight roads, do not count as
+  // many.
   const double windows = windows_.empty() ? 0 : information * information / squares;
   if (windows < kWindows) return std::numeric_limits<double>::infinity();
   return std::sqrt(std::max(1.0, scatter / (windows - 1)) / information);

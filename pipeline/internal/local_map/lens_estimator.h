@@ -10,17 +10,18 @@
 
 namespace placegraph {
 
-/// What is left of radial distortion in images that should have none, from bundle adjustment over
-/// windows that share no keyframe. Windows contradict each other by more than the noise of their
-/// points explains (a rolling shutter, points that move): the deviation comes from their scatter.
+/// Estimates the residual radial distortion of images that are expected to be undistorted, from
+/// bundle adjustment over windows that share no keyframe. Windows differ by more than the noise of
+/// their points explains (a rolling shutter, points that move): the standard deviation is computed
+/// from their dispersion.
 class LensEstimator {
  public:
-  /// Takes the evidence of a window, if its keyframes are all newer than those of the last one.
+  /// Adds the evidence of a window, if its keyframes are all newer than those of the last one.
   void observe(const SlidingWindow& window);
   void add(const DistortionEvidence& evidence);
-  /// The weighted mean of the windows; 0 before there are any.
+  /// Weighted mean over the windows; 0 before the first one.
   double k1() const;
-  /// Infinite before there are four windows of like weight.
+  /// Standard deviation of k1; infinite before there are four windows of similar weight.
   double sigma_k1() const;
   /// See LensDistortion::effect.
   double effect() const;
@@ -28,7 +29,7 @@ class LensEstimator {
 
  private:
   std::vector<DistortionEvidence> windows_;
-  std::optional<KeyframeId> newest_;  // keyframe of the last window
+  std::optional<KeyframeId> newest_;  // newest keyframe of the last window
 };
 
 }  // namespace placegraph

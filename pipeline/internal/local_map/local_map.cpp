@@ -95,8 +95,8 @@ LocalMap::Link LocalMap::link(KeyframeId id) const {
   return {motion_information(id, ++KeyframeId(id)), scale_drift()};
 }
 
-/// Of the unit of length (logarithm), from one keyframe to the next: half a window's worth, spread
-/// over its links. The landmarks that both halves see hold it.
+/// Drift of the scale (logarithm) from one keyframe to the next: half a window's worth, distributed
+/// over its links. The landmarks observed in both halves constrain it.
 double LocalMap::scale_drift() const {
   if (metric()) return 0;
   constexpr double kMost = 0.1;
@@ -110,7 +110,8 @@ double LocalMap::scale_drift() const {
 Matrix6d LocalMap::motion_information(KeyframeId from, KeyframeId to) const {
   Matrix6d information = relative_information(window_, from, to);
   if (metric()) return information;
-  // The prior's hold on the scale is arbitrary and common to all motions: no error of this one.
+  // The prior's constraint on the scale is arbitrary and common to all motions: no error of this
+  // one.
   const SE3 T_from_to = window_.pose(from).inverse() * window_.pose(to);
   const double length = T_from_to.translation().norm();
   if (!(length > 0)) return information;
@@ -142,7 +143,7 @@ PointLandmark LocalMap::describe(LandmarkId id) const {
 
 std::vector<PointLandmark> LocalMap::landmarks(std::size_t first) const {
   require(first <= past_landmarks_.size(),
-          "LocalMap::landmarks: those of the window have no order");
+          "LocalMap::landmarks: landmarks of the window have no order");
   std::vector<PointLandmark> result(past_landmarks_.begin() + static_cast<std::ptrdiff_t>(first),
                                     past_landmarks_.end());
   for (const LandmarkId id : window_.landmarks())

@@ -9,51 +9,51 @@
 
 namespace placegraph {
 
-/// Where the unit of length of a track segment comes from.
+/// Source of the scale of a track segment.
 enum class Scale {
   kMetric,    ///< stereo, depth, the camera's height, or another sensor
   kFromMap,   ///< frames that were recognized in the map
-  kGuessed,   ///< what is seen is taken to be as far away as what was seen before
-  kArbitrary  ///< nothing
+  kGuessed,   ///< the depth of the scene is assumed to be the same as before
+  kArbitrary  ///< no source
 };
 
-/// All lengths have grown: a position p of this track segment is now centre + factor (p - centre).
+/// Change of all lengths: a position p of this track segment is now centre + factor (p - centre).
 struct Rescale {
   double factor = 1;
   Eigen::Vector3d centre_odom = Eigen::Vector3d::Zero();
 };
 
-/// The keyframes and landmarks of one segment of uninterrupted tracking: those in the sliding
-/// window, and what is kept of those that left it. Landmarks of earlier segments are kept, too.
-/// Keyframe ids go on counting over all segments.
+/// The keyframes and landmarks of one track segment: those in the sliding window, and the retained
+/// data of those that left it. Landmarks of earlier segments are retained, too. Keyframe ids
+/// continue over all segments.
 class LocalMap {
  public:
-  static constexpr double kUnknownDepth = 10;  ///< median depth of a map with an arbitrary unit
+  static constexpr double kUnknownDepth = 10;  ///< median depth of a map with an arbitrary scale
 
   LocalMap(const SlidingWindowOptions& options, const Camera& camera, Scale scale);
 
-  /// Begins another segment. `median_depth`: of what it will see; nothing: as before.
+  /// Begins another segment. `median_depth`: its expected median depth; nothing: as before.
   void restart(Scale scale, const std::optional<double>& median_depth);
-  /// The next keyframe's id, and how far away things are, as another run left them.
+  /// Sets the next keyframe's id and the median depth to those at the end of another run.
   void go_on_from(KeyframeId next_keyframe, double median_depth);
 
   /// Adds a keyframe at T_odom_cam to the window; returns its id.
   KeyframeId add_keyframe(const SE3& T_odom_cam);
-  /// Takes back all keyframes and landmarks of this segment, as if they had never been added;
-  /// `median_depth`: that before them.
+  /// Removes all keyframes and landmarks of this segment, as if they had never been added;
+  /// `median_depth`: the value before them.
   void discard(double median_depth);
-  /// Optimizes the window; there is nothing to optimize about a single keyframe.
+  /// Optimizes the window; does nothing for a single keyframe.
   Outcome optimize();
-  /// Takes over the poses of the window. `depths`: of landmarks in the newest keyframe.
-  /// `rotations_corrected`: whether something beyond the window's keyframes (a Manhattan frame)
-  /// holds rotations; what the oldest keyframe was rotated by since the last call is then an error
-  /// of the motion between it and the keyframe before it, which has left the window.
+  /// Stores the poses of the window. `depths`: depths of landmarks in the newest keyframe.
+  /// `rotations_corrected`: whether rotations are constrained by more than the window's keyframes
+  /// (by a Manhattan frame); the rotation of the oldest keyframe since the last call is then an
+  /// error of the motion between it and the previous keyframe, which has left the window.
   void update_poses(const std::vector<double>& depths, bool rotations_corrected);
-  /// Reduces the window to its size. What is known of a keyframe's motion to the next is kept when
-  /// it leaves, as are the landmarks that leave with it.
+  /// Reduces the window to its size. The link from a keyframe to the next is stored when it leaves,
+  /// as are the landmarks that leave with it.
   void marginalize();
-  /// All lengths of the segment grow by `factor` about the oldest keyframe of the window; the scale
-  /// is metric from now on.
+  /// Multiplies all lengths of the segment by `factor`, about the oldest keyframe of the window;
+  /// the scale is metric from now on.
   Rescale rescale(double factor);
 
   Scale scale() const { return scale_; }
@@ -61,15 +61,15 @@ class LocalMap {
   void set_scale(Scale scale) { scale_ = scale; }
   double median_depth() const { return median_depth_; }
 
-  /// What is known of the motion between keyframes `id` and `id` + 1. Where the scale is not
-  /// metric, the motion's length counts as known in the unit of `id`, and `sigma_log_scale` is how
-  /// far the unit may have changed by `id` + 1.
+  /// Uncertainty of the motion between keyframes `id` and `id` + 1. If the scale is not metric, the
+  /// length of the motion is treated as known in the scale of `id`, and `sigma_log_scale` is the
+  /// standard deviation of the change of scale up to `id` + 1.
   struct Link {
     Matrix6d information = Matrix6d::Zero();  ///< right tangent of T_id_next
     double sigma_log_scale = 0;
   };
   Link link(KeyframeId id) const;
-  /// The same information of the motion between any two keyframes of the window, everything between
+  /// Information of the motion between any two keyframes of the window, with all keyframes between
   /// them marginalized.
   Matrix6d motion_information(KeyframeId from, KeyframeId to) const;
 
@@ -77,18 +77,19 @@ class LocalMap {
   SE3 pose(KeyframeId keyframe) const { return poses_.at(keyframe); }
   bool empty() const { return next_ == first_; }  ///< no keyframe in this segment yet
   KeyframeId first() const { return first_; }     ///< the segment's first keyframe
-  KeyframeId newest() const { return back(1); }   ///< its last one, if it is not empty
+  /// The segment's last keyframe, if it is not empty.
+  KeyframeId newest() const { return back(1); }
   /// The keyframe before the newest one; nothing if that is the first of the segment.
   std::optional<KeyframeId> before_newest() const {
     return back(2) < first_ ? std::nullopt : std::optional(back(2));
   }
-  /// The oldest keyframe of the window; nothing while there is none.
+  /// The oldest keyframe of the window; nothing if the window is empty.
   std::optional<KeyframeId> window_begin() const;
-  /// Points and lines of the window.
+  /// Number of points and lines of the window.
   int landmarks_in_window() const;
-  /// All landmarks of all segments, each relative to the keyframe that first saw it, from the
-  /// `first`-th on. Those that have left the window stand first (settled_landmarks()), and keep
-  /// their place.
+  /// All landmarks of all segments, each relative to the keyframe that first observed it, from
+  /// index `first` on. Those that have left the window come first (settled_landmarks()), and keep
+  /// their index.
   std::vector<PointLandmark> landmarks(std::size_t first = 0) const;
   std::size_t settled_landmarks() const { return past_landmarks_.size(); }
 
@@ -96,7 +97,7 @@ class LocalMap {
   const SlidingWindow& window() const { return window_; }
 
  private:
-  /// So many keyframes before the next one.
+  /// The id of the keyframe `keyframes` before the next one.
   KeyframeId back(int keyframes) const { return KeyframeId(next_.value() - keyframes); }
   PointLandmark describe(LandmarkId landmark) const;
   double scale_drift() const;
@@ -109,8 +110,8 @@ class LocalMap {
   double median_depth_ = kUnknownDepth;
   KeyframeId first_, next_;
   std::map<KeyframeId, SE3> poses_;
-  std::map<KeyframeId, Link> links_;           // of keyframes that left the window
-  std::vector<PointLandmark> past_landmarks_;  // that left the window
+  std::map<KeyframeId, Link> links_;           // links of keyframes that left the window
+  std::vector<PointLandmark> past_landmarks_;  // landmarks that left the window
 };
 
 }  // namespace placegraph

@@ -48,7 +48,7 @@ std::vector<Eigen::Vector2d> MetricScale::ground_outline_px() const {
   return ground_ ? ground_->outline_px() : std::vector<Eigen::Vector2d>();
 }
 
-/// What labels of surfaces and the edges of the newest keyframe say of the ground.
+/// Ground mask from surface labels and the edges of the newest keyframe.
 GroundMask MetricScale::ground_in(const KeyframeImages& images, const Cues& cues) const {
   GroundMask ground;
   if (cues.manhattan) ground = cues.manhattan->ground(ground_->outline_px());
@@ -63,7 +63,7 @@ GroundMask MetricScale::ground_in(const KeyframeImages& images, const Cues& cues
 
 std::optional<Rescale> MetricScale::measure_ground(const KeyframeImages& images, const Cues& cues,
                                                    LocalMap& map) {
-  constexpr double kAnyBaseline = 1e-6;  // while the unit of length is arbitrary
+  constexpr double kAnyBaseline = 1e-6;  // while the scale is arbitrary
   SlidingWindow& window = map.window();
   const KeyframeId current = map.newest();
   const bool known = map.metric();
@@ -104,13 +104,13 @@ std::optional<Rescale> MetricScale::measure_floor(const Cues& cues, LocalMap& ma
   constexpr std::int64_t kLong = 30;  // keyframes
   if (!measured && !known && current.value() - map.first().value() == kLong)
     log(log_, LogLevel::kWarning,
-        "no floor has given the unit in {} keyframes: camera_height_m is of no use so far, poses "
-        "wait for it",
+        "no floor was found in {} keyframes: camera_height_m has not provided a scale yet, and "
+        "poses are withheld",
         kLong);
   if (!measured) return std::nullopt;
   std::optional<Rescale> rescale;
   if (!known) rescale = map.rescale(measured->factor);
-  // The newest keyframe that is far enough away; the first one, to begin with.
+  // The newest keyframe that is far enough away; during initialization the first one.
   std::optional<KeyframeId> old;
   const Eigen::Vector3d here = window.pose(current).translation();
   for (const KeyframeId id : window.keyframes()) {
@@ -126,10 +126,12 @@ std::optional<Rescale> MetricScale::measure_floor(const Cues& cues, LocalMap& ma
   return rescale;
 }
 
-/// The length of the measured motion between two keyframes of the window, with its deviation.
+/// The length of the measured motion between two keyframes of the window, with its standard
+/// deviation.
 std::optional<DistanceObservation> MetricScale::measured_distance(KeyframeId from,
                                                                   KeyframeId to) const {
-  constexpr double kLeastKnown = 0.5;  // deviation over length: beyond it there is hardly a motion
+  // Standard deviation over length above which the motion is too uncertain.
+  constexpr double kLeastKnown = 0.5;
   const auto a = stamps_ns_.find(from), b = stamps_ns_.find(to);
   if (a == stamps_ns_.end() || b == stamps_ns_.end()) return std::nullopt;
   const auto motion = motion_->between(a->second, b->second);
@@ -143,8 +145,8 @@ std::optional<DistanceObservation> MetricScale::measured_distance(KeyframeId fro
   return DistanceObservation{from, to, length, sigma};
 }
 
-/// At first by the median over the window, which a burst of wheel slip does not move; afterwards
-/// each keyframe's motion from the last one is a distance of its own.
+/// The first scale is the median over the window, which a burst of wheel slip does not affect;
+/// afterwards each keyframe's motion from the last one is a distance constraint.
 std::optional<Rescale> MetricScale::measure_motion(LocalMap& map) {
   constexpr std::size_t kDistances = 5;
   SlidingWindow& window = map.window();

@@ -15,33 +15,34 @@
 
 namespace placegraph {
 
-/// Gives the map of a monocular camera its metric scale: from the ground plane or lines on the
-/// floor under a camera of known height, or from motion that another sensor measured. Until the
-/// scale is known, a measurement rescales the map; afterwards each one is a distance in the window.
+/// Estimates the metric scale of a monocular map: from the ground plane or lines on the floor under
+/// a camera of known height, or from motion measured by another sensor. Until the scale is known, a
+/// measurement rescales the map; afterwards each one is a distance constraint in the window.
 class MetricScale {
  public:
   explicit MetricScale(LogSink log) : log_(std::move(log)) {}
-  /// Ways to measure; any number of them may be used.
+  /// Enables a source of measurements; any number of sources may be used.
   void use_ground_plane(const GroundPlaneScaleOptions& options, const Camera& camera,
                         double height_m);
   void use_floor_lines(const FloorLineScaleOptions& options, const Camera& camera, double height_m);
   void use_motion(std::shared_ptr<const MeasuredMotion> motion_cam);
-  /// Whether anything measures the scale.
+  /// Whether any source is available.
   bool available() const { return ground_ || floor_ || motion_; }
   bool uses_ground_plane() const { return ground_.has_value(); }
   bool uses_floor_lines() const { return floor_.has_value(); }
-  /// Whether the ground lies where the camera's height says.
+  /// Sets whether the ground is assumed to be at the camera's height below the camera.
   void trust_height(bool trusted) { height_trusted_ = trusted; }
   void reset();
 
-  /// What the cues see in a keyframe; null: not among the cues, or not believed.
+  /// Cues of a keyframe; null: not among the cues, or not accepted.
   struct Cues {
     const LineCue* lines = nullptr;
     const ManhattanCue* manhattan = nullptr;
   };
-  /// Keeps a keyframe of the map, not the newest one, for later measurements.
+  /// Stores a keyframe of the map, not the newest one, for later measurements.
   void remember(KeyframeId keyframe, const Frame& frame);
-  /// Measures at the newest keyframe of the map. Returns how its lengths have grown, if they have.
+  /// Measures at the newest keyframe of the map. Returns the change of its lengths, if there is
+  /// one.
   std::optional<Rescale> measure(const KeyframeImages& images, const Cues& cues, LocalMap& map);
   /// Outline in the image of the ground plane that is measured; empty if there is none.
   std::vector<Eigen::Vector2d> ground_outline_px() const;
@@ -59,8 +60,8 @@ class MetricScale {
   std::optional<FloorLineScale> floor_;
   std::shared_ptr<const MeasuredMotion> motion_;
   bool height_trusted_ = true;
-  std::map<KeyframeId, std::int64_t> stamps_ns_;  // of the segment's keyframes
-  std::map<KeyframeId, Frame> frames_;            // of the window, where the ground is measured
+  std::map<KeyframeId, std::int64_t> stamps_ns_;  // time stamps of the segment's keyframes
+  std::map<KeyframeId, Frame> frames_;  // frames of the window, where the ground is measured
 };
 
 }  // namespace placegraph

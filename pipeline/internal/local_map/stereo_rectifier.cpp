@@ -6,8 +6,9 @@ namespace placegraph {
 namespace {
 
 struct InverseDepthFromMotion {
-  double value;             // [1/m]
-  double root_information;  // its inverse times the deviation of a ray [rad] is that of the value
+  double value;  // [1/m]
+  // Its inverse times the standard deviation of a ray [rad] is that of the value.
+  double root_information;
 };
 
 /// The inverse depth of the newest observation along its ray, by least squares over the pixels of
@@ -17,7 +18,7 @@ std::optional<InverseDepthFromMotion> from_motion(
     const std::vector<WindowObservation>& observations, const Eigen::Vector3d& ray) {
   const WindowObservation& newest = observations.back();
   const SE3 T_odom_newest = window.pose(newest.keyframe);
-  // Of X = ray + w t, each pixel m of another view says X.x - m.x X.z = 0 and X.y - m.y X.z = 0.
+  // With X = ray + w t, each pixel m of another view gives X.x - m.x X.z = 0 and X.y - m.y X.z = 0.
   double cc = 0, cd = 0;
   for (const WindowObservation& other : observations) {
     const auto seen = camera.unproject(other.px);
@@ -47,7 +48,7 @@ StereoRectifier::StereoRectifier(const RectificationOptions& options,
       sigma_disparity_px_(sigma_disparity_px),
       estimator_(options) {}
 
-/// Nothing where the motion does not tell the disparity to twice its own noise.
+/// Nothing if the motion predicts the disparity less accurately than to twice its own noise.
 std::optional<DisparitySample> StereoRectifier::sample(const SlidingWindow& window,
                                                        LandmarkId landmark) const {
   const auto& observations = window.observations(landmark);

@@ -11,18 +11,19 @@
 
 namespace placegraph {
 
-/// Calibrates the rectification of a stereo camera while it moves. Landmarks that have been tracked
-/// for a few keyframes tell, once each, how far their disparity is from what the motion of the left
-/// camera says of their depth.
+/// Estimates the rectification error of a stereo camera in motion. Each landmark that has been
+/// tracked for a few keyframes provides one sample: the difference between its disparity and the
+/// disparity predicted from the motion of the left camera.
 class StereoRectifier {
  public:
-  /// `sigma_track_px`: of a track in one image; `sigma_disparity_px`: of a disparity.
+  /// `sigma_track_px`: standard deviation of a track in one image; `sigma_disparity_px`: standard
+  /// deviation of a disparity.
   StereoRectifier(const RectificationOptions& options, const Calibration& calibration,
                   double sigma_track_px, double sigma_disparity_px);
 
   RectificationError error() const { return estimator_.error(); }
-  /// Learns from the landmarks of the window, and of `lines` if it is given, and corrects all
-  /// disparities in the window by what it has learnt.
+  /// Updates the estimate with the landmarks of the window, and with `lines` if given, and corrects
+  /// all disparities in the window accordingly.
   void calibrate(SlidingWindow& window, LineCue* lines);
 
  private:
@@ -32,7 +33,7 @@ class StereoRectifier {
   Camera camera_;
   double baseline_m_, sigma_track_px_, sigma_disparity_px_;
   RectificationEstimator estimator_;
-  std::set<LandmarkId> used_;  // landmarks of the window that have been samples
+  std::set<LandmarkId> used_;  // landmarks of the window that have been used as samples
 };
 
 }  // namespace placegraph

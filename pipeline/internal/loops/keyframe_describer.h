@@ -9,21 +9,21 @@
 
 namespace placegraph {
 
-/// A keyframe as place recognition and loop verification see it.
+/// Features of a keyframe for place recognition and loop verification.
 struct DescribedKeyframe {
   KeyframeId keyframe;
   FrameId frame;
   std::vector<Feature> features;
-  std::vector<LineFeature> lines;  ///< not those of a map that was read
+  std::vector<LineFeature> lines;  ///< empty for keyframes of a loaded map
   LoopView for_verification() const { return {features, lines}; }
 };
 
-/// The greatest depth of a feature, in the keyframe's unit; 0 without any.
+/// The greatest depth of a feature, in the keyframe's scale; 0 without features.
 double farthest_depth(const DescribedKeyframe& keyframe);
-/// All lengths of the keyframe times `factor`.
+/// Multiplies all lengths of the keyframe by `factor`.
 void rescale(DescribedKeyframe& keyframe, double factor);
 
-/// Makes of an image what loops are found by: features with descriptors, their depth, and
+/// Computes the features by which loops are found: points with descriptors and depth, and
 /// descriptors of lines.
 class KeyframeDescriber {
  public:
@@ -31,15 +31,17 @@ class KeyframeDescriber {
                     const Calibration& calibration);
 
   const Camera& camera() const { return calibration_.camera; }
-  /// Features of a frame; those that the depth image covers have their point in the camera's frame
+  /// Features of a frame; those covered by the depth image have their point in the camera's frame
   /// [m].
   std::vector<Feature> features(const Frame& frame) const;
-  /// The same with lines that the odometry follows there; their descriptors are made here.
+  /// The same with lines that the odometry tracks in the frame; their descriptors are computed
+  /// here.
   DescribedKeyframe describe(KeyframeId keyframe, const Frame& frame,
                              std::vector<LineFeature> lines) const;
-  /// Depth by parallax between neighbours, the same way for one camera and for two: of the features
-  /// that both see, where the rays meet at 0.7 degrees or more and within 2 px. A feature of the
-  /// previous keyframe keeps the depth it has. Does nothing if the calibration has a depth sensor.
+  /// Computes depth from the parallax between consecutive keyframes, in the same manner for
+  /// monocular and stereo cameras, for features observed in both whose rays meet at 0.7 degrees or
+  /// more and within 2 px. A feature of the previous keyframe that has a depth keeps it. Does
+  /// nothing if the calibration has a depth sensor.
   void triangulate(DescribedKeyframe& previous, DescribedKeyframe& current,
                    const SE3& T_previous_current) const;
 

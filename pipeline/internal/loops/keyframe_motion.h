@@ -9,28 +9,28 @@
 
 namespace placegraph {
 
-/// How two keyframes lie to each other by odometry, and the length of the path between them.
+/// Relative pose of two keyframes by odometry, and the path length between them.
 struct TrackedMotion {
   SE3 T_a_b;
-  double path_length = 0;  ///< in the unit of the run of tracking
+  double path_length = 0;  ///< in the scale of the track segment
 };
 
-/// How two keyframes lie to each other by the map, loops and all.
+/// Relative pose of two keyframes according to the map, including loops.
 struct PredictedMotion {
   Sim3 S_a_b;
   Matrix7d covariance = Matrix7d::Zero();  ///< in its right tangent; over SE(3) without the last
-  double path_length = 0;  ///< of the shortest path along links and loops, in b's unit
+  double path_length = 0;  ///< length of the shortest path along links and loops, in b's scale
 };
 
-/// Of keyframes a and b; nothing where no unbroken run of tracking joins the two.
+/// Motion between keyframes a and b; nothing if they are in different track segments.
 using MotionBetween = std::function<std::optional<TrackedMotion>(KeyframeId a, KeyframeId b)>;
 
-/// What is asked about two keyframes while revisits are sought; without an answer to give, nothing
-/// is checked by it.
+/// Sources of relative poses during loop detection; a check whose source is empty is skipped.
 struct KnownMotions {
   MotionBetween odometry;
   std::function<std::optional<PredictedMotion>(KeyframeId a, KeyframeId b)> map;
-  /// Whether the two have scales of their own, so that a loop between them must tell their ratio.
+  /// Whether the two keyframes have different scales, so that a loop between them must estimate the
+  /// ratio.
   std::function<bool(KeyframeId a, KeyframeId b)> scale_differs;
 };
 

@@ -24,7 +24,7 @@ LoopCloser::LoopCloser(const LoopOptions& options, const Calibration& calibratio
     : LoopCloser(options, calibration, seed) {
   for (const Keyframe& keyframe : map.keyframes) {
     require(views_.empty() || views_.back().keyframe < keyframe.id,
-            "LoopCloser: the map's keyframes must stand in the order of their ids");
+            "LoopCloser: the map's keyframes must be in the order of their ids");
     database_.add(keyframe.id, keyframe.features);
     views_.push_back({keyframe.id, keyframe.frame, keyframe.features, {}});
   }
@@ -46,10 +46,10 @@ void LoopCloser::add_view(KeyframeId keyframe, const Frame& frame,
   views_.push_back(std::move(view));
 }
 
-/// Older views that look like the newest one, the most similar first.
+/// Older views similar to the newest one, the most similar first.
 std::vector<LoopCloser::Candidate> LoopCloser::retrieve() const {
   const View& query = views_.back();
-  // Without a keyframe before there is nothing that similarity could be a share of.
+  // Without a previous keyframe there is no reference for the similarity.
   const double similarity_to_last =
       views_.size() < 2 ? 0
                         : database_.similarity(query.features, views_[views_.size() - 2].keyframe);
@@ -63,7 +63,7 @@ std::vector<LoopCloser::Candidate> LoopCloser::retrieve() const {
   return candidates;
 }
 
-/// The relative pose of the newest view and an older one by their features.
+/// The relative pose of the newest view and an older one from their features.
 std::optional<Loop> LoopCloser::verify(const View& match, bool free_scale,
                                        LoopRecord& record) const {
   const View& query = views_.back();
@@ -81,8 +81,8 @@ std::optional<Loop> LoopCloser::verify(const View& match, bool free_scale,
               options_.information_scale * verified.information, verified.scale_match_query};
 }
 
-/// The loop to a candidate if it passes all tests but that of support; the record's stage is the
-/// test that decided.
+/// The loop to a candidate if it passes all tests except support; the record's stage is the
+/// deciding test.
 std::optional<Loop> LoopCloser::judge(const Candidate& candidate, const KnownMotions& known,
                                       double median_depth_m, LoopRecord& record) const {
   const KeyframeId match = candidate.match->keyframe, query = views_.back().keyframe;
@@ -121,7 +121,7 @@ void LoopCloser::accept(const Pending& pending, std::vector<Loop>& accepted) {
   accepted.push_back(pending.loop);
 }
 
-/// The newest loop, which waits among pending_, and those that agree with it, if any does.
+/// The newest loop, which is in pending_, and those that agree with it, if there are any.
 std::vector<Loop> LoopCloser::support(const MotionBetween& odometry, double median_depth_m) {
   std::vector<Loop> accepted;
   const Pending& found = pending_.back();
@@ -148,7 +148,7 @@ std::vector<Loop> LoopCloser::find_loops(const KnownMotions& known, double media
     const std::optional<Loop> loop = judge(candidate, known, median_depth_m, record);
     record.probability = loop_probability(record);
     records_.push_back(record);
-    if (record.stage == LoopStage::kRetrieval) break;  // the rest is less similar still
+    if (record.stage == LoopStage::kRetrieval) break;  // the remaining candidates are less similar
     if (!loop) continue;
     pending_.push_back({*loop, records_.size() - 1, views_.size()});
     accepted = support(known.odometry, median_depth_m);
@@ -180,7 +180,7 @@ std::optional<LocatedFrame> LoopCloser::relocalize(const Frame& frame,
                              static_cast<std::uint64_t>(id.value()));
     const LoopVerification verified = verify_loop(
         describer_.camera(), features, view(id).for_verification(), options_.verifier, random);
-    // No second loop stands beside this one: two views and a few depths are not enough.
+    // No second loop supports this one: two views and a few depths are insufficient.
     if (verified.outcome && verified.model == LoopModel::kPoints3d2d)
       return LocatedFrame{id, verified.T_match_query,
                           options_.information_scale * verified.information};
@@ -191,7 +191,7 @@ std::optional<LocatedFrame> LoopCloser::relocalize(const Frame& frame,
 void LoopCloser::rescale(double factor, KeyframeId first_keyframe) {
   for (View& view : views_)
     if (view.keyframe >= first_keyframe) placegraph::rescale(view, factor);
-  // Loops measured in the old unit may not meet those of the new one.
+  // Loops measured with the old scale must not be compared with those of the new one.
   pending_.clear();
   for (LoopRecord& record : records_)
     for (const View& view : views_)

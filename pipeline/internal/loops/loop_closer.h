@@ -13,45 +13,45 @@
 
 namespace placegraph {
 
-/// Place recognition: keeps described keyframes, finds revisits by appearance, verifies them by
-/// geometry, and lets one into the graph only when a second, independent one agrees with it.
+/// Place recognition: stores described keyframes, detects revisits by appearance, verifies them by
+/// geometry, and accepts a loop only when a second, independent one agrees with it.
 class LoopCloser {
  public:
   LoopCloser(const LoopOptions& options, const Calibration& calibration, std::uint64_t seed);
-  /// One that knows the keyframes of a map: `relocalize` tells where frames stand in it, as on the
-  /// way back.
+  /// Loads the keyframes of a map, so that `relocalize` locates frames in it, for example when the
+  /// path is travelled back.
   LoopCloser(const LoopOptions& options, const Calibration& calibration, std::uint64_t seed,
              const Map& map);
 
   using View = DescribedKeyframe;
 
-  /// Describes a keyframe. `T_previous_this`, if there is a predecessor in the same run of
-  /// tracking, gives depth to the features both see. `lines`: those that the odometry follows
-  /// there; their descriptors are made here.
+  /// Describes a keyframe. `T_previous_this`, if there is a predecessor in the same track segment,
+  /// is used to compute the depth of features observed in both. `lines`: those that the odometry
+  /// tracks in the frame; their descriptors are computed here.
   void add_view(KeyframeId keyframe, const Frame& frame, const std::optional<SE3>& T_previous_this,
                 std::vector<LineFeature> lines = {});
-  /// Revisits that the newest view completes.
+  /// Returns the loops that the newest view completes.
   std::vector<Loop> find_loops(const KnownMotions& known, double median_depth_m);
-  /// Where a frame stands relative to a known keyframe. The last views are tried first: most losses
-  /// are short.
+  /// Pose of a frame relative to a known keyframe. The last views are tried first, because most
+  /// losses are short.
   std::optional<LocatedFrame> relocalize(const Frame& frame, std::size_t last_views = 3) const;
-  /// The same with these keyframes tried first.
+  /// The same with the keyframes `tries` tried first.
   std::optional<LocatedFrame> relocalize(const Frame& frame, std::vector<KeyframeId> tries) const;
 
   const std::vector<View>& views() const { return views_; }
   const std::vector<LoopRecord>& records() const { return records_; }
-  /// Of a view, by the vocabulary as it stands; it is another one after every training.
+  /// Appearance of a view in the current vocabulary; it changes with every training.
   const Appearance& appearance(KeyframeId keyframe) const { return database_.appearance(keyframe); }
   std::size_t trained_views() const { return database_.trained_views(); }
-  /// The scale of the map became known: depths of all features grow with it.
+  /// Multiplies depths of all features by `factor` when the scale of the map has become known.
   void rescale(double factor, KeyframeId first_keyframe);
 
  private:
   struct Candidate {
     const View* match;
-    double similarity;  // to the newest view, as a share of that to the keyframe before it
+    double similarity;  // relative to the similarity of the keyframe before the newest view
   };
-  struct Pending {  // a loop that has passed all gates
+  struct Pending {  // loop that has passed all gates
     Loop loop;
     std::size_t record, view;
   };
@@ -67,7 +67,7 @@ class LoopCloser {
   KeyframeDescriber describer_;
   std::uint64_t seed_;
   PlaceDatabase database_;
-  std::vector<View> views_;  // by ascending keyframe
+  std::vector<View> views_;  // in ascending order of keyframes
   std::vector<LoopRecord> records_;
   std::deque<Pending> pending_;
 };

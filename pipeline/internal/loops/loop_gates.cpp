@@ -34,7 +34,7 @@ bool within_drift(const Loop& loop, const TrackedMotion& odometry, double median
                           options);
   if (free_scale) {
     if (std::abs(std::log(loop.scale_match_query)) > most.log_scale) return false;
-    // A scale that changed underway leaves a round trip open by a share of its length.
+    // A scale that changed during a round trip leaves it open by a share of its length.
     most.length += std::abs(std::expm1(std::log(loop.scale_match_query))) * odometry.path_length;
   }
   return difference.translation().norm() <= most.length &&
@@ -44,7 +44,7 @@ bool within_drift(const Loop& loop, const TrackedMotion& odometry, double median
 bool within_covariance(const Loop& loop, const PredictedMotion& predicted, double median_depth_m,
                        const LoopOptions& options) {
   constexpr double kChi2 = 22.46;  // 6 degrees of freedom, 99.9 %
-  constexpr double kSigmas = 3;    // what drifts at most, in standard deviations
+  constexpr double kSigmas = 3;    // maximum drift in standard deviations
   const Vector7d error = (predicted.S_a_b.inverse() * loop.S_match_query()).log();
   const Drift most = drift_over(predicted.path_length, predicted.S_a_b.translation().norm(),
                                 median_depth_m, options);
@@ -67,7 +67,7 @@ bool within_covariance(const Loop& loop, const PredictedMotion& predicted, doubl
 bool agree(const Loop& a, const Loop& b, const TrackedMotion& queries, const TrackedMotion& matches,
            double median_depth_m, const LoopOptions& options) {
   const Sim3 predicted = Sim3(matches.T_a_b.inverse()) * a.S_match_query() * Sim3(queries.T_a_b);
-  // In the query's unit, as the median depth is.
+  // In the query's scale, as the median depth.
   const Sim3 difference = predicted.inverse() * b.S_match_query();
   const double path_length = queries.path_length + matches.path_length / predicted.scale();
   return difference.translation().norm() <

@@ -7,7 +7,7 @@
 namespace placegraph {
 namespace {
 
-// By LoopStage, as tests/bench/loop_probability_study prints them.
+// One per LoopStage, as printed by tests/bench/loop_probability_study.
 constexpr std::array<double, kLoopStageCount> kConstants = {0,    -6.85, -1.25, 1.16,
                                                             1.23, 0.11,  2.03};
 constexpr double kPerLogSimilarity = 6.53, kPerLogAgreeing = 0.54;
@@ -15,7 +15,7 @@ constexpr double kPerLogSimilarity = 6.53, kPerLogAgreeing = 0.54;
 }  // namespace
 
 LoopFeatures loop_features(const LoopRecord& record) {
-  // Beyond these bounds hardly a candidate was seen, and nothing is known.
+  // Almost no candidate of the fit was outside these bounds.
   constexpr double kLeastSimilarity = 0.03, kMostSimilarity = 2;
   const bool posed = record.stage >= LoopStage::kDrift;
   return {record.stage,

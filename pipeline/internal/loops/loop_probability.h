@@ -3,18 +3,19 @@
 
 namespace placegraph {
 
-/// How probable it is that query and match of a record show one place, by the stage that decided,
-/// how similar the views are, and how many points and lines agree with one pose: a logistic model
-/// whose coefficients were fitted to candidates of rendered drives whose truth is known
-/// (docs/places.md, tests/bench/loop_probability_study).
+/// Probability that query and match of a record show the same place, from the stage that decided,
+/// the similarity of the views, and the number of points and lines that agree with one pose. It is
+/// a logistic model whose coefficients were fitted to candidates of rendered drives with ground
+/// truth (docs/place_graph.md, tests/bench/loop_probability_study).
 double loop_probability(const LoopRecord& record);
 
-/// What the model sees of a record.
+/// Inputs of the model.
 struct LoopFeatures {
   LoopStage stage = LoopStage::kRetrieval;
-  /// Within bounds. Once a relative pose has been found, similarity tells nothing more: 0.
+  /// Logarithm of the similarity, within bounds; 0 once a relative pose has been found, because
+  /// similarity then carries no further information.
   double log_similarity = 0;
-  double log_agreeing = 0;  ///< of one and the points and lines that agree
+  double log_agreeing = 0;  ///< logarithm of one plus the number of points and lines that agree
 };
 LoopFeatures loop_features(const LoopRecord& record);
 

@@ -7,7 +7,7 @@
 namespace placegraph {
 namespace {
 
-/// Of a place's pose; nothing where the graph does not hold it, or is over similarities.
+/// Covariance of a place's pose; nothing if the graph does not contain it, or is over similarities.
 std::optional<Matrix6d> covariance_of(const PlaceGraph& places, PlaceId place) {
   const PoseGraph graph = places.pose_graph();
   if (graph.kind() != PoseKind::kSE3) return std::nullopt;
@@ -16,33 +16,34 @@ std::optional<Matrix6d> covariance_of(const PlaceGraph& places, PlaceId place) {
   return Matrix6d(marginals.covariance(node_of_place(place)));
 }
 
-void place_frame(const Map& map, const FrameRecord& record, Explanation& told) {
+void place_frame(const Map& map, const FrameRecord& record, Explanation& explanation) {
   const Keyframe& keyframe = *map.find_keyframe(record.keyframe.value());
   const Place& place = *map.place_graph.find(keyframe.place);
   const Sim3 S_map_keyframe = map.S_map_keyframe(keyframe.id);
   const Sim3 S_map_cam = S_map_keyframe * Sim3(*record.T_keyframe_frame);
-  told.posed = true;
-  told.keyframe = keyframe.id;
-  told.place = place.id;
-  told.labels = place.labels;
+  explanation.posed = true;
+  explanation.keyframe = keyframe.id;
+  explanation.place = place.id;
+  explanation.labels = place.labels;
   const auto position = std::find_if(map.place_graph.places.begin(), map.place_graph.places.end(),
                                      [&](const Place& other) { return other.id == place.id; });
-  told.component =
+  explanation.component =
       map.place_graph
           .joined_components()[static_cast<std::size_t>(position - map.place_graph.places.begin())];
-  told.T_map_cam = SE3(S_map_cam.rotation(), S_map_cam.translation());
-  told.way_to_keyframe = S_map_keyframe.scale() * record.T_keyframe_frame->translation().norm();
+  explanation.T_map_cam = SE3(S_map_cam.rotation(), S_map_cam.translation());
+  explanation.way_to_keyframe =
+      S_map_keyframe.scale() * record.T_keyframe_frame->translation().norm();
   if (const auto of_place = covariance_of(map.place_graph, place.id)) {
-    const Matrix6d to_cam = (told.T_map_cam.inverse() * place.T_map_place).adjoint();
-    told.covariance = to_cam * *of_place * to_cam.transpose();
+    const Matrix6d to_cam = (explanation.T_map_cam.inverse() * place.T_map_place).adjoint();
+    explanation.covariance = to_cam * *of_place * to_cam.transpose();
   }
-  told.features = static_cast<int>(keyframe.features.size());
-  told.features_placed = static_cast<int>(
+  explanation.features = static_cast<int>(keyframe.features.size());
+  explanation.features_placed = static_cast<int>(
       std::count_if(keyframe.features.begin(), keyframe.features.end(),
                     [](const Feature& feature) { return feature.point_cam.has_value(); }));
   for (const RelativePoseConstraint& constraint : map.place_graph.constraints)
     if (place_of_node(constraint.from) == place.id || place_of_node(constraint.to) == place.id)
-      ++told.constraints[to_string(constraint.source)];
+      ++explanation.constraints[to_string(constraint.source)];
 }
 
 }  // namespace
@@ -52,23 +53,23 @@ std::optional<Explanation> explain_frame(const Map& map, FrameId frame) {
       std::lower_bound(map.frames.begin(), map.frames.end(), frame,
                        [](const FrameRecord& r, FrameId id) { return r.frame < id; });
   if (record == map.frames.end() || record->frame != frame) return std::nullopt;
-  Explanation told;
-  told.frame = record->frame;
-  told.stamp_ns = record->stamp_ns;
-  told.inliers = record->inliers;
+  Explanation explanation;
+  explanation.frame = record->frame;
+  explanation.stamp_ns = record->stamp_ns;
+  explanation.inliers = record->inliers;
   FrameId frame_of_keyframe = frame;
   if (record->T_keyframe_frame) {
-    place_frame(map, *record, told);
+    place_frame(map, *record, explanation);
     frame_of_keyframe = map.find_keyframe(*record->keyframe)->frame;
   }
   const auto about = [&](FrameId other) { return other == frame || other == frame_of_keyframe; };
   for (const LoopRecord& loop : map.loops) {
     if (loop.accepted() && (about(loop.query_frame) || about(loop.match_frame)))
-      told.loops.push_back(loop);
+      explanation.loops.push_back(loop);
     else if (about(loop.query_frame))
-      told.refused.push_back(loop);
+      explanation.refused.push_back(loop);
   }
-  return told;
+  return explanation;
 }
 
 }  // namespace placegraph

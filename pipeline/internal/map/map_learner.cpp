@@ -6,7 +6,7 @@ namespace placegraph {
 
 namespace {
 
-/// What any two views have in common: the median over pairs that are far from each other.
+/// Similarity of any two views: the median over pairs that are far from each other.
 double common_similarity(const std::vector<PlaceView>& views, const PlaceCueOptions& cues) {
   constexpr std::size_t kSamples = 100;
   const std::size_t half = views.size() / 2;
@@ -23,7 +23,7 @@ StoredMap learn_map(std::size_t count, const std::function<Image(std::size_t)>& 
                     std::int64_t first, const MapLearnerOptions& options) {
   options.check();
   constexpr std::size_t kFewest = 10;
-  require(count >= kFewest, "a map needs ten images or more: " + std::to_string(count));
+  require(count >= kFewest, "a map requires at least ten images: " + std::to_string(count));
   std::vector<PlaceView> views;
   for (std::size_t i = 0; i < count; ++i)
     views.push_back(describe_place(image(i), options.cues, false));

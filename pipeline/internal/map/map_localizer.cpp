@@ -12,7 +12,7 @@
 
 namespace placegraph {
 
-/// The map, its views for recognition, and the tests of an answer.
+/// The map, its views for recognition, and the tests of a match.
 struct MapLocalizer::Impl {
   Impl(const LocalizerOptions& options, StoredMap stored);
   std::vector<Localization> localize(std::size_t count, const Frames& frames, bool sequence) const;
@@ -34,9 +34,9 @@ struct MapLocalizer::Impl {
   StoredMap stored_;
   bool in_colour_ = false;
   PlaceRecognizer recognizer_;
-  std::vector<int> keyframes_;                      ///< of the views, indices in the map's
-  int lag_ = 1;                                     ///< views so far apart look like any others
-  std::set<std::pair<PlaceId, PlaceId>> adjacent_;  ///< places
+  std::vector<int> keyframes_;  ///< indices of the views' keyframes in the map
+  int lag_ = 1;                 ///< distance of views whose similarity is that of any others
+  std::set<std::pair<PlaceId, PlaceId>> adjacent_;  ///< pairs of places connected by an edge
   std::optional<LoopCloser> closer_;
 };
 
@@ -68,7 +68,7 @@ MapLocalizer::Impl::Impl(const LocalizerOptions& options, StoredMap stored)
   constexpr int kFewest = 10;
   require(recognizer_.size() >= kFewest, "map: " + std::to_string(recognizer_.size()) + " views; " +
                                              std::to_string(kFewest) +
-                                             " are needed to tell places apart");
+                                             " are needed to distinguish places");
   in_colour_ = !recognizer_.view(0).colour.empty();
   learn_near();
   const auto has_depth = [](const Keyframe& keyframe) {
@@ -80,7 +80,7 @@ MapLocalizer::Impl::Impl(const LocalizerOptions& options, StoredMap stored)
     closer_.emplace(options_.loops, *stored_.origin.calibration, 0, stored_.map);
 }
 
-/// Why the features of an image cannot be compared with the map's; empty if they can.
+/// Reason why the features of an image cannot be compared with the map's; empty if they can.
 std::string MapLocalizer::Impl::why_no_features(const Image& grey) const {
   if (!closer_) return "the map has no camera or no features of known depth, or geometry is off";
   const Camera& camera = stored_.origin.calibration->camera;
@@ -107,8 +107,8 @@ void MapLocalizer::Impl::learn_near() {
   lag_ = lag_of_similarity();
 }
 
-/// By how many views two must be apart to look no more alike than any two: where three quarters of
-/// what neighbours have in common beyond that are gone.
+/// Number of views between two whose similarity is that of any two: the distance at which three
+/// quarters of the additional similarity of neighbours are lost.
 int MapLocalizer::Impl::lag_of_similarity() const {
   constexpr int kSamples = 40, kLongest = 50;
   constexpr double kRest = 0.25;
@@ -143,8 +143,9 @@ std::vector<ViewEvidence> MapLocalizer::Impl::evidence(
                   : lone_evidence(lists, views);
 }
 
-/// What the map's own views are answered: kept from all that is near them, or from themselves.
-/// Nothing if they all look alike, or are of one place: that tells not how wrong answers look.
+/// Calibrates with the map's own views: matches without all views nearby are wrong, those without
+/// only the view itself are right. Nothing if all views are similar or in one place, because they
+/// then provide no examples of wrong matches.
 std::optional<RecognitionProbability> MapLocalizer::Impl::odds(bool sequence) const {
   const int views = recognizer_.size();
   // Some stretches of a long map, as a sequence needs neighbours.
@@ -211,7 +212,7 @@ std::vector<Localization> MapLocalizer::Impl::localize(std::size_t count, const 
   std::vector<ViewEstimate> answers;
   for (const ViewEvidence& of_image : evidence(lists, sequence))
     answers.push_back(answer_of(of_image, near, [](int) { return true; }));
-  // As far as the filter looks.
+  // The range of the filter.
   const int reach =
       sequence ? static_cast<int>(std::lround(1 / (1 - options_.sequence.memory))) : 0;
   const auto calibration = odds(sequence);
@@ -239,8 +240,8 @@ std::optional<LocatedFrame> MapLocalizer::Impl::verify(
   return closer_->relocalize(frame, std::move(tries));
 }
 
-/// Features agree with a pose by chance once in a thousand images, or less; what whole views say
-/// counts beside that, for the same place or against another.
+/// Features agree with a pose by chance at most once in a thousand images; the probability from
+/// whole views is combined with that, for the same place or against another.
 void MapLocalizer::Impl::take_geometry(const LocatedFrame& located, Localization& result) const {
   constexpr double kOddsOfVerified = 1000, kSurest = 1 - 1e-9;
   const Keyframe& match = *stored_.map.find_keyframe(located.match);

@@ -8,19 +8,19 @@ void LocalizerOptions::check() const {
 }
 
 void visit(OptionVisitor& field, LocalizerOptions& o) {
-  field.group("recognizer", o.recognizer, "likeness of two views");
-  field.group("sequence", o.sequence, "evidence of the images around");
-  field("min_probability", o.min_probability, "of an answer", {0.5, 1});
+  field.group("recognizer", o.recognizer, "appearance comparison of two views");
+  field.group("sequence", o.sequence, "combination of the evidence of neighbouring images");
+  field("min_probability", o.min_probability, "minimum probability of a placed image", {0.5, 1});
   field("calibration_views", o.calibration_views,
-        "views of the map that tell how wrong answers look, at most", {10, 1e6});
-  field("geometry", o.geometry, "verify by features where the map has their depth");
+        "maximum number of map keyframes used to calibrate probabilities", {10, 1e6});
+  field("geometry", o.geometry, "verify by features where the map contains their depth");
 }
 
 void MapLearnerOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, MapLearnerOptions& o) {
-  field.group("cues", o.cues, "what tells places apart, and how much each counts");
-  field("similar", o.similar, "share of what neighbours have in common, below which a place ends",
+  field.group("cues", o.cues, "descriptors that distinguish places, and their weights");
+  field("similar", o.similar, "share of the similarity of neighbours below which a place ends",
         {0, 1});
 }
 
@@ -28,7 +28,7 @@ void PlaceLabelOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, PlaceLabelOptions& o) {
   field("min_probability", o.min_probability,
-        "mean over a place's views, below which it stays without label", {0, 1});
+        "minimum mean probability over a place's views for a label", {0, 1});
 }
 
 }  // namespace placegraph

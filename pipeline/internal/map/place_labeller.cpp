@@ -14,12 +14,12 @@ std::vector<PlaceLabel> label_places(const Map& map, const PlaceClassifier& clas
   };
   std::unordered_map<PlaceId, Votes> votes;
   for (const Keyframe& keyframe : map.keyframes) {
-    const Eigen::VectorXd told = classifier.classify(describe_for_classes(image_of(keyframe)));
+    const Eigen::VectorXd predicted = classifier.classify(describe_for_classes(image_of(keyframe)));
     Votes& of_place = votes[keyframe.place];
     if (of_place.views++ == 0)
-      of_place.probabilities = told;
+      of_place.probabilities = predicted;
     else
-      of_place.probabilities += told;
+      of_place.probabilities += predicted;
   }
   std::vector<PlaceLabel> labels;
   for (const Place& place : map.place_graph.places) {

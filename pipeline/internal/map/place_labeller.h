@@ -9,17 +9,17 @@
 
 namespace placegraph {
 
-/// What a classifier says of a place.
+/// Classification of a place.
 struct PlaceLabel {
   PlaceId place;
-  std::optional<int> label;  ///< nothing: none is probable enough
-  double probability = 0;    ///< of the likeliest, mean over its views
+  std::optional<int> label;  ///< nothing: no label is probable enough
+  double probability = 0;    ///< mean probability of the most probable label over the views
   int views = 0;
 };
 
-/// Which of the learned places each place of a map is: its views vote, each with its probabilities.
-/// `image_of` hands over a keyframe's image, grey or in colour as those the classifier was trained
-/// with. By place, in the map's order.
+/// Classifies each place of a map as one of the learned places: its views vote, each with its
+/// probabilities. `image_of` returns a keyframe's image, grey or in colour as in the training of
+/// the classifier. Results are in the map's order of places.
 std::vector<PlaceLabel> label_places(const Map& map, const PlaceClassifier& classifier,
                                      const std::function<Image(const Keyframe&)>& image_of,
                                      const PlaceLabelOptions& options = {});

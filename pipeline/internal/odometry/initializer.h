@@ -3,23 +3,24 @@
 
 namespace placegraph {
 
-/// What a frame did for the beginning of a map.
+/// Result of processing a frame during initialization.
 struct Initialization {
-  /// kTracking: the map has begun. kInitializing: another frame is needed. kLost: what was waited
-  /// for has been lost, and the frame is nothing to begin with either.
+  /// kTracking: the map has begun. kInitializing: another frame is needed. kLost: the first view
+  /// has been lost, and the frame cannot replace it.
   TrackingState state = TrackingState::kInitializing;
-  Outcome outcome;                ///< why not, or why with another first view
-  std::optional<SE3> T_last_cur;  ///< velocity to go on with; nothing if the frame is the first
+  Outcome outcome;  ///< reason why the map has not begun, or why the first view was replaced
+  std::optional<SE3> T_last_cur;  ///< initial velocity; nothing if the frame is the first
   int inliers = 0;
   std::vector<NewKeyframe> keyframes;
-  std::vector<PosedFrame> posed;  ///< frames between them
-  bool is_reference = false;      ///< while it waits: the frame is the first of the views ...
-  SE3 T_odom_reference;           ///< ... and stands here
-  /// While it waits: rotation since the first view, or, if the frame has taken its place, since the
-  /// one before it.
+  std::vector<PosedFrame> posed;  ///< frames between the keyframes
+  bool is_reference = false;      ///< during initialization: the frame is the first of the views
+  SE3 T_odom_reference;           ///< pose of the first view, if `is_reference`
+  /// During initialization: rotation since the first view, or, if the frame replaced it, since the
+  /// previous first view.
   std::optional<PureRotation> rotation;
 
-  /// The same as an update of the odometry; the pose of a map that has begun is still missing.
+  /// Converts the result to an update of the odometry; the pose of a map that has begun is still
+  /// missing.
   OdometryUpdate update() const;
   static Initialization waiting(Outcome outcome) {
     Initialization result;
@@ -41,20 +42,20 @@ inline OdometryUpdate Initialization::update() const {
   return update;
 }
 
-/// What a motion without a length leaves open.
+/// Outcome if no measurement makes the scale of the map observable.
 inline Outcome no_scale_of_map() {
-  return Outcome::failure(Outcome::Code::kDegenerate, "nothing gives the map's unit");
+  return Outcome::failure(Outcome::Code::kDegenerate, "the scale of the map is unobservable");
 }
 
 /// Begins a map: adds its first keyframes and landmarks, or nothing.
 class Initializer {
  public:
   virtual ~Initializer() = default;
-  /// The next frame is the first, and stands at T_odom_cam.
+  /// Restarts; the next frame is the first, with pose T_odom_cam.
   virtual void restart(const SE3& T_odom_cam) = 0;
-  /// Whether a first view has been taken since.
+  /// Whether a first view has been taken since the restart.
   virtual bool started() const = 0;
-  /// `T_odom_cam_known`: where the frame stands, if it was recognized in the map.
+  /// Processes the next frame. `T_odom_cam_known`: its pose, if it was recognized in the map.
   [[nodiscard]] virtual Initialization add(const Frame& frame,
                                            const std::optional<SE3>& T_odom_cam_known,
                                            LocalMap& map, LocalMapping& mapping) = 0;

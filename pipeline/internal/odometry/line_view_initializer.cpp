@@ -8,7 +8,7 @@
 namespace placegraph {
 namespace {
 
-/// Some of `n` views, the first and the last among them, evenly spaced.
+/// At most `most` of `n` views, evenly spaced, including the first and the last.
 std::vector<std::size_t> spread(std::size_t n, std::size_t most) {
   const std::size_t count = std::min(n, most);
   std::vector<std::size_t> chosen;
@@ -16,7 +16,7 @@ std::vector<std::size_t> spread(std::size_t n, std::size_t most) {
   return chosen;
 }
 
-/// Of a segment: its first keyframe has number 0.
+/// Id of the n-th keyframe of a segment; its first keyframe has number 0.
 KeyframeId nth_keyframe(const LocalMap& map, std::size_t n) {
   return KeyframeId(map.first().value() + static_cast<std::int64_t>(n));
 }
@@ -37,13 +37,13 @@ void LineViewInitializer::restart(const SE3& T_odom_cam) {
   views_.clear();
 }
 
-/// The frame is the first view.
+/// Takes the frame as the first view.
 Initialization LineViewInitializer::begin(const Frame& frame) {
   LineCue& lines = *tracker_.lines();
   lines.wait(frame, T_odom_start_);
   LineView seen = lines.seen();
   if (static_cast<int>(seen.size()) < options_.min_lines) {
-    lines.reset();  // a dark or empty frame is nothing to begin with
+    lines.reset();  // a dark or empty frame cannot be the first view
     return Initialization::waiting(Outcome::failure(
         Outcome::Code::kTooFewData,
         fmt::format("{} lines to follow, {} needed to begin", seen.size(), options_.min_lines)));
@@ -68,7 +68,7 @@ Initialization LineViewInitializer::add(const Frame& frame, const std::optional<
     if (result.state == TrackingState::kLost) lines = before;
     return result;
   }
-  // While the camera stands still, a view more tells nothing more.
+  // While the camera stands still, additional views provide no information.
   if (views_.size() > kMostViews) views_.erase(views_.begin() + 1);
   const Initialization waits = Initialization::waiting(
       Outcome::failure(Outcome::Code::kTooFewData, "waits for more views of the lines"));
@@ -105,7 +105,7 @@ LineInitialization LineViewInitializer::motion_of_views(std::uint64_t frame) con
   return initialize_from_lines(camera_, lines, options_, random);
 }
 
-/// Of the lines placed in the first view's frame, as it sees them.
+/// Depths of the triangulated lines in the first view.
 std::vector<double> LineViewInitializer::depths_of(const LineInitialization& start) const {
   std::vector<double> depths;
   const LineView& first = views_.front().lines;
@@ -117,8 +117,8 @@ std::vector<double> LineViewInitializer::depths_of(const LineInitialization& sta
   return depths;
 }
 
-/// What the unit translation from the first to the last view is worth in the map; arbitrary until
-/// the floor shows it. Nothing: the map's unit will be told by a view that is recognized.
+/// Length in the map of the unit translation from the first to the last view; arbitrary until the
+/// floor provides the scale. Nothing if the scale of the map requires a recognized view.
 std::optional<double> LineViewInitializer::scale_of(double median_depth,
                                                     const std::optional<SE3>& T_known,
                                                     const LocalMap& map,
@@ -131,12 +131,12 @@ std::optional<double> LineViewInitializer::scale_of(double median_depth,
   return LocalMap::kUnknownDepth / median_depth;
 }
 
-/// The chosen views become keyframes of the map, with their lines; none do, and the answer is
-/// false, if the bundle adjustment does not know how they lie to each other.
+/// Adds the chosen views as keyframes with their lines; adds none and returns false if the bundle
+/// adjustment does not determine their relative poses.
 bool LineViewInitializer::add_keyframes(const std::vector<std::size_t>& chosen,
                                         const LineInitialization& start, double scale,
                                         double median_depth, LocalMap& map, LocalMapping& mapping) {
-  constexpr int kRounds = 2;  // lines that do not fit are left out of the second
+  constexpr int kRounds = 2;  // outliers are not used in the second round
   LineCue& lines = *tracker_.lines();
   const LineCue before = lines;
   const double depth_before = map.median_depth();
@@ -151,7 +151,7 @@ bool LineViewInitializer::add_keyframes(const std::vector<std::size_t>& chosen,
   for (int round = 0; round < kRounds && enough(); ++round) mapping.refine(tracker_, map);
   if (enough() && motion_is_known(chosen, start, map)) return true;
   map.discard(depth_before);
-  lines = before;  // lines that contradict a wrong start may still be good
+  lines = before;  // lines that contradict a wrong initialization may still be valid
   return false;
 }
 
@@ -159,11 +159,12 @@ bool LineViewInitializer::motion_is_known(const std::vector<std::size_t>& chosen
                                           const LineInitialization& start,
                                           const LocalMap& map) const {
   constexpr double kMostRotatedRad = 0.01;
-  constexpr double kLeastKnown = 0.02;  // of the ratio of two lengths (logarithm)
+  // Maximum standard deviation of the ratio of two lengths (logarithm).
+  constexpr double kLeastKnown = 0.02;
   const SlidingWindow& window = map.window();
   const KeyframeId middle = nth_keyframe(map, chosen.size() / 2);
-  // Rotations and translations that look alike are told apart by the directions, which the bundle
-  // adjustment must not contradict.
+  // Similar effects of rotations and translations are distinguished by the directions, which the
+  // bundle adjustment must not contradict.
   const SO3 R_odom_last = T_odom_start_.rotation() * start.T_ref_view[chosen.back()].rotation();
   const double rotated_rad =
       (R_odom_last.inverse() * window.pose(map.newest()).rotation()).log().norm();
@@ -178,7 +179,7 @@ Initialization LineViewInitializer::accept(const std::vector<std::size_t>& chose
     for (std::size_t i = 0; i + 1 < chosen.size(); ++i)
       mapping.scale().remember(nth_keyframe(map, i), views_[chosen[i]].frame);
     const Frame& newest = views_.back().frame;
-    mapping.measure_scale({newest, newest.mask, nullptr}, tracker_, map);  // not announced yet
+    mapping.measure_scale({newest, newest.mask, nullptr}, tracker_, map);  // not reported yet
     mapping.refine(tracker_, map);
   }
   Initialization begun;
@@ -196,7 +197,7 @@ Initialization LineViewInitializer::accept(const std::vector<std::size_t>& chose
   return begun;
 }
 
-/// Views that are no keyframes lie as they did to the keyframe before them.
+/// Views between keyframes keep their pose relative to the previous keyframe.
 std::vector<PosedFrame> LineViewInitializer::views_between(const std::vector<std::size_t>& chosen,
                                                            const LineInitialization& start,
                                                            const LocalMap& map) const {
@@ -214,13 +215,13 @@ std::vector<PosedFrame> LineViewInitializer::views_between(const std::vector<std
   return posed;
 }
 
-/// Too few lines of the first view are left: this frame takes its place.
+/// Replaces the first view by this frame when too few lines of the first view remain.
 Initialization LineViewInitializer::replace_reference(const Frame& frame,
                                                       const std::optional<SE3>& T_known,
                                                       const LocalMap& map) {
   const Outcome outcome =
       Outcome::failure(Outcome::Code::kTooFewData,
-                       "too few lines of the first view are left before others told the motion");
+                       "too few lines of the first view are left to estimate the motion");
   tracker_.lines()->reset();
   views_.clear();
   if (map.scale() == Scale::kFromMap && !T_known) {

@@ -4,12 +4,12 @@
 
 namespace placegraph {
 
-/// Begins the map of a monocular camera that tracks lines without points: with several views, since
-/// two views of lines say nothing of the motion between them. Where too few lines of the first view
-/// are left, another one takes its place.
+/// Begins the map of a monocular camera that tracks lines without points, with several views,
+/// because two views of lines do not constrain the motion between them. When too few lines of the
+/// first view are still tracked, a newer view replaces it.
 class LineViewInitializer : public Initializer {
  public:
-  /// `tracker`, which must outlive it, follows lines.
+  /// `tracker` must outlive the initializer and track lines.
   LineViewInitializer(const OdometryOptions& options, const Calibration& calibration,
                       std::uint64_t seed, FeatureTracker& tracker, LogSink log);
 
@@ -45,7 +45,8 @@ class LineViewInitializer : public Initializer {
   std::uint64_t seed_;
   FeatureTracker& tracker_;
   LogSink log_;
-  SE3 T_odom_restart_, T_odom_start_;  // of the first frame of all, and of the first view
+  // Poses of the first frame after the restart and of the first view.
+  SE3 T_odom_restart_, T_odom_start_;
   std::vector<View> views_;
 };
 

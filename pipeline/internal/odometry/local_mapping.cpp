@@ -31,7 +31,7 @@ LocalMapping::LocalMapping(const OdometryOptions& options, const Calibration& ca
   if (stereo && options.rectification.enabled)
     rectifier_.emplace(options.rectification, calibration, options.points.tracker.sigma_px,
                        options.stereo.sigma_disparity_px);
-  // Two images at once would show distortion as an error of their rectification.
+  // Stereo pairs would show distortion as an error of their rectification.
   if (calibration.baseline_m == 0 && parse_cues(options.cues).points)
     lens_window_ = static_cast<std::size_t>(options.window.max_keyframes) + 1;
 }
@@ -77,7 +77,7 @@ void LocalMapping::refine(FrameTracker& tracker, LocalMap& map) {
   tracker.settle(map);
 }
 
-/// A single keyframe shows nothing of the cameras.
+/// A single keyframe provides no information on the cameras.
 void LocalMapping::calibrate(FrameTracker& tracker, LocalMap& map) {
   SlidingWindow& window = map.window();
   const std::size_t keyframes = window.keyframes().size();

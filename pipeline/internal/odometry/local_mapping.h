@@ -7,27 +7,27 @@
 
 namespace placegraph {
 
-/// Turns frames into keyframes of the local map and keeps the map at its optimum: measures its
-/// scale, calibrates the cameras, and marginalizes what leaves the window.
+/// Adds frames as keyframes to the local map and keeps the map optimized: measures its scale,
+/// calibrates the cameras, and marginalizes keyframes that leave the window.
 class LocalMapping {
  public:
-  /// `times`, which must outlive it, receives the CPU time of its stages.
+  /// `times`, which must outlive the object, receives the CPU time of its stages.
   LocalMapping(const OdometryOptions& options, const Calibration& calibration, std::uint64_t seed,
                LogSink log, StageTimes& times);
 
   struct Added {
     NewKeyframe keyframe;
     std::vector<PosedFrame> posed_again;  ///< frames since the keyframe before it
-    std::optional<Rescale> rescale;       ///< the scale became known
+    std::optional<Rescale> rescale;       ///< set when the scale became known
   };
-  /// Makes a frame that is posed at T_odom_cam a keyframe; nothing if it shows nothing to be one
-  /// by.
+  /// Makes a frame with pose T_odom_cam a keyframe; nothing if the frame lacks the observations for
+  /// a keyframe.
   std::optional<Added> add(const Frame& frame, const SE3& T_odom_cam, FrameTracker& tracker,
                            LocalMap& map);
-  /// Optimizes the window, removes what does not fit, and reduces the window to its size.
+  /// Optimizes the window, removes outliers, and reduces the window to its size.
   void refine(FrameTracker& tracker, LocalMap& map);
-  /// Measures the scale at the newest keyframe, if anything measures it. Returns how lengths have
-  /// grown.
+  /// Measures the scale at the newest keyframe, if a measurement is available. Returns the change
+  /// of lengths.
   std::optional<Rescale> measure_scale(const KeyframeImages& images, FrameTracker& tracker,
                                        LocalMap& map);
 
@@ -35,7 +35,7 @@ class LocalMapping {
   MetricScale& scale() { return scale_; }
   const MetricScale& scale() const { return scale_; }
   const LensEstimator& lens() const { return lens_; }
-  /// What holds in the surroundings; nothing: all that the options ask for.
+  /// Sets the assumptions about the environment; nothing: all cues of the options are used.
   void assume(const std::optional<Assumptions>& assumptions);
 
  private:
@@ -47,8 +47,9 @@ class LocalMapping {
   StageTimes& times_;
   KeyframeMasks masks_;
   MetricScale scale_;
-  std::optional<StereoRectifier> rectifier_;  // of a stereo camera
-  std::optional<std::size_t> lens_window_;    // keyframes of a window that shows lens distortion
+  std::optional<StereoRectifier> rectifier_;  // only for a stereo camera
+  // Number of keyframes of a window that reveals lens distortion.
+  std::optional<std::size_t> lens_window_;
   LensEstimator lens_;
 };
 

@@ -33,7 +33,7 @@ OdometryUpdate Odometry::track(const Frame& frame) {
   Random random(seed_, static_cast<std::uint64_t>(frame.id.value()));
   OdometryUpdate update;
 
-  // 1. Pose the frame against the local map, from where the motion model expects it.
+  // 1. Pose the frame against the local map, starting at the prediction of the motion model.
   TrackedFrame tracked = tracker_->track(frame, map_, motion_, random);
   if (!tracked.outcome)
     if (const auto last = tracker_->keyframe_to_retry_from();
@@ -49,7 +49,7 @@ OdometryUpdate Odometry::track(const Frame& frame) {
   }
   motion_.update(tracked.T_odom_cam);
 
-  // 2. Where enough is new, the frame becomes a keyframe, and the map learns of it.
+  // 2. If it shows enough new content, the frame becomes a keyframe and is added to the map.
   if (tracked.keyframe_due && add_keyframe(frame, tracked.T_odom_cam, update))
     motion_.correct(map_.pose(map_.newest()));
   if (update.rescale) motion_.rescale_velocity(update.rescale->factor);
@@ -93,7 +93,7 @@ void Odometry::set_motion(std::shared_ptr<const MeasuredMotion> motion_cam) {
 }
 
 void Odometry::set_scene(std::shared_ptr<const SurfaceLabeller> labeller, bool masks) {
-  // Surfaces that are followed by their intensities alone are not masked.
+  // Surfaces that are tracked by their intensities alone are not masked.
   if (!parse_cues(options_.cues).surfaces_alone())
     mapping_.masks().set_model(std::move(labeller), masks);
 }

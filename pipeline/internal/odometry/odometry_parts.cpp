@@ -13,7 +13,8 @@ LocalMap make_local_map(const OdometryOptions& options, const Calibration& calib
   const Scale scale = scale_at_start(options, calibration, false, false);
   SlidingWindowOptions window = options.window;
   if (measured) window.scale_drift = options.scale_drift;
-  // The scale of a monocular map is handed on by where the window lies: it needs the prior's hold.
+  // A monocular map passes its scale on through the pose of the window, which the prior must
+  // constrain.
   if (scale == Scale::kMetric) window.hold_oldest = true;
   return LocalMap(window, calibration.camera, scale);
 }
@@ -32,9 +33,9 @@ TrackerAndInitializer make_tracker(const OdometryOptions& options, const Calibra
   require(calibration.camera.distortion == Distortion::kNone,
           "calibration.camera: undistorted images needed (rectify them first)");
   require(!cues.surfaces_alone() || metric,
-          "cues: surfaces without points need a right eye, depth or the camera's height");
+          "cues: surfaces without points require a right camera, depth or the camera's height");
   require(!cues.direct || metric || calibration.camera_height_m,
-          "cues: direct needs a right eye, depth or the camera's height");
+          "cues: direct requires a right camera, depth or the camera's height");
   TrackerAndInitializer parts;
   if (cues.surfaces_alone()) {
     parts.tracker = std::make_unique<DirectTracker>(options, calibration, seed, log, times);

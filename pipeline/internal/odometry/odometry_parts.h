@@ -10,18 +10,18 @@ namespace placegraph {
 LocalMap make_local_map(const OdometryOptions& options, const Calibration& calibration,
                         bool measured);
 
-/// Where the scale of a track segment comes from before it has begun. `in_known_map`: from frames
-/// that are recognized; `depth_known`: or from how far away things were before.
+/// Source of the scale of a track segment before it begins. `in_known_map`: scale from recognized
+/// frames; `depth_known`: or from the previous depth of the scene.
 Scale scale_at_start(const OdometryOptions& options, const Calibration& calibration,
                      bool in_known_map, bool depth_known);
 
-/// How frames are tracked, and how a map begins: by the cues that the options name and the sensors
-/// that the calibration has.
+/// The frame tracker and the map initializer for the selected cues and the sensors of the
+/// calibration.
 struct TrackerAndInitializer {
   std::unique_ptr<FrameTracker> tracker;
   std::unique_ptr<Initializer> initializer;  ///< refers to the tracker
 };
-/// Throws ArgumentError if the cues need a sensor that is not there, or images are distorted.
+/// Throws ArgumentError if the cues need a sensor that is missing, or if images are distorted.
 /// `times`, which must outlive both, receives the CPU time of their stages.
 TrackerAndInitializer make_tracker(const OdometryOptions& options, const Calibration& calibration,
                                    std::uint64_t seed, const LogSink& log, StageTimes& times);

@@ -43,7 +43,7 @@ Initialization TwoViewInitializer::add(const Frame& frame, const std::optional<S
 }
 
 std::string TwoViewInitializer::too_few_points() const {
-  return fmt::format("{} points of the first view are left, {} needed to tell the motion",
+  return fmt::format("{} points of the first view are left, {} needed to estimate the motion",
                      tracker_.points().tracks().size(), 2 * options_.initializer.min_points);
 }
 
@@ -54,14 +54,14 @@ TwoViewInitializer::View TwoViewInitializer::view_of(FrameId frame) const {
   return view;
 }
 
-/// The frame, whose image the tracker has, is the first view.
+/// Takes the frame, whose image the tracker has processed, as the first view.
 Initialization TwoViewInitializer::begin(const Frame& frame, LocalMapping& mapping) {
   PointCue& points = tracker_.points();
   const KeyframeImages images = mapping.masks().apply(frame);
   points.detect(images.frame.mask, images.masked_by_labels(), images.given_mask);
   const int tracks = static_cast<int>(points.tracks().size());
   if (tracks < 2 * options_.initializer.min_points) {
-    points.drop_tracks();  // a dark or empty frame is nothing to begin with
+    points.drop_tracks();  // a dark or empty frame cannot be the first view
     return Initialization::waiting(Outcome::failure(
         Outcome::Code::kTooFewData, fmt::format("{} points to track, {} needed to begin", tracks,
                                                 2 * options_.initializer.min_points)));
@@ -99,8 +99,8 @@ Initialization TwoViewInitializer::try_second_view(const Frame& frame,
   return accept(frame, start, *scale, random, map, mapping);
 }
 
-/// Some views between the first and the newest one judge the motion, as tracks of the newest;
-/// however long the camera stood still, a few are enough.
+/// Some views between the first and the newest one, used to test the motion, with tracks of the
+/// newest; a few are sufficient for any waiting time.
 std::vector<PartialView> TwoViewInitializer::views_between() const {
   constexpr std::size_t kJudges = 16;
   std::map<LandmarkId, int> index;
@@ -126,9 +126,9 @@ MonoInitialization TwoViewInitializer::motion_to_newest(Random& random) const {
   return initialize_mono(camera_, px_ref, px_cur, views_between(), options_.initializer, random);
 }
 
-/// What the unit translation of the two views is worth in the map. Where nothing tells, things are
-/// taken to be as far away as the map has them. Nothing: the map's unit will be told by a view that
-/// is recognized.
+/// Length in the map of the unit translation between the two views. Without a measurement, the
+/// depth of the scene is assumed to be that of the map. Nothing if the scale of the map requires a
+/// recognized view.
 std::optional<double> TwoViewInitializer::scale_of(const MonoInitialization& start,
                                                    const std::optional<SE3>& T_known,
                                                    const LocalMap& map,
@@ -164,7 +164,7 @@ Initialization TwoViewInitializer::accept(const Frame& frame, const MonoInitiali
   if (mapping.scale().available()) {
     mapping.scale().remember(ref, reference_.frame);
     tracker_.observe_directions(newest.frame.image, map);
-    mapping.measure_scale(newest, tracker_, map);  // nobody has been told of these keyframes yet
+    mapping.measure_scale(newest, tracker_, map);  // these keyframes have not been reported yet
     mapping.refine(tracker_, map);
   }
 
@@ -172,7 +172,7 @@ Initialization TwoViewInitializer::accept(const Frame& frame, const MonoInitiali
   begun.state = TrackingState::kTracking;
   begun.keyframes = {{ref, reference_.frame, reference_.labels},
                      {cur, newest.frame, newest.labels}};
-  begun.posed = std::move(rotated_);  // poses by points, which follow, are better
+  begun.posed = std::move(rotated_);  // poses from points, which follow, are more accurate
   for (PosedFrame& posed : pose_views_between(map, random)) begun.posed.push_back(std::move(posed));
   const double steps = static_cast<double>(views_.size() - 1);
   begun.T_last_cur =
@@ -186,7 +186,7 @@ Initialization TwoViewInitializer::accept(const Frame& frame, const MonoInitiali
   return begun;
 }
 
-/// By the points that they share with the map's two keyframes.
+/// Poses the views between the map's two keyframes from points shared with them.
 std::vector<PosedFrame> TwoViewInitializer::pose_views_between(const LocalMap& map,
                                                                Random& random) const {
   const SlidingWindow& window = map.window();
@@ -208,13 +208,13 @@ std::vector<PosedFrame> TwoViewInitializer::pose_views_between(const LocalMap& m
   return posed;
 }
 
-/// The second view is still to come; until then a frame stands where its rotation puts it.
+/// Handles a frame before the second view is found: its pose is that of its rotation.
 Initialization TwoViewInitializer::wait(const Frame& frame, Outcome outcome, Random& random) {
   Initialization result = Initialization::waiting(std::move(outcome));
   result.rotation = tracker_.rotation_since(views_.front().px, random);
   if (!result.rotation) return result;
   rotated_.emplace_back(frame.id, T_odom_start_ * SE3(result.rotation->R_before_cam, {0, 0, 0}));
-  // However long the camera stands: these views are posed, and few judges are enough.
+  // Limit for a stationary camera: these views are posed, and a few are sufficient for the test.
   constexpr std::size_t kMostViews = 64;
   if (views_.size() > kMostViews) {
     std::set<FrameId> posed;
@@ -225,7 +225,7 @@ Initialization TwoViewInitializer::wait(const Frame& frame, Outcome outcome, Ran
   return result;
 }
 
-/// Too few points of the reference are left: this frame takes its place.
+/// Replaces the reference by this frame when too few points of the reference remain.
 Initialization TwoViewInitializer::replace_reference(const Frame& frame,
                                                      const std::optional<SE3>& T_known,
                                                      const std::optional<PureRotation>& rotation,
@@ -243,20 +243,20 @@ Initialization TwoViewInitializer::replace_reference(const Frame& frame,
   if (rotation)
     rotated_.emplace_back(reference, T_odom_before);
   else
-    rotated_.clear();  // they were posed from what is left behind
+    rotated_.clear();  // their poses depend on the old reference
   T_odom_start_ = T_odom_restart_;
   if (T_known) {
     T_odom_start_ = *T_known;
   } else if (rotation) {
     T_odom_start_ = T_odom_before * SE3(rotation->R_before_cam, Eigen::Vector3d::Zero());
-    // What would tell the map's unit is out of view.
+    // The part of the map that would provide the scale is out of view.
     if (map.scale() == Scale::kFromMap) map.set_scale(Scale::kGuessed);
   }
   tracker_.points().track(frame.image);
   Initialization result = begin(frame, mapping);
   result.rotation = rotation;
   if (result.outcome.reason.empty()) result.outcome = outcome;
-  if (!result.is_reference) {  // nothing to go on from: what comes next stands anywhere
+  if (!result.is_reference) {  // the next frames have no known pose
     result.rotation.reset();
     rotated_.clear();
     T_odom_start_ = T_odom_restart_;

@@ -7,11 +7,11 @@
 namespace placegraph {
 
 /// Begins the map of a monocular camera with two views of points that show parallax. While the
-/// camera only rotates, frames are placed by their rotation. Where too few points of the first view
-/// are left, another one takes its place.
+/// camera only rotates, frames are posed by their rotation. When too few points of the first view
+/// are still tracked, a newer view replaces it.
 class TwoViewInitializer : public Initializer {
  public:
-  /// `tracker` and `times` must outlive it.
+  /// `tracker` and `times` must outlive the initializer.
   TwoViewInitializer(const OdometryOptions& options, const Calibration& calibration,
                      std::uint64_t seed, FeatureTracker& tracker, LogSink log, StageTimes& times);
 
@@ -23,7 +23,7 @@ class TwoViewInitializer : public Initializer {
  private:
   struct View {
     FrameId frame;
-    std::map<LandmarkId, Eigen::Vector2d> px;  // of its tracks
+    std::map<LandmarkId, Eigen::Vector2d> px;  // pixels of its tracks
   };
   Initialization begin(const Frame& frame, LocalMapping& mapping);
   Initialization try_second_view(const Frame& frame, const std::optional<SE3>& T_known,
@@ -48,10 +48,11 @@ class TwoViewInitializer : public Initializer {
   FeatureTracker& tracker_;
   LogSink log_;
   StageTimes& times_;
-  SE3 T_odom_restart_, T_odom_start_;  // of the first frame of all, and of the first view
+  // Poses of the first frame after the restart and of the first view.
+  SE3 T_odom_restart_, T_odom_start_;
   KeyframeImages reference_;
   std::vector<View> views_;          // the first of them is the reference
-  std::vector<PosedFrame> rotated_;  // frames that wait, posed by their rotation alone
+  std::vector<PosedFrame> rotated_;  // frames of the initialization, posed by their rotation alone
 };
 
 }  // namespace placegraph

@@ -13,7 +13,8 @@ Matrix bounded_inverse_of(const Matrix& matrix, double floor) {
   const Eigen::LLT<Matrix> factor(matrix);
   if (factor.info() == Eigen::Success && factor.rcond() > 1e-10) {
     const Matrix inverse = factor.solve(Matrix::Identity());
-    // Its trace is above all its eigenvalues, so that none of the matrix is below the floor.
+    // The trace is an upper bound of all eigenvalues, so that none of the matrix is below the
+    // floor.
     if (inverse.trace() * floor < 1) return 0.5 * (inverse + inverse.transpose());
   }
   const Eigen::SelfAdjointEigenSolver<Matrix> eigen(0.5 * (matrix + matrix.transpose()));

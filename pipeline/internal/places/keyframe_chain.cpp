@@ -34,7 +34,7 @@ KeyframeChain::KeyframeChain(const std::vector<PlaceHistory::Keyframe>& keyframe
     : scale_known_(std::move(scale_known)) {
   for (const auto& [id, segment, track_segment, link] : keyframes) {
     require(track_segment >= 0 && track_segment < static_cast<int>(scale_known_.size()),
-            "KeyframeChain: keyframe " + to_string(id) + " is of an unknown run");
+            "KeyframeChain: keyframe " + to_string(id) + " is in an unknown track segment");
     insert(id, link, track_segment);
   }
   chain_up(kBeforeAll);
@@ -52,15 +52,15 @@ void KeyframeChain::add(KeyframeId id, const std::optional<KeyframeLink>& link, 
 void KeyframeChain::insert(KeyframeId id, const std::optional<KeyframeLink>& link,
                            int track_segment) {
   const std::string subject = "KeyframeChain: keyframe " + to_string(id);
-  require(!contains(id), subject + " is there already");
+  require(!contains(id), subject + " already exists");
   require(!link || (link->from < id && contains(link->from)),
-          subject + " is linked to none before it");
+          subject + " is not linked to an earlier one");
   require(!is_odometry(link) || at(link->from).track_segment == track_segment,
-          subject + " is linked by odometry to another run");
+          subject + " is linked by odometry to another track segment");
   keyframes_[id] = chained(link, track_segment);
 }
 
-/// Brings poses and path lengths up to date, from keyframe `first` on.
+/// Updates poses and path lengths from keyframe `first` on.
 void KeyframeChain::chain_up(KeyframeId first) {
   for (auto at = keyframes_.lower_bound(first); at != keyframes_.end(); ++at) {
     auto& [id, keyframe] = *at;

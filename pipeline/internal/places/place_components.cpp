@@ -38,7 +38,8 @@ void normalize_scales(const KeyframeChain& chain, PlacePartition& partition) {
     const auto [scale, first] =
         scales.try_emplace(place.component, ComponentScale{place.S_map_place.translation()});
     if (first) scale->second.first_known = known;
-    // The first place, which the optimizer holds, tells the scale alone if its own is known.
+    // If the scale of the first place, which the optimizer fixes, is known, it alone determines the
+    // scale.
     if (!known || (!first && scale->second.first_known)) continue;
     scale->second.sum_of_logs += std::log(place.S_map_place.scale());
     ++scale->second.known;

@@ -6,14 +6,14 @@
 
 namespace placegraph {
 
-/// Makes one component of those that a loop connects: the younger one moves as a whole to where the
-/// loop says, and takes the scale of the older one.
+/// Joins components that a loop connects: the younger one is moved as a whole to the pose given by
+/// the loop, and takes the scale of the older one.
 void join_components(const KeyframeChain& chain, const std::vector<Loop>& loops,
                      PlacePartition& partition);
 
-/// Gives a component in which the scale of a place is known that scale: its lengths become metres.
-/// Its first place stays where it is. Where the scales of all runs are known, no place has a scale
-/// of its own.
+/// Converts components in which the scale of a place is known to metres. The first place of a
+/// component keeps its position. If the scales of all track segments are known, the scales of
+/// places become 1.
 void normalize_scales(const KeyframeChain& chain, PlacePartition& partition);
 
 }  // namespace placegraph

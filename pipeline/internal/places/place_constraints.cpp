@@ -6,7 +6,7 @@
 namespace placegraph {
 namespace {
 
-/// No scale is held better than this (variance of its logarithm), even where it is measured.
+/// Minimum variance of the logarithm of a scale, even where it is measured.
 constexpr double kScaleVariance = 1e-6;
 
 /// Covariance of a tangent vector in another frame: Ad C Ad^T.
@@ -42,7 +42,7 @@ std::vector<PlaceEdge> link_edges(const KeyframeChain& chain, const PlacePartiti
   std::vector<PlaceEdge> result;
   auto at = chain.keyframes().lower_bound(since);
   if (at == chain.keyframes().end()) return result;
-  // Covariances add up from an anchor on.
+  // Covariances are accumulated from an anchor on.
   KeyframeId begin = partition.segment_of(at->first);
   if (begin == at->first) begin = partition.previous_anchor(chain, begin).value_or(begin);
   Matrix7d chained = Matrix7d::Zero();

@@ -54,7 +54,8 @@ void PlaceMapper::add_keyframe(KeyframeId id, const std::optional<Link>& link,
   const bool were_known = chain_.all_scales_known();
   chain_.add(id, link, scale_known);
   changed(id);
-  if (chain_.all_scales_known() != were_known) unpublished_from_ = kBeforeAll;  // now over Sim(3)
+  // The graph is now over Sim(3).
+  if (chain_.all_scales_known() != were_known) unpublished_from_ = kBeforeAll;
   if (chain_.has_odometry(id) &&
       in_reach_of_segment(chain_, partition_, loops_, options_, id, median_depth_m)) {
     partition_.join(id, partition_.segment_of(link->from));
@@ -74,8 +75,8 @@ void PlaceMapper::add_keyframe(KeyframeId id, const std::optional<Link>& link,
 }
 
 void PlaceMapper::update_link(KeyframeId id, const SE3& T_from_this) {
-  // What moved is the newest part of the track, so an anchor follows its predecessor, unless its
-  // place is an older one that it was merged into.
+  // The newest part of the track has moved, so that an anchor follows its predecessor, unless its
+  // place is an older one into which it was merged.
   chain_.update_link(id, T_from_this);
   changed(id);
   if (partition_.state_of(id).anchor_keyframe == id)
@@ -93,7 +94,7 @@ std::optional<KeyframeId> PlaceMapper::previous_anchor(KeyframeId anchor) const 
 
 void PlaceMapper::inform_anchor(KeyframeId anchor, const Matrix6d& information) {
   require(previous_anchor(anchor).has_value(),
-          "PlaceMapper::inform_anchor: no anchor, or the first of its run");
+          "PlaceMapper::inform_anchor: no anchor, or the first of its track segment");
   partition_.set_motion_covariance(anchor, bounded_covariance(information));
   changed(anchor);
 }
@@ -118,7 +119,7 @@ void PlaceMapper::rescale(KeyframeId first, double factor) {
   for (Loop& loop : loops_)
     loop = rescaled_loop(loop, chain_.at(loop.match).track_segment == track_segment,
                          chain_.at(loop.query).track_segment == track_segment, factor);
-  optimizer_.reset();  // its lengths are of another scale
+  optimizer_.reset();  // its lengths have another scale
   unpublished_from_ = kBeforeAll;
 }
 
@@ -126,7 +127,7 @@ std::vector<PlaceConstraint> PlaceMapper::constraints(KeyframeId since) const {
   return place_constraints(chain_, partition_, loops_, motions_, options_, since);
 }
 
-/// Hands the optimizer what has changed.
+/// Passes the changes to the optimizer.
 IncrementalStep PlaceMapper::update_optimizer() {
   const PoseKind kind = chain_.all_scales_known() ? PoseKind::kSE3 : PoseKind::kSim3;
   if (kind == PoseKind::kSE3) partition_.drop_scales();
@@ -150,7 +151,7 @@ void PlaceMapper::take_poses() {
     partition_.set_pose(number, optimizer_.S_map_place(number));
 }
 
-/// Merges places that are one; whether there were any.
+/// Merges places that are the same; returns whether there were any.
 bool PlaceMapper::merge(KeyframeId first_open) {
   if (!options_.merge) return false;
   const auto covariance = [&](PlaceId from, PlaceId to) {
@@ -162,11 +163,12 @@ bool PlaceMapper::merge(KeyframeId first_open) {
   return !mergers.empty();
 }
 
-/// Undoes mergers that odometry contradicts; they are not made again. Whether there were any.
+/// Undoes mergers that odometry contradicts and excludes them in the future. Returns whether there
+/// were any.
 bool PlaceMapper::separate_contradicted() {
   judged_loops_ = loops_.size();
   std::vector<std::size_t> contradicted = contradicted_mergers(chain_, partition_);
-  // The last first: an earlier one may have brought the place that a later one came to.
+  // The last first: an earlier merger may have created the place into which a later one merged.
   std::reverse(contradicted.begin(), contradicted.end());
   for (const std::size_t number : contradicted) changed(partition_.separate(number));
   return !contradicted.empty();

@@ -15,7 +15,7 @@ namespace {
 
 using PlacePair = std::pair<PlaceId, PlaceId>;
 
-/// Whether the map is where the loop says: a loop that the robust kernel rejects shows nothing.
+/// Whether the map agrees with the loop: a loop that the robust kernel rejects is no evidence.
 bool agrees(const Loop& loop, const KeyframeChain& chain, const PlacePartition& partition) {
   constexpr double kChi2 = 24.3;  // 7 degrees of freedom, 99.9 %
   const Sim3 S_match_query = partition.S_map_keyframe(chain, loop.match).inverse() *
@@ -24,7 +24,7 @@ bool agrees(const Loop& loop, const KeyframeChain& chain, const PlacePartition& 
   return error.dot(loop.information * error) < kChi2;
 }
 
-/// Places of the two ends of loops that the map agrees with: of all, or of the newest.
+/// Places at the two ends of loops that agree with the map: of all loops, or of the newest.
 std::vector<PlacePair> pairs_of_loops(const KeyframeChain& chain, const PlacePartition& partition,
                                       const std::vector<Loop>& loops, bool all) {
   constexpr std::size_t kNewest = 100;
@@ -37,7 +37,7 @@ std::vector<PlacePair> pairs_of_loops(const KeyframeChain& chain, const PlacePar
   return pairs;
 }
 
-/// Places that stand in earlier ones by the map: of all, or of the newest.
+/// Places whose positions in the map are within earlier places: all places, or the newest.
 std::vector<PlacePair> pairs_in_reach(const KeyframeChain& chain, const PlacePartition& partition,
                                       const PlaceOptions& options, bool all) {
   constexpr std::ptrdiff_t kNewest = 8;
@@ -77,7 +77,7 @@ std::optional<PlaceMerger> merger_of(const PlacePair& pair, const PlacePartition
   return merger;
 }
 
-/// Squared error of a constraint between two places over its covariance.
+/// Squared error of a constraint between two places, normalized by its covariance.
 double chi_squared_of(const RelativePoseConstraint& constraint, const Sim3& S_from_to) {
   Eigen::VectorXd error;
   if (const Sim3* measured = std::get_if<Sim3>(&constraint.T_from_to))
@@ -87,11 +87,11 @@ double chi_squared_of(const RelativePoseConstraint& constraint, const Sim3& S_fr
   return error.dot(constraint.information * error);
 }
 
-/// Of every merger, the sum of the squared errors of the odometry edges out of it.
+/// The sum of the squared errors of the odometry edges out of each merger.
 struct MergerErrors {
   std::vector<double> chi2;
   std::vector<int> degrees_of_freedom;
-  std::vector<double> ratios;  // of the squared error of every edge to its degrees of freedom
+  std::vector<double> ratios;  // squared error of every edge over its degrees of freedom
 };
 
 MergerErrors errors_of_mergers(const KeyframeChain& chain, const PlacePartition& partition) {
@@ -136,7 +136,7 @@ std::vector<PlaceMerger> find_mergers(const KeyframeChain& chain, const PlacePar
                                       const PlaceCovariance& covariance, KeyframeId first_open) {
   std::vector<PlaceMerger> mergers;
   std::set<PlaceId> taken;
-  // Old loops have had their chances; they get a last one in the end.
+  // Older loops were examined before; they are examined again at the end.
   const bool all = first_open == kNoneOpen;
   std::vector<PlacePair> pairs = pairs_of_loops(chain, partition, loops, all);
   // Once loops have led back to known places, the map itself shows where places meet.
@@ -160,7 +160,7 @@ std::vector<std::size_t> contradicted_mergers(const KeyframeChain& chain,
   std::vector<std::size_t> result;
   if (partition.merged().empty()) return result;
   const MergerErrors errors = errors_of_mergers(chain, partition);
-  // In a ring that is closed by mistake all edges are strained alike.
+  // In a ring that is closed by mistake, the strain is the same for all edges.
   const double usual =
       errors.ratios.empty() ? 1 : std::clamp(median_of(errors.ratios), 1.0, kMostUsual);
   for (std::size_t i = 0; i < errors.chi2.size(); ++i) {

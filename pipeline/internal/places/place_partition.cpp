@@ -21,22 +21,22 @@ PlacePartition::PlacePartition(const std::vector<Place>& places, const PlaceHist
   }
   for (const auto& [anchor, place, S_place_segment, covariance, motion_covariance] :
        history.segments) {
-    require(places_.count(place) == 1, "PlacePartition: a part of an unknown place");
+    require(places_.count(place) == 1, "PlacePartition: a segment of an unknown place");
     segments_[anchor] = {place, S_place_segment, covariance, motion_covariance};
   }
   for (const PlaceHistory::Keyframe& keyframe : history.keyframes) {
     require(is_anchor(keyframe.segment),
-            "PlacePartition: keyframe " + to_string(keyframe.id) + " has no part");
+            "PlacePartition: keyframe " + to_string(keyframe.id) + " has no segment");
     segment_of_[keyframe.id] = keyframe.segment;
   }
   for (const auto& [anchor, segment] : segments_)
     require(segment_of_.count(anchor) == 1 && segment_of(anchor) == anchor,
-            "PlacePartition: a part without its anchor");
+            "PlacePartition: a segment without its anchor");
   for (const PlaceHistory::Merged& merged : merged_) {
     bool known = is_anchor(merged.anchor);
     for (const auto& [anchor, covariance] : merged.covariance_of_segment)
       known &= is_anchor(anchor);
-    require(known, "PlacePartition: an unknown part was merged");
+    require(known, "PlacePartition: an unknown segment was merged");
   }
   require(places_.empty() || founded_ > places_.rbegin()->first.value(),
           "PlacePartition: fewer places were founded than there are");
@@ -210,7 +210,7 @@ std::vector<Place> PlacePartition::graph_places(const KeyframeChain& chain) cons
     place.component = state.component;
     places.push_back(std::move(place));
   }
-  // An anchor is older than all that came to its place later.
+  // An anchor is older than all keyframes that joined its place later.
   for (const auto& [keyframe, anchor] : segment_of_) {
     const Sim3 S = S_place_keyframe(chain, keyframe);
     places[index.at(place_of(keyframe))].members.push_back({keyframe, rigid_part(S), S.scale()});

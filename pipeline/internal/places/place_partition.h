@@ -11,56 +11,57 @@
 
 namespace placegraph {
 
-/// Which keyframes are one place. A stretch of keyframes within reach of its first one, the anchor,
-/// is a part; a place is the part that founded it, and those of places that were merged into it.
-/// Every keyframe belongs to one part, every part to one place.
+/// Partition of the keyframes into places. A sequence of keyframes within reach of its first one,
+/// the anchor, is a segment; a place consists of the segment that founded it and those of places
+/// that were merged into it. Every keyframe belongs to one segment, every segment to one place.
 ///
-/// Functions throw std::out_of_range for an unknown keyframe, part or place.
+/// Functions throw std::out_of_range for an unknown keyframe, segment or place.
 class PlacePartition {
  public:
-  struct Segment {  // named after its anchor
+  struct Segment {  // identified by its anchor
     PlaceId place;
-    Sim3 S_place_segment;                         ///< identity if it founded the place
-    Matrix7d covariance = Matrix7d::Zero();       ///< of that, in its right tangent
-    std::optional<Matrix6d> motion_covariance{};  ///< of the motion from the previous anchor
+    Sim3 S_place_segment;                    ///< identity if the segment founded the place
+    Matrix7d covariance = Matrix7d::Zero();  ///< covariance of S_place_segment in its right tangent
+    /// Covariance of the motion from the previous anchor.
+    std::optional<Matrix6d> motion_covariance{};
   };
   struct PlaceState {
     KeyframeId anchor_keyframe;
     Sim3 S_map_place;
     int component = 0;
-    double reach = 0;  ///< in the place's scale
+    double reach = 0;  ///< radius in the place's scale
     KeyframeId last_keyframe;
   };
 
   PlacePartition() = default;
-  /// The partition of a saved map. Throws ArgumentError if the two contradict each other.
+  /// The partition of a saved map. Throws ArgumentError if places and history are inconsistent.
   PlacePartition(const std::vector<Place>& places, const PlaceHistory& history);
 
-  /// A new keyframe founds a place, of which it is the anchor. Places are numbered in this order;
-  /// the numbers of those that are gone are not given again.
+  /// Founds a place with a new keyframe as its anchor. Places are numbered in this order; the
+  /// numbers of places that no longer exist are not reused.
   void found(KeyframeId keyframe, const Sim3& S_map_place, int component, double reach);
-  /// A new keyframe belongs to the part of `anchor`.
+  /// Adds a new keyframe to the segment of `anchor`.
   void join(KeyframeId keyframe, KeyframeId anchor);
   void set_motion_covariance(KeyframeId anchor, const Matrix6d& covariance);
 
-  /// The parts of place `younger` become parts of `older`, where the map has them now;
+  /// Makes the segments of place `younger` segments of `older`, at their current poses in the map;
   /// `covariance` is that of S_older_younger in its right tangent. Returns the first anchor that
-  /// has changed its place. Throws ArgumentError if the two are one.
+  /// has changed its place. Throws ArgumentError if the two places are the same.
   KeyframeId merge(PlaceId older, PlaceId younger, const Matrix7d& covariance);
-  /// Undoes entry `number` of merged(): its parts are a place again, where they stand in the map.
-  /// Returns as merge().
+  /// Undoes entry `number` of merged(): its segments become a place again, at their current poses
+  /// in the map. Returns as merge().
   KeyframeId separate(std::size_t number);
-  /// Whether the two places hold parts whose merger was undone.
+  /// Whether the two places contain segments whose merger was undone.
   bool were_separated(PlaceId one, PlaceId other) const;
 
   void set_pose(PlaceId place, const Sim3& S_map_place);
-  /// The places of component `from` move by `S_new_old` and join component `to`.
+  /// Moves the places of component `from` by `S_new_old` and joins them to component `to`.
   void move_component(int from, int to, const Sim3& S_new_old);
-  /// All scales become 1: those of places, and those of parts in their place.
+  /// Sets all scales to 1: those of places, and those of segments in their places.
   void drop_scales();
-  /// Follows KeyframeChain::rescale of the run that begins with keyframe `first`, before or after
-  /// it. A component of this run alone grows about that keyframe; where there are others, the
-  /// places stay where they are and their scales shrink.
+  /// Follows KeyframeChain::rescale of the track segment that begins with keyframe `first`, before
+  /// or after that call. A component that consists of this track segment is scaled about that
+  /// keyframe; otherwise the places keep their positions and their scales are reduced.
   void rescale(const KeyframeChain& chain, KeyframeId first, double factor);
 
   const std::map<KeyframeId, Segment>& segments() const { return segments_; }
@@ -70,24 +71,26 @@ class PlacePartition {
   PlaceId place_of(KeyframeId keyframe) const { return segments_.at(segment_of(keyframe)).place; }
   const PlaceState& state_of(KeyframeId keyframe) const { return places_.at(place_of(keyframe)); }
   bool is_anchor(KeyframeId keyframe) const { return segments_.count(keyframe) != 0; }
-  /// The anchor before `anchor` in its run of tracking; nothing if `anchor` is none or the first.
+  /// The previous anchor in the track segment of `anchor`; nothing if `anchor` is none or the
+  /// first.
   std::optional<KeyframeId> previous_anchor(const KeyframeChain& chain, KeyframeId anchor) const;
 
   SE3 T_segment_keyframe(const KeyframeChain& chain, KeyframeId keyframe) const;
   Sim3 S_place_keyframe(const KeyframeChain& chain, KeyframeId keyframe) const;
   Sim3 S_map_keyframe(const KeyframeChain& chain, KeyframeId keyframe) const;
-  /// The places with their members, as a place graph lists them.
+  /// Places with their keyframes, in the form of a place graph.
   std::vector<Place> graph_places(const KeyframeChain& chain) const;
-  /// Fills in what `history` says of parts and places, all but its keyframes.
+  /// Fills in the segments and places of `history`, everything except its keyframes.
   void save(PlaceHistory& history) const;
 
  private:
-  std::map<KeyframeId, KeyframeId> segment_of_;  // of every keyframe
+  std::map<KeyframeId, KeyframeId> segment_of_;  // segment of every keyframe
   std::map<KeyframeId, Segment> segments_;
   std::map<PlaceId, PlaceState> places_;
   std::vector<PlaceHistory::Merged> merged_;
-  std::set<std::pair<KeyframeId, KeyframeId>> separated_;  // anchors that are not one place
-  std::int64_t founded_ = 0;                               // places so far
+  // Pairs of anchors that must not be merged.
+  std::set<std::pair<KeyframeId, KeyframeId>> separated_;
+  std::int64_t founded_ = 0;  // number of places founded so far
 };
 
 }  // namespace placegraph

@@ -3,8 +3,8 @@
 
 namespace placegraph {
 
-/// Information in a tangent that begins with a translation, when all lengths of the motion are
-/// multiplied by `factor`.
+/// Information in a tangent that begins with a translation, after all lengths of the motion have
+/// been multiplied by `factor`.
 template <int N>
 Eigen::Matrix<double, N, N> rescaled_information(Eigen::Matrix<double, N, N> information,
                                                  double factor) {
@@ -13,14 +13,14 @@ Eigen::Matrix<double, N, N> rescaled_information(Eigen::Matrix<double, N, N> inf
   return information;
 }
 
-/// The same of a covariance.
+/// The same for a covariance.
 template <int N>
 Eigen::Matrix<double, N, N> rescaled_covariance(const Eigen::Matrix<double, N, N>& covariance,
                                                 double factor) {
   return rescaled_information<N>(covariance, 1 / factor);
 }
 
-/// A loop when the lengths at its match, its query or both are multiplied by `factor`.
+/// The loop after the lengths at its match, its query or both have been multiplied by `factor`.
 inline Loop rescaled_loop(Loop loop, bool at_match, bool at_query, double factor) {
   if (at_match) {
     loop.T_match_query = loop.T_match_query.scaled(factor);

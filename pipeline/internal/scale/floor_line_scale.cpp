@@ -15,12 +15,12 @@ FloorLineScale::FloorLineScale(const FloorLineScaleOptions& options, const Camer
 }
 
 void FloorLineScale::reset() {
-  heard_.clear();
+  used_.clear();
   recent_log_factors_.clear();
   first_log_factors_.clear();
 }
 
-/// The unit once the last views agree on it: the median of three, and the middle one of any more.
+/// The scale once the last views agree on it: their median over three views.
 std::optional<GroundPlaneScale::ScaleMeasurement> FloorLineScale::agreed(double log_factor,
                                                                          double sigma) {
   constexpr std::size_t kViews = 3;
@@ -45,7 +45,7 @@ std::optional<GroundPlaneScale::ScaleMeasurement> FloorLineScale::measure(
     if (sigma > options_.max_sigma_at_first) return std::nullopt;
     return agreed(log_factor, sigma);
   }
-  // Shelves hide the floor for a moment, but not for long.
+  // Shelves occlude the floor for a short time only.
   constexpr std::size_t kMemory = 5;
   double expected = 0;
   if (recent_log_factors_.size() >= 3)
@@ -54,7 +54,7 @@ std::optional<GroundPlaneScale::ScaleMeasurement> FloorLineScale::measure(
   if (recent_log_factors_.size() > kMemory) recent_log_factors_.pop_front();
   if (std::abs(log_factor - expected) > options_.max_log_jump) return std::nullopt;
   int fresh = 0;
-  for (const LineId id : floor.on_floor) fresh += heard_.insert(id).second;
+  for (const LineId id : floor.on_floor) fresh += used_.insert(id).second;
   if (fresh == 0) return std::nullopt;
   sigma *= std::sqrt(static_cast<double>(floor.on_floor.size()) / fresh);
   return GroundPlaneScale::ScaleMeasurement{std::exp(log_factor), sigma};

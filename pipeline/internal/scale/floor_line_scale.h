@@ -16,9 +16,10 @@ class FloorLineScale {
   FloorLineScale(const FloorLineScaleOptions& options, const Camera& camera,
                  double camera_height_m);
 
-  /// What all lengths must be multiplied by, from lines of a scene whose unit is arbitrary
-  /// (`scale_known` false, which a few views must agree on) or roughly the metre; nothing if no
-  /// floor is seen or nothing new of it: a line on the floor is heard once in a known unit.
+  /// Measures the factor for all lengths, from lines of a scene whose scale is arbitrary
+  /// (`scale_known` false; a few views must then agree on it) or approximately metric. Nothing if
+  /// no floor is seen or if it provides no new information: with a known scale, a line on the floor
+  /// is used once.
   std::optional<GroundPlaneScale::ScaleMeasurement> measure(
       const SE3& T_odom_cam, const std::vector<PlacedLine>& lines,
       const std::vector<SharedDirection>& shared, bool scale_known);
@@ -31,8 +32,8 @@ class FloorLineScale {
   FloorLineScaleOptions options_;
   Camera camera_;
   double camera_height_m_;
-  std::set<LineId> heard_;
-  std::deque<double> first_log_factors_;  // before the unit is known
+  std::set<LineId> used_;
+  std::deque<double> first_log_factors_;  // before the scale is known
   std::deque<double> recent_log_factors_;
 };
 

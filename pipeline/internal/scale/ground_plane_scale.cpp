@@ -33,7 +33,7 @@ std::vector<Eigen::Vector2d> GroundPlaneScale::outline_px() const {
   return outline;
 }
 
-/// Of a single view's normal about the camera's mounting.
+/// Standard deviation of one view's normal relative to the camera's mounting.
 double GroundPlaneScale::sigma_of_view_rad() const {
   const double frame = deg_to_rad(options_.pitching_sigma_deg);
   return std::sqrt(normal_variance_rad2_ + frame * frame);
@@ -51,8 +51,8 @@ GroundPlanePrior GroundPlaneScale::prior(const GroundMask& observation) const {
   return {plane_cam(), sigma_of_view_rad()};
 }
 
-/// The view's normal is the mean plus the vehicle's nodding; what the alignment reports is its
-/// posterior under prior() or a surer one, from which the mean's posterior follows.
+/// The normal of a view is the mean plus the vehicle's pitching; the alignment reports its
+/// posterior under prior() or a more certain prior, from which the posterior of the mean follows.
 void GroundPlaneScale::learn(const GroundPlaneResult& found) {
   const double frame = deg_to_rad(options_.pitching_sigma_deg);
   const double before = normal_variance_rad2_ + frame * frame;
@@ -67,7 +67,7 @@ std::optional<GroundPlaneScale::ScaleMeasurement> GroundPlaneScale::accept(
     const GroundPlaneResult& found) {
   if (!found.outcome) return std::nullopt;
   const double log_factor = std::log(camera_height_m_ / found.plane_ref.distance_m);
-  // A car's side or a kerb may be taken for the road for a moment, but not for long.
+  // A car's side or a kerb may be mistaken for the road for a short time only.
   constexpr std::size_t kMemory = 5;
   bool is_within_gate = true;
   if (recent_log_factors_.size() >= 3) {
@@ -96,7 +96,7 @@ std::optional<GroundPlaneScale::ScaleMeasurement> GroundPlaneScale::find(
                                observation.mask);
   }
   const auto length = accept(found);
-  recent_log_factors_.clear();  // it belongs to another unit
+  recent_log_factors_.clear();  // it refers to another scale
   return length;
 }
 

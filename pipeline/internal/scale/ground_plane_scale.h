@@ -8,29 +8,29 @@
 
 namespace placegraph {
 
-/// Metric scale from the ground: follows the plane under a camera of known height over pairs of
-/// views and says what a motion's true length is. The mean normal in the camera (mounting pitch and
-/// roll) is estimated, never given.
+/// Metric scale from the ground: tracks the plane under a camera of known height over pairs of
+/// images and estimates the true length of a motion. The mean normal in the camera (pitch and roll
+/// of the mounting) is estimated, never given.
 class GroundPlaneScale {
  public:
   GroundPlaneScale(const GroundPlaneScaleOptions& options, const Camera& camera,
                    double camera_height_m);
 
   struct ScaleMeasurement {
-    double factor = 1;  ///< true length = factor * |t| of the motion handed over
+    double factor = 1;  ///< true length = factor * |t| of the given motion
     double sigma_relative = 1;
   };
-  /// For a motion whose scale is unknown; nothing if the road says nothing. `sight` is of the new
-  /// view.
+  /// Estimates the factor of a motion whose scale is unknown; nothing if the ground provides no
+  /// estimate. `observation`: ground mask of the new image.
   std::optional<ScaleMeasurement> find(const Image& image_new, const Image& image_old,
                                        const SE3& T_old_new, const GroundMask& observation = {});
-  /// For a motion whose scale is roughly right.
+  /// Estimates the factor of a motion whose scale is approximately correct.
   std::optional<ScaleMeasurement> follow(const Image& image_new, const Image& image_old,
                                          const SE3& T_old_new, const GroundMask& observation = {});
-  /// Whether a level floor may be the ground: its normal is about where the camera's mounting, as
-  /// far as it is known, lets it be.
+  /// Whether a level floor may be the ground: its normal agrees with the estimated mounting of the
+  /// camera within the uncertainty.
   bool may_be_ground(const Eigen::Vector3d& level) const;
-  /// Outline in the image of the ground that is looked at.
+  /// Outline of the ground region in the image.
   std::vector<Eigen::Vector2d> outline_px() const;
   double min_baseline_m() const { return options_.min_baseline_heights * camera_height_m_; }
   /// Mean ground plane in the camera frame, at the camera's height.

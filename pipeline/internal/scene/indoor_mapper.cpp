@@ -14,12 +14,12 @@
 namespace placegraph {
 namespace {
 
-/// Sights in the map's frame, by the poses of the map.
+/// Observations in the map's frame, with the poses of the map.
 struct ObservationsInMap {
-  std::vector<KeyframeId> keyframes;     // by sight
-  std::vector<SE3> T_map_cam;            // by sight
-  std::vector<SurfacePoint> points;      // by sight
-  std::vector<std::size_t> first_point;  // of the next sight
+  std::vector<KeyframeId> keyframes;     // keyframe of each observation
+  std::vector<SE3> T_map_cam;            // camera pose of each observation
+  std::vector<SurfacePoint> points;      // points of all observations
+  std::vector<std::size_t> first_point;  // first point of the next observation
 };
 
 ObservationsInMap lay_out(const std::vector<KeyframeSurfacePoints>& observations, const Map& map) {
@@ -39,7 +39,7 @@ ObservationsInMap lay_out(const std::vector<KeyframeSurfacePoints>& observations
   return result;
 }
 
-/// The mean of the directions that are up for the cameras, not normalized.
+/// The mean of the cameras' up directions, not normalized.
 Eigen::Vector3d up_of(const std::vector<SE3>& T_map_cam) {
   Eigen::Vector3d up = Eigen::Vector3d::Zero();
   for (const SE3& T : T_map_cam) up -= T.rotation().matrix().col(1);
@@ -145,7 +145,7 @@ std::vector<SurfacePoint> IndoorMapper::swept_points(const Image& image,
   points.radius_px = std::max(2, options_.swept_radius_px / shrunk);
   std::vector<SurfacePoint> seen =
       surface_points(swept.depth_m, swept.sigma_inverse, camera, SE3(), points);
-  // What is no part of a plane may be a false match, whose ray would be seen to pass through walls.
+  // Points outside planes may be false matches, whose rays would seem to pass through walls.
   std::erase_if(seen, [&](const SurfacePoint& p) {
     if (p.normal.squaredNorm() > 0.5F) return false;
     const auto px = camera.project(p.point.cast<double>());
@@ -158,7 +158,8 @@ std::vector<SurfacePoint> IndoorMapper::points_of(const Frame& frame,
                                                   std::vector<SweptView> views) const {
   if (calibration_.depth && !frame.depth.empty()) {
     const DepthCamera& depth = *calibration_.depth;
-    // The patch tells its own noise; what a sensor's patches share is less than its pixels' noise.
+    // A patch estimates its own noise; the common error of a sensor's patches is less than its
+    // pixels' noise.
     return surface_points(frame.depth, depth.camera, depth.T_cam_depth, 0.2 * depth.sigma_at_1m,
                           options_.points);
   }
@@ -189,7 +190,7 @@ void IndoorMapper::add(KeyframeSurfacePoints observation) {
 IndoorMap IndoorMapper::fuse(const Map& map) const {
   if (!map.metric) {
     IndoorMap none;
-    none.outcome = Outcome::failure(Outcome::Code::kTooFewData, "the map's unit is not the metre");
+    none.outcome = Outcome::failure(Outcome::Code::kTooFewData, "the map is not metric");
     return none;
   }
   IndoorMapperOptions options = options_;
@@ -209,7 +210,7 @@ IndoorMap map_indoors(const Map& map, const Calibration& calibration,
                       const std::function<Frame(const Keyframe&)>& frame_of,
                       const IndoorMapperOptions& options) {
   IndoorMapper mapper(options, calibration);
-  if (!map.metric) return mapper.fuse(map);  // says so
+  if (!map.metric) return mapper.fuse(map);  // with an outcome that gives the reason
   NearbyViews nearby(map, frame_of, options.views);
   for (const Keyframe* keyframe :
        keyframes_apart(map, options.min_step_m, deg_to_rad(options.min_rotation_deg))) {

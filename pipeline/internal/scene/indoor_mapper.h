@@ -12,27 +12,27 @@
 
 namespace placegraph {
 
-/// A floor plan with walls, doors and rooms from the keyframes of a map. Depth is measured, or
-/// swept from views of known motion and from the other eye; what a keyframe tells of the surfaces
-/// around it is kept in its own frame; `fuse` lays all of it out with the poses of the map as it
-/// stands, so that after a loop closure the plan is simply fused again.
+/// Makes a floor plan with walls, doors and rooms from the keyframes of a map. Depth is measured,
+/// or computed by plane sweep from images of known motion and from the second camera. The surface
+/// points of a keyframe are stored in its own frame; `fuse` transforms all of them with the current
+/// poses of the map, so that after a loop closure the plan is recomputed by fusing again.
 class IndoorMapper {
  public:
-  /// Throws ArgumentError for options or a calibration out of range. Sees depth where the
-  /// calibration has a depth camera; else both eyes where it has a baseline, or one, and the views
-  /// handed over with it. One eye that has not moved sees the floor of its orientation map
-  /// `camera_height_m` below it.
+  /// Throws ArgumentError for options or a calibration out of range. Depth comes from the depth
+  /// camera if the calibration has one; otherwise from the stereo pair if it has a baseline, or
+  /// from one camera, and from the views given with a keyframe. A monocular camera that has not
+  /// moved observes the floor with its orientation map, at `camera_height_m` below it.
   IndoorMapper(const IndoorMapperOptions& options, const Calibration& calibration);
 
-  /// Takes the images of a keyframe, and what the same (left) eye saw from nearby; what was told of
-  /// it before is replaced. Points are metric.
+  /// Adds the images of a keyframe, and views of the same (left) camera from nearby; replaces
+  /// earlier data of this keyframe. Points are metric.
   void add(KeyframeId keyframe, const Frame& frame, const std::vector<SweptView>& views = {});
   void add(KeyframeSurfacePoints observation);
   const std::vector<KeyframeSurfacePoints>& observations() const { return observations_; }
 
-  /// The plan by the poses of `map` (its first component and what is joined to it). Rooms list the
-  /// places whose anchor stands in them.
-  /// Outcomes: too few data (no points, or a map whose unit is not the metre), degenerate (see
+  /// Computes the plan with the poses of `map` (its first component and those joined to it). Rooms
+  /// list the places whose anchor is in them.
+  /// Outcomes: too few data (no points, or a map that is not metric), degenerate (see
   /// find_building_axes; no wall).
   [[nodiscard]] IndoorMap fuse(const Map& map) const;
 
@@ -46,11 +46,11 @@ class IndoorMapper {
   std::vector<KeyframeSurfacePoints> observations_;
 };
 
-/// Writes each room's label to its places; other labels stay.
+/// Assigns each room's label to its places; other labels remain.
 void label_places(const IndoorMap& plan, PlaceGraph& places);
 
-/// The plan of a map that is done: reads the frames of its keyframes (those that are far enough
-/// from each other) by `frame_of`, and fuses them.
+/// Makes the plan of a finished map: reads the frames of its keyframes (those that are far enough
+/// from each other) with `frame_of`, and fuses them.
 [[nodiscard]] IndoorMap map_indoors(const Map& map, const Calibration& calibration,
                                     const std::function<Frame(const Keyframe&)>& frame_of,
                                     const IndoorMapperOptions& options = {});

@@ -54,13 +54,14 @@ std::vector<IndoorRoom> plan_rooms(const RoomPartition& rooms, const VoxelEviden
     return rotated;
   };
   int corridors = 0, others = 0;
-  for (const RoomPartition::Room& told : rooms.rooms) {
+  for (const RoomPartition::Room& region : rooms.rooms) {
     IndoorRoom room;
-    room.outline = polygon(told.outline);
-    for (const auto& hole : told.holes) room.holes.push_back(polygon(hole));
-    room.area_m2 = told.area_m2;
+    room.outline = polygon(region.outline);
+    for (const auto& hole : region.holes) room.holes.push_back(polygon(hole));
+    room.area_m2 = region.area_m2;
     // Several times as long as wide.
-    const bool corridor = told.area_m2 > 5 * told.width_m * told.width_m && told.width_m < 4;
+    const bool corridor =
+        region.area_m2 > 5 * region.width_m * region.width_m && region.width_m < 4;
     room.label =
         corridor ? "corridor " + std::to_string(++corridors) : "room " + std::to_string(++others);
     result.push_back(std::move(room));

@@ -9,22 +9,22 @@
 #include <cstdint>
 #include <vector>
 
-// The parts of an IndoorMap from what was found in the frame of the walls.
+// Builds the components of an IndoorMap from the detections in the frame of the walls.
 namespace placegraph {
 
-/// What the walls, doors and rooms were found from, in the frame of the walls.
+/// Observations from which walls, doors and rooms were detected, in the frame of the walls.
 struct PlacedObservations {
-  std::vector<KeyframeId> keyframes;  ///< by sight
-  std::vector<Eigen::Vector3d> path;  ///< where the camera of each sight stood
+  std::vector<KeyframeId> keyframes;  ///< keyframe of each observation
+  std::vector<Eigen::Vector3d> path;  ///< camera position of each observation
   std::vector<PlacedPoint> points;
 };
 
-/// `map` tells the places that the keyframes belong to.
+/// Walls of the plan; `map` provides the places of the keyframes.
 std::vector<IndoorWall> plan_walls(const std::vector<WallPiece>& walls, const PlanFrame& frame,
                                    const PlacedObservations& observations, const Map& map);
 
-/// Rooms, of which those several times as long as wide are corridors; each with the places whose
-/// anchor stands in it, whether the camera was in it, and its ceiling where that is seen.
+/// Rooms; those several times as long as wide are corridors. Each has the places whose anchor is in
+/// it, whether the camera was in it, and its ceiling where that is seen.
 std::vector<IndoorRoom> plan_rooms(const RoomPartition& rooms, const VoxelEvidence& voxels,
                                    const PlanFrame& frame, const PlacedObservations& observations,
                                    const Map& map);
@@ -33,7 +33,7 @@ std::vector<IndoorRoom> plan_rooms(const RoomPartition& rooms, const VoxelEviden
 std::vector<IndoorDoor> plan_doors(const std::vector<DoorPiece>& doors, const RoomPartition& rooms,
                                    const VoxelEvidence& voxels, const PlanFrame& frame);
 
-/// What stands between 0.2 and 2 m above the floor, in cells of twice the size of the voxels.
+/// Cells that are occupied between 0.2 and 2 m above the floor, of twice the size of the voxels.
 IndoorMap::Cells plan_cells(const VoxelEvidence& voxels);
 
 }  // namespace placegraph

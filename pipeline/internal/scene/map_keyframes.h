@@ -9,22 +9,23 @@
 
 namespace placegraph {
 
-/// Where a keyframe's camera stands, in whatever frame a map that is made from them shall be in;
-/// nothing where that is not known.
+/// Pose of a keyframe's camera in the frame of a map that is made from the keyframes; nothing if it
+/// is unknown.
 using KeyframePoses = std::function<std::optional<SE3>(KeyframeId keyframe)>;
 
-/// T_map_cam of a keyframe; lengths of its points are those of the map already.
+/// T_map_cam of a keyframe; lengths of its points are already those of the map.
 SE3 camera_pose(const Map& map, KeyframeId keyframe);
 
-/// Keyframes of the first component of a map and of what is joined to it.
+/// Keyframes of the first component of a map and of those joined to it.
 std::set<KeyframeId> connected_keyframes(const Map& map);
 
 /// The poses of the connected keyframes.
 KeyframePoses poses_of(const Map& map);
-/// As each keyframe stood when its frame had been processed, before later loops moved it.
+/// Pose of each keyframe when its frame had been processed, before later loops moved it.
 KeyframePoses online_poses_of(const Map& map);
 
-/// Keyframes that are far enough from the one used before, or turned enough, in their order.
+/// Keyframes whose distance or rotation from the previously used one is large enough, in their
+/// order.
 std::vector<const Keyframe*> keyframes_apart(const Map& map, double step_m, double rotation_rad);
 
 }  // namespace placegraph

@@ -39,9 +39,10 @@ std::vector<SweptView> NearbyViews::of(const Keyframe& keyframe) {
   require(index < count, "nearby views: the keyframe must be one of the map's");
   if (!connected_.count(keyframe.id)) return views;
   const SE3 T_map_cam = camera_pose(map_, keyframe.id);
-  for (const int way : {-1, 1}) {
+  for (const int direction : {-1, 1}) {
     double wanted_m = options_.near_m;
-    for (auto i = index + way; i >= 0 && i < count && std::abs(i - index) <= kFarthest; i += way) {
+    for (auto i = index + direction; i >= 0 && i < count && std::abs(i - index) <= kFarthest;
+         i += direction) {
       const Keyframe& other = map_.keyframes[static_cast<std::size_t>(i)];
       if (!connected_.count(other.id)) break;
       const SE3 T_view_cam = camera_pose(map_, other.id).inverse() * T_map_cam;

@@ -14,18 +14,18 @@
 
 namespace placegraph {
 
-/// Images of keyframes that stand near one: a nearer and a farther one before it, and after it.
+/// Images of keyframes near a given one: a nearer and a farther one before it, and after it.
 class NearbyViews {
  public:
-  /// Reads frames by `frame_of`; the map must outlive the views.
+  /// Reads frames with `frame_of`; the map must outlive the object.
   NearbyViews(const Map& map, std::function<Frame(const Keyframe&)> frame_of,
               const NearbyViewOptions& options);
 
-  /// A keyframe's own frame. The reference holds until the next call.
+  /// Frame of a keyframe. The reference is valid until the next call.
   const Frame& frame(const Keyframe& keyframe);
-  /// Views from about a keyframe of the map, by the poses of the map: those before it, nearest
-  /// first, then those after it; none where the camera has not moved. Throws ArgumentError for a
-  /// keyframe that is not the map's.
+  /// Views near a keyframe of the map, with the poses of the map: those before it, nearest first,
+  /// then those after it; none if the camera has not moved. Throws ArgumentError for a keyframe
+  /// that is not in the map.
   std::vector<SweptView> of(const Keyframe& keyframe);
 
  private:
@@ -33,7 +33,7 @@ class NearbyViews {
   std::function<Frame(const Keyframe&)> frame_of_;
   NearbyViewOptions options_;
   std::set<KeyframeId> connected_;
-  std::deque<std::pair<KeyframeId, Frame>> read_;  ///< the last ones
+  std::deque<std::pair<KeyframeId, Frame>> read_;  ///< last frames that were read
 };
 
 }  // namespace placegraph

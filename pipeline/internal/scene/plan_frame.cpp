@@ -7,11 +7,11 @@ namespace placegraph {
 
 PlanFrame::PlanFrame(const SE3& T_walls_map) : T_walls_map_(T_walls_map) {
   const Eigen::Vector3d down = -T_walls_map.rotation().matrix().row(2).transpose();
-  const Eigen::Quaterniond turn =
+  const Eigen::Quaterniond q_plan_map =
       Eigen::Quaterniond::FromTwoVectors(down, Eigen::Vector3d::UnitY());
-  R_plan_map_ = SO3(turn);
-  R_plan_walls_ = turn.toRotationMatrix() * T_walls_map.rotation().matrix().transpose();
-  t_plan_walls_ = turn * T_walls_map.inverse().translation();
+  R_plan_map_ = SO3(q_plan_map);
+  R_plan_walls_ = q_plan_map.toRotationMatrix() * T_walls_map.rotation().matrix().transpose();
+  t_plan_walls_ = q_plan_map * T_walls_map.inverse().translation();
 }
 
 Eigen::Vector2d PlanFrame::plan_of(const Eigen::Vector2d& p) const {

@@ -5,19 +5,20 @@
 
 namespace placegraph {
 
-/// The frame of a floor plan: the map's, turned as little as makes its y the building's vertical
-/// (down). Beside it stands the frame of the walls: x and y along the walls, z up from the floor.
+/// The frame of a floor plan: the map frame, with the smallest rotation that makes its y axis the
+/// building's vertical (down). It also provides the frame of the walls: x and y along the walls, z
+/// up from the floor.
 class PlanFrame {
  public:
   PlanFrame() : PlanFrame(SE3()) {}
   explicit PlanFrame(const SE3& T_walls_map);
 
-  /// (x, z) of the plan of a point of the floor in the frame of the walls [m].
+  /// (x, z) in the plan of a point on the floor in the frame of the walls [m].
   Eigen::Vector2d plan_of(const Eigen::Vector2d& point_walls) const;
   const SE3& T_walls_map() const { return T_walls_map_; }
   const SO3& R_plan_map() const { return R_plan_map_; }
   double floor_y() const { return t_plan_walls_[1]; }
-  /// From the plan's x axis to the walls' one, about y.
+  /// Rotation about y from the plan's x axis to that of the walls.
   double yaw_rad() const;
 
  private:

@@ -38,7 +38,7 @@ void UrbanMapper::add(KeyframeId keyframe, const Frame& frame, const SE3& T_map_
   add(std::move(observation));
 }
 
-/// What moved between two keyframes: seen in the one where the other sees farther.
+/// Drops points that moved between two keyframes: points of either that the other sees through.
 void UrbanMapper::drop_seen_through(KeyframeSemantics& observation, const Image& depth_m,
                                     const SE3& T_map_cam) {
   if (!last_) return;
@@ -70,7 +70,7 @@ void UrbanMapper::add(KeyframeSemantics observation) {
 SemanticMap UrbanMapper::fuse(const Map& map) const {
   if (!map.metric) {
     SemanticMap none;
-    none.outcome = Outcome::failure(Outcome::Code::kTooFewData, "the map's unit is not the metre");
+    none.outcome = Outcome::failure(Outcome::Code::kTooFewData, "the map is not metric");
     return none;
   }
   return fuse(poses_of(map));
@@ -80,7 +80,7 @@ SemanticMap UrbanMapper::fuse(const KeyframePoses& T_map_cam, const Eigen::Vecto
   SemanticMap none;
   none.classes = urban_.classes;
   if (calibration_.baseline_m <= 0) {
-    none.outcome = Outcome::failure(Outcome::Code::kTooFewData, "two eyes are needed");
+    none.outcome = Outcome::failure(Outcome::Code::kTooFewData, "a stereo camera is required");
     return none;
   }
   std::vector<std::pair<const KeyframeSemantics*, SE3>> placed;
@@ -92,10 +92,10 @@ SemanticMap UrbanMapper::fuse(const KeyframePoses& T_map_cam, const Eigen::Vecto
     }
   if (!down.isZero()) sum = down;
   if (placed.empty() || sum.norm() < 1e-6) {
-    none.outcome = Outcome::failure(Outcome::Code::kTooFewData, "no keyframe of it has a pose");
+    none.outcome = Outcome::failure(Outcome::Code::kTooFewData, "no keyframe has a pose");
     return none;
   }
-  // x stays level and as near to where it was as can be.
+  // x is level and as close as possible to its previous direction.
   const Eigen::Vector3d y = sum.normalized();
   Eigen::Vector3d x = Eigen::Vector3d::UnitX() - y[0] * y;
   if (x.norm() < 0.1) x = Eigen::Vector3d::UnitZ().cross(y);

@@ -13,9 +13,9 @@
 
 namespace placegraph {
 
-/// A map of what is where in a street, from the keyframes of a stereo map. What a keyframe tells is
-/// kept in its own frame; `fuse` lays all of it out with the poses of the map as it stands, so that
-/// after a loop closure the map is simply fused again.
+/// Makes a semantic street map from the keyframes of a stereo map. The labelled points of a
+/// keyframe are stored in its own frame; `fuse` transforms all of them with the current poses of
+/// the map, so that after a loop closure the map is recomputed by fusing again.
 class UrbanMapper {
  public:
   /// Throws ArgumentError for options or a calibration out of range, models of other kinds or a
@@ -23,18 +23,18 @@ class UrbanMapper {
   UrbanMapper(const UrbanMapperOptions& options, const Calibration& calibration, SceneModel urban,
               SceneModel surfaces);
 
-  /// Takes the images of a keyframe; what was told of it before is replaced. `T_map_cam` serves
+  /// Adds the images of a keyframe; replaces earlier data of this keyframe. `T_map_cam` is used
   /// only for the motion since the keyframe that was added last.
   void add(KeyframeId keyframe, const Frame& frame, const SE3& T_map_cam);
   void add(KeyframeSemantics observation);
   const std::vector<KeyframeSemantics>& observations() const { return observations_; }
   const std::vector<std::string>& classes() const { return urban_.classes; }
 
-  /// The map by the poses of `map` (its first component and what is joined to it).
-  /// Outcomes: too few data (nothing seen, one eye, or a map whose unit is not the metre).
+  /// Computes the map with the poses of `map` (its first component and those joined to it).
+  /// Outcomes: too few data (no points, a monocular camera, or a map that is not metric).
   [[nodiscard]] SemanticMap fuse(const Map& map) const;
-  /// By other poses, e.g. those before a correction. `down`: of their frame; zero: as the cameras
-  /// see the ground.
+  /// Computes the map with other poses, e.g. those before a correction. `down`: down direction of
+  /// their frame; zero: estimated from the ground seen by the cameras.
   [[nodiscard]] SemanticMap fuse(const KeyframePoses& T_map_cam,
                                  const Eigen::Vector3d& down = Eigen::Vector3d::Zero()) const;
 
@@ -53,13 +53,13 @@ class UrbanMapper {
   std::optional<Last> last_;
 };
 
-/// Adds the keyframes of a map that is done, reading their frames by `frame_of`.
+/// Adds the keyframes of a finished map; reads their frames with `frame_of`.
 void add_keyframes(UrbanMapper& mapper, const Map& map, const UrbanMapperOptions& options,
                    const std::function<Frame(const Keyframe&)>& frame_of,
                    const std::function<void(std::size_t, std::size_t)>& progress = {});
 
-/// What is seen from each place: shares of the classes of the map among the points of its
-/// keyframes, in the order of `places`; empty where none was used.
+/// Observed classes of each place: shares of the map's classes among the points of its keyframes,
+/// in the order of `places`; empty where no keyframe was used.
 std::vector<std::vector<float>> class_shares(const UrbanMapper& mapper, const Map& map);
 
 }  // namespace placegraph

@@ -17,21 +17,21 @@ class EnvironmentMonitor {
   EnvironmentMonitor(const EnvironmentFilterOptions& options, const Camera& camera)
       : filter_(options), camera_(camera) {}
 
-  /// Classifies the newest keyframe. `shares`: of its surfaces in the image; null: not labelled.
-  /// `points_cam`: landmarks in its camera's frame, in metres if `metric`. Returns whether the kind
-  /// is another one now.
+  /// Classifies the newest keyframe. `shares`: shares of the surfaces in its image; null: not
+  /// labelled. `points_cam`: landmarks in its camera's frame, in metres if `metric`. Returns
+  /// whether the class has changed.
   bool classify(KeyframeId keyframe, const Frame& frame, const SurfaceShares* shares,
                 const std::vector<Eigen::Vector3d>& points_cam, bool metric);
-  /// The kind that holds now; nothing while it is unknown.
+  /// Current environment class; nothing while it is unknown.
   std::optional<Environment> kind() const { return filter_.kind(); }
   const std::vector<EnvironmentObservation>& observations() const { return observations_; }
-  /// Labels places by the kind that most of their keyframes had; not where that is unknown.
+  /// Labels places with the most frequent class of their keyframes, unless it is unknown.
   void label(std::vector<Place>& places) const;
 
  private:
   EnvironmentFilter filter_;
   Camera camera_;
-  std::vector<EnvironmentObservation> observations_;  // of keyframes, ascending
+  std::vector<EnvironmentObservation> observations_;  // one per keyframe, ascending
 };
 
 }  // namespace placegraph

@@ -58,7 +58,7 @@ void EventFeed::places_changed(const PlaceMapper& mapper, double scale) {
 
 void EventFeed::loops_decided(const std::vector<LoopRecord>& records) {
   if (!events_) return;
-  constexpr std::size_t kMostWaiting = 1000;  // support comes within some keyframes or never
+  constexpr std::size_t kMostWaiting = 1000;  // support arrives within some keyframes or never
   while (waiting_.size() > kMostWaiting) waiting_.erase(waiting_.begin());
   for (auto record = waiting_.begin(); record != waiting_.end();) {
     const bool accepted = records[*record].accepted();

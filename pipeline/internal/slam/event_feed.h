@@ -10,26 +10,25 @@
 
 namespace placegraph {
 
-/// Tells SlamEvents what has changed in the place graph and in the loops since it last looked.
+/// Reports changes of the place graph and of the loops to SlamEvents.
 ///
-/// It compares the places with those it has seen, so that whoever changes them need not tell it.
-/// Without a listener it does nothing.
+/// It compares the places with their previous state, so that the code that changes them does not
+/// have to report the changes. Without a listener it does nothing.
 class EventFeed {
  public:
   /// `events` may be null; it must outlive this object.
   explicit EventFeed(SlamEvents* events) : events_(events) {}
 
-  /// Takes places and loops as known to the listener.
+  /// Takes over places and loops that the listener already knows.
   void take_up(const PlaceMapper& mapper, const std::vector<LoopRecord>& loops);
-  /// Tells of a keyframe that `mapper` has just been given.
+  /// Reports a keyframe that was just added to `mapper`.
   void keyframe_added(KeyframeId keyframe, FrameId frame, const PlaceMapper& mapper);
-  /// Tells of places that are new, were merged, changed their component or moved. `scale`: by which
-  /// lengths were multiplied because their unit has become known.
+  /// Reports places that are new, were merged, changed their component or moved. `scale`: factor
+  /// applied to lengths because the scale has become known.
   void places_changed(const PlaceMapper& mapper, double scale = 1);
-  /// Tells of loop candidates that were decided since the last call; `records`: all that there
-  /// were.
+  /// Reports loop candidates that were decided since the last call; `records`: all records so far.
   void loops_decided(const std::vector<LoopRecord>& records);
-  /// Tells what became of a frame.
+  /// Reports the result of a frame.
   void frame_done(const FrameResult& frame);
 
  private:
@@ -43,9 +42,9 @@ class EventFeed {
   static Places places_of(const PlaceMapper& mapper);
 
   SlamEvents* events_;
-  Places places_;                  // as they were told
-  std::size_t records_ = 0;        // of loops that were told
-  std::set<std::size_t> waiting_;  // the newest records that were told to wait for a second loop
+  Places places_;                  // places as last reported
+  std::size_t records_ = 0;        // number of loops that were reported
+  std::set<std::size_t> waiting_;  // newest records that were reported as waiting for a second loop
 };
 
 }  // namespace placegraph

@@ -12,7 +12,7 @@ void MapFeed::keep_view(KeyframeId keyframe, const Frame& frame) {
 
 void MapFeed::tell_again() { first_view_ = first_landmark_ = 0; }
 
-/// Without its place.
+/// A keyframe without its place.
 Keyframe MapFeed::keyframe_of(const LoopCloser::View& view,
                               const TrajectoryRecorder& recorder) const {
   Keyframe keyframe;
@@ -67,9 +67,9 @@ MapChanges MapFeed::take_changes(const MapSources& sources) {
   MapChanges changes;
   changes.places = sources.mapper.places();
   sources.environments.label(changes.places);
-  const bool described_anew = closer.trained_views() != told_training_;
+  const bool vocabulary_changed = closer.trained_views() != reported_training_;
   for (const Place& place : changes.places)
-    if (described_places_.insert(place.id).second || described_anew)
+    if (described_places_.insert(place.id).second || vocabulary_changed)
       changes.appearances.emplace_back(place.id, closer.appearance(place.anchor_keyframe));
   changes.constraints = sources.mapper.take_constraint_changes();
   const auto& views = closer.views();
@@ -87,8 +87,8 @@ MapChanges MapFeed::take_changes(const MapSources& sources) {
   changes.history.median_depth_m = sources.odometry.map().median_depth();
   changes.metric = sources.mapper.metric();
 
-  told_training_ = closer.trained_views();
-  first_view_ = views.empty() ? 0 : views.size() - 1;  // its successor gives depth to its features
+  reported_training_ = closer.trained_views();
+  first_view_ = views.empty() ? 0 : views.size() - 1;  // the next view adds depth to its features
   first_landmark_ = earlier_landmarks_.size() + sources.odometry.map().settled_landmarks();
   recorder.tell_all();
   return changes;
@@ -104,7 +104,7 @@ void MapFeed::take_up(const Map& map, const LoopCloser& closer) {
     first_landmark_id_ = std::max(first_landmark_id_, landmark.id.value() + 1);
   first_view_ = map.keyframes.size();
   first_landmark_ = earlier_landmarks_.size();
-  told_training_ = closer.trained_views();
+  reported_training_ = closer.trained_views();
 }
 
 }  // namespace placegraph

@@ -15,7 +15,7 @@
 
 namespace placegraph {
 
-/// The parts of a running system that a map is made of.
+/// Components of a running system from which a map is assembled.
 struct MapSources {
   const Odometry& odometry;
   const LoopCloser& closer;
@@ -24,20 +24,20 @@ struct MapSources {
   const EnvironmentMonitor& environments;
 };
 
-/// Makes maps of the parts of a running system: the whole one, and what has changed since the last
-/// call, at the cost of what is new.
+/// Assembles maps from the components of a running system: the whole map, or the changes since the
+/// last call at a cost proportional to the changes.
 class MapFeed {
  public:
   explicit MapFeed(const PlaceCueOptions& cues) : cues_(cues) {}
 
-  /// Keeps how a keyframe looks until take_changes() has told it. All keyframes are kept in colour,
-  /// or none, as the first.
+  /// Keeps the appearance of a keyframe until take_changes() has reported it. Keyframes are kept in
+  /// colour if the first one is, otherwise in grey.
   void keep_view(KeyframeId keyframe, const Frame& frame);
-  /// Lengths have changed: landmarks and views of keyframes are told again.
+  /// Marks landmarks and views of keyframes to be reported again, because lengths have changed.
   void tell_again();
   [[nodiscard]] Map snapshot(const MapSources& sources) const;
   [[nodiscard]] MapChanges take_changes(const MapSources& sources);
-  /// Takes over a saved map; ids of new landmarks follow its own.
+  /// Takes over a saved map; ids of new landmarks continue after the ids in it.
   void take_up(const Map& map, const LoopCloser& closer);
 
  private:
@@ -45,13 +45,14 @@ class MapFeed {
   std::vector<PointLandmark> landmarks(const Odometry& odometry, std::size_t first) const;
 
   PlaceCueOptions cues_;
-  std::map<KeyframeId, PlaceView> views_;  // of keyframes that have not been told
+  std::map<KeyframeId, PlaceView> views_;  // keyframes that have not been reported
   std::optional<bool> views_in_colour_;
-  std::vector<PointLandmark> earlier_landmarks_;     // of a saved map
-  std::int64_t first_landmark_id_ = 0;               // after theirs
-  std::set<PlaceId> described_places_;               // whose appearance has been told
-  std::size_t first_view_ = 0, first_landmark_ = 0;  // from here on nothing has been told
-  std::size_t told_training_ = 0;  // views that the vocabulary of the told appearances is of
+  std::vector<PointLandmark> earlier_landmarks_;     // landmarks of a saved map
+  std::int64_t first_landmark_id_ = 0;               // first id after those of the saved map
+  std::set<PlaceId> described_places_;               // places whose appearance has been reported
+  std::size_t first_view_ = 0, first_landmark_ = 0;  // first items that have not been reported
+  // number of views on which the vocabulary of the reported appearances was trained
+  std::size_t reported_training_ = 0;
 };
 
 }  // namespace placegraph

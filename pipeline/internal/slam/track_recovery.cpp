@@ -13,7 +13,7 @@ void TrackRecovery::use_motion(std::shared_ptr<const MeasuredMotion> motion_cam)
   motion_ = std::move(motion_cam);
 }
 
-/// By other sensors since the last keyframe, if both are in metres.
+/// Location by the motion of other sensors since the last keyframe, if both are metric.
 std::optional<LocatedFrame> TrackRecovery::by_motion(const Frame& frame,
                                                      const KnownMap& known) const {
   const auto last = known.recorder.newest_keyframe();
@@ -25,7 +25,8 @@ std::optional<LocatedFrame> TrackRecovery::by_motion(const Frame& frame,
   return located;
 }
 
-/// By the rotation of a monocular camera since the last keyframe, or since it was last located.
+/// Location by the rotation of a monocular camera since the last keyframe, or since it was last
+/// located.
 std::optional<LocatedFrame> TrackRecovery::by_rotation(const OdometryUpdate& update,
                                                        const KnownMap& known,
                                                        double median_depth) const {
@@ -53,13 +54,13 @@ std::optional<LocatedFrame> TrackRecovery::expect(const Frame& frame, const Know
                                                   Odometry& odometry) {
   continues_ = false;
   if (anchor_) {
-    // A monocular camera that begins anew within the map waits for its second view; until then
-    // every frame is looked up.
+    // A monocular camera that restarts within the map waits for its second view; until then every
+    // frame is relocalized.
     const auto recognized = known.closer.relocalize(frame);
     return recognized ? recognized : by_motion(frame, known);
   }
   if (lost_in_a_row_ < options_.max_lost_frames || odometry.started()) return std::nullopt;
-  // Nothing has been seen to begin with yet: each frame is where the other sensors say.
+  // No first view has been found yet: each frame is located by the other sensors.
   anchor_ = by_motion(frame, known);
   if (anchor_) odometry.restart(known.T_map_frame(*anchor_), true);
   return anchor_;
@@ -90,7 +91,7 @@ OdometryUpdate TrackRecovery::restart(const Frame& frame, std::optional<LocatedF
     log(log_, LogLevel::kInfo, "frame {} relocalized at frame {}", frame.id,
         known.recorder.frame_of(located->match));
     anchor_ = located;
-    // The segment's odometry frame is the map frame of this moment.
+    // The segment's odometry frame is the current map frame.
     const SE3 T_map_frame = known.T_map_frame(*located);
     odometry.restart(T_map_frame, true);
     return odometry.add_frame(frame, T_map_frame);
@@ -98,15 +99,15 @@ OdometryUpdate TrackRecovery::restart(const Frame& frame, std::optional<LocatedF
   const double median_depth = odometry.map().median_depth();
   if (!anchor_ && update.state == TrackingState::kLost)
     if ((anchor_ = by_rotation(update, known, median_depth))) {
-      log(log_, LogLevel::kInfo, "frame {}: a turn on the spot", frame.id);
-      const double unit = known.mapper.S_map_keyframe(anchor_->match).scale();
-      odometry.restart(known.T_map_frame(*anchor_), false, unit * median_depth);
+      log(log_, LogLevel::kInfo, "frame {}: pure rotation", frame.id);
+      const double scale = known.mapper.S_map_keyframe(anchor_->match).scale();
+      odometry.restart(known.T_map_frame(*anchor_), false, scale * median_depth);
       return odometry.add_frame(frame);
     }
   anchor_.reset();
   if (lost_in_a_row_ != options_.max_lost_frames) return update;
   if ((anchor_ = by_motion(frame, known))) {
-    log(log_, LogLevel::kInfo, "frame {}: carried on by measured motion", frame.id);
+    log(log_, LogLevel::kInfo, "frame {}: continued by measured motion", frame.id);
     const SE3 T_map_frame = known.T_map_frame(*anchor_);
     odometry.restart(T_map_frame, true);
     const OdometryUpdate begun = odometry.add_frame(frame, T_map_frame);
@@ -141,11 +142,12 @@ void TrackRecovery::take_up(KeyframeId newest, double median_depth, const KnownM
 
 std::optional<PlaceMapper::Link> TrackRecovery::take_link(const LocalMap& map,
                                                           const PlaceMapper& mapper) {
-  /// Of the scale that a segment takes from frames recognized in the map, in logarithms; and of one
-  /// that is guessed: what comes into view by a rotation is about as far away as what left.
+  /// Standard deviation of the scale that a segment takes from frames recognized in the map
+  /// (logarithm), and of a guessed scale, which assumes that the scene after a rotation is about as
+  /// far away as before.
   constexpr double kSigmaLogScaleOfMap = 0.1, kSigmaLogScaleGuessed = 0.7;
   if (!anchor_) return std::nullopt;
-  // The new segment is in the map's unit, the match perhaps in another.
+  // The new segment has the scale of the map, the match possibly another one.
   const double sigma_log_scale = map.metric()                     ? 0
                                  : map.scale() == Scale::kGuessed ? kSigmaLogScaleGuessed
                                                                   : kSigmaLogScaleOfMap;

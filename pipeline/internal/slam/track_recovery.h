@@ -13,65 +13,67 @@
 namespace placegraph {
 
 struct TrackRecoveryOptions {
-  int max_lost_frames = 10;         ///< then a new component of the map begins
-  double rotation_rad = 1.5 / 700;  ///< translation that moves points by less passes for a rotation
+  int max_lost_frames = 10;  ///< consecutive lost frames before a new component of the map begins
+  /// A translation that moves points by less is treated as a rotation.
+  double rotation_rad = 1.5 / 700;
 };
 
-/// What is known of the map where tracking breaks off.
+/// State of the map at the time of a tracking loss.
 struct KnownMap {
   const LoopCloser& closer;
   const PlaceMapper& mapper;
   const TrajectoryRecorder& recorder;
-  /// The pose in the map of a frame that is located relative to a keyframe.
+  /// Pose in the map of a frame that is located relative to a keyframe.
   SE3 T_map_frame(const LocatedFrame& located) const;
 };
 
-/// Joins track segments to the map. After a loss a frame is located by recognizing a keyframe, by a
-/// pure rotation since the last one, or by the motion that other sensors measured; the next segment
-/// begins there. Where nothing locates it for long, a new component of the map begins.
+/// Connects track segments to the map. After a loss, a frame is located by recognizing a keyframe,
+/// by a pure rotation since the last one, or by the motion measured by other sensors; the next
+/// segment begins there. If no method locates a frame for long, a new component of the map begins.
 ///
-/// The anchor is how the next segment hangs on the map. It stands from when a frame is located
-/// until the first keyframe of the segment takes it.
+/// The anchor connects the next segment to the map. It is set when a frame is located and consumed
+/// by the first keyframe of the segment.
 class TrackRecovery {
  public:
   TrackRecovery(const TrackRecoveryOptions& options, LogSink log)
       : options_(options), log_(std::move(log)) {}
-  /// The camera's motion by other sensors.
+  /// Sets the motion of the camera measured by other sensors.
   void use_motion(std::shared_ptr<const MeasuredMotion> motion_cam);
 
-  /// Where a frame is that the odometry has not seen yet; only while no segment hangs on the map.
+  /// Locates a frame before the odometry processes it; only while no segment is connected to the
+  /// map.
   std::optional<LocatedFrame> expect(const Frame& frame, const KnownMap& known, Odometry& odometry);
-  /// The same after the odometry has seen it, which may know that the camera has only rotated.
-  /// `expected`: from expect().
+  /// Locates a frame after the odometry has processed it and may have found a pure rotation.
+  /// `expected`: result of expect().
   std::optional<LocatedFrame> locate(const std::optional<LocatedFrame>& expected,
                                      const OdometryUpdate& update, const KnownMap& known,
                                      const Odometry& odometry);
-  /// Whether the frame has no pose and tracking must begin anew.
+  /// Whether the frame has no pose and tracking must restart.
   bool needed(const OdometryUpdate& update, const KnownMap& known) const;
-  /// Begins anew where the frame can be located (`located`: if it is already); the odometry has
-  /// then seen it again. Otherwise the update stays as it is.
+  /// Restarts tracking if the frame can be located (`located`: if it already is); the odometry has
+  /// then processed it again. Otherwise returns the update unchanged.
   OdometryUpdate restart(const Frame& frame, std::optional<LocatedFrame> located,
                          const OdometryUpdate& update, const KnownMap& known, Odometry& odometry);
-  /// Where a frame stands that is not tracked; nothing if that is not known.
+  /// Location of a frame that is not tracked; nothing if it is unknown.
   std::optional<LocatedFrame> pose_without_tracking(const Frame& frame,
                                                     const std::optional<LocatedFrame>& located,
                                                     const OdometryUpdate& update,
                                                     const KnownMap& known,
                                                     const Odometry& odometry);
-  /// The newest frame is tracked.
+  /// Reports that the newest frame is tracked.
   void tracked() { lost_in_a_row_ = 0; }
-  /// The newest frame that has a pose stands here, in the map.
+  /// Sets the pose in the map of the newest frame that has one.
   void stands_at(const SE3& T_map_frame) { T_map_last_ = T_map_frame; }
   void rescale(double factor) { T_map_last_ = T_map_last_.scaled(factor); }
 
-  /// Hangs the next segment on keyframe `newest`, which its first frame shows again: its pose is
-  /// known but for rounding. The segment is then the continuation of the keyframe's own.
+  /// Connects the next segment to keyframe `newest`, which its first frame shows again: its pose is
+  /// known except for rounding. The segment then continues that of the keyframe.
   void take_up(KeyframeId newest, double median_depth, const KnownMap& known);
-  /// The link of the first keyframe of a segment to the map; nothing if it begins a component. The
-  /// anchor is used up.
+  /// Link of the first keyframe of a segment to the map; nothing if it begins a component. Consumes
+  /// the anchor.
   std::optional<PlaceMapper::Link> take_link(const LocalMap& map, const PlaceMapper& mapper);
   const SE3& T_map_last() const { return T_map_last_; }
-  /// Motion by other sensors; null if there is none.
+  /// Motion measured by other sensors; null if there is none.
   const MeasuredMotion* motion() const { return motion_.get(); }
 
  private:
@@ -83,7 +85,7 @@ class TrackRecovery {
   LogSink log_;
   std::shared_ptr<const MeasuredMotion> motion_;
   std::optional<LocatedFrame> anchor_;
-  bool continues_ = false;  // the anchor's keyframe is of the same segment
+  bool continues_ = false;  // the anchor's keyframe is in the same segment
   SE3 T_map_last_;
   int lost_in_a_row_ = 0;
 };

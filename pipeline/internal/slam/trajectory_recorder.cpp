@@ -24,7 +24,7 @@ void TrajectoryRecorder::finish(const std::optional<SE3>& T_map_cam) {
   online_.poses.push_back(pose);
 }
 
-/// To be changed; null for a frame that has none.
+/// The record of a frame, to be changed; null for a frame without one.
 FrameRecord* TrajectoryRecorder::record_of(FrameId frame) {
   const auto record =
       std::lower_bound(records_.begin(), records_.end(), frame,

@@ -11,29 +11,29 @@
 
 namespace placegraph {
 
-/// Records every frame: relative to a keyframe, to be corrected while that is refined, and online,
-/// as it was known when the frame was done.
+/// Records every frame twice: relative to a keyframe, so that refinement of the keyframe corrects
+/// it, and as the online pose at the time of processing.
 class TrajectoryRecorder {
  public:
-  /// The next frame, without a pose. Ids and stamps must increase (see accepts()).
+  /// Begins the next frame, without a pose. Ids and stamps must increase (see accepts()).
   void begin(const Frame& frame);
   bool accepts(const Frame& frame) const;
-  /// The newest frame stands at T_keyframe_frame of a keyframe.
+  /// Sets the pose of the newest frame relative to a keyframe.
   void record(KeyframeId keyframe, const SE3& T_keyframe_frame, int inliers);
-  /// The newest frame is done: its pose in the first component of the map, if it has one.
+  /// Ends the newest frame, with its pose in the first component of the map, if it has one.
   void finish(const std::optional<SE3>& T_map_cam);
 
-  /// A frame has become a keyframe.
+  /// Adds a frame that has become a keyframe.
   void add_keyframe(const NewKeyframe& keyframe);
-  /// Frames have better poses in the odometry frame of a track segment, whose keyframes stand in
-  /// `map`. Those from before it hang on keyframe `first_new` from now on.
+  /// Corrects poses of frames in the odometry frame of a track segment whose keyframes are in
+  /// `map`. Poses of frames before the segment become relative to keyframe `first_new`.
   void correct(const std::vector<PosedFrame>& posed, KeyframeId first_new, const LocalMap& map);
-  /// All lengths relative to keyframes from `first_keyframe` on grow by `factor`.
+  /// Multiplies all lengths relative to keyframes from `first_keyframe` on by `factor`.
   void rescale(KeyframeId first_keyframe, double factor);
 
-  /// While a monocular camera waits for its second view, the first one is the origin of the map.
-  /// The newest frame is that; `rotated`: and it has only rotated since the one before it, which
-  /// stays. Otherwise earlier ones have no pose after all.
+  /// Makes the newest frame the origin of the map, as the first view of a monocular camera that
+  /// waits for its second view. `rotated`: the camera has only rotated since the previous first
+  /// view, whose pose remains valid. Otherwise the poses of earlier frames are removed.
   void begin_at_origin(bool rotated);
 
   bool empty() const { return records_.empty(); }
@@ -48,7 +48,7 @@ class TrajectoryRecorder {
   FrameId frame_of(KeyframeId keyframe) const { return frames_.at(keyframe); }
   std::int64_t stamp_ns_of(KeyframeId keyframe) const { return stamps_ns_.at(keyframe); }
 
-  /// Records from this one on have changed since they were told last.
+  /// First record that has changed since the records were last reported.
   std::size_t first_changed() const { return first_changed_; }
   void tell_all() { first_changed_ = records_.size(); }
   /// Takes over the frames of a saved map up to `last_frame`.
@@ -59,8 +59,8 @@ class TrajectoryRecorder {
 
   std::vector<FrameRecord> records_;
   Trajectory online_;
-  std::map<KeyframeId, FrameId> frames_;          // of keyframes
-  std::map<KeyframeId, std::int64_t> stamps_ns_;  // of keyframes
+  std::map<KeyframeId, FrameId> frames_;          // frame of each keyframe
+  std::map<KeyframeId, std::int64_t> stamps_ns_;  // time stamp of each keyframe
   std::vector<std::size_t> origins_;
   std::size_t first_changed_ = 0;
 };

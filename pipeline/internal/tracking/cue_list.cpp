@@ -32,7 +32,7 @@ Cues parse_cues(const std::string& names) {
   std::set<std::string> seen;
   std::istringstream list(names + ",");
   for (std::string name; std::getline(list, name, ',');) {
-    // As people write lists: "points, lines".
+    // Spaces after commas are accepted: "points, lines".
     name.erase(0, name.find_first_not_of(' '));
     const auto known = std::find_if(std::begin(kCues), std::end(kCues),
                                     [&](const Named& named) { return name == named.name; });

@@ -5,22 +5,22 @@
 
 namespace placegraph {
 
-/// What a motion is seen by.
+/// Cues from which motion is estimated.
 struct Cues {
   bool points = true;
   bool lines = false;
-  /// The dominant surface: beside others the ground, for the unit of a single eye of known height;
-  /// alone all that there is.
+  /// The dominant surface: with other cues the ground, for the scale of a monocular camera of known
+  /// height; alone the only cue.
   bool plane = true;
-  bool manhattan = false;  ///< directions of a rectangular world
-  bool direct = false;     ///< grey values of several planes, aligned as a whole
+  bool manhattan = false;  ///< directions of a Manhattan frame
+  bool direct = false;     ///< intensities of several planes, aligned jointly
 
-  /// Nothing but grey values of surfaces.
+  /// Whether intensities of surfaces are the only cue.
   bool surfaces_alone() const { return !points && !lines && (plane || direct); }
 };
 
-/// From names joined by commas, as in "points,plane". Throws ArgumentError for an unknown name, one
-/// named twice, or if none of points, lines, plane and direct is there.
+/// Parses names joined by commas, as in "points,plane". Throws ArgumentError for an unknown name,
+/// for a duplicate, or if none of points, lines, plane and direct is listed.
 Cues parse_cues(const std::string& names);
 
 /// Whether lengths are metric from the first frame on: a stereo or depth camera measures them, as

@@ -8,19 +8,19 @@
 namespace placegraph {
 namespace {
 
-/// Of a motion that is good enough to go on by, but not to begin with.
+/// Failure of a motion that is accurate enough for tracking, but not for the first alignment.
 Outcome agrees_weakly(const DirectMotion& motion) {
   return Outcome::failure(Outcome::Code::kInconsistent,
-                          "to begin with, correlation " + std::to_string(motion.agreement) +
-                              " and a share of inliers of " + std::to_string(motion.inlier_share) +
-                              " are too little");
+                          "for the first alignment, correlation " +
+                              std::to_string(motion.agreement) + " and a share of inliers of " +
+                              std::to_string(motion.inlier_share) + " are too low");
 }
 
-/// The best of several alignments from a reference whose velocity may be unknown.
+/// The best of several alignments with a reference when the velocity may be unknown.
 class BestAlignment {
  public:
-  /// `failure`: of an attempt before these. `explain`: whether the nearest of those that fail says
-  /// why.
+  /// `failure`: result of an earlier attempt. `explain`: whether the best failure provides the
+  /// reason.
   BestAlignment(DirectMotion failure, bool explain)
       : best_(std::move(failure)), explain_(explain) {}
 
@@ -73,16 +73,16 @@ void DirectTracker::see(const Frame& frame) {
   seen_ = frame.id;
 }
 
-/// From where the velocity leads; else, and at the start, the best of several ways ahead, one of
-/// which is found by a particle swarm.
+/// Aligns from the prediction of the motion model; if that fails, and at the start, takes the best
+/// of several initial translations ahead, one of which is found by a particle swarm.
 DirectMotion DirectTracker::align(const LocalMap& map, const MotionModel& motion) const {
   constexpr MotionModel::Uncertainty kUncertainty{0.01, 0.5, 0.03};
-  constexpr double kReach = 0.12;  // of the depth, in one frame
+  constexpr double kReach = 0.12;  // share of the depth, in one frame
   MotionGuess guess;
   guess.T_ref_cur =
       map.window().pose(map.newest()).inverse() * motion.T_odom_cam() * motion.T_last_cur();
   DirectMotion by_velocity;
-  by_velocity.outcome = Outcome::failure(Outcome::Code::kNoConsensus, "no way to begin with suits");
+  by_velocity.outcome = Outcome::failure(Outcome::Code::kNoConsensus, "no initial motion fits");
   if (motion.velocity_known()) {
     guess.information = motion.information(kUncertainty, map.median_depth());
     by_velocity = surfaces_.align(guess);
@@ -130,8 +130,8 @@ std::optional<Frame> DirectTracker::keyframe_to_retry_from() const {
   return last_frame_;
 }
 
-/// Little of the surfaces is left, or they are seen at another size. A camera that stands keeps its
-/// keyframe: there is nothing to gain by a new one.
+/// Whether a small part of the surfaces remains visible, or their size has changed. A stationary
+/// camera keeps its keyframe, because a new one provides no benefit.
 bool DirectTracker::keyframe_due(const DirectMotion& motion, double median_depth) const {
   const double length = motion.T_ref_cur.translation().norm() / median_depth;
   const double angle_rad = motion.T_ref_cur.rotation().log().norm();

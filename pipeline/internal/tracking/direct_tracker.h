@@ -7,9 +7,9 @@
 namespace placegraph {
 
 /// Aligns frames with the intensities of the surfaces of the last keyframe (Siddiqui 2015, section
-/// IV, 3.4), without features. Where little of the surfaces is left, the frame becomes the next
-/// keyframe and its own surfaces are found. Where they are lost, the last frame that was posed
-/// takes the keyframe's place, with surfaces nearer by.
+/// IV, 3.4), without features. When a small part of the surfaces remains visible, the frame becomes
+/// the next keyframe, in which surfaces are detected again. When alignment fails, the last posed
+/// frame replaces the keyframe, with surfaces closer to the current view.
 class DirectTracker : public FrameTracker {
  public:
   /// `times`, which must outlive it, receives the CPU time of its stages.
@@ -42,11 +42,11 @@ class DirectTracker : public FrameTracker {
   LogSink log_;
   StageTimes& times_;
   DirectCue surfaces_;
-  std::optional<FrameId> seen_;  // frame that the surfaces have seen last
+  std::optional<FrameId> seen_;  // last frame in which the surfaces were observed
   std::optional<ManhattanCue> manhattan_;
-  DirectMotion newest_;                      // of the last posed frame, from the last keyframe
-  std::optional<DirectMotion> from_before_;  // of the frame that becomes a keyframe
-  Frame last_frame_;                         // the last that was posed
+  DirectMotion newest_;  // motion of the last posed frame from the last keyframe
+  std::optional<DirectMotion> from_before_;  // motion of the frame that becomes a keyframe
+  Frame last_frame_;                         // last posed frame
   int frames_since_keyframe_ = 0;
 };
 

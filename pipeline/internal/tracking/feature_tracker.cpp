@@ -84,7 +84,7 @@ TrackedFrame FeatureTracker::track(const Frame& frame, const LocalMap& map,
   return tracked;
 }
 
-/// What a frame that few points pose sees of Manhattan frames.
+/// Rotation from Manhattan frames for a frame whose pose has few inliers.
 std::optional<ManhattanCue::RotationEstimate> FeatureTracker::rotation_from_manhattan(
     const Frame& frame, const SE3& T_odom_cam, int inliers, const LocalMap& map) const {
   if (!manhattan() || inliers >= options_.manhattan.few_points) return std::nullopt;
@@ -110,7 +110,7 @@ std::optional<PureRotation> FeatureTracker::rotation_since(
       px_cur.push_back(track.px.cast<double>());
     }
   const Rotation2d2dResult rotation =
-      estimate_rotation_2d2d(calibration_.camera, px_ref, px_cur, options_.turn, random);
+      estimate_rotation_2d2d(calibration_.camera, px_ref, px_cur, options_.pure_rotation, random);
   if (!rotation.outcome) return std::nullopt;
   return PureRotation{rotation.R_ref_cur, rotation.covariance};
 }
@@ -145,7 +145,7 @@ void FeatureTracker::observe(const KeyframeImages& images, const RectificationEr
   if (planes_ && !frame.depth.empty()) observe_planes(frame, map);
 }
 
-/// Lines that are followed anyway serve as its edges, where there are any.
+/// Tracked lines serve as its edges, where there are any.
 void FeatureTracker::observe_directions(const Image& image, LocalMap& map) {
   if (!manhattan()) return;
   const auto span = times_.measure("directions");
@@ -155,12 +155,12 @@ void FeatureTracker::observe_directions(const Image& image, LocalMap& map) {
     segments.emplace();
     for (const FrameView::Line& line : lines_->view(window, window.pose(map.newest())))
       segments->push_back(line.segment);
-    if (segments->empty()) segments.reset();  // none are followed yet
+    if (segments->empty()) segments.reset();  // no lines are tracked yet
   }
   manhattan_->observe(map.newest(), image, segments, map.window());
 }
 
-/// Only a depth camera tells of planes: what stereo makes of blank walls is smooth, and wrong.
+/// Only a depth camera is used for planes: stereo depth of blank walls is smooth, but wrong.
 void FeatureTracker::observe_planes(const Frame& frame, LocalMap& map) {
   const auto span = times_.measure("planes");
   std::vector<DepthPlane> planes;
@@ -203,7 +203,7 @@ Outcome FeatureTracker::enough_to_begin(const LocalMap& map) const {
   return Outcome::failure(Outcome::Code::kTooFewData,
                           fmt::format("{} of {} tracked points {}, {} needed to begin",
                                       map.landmarks_in_window(), points_.tracks().size(),
-                                      calibration_.baseline_m > 0 ? "found in the right eye's image"
+                                      calibration_.baseline_m > 0 ? "found in the right image"
                                                                   : "with a measured depth",
                                       needed));
 }

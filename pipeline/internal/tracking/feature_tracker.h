@@ -12,7 +12,7 @@
 namespace placegraph {
 
 /// Tracks points, lines or both. Manhattan frames, planes in depth images and the intensities of
-/// surfaces support them, where they are among the cues.
+/// surfaces are additional cues where the options select them.
 class FeatureTracker : public FrameTracker {
  public:
   /// `times`, which must outlive it, receives the CPU time of its stages.
@@ -40,14 +40,14 @@ class FeatureTracker : public FrameTracker {
   FrameView view(const LocalMap& map, const SE3& T_odom_cam) const override;
 
   PointCue& points() { return points_; }
-  /// The directions of the newest keyframe's edges go into the window, where Manhattan frames are
-  /// among the cues and believed.
+  /// Adds the directions of the newest keyframe's edges to the window, if Manhattan frames are
+  /// among the cues and accepted.
   void observe_directions(const Image& image, LocalMap& map);
-  /// What the camera has rotated since its tracks were seen at `px_before`; nothing if they say
-  /// that it moved, or if the camera measures depth.
+  /// Rotation of the camera since its tracks were at `px_before`; nothing if the tracks show a
+  /// translation, or if the camera measures depth.
   std::optional<PureRotation> rotation_since(const std::map<LandmarkId, Eigen::Vector2d>& px_before,
                                              Random& random) const;
-  /// The newest keyframe is one from which the next ones are selected.
+  /// Makes the newest keyframe the reference for the selection of the next ones.
   void start_selection(int landmarks);
 
  private:
@@ -67,7 +67,7 @@ class FeatureTracker : public FrameTracker {
   PointCue points_;
   std::optional<LineCue> lines_;
   std::optional<ManhattanCue> manhattan_;
-  bool manhattan_trusted_ = true;  // Manhattan frames are assumed to be there
+  bool manhattan_trusted_ = true;  // whether Manhattan frames are assumed to exist
   std::optional<PlaneCue> planes_;
   std::optional<KeyframeAlignment> surfaces_;
   KeyframeSelector selector_;

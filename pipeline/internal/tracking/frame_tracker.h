@@ -8,65 +8,65 @@
 
 namespace placegraph {
 
-/// One frame posed against the local map.
+/// Pose of one frame against the local map.
 struct TrackedFrame {
   Outcome outcome;
-  SE3 T_odom_cam;  ///< meaningful only if outcome
+  SE3 T_odom_cam;  ///< only valid if `outcome` is a success
   int inliers = 0;
   bool keyframe_due = false;
-  std::optional<PureRotation> rotation;  ///< of a failure: what explains it
+  std::optional<PureRotation> rotation;  ///< rotation that explains a failure
 };
 
-/// Poses frames by the cues that it follows, and hands what keyframes observe of them to the
-/// window. A cue is added here; the odometry does not know it.
+/// Poses frames with its cues, and adds the observations of keyframes to the window. New cues are
+/// added here; the odometry is independent of them.
 class FrameTracker {
  public:
   virtual ~FrameTracker() = default;
 
-  /// The name of the stage that its CPU time counts for.
+  /// Name of the stage to which its CPU time is added.
   virtual const char* stage() const = 0;
-  /// Takes in the first image, before there is a map.
+  /// Processes the first image, before a map exists.
   virtual void see_first(const Frame& frame) = 0;
-  /// Poses a frame; `motion` says where it is expected. If that fails, what is followed is as it
-  /// was before the call.
+  /// Poses a frame near the pose predicted by `motion`. After a failure, the tracks are in the
+  /// state before the call.
   [[nodiscard]] virtual TrackedFrame track(const Frame& frame, const LocalMap& map,
                                            const MotionModel& motion, Random& random) = 0;
-  /// After a failure: the last frame that was posed, if it may help as a keyframe.
+  /// After a failure: the last posed frame, if it may help as a keyframe.
   virtual std::optional<Frame> keyframe_to_retry_from() const { return std::nullopt; }
 
-  /// A frame, posed at T_odom_cam, is about to become a keyframe. Returns where it stands as such;
-  /// nothing if it shows nothing to be a keyframe by.
+  /// Prepares a frame with pose T_odom_cam to become a keyframe. Returns its refined pose; nothing
+  /// if the frame lacks the observations for a keyframe.
   [[nodiscard]] virtual std::optional<SE3> prepare_keyframe(const KeyframeImages& images,
                                                             const SE3& T_odom_cam,
                                                             const LocalMap& map,
                                                             Random& random) = 0;
-  /// Hands what it observes to the window; it is the newest keyframe of the map.
+  /// Adds its observations in the newest keyframe of the map to the window.
   virtual void observe(const KeyframeImages& images, const RectificationError& rectification,
                        LocalMap& map, Random& random) = 0;
-  /// After the window has been optimized: removes what does not fit. Returns depths in the newest
-  /// keyframe of what stays.
+  /// Removes outliers after the window has been optimized. Returns depths of the remaining
+  /// landmarks in the newest keyframe.
   [[nodiscard]] virtual std::vector<double> prune(LocalMap& map) = 0;
-  /// After keyframes have left the window.
+  /// Updates its state after keyframes have left the window.
   virtual void settle(const LocalMap& map) = 0;
-  /// The newest keyframe is complete: poses the frames since the keyframe before it once more.
-  /// `scale`: what lengths have grown by with it.
+  /// Completes the newest keyframe: poses the frames since the previous keyframe again. `scale`:
+  /// factor applied to lengths with this keyframe.
   [[nodiscard]] virtual std::vector<PosedFrame> finish_keyframe(double scale,
                                                                 const LocalMap& map) = 0;
-  /// Whether the first keyframe shows enough landmarks to track by; else what is missing.
+  /// Whether the first keyframe shows enough landmarks for tracking; otherwise the reason.
   virtual Outcome enough_to_begin(const LocalMap& /*map*/) const { return Outcome::ok(); }
   virtual void reset() = 0;
 
-  /// What holds in the surroundings; nothing: all that the options ask for.
+  /// Sets the assumptions about the environment; nothing: all cues of the options are used.
   virtual void assume(const std::optional<Assumptions>& /*assumptions*/) {}
-  /// Whether anything but keyframes of the window holds rotations.
+  /// Whether rotations are constrained by more than the keyframes of the window.
   virtual bool corrects_rotations() const = 0;
-  /// The lines that are followed; null if they are not among the cues.
+  /// Tracked lines; null if lines are not among the cues.
   virtual LineCue* lines() { return nullptr; }
-  /// Manhattan frames, as the newest keyframe sees them; null where they are not believed.
+  /// Manhattan frames observed in the newest keyframe; null where they are not accepted.
   virtual const ManhattanCue* manhattan() const { return nullptr; }
-  /// The points of the map that are followed, in the odometry frame.
+  /// Tracked points of the map, in the odometry frame.
   virtual std::vector<Eigen::Vector3d> points_odom(const LocalMap& /*map*/) const { return {}; }
-  /// What the newest frame shows, posed at T_odom_cam.
+  /// Features of the newest frame, with pose T_odom_cam.
   virtual FrameView view(const LocalMap& map, const SE3& T_odom_cam) const = 0;
 };
 

@@ -15,7 +15,7 @@ void IntermediateFrames::correct_drift(const std::map<LandmarkId, Eigen::Vector2
 std::vector<std::pair<FrameId, SE3>> IntermediateFrames::repose(const LocalMap& map,
                                                                 KeyframeId keyframe, double scale) {
   constexpr int kIterations = 10;
-  constexpr double kSigmaPx = 1;  // of a track
+  constexpr double kSigmaPx = 1;  // standard deviation of a track
   const SlidingWindow& window = map.window();
   std::vector<std::pair<FrameId, SE3>> posed;
   for (const Tracked& frame : frames_) {

@@ -11,9 +11,9 @@
 
 namespace placegraph {
 
-/// The frames since the last keyframe. Each was posed against the landmarks as they were known
-/// then. The next keyframe improves those whose depth was poorly known, and the frames are posed
-/// again, or the motion into the keyframe would show a jump that the camera did not make.
+/// The frames since the last keyframe. Each was posed with the landmarks as estimated at that time.
+/// The next keyframe improves landmarks of uncertain depth, and the frames are posed again;
+/// otherwise the motion into the keyframe would contain a jump that the camera did not make.
 class IntermediateFrames {
  public:
   IntermediateFrames(const Pose3d2dOptions& options, const Camera& camera)
@@ -21,17 +21,17 @@ class IntermediateFrames {
 
   struct Tracked {
     FrameId frame;
-    SE3 T_keyframe_cam;  ///< from the last keyframe
+    SE3 T_keyframe_cam;  ///< relative to the last keyframe
     std::vector<std::pair<LandmarkId, Eigen::Vector2d>> landmark_px;
-    std::optional<ManhattanCue::RotationEstimate> heading;  ///< what it sees of a Manhattan frame
+    std::optional<ManhattanCue::RotationEstimate> heading;  ///< observation of a Manhattan frame
   };
   void remember(Tracked frame) { frames_.push_back(std::move(frame)); }
-  /// Reference patches show at the next keyframe how far tracks have drifted since the last one: by
-  /// equal parts in every frame. `drift_px`: of each track.
+  /// Corrects the drift of tracks, which reference patches reveal at the next keyframe, by an equal
+  /// part in every frame since the last one. `drift_px`: drift of each track.
   void correct_drift(const std::map<LandmarkId, Eigen::Vector2d>& drift_px);
-  /// Poses the frames again, by the landmarks as they are now known: id and T_odom_cam of those
-  /// that see enough of them. `keyframe`: the last one before them. `scale`: what lengths have
-  /// grown by since then. Forgets them.
+  /// Poses the frames again with the current landmarks and removes them from the list. Returns id
+  /// and T_odom_cam of those that observe enough landmarks. `keyframe`: last keyframe before them.
+  /// `scale`: factor applied to lengths since then.
   [[nodiscard]] std::vector<std::pair<FrameId, SE3>> repose(const LocalMap& map,
                                                             KeyframeId keyframe, double scale);
   void clear() { frames_.clear(); }

@@ -14,9 +14,10 @@ void KeyframeSelector::start(const std::vector<PointTrack>& tracks, int landmark
 void KeyframeSelector::reset() { start({}, 0); }
 
 bool KeyframeSelector::due(const Overlap& overlap) const {
-  constexpr std::size_t kMinTracks = 10;  // to tell how far the image has moved
+  constexpr std::size_t kMinTracks = 10;  // minimum number for a displacement
   if (overlap.inliers < options_.min_tracked_share * landmarks_) return true;
-  // Before too few are left to pose a frame by: other tracks become landmarks where there are some.
+  // Creates a keyframe before too few landmarks remain for a pose, if other tracks can become
+  // landmarks.
   if (overlap.more_tracks && overlap.inliers < 2 * min_inliers_) return true;
   if (overlap.flow_px.size() < kMinTracks) return true;
   const double share = median_of(overlap.flow_px) / camera_.width;

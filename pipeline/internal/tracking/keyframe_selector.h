@@ -9,30 +9,31 @@
 
 namespace placegraph {
 
-/// Decides which tracked frames become keyframes, by what has changed since the last keyframe.
+/// Selects the tracked frames that become keyframes, by the changes since the last keyframe.
 class KeyframeSelector {
  public:
-  /// `min_inliers`: landmarks without which a frame cannot be posed.
+  /// `min_inliers`: minimum number of landmarks for posing a frame.
   KeyframeSelector(const KeyframeOptions& options, const Camera& camera, int min_inliers)
       : options_(options), camera_(camera), min_inliers_(min_inliers) {}
 
-  /// The newest frame has become a keyframe: it shows these tracks and so many landmarks.
+  /// Makes the newest frame, with its tracks and number of landmarks, the last keyframe.
   void start(const std::vector<PointTrack>& tracks, int landmarks);
   void reset();
-  /// One more frame has been posed.
+  /// Counts a posed frame.
   void count_frame() { ++frames_; }
-  /// Frames since the last keyframe.
+  /// Number of frames since the last keyframe.
   int frames() const { return frames_; }
 
-  /// What a posed frame has in common with the last keyframe.
+  /// Overlap of a posed frame with the last keyframe.
   struct Overlap {
-    int inliers = 0;                ///< landmarks that pose it
-    bool more_tracks = false;       ///< whether it has tracks beside those
+    int inliers = 0;                ///< landmarks that agree with its pose
+    bool more_tracks = false;       ///< whether it has further tracks
     std::vector<double> flow_px{};  ///< displacement of each of its tracks since the last keyframe
   };
   bool due(const Overlap& overlap) const;
-  /// Displacements since the last keyframe of the tracks that it has [px]; if the options say so,
-  /// without what the rotation R_keyframe_cam since then explains.
+  /// Displacements since the last keyframe of the tracks observed in it [px]; if
+  /// KeyframeOptions::derotated, without the part explained by the rotation R_keyframe_cam since
+  /// then.
   std::vector<double> flow_px(const std::vector<PointTrack>& tracks,
                               const SO3& R_keyframe_cam) const;
   /// Pixels of the tracks in the last keyframe, by id.

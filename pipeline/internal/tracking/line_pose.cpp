@@ -3,7 +3,7 @@
 namespace placegraph {
 namespace {
 
-/// Tries guesses of the pose, each from the lines as they were before, and keeps the best.
+/// Tries initial poses, each with the lines in their original state, and keeps the best result.
 struct LineSearch {
   const LineCue before;
   LineCue& lines;
@@ -23,7 +23,7 @@ struct LineSearch {
   }
 };
 
-/// Without points.
+/// Search without a pose from points.
 void search_by_motion(LineSearch& search, const MotionModel& motion) {
   constexpr MotionModel::Uncertainty kMoving{0.03, 0.5, 0.05}, kUnknown{0.08, 0, 0.05};
   constexpr double kFewFound = 0.7;
@@ -37,7 +37,7 @@ void search_by_motion(LineSearch& search, const MotionModel& motion) {
           motion.predicted() * SE3(SO3(), Eigen::Vector3d(0, 0, share * search.median_depth));
       search.from(guess);
     }
-  // The lines found show where to look for the rest.
+  // The lines found so far provide the pose for finding the others.
   if (search.best.outcome &&
       search.lines.followed(search.window) < kFewFound * search.before.followed(search.window)) {
     guess.T_ref_cam = search.best.T_ref_cam;

@@ -5,11 +5,11 @@
 
 namespace placegraph {
 
-/// Follows lines into an image and poses it by them, with the pose that points gave it as a
-/// measurement; `lines` is then what was followed best. Lines are sought from where the points say;
-/// where those say nothing, from where the motion model says, and several ways ahead while no
-/// velocity is known. If lines tell nothing, the answer is that of the points. Outcomes: those of
-/// estimate_pose_from_lines.
+/// Tracks lines into an image and estimates its pose from them, with the pose from points as a
+/// measurement; `lines` then contains the best tracking result. The search for lines starts at the
+/// pose from points; if there is none, at the pose of the motion model, and, while the velocity is
+/// unknown, at several poses ahead. If lines provide no estimate, the pose from points is returned.
+/// Outcomes: those of estimate_pose_from_lines.
 [[nodiscard]] PoseFromLines pose_with_lines(LineCue& lines, const Image& image,
                                             const SlidingWindow& window, const MotionModel& motion,
                                             const Pose3d2dResult& points, double median_depth,

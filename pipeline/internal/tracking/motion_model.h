@@ -5,35 +5,35 @@
 
 namespace placegraph {
 
-/// Motion of the camera from frame to frame at constant velocity.
+/// Constant-velocity model of the camera's motion from frame to frame.
 class MotionModel {
  public:
-  /// `T_last_cur`: motion over one frame; nothing while it is not known.
+  /// `T_last_cur`: motion over one frame; nothing while it is unknown.
   explicit MotionModel(const SE3& T_odom_cam = SE3(), const std::optional<SE3>& T_last_cur = {})
       : T_odom_cam_(T_odom_cam), T_last_cur_(T_last_cur) {}
 
   /// Pose of the last frame that has one.
   const SE3& T_odom_cam() const { return T_odom_cam_; }
   bool velocity_known() const { return T_last_cur_.has_value(); }
-  /// Motion over one frame; identity while it is not known.
+  /// Motion over one frame; identity while it is unknown.
   SE3 T_last_cur() const { return T_last_cur_.value_or(SE3()); }
-  /// Where the next frame is expected.
+  /// Predicted pose of the next frame.
   SE3 predicted() const { return T_odom_cam_ * T_last_cur(); }
 
-  /// The next frame has been posed.
+  /// Updates the model with the pose of the next frame.
   void update(const SE3& T_odom_cam) {
     T_last_cur_ = T_odom_cam_.inverse() * T_odom_cam;
     T_odom_cam_ = T_odom_cam;
   }
-  /// The pose of the last frame is known better; the velocity stays.
+  /// Replaces the pose of the last frame by a better estimate; the velocity is kept.
   void correct(const SE3& T_odom_cam) { T_odom_cam_ = T_odom_cam; }
   void forget_velocity() { T_last_cur_.reset(); }
-  /// The map's unit of length has changed: its lengths grow by `factor`.
+  /// Multiplies the velocity by `factor` after a change of the map's scale.
   void rescale_velocity(double factor) {
     if (T_last_cur_) T_last_cur_ = T_last_cur_->scaled(factor);
   }
 
-  /// How far the next frame may lie from where it is expected.
+  /// Uncertainty of the predicted pose.
   struct Uncertainty {
     double depth_share;  ///< standard deviation of the position, as a share of the median depth ...
     double step_share;   ///< ... plus this share of the motion over one frame

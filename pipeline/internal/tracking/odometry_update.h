@@ -16,34 +16,34 @@ namespace placegraph {
 struct NewKeyframe {
   KeyframeId id;
   Frame frame;
-  std::shared_ptr<const SurfaceLabels> labels =
-      nullptr;  ///< of its surfaces, where they are labelled
+  /// Labels of its surfaces, where they are labelled.
+  std::shared_ptr<const SurfaceLabels> labels = nullptr;
 };
 
-/// A monocular camera has only rotated since an earlier frame.
+/// Pure rotation of a monocular camera since an earlier frame.
 struct PureRotation {
   SO3 R_before_cam;
-  Eigen::Matrix3d covariance;  ///< of its right tangent [rad^2]
+  Eigen::Matrix3d covariance;  ///< covariance of the right tangent [rad^2]
 };
 
-/// A frame that is posed after it was handed over: id and T_odom_cam.
+/// A frame that is posed after it was processed: id and T_odom_cam.
 using PosedFrame = std::pair<FrameId, SE3>;
 
-/// What one frame brought.
+/// Result of one frame.
 struct OdometryUpdate {
   TrackingState state = TrackingState::kInitializing;
-  SE3 T_odom_cam;                      ///< if tracking, or the first of the two views
+  SE3 T_odom_cam;                      ///< valid if tracking, or for the first of the two views
   std::optional<KeyframeId> keyframe;  ///< reference keyframe, if tracking
   int inliers = 0;
-  Outcome outcome;         ///< of tracking; why it is not, or begins anew
-  bool reference = false;  ///< while waiting: this frame is the first of the two views
+  Outcome outcome;         ///< outcome of tracking; the reason why it failed or restarts
+  bool reference = false;  ///< during initialization: this frame is the first of the two views
   std::vector<NewKeyframe> new_keyframes;
-  /// Those before the initialization, and those since the last keyframe, against landmarks that a
-  /// new keyframe has made better known.
+  /// Frames before the initialization, and frames since the last keyframe, posed with landmarks
+  /// that a new keyframe has improved.
   std::vector<PosedFrame> posed_again;
-  std::optional<Rescale> rescale;  ///< the scale became known
-  /// Since the last keyframe (where tracking is lost) or since the first view (while the second is
-  /// waited for; where this frame took that one's place, since the one before it).
+  std::optional<Rescale> rescale;  ///< set when the scale became known
+  /// Rotation since the last keyframe (where tracking is lost) or since the first view (during
+  /// initialization; if this frame replaced the first view, since the previous one).
   std::optional<PureRotation> rotation;
 };
 

@@ -85,7 +85,7 @@ TEST_F(FieldGraphs, EdgesAloneAndFixedPartsHaveTheCostsThatOthersFind) {
     EXPECT_NEAR(optimize(file(name))["chi2_log"].get<double>(), cost, 2e-6) << name;
   // One part is fixed, the other is not: the refusal names the way out.
   const std::string alone = file("graph_parts_that_are_fixed/fixed_alone.g2o");
-  expect_usage_error("optimize " + alone + " -o no.g2o", "--components optimizes each by itself");
+  expect_usage_error("optimize " + alone + " -o no.g2o", "--components optimizes each separately");
   EXPECT_NEAR(optimize(alone, "--components")["chi2_log"].get<double>(), 4.446071, 2e-6);
 }
 
@@ -140,7 +140,7 @@ std::string square_with_tail(const std::string& information) {
          "EDGE_SE2 3 0 1 0.02 1.5707963" + good + "EDGE_SE2 3 7 0.5 0 0 " + information + "\n";
 }
 
-TEST_F(FieldGraphs, AMinimumThatIsNotUniqueIsToldFromEveryStart) {
+TEST_F(FieldGraphs, AMinimumThatIsNotUniqueIsReportedFromEveryStart) {
   PLACEGRAPH_CASE_OR_SKIP("graph_lower_triangle_information");
   for (const char* options :
        {"--start file", "--start certified", "--engine ceres", "--incremental", "--robust huber"}) {
@@ -151,7 +151,7 @@ TEST_F(FieldGraphs, AMinimumThatIsNotUniqueIsToldFromEveryStart) {
   }
 }
 
-TEST_F(FieldGraphs, FreeDirectionsAreToldWithTheirVertices) {
+TEST_F(FieldGraphs, FreeDirectionsAreReportedWithTheirVertices) {
   // Its place across is not measured.
   test::write_file(dir / "tail.g2o", square_with_tail("100 0 0 0 0 400"));
   json report = optimize("tail.g2o");
@@ -193,14 +193,14 @@ TEST_F(FieldGraphs, WordsBehindTheNumbersAreNoPartOfThem) {
   const std::string folder = "graph_words_behind_the_numbers/";
   EXPECT_NEAR(optimize(file(folder + "comment.g2o"))["chi2_log"].get<double>(), 4.446071, 1e-5);
   EXPECT_NEAR(optimize(file(folder + "stamps.g2o"))["chi2_log"].get<double>(), 4.446071, 1e-5);
-  EXPECT_THAT(said, HasSubstr("behind the pose 20 vertices have one number more"));
+  EXPECT_THAT(said, HasSubstr("20 vertices have one more number after the pose"));
 }
 
 TEST_F(FieldGraphs, TimeStampsBehindVerticesArePassedOverAndThatIsSaid) {
   test::write_file(dir / "stamps.g2o", three_poses({" 1403.5", " 1403.6", " 1403.7"}));
   optimize("stamps.g2o");
-  EXPECT_THAT(said, HasSubstr("3 vertices have one number more"));
-  EXPECT_THAT(run("convert stamps.g2o plain.g2o").err, HasSubstr("was passed over"));
+  EXPECT_THAT(said, HasSubstr("3 vertices have one more number"));
+  EXPECT_THAT(run("convert stamps.g2o plain.g2o").err, HasSubstr("was skipped"));
   optimize("plain.g2o");
   EXPECT_THAT(said, IsEmpty());
   // Where it may be a part of the pose it is refused, and where nobody would say so.

@@ -148,11 +148,12 @@ TEST_F(LandmarkGraphs, TakeMeasuredPosesAndPositionsInThePlane) {
 }
 
 /// A square of four poses in the plane, whose corners see a point in the middle and one each beside
-/// it, a little wrong; `turn` and `shift` bring the poses of the file out of the frame of priors.
-std::string square_with_points(const std::string& more, double turn = 0, double shift = 0) {
+/// it, a little wrong; `rotation_rad` and `shift` bring the poses of the file out of the frame of
+/// priors.
+std::string square_with_points(const std::string& more, double rotation_rad = 0, double shift = 0) {
   std::ostringstream out;
   out.precision(17);
-  const SE2 T(shift, -shift, turn);
+  const SE2 T(shift, -shift, rotation_rad);
   const double corners[4][2] = {{0, 0}, {4, 0}, {4, 4}, {0, 4}};
   const auto corner = [&](int i) { return SE2(corners[i][0], corners[i][1], 1.57 * i); };
   for (int i = 0; i < 4; ++i) {
@@ -258,7 +259,7 @@ TEST_F(LandmarkGraphs, SayWhatIsWrongAndWhere) {
   refuses("EDGE_SE2_XY 0 1 3 4 1 0 1", "bad.g2o:4: vertex 1 is a pose, not a point");
   refuses("EDGE_SE2_XY 0 9 nan 4 1 0 1", "bad.g2o:4: ");
   refuses("EDGE_SE2_XY 0 9 4 1 0 1", "bad.g2o:4: EDGE_SE2_XY: expected 7 numbers, found 6");
-  refuses("VERTEX_TRACKXYZ 9 3 4 5", "bad.g2o:4: is of space, and the poses are not in SE3");
+  refuses("VERTEX_TRACKXYZ 9 3 4 5", "bad.g2o:4: is spatial, but the poses are not in SE3");
   refuses("EDGE_BEARING_SE2_XY 0 9 1 1", "bad.g2o:4: 'EDGE_BEARING_SE2_XY': unknown tag");
   const RigOfThree rig;
   dir.write("rig.g2o", rig.text(true, true) + "EDGE_SE3_TRACKXYZ 0 10 6 1 1 1 1 0 0 1 0 1\n");

@@ -159,15 +159,15 @@ TEST_F(MapCli, NothingSavedIsSaid) {
 TEST_F(MapCli, ExplainsAFrame) {
   const CommandResult result = run("explain " + whole() + " 20 --json");
   ASSERT_EQ(result.code, 0) << result.err;
-  const json told = json::parse(result.out);
-  EXPECT_EQ(told["frame"], 20);
-  EXPECT_EQ(told["where"]["posed"], true);
-  EXPECT_EQ(told["where"]["unit"], "m");
-  EXPECT_EQ(told["where"]["covariance"].size(), 6u);
-  EXPECT_GT(told["known_by"]["inliers"], 10);
-  EXPECT_GT(told["known_by"]["constraints"]["odometry"], 0);
-  EXPECT_GT(told["sees"]["surfaces"]["ground"], 0.05);
-  EXPECT_EQ(told["assumed"]["sensor"], "depths measured");
+  const json explanation = json::parse(result.out);
+  EXPECT_EQ(explanation["frame"], 20);
+  EXPECT_EQ(explanation["where"]["posed"], true);
+  EXPECT_EQ(explanation["where"]["unit"], "m");
+  EXPECT_EQ(explanation["where"]["covariance"].size(), 6u);
+  EXPECT_GT(explanation["known_by"]["inliers"], 10);
+  EXPECT_GT(explanation["known_by"]["constraints"]["odometry"], 0);
+  EXPECT_GT(explanation["sees"]["surfaces"]["ground"], 0.05);
+  EXPECT_EQ(explanation["assumed"]["sensor"], "depths measured");
   EXPECT_THAT(run("explain " + whole() + " 20").out, HasSubstr("known by"));
   expect_failure("explain " + whole() + " 99", 1, "has no frame 99");
   expect_usage_error("explain " + whole() + " -1", "FRAME");
@@ -273,7 +273,7 @@ INSTANTIATE_TEST_SUITE_P(
                                 "distortion: {model: radial_tangential, coefficients: [-0.2, "
                                 "0.05, 0, 0]}\n"}));
 
-TEST_F(MapCli, QueriesWithoutOrWithABrokenCalibrationAreToldSo) {
+TEST_F(MapCli, QueriesWithoutOrWithABrokenCalibrationAreReported) {
   fs::create_directory(dir / "query");
   for (const char* name : {"/000004.png", "/000020.png"}) {
     cv::Mat small;

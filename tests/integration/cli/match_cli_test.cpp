@@ -81,9 +81,9 @@ TEST_F(Match, LearnsLabelsOfTheTrainingHalfOnly) {
   for (int i = 0; i < 6; ++i) labels += std::to_string(i) + " " + std::to_string(i / 3) + "\n";
   write_file(dir / "labels.txt", labels);  // none of the images that are asked for
   for (const std::string mode : {"", "--sequence "}) {
-    const auto told = run("places classify . --out told.txt --force " + mode);
-    ASSERT_EQ(told.code, 0) << told.err;
-    EXPECT_THAT(told.out, HasSubstr("6 views learned, 6 told"));
+    const auto classified = run("places classify . --out told.txt --force " + mode);
+    ASSERT_EQ(classified.code, 0) << classified.err;
+    EXPECT_THAT(classified.out, HasSubstr("6 views learned, 6 told"));
     EXPECT_THAT(test::read_file(dir / "told.txt"), ::testing::StartsWith("6 0 "));
     EXPECT_THAT(test::read_file(dir / "told.txt"), HasSubstr("\n11 1 "));
   }
@@ -129,10 +129,10 @@ TEST_F(Match, TellsLabelsByEveryClassifierAndRefusesTheUnsure) {
   for (int i = 0; i < 6; ++i) labels += std::to_string(i) + " " + std::to_string(i / 3) + "\n";
   write_file(dir / "labels.txt", labels);
   for (const std::string classifier : {"svm", "adaboost"}) {
-    const auto told = run(
+    const auto classified = run(
         "places classify . --out told.txt --force --cues colours,tiny --classifier " + classifier);
-    ASSERT_EQ(told.code, 0) << told.err;
-    EXPECT_THAT(told.out, HasSubstr("6 views learned, 6 told"));
+    ASSERT_EQ(classified.code, 0) << classified.err;
+    EXPECT_THAT(classified.out, HasSubstr("6 views learned, 6 told"));
   }
   ASSERT_EQ(run("places classify . --out told.txt --force --max-entropy 0").code, 0);
   EXPECT_THAT(test::read_file(dir / "told.txt"), HasSubstr("6 -1 "));

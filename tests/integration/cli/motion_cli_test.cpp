@@ -42,22 +42,22 @@ class MotionCli : public test::CliTest {
     return json::parse(result.out);
   }
   /// Whether it is the true motion; a translation up to scale has length one.
-  void expect_truth(const json& told) {
-    EXPECT_EQ(told["outcome"], "ok");
-    const Eigen::Vector3d t = told["metric"].get<bool>()
+  void expect_truth(const json& report) {
+    EXPECT_EQ(report["outcome"], "ok");
+    const Eigen::Vector3d t = report["metric"].get<bool>()
                                   ? truth_.translation()
                                   : Eigen::Vector3d(truth_.translation().normalized());
     const Eigen::Matrix3d R = truth_.rotation().matrix();
     for (int i = 0; i < 3; ++i) {
-      EXPECT_NEAR(told["t_ref_cur"][i], t[i], 1e-4);
-      EXPECT_NEAR(told["T_ref_cur"][i][3], t[i], 1e-4);
+      EXPECT_NEAR(report["t_ref_cur"][i], t[i], 1e-4);
+      EXPECT_NEAR(report["T_ref_cur"][i][3], t[i], 1e-4);
       for (int j = 0; j < 3; ++j) {
-        EXPECT_NEAR(told["R_ref_cur"][i][j], R(i, j), 1e-4);
-        EXPECT_EQ(told["T_ref_cur"][i][j], told["R_ref_cur"][i][j]);
+        EXPECT_NEAR(report["R_ref_cur"][i][j], R(i, j), 1e-4);
+        EXPECT_EQ(report["T_ref_cur"][i][j], report["R_ref_cur"][i][j]);
       }
     }
-    EXPECT_GE(told["inliers"].get<int>(), 118);
-    EXPECT_EQ(told["inlier_matches"].size(), told["inliers"]);
+    EXPECT_GE(report["inliers"].get<int>(), 118);
+    EXPECT_EQ(report["inlier_matches"].size(), report["inliers"]);
   }
   const Camera camera_ = test::pinhole(640, 480, 500);
   const SE3 truth_ =
@@ -69,9 +69,9 @@ TEST_F(MotionCli, TellsTheMotionByEveryModelThatFits) {
   for (const char* model :
        {"auto", "essential", "gravity --gravity 0,1,0", "gravity --gravity 0,1,0,0,2,0"}) {
     SCOPED_TRACE(model);
-    const json told = answer(std::string("matches.txt --calib K.txt --model ") + model);
-    expect_truth(told);
-    EXPECT_EQ(told["covariance"].size(), 6u);
+    const json report = answer(std::string("matches.txt --calib K.txt --model ") + model);
+    expect_truth(report);
+    EXPECT_EQ(report["covariance"].size(), 6u);
   }
   const json circle = answer("matches.txt --calib K.txt --model circular");
   expect_truth(circle);
@@ -83,28 +83,28 @@ TEST_F(MotionCli, TellsTheMotionByEveryModelThatFits) {
 TEST_F(MotionCli, TellsMetresByPointsOfKnownPlace) {
   for (const char* form : {"seen.txt --calib K.txt --model 3d2d", "pairs.txt --model 3d3d"}) {
     SCOPED_TRACE(form);
-    const json told = answer(form);
-    EXPECT_TRUE(told["metric"].get<bool>());
-    expect_truth(told);
+    const json report = answer(form);
+    EXPECT_TRUE(report["metric"].get<bool>());
+    expect_truth(report);
   }
   EXPECT_THAT(run("motion pairs.txt --model 3d3d --out m.json").out, HasSubstr("t_ref_cur"));
   EXPECT_EQ(json::parse(test::read_file(dir / "m.json"))["model"], "3d3d");
 }
 
-TEST_F(MotionCli, TellsATurnWithoutATranslation) {
+TEST_F(MotionCli, ReportsARotationWithoutATranslation) {
   std::ostringstream text;
   text.precision(10);
-  const SE3 turn = test::pose({0, 0.05, 0}, {0, 0, 0});
+  const SE3 pure_rotation = test::pose({0, 0.05, 0}, {0, 0, 0});
   for (const Eigen::Vector3d& p : scene_.points_ref)
-    if (const auto px = camera_.project(turn.inverse() * p))
+    if (const auto px = camera_.project(pure_rotation.inverse() * p))
       text << camera_.project(p)->transpose() << ' ' << px->transpose() << '\n';
   dir.write("turn.txt", text.str());
-  const json told = answer("turn.txt --calib K.txt");
-  EXPECT_EQ(told["model"], "rotation");
-  EXPECT_TRUE(told["T_ref_cur"].is_null());
-  EXPECT_TRUE(told["t_ref_cur"].is_null());
-  EXPECT_NEAR(told["R_ref_cur"][0][2], std::sin(0.05), 1e-5);
-  EXPECT_EQ(told["covariance"].size(), 3u);
+  const json report = answer("turn.txt --calib K.txt");
+  EXPECT_EQ(report["model"], "rotation");
+  EXPECT_TRUE(report["T_ref_cur"].is_null());
+  EXPECT_TRUE(report["t_ref_cur"].is_null());
+  EXPECT_NEAR(report["R_ref_cur"][0][2], std::sin(0.05), 1e-5);
+  EXPECT_EQ(report["covariance"].size(), 3u);
 }
 
 TEST_F(MotionCli, SaysWhatIsWrong) {

@@ -184,7 +184,7 @@ TEST_F(OptimizeCli, TakesEveryRobustMethod) {
   }
 }
 
-TEST_F(OptimizeCli, BeginsWhereItIsToldTo) {
+TEST_F(OptimizeCli, BeginsAtTheGivenPoses) {
   write_file(dir / "ring.g2o", ring(30));
   for (const char* start : {"auto", "file", "odometry", "chordal", "certified"}) {
     const json report = optimized(std::string("ring.g2o -o out.g2o --start ") + start);

@@ -101,7 +101,7 @@ TEST_F(RunOdometryCli, GivesMonocularItsUnitAlthoughTheWheelsSlip) {
   EXPECT_LT(ate_m("out/trajectory_optimized.tum"), 0.03 * (kFrames - 1));
 }
 
-TEST_F(RunOdometryCli, OfAnotherClockIsRefusedAndOfAShortTimeIsTold) {
+TEST_F(RunOdometryCli, OfAnotherClockIsRefusedAndOfAShortTimeIsReported) {
   const auto refusal = [&](double begin_s, double unit_s, const std::string& message) {
     write_file(dir / "wheels.tum", wheels(truth(), 0, 0, begin_s, unit_s));
     expect_usage_error("run '" + drive() + "' --odometry wheels.tum --out new/out", message);
@@ -112,7 +112,7 @@ TEST_F(RunOdometryCli, OfAnotherClockIsRefusedAndOfAShortTimeIsTold) {
   write_file(dir / "wheels.tum", wheels(truth(), 0, 0, 1.9));
   const CommandResult late = run_with("--sensor stereo --odometry wheels.tum");
   EXPECT_EQ(late.code, 0);
-  EXPECT_THAT(late.err, HasSubstr("tells the motion between 4 of 23 pairs of frames"));
+  EXPECT_THAT(late.err, HasSubstr("covers the motion between 4 of 23 pairs of frames"));
 }
 
 TEST_F(RunOdometryCli, ABrokenFileGivesOneLineAndNothingIsWritten) {

@@ -57,9 +57,9 @@ TEST_F(Unposed, ViewsWithNothingInCommonAreSaidToBe) {
   EXPECT_THAT(result.err, HasSubstr("no frame could be posed: "));
   EXPECT_THAT(result.err, HasSubstr(" needed to "));
   const json summary = json::parse(result.out);
-  int told = 0;
-  for (const json& frames : summary["unposed"]) told += frames["frames"].get<int>();
-  EXPECT_EQ(told, kFrames);
+  int unposed_frames = 0;
+  for (const json& frames : summary["unposed"]) unposed_frames += frames["frames"].get<int>();
+  EXPECT_EQ(unposed_frames, kFrames);
 }
 
 TEST_F(Unposed, OneFrameWaitsForASecond) {
@@ -74,7 +74,7 @@ TEST_F(Unposed, OneFrameWaitsForASecond) {
 
 TEST_F(Unposed, StereoSayWhatTheyLack) {
   write_blank("baseline_m: 0.1\n", true);
-  expect_reason("0 of 0 tracked points found in the right eye's image");
+  expect_reason("0 of 0 tracked points found in the right image");
 }
 
 TEST_F(Unposed, DepthSaysWhatItLacks) {

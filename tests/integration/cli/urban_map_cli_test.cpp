@@ -93,7 +93,7 @@ TEST_F(UrbanMapCli, NeedsStereo) {
           " --sensor mono --camera-height 1.65 --set max_frames=6 --scene semantics --out other "
           "--json");
   ASSERT_EQ(result.code, 0) << result.err;
-  EXPECT_THAT(result.err, testing::HasSubstr("no semantic map: two eyes are needed"));
+  EXPECT_THAT(result.err, testing::HasSubstr("no semantic map: a stereo camera is required"));
   EXPECT_EQ(json::parse(result.out)["semantic_map"]["outcome"], "too few data");
 }
 

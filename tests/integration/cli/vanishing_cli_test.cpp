@@ -42,22 +42,22 @@ TEST_F(VanishingCli, TellsTheWorldAndItsPoints) {
   write_lines(segments);
   const CommandResult result = run("vanishing lines.txt --calib K.txt --json");
   ASSERT_EQ(result.code, 0) << result.err;
-  const json told = json::parse(result.out);
-  EXPECT_TRUE(told["manhattan_supported"].get<bool>());
-  const Eigen::Matrix3d M = matrix_of(told["R_cam_manhattan"]);
+  const json report = json::parse(result.out);
+  EXPECT_TRUE(report["manhattan_supported"].get<bool>());
+  const Eigen::Matrix3d M = matrix_of(report["R_cam_manhattan"]);
   EXPECT_LT((M - R.matrix()).norm(), 0.01);
-  EXPECT_GT(matrix_of(told["covariance"]).trace(), 0);
-  ASSERT_EQ(told["vanishing_points"].size(), 3u);
-  ASSERT_EQ(told["points"].size(), 3u);
+  EXPECT_GT(matrix_of(report["covariance"]).trace(), 0);
+  ASSERT_EQ(report["vanishing_points"].size(), 3u);
+  ASSERT_EQ(report["points"].size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) {
-    const json& v = told["vanishing_points"][i];
+    const json& v = report["vanishing_points"][i];
     const Eigen::Vector3d direction(v.at(0), v.at(1), v.at(2));
     EXPECT_NEAR(direction.norm(), 1, 1e-9);
-    const int axis = told["points"][i]["axis"].get<int>();
+    const int axis = report["points"][i]["axis"].get<int>();
     EXPECT_GT(std::abs(direction.dot(R.matrix().col(axis))), 0.9999);
   }
-  EXPECT_EQ(told["labels"].size(), segments.size());
-  EXPECT_EQ(told["worlds"].size(), 1u);
+  EXPECT_EQ(report["labels"].size(), segments.size());
+  EXPECT_EQ(report["worlds"].size(), 1u);
   EXPECT_EQ(run("vanishing lines.txt --calib K.txt --json --seed 1").out.substr(0, 400),
             result.out.substr(0, 400));
   EXPECT_THAT(run("vanishing lines.txt --calib K.txt").out,
@@ -71,11 +71,11 @@ TEST_F(VanishingCli, SaysNullWhereNoWorldIsSupported) {
   write_lines(segments);
   const CommandResult result = run("vanishing lines.txt --calib K.txt --json");
   ASSERT_EQ(result.code, 0) << result.err;
-  const json told = json::parse(result.out);
-  EXPECT_FALSE(told["manhattan_supported"].get<bool>());
-  EXPECT_TRUE(told["R_cam_manhattan"].is_null());
-  EXPECT_TRUE(told["covariance"].is_null());
-  EXPECT_TRUE(told["vanishing_points"].empty());
+  const json report = json::parse(result.out);
+  EXPECT_FALSE(report["manhattan_supported"].get<bool>());
+  EXPECT_TRUE(report["R_cam_manhattan"].is_null());
+  EXPECT_TRUE(report["covariance"].is_null());
+  EXPECT_TRUE(report["vanishing_points"].empty());
   EXPECT_THAT(run("vanishing lines.txt --calib K.txt").out, HasSubstr("no rectangular world"));
 }
 

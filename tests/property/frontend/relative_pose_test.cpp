@@ -68,7 +68,7 @@ TEST(RelativePose, FromVerticalsLiesWithinItsCovariance) {
   EXPECT_LT(nees, 5 * 1.4);
 }
 
-TEST(RelativePose, OfAnyTurnOfACarIsRecoveredBySinglePoints) {
+TEST(RelativePose, OfAnyRotationOfACarIsRecoveredBySinglePoints) {
   Random random = seeded_random(73);
   for (int run = 0; run < 60; ++run) {
     const double yaw = random.uniform(-0.3, 0.3);
@@ -87,7 +87,7 @@ TEST(RelativePose, OfAnyTurnOfACarIsRecoveredBySinglePoints) {
   }
 }
 
-TEST(RelativePose, OfAnyTwoCloudsIsRecoveredAndTurnsIntoItsInverse) {
+TEST(RelativePose, OfAnyTwoCloudsIsRecoveredAndSwappedIsItsInverse) {
   Random random = seeded_random(74);
   for (int run = 0; run < 60; ++run) {
     const SE3 truth = pose(random_vector(2, random), random_vector(10, random));

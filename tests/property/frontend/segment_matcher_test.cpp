@@ -29,7 +29,7 @@ class TwoViews : public testing::Test {
   }
 };
 
-TEST_F(TwoViews, AreMatchedThroughTurnScaleAndLight) {
+TEST_F(TwoViews, AreMatchedThroughRotationScaleAndLight) {
   H_b << 0.85, -0.45, 100, 0.45, 0.85, -20, 0, 0, 1;
   expect_truth(0.7);
 }

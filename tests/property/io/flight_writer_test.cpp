@@ -38,7 +38,7 @@ TEST(FlightWriter, WhatItWritesIsReadAsItWas) {
   EXPECT_EQ(cv::norm(read.images->frame(1, Sensor::kMono).image, world.render(1, {}).frame.image,
                      cv::NORM_INF),
             0);
-  const synthetic::FlightSetting& setting = *world.hover();
+  const synthetic::FlightSetting& setting = *world.flight_setting();
   EXPECT_LT((read.T_body_cam.inverse() * setting.T_body_cam).log().norm(), 1e-9);
   const Camera camera = read.images->calibration(Sensor::kMono).camera;
   EXPECT_NEAR(camera.fx, world.calibration().camera.fx, 1e-4);
@@ -58,7 +58,7 @@ TEST(FlightWriter, RefusesWorldsThatDoNotFly) {
   const TemporaryFolder folder;
   const SyntheticWorld world = world_of("warehouse");
   EXPECT_THAT(message_of<ArgumentError>([&] { write_flight(world, folder / "x", {}); }),
-              testing::HasSubstr("is no flight"));
+              testing::HasSubstr("is not a flight"));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/io/internal/synthetic/worlds/hover.h>
+#include <placegraph/io/internal/synthetic/worlds/flight_world.h>
 #include <placegraph/io/internal/synthetic/worlds/synthetic_world.h>
 
 #include <cmath>
@@ -12,7 +12,7 @@ using Eigen::Vector3d;
 using synthetic::FlightSetting;
 using synthetic::Glyph;
 
-SyntheticWorld hover(std::uint64_t seed, double duration_s) {
+SyntheticWorld flight_world(std::uint64_t seed, double duration_s) {
   SyntheticOptions options;
   options.world = "hover";
   options.difficulty = synthetic::Difficulty::kClean;
@@ -22,7 +22,7 @@ SyntheticWorld hover(std::uint64_t seed, double duration_s) {
 }
 
 SE3 T_world_cam(const SyntheticWorld& world, std::size_t index) {
-  const FlightSetting& setting = *world.hover();
+  const FlightSetting& setting = *world.flight_setting();
   return setting.flight.at_image(index).T_world_body * setting.T_body_cam;
 }
 
@@ -34,9 +34,9 @@ bool sees_marks(const SyntheticWorld& world, std::size_t index) {
     const auto px = camera.project(T_cam_world * p);
     return px && camera.contains(*px);
   };
-  for (const Vector3d& beacon : world.hover()->layout.beacons_world)
+  for (const Vector3d& beacon : world.flight_setting()->layout.beacons_world)
     if (in_view(beacon)) return true;
-  for (const PlacedMarker& marker : world.hover()->layout.markers) {
+  for (const PlacedMarker& marker : world.flight_setting()->layout.markers) {
     bool whole = true;
     for (const Vector3d& corner : marker.corners_marker())
       whole = whole && in_view(marker.T_world_marker * corner);
@@ -46,13 +46,13 @@ bool sees_marks(const SyntheticWorld& world, std::size_t index) {
 }
 
 TEST(FlightWorld, ShowsEveryCellOfItsMarkersWhereTheLayoutSaysIt) {
-  const SyntheticWorld world = hover(2, 3);
+  const SyntheticWorld world = flight_world(2, 3);
   const Camera camera = world.calibration().camera;
   const Image image = world.render(0, {}).frame.image;
   const SE3 T_cam_world = T_world_cam(world, 0).inverse();
   int cells = 0;
-  for (std::size_t m = 0; m < world.hover()->layout.markers.size(); ++m) {
-    const PlacedMarker& marker = world.hover()->layout.markers[m];
+  for (std::size_t m = 0; m < world.flight_setting()->layout.markers.size(); ++m) {
+    const PlacedMarker& marker = world.flight_setting()->layout.markers[m];
     const Glyph& glyph = world.tour().scene.glyphs[m];
     for (int row = 0; row < glyph.cells; ++row)
       for (int column = 0; column < glyph.cells; ++column) {
@@ -73,7 +73,7 @@ TEST(FlightWorld, ShowsEveryCellOfItsMarkersWhereTheLayoutSaysIt) {
 
 TEST(FlightWorld, LosesItsMarkersForFiveSecondsAgainAndAgain) {
   for (const std::uint64_t seed : {1, 2, 3, 4}) {
-    const SyntheticWorld world = hover(seed, 120);
+    const SyntheticWorld world = flight_world(seed, 120);
     int outages = 0, blind = 0;
     double longest_s = 0;
     for (std::size_t i = 0; i < world.size(); ++i) {
@@ -102,7 +102,7 @@ TEST(FlightWorld, StaysInTheAirAndOverItsFloor) {
 }
 
 TEST(FlightWorld, FlowLeadsToWhereTheFloorIsInTheNextImage) {
-  const SyntheticWorld world = hover(5, 6);
+  const SyntheticWorld world = flight_world(5, 6);
   const Camera camera = world.calibration().camera;
   SyntheticContents contents;
   contents.flow = true;

@@ -323,8 +323,9 @@ TEST(TownLoop, NodsLikeACarFromItsFirstFrameToItsLast) {
   const SyntheticWorld world = open("town-loop");
   const auto& poses = world.tour().T_scene_cam;
   for (std::size_t i = 1; i < poses.size(); ++i) {
-    const Eigen::Vector3d turn = (poses[i - 1].rotation().inverse() * poses[i].rotation()).log();
-    EXPECT_LT(std::abs(turn.x()), deg_to_rad(0.5)) << "frame " << i;
+    const Eigen::Vector3d step_rotation =
+        (poses[i - 1].rotation().inverse() * poses[i].rotation()).log();
+    EXPECT_LT(std::abs(step_rotation.x()), deg_to_rad(0.5)) << "frame " << i;
   }
 }
 

@@ -29,7 +29,8 @@ TEST(FlightConsistency, ErrsAsItsCovarianceSaysThroughOutages) {
   for (std::uint64_t seed = 1; seed <= kFlights; ++seed) {
     const synthetic::Tour tour = tour_of(200 + seed, 15);
     const auto frames = fly_without_images(tour, {}, {}, seed, [](double) { return true; });
-    const BodyStateError error = body_state_error(tour.hover->flight.truth, answers(frames));
+    const BodyStateError error =
+        body_state_error(tour.flight_setting->flight.truth, answers(frames));
     ASSERT_TRUE(error.outcome) << error.outcome.reason;
     EXPECT_LT(error.position_rmse_m, 0.02) << "seed " << seed;
     EXPECT_LT(error.velocity_rmse_mps, 0.03) << "seed " << seed;
@@ -47,7 +48,7 @@ TEST(FlightConsistency, ErrsAsItsCovarianceSaysThroughOutages) {
 TEST(FlightConsistency, GoesOnByFlowAloneAfterItsLastMarker) {
   const synthetic::Tour tour = tour_of(31, 20);
   const auto frames = fly_without_images(tour, {}, {}, 5, [](double t) { return t < 2; });
-  const BodyStateError error = body_state_error(tour.hover->flight.truth, answers(frames));
+  const BodyStateError error = body_state_error(tour.flight_setting->flight.truth, answers(frames));
   ASSERT_TRUE(error.outcome);
   EXPECT_EQ(error.compared, 401);
   EXPECT_LT(error.end_error_m, 0.02 * error.way_m);
@@ -58,7 +59,7 @@ TEST(FlightConsistency, MarkersThatComeLateAreWorthAlmostAsMuch) {
   FlightOptions late;
   late.marker_delay_s = 0.2;
   const auto frames = fly_without_images(tour, late, {}, 6, [](double) { return true; });
-  const BodyStateError error = body_state_error(tour.hover->flight.truth, answers(frames));
+  const BodyStateError error = body_state_error(tour.flight_setting->flight.truth, answers(frames));
   ASSERT_TRUE(error.outcome);
   EXPECT_LT(error.position_rmse_m, 0.03);
   EXPECT_LT(error.velocity_rmse_mps, 0.1);
@@ -93,13 +94,14 @@ TEST(FlightConsistency, ErrsAsItsCovarianceSaysWhereImagesAreDropped) {
   for (std::uint64_t seed = 1; seed <= kFlights; ++seed) {
     const synthetic::Tour tour = tour_of(50 + seed, 15);
     Random random(seed, 9);
-    std::vector<bool> dropped(tour.hover->flight.images.size());
+    std::vector<bool> dropped(tour.flight_setting->flight.images.size());
     // Every third at random, and three times a quarter of a second of them.
     for (std::size_t i = 0; i < dropped.size(); ++i)
       dropped[i] = random.uniform() < 1 / 3.0 || (i % 100 >= 60 && i % 100 < 65);
     const auto frames = fly_without_images(
         tour, {}, {}, seed, [](double) { return true; }, [&](std::size_t i) { return dropped[i]; });
-    const BodyStateError error = body_state_error(tour.hover->flight.truth, answers(frames));
+    const BodyStateError error =
+        body_state_error(tour.flight_setting->flight.truth, answers(frames));
     ASSERT_TRUE(error.outcome) << error.outcome.reason;
     EXPECT_GT(error.compared, 0.95 * static_cast<double>(frames.size()));
     EXPECT_LT(error.position_rmse_m, 0.02) << "seed " << seed;
@@ -112,9 +114,9 @@ TEST(FlightConsistency, ErrsAsItsCovarianceSaysWhereImagesAreDropped) {
 
 /// The same measurements where the layout's world is rotated about the vertical and shifted: the
 /// states are, too, and what the filter accepts stays the same.
-TEST(HoverLaw, RotatingTheWorldAboutTheVerticalRotatesTheStates) {
+TEST(FlightLaw, RotatingTheWorldAboutTheVerticalRotatesTheStates) {
   const synthetic::Tour tour = tour_of(61, 6);
-  const synthetic::FlightSetting& setting = *tour.hover;
+  const synthetic::FlightSetting& setting = *tour.flight_setting;
   const SE3 T_other_world(SO3::exp({0, 0, 2.1}), Eigen::Vector3d(3, -2, 0));
   MarkerLayout other = setting.layout;
   for (PlacedMarker& marker : other.markers)

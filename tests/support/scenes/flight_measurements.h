@@ -19,7 +19,10 @@ class FlightMeasurementsSource {
  public:
   FlightMeasurementsSource(const synthetic::Tour& tour, const FlightMeasurementsOptions& options,
                            std::uint64_t seed)
-      : setting_(*tour.hover), camera_(tour.camera), options_(options), random_(seed, 71) {}
+      : setting_(*tour.flight_setting),
+        camera_(tour.camera),
+        options_(options),
+        random_(seed, 71) {}
 
   /// Flow is that since the image that was looked at before.
   FlightMeasurements look(std::size_t image, bool markers_visible = true) {
@@ -99,7 +102,7 @@ std::vector<FlightFrame> fly_without_images(const synthetic::Tour& tour, FlightO
                                             const FlightMeasurementsOptions& observations,
                                             std::uint64_t seed, const Visible& visible,
                                             const std::function<bool(std::size_t)>& dropped = {}) {
-  const synthetic::FlightSetting& setting = *tour.hover;
+  const synthetic::FlightSetting& setting = *tour.flight_setting;
   const ImuNoise& noise = setting.flight.imu.noise;
   options.filter.gyro_noise = noise.gyro;
   options.filter.accel_noise = noise.accel;

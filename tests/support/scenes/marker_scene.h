@@ -70,8 +70,8 @@ struct MarkerScene {
     const Image picture = marker_picture(layout.dictionary, marker.id, 1);
     const double cell = marker.side_m / picture.cols,
                  reach = marker.side_m / 2 + quiet_cells * cell;
-    const Eigen::Vector3d eye = T_marker_cam.translation();
-    if (eye.z() <= 0) return;
+    const Eigen::Vector3d camera_position = T_marker_cam.translation();
+    if (camera_position.z() <= 0) return;
     double left = 1e9, right = -1e9, top = 1e9, bottom = -1e9;
     for (const double x : {-reach, reach})
       for (const double y : {-reach, reach}) {
@@ -89,7 +89,7 @@ struct MarkerScene {
   }
   double pixel(const Image& picture, double cell, double reach, const SE3& T_marker_cam, int u,
                int v, double behind) const {
-    const Eigen::Vector3d eye = T_marker_cam.translation();
+    const Eigen::Vector3d camera_position = T_marker_cam.translation();
     double sum = 0;
     for (int j = 0; j < samples; ++j)
       for (int i = 0; i < samples; ++i) {
@@ -97,7 +97,7 @@ struct MarkerScene {
             camera.unproject({u + (i + 0.5) / samples - 0.5, v + (j + 0.5) / samples - 0.5});
         const Eigen::Vector3d way =
             T_marker_cam.rotation() * ray.value_or(Eigen::Vector3d::UnitZ());
-        const Eigen::Vector3d hit = eye - eye.z() / way.z() * way;
+        const Eigen::Vector3d hit = camera_position - camera_position.z() / way.z() * way;
         const bool sheet = way.z() < 0 && std::max(std::abs(hit.x()), std::abs(hit.y())) <= reach;
         if (!sheet) {
           sum += behind;

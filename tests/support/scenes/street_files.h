@@ -31,10 +31,11 @@ class StreetFiles {
   /// s/calib.txt, s/image_0 and, for two eyes, s/image_1.
   void write_kitti(bool stereo) const {
     const Camera c = street_camera();
-    const auto P = [&](int eye) {
+    const auto P = [&](int camera_number) {
       std::ostringstream line;
-      line << std::setprecision(12) << "P" << eye << ": " << c.fx << " 0 " << c.cx << " "
-           << -c.fx * kStreetBaseline_m * eye << " 0 " << c.fy << " " << c.cy << " 0 0 0 1 0\n";
+      line << std::setprecision(12) << "P" << camera_number << ": " << c.fx << " 0 " << c.cx << " "
+           << -c.fx * kStreetBaseline_m * camera_number << " 0 " << c.fy << " " << c.cy
+           << " 0 0 0 1 0\n";
       return line.str();
     };
     folder_.write("s/calib.txt", P(0) + (stereo ? P(1) : ""));

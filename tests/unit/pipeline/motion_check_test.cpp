@@ -47,7 +47,7 @@ TEST(OddPosture, IsThatOfACameraOnItsSide) {
   EXPECT_THAT(side->text, HasSubstr("as if it lay on its side"));
 }
 
-TEST(OddPosture, OfHighImagesIsToldUnlessTheyTurnUpright) {
+TEST(OddPosture, OfHighImagesIsReportedUnlessTheyBecomeUpright) {
   EXPECT_THAT(odd_posture(camera(480, 640), rotations_of(drive(10, kY, 0)))->text,
               HasSubstr("higher than wide"));
   EXPECT_FALSE(odd_posture(camera(480, 640), rotations_of(drive(10, kY, 60))));

@@ -51,7 +51,7 @@ TEST(StereoCheck, SaysHowFarRowsAreOffAndWhy) {
   const auto rolled = note_of(rotated(1, 1, 0));
   ASSERT_TRUE(rolled);
   EXPECT_TRUE(rolled->doubts_scale);
-  EXPECT_THAT(rolled->text, HasSubstr("as if the right eye were rolled by"));
+  EXPECT_THAT(rolled->text, HasSubstr("as if the right camera were rolled by"));
   EXPECT_THAT(rolled->text, HasSubstr("rectify the pair first"));
   const auto lower = note_of(rotated(0, 1, 3));
   ASSERT_TRUE(lower);
@@ -75,7 +75,7 @@ TEST(StereoCheck, TellsSwappedCameras) {
   };
   const auto note = odd_rows(check_rows(Swapped(4)), kCamera);
   ASSERT_TRUE(note);
-  EXPECT_THAT(note->text, HasSubstr("are the eyes swapped?"));
+  EXPECT_THAT(note->text, HasSubstr("are the cameras swapped?"));
 }
 
 TEST(StereoCheck, DoesNotJudgeWhatShowsNothing) {

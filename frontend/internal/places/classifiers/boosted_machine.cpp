@@ -7,7 +7,7 @@
 namespace placegraph {
 namespace {
 
-/// What one least-squares machine per cue says of each place: cues x places columns.
+/// Outputs of one least-squares machine per cue for each place: cues x places columns.
 class CueOpinions {
  public:
   CueOpinions(const PlaceTrainingSet& training_set, const PlaceClassifierOptions& options)
@@ -25,13 +25,13 @@ class CueOpinions {
       left_out_.rightCols(places_) = said;
     }
   }
-  /// Of views by machines trained without their fold.
+  /// Outputs for the views by machines trained without their fold.
   const Eigen::MatrixXd& left_out() const { return left_out_; }
   Eigen::VectorXd of(const std::array<Eigen::VectorXd, kClassifierCues>& distances) const {
     Eigen::VectorXd result = Eigen::VectorXd::Zero(left_out_.cols());
     Eigen::Index first = 0;
     for (const Cue& cue : cues_) {
-      // A cue without distances is one that no stump looks at.
+      // No stump uses a cue without distances.
       if (distances[cue.cue].size() > 0)
         result.segment(first, places_) =
             cue.coefficients.transpose() * kernel_of(distances, cue.alone);
@@ -54,7 +54,7 @@ class CueOpinions {
   Eigen::MatrixXd left_out_;
 };
 
-/// A stump: +-vote by whether one opinion is above a threshold.
+/// Stump: a vote of either sign by a threshold on one output.
 struct Stump {
   int column = 0;
   double threshold = 0, below = 0, above = 0;
@@ -105,7 +105,7 @@ Ensemble boost(const Eigen::MatrixXd& opinions, const std::vector<Eigen::Index>&
   return ensemble;
 }
 
-/// The votes for a place, of a sum of one: 1 where all agree that it is.
+/// Votes for a place, whose weights sum to one: 1 if all stumps agree on the place.
 double vote(const Ensemble& ensemble, const Eigen::Ref<const Eigen::VectorXd>& opinions) {
   double sum = 0, most = 0;
   for (const Stump& stump : ensemble) {
@@ -148,7 +148,7 @@ class BoostedMachine final : public PlaceMachine {
   std::vector<Ensemble> ensembles_;
 };
 
-/// How much the stumps that look at a cue say, the most of any cue 1.
+/// Weight of the stumps on each cue; the largest of any cue is 1.
 PerCue weights_of(const std::vector<Ensemble>& ensembles, const CueOpinions& opinions) {
   PerCue weights{};
   for (const Ensemble& ensemble : ensembles)

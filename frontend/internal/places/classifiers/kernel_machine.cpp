@@ -13,7 +13,7 @@ double sum_of(const PerCue& weights) {
   return std::accumulate(weights.begin(), weights.end(), 0.0);
 }
 
-/// All of {0, 1/2, 1} per cue there is, with at least one 1.
+/// All combinations of {0, 1/2, 1} per available cue with at least one 1.
 std::vector<PerCue> weights_to_try(const PlaceTrainingSet& training_set) {
   std::vector<PerCue> result;
   int codes = 1;

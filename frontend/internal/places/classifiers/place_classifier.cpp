@@ -33,7 +33,8 @@ double median_above_diagonal(const Eigen::MatrixXd& matrix) {
   return std::max(*middle, 1e-9);
 }
 
-/// Runs of one label are visits; each is cut into so many parts.
+/// Fold of each view. Consecutive views with one label are a visit; each visit is cut into so many
+/// parts.
 std::vector<int> folds_of(const std::vector<int>& labels, int folds) {
   std::vector<int> result(labels.size());
   for (std::size_t first = 0; first < labels.size();) {
@@ -48,11 +49,11 @@ std::vector<int> folds_of(const std::vector<int>& labels, int folds) {
 
 void check(const std::vector<PlaceCueVectors>& views, const std::vector<int>& labels) {
   require(!views.empty() && views.size() == labels.size(),
-          "PlaceClassifier: as many labels as views needed");
+          "PlaceClassifier: needs as many labels as views");
   require(*std::min_element(labels.begin(), labels.end()) >= 0,
           "PlaceClassifier: a negative label");
   require(std::any_of(labels.begin(), labels.end(), [&](int l) { return l != labels.front(); }),
-          "PlaceClassifier: two places or more needed");
+          "PlaceClassifier: needs two places or more");
   require(std::any_of(views.front().begin(), views.front().end(),
                       [](const Eigen::VectorXf& cue) { return cue.size() > 0; }),
           "PlaceClassifier: views without any cue");
@@ -137,7 +138,7 @@ Eigen::VectorXd PlaceClassifier::classify(const PlaceCueVectors& view) const {
     distances[m].resize(static_cast<Eigen::Index>(views_.size()));
     for (std::size_t i = 0; i < views_.size(); ++i) {
       require(view[m].size() == views_[i][m].size(),
-              "PlaceClassifier: an image of another shape, or grey and not in colour");
+              "PlaceClassifier: the image has another shape, or is grey and not in colour");
       distances[m][static_cast<Eigen::Index>(i)] =
           squared_distance(view[m], views_[i][m]) / median_[m];
     }
@@ -155,9 +156,9 @@ double entropy_share(const Eigen::VectorXd& probabilities) {
 
 LabelFilter::LabelFilter(const std::vector<int>& labels) {
   require(!labels.empty() && *std::min_element(labels.begin(), labels.end()) >= 0,
-          "LabelFilter: labels from 0 needed");
+          "LabelFilter: needs labels from 0 on");
   const int count = *std::max_element(labels.begin(), labels.end()) + 1;
-  // Half a transition that was not seen: a way may be taken for the first time.
+  // Unseen transitions count as half of one, as a path may be taken for the first time.
   transition_ = Eigen::MatrixXd::Constant(count, count, 0.5);
   for (std::size_t i = 1; i < labels.size(); ++i) {
     transition_(labels[i], labels[i - 1]) += 1;
@@ -168,7 +169,8 @@ LabelFilter::LabelFilter(const std::vector<int>& labels) {
 }
 
 Eigen::VectorXd LabelFilter::update(const Eigen::VectorXd& probabilities) {
-  require(probabilities.size() == belief_.size(), "LabelFilter: another number of places");
+  require(probabilities.size() == belief_.size(),
+          "LabelFilter: the number of places differs from that of the training");
   belief_ = (transition_ * belief_).cwiseProduct(probabilities);
   belief_ /= belief_.sum();
   return belief_;

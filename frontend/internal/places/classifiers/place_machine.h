@@ -9,41 +9,45 @@
 namespace placegraph {
 
 constexpr int kClassifierCues = 5;
-/// One number per cue: a weight, or the squared distance of two views.
+/// One number per cue: a weight, or the squared distance between two views.
 using PerCue = std::array<double, kClassifierCues>;
 
-/// The kernel machine is the default. The two of OpenCV are there to compare: on the same views and
-/// cues they name 0.994 and 0.955 of the places rightly, the kernel machine 0.994 (docs/results.md,
-/// section place_classifiers).
+/// Kinds of machines that learn the places.
+///
+/// The kernel machine is the default. The two of OpenCV serve for comparison: on the same views and
+/// cues they classify 0.994 and 0.955 of the places correctly, the kernel machine 0.994
+/// (docs/results.md, section place_classifiers).
 enum class PlaceMachineKind {
   kKernel,    ///< least-squares support vector machines over one kernel of all cues
   kSvm,       ///< support vector machines over the same kernel (OpenCV)
-  kAdaboost,  ///< boosted stumps over what one machine per cue says (OpenCV)
+  kAdaboost,  ///< boosted stumps over the outputs of one machine per cue (OpenCV)
 };
 
 struct PlaceClassifierOptions {
   PlaceMachineKind machine = PlaceMachineKind::kKernel;
-  double ridge = 0.01;  ///< of the kernel matrix
-  int folds = 4;        ///< parts that every visit to a place is cut into, each left out once
-  int rounds = 60;      ///< stumps of one boosted machine
+  double ridge = 0.01;  ///< value added to the diagonal of the kernel matrix
+  int folds = 4;        ///< number of parts of every visit to a place, each left out once
+  int rounds = 60;      ///< number of stumps of one boosted machine
   void check() const;
 };
 void visit(OptionVisitor& field, PlaceClassifierOptions& options);
 
-/// Labelled views by their distances to each other.
+/// Labelled views, represented by the distances between them.
 struct PlaceTrainingSet {
-  /// Squared distances in each cue over their median; empty for a cue that there is not.
+  /// Squared distances in each cue over their median; empty for a missing cue.
   std::array<Eigen::MatrixXd, kClassifierCues> distances;
   std::vector<int> labels;
   int places = 0;         ///< labels 0 .. places-1
-  std::vector<int> fold;  ///< of each view, what is left out together
+  std::vector<int> fold;  ///< fold of each view; the views of a fold are left out together
 };
 
-/// One-vs-rest: an output per place, larger is surer, 0 about where it is as likely as not.
+/// One-vs-rest machine: one output per place, larger is more certain, about 0 for a probability of
+/// 0.5.
 class PlaceMachine {
  public:
   virtual ~PlaceMachine() = default;
-  /// `distances`: of a view to those of the lesson, as there.
+  /// Returns the outputs for a view. `distances`: from the view to those of the training set, in
+  /// the same units.
   virtual Eigen::VectorXd outputs(
       const std::array<Eigen::VectorXd, kClassifierCues>& distances) const = 0;
 };
@@ -51,14 +55,14 @@ class PlaceMachine {
 struct TrainedPlaceMachine {
   std::shared_ptr<const PlaceMachine> machine;
   Eigen::MatrixXd left_out;  ///< outputs for views by machines trained without their fold
-  PerCue weights{};          ///< how much each cue counts, the most important 1
+  PerCue weights{};          ///< weight of each cue; the largest is 1
 };
 
-/// The machine of `options.machine`. Same lesson, same bits.
+/// Trains the machine of `options.machine`. The same training set gives the same bits.
 TrainedPlaceMachine train_place_machine(const PlaceTrainingSet& training_set,
                                         const PlaceClassifierOptions& options);
 
-/// Each kind by itself.
+/// Trainers of the single kinds.
 TrainedPlaceMachine train_kernel_machine(const PlaceTrainingSet& training_set,
                                          const PlaceClassifierOptions& options);
 TrainedPlaceMachine train_support_vectors(const PlaceTrainingSet& training_set,

@@ -8,7 +8,7 @@
 namespace placegraph {
 namespace {
 
-/// Looks kernel values up: a sample is the number of a view.
+/// Kernel that reads its values from a table: a sample is the index of a view.
 class KernelTable final : public cv::ml::SVM::Kernel {
  public:
   explicit KernelTable(const Eigen::MatrixXd& kernel) : kernel_(&kernel) {}
@@ -104,7 +104,7 @@ Eigen::MatrixXd left_out(const PlaceTrainingSet& training_set, const Eigen::Matr
   return outputs;
 }
 
-/// What is lost where a view is on the wrong side of the margin.
+/// Loss of views on the wrong side of the margin.
 double hinge_loss(const Eigen::MatrixXd& outputs, const Eigen::MatrixXd& targets) {
   return (1 - outputs.array() * targets.array()).max(0).sum();
 }

@@ -17,8 +17,8 @@ struct Shares {
   std::array<float, 2> share = {0, 0};
 };
 
-// Between the bins' centres 0, 1, ...; `wrap`: the last is beside the first; else what lies beyond
-// the end bins belongs to them, or where `lose` to none.
+// The bins' centres are at 0, 1, ... With `wrap` the last bin is beside the first; otherwise a
+// position beyond the end bins counts for the end bin, or with `lose` for none.
 Shares shares_of(float position, int bins, bool wrap, bool lose) {
   const float floor = std::floor(position);
   Shares result;

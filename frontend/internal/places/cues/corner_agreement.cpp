@@ -14,7 +14,7 @@ namespace {
 
 constexpr float kOctave = 1.2f;
 
-/// Matched points of two views side by side, so that several are judged at once.
+/// Matched points of two views, stored by coordinate so that several are tested at once.
 struct MatchedPoints {
   std::vector<float> ax, ay, bx, by;
 };
@@ -49,7 +49,7 @@ std::vector<Feature> corners_of_view(const Image& grey, const CornerAgreementOpt
     cv::resize(grey, sized, {options.width_px, height}, 0, 0,
                grey.cols > options.width_px ? cv::INTER_AREA : cv::INTER_CUBIC);
   }
-  // The strongest wherever they are: spread over the image, fewer would be found again.
+  // The strongest corners anywhere: if they were spread over the image, fewer would be found again.
   constexpr int kOctaves = 6, kMargin = 16, kPatch = 31, kFastThreshold = 5;
   const auto orb = cv::ORB::create(options.max_corners, kOctave, kOctaves, kMargin, 0, 2,
                                    cv::ORB::HARRIS_SCORE, kPatch, kFastThreshold);
@@ -86,8 +86,8 @@ int corner_agreement(const std::vector<Feature>& a, const std::vector<Feature>& 
     const Feature& from = a[static_cast<std::size_t>(proposal.a)];
     const Feature& to = b[static_cast<std::size_t>(proposal.b)];
     const float scale = std::pow(kOctave, static_cast<float>(to.octave - from.octave));
-    const float turn = to.angle_rad - from.angle_rad;
-    const float c = scale * std::cos(turn), s = scale * std::sin(turn);
+    const float angle_rad = to.angle_rad - from.angle_rad;
+    const float c = scale * std::cos(angle_rad), s = scale * std::sin(angle_rad);
     most = std::max(most, count_agreeing(points,
                                          {c, s, to.px.x() - c * from.px.x() + s * from.px.y(),
                                           to.px.y() - s * from.px.x() - c * from.px.y()},

@@ -14,7 +14,7 @@ PLACEGRAPH_INLINE std::int32_t dot(const std::int16_t* a, const std::int16_t* b,
   return sum;
 }
 
-/// The sum over rows that lie `stride` apart.
+/// Sum over rows that are `stride` apart.
 PLACEGRAPH_CLONES
 std::int64_t window_product(const std::int16_t* a, std::ptrdiff_t stride_a, const std::int16_t* b,
                             std::ptrdiff_t stride_b, int rows, int count) {
@@ -40,7 +40,7 @@ const std::int16_t* cell(const CueGrid& grid, int x, int y) {
   return grid.values.data() + static_cast<std::ptrdiff_t>(y * grid.columns + x) * grid.channels;
 }
 
-// Similarity with the query's cell (0, 0) upon the candidate's (x, y).
+// Similarity with the query's cell (0, 0) at the candidate's (x, y).
 double similarity_at(const CueGrid& query, const CueGrid& candidate, int x, int y,
                      const GridSearch& search) {
   const Window in_query{std::max(0, -x), std::max(0, -y)};

@@ -10,7 +10,7 @@ namespace placegraph {
 namespace {
 
 constexpr int kFinestWidth = 80, kFinestHeight = 60;  // pixels at the finest scale
-constexpr double kFloor = 0.5;  // grey levels: the noise of blank walls says nothing
+constexpr double kFloor = 0.5;  // grey levels: excludes the noise of blank walls
 
 /// A Gaussian times cosine and sine of `frequency` [rad/px] along one axis.
 struct Wave {

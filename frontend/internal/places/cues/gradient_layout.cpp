@@ -25,7 +25,7 @@ std::vector<float> histograms(const cv::Mat& grey, GridSize size, const Gradient
       const float magnitude = magnitudes.at<float>(y, x);
       if (magnitude == 0) continue;
       float angle = angles.at<float>(y, x);
-      while (angle >= 180) angle -= 180;  // both senses of an edge are one orientation
+      while (angle >= 180) angle -= 180;  // both directions of an edge are one orientation
       const float bin = angle / 180 * static_cast<float>(o.orientations);
       const float u = cell_of(x), v = cell_of(y);
       const float u0 = std::floor(u), v0 = std::floor(v), b0 = std::floor(bin);

@@ -4,13 +4,14 @@
 
 namespace placegraph {
 
-/// The image itself, shrunk to `columns` cells (their rows follow its shape) at `scale`: lightness
-/// and, of a BGR image, the two colour axes of CIELAB, each less its mean over the image and
-/// divided by its deviation, so that brightness, contrast and a cast play no part. Images of one
-/// and three channels, 8 bits (ArgumentError otherwise).
+/// Shrinks the image itself to `columns` cells (the rows follow from its shape) at `scale`.
+///
+/// The channels are lightness and, for a BGR image, the two colour axes of CIELAB, each minus its
+/// mean over the image and divided by its deviation. This removes brightness, contrast and a colour
+/// cast. Images of one or three channels, 8 bits (ArgumentError otherwise).
 CueGrid tiny_image_cue(const Image& image, int columns, double scale = 1);
 
-/// Cells of a grid over an image at a scale, whole multiples of `multiple`, at least one.
+/// Number of cells of a grid over an image at a scale, whole multiples of `multiple`, at least one.
 struct GridSize {
   int columns = 0, rows = 0;
 };

@@ -59,8 +59,8 @@ class Residuals {
   }
 
  private:
-  /// A derivative by the right tangent of T_match_query as one by that of S_match_query: its length
-  /// counts in the query's unit, and a scale does not move the camera.
+  /// Converts a derivative by the right tangent of T_match_query to one by that of S_match_query:
+  /// the translation is in the query's scale, and a change of scale does not move the camera.
   template <int kRows>
   Eigen::Matrix<double, kRows, 7> by_similarity(
       const Eigen::Matrix<double, kRows, 6>& J_pose) const {

@@ -9,13 +9,14 @@
 
 namespace placegraph {
 
-/// A point in both views of a loop, with its depth in either, where that is known.
+/// Point in both views of a loop, with its depth in either view if it is known.
 struct LoopPoint {
   Eigen::Vector2d px_match, px_query;
-  std::optional<Eigen::Vector3d> point_match, point_query;  ///< in the camera, in its own unit
+  /// Position in the camera frame, in the scale of its view.
+  std::optional<Eigen::Vector3d> point_match, point_query;
 };
 
-/// A line of the match's that the query sees.
+/// Line of the match that is also in the query.
 struct LoopLine {
   Line3 line_match;
   LineSegment seen_by_query;
@@ -32,16 +33,19 @@ struct LoopRefinement {
   double rmse_px = 0;
 };
 
-/// Gauss-Newton on the reprojection errors of points in both views, the distances of points without
-/// any depth from their epipolar lines, and those of segments' ends from projected lines,
-/// Huber-weighted; with the scale between the views' units or without. An error common to all
-/// depths (a depth camera's, or of a short baseline) pulls the pose one way from one side and the
-/// other way from the other.
+/// Refines the pose of a loop by Gauss-Newton on Huber-weighted image errors.
+///
+/// The errors are reprojection errors of points in both views, distances of points without any
+/// depth from their epipolar lines, and distances of segments' ends from projected lines. The scale
+/// between the views is estimated or not. Points of both views are used because an error common to
+/// all depths (of a depth camera, or of a short baseline) biases the pose in opposite directions
+/// from the two sides.
 LoopRefinement refine_loop(const Camera& camera, const LoopEvidence& evidence, const Sim3& start,
                            double huber_px, bool free_scale);
 
-/// Median of log(depth the query measured / depth that the match's points have in it); nothing with
-/// fewer than eight.
+/// Median of log(depth measured in the query / depth predicted there from the match's points).
+///
+/// No result with fewer than eight depths.
 std::optional<double> median_log_ratio(const std::vector<LoopPoint>& points,
                                        const SE3& T_query_match);
 

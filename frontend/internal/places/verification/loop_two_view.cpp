@@ -16,7 +16,7 @@ struct Rays {
   std::vector<Vector3d> match, query;
 };
 
-/// log(known depth / depth by a way of unit length), of the depths of one side.
+/// log(known depth / depth for a baseline of 1), of the depths of one view.
 struct LengthEvidence {
   std::vector<double> log_ratios;
   double median = 0;
@@ -36,12 +36,12 @@ struct LengthEvidence {
   }
 };
 
-/// A motion of unit length that two views allow, and what speaks for it.
+/// Motion with a baseline of 1 that two views allow, and its support.
 struct Candidate {
   SE3 T_match_query;
-  int ahead = 0;  ///< points that lie before both eyes
+  int ahead = 0;  ///< number of points in front of both cameras
   double parallax_px = 0;
-  LengthEvidence match = {}, query = {};  ///< by the depths of either
+  LengthEvidence match = {}, query = {};  ///< evidence of the depths in either view
 
   int agreeing() const { return match.agreeing + query.agreeing; }
 };
@@ -77,18 +77,18 @@ Candidate judged(const Camera& camera, const SE3& T_match_query, const Rays& ray
   return candidate;
 }
 
-/// By the depths first, then by what lies ahead.
+/// Compares by the depths first, then by the points in front of both cameras.
 bool better(const Candidate& a, const Candidate& b) {
   return std::pair(a.agreeing(), a.ahead) > std::pair(b.agreeing(), b.ahead);
 }
 
-/// Nearly as much speaks for b as for a.
+/// Whether b has nearly as much support as a.
 bool rivals(const Candidate& a, const Candidate& b) {
   constexpr double kShare = 0.8;
   return b.agreeing() >= kShare * a.agreeing() && b.ahead >= kShare * a.ahead;
 }
 
-/// The length of the way in the match's unit, and of its unit in the query's.
+/// Motion with its baseline in the match's scale, and the ratio of both scales.
 std::optional<Sim3> with_length(const Candidate& candidate, const LoopTwoViewOptions& options,
                                 bool free_scale) {
   const LengthEvidence &match = candidate.match, &query = candidate.query;
@@ -116,8 +116,8 @@ LoopOfTwoViews loop_of_two_views(const Camera& camera, const std::vector<LoopPoi
     px_match.push_back(point.px_match);
     px_query.push_back(point.px_query);
   }
-  if (estimate_rotation_2d2d(camera, px_match, px_query, options.turn, random).outcome) {
-    result.outcome = Outcome::failure(Code::kDegenerate, "the views differ by a turn alone");
+  if (estimate_rotation_2d2d(camera, px_match, px_query, options.rotation, random).outcome) {
+    result.outcome = Outcome::failure(Code::kDegenerate, "the views differ by a rotation alone");
     return result;
   }
   const Pose2d2dResult pose = estimate_pose_2d2d(camera, px_match, px_query, options.pose, random);
@@ -136,15 +136,16 @@ LoopOfTwoViews loop_of_two_views(const Camera& camera, const std::vector<LoopPoi
   if (best.parallax_px < options.min_parallax_px) {
     result.outcome = Outcome::failure(Code::kDegenerate, "too little parallax");
   } else if (candidates.size() > 1 && rivals(best, candidates[1])) {
-    result.outcome = Outcome::failure(Code::kDegenerate, "two motions explain the views");
+    result.outcome =
+        Outcome::failure(Code::kDegenerate, "two motions explain the views equally well");
   } else if (const auto S_match_query = with_length(best, options, free_scale)) {
     result.S_match_query = *S_match_query;
     result.outcome = Outcome::ok();
   } else {
     result.outcome =
         best.agreeing() < options.min_depths
-            ? Outcome::failure(Code::kTooFewData, "too few depths for the length of the way")
-            : Outcome::failure(Code::kInconsistent, "depths disagree on the length of the way");
+            ? Outcome::failure(Code::kTooFewData, "too few depths for the baseline")
+            : Outcome::failure(Code::kInconsistent, "the depths disagree on the baseline");
   }
   return result;
 }

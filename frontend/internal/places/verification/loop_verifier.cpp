@@ -9,7 +9,7 @@
 namespace placegraph {
 namespace {
 
-/// Matches of the query's features near the projections of the match's points.
+/// Matches the query's features near the projections of the match's points.
 std::vector<FeatureMatch> match_guided(const Camera& camera, const std::vector<Feature>& query,
                                        const std::vector<Feature>& match, const SE3& T_query_match,
                                        double radius_px, const MatcherOptions& options) {
@@ -48,7 +48,7 @@ double spread_of(const Camera& camera, const std::vector<LoopPoint>& points) {
   return side.x() * side.y() / (static_cast<double>(camera.width) * camera.height);
 }
 
-/// What the points of two views say of their poses, before lines are asked.
+/// Relative pose from the points of two views, before lines are used.
 struct PointsAgree {
   Outcome outcome;
   LoopModel model = LoopModel::kNone;
@@ -89,7 +89,8 @@ Pose3d2dResult pose_of(const Camera& camera, const std::vector<LoopPoint>& point
   return estimate_pose_3d2d(camera, points_match, px, options, random, prior);
 }
 
-/// By the match's points of known depth. `few` is enough of them where lines are to bring the rest.
+/// Pose from the match's points of known depth. `few` points are enough if lines are to supply the
+/// rest.
 PointsAgree agree_in_space(const Camera& camera, const LoopView& query, const LoopView& match,
                            const LoopVerifierOptions& options, Random& random, int few) {
   PointsAgree result;
@@ -100,7 +101,7 @@ PointsAgree agree_in_space(const Camera& camera, const LoopView& query, const Lo
   std::vector<LoopPoint> points =
       points_of(query.points, match.points,
                 match_features(query.points, match.points, options.matcher, has_depth));
-  // A first pose may stand on fewer matches; the guided round must bring the rest.
+  // The first pose may have fewer matches; the guided matching must supply the rest.
   Pose3d2dOptions first = options.pose;
   first.ransac.min_inliers = std::max(8, options.pose.ransac.min_inliers / 2);
   Pose3d2dResult pose = pose_of(camera, points, first, random, nullptr);
@@ -121,8 +122,8 @@ PointsAgree agree_in_space(const Camera& camera, const LoopView& query, const Lo
   return result;
 }
 
-/// By two views alone, with what depths there are for its length: where most of what matches has
-/// none, `with_depth` has.
+/// Pose from two images, with the baseline from the known depths, for views in which most matches
+/// have no depth. `with_depth` matches have one.
 PointsAgree agree_in_images(const Camera& camera, const LoopView& query, const LoopView& match,
                             int with_depth, const LoopVerifierOptions& options, Random& random,
                             bool free_scale) {
@@ -145,7 +146,7 @@ PointsAgree agree_in_images(const Camera& camera, const LoopView& query, const L
   return result;
 }
 
-/// Lines of the match that the query sees where the pose has them.
+/// Lines of the match that are in the query where the pose predicts them.
 std::vector<LoopLine> agreeing_lines(const Camera& camera, const LoopView& query,
                                      const LoopView& match, const SE3& T_match_query,
                                      const LoopVerifierOptions& options) {
@@ -163,7 +164,7 @@ std::vector<LoopLine> agreeing_lines(const Camera& camera, const LoopView& query
   return lines;
 }
 
-/// Whether the few depths that gave a way of two views its length are where the pose has them.
+/// Whether the few depths that determined the baseline agree with the pose.
 bool depths_fit(const Camera& camera, const PointsAgree& agree, const LoopVerification& verified,
                 const LoopVerifierOptions& options) {
   const Sim3 S_match_query(verified.T_match_query.rotation(), verified.T_match_query.translation(),
@@ -183,7 +184,7 @@ bool depths_fit(const Camera& camera, const PointsAgree& agree, const LoopVerifi
          fitting >= options.two_view.min_depth_share * known;
 }
 
-/// Why views that agree are no revisit all the same; ok if they are.
+/// Reason why views with an agreeing pose are not accepted as a loop; ok if they are.
 Outcome judged(const Camera& camera, const PointsAgree& agree, const LoopVerification& verified,
                const std::optional<double>& log_ratio, const LoopVerifierOptions& options,
                bool free_scale) {
@@ -205,9 +206,9 @@ Outcome judged(const Camera& camera, const PointsAgree& agree, const LoopVerific
       T_match_query.rotation().log().norm() > deg_to_rad(options.max_angle_deg))
     return Outcome::failure(Code::kInconsistent, "the views differ too much");
   if (agree.model != LoopModel::kPoints3d2d && !depths_fit(camera, agree, verified, options))
-    return Outcome::failure(Code::kInconsistent, "depths are not where the pose has them");
+    return Outcome::failure(Code::kInconsistent, "the depths do not agree with the pose");
   if (!free_scale && log_ratio && std::abs(*log_ratio) > options.max_scale_error)
-    return Outcome::failure(Code::kInconsistent, "depths of both views disagree");
+    return Outcome::failure(Code::kInconsistent, "the depths of both views disagree");
   return Outcome::ok();
 }
 

@@ -11,7 +11,7 @@
 
 namespace placegraph {
 
-/// What a view is verified by. Refers to lists of others.
+/// Features by which a view is verified. Refers to lists of its owner.
 struct LoopView {
   // NOLINTNEXTLINE(google-explicit-constructor): points alone are a view
   LoopView(const std::vector<Feature>& point_features,
@@ -24,25 +24,26 @@ struct LoopView {
 struct LoopVerification {
   Outcome outcome;
   LoopModel model = LoopModel::kNone;
-  SE3 T_match_query;             ///< in the match's unit; meaningful only if outcome
-  double scale_match_query = 1;  ///< length at the match of one unit of length of the query
-  /// Of S_match_query in its right tangent; where the scale is not asked for, the upper left 6x6
-  /// block is that of T_match_query and the rest is zero.
+  SE3 T_match_query;             ///< pose in the match's scale; meaningful only if outcome
+  double scale_match_query = 1;  ///< factor from lengths of the query to lengths of the match
+  /// Information of S_match_query in its right tangent; if the scale is not estimated, the upper
+  /// left 6x6 block is that of T_match_query and the rest is zero.
   Matrix7d information = Matrix7d::Zero();
   int matches = 0, inliers = 0;  ///< points
-  int lines = 0;                 ///< that agree with the pose
+  int lines = 0;                 ///< number of lines that agree with the pose
   double rmse_px = 0;
 };
 
-/// Whether two views show one place, and from where: descriptor matches between the query's pixels
-/// and the match's points of known depth, pose by estimate_pose_3d2d, a second guided matching
-/// around the projections; by loop_of_two_views where too few points have a depth. Lines of the
-/// match that the query sees where the pose expects them count beside the points. Then tests of the
-/// inliers' number, share and spread, and of the query's own depths against the match's (scale),
-/// and of the change of view. With `free_scale` the two views have units of length of their own,
-/// and the depths seen from both sides tell their ratio: it is estimated with the pose instead of
-/// tested, and without depths of the query there is no answer. Outcomes: too few data, no
-/// consensus, inconsistent, degenerate.
+/// Verifies that two views show the same place and estimates their relative pose.
+///
+/// Descriptor matches connect the query's pixels with the match's points of known depth;
+/// estimate_pose_3d2d computes the pose and a second, guided matching around the projections
+/// follows. If too few points have a depth, loop_of_two_views is used. Lines of the match count
+/// beside the points if they are in the query where the pose predicts them. Tests follow: number,
+/// share and spread of the inliers, the query's own depths against the match's (scale), and the
+/// change of view. With `free_scale` each view has its own scale, and the depths from both sides
+/// determine the ratio: it is estimated with the pose instead of tested, and there is no result
+/// without depths of the query. Outcomes: too few data, no consensus, inconsistent, degenerate.
 [[nodiscard]] LoopVerification verify_loop(const Camera& camera, const LoopView& query,
                                            const LoopView& match,
                                            const LoopVerifierOptions& options, Random& random,

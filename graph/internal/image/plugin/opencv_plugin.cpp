@@ -1,4 +1,4 @@
-// The module libplacegraph_opencv_plugin.so, see picture_plugin.h. It stands on OpenCV alone.
+// The module libplacegraph_opencv_plugin.so, see picture_plugin.h. It depends on OpenCV alone.
 #include <placegraph/graph/internal/image/picture_plugin.h>
 
 #include <opencv2/imgcodecs.hpp>
@@ -62,13 +62,13 @@ struct OpenCvPlugin : PicturePlugin {
     }
   }
 
-  /// With the two readers that decode the same bits everywhere and stay silent about bad files.
+  /// Tries the two readers that decode the same bits everywhere and print nothing about bad files.
   std::unique_ptr<VideoReader> open_video(const std::string& path) const override {
     for (const int reader : {cv::CAP_FFMPEG, cv::CAP_OPENCV_MJPEG}) {
       try {
         cv::VideoCapture capture(path, reader);
         if (capture.isOpened()) return std::make_unique<CaptureReader>(std::move(capture));
-      } catch (const cv::Exception&) {  // this reader is not there, or cannot read it
+      } catch (const cv::Exception&) {  // this reader is missing or cannot read the file
       }
     }
     return nullptr;

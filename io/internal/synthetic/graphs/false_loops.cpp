@@ -8,10 +8,10 @@
 namespace placegraph::synthetic {
 namespace {
 
-constexpr double kFarShare = 0.1;  ///< of the diagonal of the map
-constexpr int kDraws = 100000;     ///< of pairs, until one is far apart
+constexpr double kFarShare = 0.1;  ///< least distance of the ends, as a share of the map's diagonal
+constexpr int kDraws = 100000;     ///< most pairs drawn until one is far apart
 constexpr int kMaxLoops = 1000000;
-/// Streams of the seed that no world draws from.
+/// Streams of the seed that are not used by any world.
 constexpr std::uint64_t kLoopStream = 1, kOrderStream = 2;
 
 std::vector<RelativePoseConstraint> loops_of(const PoseGraph& graph) {
@@ -35,7 +35,7 @@ void add_false_loops(PoseGraph& graph, int count, std::uint64_t seed) {
     throw ArgumentError("false loops: must be from 0 to " + std::to_string(kMaxLoops));
   if (count == 0) return;
   const std::vector<RelativePoseConstraint> loops = loops_of(graph);
-  if (loops.empty()) throw ArgumentError("false loops: the graph has no loop for them to be like");
+  if (loops.empty()) throw ArgumentError("false loops: the graph has no loop to copy");
   const std::vector<Eigen::Vector3d> positions = positions_of(graph);
   Eigen::AlignedBox3d map;
   for (const Eigen::Vector3d& position : positions) map.extend(position);
@@ -55,7 +55,7 @@ void add_false_loops(PoseGraph& graph, int count, std::uint64_t seed) {
       loop.from = graph.nodes[std::min(i, j)].id;
       loop.to = graph.nodes[std::max(i, j)].id;
     } while (!((positions[i] - positions[j]).norm() > far_m) ||
-             std::abs(loop.from.value() - loop.to.value()) == 1);  // that would be odometry
+             std::abs(loop.from.value() - loop.to.value()) == 1);  // not an odometry edge
     graph.constraints.emplace_back(loop);
   }
 }

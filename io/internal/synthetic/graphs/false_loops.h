@@ -3,15 +3,15 @@
 
 namespace placegraph::synthetic {
 
-/// Adds `count` loops behind the others that are not true, as where two places look alike: each has
-/// the measurement and the information of a loop of the graph drawn at random, but between two
-/// poses drawn at random that stand more than a tenth of the map's diagonal apart. Where the poses
-/// are drifted odometry, what is apart there may be near in truth: optimize them first. Throws
-/// ArgumentError: a negative count or one above a million, a graph without loops, poses of which
-/// hardly any two are that far apart.
+/// Appends `count` false loops, as between places of similar appearance. Each has the measurement
+/// and the information of a loop of the graph drawn at random, but joins two poses drawn at random
+/// that are more than a tenth of the map's diagonal apart. If the poses are drifted odometry, poses
+/// that are apart there may be close in truth: optimize them first. Throws ArgumentError: a
+/// negative count or one above a million, a graph without loops, poses of which hardly any two are
+/// that far apart.
 void add_false_loops(PoseGraph& graph, int count, std::uint64_t seed);
 
-/// Puts the constraints into a random order.
+/// Shuffles the constraints.
 void shuffle_constraints(PoseGraph& graph, std::uint64_t seed);
 
 }  // namespace placegraph::synthetic

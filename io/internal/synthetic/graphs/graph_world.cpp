@@ -34,7 +34,7 @@ Group noise_of(const GraphNoise& noise, Random& random) {
   return Group::exp(xi);
 }
 
-/// Poses of a walk and the pairs that are measured; made into a graph by `finish`.
+/// Poses of a walk and the measured pairs; `finish` makes a graph of them.
 template <class Group>
 struct Truth {
   std::vector<Group> T_world_node;
@@ -62,18 +62,18 @@ PoseGraph finish(const Truth<Group>& truth, const GraphNoise& noise, Random& ran
   return graph;
 }
 
-/// A pose of the round course at the angle `turn` of its `length_m`: an ellipse with three dents,
-/// seen in space also up and down.
+/// A pose of the closed course of length `length_m` at the polar angle `angle_rad`: an ellipse with
+/// three dents; in space it also goes up and down.
 template <class Group>
-Group course_pose(double turn, double length_m) {
+Group course_pose(double angle_rad, double length_m) {
   const double r = length_m / (2 * std::numbers::pi);
   const auto point = [&](double a) {
     const double s = r * (1 + 0.15 * std::cos(3 * a));
     return Eigen::Vector3d(1.2 * s * std::cos(a), 0.8 * s * std::sin(a),
                            0.05 * r * std::sin(2 * a));
   };
-  const Eigen::Vector3d position = point(turn);
-  const Eigen::Vector3d ahead = point(turn + 1e-4) - position;
+  const Eigen::Vector3d position = point(angle_rad);
+  const Eigen::Vector3d ahead = point(angle_rad + 1e-4) - position;
   const double yaw = std::atan2(ahead[1], ahead[0]);
   if constexpr (Group::kDof == 3) {
     return SE2(position[0], position[1], yaw);
@@ -135,7 +135,8 @@ void LongLoopOptions::check() const {
   check_poses(poses, 10);
   require(laps > 1 && laps <= poses, "laps", "must be more than 1 and at most one a pose");
   require(closures >= 1, "closures", "must be at least 1");
-  require(closures <= poses - std::ceil(poses / laps), "closures", "more than is driven again");
+  require(closures <= poses - std::ceil(poses / laps), "closures",
+          "more than poses of the repeated part");
   require(kind != PoseKind::kSim3, "kind", "must be SE2 or SE3");
   noise.check();
 }
@@ -143,7 +144,7 @@ void LongLoopOptions::check() const {
 PoseGraph make_manhattan_walk(const ManhattanWalkOptions& options) {
   options.check();
   Random random(options.seed);
-  // 2 * side * (side + 1) streets of block_m metres, each walked about twice.
+  // There are 2 * side * (side + 1) streets of block_m metres, each walked about twice.
   const int side =
       options.side_blocks > 0
           ? options.side_blocks

@@ -3,7 +3,7 @@
 
 namespace placegraph::synthetic {
 
-/// Noise of the measured poses of a made graph: normal, independent in every direction. The
+/// Noise of the measured poses of a synthetic graph: normal, independent in every direction. The
 /// information is its inverse, so chi2 at the truth is about the number of measured directions.
 struct GraphNoise {
   double translation_m = 0.02;
@@ -11,24 +11,25 @@ struct GraphNoise {
   void check() const;
 };
 
-/// A walk along the streets of a square grid in the plane, one pose a metre: at every corner it
-/// goes straight on, left or right by chance and stays inside the town. A pose that comes within a
-/// metre of older ones is joined to the oldest of them with the chance `loop_share`.
+/// A walk along the streets of a square grid in the plane, one pose per metre. At every corner it
+/// continues straight on, left or right at random and stays inside the town. A pose within a metre
+/// of older ones is joined to the oldest of them with the probability `loop_share`.
 struct ManhattanWalkOptions {
   int poses = 3500;
-  int block_m = 5;      ///< between two corners
-  int side_blocks = 0;  ///< of the town; 0: as many as give about two visits of every street
+  int block_m = 5;  ///< distance between two corners [m]
+  /// Blocks per side of the town; 0: such that every street has about two visits.
+  int side_blocks = 0;
   double loop_share = 0.5;
   GraphNoise noise = {};
   std::uint64_t seed = 1;
   void check() const;
 };
-/// SE(2); the start is the integrated odometry.
+/// Makes an SE(2) graph; the initial values are the integrated odometry.
 PoseGraph make_manhattan_walk(const ManhattanWalkOptions& options);
 
-/// A way through every cell of a cube of cells a metre wide, row by row and layer by layer, there
-/// and back, with a turn of the pose at every step; every cell is joined to the neighbour of the
-/// row before and of the layer before with the chance `loop_share`.
+/// A path through every cell of a cube of one-metre cells, row by row and layer by layer, back and
+/// forth, with a rotation of the pose at every step. Every cell is joined to its neighbour in the
+/// previous row and in the previous layer with the probability `loop_share`.
 struct GridWorldOptions {
   int poses = 1000;
   double loop_share = 0.5;
@@ -36,11 +37,11 @@ struct GridWorldOptions {
   std::uint64_t seed = 1;
   void check() const;
 };
-/// SE(3); the start is the integrated odometry.
+/// Makes an SE(3) graph; the initial values are the integrated odometry.
 PoseGraph make_grid_world(const GridWorldOptions& options);
 
-/// A bent round course that is driven `laps` times, one pose a metre; `closures` loops, evenly
-/// spread over what is driven again, join a pose to the one a lap before.
+/// A closed bent course that is driven `laps` times, one pose per metre; `closures` loops, evenly
+/// spread over the repeated part, join a pose to the one a lap before.
 struct LongLoopOptions {
   int poses = 2000;
   double laps = 1.1;
@@ -50,15 +51,15 @@ struct LongLoopOptions {
   std::uint64_t seed = 1;
   void check() const;
 };
-/// The start is the integrated odometry.
+/// Makes the graph; the initial values are the integrated odometry.
 PoseGraph make_long_loop(const LongLoopOptions& options);
 
-/// Turns every odometry measurement of SE(2) or SE(3) further by a normal rotation of `sigma_rad`
-/// about every axis and integrates the start from them anew. The information stays as it is.
+/// Adds a normal rotation of `sigma_rad` about every axis to every odometry measurement of SE(2) or
+/// SE(3) and integrates the initial values from them again. The information does not change.
 void add_rotation_noise(PoseGraph& graph, double sigma_rad, std::uint64_t seed);
 
-/// Sets every pose that is not fixed to one drawn at random: position uniform in a cube (square) of
-/// the side `extent_m`, rotation uniform.
+/// Sets every pose that is not fixed to a random one: position uniform in a cube (square) of the
+/// side `extent_m`, rotation uniform.
 void scatter_poses(PoseGraph& graph, double extent_m, std::uint64_t seed);
 
 }  // namespace placegraph::synthetic

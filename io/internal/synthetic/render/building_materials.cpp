@@ -55,8 +55,8 @@ WindowGrid window_grid(const Face& face, std::uint32_t look) {
 /// A place within the window grid's cell of one window or door.
 struct Bay {
   float x, y;       ///< from the cell's lower left corner [m]
-  float field;      ///< share of the pixel that lies on the grid
-  float near;       ///< 1 where single windows tell apart, 0 far away
+  float field;      ///< share of the pixel on the grid
+  float near;       ///< 1 where single windows are resolved, 0 far away
   std::uint32_t h;  ///< seed of the cell
 };
 
@@ -70,7 +70,8 @@ float shade_door(const WindowGrid& g, const Spot& spot, const Bay& bay, float va
   return mix(value, 0.08F, pane * field);
 }
 
-/// Grey of a window's pane with its bars; curtains, blinds half drawn, reflections: each its own.
+/// Grey of a window's pane with its bars; curtains, half drawn blinds and reflections vary by
+/// window.
 float shade_pane(const WindowGrid& g, const Spot& spot, const Bay& bay, float frame_tone,
                  float contrast) {
   const float x = bay.x, y = bay.y, near = bay.near, ws = spot.ws, wt = spot.wt;
@@ -111,7 +112,7 @@ float shade_facade(const Face& face, const Spot& spot, float contrast) {
   };
   const int column = floor_int(sx / g.spacing), row = floor_int(spot.t / g.storey);
   const std::uint32_t h = hash_cell(column, row, face.seed + 3);
-  const float near = clamp01(1.5F - 1.5F * (ws + wt));  // single windows tell apart
+  const float near = clamp01(1.5F - 1.5F * (ws + wt));  // single windows are resolved
   const float x = static_cast<float>(sx - column * static_cast<double>(g.spacing));
   const float y = static_cast<float>(spot.t - row * static_cast<double>(g.storey));
 

@@ -4,9 +4,9 @@
 namespace placegraph::synthetic {
 namespace {
 
-// Ground faces carry world x as s and world z as t, so that textures run on across faces.
+// Ground faces have world x as s and world z as t, so that textures continue across faces.
 
-/// A line of width `w` where noise crosses zero; gone where the pixel cannot see it any more.
+/// A line of width `w` where noise crosses zero; it fades out below the pixel size.
 float crack(const Spot& spot, float wavelength, float width, std::uint32_t seed) {
   const float reach = spot.major * 0.7F;
   if (reach > wavelength * 0.4F) return 0;
@@ -55,7 +55,7 @@ float covers(const Spot& spot, float base, std::uint32_t seed) {
   return mix(base, mix(0.42F, lid, inner), outer);
 }
 
-/// Light and dark blotches as trees and houses throw them; soft edged, metres wide.
+/// Light and dark blotches like the shadows of trees and houses; soft edged, metres wide.
 float shadow(const Spot& spot, std::uint32_t seed) {
   constexpr float kBegin = 0.28F, kFull = 0.48F, kDepth = 0.55F, kFine = 0.25F;
   const float broad = octave(spot, 14.0F, seed) + 0.6F * octave(spot, 4.5F, seed + 1);
@@ -69,7 +69,7 @@ float shadow(const Spot& spot, std::uint32_t seed) {
 float lane_marks(const RoadField::Sample& at, const Spot& spot, float base, float wear) {
   if (!at.marked) return base;
   const std::uint32_t h = mix_bits(at.road * 77U + 5U);
-  // The field's axes turn with the road: the spot's width across and along is bounded by its box.
+  // The field's axes rotate with the road: the spot's width across and along is bounded by its box.
   const float w = spot.minor > 0.02F ? spot.minor : 0.02F;
   const float side = std::abs(at.lateral);
   float paint = 0;

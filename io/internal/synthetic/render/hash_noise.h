@@ -4,8 +4,8 @@
 
 namespace placegraph::synthetic {
 
-/// Everything procedural rests on these few functions. They use only integer arithmetic and
-/// + - * / on floats, no libm, so that the same seed gives the same bits on every machine.
+/// Basic functions of all procedural textures. They use only integer arithmetic and + - * / on
+/// floats, no libm, so that the same seed gives the same bits on every machine.
 
 /// Largest integer not above `x`; |x| < 2^31.
 inline int floor_int(double x) {
@@ -64,8 +64,8 @@ inline float pulse(float x, float lo, float hi, float w) {
   return b > a ? (b - a) / w : 0;
 }
 
-/// The part of a box of width `w` around `x` covered by [lo, hi] repeated with `period`
-/// (0 <= lo <= hi <= period): stripes that turn grey, never into moire, with distance.
+/// The part of a box of width `w` around `x` covered by [lo, hi] repeated with `period` (0 <= lo <=
+/// hi <= period): stripes that fade to grey with distance, without moire.
 inline float periodic_pulse(double x, float period, float lo, float hi, float w) {
   const auto integral = [&](double at) {
     const int n = floor_int(at / period);

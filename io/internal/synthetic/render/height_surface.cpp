@@ -42,7 +42,7 @@ struct HeightEquations {
         }
         const int self = id(x, z);
         const double one = 1;
-        add_row(&self, &one, 1, 1e-6, 0);  // level where nothing is known at all
+        add_row(&self, &one, 1, 1e-6, 0);  // level where there are no samples
       }
     }
   }

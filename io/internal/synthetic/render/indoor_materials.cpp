@@ -15,7 +15,7 @@ float pictures(const Face& face, const Spot& spot, float base) {
   const float y = static_cast<float>(spot.t);
   const float w = 0.35F + 0.75F * hash_unit(h, 1), high = 0.3F + 0.6F * hash_unit(h, 2);
   const float x0 = 0.1F + (kCell - 0.2F - w) * hash_unit(h, 3), y0 = 1.05F + 0.4F * hash_unit(h, 4);
-  // Whole pictures only: this piece of the wall may end at a door or begin above one.
+  // Only whole pictures are drawn: this piece of the wall may end at a door or begin above one.
   const auto along = [&](int i) { return face.s_axis.dot(face.corners[i] - face.origin); };
   const double from = cell * static_cast<double>(kCell) + x0, a = along(0), b = along(1);
   if (from < std::min(a, b) + 0.05 || from + w > std::max(a, b) - 0.05) return base;

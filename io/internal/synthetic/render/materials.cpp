@@ -17,7 +17,8 @@ float octave(const Spot& spot, float wavelength, std::uint32_t seed) {
   constexpr int kMaxTaps = 4;
   const float inverse = 1 / wavelength;
   const float across = spot.minor * inverse, along = spot.major * inverse;
-  // Faded from four to two pixels a wavelength across, and where six samples along do not suffice.
+  // Faded from four to two pixels per wavelength across, and where four samples along do not
+  // suffice.
   float fade = 2 - 4 * across;
   if (fade <= 0) return 0;
   if (fade > 1) fade = 1;
@@ -46,7 +47,8 @@ float fractal(const Spot& spot, float longest, float shortest, float gain, std::
     sum += amplitude * octave(rotated, wavelength, seed);
     amplitude *= gain;
     seed += 0x68bc21ebU;
-    // Each octave is turned by the angle of the 3-4-5 triangle: no lattice direction shows.
+    // Each octave is rotated by the angle of the 3-4-5 triangle, which hides the lattice
+    // directions.
     const double s = rotated.s, t = rotated.t;
     const float a = rotated.major_s, b = rotated.major_t;
     rotated.s = 0.8 * s - 0.6 * t;
@@ -114,16 +116,16 @@ float shade_sky(const Eigen::Vector3d& direction, double pixel_angle, std::uint3
   const double rise = -direction[1] / flat;  // tangent of the elevation
   // A circle measured along a square: monotonic in the azimuth and free of libm. [0, 8)
   const double ax = std::abs(x), az = std::abs(z);
-  double turn = ax < az ? ax / az : 2 - az / ax;
-  if (z < 0) turn = 4 - turn;
-  if (x < 0) turn = 8 - turn;
-  if (turn >= 8) turn -= 8;
+  double azimuth = ax < az ? ax / az : 2 - az / ax;
+  if (z < 0) azimuth = 4 - azimuth;
+  if (x < 0) azimuth = 8 - azimuth;
+  if (azimuth >= 8) azimuth -= 8;
   // Noise that is periodic in the azimuth: blended over the last eighth before the seam.
-  const double seam = turn > 7 ? turn - 7 : 0;
+  const double seam = azimuth > 7 ? azimuth - 7 : 0;
   const auto around = [&](double frequency, double y, std::uint32_t salt) {
-    const float value = value_noise(turn * frequency, y, seed + salt);
+    const float value = value_noise(azimuth * frequency, y, seed + salt);
     if (seam <= 0) return value;
-    return mix(value, value_noise((turn - 8) * frequency, y, seed + salt),
+    return mix(value, value_noise((azimuth - 8) * frequency, y, seed + salt),
                static_cast<float>(seam));
   };
   const float sky =

@@ -22,7 +22,8 @@ void clip(Polygon& polygon, const Eigen::Vector3d& plane, double offset) {
     const double da = plane.dot(a) - offset, db = plane.dot(b) - offset;
     if (da >= 0 && out.n < kMaxCorners) out.p[out.n++] = a;
     if ((da >= 0) != (db >= 0) && out.n < kMaxCorners) {
-      // From the inner end, so that two faces on one edge cut it at the same bits.
+      // The cut is computed from the inner end, so that two faces on one edge cut it at the same
+      // bits.
       const Eigen::Vector3d &in = da >= 0 ? a : b, &outside = da >= 0 ? b : a;
       const double di = da >= 0 ? da : db, d_out = da >= 0 ? db : da;
       out.p[out.n++] = in + (outside - in) * (di / (di - d_out));
@@ -57,13 +58,13 @@ class Gatherer {
     if (part.radius * camera_.fx < 0.4 * (centre[2] - part.radius)) return;  // under a pixel
     R_ = T_cam_part.rotation().matrix();
     t_ = T_cam_part.translation();
-    eye_position_ = -(R_.transpose() * t_);
+    camera_position_ = -(R_.transpose() * t_);
     for (const Face& face : part.faces) add_face(face, object);
   }
 
  private:
   void add_face(const Face& face, int object) {
-    const double facing = face.normal.dot(eye_position_ - face.corners[0]);
+    const double facing = face.normal.dot(camera_position_ - face.corners[0]);
     if (face.two_sided ? std::abs(facing) < 1e-9 : facing < 1e-9) return;
     Polygon polygon;
     polygon.n = face.count;
@@ -128,19 +129,19 @@ class Gatherer {
 
   void set_coefficients(const Face& face, SeenFace& seen) const {
     const Eigen::Vector3d normal = R_ * face.normal;
-    const double distance = face.normal.dot(face.corners[0] - eye_position_);
+    const double distance = face.normal.dot(face.corners[0] - camera_position_);
     seen.iz = affine(normal / distance);
     seen.qs = affine(R_ * face.s_axis);
     seen.qt = affine(R_ * face.t_axis);
-    seen.s0 = face.s_axis.dot(eye_position_ - face.origin);
-    seen.t0 = face.t_axis.dot(eye_position_ - face.origin);
+    seen.s0 = face.s_axis.dot(camera_position_ - face.origin);
+    seen.t0 = face.t_axis.dot(camera_position_ - face.origin);
   }
 
   const Camera& camera_;
   Frustum frustum_;
   std::vector<SeenFace>& out_;
   Eigen::Matrix3d R_;
-  Eigen::Vector3d t_, eye_position_;
+  Eigen::Vector3d t_, camera_position_;
 };
 
 }  // namespace

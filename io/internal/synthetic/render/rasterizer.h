@@ -7,7 +7,7 @@
 
 namespace placegraph::synthetic {
 
-/// A face as one camera sees it: everything is affine in the pixel (u, v), so that depth and
+/// A face in the image of one camera: everything is affine in the pixel (u, v), so that depth and
 /// surface coordinates at a pixel cost a division: 1/z = iz . (1, u, v), s = s0 + z * (qs . (1, u,
 /// v)).
 struct SeenFace {
@@ -15,12 +15,12 @@ struct SeenFace {
   int object = -1;  ///< index of the mover, -1 = static
   std::array<double, 3> iz, qs, qt;
   double s0 = 0, t0 = 0;
-  int corners = 0;                    ///< of the clipped polygon
+  int corners = 0;                    ///< number of corners of the clipped polygon
   std::array<std::int32_t, 10> x, y;  ///< its corners [1/256 px]
   std::int64_t y_min = 0, y_max = 0;
 };
 
-/// Where a camera and the movers are at one moment.
+/// The camera pose and the time of one image.
 struct View {
   Camera camera;  ///< without distortion
   SE3 T_scene_cam;
@@ -31,8 +31,8 @@ struct View {
 /// Movers are placed at view.time_s.
 std::vector<SeenFace> gather_faces(const Scene& scene, const View& view);
 
-/// Samples of one band of rows: each pixel is looked at through its centre (sample 0) and four more
-/// points, so that edges are smooth and whatever is exact is so at the centre.
+/// Samples of one band of rows: each pixel is sampled at its centre (sample 0) and at four more
+/// points, so that edges are smooth and exact maps are exact at the centre.
 class SampleBand {
  public:
   static constexpr int kSamples = 5;

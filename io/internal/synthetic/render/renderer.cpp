@@ -8,7 +8,7 @@ namespace placegraph::synthetic {
 namespace {
 
 constexpr int kBandRows = 16;
-constexpr double kHaze_m = 2500;  ///< distance at which half the light is the air's
+constexpr double kHaze_m = 2500;  ///< distance at which half the light comes from the air
 constexpr float kAir = 0.72F;
 
 class BandShader {
@@ -59,7 +59,7 @@ class BandShader {
       uniform = uniform && same_surface(ids[k], centre);
     }
     if (uniform) return surface(centre, u, row);
-    // Each surface once, at the mean of the samples that saw it, weighted by their number.
+    // Each surface is shaded once, at the mean of its samples, weighted by their number.
     float sum = 0;
     bool done[kN] = {};
     for (int k = 0; k < kN; ++k) {
@@ -174,7 +174,7 @@ Image flow_image(const Scene& scene, const Rendering& rendering, const View& vie
       if (!known[object]) continue;
       const double iz = rendering.inverse_depth.at<float>(v, u);
       const Eigen::Vector3d ray((u - camera.cx) / camera.fx, (v - camera.cy) / camera.fy, 1);
-      // Scaled by 1/z, which also holds for what is infinitely far.
+      // The point is scaled by 1/z, which also works for points at infinity.
       const Eigen::Vector3d p = maps[object].linear * ray + maps[object].offset * iz;
       if (p[2] < 1e-3) continue;
       flow.at<cv::Vec2f>(v, u) =

@@ -12,7 +12,7 @@ struct AffineMap {
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();
 };
 
-/// What a camera sees at an instant, before any sensor model. All maps are exact at pixel centres.
+/// A rendered image at an instant, before any sensor model. All maps are exact at pixel centres.
 struct Rendering {
   Image grey;           ///< CV_32FC1, 0 black to 1 white, may exceed 1
   Image inverse_depth;  ///< CV_32FC1 [1/m], 0 = sky
@@ -22,16 +22,16 @@ struct Rendering {
   std::vector<SeenFace> faces;
 };
 
-/// Renders by deferred shading: visibility first, then each visible surface once a pixel. Bands of
-/// rows are spread over `threads`; the bits do not depend on how many.
+/// Renders by deferred shading: visibility first, then each visible surface once per pixel. Bands
+/// of rows are distributed over `threads`; the bits do not depend on their number.
 Rendering render(const Scene& scene, const View& view, float contrast, bool maps, int threads);
 
-/// Depth [m] of the pixel centre in double precision where `rendering` saw a face.
+/// Depth [m] of the pixel centre in double precision where `rendering` has a face.
 Image depth_image(const Rendering& rendering);
 
-/// Optical flow from `view` to `next` for what `rendering` saw in `view`: CV_32FC2 (du, dv) [px],
-/// NaN for a point that `next` has behind it, not for one that is hidden there. Moving objects are
-/// followed; the sky turns with the camera.
+/// Optical flow from `view` to `next` for the surfaces of `rendering` in `view`: CV_32FC2 (du, dv)
+/// [px], NaN for a point behind the camera of `next`, but not for one that is hidden there. Moving
+/// objects are followed; the sky rotates with the camera.
 Image flow_image(const Scene& scene, const Rendering& rendering, const View& view,
                  const View& next);
 

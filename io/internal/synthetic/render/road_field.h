@@ -14,8 +14,9 @@ struct Roadway {
   bool lined = true;   ///< houses and street furniture stand along it
 };
 
-/// The union of all roadways as fields over the plane: how far from the asphalt's edge a point is,
-/// and where along and across the nearest marked roadway. Interpolated from a grid of 1 m.
+/// The union of all roadways as fields over the plane: the distance of a point from the asphalt's
+/// edge, and its position along and across the nearest marked roadway. Interpolated from a grid of
+/// 1 m.
 class RoadField {
  public:
   static constexpr double kReach_m = 30;  ///< edge_distance is exact up to here, constant beyond

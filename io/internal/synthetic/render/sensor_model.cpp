@@ -35,7 +35,7 @@ float blurred(const Image& image, int u, int v, float du, float dv) {
   return sum / static_cast<float>(taps);
 }
 
-/// About normal with sigma 1: four uniform bytes of one hash, whose sum has sigma 147.8.
+/// Approximately normal with sigma 1: four uniform bytes of one hash, whose sum has sigma 147.8.
 float noise(std::uint32_t h) {
   const auto sum = (h & 255U) + (h >> 8 & 255U) + (h >> 16 & 255U) + (h >> 24);
   return (static_cast<float>(sum) - 510.0F) * (1.0F / 147.80F);

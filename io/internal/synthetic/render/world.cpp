@@ -113,7 +113,7 @@ void add_box(Part& part, const Eigen::Vector3d& base, const Eigen::Vector3d& x_a
   for (int i = 0; i < 4; ++i) {
     const Eigen::Vector3d &from = ring[i], &to = ring[(i + 1) % 4];
     Face face = make_quad(from, to - from, up, side, label, seed + 17U * i);
-    // A wall that faces its own box is turned round.
+    // A wall whose normal points into the box is reversed.
     if (face.normal.dot(face.corners[0] - base) < 0)
       face = make_quad(to, from - to, up, side, label, seed + 17U * i);
     part.faces.push_back(face);

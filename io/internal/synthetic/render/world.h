@@ -12,7 +12,7 @@ namespace placegraph::synthetic {
 
 class RoadField;
 
-/// What a pixel shows; written as is into labels_0/ (docs: world.json lists the names).
+/// The class of a pixel's surface; written unchanged into labels_0/, world.yaml lists the names.
 enum class SurfaceClass : std::uint8_t {
   kSky,
   kRoad,
@@ -34,8 +34,9 @@ enum class SurfaceClass : std::uint8_t {
   kCount
 };
 const char* to_string(SurfaceClass label);
-/// The class of a street that it is, as people label pictures of streets: kerbs are pavement, roofs
-/// building, walls and fences fence, hedges and trees tree. Null for what has no such class.
+/// The class of a surface in datasets of labelled street images: kerbs are pavement, roofs
+/// building, walls and fences fence, hedges and trees tree. Null for a surface without such a
+/// class.
 const char* urban_class_name(SurfaceClass label);
 
 /// How a surface is shaded from its metric surface coordinates; see materials.h.
@@ -73,16 +74,17 @@ enum class Material : std::uint8_t {
 struct Face {
   std::array<Eigen::Vector3d, 4> corners;
   int count = 4;
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit; seen only from the side it points to
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit normal; only this side is visible
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   Eigen::Vector3d s_axis = Eigen::Vector3d::UnitX();
   Eigen::Vector3d t_axis = Eigen::Vector3d::UnitZ();
   Material material = Material::kConcrete;
   SurfaceClass label = SurfaceClass::kBuilding;
   bool two_sided = false;
-  std::uint32_t seed = 0;  ///< of its texture; faces of equal material and seed join without edge
-  int plane = 0;           ///< index in planes.txt; 0 = not planar or not listed
-  float width = 1, height = 1;  ///< extent in s and t [m], for materials that lay something out
+  std::uint32_t seed =
+      0;          ///< seed of its texture; it continues across faces of equal material and seed
+  int plane = 0;  ///< index in planes.txt; 0 = not planar or not listed
+  float width = 1, height = 1;  ///< extent in s and t [m], for materials with a layout
   float style = 0;              ///< meaning depends on the material
   float light = 1;              ///< irradiance, 1 = full sun
 };
@@ -91,17 +93,17 @@ struct Face {
 struct Part {
   std::vector<Face> faces;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-  double radius = 0;  ///< of a sphere around all corners [m]
+  double radius = 0;  ///< radius of a sphere around all corners [m]
   void finish();      ///< computes centre and radius
 };
 
-/// Something that moves: a part in its own frame and where that is at a time. Absent where nothing.
+/// A moving object: a part in its own frame and its pose at a time; no pose where it is absent.
 struct MovingObject {
   Part part;
   std::function<std::optional<SE3>(double time_s)> T_scene_object;
 };
 
-/// A vertical prism that nothing drives through: what stands where, seen from above.
+/// A vertical prism that is an obstacle for driving: the ground plan of a solid.
 struct Footprint {
   Eigen::Vector2d centre, axis;            ///< (x, z) [m]; unit direction of the first side
   double half_length = 0, half_width = 0;  ///< [m]
@@ -110,9 +112,9 @@ struct Footprint {
   double distance(const Eigen::Vector2d& p) const;
 };
 
-/// A square pattern of cells as a marker has it, in rows from the top left as somebody reads it.
+/// A square pattern of cells of a marker, in rows from the top left of the upright marker.
 struct Glyph {
-  int cells = 0;  ///< a side, the black border included
+  int cells = 0;  ///< cells per side, including the black border
   std::vector<bool> white;
 };
 
@@ -120,11 +122,11 @@ struct Glyph {
 struct Scene {
   std::vector<Part> parts;
   std::vector<MovingObject> movers;
-  std::vector<Footprint> solids;          ///< of every static thing that stands on the ground
-  std::shared_ptr<const RoadField> road;  ///< what kRoad and kRoadside look up; may be empty
+  std::vector<Footprint> solids;          ///< ground plans of all static objects on the ground
+  std::shared_ptr<const RoadField> road;  ///< input of kRoad and kRoadside; may be null
   std::vector<Eigen::Vector4d> planes{Eigen::Vector4d::Zero()};  ///< n, d with n . p = d; 0 unused
   std::vector<Glyph> glyphs;
-  bool outdoor = true;  ///< sky and skyline where nothing is hit
+  bool outdoor = true;  ///< sky and skyline are drawn where there is no face
   std::uint32_t seed = 0;
 
   int add_plane(const Eigen::Vector3d& normal, const Eigen::Vector3d& point);

@@ -15,7 +15,7 @@ struct Hit {
   int face = 0;  ///< 1, 2, ... a plane; 0 curved
 };
 
-/// Where a ray o + t d meets the unit cube: outside first, or from within.
+/// Intersection of a ray o + t d with the unit cube, from outside or from within.
 Hit meet_cube(const Eigen::Vector3d& o, const Eigen::Vector3d& d, bool within) {
   double in = -kNever, out = kNever;
   int in_face = 0, out_face = 0;
@@ -69,11 +69,11 @@ Hit meet(const Solid& solid, const Eigen::Vector3d& o, const Eigen::Vector3d& d)
   return t > 0 && t < kNever ? Hit{t, 0} : Hit{};
 }
 
-SE3 pose_at(const Eigen::Vector3d& position, const Eigen::Vector3d& turn) {
-  return SE3(SO3::exp(turn), position);
+SE3 pose_at(const Eigen::Vector3d& position, const Eigen::Vector3d& rotation_vector) {
+  return SE3(SO3::exp(rotation_vector), position);
 }
 
-/// Upright things stand turned about y by chance; others lie anyhow.
+/// A random rotation vector: upright things are rotated about y, others about any axis.
 Eigen::Vector3d random_rotation(Random& random, bool upright) {
   if (upright) return {0, random.uniform(-std::numbers::pi, std::numbers::pi), 0};
   return {random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(-2, 2)};
@@ -102,13 +102,14 @@ class SceneMaker {
     // Ramps: tilted a little out of the floor or a wall.
     for (int i = random_.index(3); i > 0; --i) {
       const double angle = random_.uniform(0.15, 0.7);
-      const Eigen::Vector3d turn = random_.uniform() < 0.5 ? Eigen::Vector3d(angle, 0, 0)
-                                                           : Eigen::Vector3d(0, angle, angle / 2);
+      const Eigen::Vector3d rotation_vector = random_.uniform() < 0.5
+                                                  ? Eigen::Vector3d(angle, 0, 0)
+                                                  : Eigen::Vector3d(0, angle, angle / 2);
       const Eigen::Vector3d at =
           off + Eigen::Vector3d(random_.uniform(-0.8, 0.8) * half.x(),
                                 random_.uniform() < 0.5 ? half.y() : 0.3 * half.y(),
                                 random_.uniform(0.3, 1.0) * half.z());
-      add(SolidKind::kBox, T_sensor_room * pose_at(at, turn), sides(0.1, 0.35), 6);
+      add(SolidKind::kBox, T_sensor_room * pose_at(at, rotation_vector), sides(0.1, 0.35), 6);
     }
     const int things = 3 + random_.index(10);
     for (int i = 0; i < things; ++i) add_thing();
@@ -154,7 +155,7 @@ class SceneMaker {
   int next_label_ = 1;
 };
 
-/// Part of a view goes through leaves: depths there are anyhow.
+/// Scales the depths in a part of the view by random factors, as if seen through leaves.
 void add_foliage(LabelledCloud& taken, int width, int height, Random& random) {
   const int x0 = random.index(width), y0 = random.index(height);
   const int x1 = x0 + width / 8 + random.index(width / 2),
@@ -168,7 +169,7 @@ void add_foliage(LabelledCloud& taken, int width, int height, Random& random) {
   }
 }
 
-/// The cloud as from nowhere: no pixels, the origin elsewhere, and points that fill a volume.
+/// The cloud without its viewpoint: no pixels, another origin, and points that fill a volume.
 LabelledCloud moved(const LabelledCloud& taken, double size_m, Random& random) {
   LabelledCloud result;
   const Eigen::Vector3d shift =

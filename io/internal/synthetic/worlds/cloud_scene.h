@@ -7,10 +7,10 @@
 
 namespace placegraph::synthetic {
 
-/// What a ray may hit, in a frame of its own, in whose unit it is a unit solid.
+/// Solids that a ray may hit, each a unit solid in its own frame before scaling.
 enum class SolidKind {
   kBox,       ///< |x|, |y|, |z| <= 1: six planes
-  kRoom,      ///< the same from within
+  kRoom,      ///< the same, seen from inside
   kBall,      ///< |p| <= 1: scaled, an ellipsoid
   kCylinder,  ///< x^2 + y^2 <= 1, |z| <= 1: its two ends are planes
 };
@@ -19,17 +19,19 @@ struct Solid {
   SolidKind kind = SolidKind::kBox;
   SE3 T_sensor_solid;
   Eigen::Vector3d half = Eigen::Vector3d::Ones();  ///< half its sides [m]
-  int first_label = 1;  ///< of its planes, one after the other; curved faces have 0
+  int first_label = 1;  ///< label of its first plane, the others follow; curved faces have 0
 };
 
-/// How a cloud is taken.
+/// Options of the simulated sensor of a cloud.
 struct CloudSensor {
-  bool scans = false;  ///< even in azimuth and elevation, no image; otherwise a pinhole
+  /// A scan, even in azimuth and elevation, without an image; otherwise a pinhole.
+  bool scans = false;
   int width = 160, height = 120;
-  double focal_px = 150;   ///< of the pinhole
-  double step_rad = 0.01;  ///< of the scan
-  double noise_share = 0;  ///< of the depth; power: see noise_power
-  double noise_power = 1;  ///< deviation = noise_share * depth_scale * (depth / depth_scale)^power
+  double focal_px = 150;   ///< focal length of the pinhole [px]
+  double step_rad = 0.01;  ///< angular step of the scan [rad]
+  double noise_share = 0;  ///< noise as a share of the depth; see noise_power
+  /// Standard deviation = noise_share * depth_scale * (depth / depth_scale)^power.
+  double noise_power = 1;
   double depth_scale_m = 1;
 };
 
@@ -39,13 +41,13 @@ struct LabelledCloud {
   std::vector<int> labels;
 };
 
-/// What a sensor at the origin that looks along z sees of solids.
+/// The cloud of solids from a sensor at the origin with the optical axis z.
 LabelledCloud take_cloud(const std::vector<Solid>& solids, const CloudSensor& sensor,
                          Random& random);
 
-/// A room or an open space of any size, 0.3 to 60 m, with boxes, cylinders, ellipsoids and heaps of
-/// small ones, taken by a depth camera or a scanner with noise of some kind; partly through leaves,
-/// or moved away from its viewpoint and mixed with points that fill a volume.
+/// A random scene: a room or an open space, 0.3 to 60 m, with boxes, cylinders, ellipsoids and
+/// heaps of small ones, taken by a depth camera or a scanner with some kind of noise; partly
+/// through leaves, or moved away from its viewpoint and mixed with points that fill a volume.
 LabelledCloud random_cloud(Random& random);
 
 }  // namespace placegraph::synthetic

@@ -85,7 +85,7 @@ FloorPlan make_plan(Random& random) {
   add_rooms({b, b}, {kLong - b, b + 0.5 * depth}, 0, kCore, "store south");
   add_rooms({b, b + 0.5 * depth}, {kLong - b, kWide - b}, 0, kCore, "store north");
   plan.walls.push_back({{b, b + 0.5 * depth}, {kLong - b, b + 0.5 * depth}, kHeight, 0.12, {}});
-  // Four corner rooms that no door leads to close the outline.
+  // Four corner rooms without doors close the outline.
   const Eigen::Vector2d corners[4] = {{0, 0}, {x1, 0}, {0, z1}, {x1, z1}};
   for (const Eigen::Vector2d& low : corners) {
     plan.rooms.push_back({"shaft", low, low + Eigen::Vector2d(a, a), kHeight, 1});
@@ -107,7 +107,7 @@ Tour make_corridor_loop(const TourRequest& request) {
   const FloorPlan plan = make_plan(random);
   build_rooms(plan, tour.scene);
   for (std::size_t i = 4; i < plan.rooms.size(); ++i) furnish(plan.rooms[i], tour.scene, random);
-  // Things along the corridor's walls, where the walker passes clear of them.
+  // Furniture along the corridor's walls, clear of the walker's path.
   const double middle = 0.5 * (kOuter + kInner);
   for (double s = 7.5; s < kLong - 8; s += random.uniform(2.5, 5)) {
     const double h = random.uniform(0.6, 1.8);

@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kRoadHalfWidth_m = 4;
-constexpr double kRoadShift_m = 1.1;   ///< the road's middle lies this far left of the track
+constexpr double kRoadShift_m = 1.1;   ///< distance of the road's middle to the left of the track
 constexpr double kSameStreet_m = 5.5;  ///< passes closer than this share one street
 constexpr double kPathStep_m = 1.5;
 constexpr double kSurfaceStiffness = 3000;  ///< spreads contradictions over about 20 m
@@ -93,8 +93,8 @@ std::vector<double> smoothed(std::vector<double> values, int half) {
   return values;
 }
 
-/// Puts the camera on the surface: height exact; slow pitch and roll those of the surface plus the
-/// recording's median mounting angle, fast ones (nodding, vibration) as recorded.
+/// Places the camera on the surface: exact height; slow pitch and roll are those of the surface
+/// plus the recording's median mounting angle, fast ones (nodding, vibration) are as recorded.
 std::vector<SE3> settle(const RawDrive& raw, const GroundMesh& ground) {
   const std::size_t n = raw.position.size();
   std::vector<double> pitch(n), roll(n);
@@ -105,7 +105,8 @@ std::vector<SE3> settle(const RawDrive& raw, const GroundMesh& ground) {
     pitch[i] = R.col(2).dot(up) / flat(R.col(2)).norm();
     roll[i] = R.col(0).dot(up) / flat(R.col(0)).norm();
   }
-  constexpr int kHalfWindow = 12;  // frames: with two passes slower than about 2 s is the road's
+  constexpr int kHalfWindow =
+      12;  // [frames] with two passes, motion slower than about 2 s is that of the road
   const std::vector<double> slow_pitch = smoothed(pitch, kHalfWindow),
                             slow_roll = smoothed(roll, kHalfWindow);
   const double mount_pitch = median_of(pitch), mount_roll = median_of(roll);
@@ -177,7 +178,7 @@ Tour make_drive(const std::string& poses_path, const TourRequest& request) {
     driven.push_back(flat(p));
     if (moved.empty() || (flat(p) - moved.back()).norm() > 0.3) moved.push_back(flat(p));
   }
-  // A standing camera still has a road to stand on.
+  // A standing camera needs a road, too.
   const Eigen::Vector2d ahead = flat(raw.R_scene_cam.back().col(2)).normalized();
   moved.push_back(moved.back() + 60 * ahead);
   moved.insert(moved.begin(),

@@ -11,7 +11,7 @@ namespace placegraph::synthetic {
 struct Opening {
   double from_m = 0, to_m = 1, head_m = 2.05;
   enum class Leaf { kNone, kOpenLeft, kOpenRight, kClosed };
-  Leaf leaf = Leaf::kNone;  ///< open ones stand at a right angle on that side of a -> b
+  Leaf leaf = Leaf::kNone;  ///< open leaves are at a right angle on that side of a -> b
 };
 
 /// A straight wall between two points (x, z) of the plan, on both sides of the line.

@@ -14,12 +14,12 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kPatch_m = 3;      ///< the floor is laid in squares of this side
-constexpr int kPatches = 6;         ///< a row
-constexpr double kSheet_m = 0.002;  ///< paper and housings lie so high above the floor
+constexpr double kPatch_m = 3;      ///< side of the floor's square patches
+constexpr int kPatches = 6;         ///< patches per row
+constexpr double kSheet_m = 0.002;  ///< height of paper and housings above the floor
 constexpr double kHousing_m = 0.06;
 
-/// World (z up) in the scene's axes (y down).
+/// Pose of the world (z up) in the scene's axes (y down).
 SE3 T_scene_world() {
   Matrix3d R;
   R << 1, 0, 0, 0, 0, -1, 0, 1, 0;
@@ -84,11 +84,11 @@ MarkerLayout make_layout(Random& random) {
   for (int i = 0; i < kMarkers; ++i) {
     const double x = 0.6 * (i % 3 - 1) + random.uniform(-0.1, 0.1);
     const double y = 0.7 * (i / 3 - 0.5) + random.uniform(-0.1, 0.1);
-    const double turn = random.uniform(-std::numbers::pi, std::numbers::pi);
+    const double yaw = random.uniform(-std::numbers::pi, std::numbers::pi);
     PlacedMarker marker;
     marker.id = ids[static_cast<std::size_t>(i)];
     marker.side_m = 0.01 * std::round(random.uniform(14, 22));
-    marker.T_world_marker = SE3(SO3::exp({0, 0, turn}), Vector3d(x, y, kSheet_m));
+    marker.T_world_marker = SE3(SO3::exp({0, 0, yaw}), Vector3d(x, y, kSheet_m));
     layout.markers.push_back(marker);
   }
   for (int i = 0; i < 4; ++i) {
@@ -114,7 +114,7 @@ void place(const MarkerLayout& layout, Scene& scene) {
   scene.parts.push_back(part);
 }
 
-/// Looking down, the image's top towards the body's x, a little askew.
+/// Mounting of a downward camera with the image's top towards the body's x, slightly tilted.
 SE3 camera_mounting() {
   Matrix3d R;
   R << 0, -1, 0, -1, 0, 0, 0, 0, -1;
@@ -156,7 +156,7 @@ Tour make_flight_world(const TourRequest& request) {
         R_cam_body * rate;
     tour.velocity_cam.push_back(velocity);
   }
-  tour.hover = std::make_shared<const FlightSetting>(std::move(setting));
+  tour.flight_setting = std::make_shared<const FlightSetting>(std::move(setting));
   return tour;
 }
 

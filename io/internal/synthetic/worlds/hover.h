@@ -5,8 +5,8 @@
 
 namespace placegraph::synthetic {
 
-/// What there is to know of a hover world beside its images. The scene's axes are turned from the
-/// world's (z up).
+/// The data of a flight world beside its images. The scene's axes are rotated from the world's (z
+/// up).
 struct FlightSetting {
   SimulatedFlight flight;
   MarkerLayout layout;
@@ -14,8 +14,9 @@ struct FlightSetting {
   static SE3 T_world_scene();
 };
 
-/// A quadrotor over a level floor of several materials with AprilTags and lamps in its middle,
-/// camera downwards (640 x 480, 77 degrees wide, 20 Hz). Away from the middle it sees none of them.
+/// A quadrotor over a level floor of several materials with AprilTags and lamps in its middle, with
+/// a downward camera (640 x 480, 77 degrees wide, 20 Hz). No tags or lamps are visible away from
+/// the middle.
 Tour make_flight_world(const TourRequest& request);
 
 }  // namespace placegraph::synthetic

@@ -17,7 +17,7 @@ void walk_through(const FloorPlan& plan, const IndoorWalk& walk, std::uint32_t s
     const auto sway = [&](double rate, std::uint32_t salt) {
       return ramp * value_noise(t * rate, 0.5, seed + salt);
     };
-    // Direction a little ahead: one looks into a bend before walking it.
+    // The direction is that of the path a little ahead, because a walker looks into a bend before.
     const PathPoint here = path_point(path, kStep_m, positions[i]);
     const PathPoint ahead = path_point(path, kStep_m, positions[i] + 0.3);
     const Eigen::Vector2d side(here.direction[1], -here.direction[0]);

@@ -4,10 +4,10 @@
 
 namespace placegraph::synthetic {
 
-/// How a camera is carried through a building.
+/// The motion of a camera that is carried through a building.
 struct IndoorWalk {
   std::vector<Eigen::Vector2d> corners;  ///< (x, z); the first leg must run along +z
-  double rotation_window_m = 1.0;        ///< over which corners are rounded
+  double rotation_window_m = 1.0;        ///< path length over which corners are rounded [m]
   double speed_mps = 1.0;
   double camera_height_m = 1.4;
 };

@@ -10,8 +10,8 @@ namespace placegraph::synthetic {
 namespace {
 
 constexpr double kBlock_m = 64;  ///< whole cells of the fine and of the coarse ground
-constexpr int kBlocks = 7;       ///< that are driven along
-constexpr int kBeyond = 4;  ///< more of them at either end, so that the street has no end in view
+constexpr int kBlocks = 7;       ///< number of driven blocks
+constexpr int kBeyond = 4;       ///< further blocks at either end, to hide the end of the street
 constexpr double kLane_m = 1.75;
 constexpr double kStep_m = 0.25;
 
@@ -21,7 +21,7 @@ bool is_ground(const Part& part) {
          material == Material::kKerb || material == Material::kTerrain;
 }
 
-/// From where to where a part reaches along the street.
+/// Extent of a part along the street.
 std::pair<double, double> extent(const Part& part) {
   std::pair<double, double> z(std::numeric_limits<double>::max(),
                               std::numeric_limits<double>::lowest());
@@ -33,7 +33,7 @@ std::pair<double, double> extent(const Part& part) {
   return z;
 }
 
-/// Ground lies all along the street; its texture begins anew with every block.
+/// Repeats the texture of the ground, which extends along the whole street, in every block.
 void repeat_texture(Part& part) {
   for (Face& face : part.faces) {
     double middle = 0;
@@ -50,7 +50,7 @@ Part copy_of(const Part& part, double shift_m, Scene& scene) {
   return copy;
 }
 
-/// Keeps what stands wholly within the first block and puts the same into every other one.
+/// Keeps the parts that are wholly within the first block and copies them to every other block.
 void repeat_blocks(Scene& scene) {
   std::vector<Part> parts = std::move(scene.parts);
   scene.parts.clear();

@@ -13,16 +13,17 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kStep_s = 1e-3;
-constexpr std::int64_t kBegin_ns = 1'000'000'000'000;  ///< all stamps have as many digits
-constexpr double kField_m = 0.45;                      ///< half the square that it comes back to
-constexpr double kLow_m = 1.2, kHigh_m = 1.8;          ///< heights it flies at
-constexpr double kNear_m = 3.4, kFar_m = 4.2;          ///< how far off it goes
-constexpr double kCruise_mps = 0.8;                    ///< mean speed from point to point
-constexpr double kDrag = 0.3;                          ///< [1/s]
+constexpr std::int64_t kBegin_ns =
+    1'000'000'000'000;  ///< first stamp, such that all stamps have the same number of digits
+constexpr double kField_m = 0.45;              ///< half the side of the square around the middle
+constexpr double kLow_m = 1.2, kHigh_m = 1.8;  ///< range of flight heights
+constexpr double kNear_m = 3.4, kFar_m = 4.2;  ///< range of distances of the far positions
+constexpr double kCruise_mps = 0.8;            ///< mean speed from point to point
+constexpr double kDrag = 0.3;                  ///< [1/s]
 constexpr double kMotorLag_s = 0.03;
 constexpr double kPositionGain = 3.2, kVelocityGain = 3.2;  ///< [1/s^2], [1/s]
 constexpr double kAttitudeGain = 140, kRateGain = 17;       ///< [1/s^2], [1/s]
-constexpr double kMaxTilt = 0.5;                            ///< of the acceleration asked for [g]
+constexpr double kMaxTilt = 0.5;                            ///< largest commanded acceleration [g]
 
 Vector3d normal3(Random& random) {
   const double x = random.normal(), y = random.normal(), z = random.normal();
@@ -40,7 +41,7 @@ struct GaussMarkov {
   }
 };
 
-/// Where the body should be: rest-to-rest quintics between points, with pauses.
+/// The target of the body: rest-to-rest quintics between points, with pauses.
 struct Leg {
   double begin_s, end_s;
   Vector3d from, to;
@@ -57,12 +58,13 @@ Aim aim_at(const std::vector<Leg>& legs, double t) {
       std::find_if(legs.begin(), legs.end(), [t](const Leg& leg) { return t < leg.end_s; });
   const Leg& leg = after == legs.end() ? legs.back() : *after;
   const double T = leg.end_s - leg.begin_s, s = std::clamp((t - leg.begin_s) / T, 0.0, 1.0);
-  const double way = s * s * s * (10 + s * (-15 + 6 * s));
+  const double progress = s * s * s * (10 + s * (-15 + 6 * s));
   const double speed = 30 * s * s * (1 - s) * (1 - s) / T;
   const double change = 60 * s * (1 - s) * (1 - 2 * s) / (T * T);
   const Vector3d d = leg.to - leg.from;
-  const double turn = leg.yaw_to - leg.yaw_from;
-  return {leg.from + way * d, speed * d, change * d, leg.yaw_from + way * turn, speed * turn};
+  const double yaw_change = leg.yaw_to - leg.yaw_from;
+  return {leg.from + progress * d, speed * d, change * d, leg.yaw_from + progress * yaw_change,
+          speed * yaw_change};
 }
 
 std::vector<Leg> plan(double duration_s, Random& random) {
@@ -95,16 +97,16 @@ std::vector<Leg> plan(double duration_s, Random& random) {
   return legs;
 }
 
-/// Acceleration that the thrust shall give, and the angular acceleration that turns it there.
+/// The commanded acceleration of the thrust, and the angular acceleration towards its direction.
 struct Command {
-  double thrust = 0;  ///< over the mass [m/s^2]
+  double thrust = 0;  ///< per mass [m/s^2]
   Vector3d angular = Vector3d::Zero();
 };
 
 struct Vehicle {
   Vector3d p, v, w = Vector3d::Zero();  ///< w in body axes
   SO3 R;
-  Command driven;  ///< what the motors do by now
+  Command driven;  ///< present output of the motors
 };
 
 Command control(const Vehicle& body, const Aim& aim) {
@@ -124,7 +126,7 @@ Command control(const Vehicle& body, const Aim& aim) {
   return {force.dot(R.col(2)), kAttitudeGain * error + kRateGain * (rate - body.w)};
 }
 
-/// What the air does to it.
+/// Disturbances of the air.
 struct Air {
   GaussMarkov gust, breeze, torque;
   Air(double wind_mps, Random& random)
@@ -140,7 +142,7 @@ struct Air {
   }
 };
 
-/// Forces without gravity over the mass, in world axes.
+/// Forces without gravity per mass, in world axes.
 Vector3d push_on(const Vehicle& body, const Air& air) {
   return body.R * Vector3d(0, 0, body.driven.thrust) -
          kDrag * (body.v - air.gust.value - air.breeze.value);
@@ -150,14 +152,15 @@ void move(Vehicle& body, const Command& wanted, const Vector3d& push, const Vect
   const double follow = kStep_s / kMotorLag_s;
   body.driven.thrust += follow * (wanted.thrust - body.driven.thrust);
   body.driven.angular += follow * (wanted.angular - body.driven.angular);
-  const Vector3d acceleration = push + gravity(), turn = body.driven.angular + torque;
+  const Vector3d acceleration = push + gravity(),
+                 angular_acceleration = body.driven.angular + torque;
   body.p += kStep_s * body.v + 0.5 * kStep_s * kStep_s * acceleration;
   body.v += kStep_s * acceleration;
-  body.R = body.R * SO3::exp(kStep_s * body.w + 0.5 * kStep_s * kStep_s * turn);
-  body.w += kStep_s * turn;
+  body.R = body.R * SO3::exp(kStep_s * body.w + 0.5 * kStep_s * kStep_s * angular_acceleration);
+  body.w += kStep_s * angular_acceleration;
 }
 
-/// Gyro and accelerometer with white noise and biases that walk.
+/// Gyro and accelerometer with white noise and random walk of the biases.
 class InertialSensor {
  public:
   explicit InertialSensor(const SimulatedFlightOptions& options)
@@ -198,21 +201,26 @@ class InertialSensor {
 void SimulatedFlightOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, SimulatedFlightOptions& o) {
-  field("seed", o.seed, "of the way, the wind and the sensor");
-  field("duration_s", o.duration_s, "how long it flies", {1, 3600});
-  field("wind_mps", o.wind_mps, "sigma of gusts and of the mean wind", {0, 5});
-  field("gyro_noise", o.noise.gyro, "rad/s per root of a hertz", {1e-9, 1});
-  field("accel_noise", o.noise.accel, "m/s^2 per root of a hertz", {1e-9, 1});
-  field("gyro_bias_walk", o.noise.gyro_bias_walk, "rad/s^2 per root of a hertz", {1e-9, 1});
-  field("accel_bias_walk", o.noise.accel_bias_walk, "m/s^3 per root of a hertz", {1e-9, 1});
-  field("gyro_bias_sigma", o.gyro_bias_sigma, "rad/s, at the start", {0, 1});
-  field("accel_bias_sigma", o.accel_bias_sigma, "m/s^2, at the start", {0, 1});
+  field("seed", o.seed, "seed of the path, the wind and the sensor noise");
+  field("duration_s", o.duration_s, "duration of the flight [s]", {1, 3600});
+  field("wind_mps", o.wind_mps, "standard deviation of gusts and of the mean wind [m/s]", {0, 5});
+  field("gyro_noise", o.noise.gyro, "noise density of the gyro [rad/s/sqrt(Hz)]", {1e-9, 1});
+  field("accel_noise", o.noise.accel, "noise density of the accelerometer [m/s^2/sqrt(Hz)]",
+        {1e-9, 1});
+  field("gyro_bias_walk", o.noise.gyro_bias_walk, "random walk of the gyro bias [rad/s^2/sqrt(Hz)]",
+        {1e-9, 1});
+  field("accel_bias_walk", o.noise.accel_bias_walk,
+        "random walk of the accelerometer bias [m/s^3/sqrt(Hz)]", {1e-9, 1});
+  field("gyro_bias_sigma", o.gyro_bias_sigma, "standard deviation of the initial gyro bias [rad/s]",
+        {0, 1});
+  field("accel_bias_sigma", o.accel_bias_sigma,
+        "standard deviation of the initial accelerometer bias [m/s^2]", {0, 1});
 }
 
 SimulatedFlight simulate_flight(const SimulatedFlightOptions& options) {
   options.check();
-  Random way(options.seed, 61), weather(options.seed, 62);
-  const std::vector<Leg> legs = plan(options.duration_s, way);
+  Random path_random(options.seed, 61), weather(options.seed, 62);
+  const std::vector<Leg> legs = plan(options.duration_s, path_random);
   Vehicle body;
   body.p = legs.front().from;
   body.v = Vector3d::Zero();

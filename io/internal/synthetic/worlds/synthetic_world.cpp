@@ -56,21 +56,23 @@ void resize(Camera& camera, int width, int height) {
 void SyntheticOptions::check() const {
   check_ranges(*this);
   require(!world.empty(), "world: is empty");
-  require(duration_s == 0 || world == "hover", "duration_s: is for the hover world only");
+  require(duration_s == 0 || world == "hover", "duration_s: only for the world `hover`");
   require((width == 0) == (height == 0), "size: width and height go together");
   require(width == 0 || (width >= 32 && height >= 32), "size: at least 32 x 32");
 }
 
 void visit(OptionVisitor& field, SyntheticOptions& o) {
   field("world", o.world,
-        "town-loop, repeated-blocks, corridor-loop, warehouse, hover or a KITTI pose file");
-  field.choice("difficulty", o.difficulty, {"clean", "standard", "hard"}, "noise, blur, traffic");
-  field("seed", o.seed, "of textures, scenery, traffic and noise");
-  field("frames", o.frames, "at most this many; 0 = all", {0, 1e9});
-  field("duration_s", o.duration_s, "of the flight in the hover world; 0 = 120", {0, 3600});
-  field("width", o.width, "image width [px]; 0 = the world's own", {0, 16384});
-  field("height", o.height, "image height [px]; 0 = the world's own", {0, 16384});
-  field("threads", o.threads, "threads of one rendering", {1, 256});
+        "name of a built-in world (docs/synthetic_world.md) or path of a KITTI pose file");
+  field.choice("difficulty", o.difficulty, {"clean", "standard", "hard"},
+               "level of noise, exposure drift, motion blur, contrast and traffic");
+  field("seed", o.seed, "seed of textures, scenery, traffic and noise");
+  field("frames", o.frames, "maximum number of frames from the start; 0 = all", {0, 1e9});
+  field("duration_s", o.duration_s, "duration of the flight [s], world `hover` only; 0 = 120",
+        {0, 3600});
+  field("width", o.width, "image width [px]; 0 = width of the world's camera", {0, 16384});
+  field("height", o.height, "image height [px]; 0 = height of the world's camera", {0, 16384});
+  field("threads", o.threads, "number of threads of one rendering", {1, 256});
 }
 
 const std::vector<std::string>& SyntheticWorld::worlds() {
@@ -136,10 +138,10 @@ Image SyntheticWorld::expose(std::size_t index, bool right,
   const View at = view(index, right);
   const std::size_t last = tour_->T_scene_cam.size() - 1;
   const std::size_t a = index > 0 ? index - 1 : 0, b = std::min(index + 1, last);
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero(), turn = velocity;
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero(), angular_velocity = velocity;
   if (!tour_->velocity_cam.empty()) {
     velocity = tour_->velocity_cam[index].head<3>();
-    turn = tour_->velocity_cam[index].tail<3>();
+    angular_velocity = tour_->velocity_cam[index].tail<3>();
   } else if (b > a) {
     // Central differences; rotations between frames are small enough for R^T R' = I + [w dt].
     const View before = view(a, right), after = view(b, right);
@@ -149,11 +151,11 @@ Image SyntheticWorld::expose(std::size_t index, bool right,
         R.transpose() * (after.T_scene_cam.translation() - before.T_scene_cam.translation()) / dt;
     const Eigen::Matrix3d step =
         before.T_scene_cam.rotation().matrix().transpose() * after.T_scene_cam.rotation().matrix();
-    turn =
+    angular_velocity =
         Eigen::Vector3d(step(2, 1) - step(1, 2), step(0, 2) - step(2, 0), step(1, 0) - step(0, 1)) /
         (2 * dt);
   }
-  const auto velocities = synthetic::point_velocities(tour_->scene, at, velocity, turn);
+  const auto velocities = synthetic::point_velocities(tour_->scene, at, velocity, angular_velocity);
   const auto seed = static_cast<std::uint32_t>(options_.seed);
   const std::uint32_t frame_seed =
       synthetic::hash_cell(static_cast<int>(index), right ? 1 : 0, seed * 7919U + 13U);
@@ -245,7 +247,9 @@ LabelledMesh SyntheticWorld::static_mesh() const {
 }
 
 const std::string& SyntheticWorld::floor_plan() const { return tour_->floor_plan; }
-const synthetic::FlightSetting* SyntheticWorld::hover() const { return tour_->hover.get(); }
+const synthetic::FlightSetting* SyntheticWorld::flight_setting() const {
+  return tour_->flight_setting.get();
+}
 bool SyntheticWorld::is_indoor() const { return !tour_->scene.outdoor; }
 
 }  // namespace placegraph

@@ -23,29 +23,29 @@ struct SyntheticOptions {
   synthetic::Difficulty difficulty = synthetic::Difficulty::kStandard;
   std::uint64_t seed = 1;
   int frames = 0;             ///< at most this many from the start; 0 = all
-  double duration_s = 0;      ///< of the flight, hover world only; 0 = 120 s
+  double duration_s = 0;      ///< duration of the flight, world `hover` only; 0 = 120 s
   int width = 0, height = 0;  ///< [px], intrinsics scaled along; 0 = the world's own
-  int threads = 1;            ///< of one rendering
+  int threads = 1;            ///< threads of one rendering
 
   void check() const;  ///< throws ArgumentError naming the field
 };
 void visit(OptionVisitor& field, SyntheticOptions& options);
 
-/// What a SyntheticFrame shall hold beside the left image.
+/// Requested contents of a SyntheticFrame beside the left image.
 struct SyntheticContents {
   bool right = false, depth = false, labels = false, planes = false, flow = false;
 };
 
 /// A frame with its ground truth, all at the left pixels' centres.
 struct SyntheticFrame {
-  Frame frame;   ///< image, right, depth as asked for
+  Frame frame;   ///< image; right and depth if requested
   Image labels;  ///< CV_8UC1, see class_names()
   Image planes;  ///< CV_16UC1, row of planes(), 0 = no plane
   Image flow;    ///< CV_32FC2: displacement [px] to the next frame, NaN: none; empty for the last
 };
 
-/// A rendered sequence, made on demand and without a disk. Moving objects are followed in `flow`.
-/// Const members may be called from several threads at once.
+/// A rendered sequence, computed on demand and without a disk. Moving objects are followed in
+/// `flow`. Const members may be called from several threads at once.
 class SyntheticWorld {
  public:
   /// Names of the built-in worlds.
@@ -60,29 +60,28 @@ class SyntheticWorld {
 
   const std::string& name() const;
   std::size_t size() const;  ///< number of frames
-  /// With baseline, depth camera (the left camera's own) and camera height.
+  /// The calibration, with baseline, depth camera (the left camera's own) and camera height.
   Calibration calibration() const;
   std::int64_t stamp_ns(std::size_t index) const;
-  /// T_first_cam: poses of the left camera in the first one's frame, as poses.txt holds them.
+  /// T_first_cam: poses of the left camera in the frame of the first one, as in poses.txt.
   Trajectory ground_truth() const;
   SyntheticFrame render(std::size_t index, const SyntheticContents& contents) const;
 
   static std::vector<std::string> class_names();
-  /// Which class of a street every label is, and its surface; none where people label no such
-  /// class.
+  /// The street class and the surface of every label; empty for labels without a street class.
   static std::vector<SceneClass> scene_classes();
   /// Planes n . p = d of the static scene in the first camera's frame: (n, d); row 0 is unused.
   std::vector<Eigen::Vector4d> planes() const;
   /// A JSON text with rooms, walls and doors; empty outdoors.
   const std::string& floor_plan() const;
-  /// What stands still in the scene, in the first camera's frame; faces of the classes that people
-  /// label in streets, the others by their own names.
+  /// The static part of the scene in the first camera's frame. Faces have the classes of labelled
+  /// street images, the others their own names.
   LabelledMesh static_mesh() const;
   bool is_indoor() const;
-  /// Flight, markers and camera mounting of the hover world; null of others.
-  const synthetic::FlightSetting* hover() const;
+  /// Flight, markers and camera mounting of the flight world; null for other worlds.
+  const synthetic::FlightSetting* flight_setting() const;
   const SyntheticOptions& options() const { return options_; }
-  /// The scene and the camera's way through it, in the scene's own frame (y down, level).
+  /// The scene and the camera's path through it, in the scene's own frame (y down, level).
   const synthetic::Tour& tour() const { return *tour_; }
 
  private:

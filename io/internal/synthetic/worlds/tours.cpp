@@ -60,14 +60,14 @@ std::vector<double> drive_positions(const std::vector<Eigen::Vector2d>& path, do
   const int reach = std::max(1, static_cast<int>(1.0 / step_m));
   for (int i = reach; i + reach < n; ++i) {
     const Eigen::Vector2d a = path[i] - path[i - reach], b = path[i + reach] - path[i];
-    const double turn = std::abs(a[0] * b[1] - a[1] * b[0]) / (a.norm() * b.norm());
-    const double curvature = turn / (reach * step_m) + 1e-9;
+    const double sin_angle = std::abs(a[0] * b[1] - a[1] * b[0]) / (a.norm() * b.norm());
+    const double curvature = sin_angle / (reach * step_m) + 1e-9;
     v[i] = std::min(v[i], std::sqrt(limits.lateral_mps2 / curvature));
   }
   const double gain = 2 * limits.forward_mps2 * step_m;
   for (int i = 1; i < n; ++i) v[i] = std::min(v[i], std::sqrt(v[i - 1] * v[i - 1] + gain));
   for (int i = n - 2; i >= 0; --i) v[i] = std::min(v[i], std::sqrt(v[i + 1] * v[i + 1] + gain));
-  // The corners of this profile are jerks: a car's speed changes smoothly.
+  // The corners of this profile would be jerks, but a car's speed changes smoothly.
   std::vector<double> smooth(n);
   const int half = static_cast<int>(3.0 / step_m);
   for (int i = 0; i < n; ++i) {

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kStreets_x[] = {0, 70};
 constexpr double kStreets_z[] = {0, 60, 120};
-constexpr double kBeyond_m = 75;  ///< streets run on past the last crossing
+constexpr double kBeyond_m = 75;  ///< length of the streets beyond the last crossing
 constexpr double kLane_m = 1.75;  ///< right of the street's middle
 constexpr double kStep_m = 0.25;
 
@@ -35,7 +35,7 @@ HeightSurface hills(std::uint32_t seed) {
 }
 
 void add_crossing_traffic(Tour& tour, const GroundMesh& ground, std::uint32_t seed) {
-  // Where the route goes straight over a crossing, a car comes from the right before or after.
+  // At crossings where the route goes straight on, a car comes from the right before or after.
   for (const double x : kStreets_x) {
     for (const double z : kStreets_z) {
       int times = 0;

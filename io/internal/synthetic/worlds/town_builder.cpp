@@ -25,7 +25,7 @@ TownSite::TownSite(const TownPlan& town_plan, Scene& out)
 
 template <class Fn>
 bool TownSite::any_near(const Footprint& f, const Fn& hit) const {
-  // Everything is filed by its centre; half a house is below one bucket.
+  // Every solid is in the bucket of its centre; half a house is smaller than a bucket.
   const double reach = std::hypot(f.half_length, f.half_width) + kBucket_m;
   const Eigen::Vector2d low = (f.centre.array() - reach - road.low().array()) / kBucket_m,
                         high = (f.centre.array() + reach - road.low().array()) / kBucket_m;

@@ -7,10 +7,10 @@
 namespace placegraph::synthetic {
 
 constexpr double kKerb_m = 0.12;          ///< height of the pavement above the road
-constexpr double kCarHalfWidth_m = 0.95;  ///< of the car that carries the camera
-constexpr double kClearance_m = 0.6;      ///< between that car and anything solid, at least
+constexpr double kCarHalfWidth_m = 0.95;  ///< half the width of the camera's car
+constexpr double kClearance_m = 0.6;      ///< least distance between that car and a solid
 
-/// What a town is built from.
+/// The inputs of a town.
 struct TownPlan {
   std::vector<Roadway> roads;
   GroundMesh ground;
@@ -19,10 +19,10 @@ struct TownPlan {
 };
 
 /// Fills a scene with ground, houses, trees, poles, signs, fences and parked cars along the roads.
-/// Every solid stands off the asphalt and off the driven path.
+/// Every solid is off the asphalt and off the driven path.
 Scene build_town(const TownPlan& plan);
 
-/// The state shared by the builders of one town: what stands where.
+/// The state shared by the builders of one town: the occupied ground.
 class TownSite {
  public:
   TownSite(const TownPlan& plan, Scene& scene);
@@ -33,10 +33,10 @@ class TownSite {
   Random random;
 
   double ground(const Eigen::Vector2d& p) const { return plan.ground.height(p[0], p[1]); }
-  /// Height (y) of what one walks on: the road, or the pavement 12 cm above it.
+  /// Height (y) of the walkable ground: the road, or the pavement 12 cm above it.
   double walkway(const Eigen::Vector2d& p) const { return ground(p) - kKerb_m; }
-  /// Whether a solid may stand here: all of it at least `min_edge_m` off the asphalt, clear of
-  /// the driven path and of every solid so far.
+  /// Whether a solid may be placed here: all of it at least `min_edge_m` off the asphalt, clear of
+  /// the driven path and of all previous solids.
   bool is_free(const Footprint& footprint, double min_edge_m) const;
   /// Adds a finished part and, if given, the ground it occupies.
   void add(Part part);

@@ -224,7 +224,7 @@ void scatter(TownSite& site, const Roadway& roadway, int side) {
 struct Cabin {
   double z0, z1;                          ///< its ends on the deck
   double half_width, deck, roof;          ///< heights of deck and roof above the ground
-  double in = 0.16;                       ///< by which a side leans inwards up to the roof
+  double in = 0.16;                       ///< inward slant of a side up to the roof
   double r0 = z0 + 0.35, r1 = z1 - 0.62;  ///< ends of the roof
 };
 

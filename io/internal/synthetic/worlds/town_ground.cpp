@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kFineReach_m = 14;  ///< detailed ground up to here off the asphalt
 constexpr double kCoarse_m = 16;
-constexpr double kCoarseDrop_m = 0.4;  ///< the coarse ground lies below the fine one
+constexpr double kCoarseDrop_m = 0.4;  ///< depth of the coarse ground below the fine one
 constexpr double kOuter_m = 320;       ///< coarse ground beyond the last road
 constexpr int kCellsPerPart = 20;
 
@@ -30,7 +30,8 @@ class GroundBuilder {
       const Vertex &from = *v[i], &to = *v[(i + 1) % 3];
       (from.edge < 0 ? road : side).push_back(from.p);
       if ((from.edge < 0) != (to.edge < 0)) {
-        // From the road's end, so that both triangles on this edge cut it at the same bits.
+        // The cut is computed from the road's end, so that both triangles on this edge cut it at
+        // the same bits.
         const Vertex &in = from.edge < 0 ? from : to, &out = from.edge < 0 ? to : from;
         const Eigen::Vector3d p = in.p + (out.p - in.p) * (in.edge / (in.edge - out.edge));
         road.push_back(p);
@@ -72,7 +73,7 @@ class GroundBuilder {
     Face face = make_quad(a, b - a, up, Material::kKerb, SurfaceClass::kKerb, site_.scene.seed + 3);
     if (face.normal.dot(middle - a) < 0)
       face = make_quad(b, a - b, up, Material::kKerb, SurfaceClass::kKerb, site_.scene.seed + 3);
-    // Joints a metre apart along the dominant axis, whatever the pieces are.
+    // Joints are a metre apart along the dominant axis, independent of the pieces.
     const bool along_x = std::abs(b[0] - a[0]) > std::abs(b[2] - a[2]);
     face.origin = Eigen::Vector3d::Zero();
     face.s_axis = along_x ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitZ();
@@ -86,7 +87,7 @@ class GroundBuilder {
 };
 
 struct Lattice {
-  int x0, z0, nx, nz;  ///< of cells, in whole multiples of the cell size
+  int x0, z0, nx, nz;  ///< first cell and number of cells
 };
 
 std::vector<Vertex> sample_vertices(const TownSite& site, const Lattice& l) {

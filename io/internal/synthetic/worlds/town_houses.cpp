@@ -20,8 +20,8 @@ Face make_wall(Scene& scene, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                const Eigen::Vector3d& inside, double height, Material material, std::uint32_t seed,
                float style) {
   const Eigen::Vector3d down(0, 1.5, 0), up(0, -height - 1.5, 0);
-  const bool turn = (b - a).cross(up).dot(a - inside) < 0;
-  const Eigen::Vector3d &from = turn ? b : a, &to = turn ? a : b;
+  const bool reversed = (b - a).cross(up).dot(a - inside) < 0;
+  const Eigen::Vector3d &from = reversed ? b : a, &to = reversed ? a : b;
   Face face = make_quad(from + down, to - from, up, material, SurfaceClass::kBuilding, seed);
   face.origin = from;
   face.height = static_cast<float>(height);

@@ -14,8 +14,8 @@ constexpr double kOncomingLane_m = 3.4;  ///< left of the camera's own track
 constexpr double kOncomingSpeed_mps = 8;
 constexpr double kMinGap_m = 2.6;  ///< between a mover's centre and the camera
 
-/// The camera's way as a curve: arc length at each time, and even steps along it.
-struct Way {
+/// The camera's path as a curve: arc length at each time, and points at even steps.
+struct CameraPath {
   std::vector<Eigen::Vector2d> path;  // steps of kPathStep_m
   std::vector<double> time_s, s;
   std::vector<Eigen::Vector2d> position;
@@ -30,30 +30,31 @@ struct Way {
   }
 };
 
-Way make_way(const std::vector<double>& time_s, const std::vector<SE3>& T_scene_cam) {
-  Way way;
-  way.time_s = time_s;
+CameraPath make_camera_path(const std::vector<double>& time_s,
+                            const std::vector<SE3>& T_scene_cam) {
+  CameraPath camera_path;
+  camera_path.time_s = time_s;
   double s = 0;
   std::vector<Eigen::Vector2d> moved;
   for (std::size_t i = 0; i < time_s.size(); ++i) {
     const Eigen::Vector3d p = T_scene_cam[i].translation();
-    way.position.emplace_back(p[0], p[2]);
-    if (i) s += (way.position[i] - way.position[i - 1]).norm();
-    way.s.push_back(s);
-    if (moved.empty() || (way.position[i] - moved.back()).norm() > 0.2)
-      moved.push_back(way.position[i]);
+    camera_path.position.emplace_back(p[0], p[2]);
+    if (i) s += (camera_path.position[i] - camera_path.position[i - 1]).norm();
+    camera_path.s.push_back(s);
+    if (moved.empty() || (camera_path.position[i] - moved.back()).norm() > 0.2)
+      moved.push_back(camera_path.position[i]);
   }
-  if (moved.size() > 1) way.path = smooth_path(moved, kPathStep_m, 3);
-  return way;
+  if (moved.size() > 1) camera_path.path = smooth_path(moved, kPathStep_m, 3);
+  return camera_path;
 }
 
-bool keeps_clear(const Way& way, const MovingObject& mover) {
-  for (std::size_t i = 0; i < way.time_s.size(); ++i) {
-    const auto T = mover.T_scene_object(way.time_s[i]);
+bool keeps_clear(const CameraPath& camera_path, const MovingObject& mover) {
+  for (std::size_t i = 0; i < camera_path.time_s.size(); ++i) {
+    const auto T = mover.T_scene_object(camera_path.time_s[i]);
     if (!T) continue;
     const Eigen::Vector3d p = T->translation(), z = T->rotation().matrix().col(2);
     const Footprint body{{p[0], p[2]}, Eigen::Vector2d(z[0], z[2]).normalized(), 2.2, 0.9};
-    if (body.distance(way.position[i]) < kMinGap_m - 1.0) return false;
+    if (body.distance(camera_path.position[i]) < kMinGap_m - 1.0) return false;
   }
   return true;
 }
@@ -84,7 +85,7 @@ bool add_crossing_car(Scene& scene, const GroundMesh& ground, const std::vector<
     if (s < -65 || s > 65) return std::nullopt;
     return car_pose(*shared, crossing + s * direction, direction);
   };
-  if (!keeps_clear(make_way(time_s, T_scene_cam), mover)) return false;
+  if (!keeps_clear(make_camera_path(time_s, T_scene_cam), mover)) return false;
   scene.movers.push_back(std::move(mover));
   return true;
 }
@@ -92,10 +93,10 @@ bool add_crossing_car(Scene& scene, const GroundMesh& ground, const std::vector<
 void add_traffic(Scene& scene, const GroundMesh& ground, const std::vector<double>& time_s,
                  const std::vector<SE3>& T_scene_cam, double per_minute, std::uint64_t seed) {
   if (per_minute <= 0 || time_s.size() < 2) return;
-  const auto way = std::make_shared<Way>(make_way(time_s, T_scene_cam));
-  if (way->path.size() < 100) return;
+  const auto camera_path = std::make_shared<CameraPath>(make_camera_path(time_s, T_scene_cam));
+  if (camera_path->path.size() < 100) return;
   const auto shared_ground = std::make_shared<GroundMesh>(ground);
-  const double total_m = kPathStep_m * static_cast<double>(way->path.size() - 1);
+  const double total_m = kPathStep_m * static_cast<double>(camera_path->path.size() - 1);
   Random random(seed, 21);
   const double interval_s = 60 / per_minute;
   for (double t = time_s.front() + random.uniform(3, 3 + interval_s); t < time_s.back();
@@ -103,28 +104,28 @@ void add_traffic(Scene& scene, const GroundMesh& ground, const std::vector<doubl
     MovingObject mover;
     mover.part = make_car(random.next());
     if (random.uniform() < 0.7) {
-      // Oncoming: on the left lane of the way ahead, met at time t.
-      const double met_m = way->at(t);
+      // Oncoming: on the left lane of the camera's path, met at time t.
+      const double met_m = camera_path->at(t);
       mover.T_scene_object = [=](double now) -> std::optional<SE3> {
         if (now < t - 7 || now > t + 1.2) return std::nullopt;
         const double s = met_m - kOncomingSpeed_mps * (now - t);
         if (s < 0 || s > total_m) return std::nullopt;
-        const PathPoint p = path_point(way->path, kPathStep_m, s);
+        const PathPoint p = path_point(camera_path->path, kPathStep_m, s);
         const Eigen::Vector2d left(-p.direction[1], p.direction[0]);
         return car_pose(*shared_ground, p.position + kOncomingLane_m * left, -p.direction);
       };
     } else {
-      // Ahead: caught up with, then losing it again; 5 m/s of difference, 14 m at the closest.
+      // Ahead: the camera catches up, then falls back; 5 m/s of difference, 14 m at the closest.
       mover.T_scene_object = [=](double now) -> std::optional<SE3> {
         const double d = 5 * (now - t);
         if (std::abs(d) > 80) return std::nullopt;
-        const double s = way->at(now) + 10 + std::sqrt(d * d + 16);
+        const double s = camera_path->at(now) + 10 + std::sqrt(d * d + 16);
         if (s > total_m) return std::nullopt;
-        const PathPoint p = path_point(way->path, kPathStep_m, s);
+        const PathPoint p = path_point(camera_path->path, kPathStep_m, s);
         return car_pose(*shared_ground, p.position, p.direction);
       };
     }
-    if (keeps_clear(*way, mover)) scene.movers.push_back(std::move(mover));
+    if (keeps_clear(*camera_path, mover)) scene.movers.push_back(std::move(mover));
   }
 }
 

@@ -22,7 +22,7 @@ FloorPlan make_plan() {
                 {"dispatch", {0, 20}, {kHall_x0, kDepth}, kOfficeHeight, 0}};
   plan.add_ring({0, 0}, {kHall_x1, kDepth}, kHallHeight, 0.3);
   const double h = 2.1;
-  // Towards the hall each office has a door; so have the offices among themselves.
+  // Each office has a door to the hall and doors to its neighbours.
   plan.walls.push_back(
       {{kHall_x0, 0},
        {kHall_x0, kDepth},
@@ -62,7 +62,7 @@ void add_rack(Scene& scene, double x, Random& random) {
 }
 
 void furnish(Scene& scene, const PlanRoom& room, Random& random) {
-  // Along the outer (west) wall and the hall's wall, clear of the way through the middle.
+  // Along the outer (west) wall and the hall's wall, clear of the path through the middle.
   for (double z = room.low[1] + 0.8; z < room.high[1] - 1.2; z += random.uniform(1.6, 2.6)) {
     const bool desk = random.uniform() < 0.5;
     add_furniture(scene, {0.75, z}, {0, 1}, {1.2, desk ? 0.75 : 1.8, 0.7}, 0,

@@ -40,7 +40,8 @@ std::string flight_yaml(const SyntheticWorld& world) {
 
 std::string readme(const SyntheticContents& contents) {
   std::string text =
-      "Rendered by placegraph synth hover. EuRoC's layout: mav0/cam0 (8-bit grey, no distortion),\n"
+      "Rendered by `placegraph synth hover`. EuRoC's layout: mav0/cam0 (8-bit grey, no "
+      "distortion),\n"
       "mav0/imu0, mav0/state_groundtruth_estimate0 (T_world_body, velocity, biases, exact).\n"
       "World: z up, the floor is z = 0. Body: the inertial sensor's axes, x forward, z up.\n"
       "markers.yaml: AprilTags and lamps in the middle of the floor.\n";
@@ -68,8 +69,8 @@ void write_recordings(const FlightSetting& setting, std::int64_t last_ns,
 void write_flight(const SyntheticWorld& world, const std::string& path,
                   const SequenceWriterOptions& options,
                   const std::function<void(std::size_t)>& progress) {
-  const FlightSetting* setting = world.hover();
-  require(setting != nullptr, world.name() + ": is no flight");
+  const FlightSetting* setting = world.flight_setting();
+  require(setting != nullptr, world.name() + ": is not a flight");
   SequenceFolder folder(path, options.force);
   SyntheticContents contents;
   contents.flow = options.contents.flow;

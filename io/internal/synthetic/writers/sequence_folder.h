@@ -7,8 +7,8 @@
 
 namespace placegraph::synthetic {
 
-/// A folder that a rendered sequence is written to: what goes into it lies in a folder beside it
-/// until everything is there. A folder that is not put in place is removed.
+/// The output folder of a rendered sequence. Files are collected in a folder beside it until all
+/// are written; a folder that is not put in place is removed.
 class SequenceFolder {
  public:
   /// Throws ArgumentError if `path` exists and is not an empty folder (unless `force`), FileError
@@ -18,14 +18,16 @@ class SequenceFolder {
   SequenceFolder(const SequenceFolder&) = delete;
   SequenceFolder& operator=(const SequenceFolder&) = delete;
 
-  const std::filesystem::path& path() const { return temporary_; }  ///< to write to until then
+  const std::filesystem::path& path() const {
+    return temporary_;
+  }  ///< folder to write to until put_in_place()
   /// Paths are relative to the folder. All throw FileError.
   void make(const std::string& folder) const;
-  /// PNG, quickly rather than tightly packed.
+  /// Writes a PNG, with fast rather than strong compression.
   void write(const std::string& file, const Image& image) const;
   void write(const std::string& file, const std::string& text) const;
-  /// Moves all to its place. In a folder that holds something already only `parts`, what such a
-  /// sequence consists of, are replaced or removed.
+  /// Moves all files to their place. In a folder with content, only `parts`, the files of such a
+  /// sequence, are replaced or removed.
   void put_in_place(const std::vector<std::string>& parts);
 
  private:

@@ -52,7 +52,7 @@ std::string world_yaml(const SyntheticWorld& world) {
   return text + "]\n";
 }
 
-/// For what learns and judges labels of streets.
+/// The class list for training and evaluation of street labels.
 std::string class_list() {
   std::string text;
   for (const SceneClass& c : SyntheticWorld::scene_classes())
@@ -64,7 +64,7 @@ std::string readme(const SyntheticWorld& world, const SyntheticContents& content
   std::string text =
       "Rendered by placegraph synth. KITTI odometry layout, poses.txt = T_world_cam0, exact.\n"
       "The camera is camera_height_m (world.yaml) above the rendered ground, measured vertically.\n"
-      "image_0, image_1: left and right eye, 8-bit grey, rectified, without distortion.\n";
+      "image_0, image_1: left and right camera, 8-bit grey, rectified, without distortion.\n";
   if (contents.depth)
     text += fmt::format(
         "depth_0: 16-bit, one step = {} m along the optical axis, 0 = none; same camera as "

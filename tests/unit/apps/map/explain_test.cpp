@@ -65,7 +65,7 @@ StoredMap two_places() {
 
 class ExplainTwoPlaces : public testing::Test {
  protected:
-  json told(std::int64_t frame) {
+  json explained(std::int64_t frame) {
     write_map(folder / "map.db", stored);
     return explain({folder.path(), FrameId(frame)}).told;
   }
@@ -74,7 +74,7 @@ class ExplainTwoPlaces : public testing::Test {
 };
 
 TEST_F(ExplainTwoPlaces, SaysWhereAFrameIsAndHowThatIsKnown) {
-  const json frame = told(2);
+  const json frame = explained(2);
   EXPECT_EQ(frame["stamp_s"], 1.5);
   const json& where = frame["where"];
   EXPECT_EQ(where["place"], 1);
@@ -94,31 +94,31 @@ TEST_F(ExplainTwoPlaces, SaysWhereAFrameIsAndHowThatIsKnown) {
 }
 
 TEST_F(ExplainTwoPlaces, SaysWhatWasTakenForGranted) {
-  const json assumed = told(2)["assumed"];
+  const json assumed = explained(2)["assumed"];
   EXPECT_EQ(assumed["sensor"], "one eye");
   EXPECT_EQ(assumed["ground_below_camera_m"], 1.65);
   EXPECT_EQ(assumed["environment"]["kind"], "corridor");
-  EXPECT_FALSE(told(0)["assumed"].contains("environment"));
+  EXPECT_FALSE(explained(0)["assumed"].contains("environment"));
   stored.origin.calibration->baseline_m = 0.5;
-  EXPECT_EQ(told(2)["assumed"]["sensor"], "depths measured");
+  EXPECT_EQ(explained(2)["assumed"]["sensor"], "depths measured");
 }
 
 TEST_F(ExplainTwoPlaces, ALostFrameHasNoPlace) {
-  EXPECT_EQ(told(3)["where"], json({{"posed", false}}));
+  EXPECT_EQ(explained(3)["where"], json({{"posed", false}}));
 }
 
 TEST_F(ExplainTwoPlaces, SaysWhatThePictureShowsWhereThatIsStillThere) {
-  EXPECT_EQ(told(1)["sees"],
+  EXPECT_EQ(explained(1)["sees"],
             json({{"unknown", "the pictures are not where they were: /nowhere/street"}}));
   test::StreetFiles(folder, 2).write_kitti(false);
   stored.origin.sequence = folder / "s";
-  const json sees = told(1)["sees"];
+  const json sees = explained(1)["sees"];
   for (const char* kind : {"surfaces", "classes"}) {
     double sum = 0;
     for (const auto& [name, share] : sees[kind].items()) sum += share.get<double>();
     EXPECT_NEAR(sum, 1, 1e-9) << kind;
   }
-  EXPECT_EQ(told(2)["sees"]["unknown"], (folder / "s") + " has 2 frames now");
+  EXPECT_EQ(explained(2)["sees"]["unknown"], (folder / "s") + " has 2 frames now");
 }
 
 TEST(ExplainCommand, RefusesAFrameThatTheMapDoesNotHave) {

@@ -86,7 +86,7 @@ TEST_F(ClassifyPlacesCommand, RefusesToTellWhatItIsNotSureOf) {
   arguments.force = true;
   const ClassifyPlacesResult result = classify_places(arguments);
   EXPECT_EQ(result.refused, 6u);
-  for (const ClassifiedPlace& told : result.told) EXPECT_EQ(told.label, -1);
+  for (const ClassifiedPlace& classified_place : result.told) EXPECT_EQ(classified_place.label, -1);
 }
 
 TEST_F(ClassifyPlacesCommand, ACueThatDoesNotCountHasNoWeight) {

@@ -44,7 +44,7 @@ TEST(ConfigCommand, ListsEveryOptionOnALine) {
   EXPECT_EQ(static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')), options);
 }
 
-TEST(ConfigCommand, KnowsTheOptionsOfHover) {
+TEST(ConfigCommand, KnowsTheOptionsOfFlight) {
   ConfigArguments arguments;
   arguments.of = "flight";
   arguments.form = ConfigForm::kMarkdown;

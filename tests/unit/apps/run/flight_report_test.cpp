@@ -46,7 +46,7 @@ FlightRun drifting_flight() {
   return run;
 }
 
-TEST(DescribeFlight, CountsWhatFramesWereToldBy) {
+TEST(DescribeFlight, CountsTheSourcesOfTheFramesPoses) {
   const json described = describe_flight(drifting_flight(), 0);
   EXPECT_EQ(described["frames"], 12);
   EXPECT_EQ(described["answered"], 11);

@@ -31,11 +31,11 @@ TEST(ParseSpan, TakesTwoTimesInOrder) {
 TEST(FlightOptionsOfArguments, TakeTheNoiseOfTheSensorUnlessAnotherIsSet) {
   const ImuNoise noise = some_noise();
   FlightArguments arguments;
-  EXPECT_EQ(flight_options(arguments, noise).hover.filter.gyro_noise, 0.001);
+  EXPECT_EQ(flight_options(arguments, noise).flight.filter.gyro_noise, 0.001);
   arguments.settings = {"filter.gyro_noise=0.004"};
   const FlightRunOptions options = flight_options(arguments, noise);
-  EXPECT_EQ(options.hover.filter.gyro_noise, 0.004);
-  EXPECT_EQ(options.hover.filter.accel_noise, 0.02);
+  EXPECT_EQ(options.flight.filter.gyro_noise, 0.004);
+  EXPECT_EQ(options.flight.filter.accel_noise, 0.02);
 }
 
 TEST(FlightOptionsOfArguments, KnowWhenMarkersAreNotLookedFor) {

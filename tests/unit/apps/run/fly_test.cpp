@@ -87,7 +87,7 @@ TEST_F(FlightCommand, NamesWhatIsMissingAndMakesNoFolder) {
               HasSubstr("out: is not empty; --force writes into it"));
 }
 
-TEST(HoverText, SaysHowWellItIsKnown) {
+TEST(FlightText, SaysHowWellItIsKnown) {
   FlightResult result;
   result.out = "out";
   result.summary = {{"sequence", "flight"},

@@ -18,22 +18,22 @@ TEST(MapInfoCommand, CountsWhatTheMapHolds) {
   Random random(3);
   const StoredMap stored = test::random_map(random);
   write_map(folder / "map.db", stored);
-  const json told = map_info({folder.path()}).told;
-  EXPECT_EQ(told["file"], folder / "map.db");
-  EXPECT_EQ(told["finished"], stored.finished);
-  EXPECT_EQ(told["sequence"], "/data/somewhere");
-  EXPECT_EQ(told["places"], 4);
-  EXPECT_EQ(told["components"], 2);
-  EXPECT_EQ(told["keyframes"], stored.map.keyframes.size());
-  EXPECT_EQ(told["views"], stored.map.keyframes.size());
-  EXPECT_EQ(told["landmarks"], 2500);
-  EXPECT_EQ(told["constraints"], 3);
-  EXPECT_EQ(told["loops_accepted"], 1);
-  EXPECT_EQ(told["frames"], stored.map.frames.size());
-  EXPECT_EQ(told["image"], json({{"width", 640}, {"height", 480}}));
+  const json info = map_info({folder.path()}).told;
+  EXPECT_EQ(info["file"], folder / "map.db");
+  EXPECT_EQ(info["finished"], stored.finished);
+  EXPECT_EQ(info["sequence"], "/data/somewhere");
+  EXPECT_EQ(info["places"], 4);
+  EXPECT_EQ(info["components"], 2);
+  EXPECT_EQ(info["keyframes"], stored.map.keyframes.size());
+  EXPECT_EQ(info["views"], stored.map.keyframes.size());
+  EXPECT_EQ(info["landmarks"], 2500);
+  EXPECT_EQ(info["constraints"], 3);
+  EXPECT_EQ(info["loops_accepted"], 1);
+  EXPECT_EQ(info["frames"], stored.map.frames.size());
+  EXPECT_EQ(info["image"], json({{"width", 640}, {"height", 480}}));
   std::size_t features = 0;
   for (const Keyframe& keyframe : stored.map.keyframes) features += keyframe.features.size();
-  EXPECT_EQ(told["features"], features);
+  EXPECT_EQ(info["features"], features);
 }
 
 TEST(MapInfoCommand, TheWayLeadsOverFramesThatHaveAPose) {
@@ -57,10 +57,10 @@ TEST(MapInfoCommand, TheWayLeadsOverFramesThatHaveAPose) {
   map.trajectory_online.poses.resize(4);
   stored.history = {};
   write_map(folder / "map.db", stored);
-  const json told = map_info({folder / "map.db"}).told;
-  EXPECT_EQ(told["frames"], 4);
-  EXPECT_EQ(told["posed"], 3);
-  EXPECT_NEAR(told["path_length"].get<double>(), 5, 1e-9);
+  const json info = map_info({folder / "map.db"}).told;
+  EXPECT_EQ(info["frames"], 4);
+  EXPECT_EQ(info["posed"], 3);
+  EXPECT_NEAR(info["path_length"].get<double>(), 5, 1e-9);
 }
 
 TEST(MapInfoCommand, NamesTheFileThatIsNoMap) {

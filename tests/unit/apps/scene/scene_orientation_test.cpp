@@ -80,7 +80,7 @@ TEST_F(SceneOrientationCommand, HoldsASequenceAgainstItsSurfaces) {
   EXPECT_FALSE(std::filesystem::exists(folder / "maps/000001.png"));
 }
 
-TEST_F(SceneOrientationCommand, SaysWhyNothingIsTold) {
+TEST_F(SceneOrientationCommand, SaysWhyThereIsNoOrientation) {
   arguments.in = test::write_image(folder, "blank.png", Image(240, 320, CV_8UC1, cv::Scalar(90)));
   arguments.out = folder / "map.png";
   EXPECT_THAT(message_of<NoAnswer>([&] { scene_orientation(arguments); }),

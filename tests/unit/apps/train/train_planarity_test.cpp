@@ -73,7 +73,7 @@ TEST_F(TrainPlanarityCommand, RefusesTooFewCloudsAndAFileThatIsThere) {
   EXPECT_EQ(test::read_file(arguments.out), "mine");
 }
 
-TEST(TrainPlanarityText, SaysHowManyAreToldRightly) {
+TEST(TrainPlanarityText, CountsTheRightPredictions) {
   const TrainPlanarityResult result{
       "p.txt", {12, 200, 190, 150, 145, 50, 5}, {4, 0, 0, 0, 0, 0, 0}};
   EXPECT_EQ(

@@ -68,7 +68,7 @@ TEST_F(FlowCommand, FindsTheShiftOfAPictureAndComparesItWithTheTruth) {
   EXPECT_TRUE(result.cues.is_null());
 }
 
-TEST_F(FlowCommand, TellsTheTimeToContactWithoutTheTurn) {
+TEST_F(FlowCommand, ComputesTheTimeToContactWithoutTheRotation) {
   write_approach();
   arguments.dt_s = 0.1;
   arguments.gyro = {0, 0.2, 0};
@@ -86,7 +86,7 @@ TEST_F(FlowCommand, TellsTheTimeToContactWithoutTheTurn) {
   EXPECT_NEAR(flow(arguments).cues["time_to_contact"]["time"].get<double>(), 19, 1);
 }
 
-TEST_F(FlowCommand, CountsATurnThatIsNotKnownAsMotionToTheSide) {
+TEST_F(FlowCommand, CountsAnUnknownRotationAsMotionToTheSide) {
   write_approach();
   arguments.dt_s = 0.1;
   // 0.02 rad in 0.1 s.

@@ -135,7 +135,7 @@ TEST_F(MotionCommand, TellsMetresByPointsOfKnownPlace) {
   EXPECT_TRUE(motion(arguments).answer.outcome);
 }
 
-TEST_F(MotionCommand, TellsATurnWithoutATranslation) {
+TEST_F(MotionCommand, ReportsARotationWithoutATranslation) {
   const SE3 rotation = test::pose({0, 0.05, 0}, {0, 0, 0});
   std::ostringstream matches;
   matches.precision(10);

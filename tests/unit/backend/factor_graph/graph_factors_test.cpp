@@ -107,13 +107,14 @@ TEST(LineReprojectionFactor, HasTheJacobiansOfFiniteDifferences) {
 }
 
 TEST(LineReprojectionFactor, OfASecondCameraIsThatOfACameraThere) {
-  const Eigen::Vector3d eye(0.4, -0.1, 0);
+  const Eigen::Vector3d second_in_cam(0.4, -0.1, 0);
   const Line3 line = Line3::from_direction(kT_world_a * Eigen::Vector3d(1, -0.5, 8), {1, 0.7, 0.3});
-  const LineReprojectionFactor beside(test::window_camera(), {500, 100}, {800, 200}, 0.7, eye);
+  const LineReprojectionFactor beside(test::window_camera(), {500, 100}, {800, 200}, 0.7,
+                                      second_in_cam);
   const LineReprojectionFactor there(test::window_camera(), {500, 100}, {800, 200}, 0.7);
   LineReprojectionFactor::Residual r, expected;
   beside.compute(kT_world_a, line, r, nullptr);
-  there.compute(kT_world_a * SE3(SO3(), eye), line, expected, nullptr);
+  there.compute(kT_world_a * SE3(SO3(), second_in_cam), line, expected, nullptr);
   EXPECT_LT((r - expected).norm(), 1e-9);
   expect_jacobians_match(beside, {kT_world_a, line}, 1e-6);
 }

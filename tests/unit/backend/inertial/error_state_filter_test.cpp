@@ -127,7 +127,7 @@ TEST(PositionFilter, TakesFlowAndMarkersInAnyOrderWithinItsHistory) {
   }
 }
 
-TEST(PositionFilter, DoesNotBelieveWhatIsFarFromExpected) {
+TEST(PositionFilter, RejectsMeasurementsFarFromThePrediction) {
   const SwayingBody flight;
   Random random(4);
   Flown flown = fly({.duration_s = 2}, 0.2);

@@ -102,7 +102,7 @@ FlowMeasurement with_rotation(const SwayingBody& flight, double from, double to,
   return flow;
 }
 
-TEST(InertialFactors, TakeAWrongTurnOutOfTheFlowAgain) {
+TEST(InertialFactors, RemoveAWrongRotationFromTheFlowAgain) {
   Random random = test::seeded_random(5);
   SwayingBody flight;
   flight.flow_sigma = 1e-12;

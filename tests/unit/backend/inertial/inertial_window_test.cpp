@@ -61,7 +61,7 @@ TEST(InertialWindow, RotationsFromItsStartAsTheFirstSampleSays) {
   EXPECT_NEAR(answer.states[1].T_world_body.rotation().log().z(), 0.02, 1e-6);
 }
 
-TEST(InertialWindow, DoesNotBelieveWhatIsFarFromExpected) {
+TEST(InertialWindow, RejectsMeasurementsFarFromThePrediction) {
   Random random = test::seeded_random(2);
   const SwayingBody flight;
   InertialWindow window = after_two_seconds(flight, random);

@@ -76,19 +76,19 @@ TYPED_TEST(LiftedProblemOf, ProjectsOntoTangentVectors) {
   Eigen::MatrixXd V = any;
   lifted.project(X, V);
   for (int i = 0; i < lifted.nodes(); ++i) {
-    const Eigen::MatrixXd turn = Lifted::Y(X, i).transpose() * Lifted::Y(V, i);
-    EXPECT_LT((turn + turn.transpose()).norm(), 1e-12);
+    const Eigen::MatrixXd skew = Lifted::Y(X, i).transpose() * Lifted::Y(V, i);
+    EXPECT_LT((skew + skew.transpose()).norm(), 1e-12);
     EXPECT_EQ(Lifted::p(V, i), Lifted::p(any, i));
   }
   // What was taken off is at right angles to all tangent vectors, those along the rotations too.
   EXPECT_NEAR(TestFixture::inner(any - V, V), 0, 1e-10);
-  Eigen::MatrixXd turn = Eigen::MatrixXd::Zero(rank, X.cols());
+  Eigen::MatrixXd gauge_motion = Eigen::MatrixXd::Zero(rank, X.cols());
   for (int i = 0; i < lifted.nodes(); ++i) {
     const Eigen::MatrixXd S =
         TestFixture::random_matrix(TestFixture::dim, 1, 8 + i).leftCols(TestFixture::dim);
-    Lifted::Y(turn, i) = Lifted::Y(X, i) * (S - S.transpose());
+    Lifted::Y(gauge_motion, i) = Lifted::Y(X, i) * (S - S.transpose());
   }
-  EXPECT_NEAR(TestFixture::inner(any - V, turn), 0, 1e-10 * turn.norm());
+  EXPECT_NEAR(TestFixture::inner(any - V, gauge_motion), 0, 1e-10 * gauge_motion.norm());
 }
 
 TYPED_TEST(LiftedProblemOf, RetractsToTheManifoldAlongTheTangentVector) {

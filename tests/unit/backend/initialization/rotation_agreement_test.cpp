@@ -34,7 +34,7 @@ TYPED_TEST(RotationAgreementOf, AgreesUpToThreeTenthsOfARadianAndNoFurther) {
   EXPECT_FALSE(rotations_agree(a, far));
 }
 
-TYPED_TEST(RotationAgreementOf, IsNotDisturbedByATurnOfTheWholeNorByTranslations) {
+TYPED_TEST(RotationAgreementOf, IsNotDisturbedByACommonRotationNorByTranslations) {
   Random random(2);
   std::vector<TypeParam> a, b;
   const TypeParam T_b_a = test::random_element<TypeParam>(random, 10, 2);

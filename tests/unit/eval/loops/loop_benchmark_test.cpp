@@ -80,7 +80,7 @@ TEST(LoopBenchmark, PutsFalseCandidatesOfTheSameScoreFirst) {
   EXPECT_EQ(b.queries[0].rank, 2);
 }
 
-TEST(LoopBenchmark, ForgivesAsManyImagesAsItIsTold) {
+TEST(LoopBenchmark, AcceptsMatchesWithinTheTolerance) {
   EXPECT_EQ(judge_loops(three_queries(), {said(11, 5, 1)}, 1).queries[1].verdict,
             LoopVerdict::kMiss);
   EXPECT_EQ(judge_loops(three_queries(), {said(11, 5, 1)}, 2).queries[1].verdict,

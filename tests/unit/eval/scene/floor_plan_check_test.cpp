@@ -36,7 +36,7 @@ IndoorWall wall(const Vector2d& a, const Vector2d& b, const Vector2d& normal) {
 }
 
 /// Seen right but for the wall at x = 0, which is 10 cm off.
-IndoorMap told_plan() {
+IndoorMap estimated_plan() {
   IndoorMap plan;
   plan.outcome = Outcome::ok();
   plan.walls = {wall({0.2, 0.1}, {3.9, 0.1}, {0, 1}), wall({3.9, 0.1}, {3.9, 5.9}, {-1, 0}),
@@ -59,7 +59,7 @@ std::vector<SE3> rotating() {
 }
 
 TEST(FloorPlanCheck, TellsErrorsOfWallsRoomsAndDoors) {
-  const FloorPlanCheck check = check_floor_plan(told_plan(), one_room(), SE3(), rotating());
+  const FloorPlanCheck check = check_floor_plan(estimated_plan(), one_room(), SE3(), rotating());
   EXPECT_LT(check.truth_to_plan_median_m, 1e-9);
   // The corner beside the wall that is off, and what stands before the door.
   EXPECT_NEAR(check.truth_found_share, 1, 0.02);
@@ -72,7 +72,7 @@ TEST(FloorPlanCheck, TellsErrorsOfWallsRoomsAndDoors) {
   EXPECT_EQ(check.doors_false, 0);
 }
 
-TEST(FloorPlanCheck, CountsWhatIsNotTold) {
+TEST(FloorPlanCheck, CountsPixelsWithoutOrientation) {
   IndoorMap empty;
   const FloorPlanCheck check = check_floor_plan(empty, one_room(), SE3(), rotating());
   EXPECT_EQ(check.truth_to_plan_median_m, 1);
@@ -82,13 +82,13 @@ TEST(FloorPlanCheck, CountsWhatIsNotTold) {
 
 TEST(FloorPlanFile, ReadsWhatItWrites) {
   test::TemporaryFolder dir;
-  dir.write("plan.json", to_json(told_plan()));
+  dir.write("plan.json", to_json(estimated_plan()));
   const IndoorMap plan = read_indoor_map(dir / "plan.json");
   ASSERT_EQ(plan.walls.size(), 4U);
   EXPECT_EQ(plan.doors.at(0).rooms, (std::array<std::optional<int>, 2>{0, std::nullopt}));
   EXPECT_EQ(plan.rooms.at(0).places, test::ids<PlaceId>({3}));
-  EXPECT_EQ(to_json(plan), to_json(told_plan()));
-  dir.write("cut.json", to_json(told_plan()).substr(0, 100));
+  EXPECT_EQ(to_json(plan), to_json(estimated_plan()));
+  dir.write("cut.json", to_json(estimated_plan()).substr(0, 100));
   EXPECT_THROW((void)read_indoor_map(dir / "cut.json"), FileError);
   dir.write("other.json", "{}");
   EXPECT_THROW((void)read_indoor_map(dir / "other.json"), FileError);
@@ -101,8 +101,8 @@ TEST(FloorPlanPlot, DrawsBothForms) {
   picture.title = "a room";
   const BuildingPlan truth = one_room();
   picture.truth = &truth;
-  EXPECT_NE(floor_plan_svg(told_plan(), picture).find("room 1, 21.5 m2"), std::string::npos);
-  EXPECT_EQ(floor_plan_png(told_plan(), picture).substr(1, 3), "PNG");
+  EXPECT_NE(floor_plan_svg(estimated_plan(), picture).find("room 1, 21.5 m2"), std::string::npos);
+  EXPECT_EQ(floor_plan_png(estimated_plan(), picture).substr(1, 3), "PNG");
 }
 
 TEST(PlaneTruth, RefusesWhatIsNoPlane) {
@@ -125,7 +125,7 @@ TEST(OrientationCheck, CountsPixelsThatAreRight) {
   const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
   check_orientation(labels, I, planes, {{0, 0, 0}, {0, -1, 0}}, I, check);
   EXPECT_EQ(check.judged, 3U);
-  EXPECT_EQ(check.told, 2U);
+  EXPECT_EQ(check.oriented, 2U);
   EXPECT_EQ(check.right, 1U);
 }
 

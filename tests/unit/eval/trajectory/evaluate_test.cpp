@@ -124,10 +124,10 @@ TEST(Evaluate, NamesTheAxesOfAnotherSensor) {
   for (StampedPose& pose : estimate.poses)
     pose.T_world_body->linear() = pose.T_world_body->linear() * R_cam_body;
   EXPECT_THAT(evaluate(truth, estimate, with(Alignment::kSe3)).warnings,
-              Contains(HasSubstr("axes are turned by 120 deg")));
+              Contains(HasSubstr("axes are rotated by 120 deg")));
 }
 
-TEST(Evaluate, NamesWhatNeverTurnsOrNeverMoves) {
+TEST(Evaluate, NamesTrajectoriesThatNeverRotateOrNeverMove) {
   const Trajectory truth = winding_drive(300);
   Trajectory still = truth, stuck = truth;
   for (StampedPose& pose : still.poses) pose.T_world_body->linear().setIdentity();

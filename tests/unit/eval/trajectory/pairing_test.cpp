@@ -49,7 +49,7 @@ TEST(Pairing, RefusesDifferentLengthsWithoutTimes) {
   EXPECT_THAT(result.outcome.reason, HasSubstr("the ground truth has 20, the estimate 19"));
 }
 
-TEST(Pairing, RefusesTimesOnOneSideUnlessToldToGoByIndex) {
+TEST(Pairing, RefusesTimesOnOneSideUnlessAssociatedByIndex) {
   const Trajectory truth = winding_drive(20, 1, false), estimate = winding_drive(20);
   EXPECT_THAT(pair_trajectories(truth, estimate, Association::kAuto, {}).outcome.reason,
               HasSubstr("only the estimate has times"));

@@ -84,7 +84,7 @@ TEST(PlaneNormal, IsTheOneReadingThatAllViewsShare) {
   EXPECT_LT((normal.normal_ref - plane.normal).norm(), 1e-5);
 }
 
-TEST(PlaneNormal, IsOpenWithoutViewsOrAfterATurn) {
+TEST(PlaneNormal, IsOpenWithoutViewsOrAfterARotation) {
   PlaneNormalEstimator estimator(calibration(), kRegion, {});
   EXPECT_EQ(estimator.estimate().outcome.code, Code::kTooFewData);
   EXPECT_FALSE(estimator.add(Matrix3d::Identity()));

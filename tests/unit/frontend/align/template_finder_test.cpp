@@ -12,7 +12,7 @@ namespace {
 using namespace test;
 using Eigen::Matrix3d;
 
-TEST(TemplateFinder, FindsATurnedRegionAnywhere) {
+TEST(TemplateFinder, FindsARotatedRegionAnywhere) {
   Random random = seeded_random(121);
   Board board(random);
   board.width = 200, board.height = 160;

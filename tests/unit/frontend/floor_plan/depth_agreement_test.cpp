@@ -62,7 +62,7 @@ TEST(AgreedDepth, DropsAPointWhosePlaceInAViewABetterOneTakes) {
   }
 }
 
-TEST(AgreedDepth, DropsWhatIsToldToLessThanAFifth) {
+TEST(AgreedDepth, DropsDepthsKnownToLessThanAFifth) {
   // 0.3 px over 50 px m * 0.02 m is 0.3 / m, of 0.5 / m.
   EXPECT_EQ(
       cv::countNonZero(agreed_depth(wall(), geometry_of({sideways(0.02)}), kSigma_px).depth_m), 0);

@@ -38,7 +38,7 @@ TEST(SurfacePoints, TellThePlaneOfADepthImage) {
 struct TwoRoomsOptions {
   double door_to_m = 1.9, head_m = 2.05;
   /// Points of the wall between are told within these only.
-  double told_from_m = 0, told_to_m = 3;
+  double observed_from_m = 0, observed_to_m = 3;
   bool through = true;  ///< the camera goes through the door, or stays in either room
 };
 struct TwoRooms {
@@ -79,7 +79,7 @@ struct TwoRooms {
     for (const double z : {0.0, 2.6}) plane(2, z, false);
     const Eigen::Vector3d to = from + best * way;
     const bool between = normal[0] != 0 && std::abs(to[0] - 4) < 0.1;
-    if (!between || (to[1] > options.told_from_m && to[1] < options.told_to_m))
+    if (!between || (to[1] > options.observed_from_m && to[1] < options.observed_to_m))
       points.push_back({to.cast<float>(), normal.cast<float>(), 0.005F, observation});
     voxels.add_ray(from, to, 0.1, true);
   }
@@ -113,7 +113,7 @@ std::vector<DoorPiece> doors_of(const TwoRooms& scene) {
 
 TEST(FloorPlan, PartsRoomsAtADoorThatTheCameraTookBesideAWallThatIsHardlySeen) {
   for (const auto& [from, to] : {std::pair{0.0, 1.05}, {1.85, 3.0}}) {  // one jamb or the other
-    const TwoRooms scene({.head_m = 1.95, .told_from_m = from, .told_to_m = to});
+    const TwoRooms scene({.head_m = 1.95, .observed_from_m = from, .observed_to_m = to});
     const auto walls = find_walls(scene.points, scene.voxels);
     const auto doors = find_doors(walls, scene.points, scene.voxels, scene.path);
     ASSERT_EQ(doors.size(), 1U) << from;
@@ -126,12 +126,14 @@ TEST(FloorPlan, PartsRoomsAtADoorThatTheCameraTookBesideAWallThatIsHardlySeen) {
 }
 
 TEST(FloorPlan, TakesNoDoorOfOneJambThatTheCameraDidNotTakeOrThatIsTooWide) {
-  EXPECT_EQ(doors_of(TwoRooms({.head_m = 1.95, .told_to_m = 1.05})).size(), 1U);
-  EXPECT_TRUE(doors_of(TwoRooms({.head_m = 1.95, .told_to_m = 1.05, .through = false})).empty());
-  EXPECT_TRUE(doors_of(TwoRooms({.door_to_m = 2.55, .head_m = 1.95, .told_to_m = 1.05})).empty());
+  EXPECT_EQ(doors_of(TwoRooms({.head_m = 1.95, .observed_to_m = 1.05})).size(), 1U);
+  EXPECT_TRUE(
+      doors_of(TwoRooms({.head_m = 1.95, .observed_to_m = 1.05, .through = false})).empty());
+  EXPECT_TRUE(
+      doors_of(TwoRooms({.door_to_m = 2.55, .head_m = 1.95, .observed_to_m = 1.05})).empty());
 }
 
-TEST(FloorPlan, TakesTheTurnOfANarrowCorridorForNoDoor) {
+TEST(FloorPlan, TakesTheCornerOfANarrowCorridorForNoDoor) {
   // 1.2 m wide: along x to the corner, then along y. The inner wall (y = 1.2, x < 3) ends at it.
   VoxelEvidence voxels({-0.5, -0.5, 0}, {5, 5, 2.6}, 0.05, 0.2);
   std::vector<Eigen::Vector3d> path;
@@ -199,9 +201,9 @@ double area_of_a_hall(const std::vector<WallPiece>& walls) {
     see(0.025, y < 3 ? 2 : 8, y);
     see(6.025, 8, y);
   }
-  const RoomPartition told = partition_rooms(voxels, walls, {}, {{1, 5, 1}});
-  EXPECT_EQ(told.rooms.size(), 1U);
-  return told.rooms.empty() ? 0 : told.rooms[0].area_m2;
+  const RoomPartition partition = partition_rooms(voxels, walls, {}, {{1, 5, 1}});
+  EXPECT_EQ(partition.rooms.size(), 1U);
+  return partition.rooms.empty() ? 0 : partition.rooms[0].area_m2;
 }
 
 WallPiece wall_of(int axis, int sign, double offset, double from, double to) {

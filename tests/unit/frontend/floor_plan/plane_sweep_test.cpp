@@ -99,23 +99,23 @@ TEST(PlaneSweep, TellsTheDepthOfAWallAndHowWell) {
   const SweptDepth swept = sweep_planes(image, test_camera(),
                                         {{view_of_wall(kWall, kForward, 1.15), kForward},
                                          {view_of_wall(kWall, kSideways, 0.9), kSideways}});
-  int told = 0, near = 0;
+  int measured = 0, near = 0;
   double squares = 0;
   for (int v = 0; v < 120; ++v)
     for (int u = 0; u < 160; ++u) {
       const double z = swept.depth_m.at<float>(v, u);
       if (z <= 0) continue;
-      ++told;
+      ++measured;
       const double error = 1 / z - true_inverse_depth(u, v);
       const double sigma = swept.sigma_inverse.at<float>(v, u);
       ASSERT_GT(sigma, 0);
       near += std::abs(error) < 4 * sigma;
       squares += std::min(16.0, error * error / (sigma * sigma));
     }
-  EXPECT_GT(told, 0.75 * 160 * 120);
-  EXPECT_GT(near, 0.97 * told);
-  EXPECT_LT(std::sqrt(squares / told), 1.5);
-  EXPECT_GT(std::sqrt(squares / told), 0.1);
+  EXPECT_GT(measured, 0.75 * 160 * 120);
+  EXPECT_GT(near, 0.97 * measured);
+  EXPECT_LT(std::sqrt(squares / measured), 1.5);
+  EXPECT_GT(std::sqrt(squares / measured), 0.1);
 }
 
 TEST(PlaneSweep, IsCertainOnlyWhereThePixelsTellTheDepth) {
@@ -128,9 +128,9 @@ TEST(PlaneSweep, IsCertainOnlyWhereThePixelsTellTheDepth) {
     EXPECT_EQ(cv::countNonZero(swept.certain & (swept.depth_m == 0)), 0);
     std::array<double, 2> shares{};
     for (const auto& [share, part] : {std::pair{&shares[0], blank}, {&shares[1], patterned}}) {
-      const int told = cv::countNonZero(swept.depth_m(part));
-      EXPECT_GT(told, 0.2 * part.area());  // of the blank part by its neighbours
-      *share = 1.0 * cv::countNonZero(swept.certain(part)) / told;
+      const int measured = cv::countNonZero(swept.depth_m(part));
+      EXPECT_GT(measured, 0.2 * part.area());  // of the blank part by its neighbours
+      *share = 1.0 * cv::countNonZero(swept.certain(part)) / measured;
     }
     return shares;
   };
@@ -175,18 +175,18 @@ TEST(PlaneSweep, HalvesOddSizes) {
        {std::pair{Eigen::Vector2d(-0.5, -0.5), Eigen::Vector2d(-0.5, -0.5)},
         {Eigen::Vector2d(79.5, 59.5), Eigen::Vector2d(160.5, 120.5)}})
     EXPECT_LT((*swept.camera.unproject(small) - *odd.unproject(large)).norm(), 1e-12);
-  int told = 0, near = 0;
+  int measured = 0, near = 0;
   for (int v = 0; v < 60; ++v)
     for (int u = 0; u < 80; ++u) {
       const double z = swept.depth_m.at<float>(v, u);
       if (z <= 0) continue;
       const Eigen::Vector3d ray = *swept.camera.unproject({1.0 * u, 1.0 * v});
       const double truth = kWall.dot(ray) / kWall.dot(Eigen::Vector3d(0, 0, 3));
-      ++told;
+      ++measured;
       near += std::abs(1 / z - truth) < 4 * swept.sigma_inverse.at<float>(v, u);
     }
-  EXPECT_GT(told, 0.6 * 80 * 60);
-  EXPECT_GT(near, 0.95 * told);
+  EXPECT_GT(measured, 0.6 * 80 * 60);
+  EXPECT_GT(near, 0.95 * measured);
 }
 
 /// A camera that moves straight ahead tells nothing of the pixel that it moves to.
@@ -217,9 +217,10 @@ TEST(PlaneSweep, TellsNothingWhereNothingMoved) {
   const SweptDepth alone = sweep_planes(image, test_camera(), {});
   EXPECT_EQ(alone.depth_m.size(), cv::Size(160, 120));
   EXPECT_EQ(cv::countNonZero(alone.depth_m), 0);
-  const SE3 turn(SO3::exp({0, 0.1, 0}), Eigen::Vector3d::Zero());
-  EXPECT_EQ(cv::countNonZero(
-                sweep_planes(image, test_camera(), {{view_of_wall(kWall, turn), turn}}).depth_m),
+  const SE3 pure_rotation(SO3::exp({0, 0.1, 0}), Eigen::Vector3d::Zero());
+  EXPECT_EQ(cv::countNonZero(sweep_planes(image, test_camera(),
+                                          {{view_of_wall(kWall, pure_rotation), pure_rotation}})
+                                 .depth_m),
             0);
 }
 

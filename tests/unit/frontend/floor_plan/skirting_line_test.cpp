@@ -58,9 +58,9 @@ TEST(SkirtingLine, WallsStandWhereTheFloorEndsBelowTheirSkirtingBoards) {
 
 TEST(SkirtingLine, WithoutALowerEdgeTheMapDecides) {
   const Corridor corridor(false);
-  const double told = corridor.half_width_m(corridor.points());
-  EXPECT_GT(told, kHalfWidth_m + 0.03);
-  EXPECT_LT(told, kHalfWidth_m * kHeight_m / (kHeight_m - kBoard_m) + 0.02);
+  const double estimated = corridor.half_width_m(corridor.points());
+  EXPECT_GT(estimated, kHalfWidth_m + 0.03);
+  EXPECT_LT(estimated, kHalfWidth_m * kHeight_m / (kHeight_m - kBoard_m) + 0.02);
 }
 
 TEST(SkirtingLine, RefusesWhatDoesNotFit) {

@@ -93,7 +93,7 @@ TEST(FitWall, OfAShortPieceDoesNotSlope) {
   EXPECT_EQ(piece.slope, 0);
 }
 
-TEST(FitWall, FailsWithoutPointsOrWithAWallThatTurns) {
+TEST(FitWall, FailsWithoutPointsOrWithAWallThatRotates) {
   WallPoints wall;
   wall.add(0, 4, 2, 0);
   WallPiece elsewhere = wall.piece(0, 4, 2.5);

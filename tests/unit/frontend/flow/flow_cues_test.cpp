@@ -38,7 +38,7 @@ std::vector<FlowVector> plane_flow(const Vector3d& normal, double distance, cons
   return flow;
 }
 
-TEST(VentralMotion, IsExactForLongWaysAndAnyTurn) {
+TEST(VentralMotion, IsExactForLongTranslationsAndAnyRotation) {
   const SE3 T_1_2(SO3::exp({0.05, -0.08, 0.2}), Vector3d(0.3, -0.2, 0.15));
   const Vector3d normal = Vector3d(0.1, -0.2, 1).normalized();
   const auto flow = derotate(kCamera, plane_flow(normal, 2.0, T_1_2), {T_1_2.rotation()});
@@ -47,7 +47,7 @@ TEST(VentralMotion, IsExactForLongWaysAndAnyTurn) {
   EXPECT_LT((motion.over_distance - T_1_2.translation() / 2.0).norm(), 1e-9);
 }
 
-TEST(VentralMotion, ErrsAsItsCovarianceSaysFromFlowAndTurn) {
+TEST(VentralMotion, ErrsAsItsCovarianceSaysFromFlowAndRotation) {
   const SE3 T_1_2(SO3::exp({0.01, 0.02, -0.03}), Vector3d(0.05, 0.02, 0.01));
   const double rotation_sigma = 0.001;
   Random random(5);
@@ -57,11 +57,11 @@ TEST(VentralMotion, ErrsAsItsCovarianceSaysFromFlowAndTurn) {
     const SO3 is_within_gate =
         T_1_2.rotation() *
         SO3::exp(rotation_sigma * Vector3d(random.normal(), random.normal(), random.normal()));
-    const KnownRotation turn{is_within_gate,
-                             rotation_sigma * rotation_sigma * Eigen::Matrix3d::Identity()};
-    const auto flow =
-        derotate(kCamera, plane_flow(Vector3d::UnitZ(), 1.5, T_1_2, kPixelNoise, 100 + run), turn);
-    const VentralMotion motion = ventral_motion(flow, Vector3d::UnitZ(), turn.covariance);
+    const KnownRotation known_rotation{
+        is_within_gate, rotation_sigma * rotation_sigma * Eigen::Matrix3d::Identity()};
+    const auto flow = derotate(
+        kCamera, plane_flow(Vector3d::UnitZ(), 1.5, T_1_2, kPixelNoise, 100 + run), known_rotation);
+    const VentralMotion motion = ventral_motion(flow, Vector3d::UnitZ(), known_rotation.covariance);
     ASSERT_TRUE(motion.outcome);
     const Vector3d e = motion.over_distance - T_1_2.translation() / 1.5;
     nees += e.dot(motion.covariance.inverse() * e);
@@ -123,18 +123,20 @@ std::vector<DerotatedFlow> misturned(const SE3& T_1_2, double rotation_sigma, in
                   {is_within_gate});
 }
 
-TEST(AffineFlow, ErrsAsItsCovarianceSaysFromFlowAndTurn) {
+TEST(AffineFlow, ErrsAsItsCovarianceSaysFromFlowAndRotation) {
   // Small enough that the second order, which it leaves out, does not count.
   const SE3 T_1_2(SO3::exp({0.01, 0.02, -0.03}), Vector3d(0.02, 0.01, 0.002));
   const double rotation_sigma = 1e-3;
-  const Eigen::Matrix3d turn = rotation_sigma * rotation_sigma * Eigen::Matrix3d::Identity();
+  const Eigen::Matrix3d rotation_covariance =
+      rotation_sigma * rotation_sigma * Eigen::Matrix3d::Identity();
   const AffineFlow exact =
       affine_flow(derotate(kCamera, plane_flow(Vector3d::UnitZ(), 1.5, T_1_2), {T_1_2.rotation()}));
   Random random(6);
   double divergence2 = 0, centre2 = 0;
   constexpr int kRuns = 200;
   for (int run = 0; run < kRuns; ++run) {
-    const AffineFlow flow = affine_flow(misturned(T_1_2, rotation_sigma, run, random), turn);
+    const AffineFlow flow =
+        affine_flow(misturned(T_1_2, rotation_sigma, run, random), rotation_covariance);
     ASSERT_TRUE(flow.outcome);
     const double error = flow.divergence() - exact.divergence();
     divergence2 += error * error / flow.divergence_variance();
@@ -146,10 +148,11 @@ TEST(AffineFlow, ErrsAsItsCovarianceSaysFromFlowAndTurn) {
   EXPECT_NEAR(centre2 / kRuns, 1, 0.4);
 }
 
-TEST(LateralBalance, ErrsAsItsSigmaSaysFromFlowAndTurn) {
+TEST(LateralBalance, ErrsAsItsSigmaSaysFromFlowAndRotation) {
   const SE3 T_1_2(SO3(), Vector3d(0.1, 0.02, 0));
   const double rotation_sigma = 1e-3;
-  const Eigen::Matrix3d turn = rotation_sigma * rotation_sigma * Eigen::Matrix3d::Identity();
+  const Eigen::Matrix3d rotation_covariance =
+      rotation_sigma * rotation_sigma * Eigen::Matrix3d::Identity();
   const LateralBalance exact =
       lateral_balance(derotate(kCamera, plane_flow(Vector3d::UnitZ(), 1.5, T_1_2), {}));
   Random random(7);
@@ -157,7 +160,7 @@ TEST(LateralBalance, ErrsAsItsSigmaSaysFromFlowAndTurn) {
   constexpr int kRuns = 200;
   for (int run = 0; run < kRuns; ++run) {
     const LateralBalance balance =
-        lateral_balance(misturned(T_1_2, rotation_sigma, run, random), turn);
+        lateral_balance(misturned(T_1_2, rotation_sigma, run, random), rotation_covariance);
     ASSERT_TRUE(balance.outcome);
     const double error = balance.balance - exact.balance;
     sum2 += error * error / (balance.sigma * balance.sigma);

@@ -120,7 +120,7 @@ TEST(InterpolationFlow, FindsShiftsUpToFourPixelsToATwentiethOfAPixel) {
   }
 }
 
-TEST(InterpolationFlow, FindsTheTurnOfAPatchAndItsShiftAtOnce) {
+TEST(InterpolationFlow, FindsTheRotationOfAPatchAndItsShiftAtOnce) {
   const InterpolationFlow method({});
   for (const double angle : {-0.12, 0.04, 0.15}) {
     const Pair pair = rotated(angle);

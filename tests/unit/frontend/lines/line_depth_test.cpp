@@ -58,14 +58,14 @@ TEST(LineDepth, AMadeUpCameraSeesTheLineOfThoseDepths) {
   };
   const Eigen::Vector3d a = on_line(0.5), b = on_line(1.5);
   const LineSegment segment{*kCamera.project(a), *kCamera.project(b)};
-  const VirtualCamera eye =
+  const VirtualCamera second_camera =
       virtual_camera_from_depth(kCamera, segment, {1 / a.z(), 1 / b.z(), 0.005});
-  const auto r = line_residual_px(kCamera, SE3(SO3(), eye.second_in_cam), line, eye.seen.first,
-                                  eye.seen.second);
+  const auto r = line_residual_px(kCamera, SE3(SO3(), second_camera.second_in_cam), line,
+                                  second_camera.seen.first, second_camera.seen.second);
   ASSERT_TRUE(r);
   EXPECT_LT(r->norm(), 1e-9);
-  EXPECT_GT(eye.seen.sigma_px, 0);
-  EXPECT_GT(eye.second_in_cam.norm(), 0);
+  EXPECT_GT(second_camera.seen.sigma_px, 0);
+  EXPECT_GT(second_camera.second_in_cam.norm(), 0);
 }
 
 }  // namespace

@@ -62,7 +62,7 @@ TEST(LineInitializer, NeedsLinesThatAllViewsSee) {
   EXPECT_EQ(start.outcome.code, Code::kTooFewData);
 }
 
-TEST(LineInitializer, SaysNothingOfACameraThatStandsOrOnlyTurns) {
+TEST(LineInitializer, SaysNothingOfACameraThatStandsOrOnlyRotates) {
   Random random = seeded_random(54);
   const LineScene scene = corridor_lines();
   std::vector<LineView> views;

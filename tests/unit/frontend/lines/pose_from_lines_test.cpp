@@ -21,7 +21,7 @@ std::vector<SeenLine> observations(const LineScene& scene, const SE3& T_ref_cam,
   return lines;
 }
 
-TEST(TriangulateLine, IsExactWithoutNoiseAndTellsItsTurn) {
+TEST(TriangulateLine, IsExactWithoutNoiseAndReportsItsRotation) {
   Random random = seeded_random(20);
   const LineScene scene = random_lines(20, random);
   int known = 0;

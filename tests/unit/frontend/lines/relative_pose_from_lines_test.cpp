@@ -151,7 +151,7 @@ TEST(TranslationFromThreeViews, SaysSoWhereThereIsNone) {
       Code::kTooFewData);
 }
 
-TEST(TranslationFromTwoViews, IsNeverTold) {
+TEST(TranslationFromTwoViews, IsNeverReported) {
   EXPECT_EQ(translation_from_two_views(1000).code, Code::kDegenerate);
   // Whatever translation is tried, the two planes of every line still meet in a line.
   Random random = seeded_random(35);

@@ -29,7 +29,7 @@ TEST(TrackConsistency, ATrackOfOneLineHasNoWrongObservation) {
   EXPECT_EQ(judged.wrong(), 0);
 }
 
-TEST(TrackConsistency, SightingsAfterAJumpToAnotherEdgeAreWrong) {
+TEST(TrackConsistency, ObservationsAfterAJumpToAnotherEdgeAreWrong) {
   std::vector<LineMeasurement> track;
   for (int k = 0; k < 20; ++k) track.push_back(upright(k < 13 ? 0.3 : 1.1, k));
   const TrackConsistency judged = judge_line_track(camera(), track);

@@ -53,7 +53,7 @@ TEST(VanishingDirectionTracker, SaysNothingWithoutTracksThatItKnows) {
   EXPECT_EQ(heading.outcome.code, Outcome::Code::kTooFewData);
 }
 
-TEST(VanishingDirectionTracker, OfOneDirectionLeavesTheTurnAboutItOpen) {
+TEST(VanishingDirectionTracker, OfOneDirectionLeavesTheRotationAboutItOpen) {
   Random random = seeded_random(63);
   LineScene scene;
   for (int i = 0; i < 12; ++i) {  // uprights

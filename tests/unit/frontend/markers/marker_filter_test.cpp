@@ -77,7 +77,7 @@ TEST(MarkerFilter, SaysNothingWhileTwoPosesArePossible) {
   EXPECT_EQ(answer.hypotheses.size(), 2u);
 }
 
-TEST(MarkerFilter, DecidesByTheTurnBetweenViews) {
+TEST(MarkerFilter, DecidesByTheRotationBetweenViews) {
   Random random = seeded_random(3);
   const MarkerLayout layout = layout_of(1);
   MarkerFilter filter = filter_for(layout);

@@ -41,7 +41,7 @@ TEST(PlaceRecognizer, FindsThePlaceSeenFromBesideAndInOtherLight) {
   EXPECT_GT(list.front().score, list[1].score + 0.3);
 }
 
-TEST(PlaceRecognizer, LooksOnlyAtTheViewsItIsTold) {
+TEST(PlaceRecognizer, SearchesOnlyTheGivenViews) {
   const PlaceRecognizerOptions options;
   const PlaceRecognizer recognizer = with_places(options, 6);
   const PlaceView query = describe_place(picture(4), options.cues, true);

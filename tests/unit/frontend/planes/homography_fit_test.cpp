@@ -84,7 +84,7 @@ TEST(HomographyThrough, MeetsItsFourMatches) {
   EXPECT_GE(found, 5);
 }
 
-TEST(HomographyThrough, RefusesThreeInALineAndTurnedTriangles) {
+TEST(HomographyThrough, RefusesThreeInALineAndRotatedTriangles) {
   const PointMatches line{{{0, 0}, {10, 10}, {20, 20}, {0, 30}},
                           {{0, 0}, {10, 10}, {20, 20}, {0, 30}}};
   EXPECT_FALSE(homography_through(line, {0, 1, 2, 3}));

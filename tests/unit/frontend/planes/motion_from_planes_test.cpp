@@ -96,17 +96,17 @@ TEST(MotionFromPlanes, KeepsBothReadingsOfOnePlane) {
   EXPECT_GE(with_both, 3);
 }
 
-TEST(MotionFromPlanes, SaysThatTheCameraOnlyTurned) {
+TEST(MotionFromPlanes, SaysThatTheCameraOnlyRotated) {
   Random random = seeded_random(84);
-  const SE3 turn = pose({0.02, -0.1, 0.03}, {0, 0, 0});
+  const SE3 pure_rotation = pose({0.02, -0.1, 0.03}, {0, 0, 0});
   for (int planes = 1; planes <= 3; ++planes) {
-    const PlanesWorld world = make_planes_world(planes, 50, 0, 0.3, turn, random);
+    const PlanesWorld world = make_planes_world(planes, 50, 0, 0.3, pure_rotation, random);
     const MotionFromPlanesResult result =
         motion_from_planes(world.camera, world.matches, true_regions(world, 0.3), {});
     EXPECT_EQ(result.outcome.code, Outcome::Code::kDegenerate);
     EXPECT_TRUE(result.readings.empty());
     ASSERT_TRUE(result.R_cur_ref);
-    EXPECT_LT((result.R_cur_ref->inverse() * turn.rotation()).log().norm(), 1e-3);
+    EXPECT_LT((result.R_cur_ref->inverse() * pure_rotation.rotation()).log().norm(), 1e-3);
   }
 }
 

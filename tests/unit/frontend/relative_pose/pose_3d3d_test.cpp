@@ -101,7 +101,7 @@ TEST(Pose3d3d, SaysThatPointsOnALineFixNoPose) {
   EXPECT_FALSE(result.outcome);
 }
 
-TEST(Pose3d3d, SaysThatANearlyStraightCloudLeavesATurnOpen) {
+TEST(Pose3d3d, SaysThatANearlyStraightCloudLeavesARotationOpen) {
   Random random = seeded_random(55);
   std::vector<CloudPoint> ref, cur;
   for (int i = 0; i < 40; ++i) {

@@ -85,10 +85,10 @@ TEST(PoseWithGravity, KnowsNothingOfTheLength) {
   EXPECT_LT(along.dot(result.information * along), 1e-6 * result.information.trace());
 }
 
-TEST(PoseWithGravity, SaysThatAPureTurnTellsNoTranslation) {
+TEST(PoseWithGravity, SaysThatAPureRotationHasNoTranslation) {
   Random random = seeded_random(36);
-  const SE3 turn = pose({0, 0.1, 0}, {0, 0, 0});
-  PointScene scene = make_scene(kCamera, {SE3(), turn}, 60, random);
+  const SE3 pure_rotation = pose({0, 0.1, 0}, {0, 0, 0});
+  PointScene scene = make_scene(kCamera, {SE3(), pure_rotation}, 60, random);
   add_noise(scene.px[1], 0.2, random);
   const auto result =
       estimate_pose_with_gravity(kCamera, scene.px[0], scene.px[1], Eigen::Vector3d::UnitY(),

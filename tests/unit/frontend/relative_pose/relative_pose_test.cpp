@@ -79,8 +79,8 @@ TEST(RelativePoseOfTwoViews, HasTwoReadingsBeforeOnePlane) {
 
 TEST(RelativePoseOfTwoViews, IsARotationWhereThereIsNoWay) {
   Random random = seeded_random(44);
-  const SE3 turn = pose({0.02, 0.1, -0.03}, {0, 0, 0});
-  PointScene scene = make_scene(kCamera, {SE3(), turn}, 120, random);
+  const SE3 pure_rotation = pose({0.02, 0.1, -0.03}, {0, 0, 0});
+  PointScene scene = make_scene(kCamera, {SE3(), pure_rotation}, 120, random);
   for (auto& px : scene.px) add_noise(px, 0.2, random);
   spoil(kCamera, scene.px[1], 0, 4, random);
   const RelativePose found = estimate_relative_pose(kCamera, scene.px[0], scene.px[1], {}, random);
@@ -88,7 +88,7 @@ TEST(RelativePoseOfTwoViews, IsARotationWhereThereIsNoWay) {
   EXPECT_EQ(found.model, Model::kRotation);
   EXPECT_FALSE(found.T_ref_cur);
   // 90 points of 0.28 px at 500 px: hundredths of a degree.
-  EXPECT_LT((found.R_ref_cur->inverse() * turn.rotation()).log().norm(), deg_to_rad(0.05));
+  EXPECT_LT((found.R_ref_cur->inverse() * pure_rotation.rotation()).log().norm(), deg_to_rad(0.05));
   EXPECT_GT(found.covariance(3, 3), 0);
 
   RelativePoseOptions options;

@@ -44,7 +44,7 @@ TEST(SceneMasks, LeaveOutSkyAndWhatMayMoveWithItsMargin) {
   EXPECT_TRUE(at(masks.ground, 35));
 }
 
-TEST(SceneMasks, BelieveOnlyWhatIsSureAndLeaveEnough) {
+TEST(SceneMasks, AcceptOnlyCertainPixelsAndLeaveEnough) {
   const SceneMasks unsure = mask_scene(sure(0.55f), layered(), {});
   EXPECT_TRUE(at(unsure.use, 5));
   EXPECT_TRUE(at(unsure.use, 25));

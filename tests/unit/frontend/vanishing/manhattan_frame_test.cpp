@@ -68,7 +68,7 @@ TEST(ManhattanFrame, IsTrackedFromAPrediction) {
   EXPECT_LT((frame.R_cam_manhattan.inverse() * R).log().norm(), 0.005);
 }
 
-TEST(ManhattanFrame, OneAxisLeavesTheTurnAboutItOpen) {
+TEST(ManhattanFrame, OneAxisLeavesTheRotationAboutItOpen) {
   const Camera camera = test::vanishing_camera();
   const SO3 R = SO3::exp({0.1, 0.2, -0.1});
   Random random(4);

@@ -196,7 +196,7 @@ TEST(SceneDirections, TellsWhichAxisFurtherPointsLieAcross) {
   options.manhattan.min_evidence = 100;
   const Eigen::Vector3d level = R * Eigen::Vector3d(0.5, 0, 0.866).normalized(),
                         free = R * Eigen::Vector3d(1, 0.8, 1.2).normalized();
-  int told = 0;
+  int level_points = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     Random random(seed);
     auto segments = test::manhattan_segments(camera, R, 60, 10, 0.3, random);
@@ -212,11 +212,11 @@ TEST(SceneDirections, TellsWhichAxisFurtherPointsLieAcross) {
           scene.frames[static_cast<std::size_t>(role.across_frame)].R_cam_manhattan.matrix().col(
               role.across_axis);
       EXPECT_LT(std::abs(v.dot(axis)), 0.02) << seed;
-      told += std::abs(v.dot(level)) > 0.999;
+      level_points += std::abs(v.dot(level)) > 0.999;
       EXPECT_LT(std::abs(v.dot(free)), 0.999) << seed;
     }
   }
-  EXPECT_GE(told, 36);
+  EXPECT_GE(level_points, 36);
 }
 
 TEST(DirectionPrior, PullsToRightAnglesWhatIsNearThem) {

@@ -17,17 +17,17 @@ TEST(Hat, IsTheCrossProduct) {
   EXPECT_EQ(hat(a) * b, a.cross(b));
 }
 
-TEST(SO2, QuarterTurnTakesXToY) {
+TEST(SO2, RightAngleTakesXToY) {
   EXPECT_NEAR((SO2(pi / 2) * Eigen::Vector2d(1, 0) - Eigen::Vector2d(0, 1)).norm(), 0, 1e-15);
 }
 
-TEST(SO2, AngleOfAHalfTurnIsPlusPi) {
+TEST(SO2, AngleOfARotationByPiIsPlusPi) {
   EXPECT_DOUBLE_EQ(SO2(pi).angle(), pi);
   EXPECT_DOUBLE_EQ(SO2(-pi).angle(), pi);
   EXPECT_NEAR(SO2(3 * pi + 0.25).angle(), -pi + 0.25, 1e-14);
 }
 
-TEST(SO3, QuarterTurnAboutZTakesXToY) {
+TEST(SO3, RightAngleAboutZTakesXToY) {
   const SO3 R = SO3::exp({0, 0, pi / 2});
   EXPECT_NEAR((R * Eigen::Vector3d(1, 0, 0) - Eigen::Vector3d(0, 1, 0)).norm(), 0, 1e-15);
 }

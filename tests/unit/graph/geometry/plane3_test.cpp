@@ -15,7 +15,7 @@ TEST(Plane3, HasTheNormalAndDistanceItWasMadeOf) {
   EXPECT_NEAR(plane.distance_to({7, 3, 4}), 5 - 1.65, 1e-13);
 }
 
-TEST(Plane3, IsTheSameWithNormalAndDistanceTurnedRound) {
+TEST(Plane3, IsTheSameWithNormalAndDistanceNegated) {
   EXPECT_LT(Plane3({0, 3, 4}, 2).minus(Plane3({0, -3, -4}, -2)).norm(), 1e-14);
 }
 

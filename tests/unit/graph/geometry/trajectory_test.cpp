@@ -125,7 +125,7 @@ Trajectory quarter_turn() {
   return trajectory;
 }
 
-TEST(Interpolate, MovesLinearlyAndTurnsAlongTheGeodesic) {
+TEST(Interpolate, MovesLinearlyAndRotatesAlongTheGeodesic) {
   const auto T = interpolate(quarter_turn(), 25'000'000);
   ASSERT_TRUE(T);
   EXPECT_NEAR((T->translation() - Eigen::Vector3d(1, 0, 2)).norm(), 0, 1e-14);

@@ -37,7 +37,7 @@ TEST(JpegCodec, DecodesEveryKindOfEverySizeToTheBitsOfOpenCv) {
     }
 }
 
-TEST(JpegCodec, AFileCutAnywhereIsToldAndGivesNoImageWhereRowsAreMissing) {
+TEST(JpegCodec, AFileCutAnywhereIsReportedAndGivesNoImageWhereRowsAreMissing) {
   for (const test::JpegKind& kind : test::all_jpeg_kinds(19, 10)) {
     if (kind.horizontal != kind.vertical || kind.restart_rows == 0) continue;
     const std::string bytes = test::make_jpeg(kind);

@@ -42,7 +42,7 @@ TEST(PicturePlugin, IsLoadedOnceForAllThreads) {
   for (const PicturePlugin* plugin : found) EXPECT_EQ(plugin, &picture_plugin("a test"));
 }
 
-TEST(PicturePlugin, AMissingModuleIsToldInOneLineWithWhatWasToBeRead) {
+TEST(PicturePlugin, AMissingModuleIsReportedInOneLineWithThePathToRead) {
   const TemporaryFolder folder;
   const std::string message = message_of([&] {
     load_picture_plugin({folder / "a", folder / "b"}, "views/x.bmp");

@@ -78,7 +78,7 @@ TEST(SemanticGrid, CallsACellUnknownThatWasSeenTooLittle) {
   EXPECT_FALSE(doubting.map().cells[0].label);
 }
 
-TEST(SemanticGrid, PlacesPointsByThePoseAndTheTurnOfThePlan) {
+TEST(SemanticGrid, PlacesPointsByThePoseAndTheRotationOfThePlan) {
   // The plan's y is the map's -z.
   Eigen::Matrix3d R;
   R << 1, 0, 0, 0, 0, -1, 0, 1, 0;

@@ -90,7 +90,7 @@ TEST(UndistortCamera, DividesByTheDenominatorOfARationalLens) {
   }
 }
 
-TEST(RawCamera, HasNoRaysWhereARationalLensTurnsBack) {
+TEST(RawCamera, HasNoRaysWhereARationalLensIsNotMonotonic) {
   RawCamera raw(radial_tangential());
   // r / (1 + r^2) grows up to r = 1, where it is one half.
   set_radial_tangential({0, 0, 0, 0, 0, 1, 0, 0}, raw);

@@ -164,7 +164,7 @@ TEST(SetOption, NamesTheKeyAndThoseThatLookLikeIt) {
   EXPECT_THAT(message("frontend.flow.levels=0"), HasSubstr("lies outside [1, 8]"));
   EXPECT_THAT(message("frontend.flow.levels="), HasSubstr("expected an integer, found nothing"));
   EXPECT_THAT(message("seed"), HasSubstr("expected key=value"));
-  EXPECT_THAT(message("frontend.weights=[1"), HasSubstr("the value is no YAML"));
+  EXPECT_THAT(message("frontend.weights=[1"), HasSubstr("the value is not YAML"));
   EXPECT_EQ(options.frontend.flow.levels, 3);
 }
 

@@ -90,10 +90,11 @@ TEST(Euroc, PairsNearestStampsAndTellsWhatIsLeftOut) {
   folder.write("s/mav0/cam1/data.csv", head + "103,100.png\n207,200.png\n296,300.png\n");
   const auto near = open_dataset(folder / "s");
   EXPECT_EQ(near->size(), 3u);
-  EXPECT_THAT(texts(near->notes()), Contains(HasSubstr("the eyes' stamps differ by up to")));
+  EXPECT_THAT(texts(near->notes()),
+              Contains(HasSubstr("the stamps of the two cameras differ by up to")));
   folder.write("s/mav0/cam1/data.csv", head + "100,100.png\n220,200.png\n300,300.png\n");
   EXPECT_THAT(texts(open_dataset(folder / "s")->notes()),
-              Contains(HasSubstr("2 pairs of eyes: 1 of 3 images of cam0 and 1 of 3 of cam1")));
+              Contains(HasSubstr("2 stereo pairs: 1 of 3 images of cam0 and 1 of 3 of cam1")));
 }
 
 TEST(Euroc, WithoutListsTakesTheStampsFromTheNames) {

@@ -218,8 +218,8 @@ TEST(ImageFolder, RectifiesAPairThatKalibrCalibrated) {
 TEST(ImageFolder, RotationsTheTruthWithTheRectifiedCamera) {
   const TemporaryFolder folder;
   // Eyes that are rolled against each other by 0.05 rad: truth turns with the left one.
-  for (const char* eye : {"s/left/0.png", "s/right/0.png"})
-    write_image(folder, eye, tiny_grey(64, 48, 1));
+  for (const char* image_path : {"s/left/0.png", "s/right/0.png"})
+    write_image(folder, image_path, tiny_grey(64, 48, 1));
   const std::string cam =
       "  camera_model: pinhole\n  intrinsics: [50, 50, 31.5, 23.5]\n  resolution: [64, 48]\n";
   const auto chain = [&](const std::string& x) {
@@ -239,7 +239,7 @@ TEST(ImageFolder, RotationsTheTruthWithTheRectifiedCamera) {
 
   folder.write("s/calibration.yaml", chain("0.1"));
   EXPECT_THAT(message_of([&] { open_dataset(folder / "s"); }),
-              HasSubstr("calibration.yaml: stereo: the right eye is not to the right"));
+              HasSubstr("calibration.yaml: stereo: the right camera is not to the right"));
 }
 
 TEST(VideoFile, HandsOutItsFramesInAnyOrder) {
@@ -274,10 +274,10 @@ TEST(VideoFile, IsRefusedWithoutCalibrationOfAnotherSizeOrUnreadable) {
   folder.write("drive.yaml", "width: 9\n" + kCalibration.substr(9));
   EXPECT_THAT(message("drive.avi"), HasSubstr("drive.avi: image is 64x48, but 9x6 is expected"));
   folder.write("drive.yaml", kCalibration + "baseline_m: 1\n");
-  EXPECT_THAT(message("drive.avi"), HasSubstr("drive.yaml: baseline_m: a video has one eye"));
+  EXPECT_THAT(message("drive.avi"), HasSubstr("drive.yaml: baseline_m: a video has one camera"));
   folder.write("text.avi", "no video");
   folder.write("text.yaml", kCalibration);
-  EXPECT_THAT(message("text.avi"), HasSubstr("text.avi: is no readable video"));
+  EXPECT_THAT(message("text.avi"), HasSubstr("text.avi: is not a readable video"));
 }
 
 }  // namespace

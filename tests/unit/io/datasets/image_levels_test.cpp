@@ -39,7 +39,7 @@ TEST(ImageLevels, OfTwelveBitsKeepTheUpperEightExactly) {
   EXPECT_TRUE(levels.of_16);
   EXPECT_EQ(levels.bits, 12);
   ASSERT_THAT(levels.notes, SizeIs(1));
-  EXPECT_THAT(levels.notes[0].text, HasSubstr("use 12 of them (up to 4080)"));
+  EXPECT_THAT(levels.notes[0].text, HasSubstr("use only 12 bits (up to 4080)"));
   const Image grey = read_image(path, levels.bits).grey;
   for (int i = 0; i < 256; ++i)
     EXPECT_EQ(grey.at<std::uint8_t>(i / 16, i % 16), 4080 * i / 255 / 16) << i;
@@ -55,7 +55,7 @@ TEST(ImageLevels, AreOneNumberForTheSequence) {
   EXPECT_EQ(sample_levels(paths).bits, 10);
 }
 
-TEST(ImageLevels, DarkAndFlatImagesAreTold) {
+TEST(ImageLevels, DarkAndFlatImagesAreReported) {
   const TemporaryFolder folder;
   const Image dark = test::tiny_grey(64, 48, 1) / 10;
   ImageLevels levels = sample_levels({write_image(folder, "dark.png", dark)});

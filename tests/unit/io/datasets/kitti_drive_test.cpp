@@ -21,15 +21,15 @@ const std::string kCalibration =
 /// A drive as it ships: the calibration is one folder up.
 class KittiDrive : public testing::Test {
  protected:
-  void write_image(int eye, int number) {
+  void write_image(int camera, int number) {
     test::write_image(folder,
-                      "day/drive_sync/image_0" + std::to_string(eye) + "/data/000000000" +
+                      "day/drive_sync/image_0" + std::to_string(camera) + "/data/000000000" +
                           std::to_string(number) + ".png",
                       tiny_grey(8, 6, number));
   }
   void write_drive(int kitti_cameras) {
-    for (int eye = 0; eye < kitti_cameras; ++eye)
-      for (int number = 0; number < 4; ++number) write_image(eye, number);
+    for (int camera = 0; camera < kitti_cameras; ++camera)
+      for (int number = 0; number < 4; ++number) write_image(camera, number);
     folder.write("day/calib_cam_to_cam.txt", kCalibration);
     folder.write("day/drive_sync/image_00/timestamps.txt",
                  "2011-09-26 13:02:25.500000000\n2011-09-26 13:02:25.600000000\n"
@@ -62,8 +62,9 @@ TEST_F(KittiDrive, LeavesOutWhatMonocularLacksAndKeepsTheTimes) {
   EXPECT_EQ(dataset->stamp_ns(1), 200000128);
   ASSERT_TRUE(dataset->ground_truth());
   EXPECT_EQ(dataset->ground_truth()->poses[1].T_world_body->translation().z(), 2);
-  EXPECT_THAT(dataset->notes().at(0).text,
-              HasSubstr("1 of 4 images of the left eye and 0 of 3 of the right eye are left out"));
+  EXPECT_THAT(
+      dataset->notes().at(0).text,
+      HasSubstr("1 of 4 images of the left camera and 0 of 3 of the right camera are skipped"));
 }
 
 TEST_F(KittiDrive, SaysWhatIsMissingOrOfAnotherKind) {
@@ -85,7 +86,7 @@ TEST_F(KittiDrive, SaysWhatIsMissingOrOfAnotherKind) {
   EXPECT_THAT(open()->notes().at(0).text, HasSubstr("timestamps.txt is missing"));
 }
 
-TEST(KittiOdometryNearly, IsToldWhatItLacks) {
+TEST(KittiOdometryNearly, ReportsMissingFiles) {
   const TemporaryFolder folder;
   test::write_numbered(folder, "s/image_0", 3);
   EXPECT_THAT(message_of([&] { open_dataset(folder / "s"); }),

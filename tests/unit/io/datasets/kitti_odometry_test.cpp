@@ -184,8 +184,10 @@ TEST(KittiOdometry, NamesTheFileAndLineOfABadCalibration) {
   EXPECT_THAT(message("\nP0: 10 0 4 0 0 x 3 0 0 0 1 0\n"),
               HasSubstr("calib.txt:2: P0: 'x' is not"));
   EXPECT_THAT(message("P0: nan 0 4 0 0 11 3 0 0 0 1 0\n"), HasSubstr("calib.txt:1: P0: 'nan'"));
-  EXPECT_THAT(message("P0: -1 0 4 0 0 11 3 0 0 0 1 0\n"), HasSubstr("calib.txt:1: P0: is no proj"));
-  EXPECT_THAT(message("P0: 10 0 4 0 0 11 3 0 0 0 2 0\n"), HasSubstr("calib.txt:1: P0: is no proj"));
+  EXPECT_THAT(message("P0: -1 0 4 0 0 11 3 0 0 0 1 0\n"),
+              HasSubstr("calib.txt:1: P0: is not a proj"));
+  EXPECT_THAT(message("P0: 10 0 4 0 0 11 3 0 0 0 2 0\n"),
+              HasSubstr("calib.txt:1: P0: is not a proj"));
   write_numbered(folder, "s/image_1", 3);
   EXPECT_THAT(message(kP0 + "P1: 10 0 4 5 0 11 3 0 0 0 1 0\n"),
               HasSubstr("calib.txt:2: P1: baseline is -0.5 m, not positive"));

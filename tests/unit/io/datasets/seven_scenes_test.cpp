@@ -40,7 +40,7 @@ TEST_F(SevenScenes, AreColourDepthAndPosesAtThirtyHertz) {
   const Calibration calibration = dataset->calibration(Sensor::kRgbd);
   EXPECT_NEAR(calibration.camera.fx, 52.5, 1e-9);
   EXPECT_NEAR(calibration.depth->camera.fx, 58.5, 1e-9);
-  EXPECT_THAT(dataset->notes().at(0).text, HasSubstr("ships no calibration"));
+  EXPECT_THAT(dataset->notes().at(0).text, HasSubstr("has no calibration"));
 }
 
 TEST_F(SevenScenes, TakeACalibrationOfTheSceneAndCountWhatIsIncomplete) {
@@ -51,7 +51,7 @@ TEST_F(SevenScenes, TakeACalibrationOfTheSceneAndCountWhatIsIncomplete) {
   const auto dataset = open();
   EXPECT_EQ(dataset->size(), 2u);
   EXPECT_EQ(dataset->calibration(Sensor::kMono).camera.fx, 50);
-  EXPECT_THAT(dataset->notes().at(0).text, HasSubstr("1 of 3 frames are left out"));
+  EXPECT_THAT(dataset->notes().at(0).text, HasSubstr("1 of 3 frames are skipped"));
   EXPECT_EQ(dataset->ground_truth()->posed(), 1u);
   EXPECT_FLOAT_EQ(dataset->frame(0, Sensor::kRgbd).depth.at<float>(5, 5), 3.0F);
 }
@@ -59,7 +59,7 @@ TEST_F(SevenScenes, TakeACalibrationOfTheSceneAndCountWhatIsIncomplete) {
 TEST_F(SevenScenes, SayWhichSequenceOrPoseIsMeant) {
   for (int i = 0; i < 2; ++i) write_frame(i);
   EXPECT_THAT(message_of([&] { open_dataset(folder / "chess"); }),
-              HasSubstr("it holds the sequences seq-01"));
+              HasSubstr("it contains the sequences seq-01"));
   folder.write("chess/seq-01/frame-000001.pose.txt", "1 0 0 0\n0 1 0 0\n0 0 1\n0 0 0 1\n");
   EXPECT_THAT(message_of([&] { open(); }),
               HasSubstr("frame-000001.pose.txt:3: expected 4 numbers"));
@@ -67,7 +67,7 @@ TEST_F(SevenScenes, SayWhichSequenceOrPoseIsMeant) {
   EXPECT_THAT(message_of([&] { open(); }), HasSubstr("frame-000001.pose.txt: "));
 }
 
-TEST(IclNuim, CountsFramesAndTurnsTheTruthOver) {
+TEST(IclNuim, CountsFramesAndInvertsTheTruth) {
   const TemporaryFolder folder;
   std::string pairs;
   for (int i = 0; i < 3; ++i) {
@@ -89,8 +89,8 @@ TEST(IclNuim, CountsFramesAndTurnsTheTruthOver) {
   ASSERT_TRUE(poses[2].T_world_body);
   EXPECT_NEAR(poses[2].T_world_body->translation().y(), -2.5, 1e-9);
   // A turn about x is one the other way round once y points down.
-  const Eigen::AngleAxisd turn(poses[2].T_world_body->rotation());
-  EXPECT_NEAR(turn.angle() * turn.axis().x(), -0.2, 1e-5);
+  const Eigen::AngleAxisd angle_axis(poses[2].T_world_body->rotation());
+  EXPECT_NEAR(angle_axis.angle() * angle_axis.axis().x(), -0.2, 1e-5);
   EXPECT_NEAR(poses[2].T_world_body->linear().determinant(), 1, 1e-9);
 }
 

@@ -157,11 +157,11 @@ TEST(TumRgbd, NamesTheFileAndLineOfEveryFault) {
   EXPECT_THAT(message("rgb.txt", "1 a\n1 b\n"), HasSubstr("rgb.txt:2: time '1' does not increase"));
   EXPECT_THAT(message("rgb.txt", "# c\n"), HasSubstr("rgb.txt: holds no images"));
   EXPECT_THAT(message("rgb.txt", "1.0 rgb/9.png\n"), HasSubstr("9.png: image is missing"));
-  EXPECT_THAT(message("depth.txt", "9.0 depth/a.png\n"),
-              HasSubstr("depth.txt: no depth image lies"));
+  EXPECT_THAT(message("depth.txt", "9.0 depth/a.png\n"), HasSubstr("depth.txt: no depth image is"));
   EXPECT_THAT(message("groundtruth.txt", "1 2 3\n"), HasSubstr("groundtruth.txt:1: "));
   EXPECT_THAT(message("groundtruth.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n"), HasSubstr("without times"));
-  EXPECT_THAT(message("calibration.yaml", kCalibration + "baseline_m: 1\n"), HasSubstr("one eye"));
+  EXPECT_THAT(message("calibration.yaml", kCalibration + "baseline_m: 1\n"),
+              HasSubstr("one camera"));
   EXPECT_THAT(message("calibration.yaml", "width: 9\n" + kCalibration.substr(9)),
               HasSubstr("0.png: image is 8x6, but 9x6 is expected"));
   std::filesystem::remove(folder / "s/calibration.yaml");

@@ -19,7 +19,7 @@ PoseGraphFormat format_of(const std::string& text) {
   return pose_graph_format(file);
 }
 
-TEST(PoseGraphFile, IsToldByItsTags) {
+TEST(PoseGraphFile, IsRecognizedByItsTags) {
   EXPECT_EQ(format_of("# a comment\n\nVERTEX_SE2 0 0 0 0\n"), PoseGraphFormat::kG2o);
   EXPECT_EQ(format_of("PARAMS_SE3OFFSET 0 0 0 0 0 0 0 1\n"), PoseGraphFormat::kG2o);
   EXPECT_EQ(format_of("FIX 0\n"), PoseGraphFormat::kG2o);
@@ -85,7 +85,7 @@ TEST(PoseGraphFile, OfPartsThatEachHaveAFixedVertexHangsTogether) {
                     both = folder.write("both.g2o", parts + "FIX 3\n");
   EXPECT_EQ(read_pose_graph(both, {.connected = true}).nodes.size(), 4u);
   EXPECT_THAT(message_of([&] { read_pose_graph(one, {.connected = true}); }),
-              HasSubstr("falls into 2 components; --components optimizes each by itself"));
+              HasSubstr("falls into 2 components; --components optimizes each separately"));
 }
 
 TEST(PoseGraphFile, OfEdgesAloneChainsItsVertices) {

@@ -53,12 +53,12 @@ TEST_F(MapDatabaseFaults, ANumberThatIsNotFiniteIsRefused) {
 
 TEST_F(MapDatabaseFaults, MissingRowsAreNamedByWhoRefersToThem) {
   change("DELETE FROM place WHERE id = 1");
-  EXPECT_THAT(refusal(), HasSubstr("place 1 is no place of the map"));
+  EXPECT_THAT(refusal(), HasSubstr("place 1 is not a place of the map"));
 }
 
 TEST_F(MapDatabaseFaults, AMissingKeyframeIsNamedByWhoRefersToIt) {
   change("DELETE FROM keyframe WHERE id = 0");
-  EXPECT_THAT(refusal(), AllOf(HasSubstr("row 0: keyframe 0 is no keyframe of the map")));
+  EXPECT_THAT(refusal(), AllOf(HasSubstr("row 0: keyframe 0 is not a keyframe of the map")));
 }
 
 TEST_F(MapDatabaseFaults, AGapAmongCountedRowsIsSeen) {

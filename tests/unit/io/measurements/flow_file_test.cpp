@@ -47,7 +47,7 @@ TEST(FlowFile, BrokenFilesAreNamedWithWhatIsWrong) {
     return test::message_of([&] { (void)read_flow(folder / name); });
   };
   EXPECT_THAT(said("f.flo"), HasSubstr("f.flo: 50 bytes, but flow of 4x3 pixels has 108"));
-  EXPECT_THAT(said("g.flo"), HasSubstr("g.flo: is no Middlebury flow"));
+  EXPECT_THAT(said("g.flo"), HasSubstr("g.flo: is not Middlebury flow"));
   EXPECT_THAT(said("h.png"), HasSubstr("h.png"));
   EXPECT_THAT(said("none.flo"), HasSubstr("none.flo: flow is missing"));
   EXPECT_THROW(write_flow(folder / "f.txt", example()), ArgumentError);

@@ -56,7 +56,7 @@ TEST_F(LoopFile, NamesTheLineOfBrokenScores) {
   EXPECT_THAT(refusal("1 0 nan\n"), HasSubstr("found.txt:1: score"));
   EXPECT_THAT(refusal("-1 0 1\n"), HasSubstr("found.txt:1: query"));
   EXPECT_THAT(refusal("1 0.5 1\n"), HasSubstr("found.txt:1: candidate"));
-  EXPECT_THAT(refusal("1 99999999999 1\n"), HasSubstr("is no image"));
+  EXPECT_THAT(refusal("1 99999999999 1\n"), HasSubstr("is not an image"));
   EXPECT_THAT(refusal("1 0 1\n1 0 2\n"), HasSubstr("found.txt:2: query 1 has candidate 0 already"));
 }
 

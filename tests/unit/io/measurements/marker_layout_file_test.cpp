@@ -66,7 +66,7 @@ TEST(MarkerLayoutFile, NamesFileAndLineOfWhatIsWrong) {
   EXPECT_THAT(marker("id: 1, side_m: 0.2, size: 3, " + pose), HasSubstr("unknown key"));
   EXPECT_THAT(marker("id: 1, " + pose), HasSubstr("side_m: is missing"));
   EXPECT_THAT(marker("id: 1.5, side_m: 0.2, " + pose), HasSubstr("markers.yaml:3: id"));
-  EXPECT_THAT(marker("id: 1, side_m: 0, " + pose), HasSubstr("side_m: 0 is no length"));
+  EXPECT_THAT(marker("id: 1, side_m: 0, " + pose), HasSubstr("side_m: 0 is not a valid"));
   EXPECT_THAT(marker("id: 1, side_m: 0.1, position: [1, nan, 0], quaternion: [1, 0, 0, 0]"),
               HasSubstr("a position is three numbers"));
   EXPECT_THAT(marker("id: 1, side_m: 0.1, position: [1, 0, 0], quaternion: [1, 1, 0, 0]"),
@@ -79,7 +79,7 @@ TEST(MarkerLayoutFile, NamesFileAndLineOfWhatIsWrong) {
               HasSubstr("markers.yaml:4: id: 1 comes twice"));
   EXPECT_THAT(marker("id: 1, side_m: 1, " + pose + "}\n  - {id: 1, side_m: 1, " + pose),
               HasSubstr("markers.yaml:4: id: 1 comes twice"));
-  EXPECT_THAT(refused(kHead + "markers: 3\n"), HasSubstr("markers: is no list"));
+  EXPECT_THAT(refused(kHead + "markers: 3\n"), HasSubstr("markers: is not a list"));
   EXPECT_THAT(refused(kHead + "beacons:\n  - [1, 2]\n"), HasSubstr("markers.yaml:3: a position"));
   EXPECT_THAT(refused(kHead + "markers: []\n"), HasSubstr("neither markers nor beacons"));
   EXPECT_THAT(refused("markers: []\n"), HasSubstr("dictionary: is missing"));

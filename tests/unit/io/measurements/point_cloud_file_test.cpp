@@ -81,7 +81,7 @@ TEST(PointCloudFile, RefusesBrokenPly) {
   EXPECT_THAT(broken("ply\n" + std::string(1 << 20, 'a')), HasSubstr("end_header"));
   EXPECT_THAT(broken("ply\nformat binary_big_endian 1.0\nend_header\n"), HasSubstr("x.ply:2: "));
   EXPECT_THAT(broken("ply\nformat ascii 1.0\nelement vertex -4\nend_header\n"),
-              HasSubstr("is no count"));
+              HasSubstr("is not a count"));
   EXPECT_THAT(broken("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n1\n"),
               HasSubstr("without x, y and z"));
   const std::string xyz = "property float x\nproperty float y\nproperty float z\nend_header\n";

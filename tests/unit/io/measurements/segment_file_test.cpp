@@ -43,7 +43,7 @@ TEST(SegmentFile, NamesTheLineThatIsNoSegment) {
   EXPECT_THAT(message("1 2 3 4\n1 2 3\n"), testing::HasSubstr("s.txt:2: a segment has 4 numbers"));
   EXPECT_THAT(message("1 2 three 4\n"), testing::HasSubstr("s.txt:1: u2"));
   EXPECT_THAT(message("1 2 1 2\n"), testing::HasSubstr("s.txt:1: the segment has no length"));
-  EXPECT_THAT(message("1 2 3e9 4\n"), testing::HasSubstr("s.txt:1: u2: '3e9' is no pixel"));
+  EXPECT_THAT(message("1 2 3e9 4\n"), testing::HasSubstr("s.txt:1: u2: '3e9' is not a pixel"));
   EXPECT_THROW((void)read_segments(dir / "absent.txt"), FileError);
 }
 

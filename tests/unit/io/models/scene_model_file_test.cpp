@@ -86,7 +86,7 @@ TEST_F(SceneModelFile, RefusesEveryTruncation) {
 
 TEST_F(SceneModelFile, RefusesOtherFilesVersionsAndChangedBytes) {
   std::string bytes = written();
-  EXPECT_THAT(refusal("PGWORDS\n" + bytes.substr(8)), HasSubstr("no model of scenes"));
+  EXPECT_THAT(refusal("PGWORDS\n" + bytes.substr(8)), HasSubstr("not a scene model"));
   std::string version = bytes;
   version[8] = 9;
   EXPECT_THAT(refusal(version), HasSubstr("version 9"));
@@ -137,7 +137,7 @@ TEST_F(ClassList, NamesTheLineItCannotRead) {
   EXPECT_THAT(refusal_of("0 Sky sky\n0 Road ground\n"), HasSubstr("there already"));
   EXPECT_THAT(refusal_of("0 Sky sky\n1 Sky ground\n"), HasSubstr("there already"));
   EXPECT_THAT(refusal_of("300 Sky sky\n"), HasSubstr("number"));
-  EXPECT_THAT(refusal_of("11 void -\n"), HasSubstr("no class that is scored"));
+  EXPECT_THAT(refusal_of("11 void -\n"), HasSubstr("no class is scored"));
 }
 
 }  // namespace

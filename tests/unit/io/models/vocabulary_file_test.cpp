@@ -64,8 +64,8 @@ TEST_F(VocabularyFile, ReadsWhatWasWritten) {
 TEST_F(VocabularyFile, SaysAtWhichByteItIsBroken) {
   const std::string good = written(small_tree(WordTree::Kind::kFloat));
   EXPECT_EQ(good.size(), 28u + 3 * 12 + 6 * 4 + 2 * 4);
-  EXPECT_THAT(refusal(""), HasSubstr("broken.pgw: byte 0: no vocabulary"));
-  EXPECT_THAT(refusal("PGWORLDS" + good), HasSubstr("byte 0: no vocabulary"));
+  EXPECT_THAT(refusal(""), HasSubstr("broken.pgw: byte 0: not a vocabulary"));
+  EXPECT_THAT(refusal("PGWORLDS" + good), HasSubstr("byte 0: not a vocabulary"));
   EXPECT_THAT(refusal(good.substr(0, 20)), HasSubstr("byte 20: ends within the header"));
   EXPECT_THAT(refusal(good.substr(0, 50)), HasSubstr("byte 50: truncated"));
   EXPECT_THAT(refusal(good + "x"), HasSubstr("byte 97: goes on too long"));

@@ -71,10 +71,10 @@ TEST_F(SemanticMapFile, RefusesWhatIsCutOffOrAnother) {
   EXPECT_THAT(refusal_of(good + "x"), HasSubstr("12 cells"));
   EXPECT_THAT(refusal_of(good.substr(0, 60)), HasSubstr("no PLY header"));
   EXPECT_THAT(refusal_of(""), HasSubstr("no PLY header"));
-  EXPECT_THAT(refusal_of("ply\nformat ascii 1.0\nend_header\n"), HasSubstr("no semantic map"));
+  EXPECT_THAT(refusal_of("ply\nformat ascii 1.0\nend_header\n"), HasSubstr("not a semantic map"));
   std::string wrong = good;
   wrong[wrong.find("end_header\n") + 11 + 15] = 9;  // label of the first cell
-  EXPECT_THAT(refusal_of(wrong), HasSubstr("cell 0 holds what cannot be"));
+  EXPECT_THAT(refusal_of(wrong), HasSubstr("cell 0 has an impossible value"));
   EXPECT_THAT(test::message_of([&] { (void)read_semantic_map(folder / "none.ply"); }),
               HasSubstr("cannot be read"));
 }
@@ -162,8 +162,8 @@ TEST_F(LabelledMeshFile, NamesTheLineItCannotRead) {
     std::string text = good;
     return text.replace(text.find(from), from.size(), to);
   };
-  EXPECT_THAT(refusal_of(changed("4 0 1 2 3 1", "4 0 1 2 9 1")), HasSubstr("is no vertex"));
-  EXPECT_THAT(refusal_of(changed("4 0 1 2 3 1", "4 0 1 2 3 2")), HasSubstr("is no class"));
+  EXPECT_THAT(refusal_of(changed("4 0 1 2 3 1", "4 0 1 2 9 1")), HasSubstr("is not a vertex"));
+  EXPECT_THAT(refusal_of(changed("4 0 1 2 3 1", "4 0 1 2 3 2")), HasSubstr("is not a class"));
   EXPECT_THAT(refusal_of(changed("4 0 1 2 3 1", "5 0 1 2 3 1")), HasSubstr("do not fit"));
   EXPECT_THAT(refusal_of(changed("1.250", "inf")), HasSubstr("x"));
 }

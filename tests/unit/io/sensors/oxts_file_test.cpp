@@ -83,7 +83,7 @@ TEST(KittiRaw, NamesTheLineOfABrokenTime) {
   EXPECT_THAT(reading_fails_with(reading() + reading(), "0\n0\n"),
               HasSubstr("times_oxts.txt:2: time '0' does not increase"));
   EXPECT_THAT(reading_fails_with(reading(), "2011-09-31 13:02:25\n"),
-              HasSubstr("times_oxts.txt:1: '2011-09-31 13:02:25' is no date"));
+              HasSubstr("times_oxts.txt:1: '2011-09-31 13:02:25' is not a date"));
   EXPECT_THAT(reading_fails_with(reading(), "later\n"),
               HasSubstr("times_oxts.txt:1: time: 'later'"));
   EXPECT_THAT(reading_fails_with(reading(), ""), HasSubstr("times_oxts.txt: holds no times"));

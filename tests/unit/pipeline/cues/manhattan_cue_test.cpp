@@ -117,7 +117,7 @@ TEST(ManhattanCue, EdgesOfSeveralKeyframesBeginAManhattanFrame) {
   EXPECT_GE(std::min({along[0] + along[1], along[1] + along[2], along[0] + along[2]}), 10);
 }
 
-TEST(ManhattanCue, AFrameIsTurnedToWhereItsEdgesPoint) {
+TEST(ManhattanCue, AFrameIsRotatedToWhereItsEdgesPoint) {
   const Walk walk(4);
   const SO3 truth = boards_way(4).rotation();
   for (const Eigen::Vector3d& off : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0.005, -0.01, 0)}) {
@@ -212,7 +212,7 @@ TEST(WithHeading, ThePositionFollowsTheRotation) {
   EXPECT_NEAR(moved.x(), -0.02, 1e-4);
 }
 
-TEST(WithHeading, HeadingsKnownAboutOneAxisTurnAboutThatAlone) {
+TEST(WithHeading, HeadingsKnownAboutOneAxisRotateAboutThatAlone) {
   const Eigen::Vector3d off(0.01, 0.01, 0.01);
   Rotated rotated(off, 0);
   // In the Manhattan frame's axes; the camera's y is what it knows.

@@ -51,18 +51,19 @@ struct Drive {
         window(window_options(), manhattan_frame.camera),
         manhattan_frames(options) {}
 
-  /// The next keyframe, which sees directions turned from the first world by `turn`.
-  std::optional<ManhattanFrameId> see(const std::optional<SO3>& turn) {
+  /// The next keyframe, which sees directions rotated from the first frame by `frame_rotation`.
+  std::optional<ManhattanFrameId> see(const std::optional<SO3>& frame_rotation) {
     const std::int64_t id = next++;
     const SE3& T_map_cam = manhattan_frame.T_map_cam[static_cast<std::size_t>(id)];
     window.add_keyframe(KeyframeId(id), T_map_cam);
     add_view(window, manhattan_frame, KeyframeId(id), 0, random);
     std::optional<ManhattanFrameId> seen;
-    if (turn)
-      seen = manhattan_frames.add(
-          KeyframeId(id),
-          T_map_cam.rotation().inverse() * kR_map_manhattan * *turn * axes(static_cast<int>(id)),
-          Eigen::Matrix3d::Identity() * std::pow(0.1 * kRadPerDeg, 2), window);
+    if (frame_rotation)
+      seen =
+          manhattan_frames.add(KeyframeId(id),
+                               T_map_cam.rotation().inverse() * kR_map_manhattan * *frame_rotation *
+                                   axes(static_cast<int>(id)),
+                               Eigen::Matrix3d::Identity() * std::pow(0.1 * kRadPerDeg, 2), window);
     if (window.manhattan_frame(ManhattanFrameId(1)))
       R_map_first = *window.manhattan_frame(ManhattanFrameId(1));
     if (id > 0) {
@@ -89,8 +90,10 @@ TEST(ManhattanFrames, BeginWhereViewsAgreeWhicheverAxesTheyNameFirst) {
   EXPECT_EQ(drive.window.manhattan_frames(),
             (std::vector{ManhattanFrames::kMapAxes, ManhattanFrameId(1)}));
   // Along the axes of the world, named as the first of the views named them.
-  const SO3 turn = kR_map_manhattan.inverse() * *drive.window.manhattan_frame(ManhattanFrameId(1));
-  EXPECT_LT((turn.matrix() - turn.matrix().array().round().matrix()).norm(), 1e-6);
+  const SO3 frame_rotation =
+      kR_map_manhattan.inverse() * *drive.window.manhattan_frame(ManhattanFrameId(1));
+  EXPECT_LT((frame_rotation.matrix() - frame_rotation.matrix().array().round().matrix()).norm(),
+            1e-6);
   // The map stays under them.
   EXPECT_LT(drive.window.manhattan_frame(ManhattanFrames::kMapAxes)->log().norm(), 1e-12);
   const auto expected = drive.manhattan_frames.expected(drive.window, KeyframeId(7));
@@ -101,11 +104,11 @@ TEST(ManhattanFrames, BeginWhereViewsAgreeWhicheverAxesTheyNameFirst) {
 TEST(ManhattanFrames, OfOtherDirectionsAreKeptApartAndFoundAgain) {
   Drive drive({});
   for (int k = 0; k < 4; ++k) (void)drive.see(SO3());
-  const SO3 turn = SO3::exp({0, 10 * kRadPerDeg, 0});
-  EXPECT_FALSE(drive.see(turn));
-  EXPECT_FALSE(drive.see(turn));
-  EXPECT_EQ(drive.see(turn), ManhattanFrameId(2));
-  EXPECT_EQ(drive.see(turn), ManhattanFrameId(2));
+  const SO3 frame_rotation = SO3::exp({0, 10 * kRadPerDeg, 0});
+  EXPECT_FALSE(drive.see(frame_rotation));
+  EXPECT_FALSE(drive.see(frame_rotation));
+  EXPECT_EQ(drive.see(frame_rotation), ManhattanFrameId(2));
+  EXPECT_EQ(drive.see(frame_rotation), ManhattanFrameId(2));
   EXPECT_EQ(drive.see(SO3()), ManhattanFrameId(1));
   EXPECT_EQ(drive.window.manhattan_frames().size(), 3u);
 }

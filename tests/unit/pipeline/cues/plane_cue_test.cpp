@@ -138,7 +138,7 @@ TEST(PlaneCue, TheOtherSideOfAThinWallIsAnotherOne) {
   EXPECT_EQ(results[3], Seen{PlaneId(2)});
 }
 
-TEST(PlaneCue, ALeafBeforeItsWallIsToldFromItWhereBothAreSeenAndElseLeftAlone) {
+TEST(PlaneCue, ALeafBeforeItsWallIsSeparatedWhereBothAreSeenAndElseLeftAlone) {
   Patch leaf = kAhead;
   leaf.middle.z() -= 0.03;
   leaf.half_u = 0.5;

@@ -269,8 +269,8 @@ struct Pitching {
         vector.kind = FlowVector::Kind::kFull;
         vector.px = {u, v};
         const Vector3d ray = T_world_1.rotation() * *kCamera.unproject(vector.px);
-        const Vector3d eye = T_world_1.translation();
-        const Vector3d point = eye - eye.z() / ray.z() * ray;
+        const Vector3d camera_position = T_world_1.translation();
+        const Vector3d point = camera_position - camera_position.z() / ray.z() * ray;
         vector.flow = *kCamera.project(T_2_world * point) - vector.px;
         vector.covariance = 0.01 * Eigen::Matrix2d::Identity();
         result.flow.push_back(vector);

@@ -34,8 +34,8 @@ Image picture(const BodyState& state) {
 Vector2d moved_px(const Vector2d& px, const BodyState& a, const BodyState& b) {
   const SE3 T_world_cam = a.T_world_body * kBodyCam;
   const Vector3d ray = T_world_cam.rotation() * *kCamera.unproject(px);
-  const Vector3d eye = T_world_cam.translation();
-  const Vector3d point = eye + (kFloor_m - eye.z()) / ray.z() * ray;
+  const Vector3d camera_position = T_world_cam.translation();
+  const Vector3d point = camera_position + (kFloor_m - camera_position.z()) / ray.z() * ray;
   return *kCamera.project((b.T_world_body * kBodyCam).inverse() * point);
 }
 

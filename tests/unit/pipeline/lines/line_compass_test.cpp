@@ -94,7 +94,7 @@ TEST(LineCompass, LearnsTheDirectionsThatEdgesShareInTheWindowsFrame) {
     EXPECT_LT(off_the_axes_rad(T_map_world.rotation().inverse() * direction.d_ref), 0.02);
 }
 
-TEST(LineCompass, SteersAKeyframeThatTheWindowHasTurned) {
+TEST(LineCompass, SteersAKeyframeThatTheWindowHasRotated) {
   Walk walk;
   walk.cue.use_compass();
   walk.keyframe(0, way(0));

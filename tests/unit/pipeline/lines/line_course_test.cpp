@@ -84,7 +84,7 @@ TEST(LineCourse, AWayAcrossTheEdgesHoldsNothing) {
   EXPECT_FALSE(Corridor({0, 0, 0.02}).course().empty());
 }
 
-TEST(LineCourse, LinesOfTheWindowAndLinesThatTurnedDoNotCount) {
+TEST(LineCourse, LinesOfTheWindowAndLinesThatRotatedDoNotCount) {
   Corridor placed({0, 0, 1});
   for (int i = 1; i <= 4; ++i) placed.window.add_line(LineId(i), Line3());
   EXPECT_TRUE(placed.course().empty());

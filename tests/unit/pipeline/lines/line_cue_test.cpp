@@ -67,9 +67,11 @@ TEST(LineCue, RevisedRightCamerasLieWhereARectifiedOneWouldSeeTheLines) {
 
 TEST(LineCue, OnlyASecondCameraThatIsThereCanBeRevised) {
   Pair pair({});
-  const LineObservation::SecondCamera eye{{0.5, 0, 0}, {1, 2}, {1, 9}, 0.2};
-  EXPECT_THROW(pair.window.revise_second_camera(KeyframeId(9), LineId(0), eye), ArgumentError);
-  EXPECT_THROW(pair.window.revise_second_camera(KeyframeId(0), LineId(99), eye), ArgumentError);
+  const LineObservation::SecondCamera second_camera{{0.5, 0, 0}, {1, 2}, {1, 9}, 0.2};
+  EXPECT_THROW(pair.window.revise_second_camera(KeyframeId(9), LineId(0), second_camera),
+               ArgumentError);
+  EXPECT_THROW(pair.window.revise_second_camera(KeyframeId(0), LineId(99), second_camera),
+               ArgumentError);
   EXPECT_THROW(
       pair.window.revise_second_camera(KeyframeId(0), LineId(0), {{0, 0, 0}, {1, 2}, {1, 9}, 0.2}),
       ArgumentError);

@@ -65,7 +65,7 @@ TEST(KeyframeMasks, WithoutAModelAFrameStaysAsItIs) {
   EXPECT_TRUE(images.ground().empty());
 }
 
-TEST(KeyframeMasks, TheSkyIsMaskedAndTheGroundIsToldApart) {
+TEST(KeyframeMasks, TheSkyIsMaskedAndTheGroundIsSeparate) {
   StageTimes times;
   KeyframeMasks masks(times);
   masks.set_model(labeller(), true);

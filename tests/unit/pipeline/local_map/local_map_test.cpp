@@ -183,10 +183,10 @@ TEST(LocalMap, ARotationThatIsCorrectedWidensTheLinkToTheKeyframeThatLeftBefore)
   drive.map.update_poses({}, true);  // nothing was rotated
   EXPECT_LT((drive.map.link(KeyframeId(3)).information - before).norm(), 1e-9 * before.norm());
   // A prior rotates the whole window by 0.02 rad about y.
-  const Eigen::Vector3d turn(0, 0.02, 0);
+  const Eigen::Vector3d step_rotation(0, 0.02, 0);
   for (const KeyframeId id : drive.map.window().keyframes()) {
     const SE3 T = drive.map.window().pose(id);
-    const SE3 target(T.rotation() * SO3::exp(turn), T.translation());
+    const SE3 target(T.rotation() * SO3::exp(step_rotation), T.translation());
     add_pose_prior(drive.map.window(), {id, target, 1e9 * Matrix6d::Identity()});
   }
   ASSERT_TRUE(drive.map.optimize());

@@ -49,22 +49,22 @@ Map two_places() {
 
 TEST(Explanation, TellsWhereAFrameIsAndHowThatIsKnown) {
   const Map map = two_places();
-  const auto told = explain_frame(map, FrameId(2));
-  ASSERT_TRUE(told);
-  EXPECT_TRUE(told->posed);
-  EXPECT_EQ(told->place, PlaceId(1));
-  EXPECT_EQ(told->labels, std::vector<std::string>{"corridor"});
+  const auto explained = explain_frame(map, FrameId(2));
+  ASSERT_TRUE(explained);
+  EXPECT_TRUE(explained->posed);
+  EXPECT_EQ(explained->place, PlaceId(1));
+  EXPECT_EQ(explained->labels, std::vector<std::string>{"corridor"});
   EXPECT_LT(
-      distance_m(told->T_map_cam, pose({0, 0.1, 0}, {0, 0, 1}) * pose({0, 0, 0}, {0, 0, 0.5})),
+      distance_m(explained->T_map_cam, pose({0, 0.1, 0}, {0, 0, 1}) * pose({0, 0, 0}, {0, 0, 0.5})),
       1e-12);
-  EXPECT_NEAR(told->way_to_keyframe, 0.5, 1e-12);
-  EXPECT_EQ(told->inliers, 40);
-  EXPECT_EQ(told->features, 5);
-  EXPECT_EQ(told->features_placed, 1);
-  EXPECT_EQ(told->constraints.at("odometry"), 1);
+  EXPECT_NEAR(explained->way_to_keyframe, 0.5, 1e-12);
+  EXPECT_EQ(explained->inliers, 40);
+  EXPECT_EQ(explained->features, 5);
+  EXPECT_EQ(explained->features_placed, 1);
+  EXPECT_EQ(explained->constraints.at("odometry"), 1);
   // Those of its keyframe are its own.
-  EXPECT_EQ(told->loops.size(), 1u);
-  EXPECT_EQ(told->refused.size(), 1u);
+  EXPECT_EQ(explained->loops.size(), 1u);
+  EXPECT_EQ(explained->refused.size(), 1u);
 }
 
 TEST(Explanation, CarriesTheCovarianceOfThePlaceToTheFrame) {

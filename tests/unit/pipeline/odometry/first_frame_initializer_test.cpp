@@ -38,7 +38,7 @@ struct Beginning {
   }
 };
 
-TEST(FirstFrameInitializer, BeginsWithItsFirstFrameWhereItWasToldTo) {
+TEST(FirstFrameInitializer, BeginsWithItsFirstFrameAtTheGivenPose) {
   Beginning b;
   const Initialization begun = b.add(5);
   EXPECT_EQ(begun.state, TrackingState::kTracking);
@@ -88,7 +88,7 @@ TEST(FirstFrameInitializer, AKeyframeThatTheTrackerRefusesIsTakenBack) {
   EXPECT_EQ(begun.keyframes[0].id, KeyframeId(0));  // the refused one has left no gap
 }
 
-TEST(FirstFrameInitializer, AFrameThatIsRecognizedStillBeginsWhereItWasToldTo) {
+TEST(FirstFrameInitializer, AFrameThatIsRecognizedStillBeginsAtItsGivenPose) {
   Beginning b;
   const SE3 T_known(SO3(), Eigen::Vector3d(50, 0, 0));
   ASSERT_EQ(b.add(0, T_known).state, TrackingState::kTracking);

@@ -126,7 +126,7 @@ TEST(LineViewInitializer, AKnownMapGivesItsUnitByTheViewThatIsRecognized) {
   BoardsBeginning b(Scale::kFromMap);
   Initialization waits;
   int i = 0;
-  for (; i < kFrames && waits.outcome.reason != "nothing gives the map's unit"; ++i) {
+  for (; i < kFrames && waits.outcome.reason != "the scale of the map is unobservable"; ++i) {
     waits = b.add(i);
     ASSERT_NE(waits.state, TrackingState::kTracking) << i;
   }

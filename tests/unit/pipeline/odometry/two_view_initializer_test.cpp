@@ -23,7 +23,7 @@ const StreetDataset& drive() {
   static const StreetDataset dataset(6, 0, 0, false, forward);
   return dataset;
 }
-const StreetDataset& turn() {
+const StreetDataset& rotation_drive() {
   static const StreetDataset dataset(kStands + 7, 0, 0, false, rotates_first);
   return dataset;
 }
@@ -70,7 +70,7 @@ TEST(TwoViewInitializer, TwoViewsWithParallaxBeginAMap) {
 }
 
 TEST(TwoViewInitializer, TheVelocityIsTheMotionOverOneFrame) {
-  StreetBeginning b(turn());
+  StreetBeginning b(rotation_drive());
   Initialization begun;
   int i = 0;
   for (; i < kStands + 7 && begun.state != TrackingState::kTracking; ++i) begun = b.add(i);
@@ -105,7 +105,7 @@ TEST(TwoViewInitializer, AKnownMapGivesItsUnitByTheViewThatIsRecognized) {
   (void)b.add(0);
   const Initialization waits = b.add(1);
   EXPECT_EQ(waits.state, TrackingState::kInitializing);
-  EXPECT_EQ(waits.outcome.reason, "nothing gives the map's unit");
+  EXPECT_EQ(waits.outcome.reason, "the scale of the map is unobservable");
   EXPECT_TRUE(b.map.empty());
   const SE3 T_known = b.T_odom_start * pose({0, 0, 0}, {0, 0, 4});
   ASSERT_EQ(b.add(2, T_known).state, TrackingState::kTracking);
@@ -114,7 +114,7 @@ TEST(TwoViewInitializer, AKnownMapGivesItsUnitByTheViewThatIsRecognized) {
 }
 
 TEST(TwoViewInitializer, ARotationIsNoBeginningButItsFramesArePosed) {
-  StreetBeginning b(turn());
+  StreetBeginning b(rotation_drive());
   (void)b.add(0);
   for (int i = 1; i <= kStands; ++i) {
     const Initialization waits = b.add(i);

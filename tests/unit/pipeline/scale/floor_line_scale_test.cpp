@@ -63,7 +63,7 @@ TEST(FloorLineScale, AHeightThatIsPoorlyKnownGivesNone) {
       floor.measure(SE3(), corridor(1), {}, true));  // in a known unit it may tell something
 }
 
-TEST(FloorLineScale, InAKnownUnitALineIsHeardOnce) {
+TEST(FloorLineScale, AtAKnownScaleALineIsUsedOnce) {
   FloorLineScale floor = scale();
   const auto first = floor.measure(SE3(), corridor(1.02), {}, true);
   ASSERT_TRUE(first);
@@ -88,7 +88,7 @@ TEST(FloorLineScale, FewNewLinesCountForLess) {
   EXPECT_GT(two->sigma_relative, 1.5 * many->sigma_relative);
 }
 
-TEST(FloorLineScale, AJumpIsNotBelievedUntilItLasts) {
+TEST(FloorLineScale, AJumpIsNotAcceptedUntilItLasts) {
   FloorLineScale floor = scale();
   for (int i = 0; i < 3; ++i) ASSERT_TRUE(floor.measure(SE3(), corridor(1, 100 * i), {}, true));
   int refused = 0;
@@ -107,7 +107,7 @@ TEST(FloorLineScale, WithoutAFloorThereIsNone) {
   for (int i = 0; i < 4; ++i) EXPECT_FALSE(floor.measure(SE3(), ceiling, {}, i % 2 == 0));
 }
 
-TEST(FloorLineScale, AResetForgetsWhatWasHeard) {
+TEST(FloorLineScale, AResetDropsAllMeasurements) {
   FloorLineScale floor = scale();
   ASSERT_TRUE(floor.measure(SE3(), corridor(), {}, true));
   floor.reset();

@@ -69,7 +69,7 @@ TEST_F(GroundScaleOnARoad, CorrectsAScaleThatIsRoughlyRight) {
   }
 }
 
-TEST_F(GroundScaleOnARoad, DoesNotBelieveAJumpUntilItLasts) {
+TEST_F(GroundScaleOnARoad, DoesNotAcceptAJumpUntilItLasts) {
   GroundPlaneScaleOptions options;
   options.max_log_jump = 0.1;
   GroundPlaneScale scale(options, kCamera, kHeight_m);

@@ -89,11 +89,11 @@ TEST(IndoorMapper, SaysWhyThereIsNoPlan) {
   Map map = posed_map({SE3()});
   EXPECT_EQ(mapper.fuse(map).outcome.code, Outcome::Code::kTooFewData);
   map.metric = false;
-  EXPECT_EQ(mapper.fuse(map).outcome.reason, "the map's unit is not the metre");
+  EXPECT_EQ(mapper.fuse(map).outcome.reason, "the map is not metric");
   EXPECT_EQ(map_indoors(map, Calibration{.camera = camera, .depth = {}, .camera_height_m = {}},
                         [](const Keyframe&) -> Frame { throw ArgumentError("no frame is needed"); })
                 .outcome.reason,
-            "the map's unit is not the metre");
+            "the map is not metric");
 }
 
 /// Keyframes whose frames are of the grey of their number, and which ones were read.

@@ -82,7 +82,7 @@ TEST(MapKeyframes, HadOnlinePosesWhereTheirFramesHad) {
   EXPECT_FALSE(online(KeyframeId(2)));  // no such frame
 }
 
-TEST(MapKeyframes, ApartAreThoseThatMovedOrTurnedEnoughSinceTheOneBefore) {
+TEST(MapKeyframes, ApartAreThoseThatMovedOrRotatedEnoughSinceTheOneBefore) {
   Map map;
   const double z[] = {0, 0.6, 1.1, 1.2, 1.3, 2.4};
   const double yaw[] = {0, 0, 0, 0.2, 0.25, 0.25};

@@ -25,7 +25,7 @@ TEST(PlanFrame, ThePlansYIsTheVerticalOfTheBuilding) {
   EXPECT_NEAR(frame.R_plan_map().log().norm(), std::acos(down_map.y()), 1e-12);
 }
 
-TEST(PlanFrame, PointsOfTheFloorAreThoseOfTheMapTurned) {
+TEST(PlanFrame, PointsOfTheFloorAreThoseOfTheRotatedMap) {
   const SE3 T_walls_map = walls_of_map();
   const PlanFrame frame(T_walls_map);
   for (const Vector2d& p : {Vector2d(0, 0), Vector2d(3, 1), Vector2d(-2, 5)}) {

@@ -71,7 +71,7 @@ TEST(UrbanMapper, FusesObservationsAgainWhereALoopMovedThem) {
   EXPECT_EQ(depths_of(after), std::set<int>{33});
 }
 
-TEST(UrbanMapper, ReplacesWhatAKeyframeTold) {
+TEST(UrbanMapper, ReplacesTheEarlierDataOfAKeyframe) {
   UrbanMapper mapper = mapper_of();
   mapper.add(observation_of_wall(0, SE3()));
   KeyframeSemantics other = observation_of_wall(0, SE3());
@@ -128,22 +128,22 @@ TEST(UrbanMapper, RefusesModelsAndClassesThatItCannotUse) {
 TEST(UrbanMapper, SaysWhyThereIsNoMap) {
   Map map = posed_map({SE3()});
   EXPECT_EQ(mapper_of().fuse(map).outcome.code, Outcome::Code::kTooFewData);
-  EXPECT_EQ(mapper_of(0).fuse(map).outcome.reason, "two eyes are needed");
+  EXPECT_EQ(mapper_of(0).fuse(map).outcome.reason, "a stereo camera is required");
   map.metric = false;
-  EXPECT_EQ(mapper_of().fuse(map).outcome.reason, "the map's unit is not the metre");
+  EXPECT_EQ(mapper_of().fuse(map).outcome.reason, "the map is not metric");
 }
 
-TEST(UrbanMapper, LaysItsCellsOutByTheVerticalThatItIsTold) {
+TEST(UrbanMapper, LaysItsCellsOutByTheGivenVertical) {
   UrbanMapper mapper = mapper_of();
   mapper.add(observation_of_wall(0, SE3()));
   // A map that stands on its head: down is -y of it.
   const SE3 T_map_cam(SO3::exp({0, 0, std::numbers::pi}), Eigen::Vector3d::Zero());
   const KeyframePoses poses = [&](KeyframeId) -> std::optional<SE3> { return T_map_cam; };
   const SemanticMap as_seen = mapper.fuse(poses);
-  const SemanticMap told = mapper.fuse(poses, -Eigen::Vector3d::UnitY());
-  ASSERT_TRUE(as_seen.outcome && told.outcome);
-  EXPECT_EQ(as_seen.cells.size(), told.cells.size());
-  EXPECT_EQ(depths_of(as_seen), depths_of(told));
+  const SemanticMap with_vertical = mapper.fuse(poses, -Eigen::Vector3d::UnitY());
+  ASSERT_TRUE(as_seen.outcome && with_vertical.outcome);
+  EXPECT_EQ(as_seen.cells.size(), with_vertical.cells.size());
+  EXPECT_EQ(depths_of(as_seen), depths_of(with_vertical));
 }
 
 TEST(UrbanMapper, LeavesOutKeyframesWithoutAPose) {
@@ -155,7 +155,7 @@ TEST(UrbanMapper, LeavesOutKeyframesWithoutAPose) {
   };
   EXPECT_EQ(depths_of(mapper.fuse(only_first)), std::set<int>{33});
   const auto none = [](KeyframeId) { return std::optional<SE3>(); };
-  EXPECT_EQ(mapper.fuse(none).outcome.reason, "no keyframe of it has a pose");
+  EXPECT_EQ(mapper.fuse(none).outcome.reason, "no keyframe has a pose");
 }
 
 TEST(UrbanMapper, MonocularTellsNothing) {

@@ -12,7 +12,7 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 
 /// What is told, a word and numbers each.
-struct Heard final : SlamEvents {
+struct RecordedEvents final : SlamEvents {
   std::vector<std::string> said;
   MapMoved move;
   void say(const std::string& word, std::int64_t a, std::int64_t b) {
@@ -45,27 +45,27 @@ struct Heard final : SlamEvents {
 };
 
 TEST(EventFeed, TellsPlacesOnceAndInTheOrderOfTheirIds) {
-  Heard heard;
-  EventFeed feed(&heard);
+  RecordedEvents recorded;
+  EventFeed feed(&recorded);
   PlaceMapper mapper = square();
   feed.places_changed(mapper);
-  EXPECT_THAT(heard.news(),
+  EXPECT_THAT(recorded.news(),
               ElementsAre("place 0 0", "place 1 1", "place 2 2", "place 3 3", "place 4 4"));
   feed.places_changed(mapper);
-  EXPECT_THAT(heard.news(), IsEmpty());
+  EXPECT_THAT(recorded.news(), IsEmpty());
 }
 
 TEST(EventFeed, TellsTheLargestMoveOfAPlace) {
-  Heard heard;
-  EventFeed feed(&heard);
+  RecordedEvents recorded;
+  EventFeed feed(&recorded);
   PlaceMapper mapper = square();
   feed.places_changed(mapper);
   const PlaceGraph before = mapper.place_graph();
   mapper.add_loop(loop(4, 0, SE3(), 0.01, 0.001));
   const PlaceGraph after = optimized(mapper);
-  heard.news();
+  recorded.news();
   feed.places_changed(mapper);
-  EXPECT_THAT(heard.news(), ElementsAre("moved"));
+  EXPECT_THAT(recorded.news(), ElementsAre("moved"));
   double translation = 0, rotation = 0;
   int places = 0;
   for (std::size_t i = 0; i < after.places.size(); ++i) {
@@ -74,65 +74,65 @@ TEST(EventFeed, TellsTheLargestMoveOfAPlace) {
     rotation = std::max(rotation, moved.rotation().log().norm());
     places += moved.translation().norm() > 0;
   }
-  EXPECT_EQ(heard.move.places, places);
+  EXPECT_EQ(recorded.move.places, places);
   EXPECT_GT(places, 2);
-  EXPECT_NEAR(heard.move.translation, translation, 1e-12);
-  EXPECT_NEAR(heard.move.rotation_rad, rotation, 1e-12);
+  EXPECT_NEAR(recorded.move.translation, translation, 1e-12);
+  EXPECT_NEAR(recorded.move.rotation_rad, rotation, 1e-12);
   EXPECT_GT(translation, 0.1);
 }
 
 TEST(EventFeed, TellsThatTheUnitIsKnownWhereNoPlaceMoves) {
-  Heard heard;
-  EventFeed feed(&heard);
+  RecordedEvents recorded;
+  EventFeed feed(&recorded);
   PlaceMapper mapper({});
   mapper.add_keyframe(KeyframeId(0), std::nullopt, {}, kDepth_m);
   feed.places_changed(mapper);
-  heard.news();
+  recorded.news();
   mapper.rescale(KeyframeId(0), 2.5);
   feed.places_changed(mapper, 2.5);
-  EXPECT_THAT(heard.news(), ElementsAre("moved"));
-  EXPECT_EQ(heard.move.scale, 2.5);
+  EXPECT_THAT(recorded.news(), ElementsAre("moved"));
+  EXPECT_EQ(recorded.move.scale, 2.5);
 }
 
 TEST(EventFeed, TellsThatPlacesAreOne) {
-  Heard heard;
-  EventFeed feed(&heard);
+  RecordedEvents recorded;
+  EventFeed feed(&recorded);
   PlaceMapper mapper = square(true);
   feed.places_changed(mapper);
-  heard.news();
+  recorded.news();
   mapper.add_loop(loop(4, 0, SE3(), 0.01, 0.001));
   optimized(mapper);
   feed.places_changed(mapper);
-  EXPECT_THAT(heard.news(), ElementsAre("merged 0 4", "moved"));
+  EXPECT_THAT(recorded.news(), ElementsAre("merged 0 4", "moved"));
 }
 
 TEST(EventFeed, TellsThatASubMapHasJoinedAnother) {
-  Heard heard;
-  EventFeed feed(&heard);
+  RecordedEvents recorded;
+  EventFeed feed(&recorded);
   PlaceMapper mapper({});
   mapper.add_keyframe(KeyframeId(0), std::nullopt, {}, kDepth_m);
   mapper.add_keyframe(KeyframeId(1), link(0, kLong), {}, kDepth_m);
   mapper.add_keyframe(KeyframeId(2), std::nullopt, {}, kDepth_m);
   feed.places_changed(mapper);
-  EXPECT_THAT(heard.news(), ElementsAre("place 0 0", "place 1 1", "place 2 2"));
+  EXPECT_THAT(recorded.news(), ElementsAre("place 0 0", "place 1 1", "place 2 2"));
   mapper.add_loop(loop(2, 0, kLong * kLong, 0.01, 0.001));
   optimized(mapper);
   feed.places_changed(mapper);
-  EXPECT_THAT(heard.news(), ElementsAre("joined 1 0", "moved"));
+  EXPECT_THAT(recorded.news(), ElementsAre("joined 1 0", "moved"));
 }
 
 TEST(EventFeed, TellsThatASubMapHasJoinedAnotherWhereItsOnlyPlaceIsMerged) {
-  Heard heard;
-  EventFeed feed(&heard);
+  RecordedEvents recorded;
+  EventFeed feed(&recorded);
   PlaceMapper mapper({});
   mapper.add_keyframe(KeyframeId(0), std::nullopt, {}, kDepth_m);
   mapper.add_keyframe(KeyframeId(1), std::nullopt, {}, kDepth_m);
   feed.places_changed(mapper);
-  heard.news();
+  recorded.news();
   mapper.add_loop(loop(1, 0, SE3(), 0.01, 0.001));
   optimized(mapper);
   feed.places_changed(mapper);
-  EXPECT_THAT(heard.news(), ElementsAre("merged 0 1", "joined 1 0"));
+  EXPECT_THAT(recorded.news(), ElementsAre("merged 0 1", "joined 1 0"));
 }
 
 LoopRecord record(std::int64_t query, std::int64_t match, LoopStage stage) {
@@ -144,40 +144,40 @@ LoopRecord record(std::int64_t query, std::int64_t match, LoopStage stage) {
 }
 
 TEST(EventFeed, TellsALoopThatWaitedForSupportBeforeWhatIsNew) {
-  Heard heard;
-  EventFeed feed(&heard);
+  RecordedEvents recorded;
+  EventFeed feed(&recorded);
   std::vector<LoopRecord> records = {record(30, 3, LoopStage::kSupport),
                                      record(30, 9, LoopStage::kRetrieval)};
   feed.loops_decided(records);
-  EXPECT_THAT(heard.news(), ElementsAre("refused 30 3", "refused 30 9"));
+  EXPECT_THAT(recorded.news(), ElementsAre("refused 30 3", "refused 30 9"));
   records[0].stage = LoopStage::kAccepted;
   records.push_back(record(31, 4, LoopStage::kAccepted));
   feed.loops_decided(records);
-  EXPECT_THAT(heard.news(), ElementsAre("accepted 30 3", "accepted 31 4"));
+  EXPECT_THAT(recorded.news(), ElementsAre("accepted 30 3", "accepted 31 4"));
   feed.loops_decided(records);
-  EXPECT_THAT(heard.news(), IsEmpty());
+  EXPECT_THAT(recorded.news(), IsEmpty());
 }
 
 TEST(EventFeed, TellsWhatIsTakenUpNoMore) {
-  Heard heard;
-  EventFeed feed(&heard);
+  RecordedEvents recorded;
+  EventFeed feed(&recorded);
   PlaceMapper mapper = square();
   const std::vector<LoopRecord> records = {record(30, 3, LoopStage::kAccepted)};
   feed.take_up(mapper, records);
   feed.places_changed(mapper);
   feed.loops_decided(records);
-  EXPECT_THAT(heard.news(), IsEmpty());
+  EXPECT_THAT(recorded.news(), IsEmpty());
 }
 
 TEST(EventFeed, TellsFramesByWhetherTheyHaveAPose) {
-  Heard heard;
-  EventFeed feed(&heard);
+  RecordedEvents recorded;
+  EventFeed feed(&recorded);
   FrameResult frame;
   frame.frame = FrameId(7);
   feed.frame_done(frame);
   frame.T_map_cam = SE3();
   feed.frame_done(frame);
-  EXPECT_THAT(heard.news(), ElementsAre("lost 7 0", "posed 7 0"));
+  EXPECT_THAT(recorded.news(), ElementsAre("lost 7 0", "posed 7 0"));
 }
 
 TEST(EventFeed, IsSilentWithoutAListener) {

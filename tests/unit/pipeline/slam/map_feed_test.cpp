@@ -175,7 +175,7 @@ TEST(MapFeed, LandmarksOfATakenUpMapComeFirstAndIdsGoOn) {
     EXPECT_EQ(map.landmarks[i].id.value(), run.odometry.map().landmarks()[i - 2].id.value() + 10);
 }
 
-TEST(MapFeed, ATakenUpMapIsNotToldAgain) {
+TEST(MapFeed, AResumedMapIsNotReportedAgain) {
   System run;
   run.feed.take_up(earlier_map(), run.closer);
   run.add(true);

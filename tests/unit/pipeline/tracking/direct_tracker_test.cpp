@@ -80,7 +80,7 @@ TEST(DirectTracker, AlignsFramesWithTheSurfacesOfTheLastKeyframe) {
   EXPECT_FALSE(t.tracker.view(t.map, SE3()).surfaces.empty());
 }
 
-TEST(DirectTracker, TheFirstKeyframeStandsWhereItIsToldAndHasTheDepthOfItsSurfaces) {
+TEST(DirectTracker, TheFirstKeyframeIsAtItsGivenPoseAndHasTheDepthOfItsSurfaces) {
   Tracking t;
   t.map.restart(Scale::kMetric, 50);  // what another segment saw
   ASSERT_TRUE(t.keyframe(0, street_T_world_cam(0)));

@@ -111,7 +111,7 @@ TEST(PlaceClassifier, IsLessSureOfAViewBetweenTwoPlaces) {
             classifier.classify(view_of(0, random)).maxCoeff());
 }
 
-TEST(PlaceClassifier, RefusesLessonsItCannotLearnFrom) {
+TEST(PlaceClassifier, RefusesTrainingSetsItCannotLearnFrom) {
   Random random(5, 0);
   TrainingSet l = training_set(random);
   EXPECT_THROW((void)PlaceClassifier::train(l.views, {0, 1}, {}), ArgumentError);

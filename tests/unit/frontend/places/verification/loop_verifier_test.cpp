@@ -214,7 +214,7 @@ TEST(LoopVerifier, APlaneIsPlacedByItsHomography) {
   EXPECT_LT(angle_rad(result.T_match_query, kTruth), deg_to_rad(0.6));
 }
 
-TEST(LoopVerifier, ATurnAloneHasNoWayThatFewDepthsCouldMeasure) {
+TEST(LoopVerifier, APureRotationHasNoTranslationThatFewDepthsCouldMeasure) {
   Random random = seeded_random(105);
   PointScene scene = make_scene(kCamera, {SE3(), pose({0.03, -0.1, 0.05}, {0, 0, 0})}, 160, random);
   for (auto& px : scene.px) add_noise(px, 0.3, random);

@@ -77,7 +77,7 @@ TEST(GraphWorld, ALongLoopHasItsClosuresWhereItIsDrivenAgain) {
   }
 }
 
-TEST(GraphWorld, RotationNoiseTurnsOdometryAloneAndMovesTheStart) {
+TEST(GraphWorld, RotationNoiseRotatesOdometryAloneAndMovesTheStart) {
   LongLoopOptions options;
   options.poses = 50;
   options.closures = 2;
@@ -88,13 +88,13 @@ TEST(GraphWorld, RotationNoiseTurnsOdometryAloneAndMovesTheStart) {
   for (std::size_t i = 0; i < before.constraints.size(); ++i) {
     const auto& a = std::get<RelativePoseConstraint>(before.constraints[i]);
     const auto& b = std::get<RelativePoseConstraint>(after.constraints[i]);
-    const SE2 turn = std::get<SE2>(a.T_from_to).inverse() * std::get<SE2>(b.T_from_to);
+    const SE2 edge_difference = std::get<SE2>(a.T_from_to).inverse() * std::get<SE2>(b.T_from_to);
     EXPECT_EQ(a.information, b.information);
-    EXPECT_LT(turn.translation().norm(), 1e-12);
+    EXPECT_LT(edge_difference.translation().norm(), 1e-12);
     if (a.source == ConstraintSource::kLoop)
-      EXPECT_LT(std::abs(turn.rotation().angle()), 1e-12);
+      EXPECT_LT(std::abs(edge_difference.rotation().angle()), 1e-12);
     else
-      squares += std::pow(turn.rotation().angle(), 2);
+      squares += std::pow(edge_difference.rotation().angle(), 2);
   }
   EXPECT_NEAR(std::sqrt(squares / 49), 0.2, 0.08);  // four standard deviations of 49 draws
   expect_integrated<SE2>(after);

@@ -50,7 +50,7 @@ TEST(HashNoise, NeighbouringLatticeValuesAreUncorrelated) {
   EXPECT_NEAR(seeds, 0, tolerance);
 }
 
-TEST(HashNoise, StripesSeenThroughAWideFootprintTurnIntoTheirMean) {
+TEST(HashNoise, StripesSeenThroughAWideFootprintBecomeTheirMean) {
   for (const double x : {-17.3, 0.0, 0.4, 123.456}) {
     EXPECT_NEAR(periodic_pulse(x, 0.5F, 0.1F, 0.25F, 50.0F), 0.3, 0.005);
     EXPECT_NEAR(periodic_pulse(x, 0.5F, 0.1F, 0.25F, 1.0F), 0.3, 1e-4);  // two whole periods
