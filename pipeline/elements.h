@@ -33,6 +33,6 @@ void set_elements(const Elements& elements, RunOptions& options);
 /// Adds `manhattan` to the cues if points are among them, and enables plane landmarks from depth
 /// images, as `placegraph run --scene geometry` does. Throws ArgumentError for cues that
 /// OdometryOptions::check() rejects.
-void steady_for_plan(RunOptions& options);
+void enable_manhattan_and_planes(RunOptions& options);
 
 }  // namespace placegraph

@@ -121,7 +121,7 @@ json assumed_by(const StoredMap& stored, const RunOptions& options, const Explan
     assumed["environment"] = {{"kind", environment_name(*kind)},
                               {"heeded", options.slam.context.enabled},
                               {"ground_height", there.ground_height},
-                              {"manhattan_world", there.manhattan_frame_id},
+                              {"manhattan_world", there.manhattan_frame},
                               {"street_surfaces", there.street_surfaces}};
   }
   return assumed;

@@ -97,7 +97,7 @@ Georeference read_georeference(const std::string& folder, const Map& map) {
 void check_urban_models(const UrbanMapperOptions& options, const UrbanModelPaths& models) {
   const SceneModel urban = load_scene_model(SceneModel::Kind::kUrban, models.urban);
   (void)load_scene_model(SceneModel::Kind::kSurfaces, models.surfaces);
-  (void)moving_classes(options.observation.moving, urban);
+  (void)moving_classes(options.labelling.moving, urban);
 }
 
 UrbanMapper urban_mapper_of(const Map& map, const Calibration& calibration, const Dataset& dataset,

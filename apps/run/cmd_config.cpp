@@ -8,30 +8,50 @@
 #include "apps/support/output.h"
 
 namespace placegraph::apps {
+namespace {
+
+const std::map<std::string, OptionLevel> kLevels = {{"basic", OptionLevel::kBasic},
+                                                    {"advanced", OptionLevel::kAdvanced},
+                                                    {"internal", OptionLevel::kInternal}};
+
+struct ConfigCommand {
+  ConfigArguments arguments;
+  bool all = false, list = false, markdown = false;
+};
+
+void print_config(ConfigCommand& command) {
+  ConfigArguments& a = command.arguments;
+  if (command.all) a.level = OptionLevel::kInternal;
+  if (command.list) a.form = ConfigForm::kList;
+  if (command.markdown) a.form = ConfigForm::kMarkdown;
+  const std::string text = config(a);
+  if (a.out.empty()) print(text);
+}
+
+}  // namespace
 
 void add_config_command(CLI::App& app) {
-  auto arguments = std::make_shared<ConfigArguments>();
-  auto yaml = std::make_shared<bool>(false), markdown = std::make_shared<bool>(false);
-  ConfigArguments& a = *arguments;
-  CLI::App* command =
-      app.add_subcommand("config", "List every option of run, or write them as YAML");
-  command->footer("placegraph config --dump > my.yaml");
-  command->add_option("--config", a.config, "YAML file to start from instead of the defaults");
-  command->add_option("--set", a.settings, kSetText)
-      ->allow_extra_args(false);
-  auto* dump = command->add_flag("--dump", *yaml, "as YAML that --config takes back");
-  command->add_flag("--markdown", *markdown, "as docs/options.md")->excludes(dump);
-  command->add_option("--of", arguments->of, "whose options: run or flight")
+  auto config_command = std::make_shared<ConfigCommand>();
+  ConfigArguments& a = config_command->arguments;
+  CLI::App* command = app.add_subcommand("config", "Print the options of `run` as YAML");
+  command->footer("placegraph config --all > my.yaml");
+  command->add_option("--config", a.config, kConfigText);
+  command->add_option("--set", a.settings, kSetText)->allow_extra_args(false);
+  auto* all = command->add_flag("--all", config_command->all, "options of all levels");
+  command->add_option("--level", a.level, "last level: basic, advanced or internal")
+      ->transform(CLI::CheckedTransformer(kLevels))
+      ->default_str("basic")
+      ->excludes(all);
+  auto* list = command->add_flag("--list", config_command->list, "one option per line");
+  command->add_flag("--markdown", config_command->markdown, "all options as docs/options.md")
+      ->excludes(list)
+      ->excludes(all);
+  command->add_option("--of", a.of, "command whose options are printed")
       ->check(CLI::IsMember({"run", "flight"}))
       ->capture_default_str();
-  command->add_option("-o,--out", a.out, "write to a file instead of stdout");
+  command->add_option("-o,--out", a.out, "file to write instead of standard output");
   command->add_flag("--force", a.force, kForceText);
-  command->callback([arguments, yaml, markdown] {
-    if (*yaml) arguments->form = ConfigForm::kYaml;
-    if (*markdown) arguments->form = ConfigForm::kMarkdown;
-    const std::string text = config(*arguments);
-    if (arguments->out.empty()) print(text);
-  });
+  command->callback([config_command] { print_config(*config_command); });
 }
 
 }  // namespace placegraph::apps

@@ -9,6 +9,7 @@
 #include <algorithm>
 
 #include "apps/support/output.h"
+#include "apps/support/shipped_files.h"
 
 namespace placegraph::apps {
 namespace {
@@ -28,20 +29,36 @@ std::string plain_list(const std::vector<OptionEntry>& entries) {
   return text;
 }
 
-/// The options as they stand after the file and the settings, in the form asked for.
+/// The fields up to a level, with the groups that hold them.
+std::vector<OptionEntry> up_to(OptionLevel level, const std::vector<OptionEntry>& entries) {
+  std::vector<OptionEntry> kept;
+  for (const OptionEntry& entry : entries) {
+    while (!kept.empty() && kept.back().type == "group" &&
+           !entry.path.starts_with(kept.back().path + "."))
+      kept.pop_back();
+    if (entry.type == "group" || entry.level <= level) kept.push_back(entry);
+  }
+  while (!kept.empty() && kept.back().type == "group") kept.pop_back();
+  return kept;
+}
+
+/// The options after the file and the settings.
 template <class Options>
 std::string text_of(const ConfigArguments& arguments) {
   Options options;
-  if (!arguments.config.empty()) read_options(arguments.config, options);
-  for (const std::string& setting : arguments.settings) set_option(options, setting);
+  const LogSink notes = [](LogLevel, const std::string& message) { note(message); };
+  if (!arguments.config.empty()) read_options(config_path(arguments.config), options, notes);
+  for (const std::string& setting : arguments.settings) set_option(options, setting, notes);
   options.check();
-  if (arguments.form == ConfigForm::kYaml) return dump_options(options);
+  const std::vector<OptionEntry> entries = up_to(arguments.level, list_options(options));
+  if (arguments.form == ConfigForm::kYaml) return dump_options(entries);
   if (arguments.form == ConfigForm::kMarkdown)
     return "# Options of `placegraph " + arguments.of +
-           "`\n\nWritten by `placegraph config --markdown`; set them in a file (`--config`) or by "
-           "`--set key=value`.\n\n" +
-           options_markdown(options);
-  return plain_list(list_options(options));
+           "`\n\nWritten by `placegraph config --markdown`. Set them in a file (`--config`) or by `--set "
+           "key=value`. Levels: basic (what most runs set), advanced (to adapt the system to other "
+           "data), internal (constants of an algorithm).\n\n" +
+           options_markdown(list_options(options));
+  return plain_list(entries);
 }
 
 }  // namespace

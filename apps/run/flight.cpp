@@ -41,14 +41,16 @@ TimeSpan parse_span(const std::string& text) {
 
 FlightRunOptions flight_options(const FlightArguments& arguments, const ImuNoise& noise) {
   FlightRunOptions options;
-  PositionFilterOptions& filter = options.hover.filter;
+  PositionFilterOptions& filter = options.flight.filter;
   filter.gyro_noise = noise.gyro;
   filter.accel_noise = noise.accel;
   filter.gyro_bias_walk = noise.gyro_bias_walk;
   filter.accel_bias_walk = noise.accel_bias_walk;
-  if (!arguments.config.empty()) read_options(arguments.config, options.hover);
-  for (const std::string& setting : arguments.settings) set_option(options.hover, setting);
-  options.hover.check();
+  const LogSink notes = [](LogLevel, const std::string& message) { note(message); };
+  if (!arguments.config.empty())
+    read_options(config_path(arguments.config), options.flight, notes);
+  for (const std::string& setting : arguments.settings) set_option(options.flight, setting, notes);
+  options.flight.check();
   constexpr double kForever_s = 1e12;
   for (const std::string& text : arguments.blind) options.blind.push_back(parse_span(text));
   if (arguments.markers_until_s) {

@@ -62,14 +62,14 @@ Flown fly(const FlightArguments& arguments, const Flight& flight) {
   }
   if (arguments.smooth) {
     const Stopwatch smoothing;
-    flown.smoothed = smooth_flight(flown.run, flight.imu, body.T_body_cam, flight.options.hover);
+    flown.smoothed = smooth_flight(flown.run, flight.imu, body.T_body_cam, flight.options.flight);
     summary["smoother_cpu_ms_per_frame"] = smoothing.cpu_ms() / frames;
     if (!flight.truth.empty())
       summary["smoother"] = describe_smoother(flight.truth, flown.run, flown.smoothed);
   }
   if (arguments.map_markers) {
     flown.map = map_flight_markers(*body.images, flown.run, body.T_body_cam, flight.layout,
-                                   flight.options.hover);
+                                   flight.options.flight);
     summary["marker_map"] = describe_marker_map(*flown.map, flight.layout, flight.true_layout);
   }
   summary["peak_mb"] = peak_mb();

@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "apps/support/output.h"
+#include "apps/support/shipped_files.h"
 
 namespace placegraph::apps {
 namespace {
@@ -31,9 +32,12 @@ void set_scene(const std::string& list, SceneOptions& options) {
 /// A run that was broken off goes on with the sequence and the options it was begun with; takes
 /// them into `arguments`. Throws ArgumentError where a flag says otherwise.
 RunOptions options_of_resumed(RunArguments& arguments) {
+  if (fs::path(arguments.resume).filename() == "map.db")
+    arguments.resume = fs::path(arguments.resume).parent_path().string();
+  if (arguments.resume.empty()) arguments.resume = ".";
   require(arguments.out.empty() ||
               fs::weakly_canonical(arguments.out) == fs::weakly_canonical(arguments.resume),
-          "--out: a run that goes on writes into the folder it is resumed from");
+          "--out: a resumed run writes into its own folder");
   arguments.out = arguments.resume;
   const std::string path = run_map_path(arguments.resume);
   if (!fs::exists(path))
@@ -65,9 +69,10 @@ RunOptions run_options(const RunArguments& arguments, RunOptions options) {
   if (arguments.scene) set_scene(*arguments.scene, options.scene);
   // What a plan asks of the motion gives way to all that is said of it.
   const bool begins = arguments.resume.empty();
-  if (arguments.scene && options.scene.geometry && begins) steady_for_plan(options);
-  if (!arguments.config.empty()) read_options(arguments.config, options);
-  for (const std::string& setting : arguments.settings) set_option(options, setting);
+  if (arguments.scene && options.scene.geometry && begins) enable_manhattan_and_planes(options);
+  const LogSink notes = [](LogLevel, const std::string& message) { note(message); };
+  if (!arguments.config.empty()) read_options(config_path(arguments.config), options, notes);
+  for (const std::string& setting : arguments.settings) set_option(options, setting, notes);
   if (arguments.sensor) set_option(options, "sensor=" + *arguments.sensor);
   if (arguments.elements) set_elements(parse_elements(*arguments.elements), options);
   if (arguments.scene) set_scene(*arguments.scene, options.scene);

@@ -34,7 +34,7 @@ SyntheticOptions world_options(const SynthArguments& arguments) {
 }
 
 SequenceWriterOptions writer_options(const SynthArguments& arguments, const SyntheticWorld& world) {
-  require(!world.hover() || !(arguments.stereo || arguments.depth || arguments.labels),
+  require(!world.flight_setting() || !(arguments.stereo || arguments.depth || arguments.labels),
           "hover: has one eye, --stereo, --depth and --labels are for other worlds");
   SequenceWriterOptions writer;
   writer.threads = arguments.threads > 0
@@ -67,7 +67,7 @@ SynthResult synth(const SynthArguments& arguments) {
   const SequenceWriterOptions writer = writer_options(arguments, world);
   {
     Progress progress("rendering " + world.name(), static_cast<std::int64_t>(world.size()));
-    const auto write = world.hover() ? write_flight : write_sequence;
+    const auto write = world.flight_setting() ? write_flight : write_sequence;
     write(world, arguments.out, writer,
           [&](std::size_t done) { progress.update(static_cast<std::int64_t>(done)); });
   }

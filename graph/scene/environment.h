@@ -27,7 +27,7 @@ struct Assumptions {
   /// The camera is at its known height above a ground plane that fills the image ahead of it.
   bool ground_height = true;
   /// Edges are parallel to the axes of a Manhattan frame.
-  bool manhattan_frame_id = true;
+  bool manhattan_frame = true;
   /// A labelling trained on streets recognizes the surfaces: sky, ground, objects that may move.
   bool street_surfaces = true;
 };

@@ -111,7 +111,7 @@ struct ManhattanCueOptions {
   /// Detection of straight edges.
   SegmentDetectorOptions segments{.min_length_px = 20, .merging = {}, .refinement = {}};
   SceneDirectionOptions directions;  ///< detection of vanishing points and Manhattan frames
-  ManhattanFrameOptions worlds;      ///< tracking of Manhattan frames in the sliding window
+  ManhattanFrameOptions frames;      ///< tracking of Manhattan frames in the sliding window
   int max_width_px = 800;    ///< image width above which images are halved before edge detection
   double max_sigma_deg = 1;  ///< maximum standard deviation of a used frame about any axis
   /// Number of inliers below which a frame between keyframes also takes its rotation from Manhattan

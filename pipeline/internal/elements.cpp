@@ -56,7 +56,7 @@ void set_elements(const Elements& elements, RunOptions& options) {
   options.slam.semantics.enabled = options.scene.semantics = elements.semantics;
 }
 
-void steady_for_plan(RunOptions& options) {
+void enable_manhattan_and_planes(RunOptions& options) {
   OdometryOptions& odometry = options.slam.odometry;
   const Cues cues = parse_cues(odometry.cues);
   if (cues.points && !cues.manhattan) odometry.cues += ",manhattan";

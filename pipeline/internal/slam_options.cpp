@@ -3,25 +3,25 @@
 namespace placegraph {
 
 void visit(OptionVisitor& field, KeyframeViewOptions& o) {
-  field("enabled", o.enabled, "store the appearance of keyframes, for placegraph localize");
-  field.group("cues", o.cues, "descriptors of the stored appearance");
+  field.basic()("enabled", o.enabled, "store the appearance of keyframes, for placegraph localize");
+  field.internal().group("cues", o.cues, "descriptors of the stored appearance");
 }
 
 void visit(OptionVisitor& field, SceneUseOptions& o) {
-  field("enabled", o.enabled, "label the surfaces of keyframes, for odometry and places");
+  field.basic()("enabled", o.enabled, "label the surfaces of keyframes, for odometry and places");
   field.group("masks", o.masks, "labels whose pixels are excluded from tracking");
 }
 
 void visit(OptionVisitor& field, ContextOptions& o) {
-  field("enabled", o.enabled, "classify the environment of keyframes and label places with it");
-  field("assume", o.assume, "rely only on cues that usually hold in the environment");
-  field.group("filter", o.filter, "smoothing of the environment class over consecutive keyframes");
+  field.basic()("enabled", o.enabled, "classify the environment of keyframes and label places with it");
+  field.basic()("assume", o.assume, "rely only on cues that usually hold in the environment");
+  field.internal().group("filter", o.filter, "smoothing of the environment class over consecutive keyframes");
 }
 
 void SlamOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, SlamOptions& o) {
-  field("seed", o.seed, "seed of all random number generators");
+  field.basic()("seed", o.seed, "seed of all random number generators");
   field.group("odometry", o.odometry, "visual odometry over a sliding window");
   field.group("loops", o.loops, "place recognition and loop closure");
   field.group("places", o.places, "topological places");
@@ -29,7 +29,7 @@ void visit(OptionVisitor& field, SlamOptions& o) {
   field.group("views", o.views, "stored appearance of keyframes, for placegraph localize");
   field.group("semantics", o.semantics, "surface labels for odometry and place recognition");
   field.group("context", o.context, "environment class and the assumptions that follow from it");
-  field("max_lost_frames", o.max_lost_frames,
+  field.basic()("max_lost_frames", o.max_lost_frames,
         "consecutive lost frames after which a new component of the map begins", {1, 1000000});
 }
 

@@ -45,7 +45,7 @@ struct OdometryOptions {
   ManhattanCueOptions manhattan;
   PlaneLandmarkOptions planes;  ///< planes in depth images as landmarks
   /// Direct alignment, where `plane` is the only cue or `direct` is among them.
-  DirectCueOptions surfaces;
+  DirectCueOptions direct;
   KeyframeOptions keyframe;  ///< criteria for a new keyframe
   /// Bundle adjustment over the last keyframes.
   SlidingWindowOptions window{.max_keyframes = 10, .relative_decrease = 1e-3};

@@ -38,7 +38,7 @@ void visit(OptionVisitor& field, GpsAlignmentOptions& o) {
         "how far drift may have bent the map, in percent of the length of the way", {0, 100});
   field("max_angle_sigma_deg", o.max_angle_sigma_deg,
         "no answer if a rotation of the map is less certain than this", {1e-6, 180});
-  field.group("ransac", o.ransac, "search for fixes that agree");
+  field.internal().group("ransac", o.ransac, "search for fixes that agree");
 }
 
 }  // namespace placegraph

@@ -14,7 +14,7 @@ void visit(OptionVisitor& field, PositionFilterOptions& o) {
         {0.5, 0.999999});
   field("history_s", o.history_s, "measurements that come later than that are refused", {0, 60});
   field("max_prediction_s", o.max_prediction_s, "beyond the last inertial sample", {0, 10});
-  field("ahead_rotation_rad_s2", o.ahead_rotation_rad_s2,
+  field.formerly("ahead_turn_rad_s2")("ahead_rotation_rad_s2", o.ahead_rotation_rad_s2,
         "angular acceleration beyond the last sample", {0, 1000});
   field("ahead_push_m_s3", o.ahead_push_m_s3, "change of the force beyond the last sample",
         {0, 1000});

@@ -60,7 +60,7 @@ void visit(OptionVisitor& field, PoseGraphOptions& o) {
   field.choice("engine", o.engine, {"native", "ceres"}, "which solver finds the minimum");
   field.choice("step_rule", o.step_rule, {"dogleg", "gauss_newton", "levenberg_marquardt"},
                "how the native engine steps");
-  field.choice("start", o.start, {"auto", "file", "odometry", "chordal", "certified"},
+  field.formerly("start").choice("initialization", o.start, {"auto", "file", "odometry", "chordal", "certified"},
                "where the descent begins; auto: the cheapest start whose minimum can be trusted");
   field("max_iterations", o.max_iterations, "steps of the descent at most", {1, 100000});
   field("relative_decrease", o.relative_decrease,

@@ -114,7 +114,7 @@ void visit(OptionVisitor& field, PlaneTrackerOptions& o) {
   field("back_px", o.back_px, "maximum forward-backward error of a template found again [px]",
         {0.01, 100});
   field.group("finder", o.finder, "search by point features");
-  field("key_similarity", o.key_similarity,
+  field.formerly("key_likeness")("key_similarity", o.key_similarity,
         "minimum similarity of a view that becomes the second template", {0, 1});
   field("key_interval", o.key_interval, "minimum number of frames between second templates",
         {1, 1000000});

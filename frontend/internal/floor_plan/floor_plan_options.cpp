@@ -59,7 +59,7 @@ void visit(OptionVisitor& field, SkirtingLineOptions& o) {
 void visit(OptionVisitor& field, WallFinderOptions& o) {
   field("max_sigma_m", o.max_sigma_m, "maximum standard deviation of a point that is used",
         {0.001, 10});
-  field("max_rotation_deg", o.max_rotation_deg,
+  field.formerly("max_turn_deg")("max_rotation_deg", o.max_rotation_deg,
         "maximum angle between the normals of a point and its wall", {1, 44});
   field("band_m", o.band_m, "half the thickness of a set of points that counts as one plane",
         {0.02, 1});

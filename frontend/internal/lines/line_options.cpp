@@ -38,7 +38,7 @@ void visit(OptionVisitor& field, SegmentFlowOptions& o) {
   field("iterations", o.iterations, "Gauss-Newton iterations on each level", {1, 50});
   field("robust_grey", o.robust_grey, "width of the Huber kernel on residuals [grey levels of 255]",
         {1, 255});
-  field("max_rotation_deg", o.max_rotation_deg,
+  field.formerly("max_turn_deg")("max_rotation_deg", o.max_rotation_deg,
         "maximum rotation from the predicted direction [deg]", {1, 60});
 }
 
@@ -131,10 +131,10 @@ void visit(OptionVisitor& field, LineStereoOptions& o) {
 }
 
 void visit(OptionVisitor& field, LineTriangulationOptions& o) {
-  field("min_rotation_deg", o.min_rotation_deg,
+  field.formerly("min_turn_deg")("min_rotation_deg", o.min_rotation_deg,
         "minimum angle between the planes through the line and two camera centres [deg]",
         {0.01, 45});
-  field("min_rotation_sigmas", o.min_rotation_sigmas,
+  field.formerly("min_turn_sigmas")("min_rotation_sigmas", o.min_rotation_sigmas,
         "minimum ratio of that angle to its standard deviation", {1, 1000});
   field("max_error_sigmas", o.max_error_sigmas,
         "maximum residual of an observation [standard deviations]", {1, 1000});
@@ -143,7 +143,7 @@ void visit(OptionVisitor& field, LineTriangulationOptions& o) {
 void PoseFromLinesOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, PoseFromLinesOptions& o) {
-  field.group("ransac", o.ransac, "three-line hypotheses");
+  field.internal().group("ransac", o.ransac, "three-line hypotheses");
   field("threshold_px", o.threshold_px, "maximum distance of an inlier from its projection [px]",
         {0.1, 50});
   field("prior_inlier_ratio", o.prior_inlier_ratio,
@@ -157,10 +157,10 @@ void LineInitializerOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, LineInitializerOptions& o) {
   field.group("directions", o.directions, "vanishing points of the first image, for the rotations");
-  field.group("ransac", o.ransac, "five-line hypotheses of the translations");
+  field.internal().group("ransac", o.ransac, "five-line hypotheses of the translations");
   field("threshold_px", o.threshold_px,
         "maximum residual in the middle image of a line from the others [px]", {0.1, 50});
-  field("min_rotation_deg", o.min_rotation_deg,
+  field.formerly("min_turn_deg")("min_rotation_deg", o.min_rotation_deg,
         "minimum rotation of a line's plane for use in the translation [deg]", {0.01, 45});
   field("min_lines", o.min_lines,
         "minimum number of lines tracked from the first to the last image", {6, 1000});

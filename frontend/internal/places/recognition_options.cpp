@@ -52,7 +52,7 @@ void LoopTwoViewOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, LoopTwoViewOptions& o) {
   field.group("pose", o.pose, "essential matrix or homography");
-  field.group("turn", o.rotation, "views that differ by a rotation alone");
+  field.formerly("turn").group("rotation", o.rotation, "views that differ by a rotation alone");
   field("min_parallax_px", o.min_parallax_px,
         "minimum median displacement beyond that of the rotation", {0.1, 1000});
   field("min_depths", o.min_depths, "minimum number of known depths that agree on the baseline",
@@ -84,7 +84,7 @@ void PlaceRecognizerOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, PlaceRecognizerOptions& o) {
   field.group("cues", o.cues, "cues by which views are compared, and their weights");
-  field("shortlisted", o.shortlisted, "number of views that pass the first comparison", {1, 1e6});
+  field.formerly("glanced")("shortlisted", o.shortlisted, "number of views that pass the first comparison", {1, 1e6});
   field("short_list", o.short_list, "number of views that are compared in full", {1, 1e6});
   field("verified", o.verified,
         "number of views, best by all other cues, whose corners are compared", {0, 1e6});

@@ -86,7 +86,7 @@ void visit(OptionVisitor& field, GroundPlaneOptions& o) {
 void InverseDepthPlaneOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, InverseDepthPlaneOptions& o) {
-  field.group("ransac", o.ransac, "three-pixel hypotheses");
+  field.internal().group("ransac", o.ransac, "three-pixel hypotheses");
   field("threshold_sigmas", o.threshold_sigmas,
         "maximum residual of an inlier, in standard deviations", {0.5, 20});
   field("max_sigma_deg", o.max_sigma_deg, "maximum standard deviation of the normal", {0.01, 45});

@@ -86,7 +86,7 @@ CloudPoint cloud_point(const Camera& camera, const Eigen::Vector2d& px, double i
 void Pose3d3dOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, Pose3d3dOptions& o) {
-  field.group("ransac", o.ransac, "three-point hypotheses");
+  field.internal().group("ransac", o.ransac, "three-point hypotheses");
   field("threshold_sigmas", o.threshold_sigmas, "maximum error of an inlier [standard deviations]",
         {0.5, 20});
 }

@@ -114,7 +114,7 @@ SE3 refine(const LevelViews& views, const std::vector<int>& indices, const SE3& 
 void GravityPoseOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, GravityPoseOptions& o) {
-  field.group("ransac", o.ransac, "three-point hypotheses");
+  field.internal().group("ransac", o.ransac, "three-point hypotheses");
   field("threshold_px", o.threshold_px, "maximum Sampson error of an inlier [px]", {0.1, 20});
   field("sigma_gravity_deg", o.sigma_gravity_deg,
         "standard deviation of each view's vertical [deg]", {1e-4, 10});

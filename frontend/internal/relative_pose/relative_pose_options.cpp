@@ -5,7 +5,7 @@ namespace placegraph {
 void Pose3d2dOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, Pose3d2dOptions& o) {
-  field.group("ransac", o.ransac, "three-point hypotheses");
+  field.internal().group("ransac", o.ransac, "three-point hypotheses");
   field("threshold_px", o.threshold_px, "maximum reprojection error of an inlier [px]", {0.1, 50});
   field("prior_inlier_ratio", o.prior_inlier_ratio,
         "share of inliers of the predicted pose that makes RANSAC unnecessary; >1: never",
@@ -15,7 +15,7 @@ void visit(OptionVisitor& field, Pose3d2dOptions& o) {
 void Pose2d2dOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, Pose2d2dOptions& o) {
-  field.group("ransac", o.ransac, "five-point and four-point hypotheses");
+  field.internal().group("ransac", o.ransac, "five-point and four-point hypotheses");
   field("threshold_px", o.threshold_px,
         "maximum epipolar distance or transfer error of an inlier [px]", {0.1, 20});
   field("homography_share", o.homography_share,
@@ -25,7 +25,7 @@ void visit(OptionVisitor& field, Pose2d2dOptions& o) {
 void Rotation2d2dOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, Rotation2d2dOptions& o) {
-  field.group("ransac", o.ransac, "two-point hypotheses");
+  field.internal().group("ransac", o.ransac, "two-point hypotheses");
   field("threshold_px", o.threshold_px,
         "maximum distance of an inlier from its rotated position [px]", {0.1, 20});
   field("min_inlier_share", o.min_inlier_share,

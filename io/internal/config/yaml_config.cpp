@@ -346,6 +346,8 @@ void OptionAssignment::finish(const std::vector<OptionEntry>& known, const LogSi
 
 namespace {
 
+constexpr const char* kLevelNames[] = {"basic", "advanced", "internal"};
+
 std::string describe_domain(const OptionEntry& entry) {
   if (!entry.choices.empty()) return fmt::format("{}", fmt::join(entry.choices, " | "));
   const bool below = std::isfinite(entry.range.min), above = std::isfinite(entry.range.max);
@@ -400,10 +402,11 @@ std::string options_markdown(const std::vector<OptionEntry>& entries) {
       group = parent;
       table = false;
     }
-    if (!table) text += "\n| key | default | range | meaning |\n|---|---|---|---|\n";
+    if (!table) text += "\n| key | default | range | level | meaning |\n|---|---|---|---|---|\n";
     table = true;
-    text += fmt::format("| `{}` | `{}` | {} | {} |\n", entry.path, escaped_for_table(entry.value),
-                        escaped_for_table(describe_domain(entry)), escaped_for_table(entry.doc));
+    text += fmt::format("| `{}` | `{}` | {} | {} | {} |\n", entry.path,
+                        escaped_for_table(entry.value), escaped_for_table(describe_domain(entry)),
+                        kLevelNames[static_cast<int>(entry.level)], escaped_for_table(entry.doc));
   }
   return text;
 }

@@ -5,19 +5,19 @@ namespace placegraph {
 void GroundPlaneScaleOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, GroundPlaneScaleOptions& o) {
-  field.group("plane", o.plane, "direct alignment of the ground");
-  field("enabled", o.enabled, "use the ground plane where the camera height is known");
+  field.internal().group("plane", o.plane, "direct alignment of the ground");
+  field.basic()("enabled", o.enabled, "use the ground plane where the camera height is known");
   field("sigma_relative", o.sigma_relative,
         "relative standard deviation of one scale, beyond that of the alignment", {0, 1});
-  field("max_log_jump", o.max_log_jump,
+  field.internal()("max_log_jump", o.max_log_jump,
         "maximum distance of a used scale from the median of the last five (logarithm)", {0.01, 5});
   field("mounting_sigma_deg", o.mounting_sigma_deg,
         "initial standard deviation of the camera's pitch and roll [deg]", {0.01, 45});
   field("pitching_sigma_deg", o.pitching_sigma_deg,
         "standard deviation of one frame's pitch and roll about their mean [deg]", {0.01, 45});
-  field("mounting_drift_deg", o.mounting_drift_deg,
+  field.internal()("mounting_drift_deg", o.mounting_drift_deg,
         "random walk of mean pitch and roll per measurement [deg]", {0, 10});
-  field("level_sigma_deg", o.level_sigma_deg,
+  field.internal()("level_sigma_deg", o.level_sigma_deg,
         "standard deviation of a level floor's normal, beyond that of the edges [deg]",
         {0.001, 45});
   field("min_baseline_heights", o.min_baseline_heights,
@@ -27,12 +27,12 @@ void visit(OptionVisitor& field, GroundPlaneScaleOptions& o) {
 void FloorLineScaleOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, FloorLineScaleOptions& o) {
-  field.group("floor", o.floor, "selection of the lines on the floor");
+  field.internal().group("floor", o.floor, "selection of the lines on the floor");
   field("sigma_relative", o.sigma_relative,
         "relative standard deviation of one height, beyond that of its lines", {0, 1});
-  field("max_log_jump", o.max_log_jump,
+  field.internal()("max_log_jump", o.max_log_jump,
         "maximum distance of a used scale from the median of the last five (logarithm)", {0.01, 5});
-  field("max_sigma_at_first", o.max_sigma_at_first,
+  field.internal()("max_sigma_at_first", o.max_sigma_at_first,
         "maximum relative standard deviation of the height for the first scale", {0.001, 1});
 }
 
@@ -40,18 +40,18 @@ void LineCueOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, LineCueOptions& o) {
   field.group("tracker", o.tracker, "tracking of lines");
-  field.group("stereo", o.stereo, "matching of lines in the right image");
-  field.group("triangulation", o.triangulation, "conditions for the triangulation of a line");
-  field.group("pose", o.pose, "pose of a frame from lines");
-  field.group("start", o.start, "first keyframes of a monocular camera without points");
+  field.internal().group("stereo", o.stereo, "matching of lines in the right image");
+  field.internal().group("triangulation", o.triangulation, "conditions for the triangulation of a line");
+  field.internal().group("pose", o.pose, "pose of a frame from lines");
+  field.internal().formerly("start").group("initialization", o.start, "first keyframes of a monocular camera without points");
   field.group("floor", o.floor, "metric scale from lines on the floor, without points");
-  field("sigma_floor_px", o.sigma_floor_px, "minimum standard deviation across a line [px]",
+  field.internal()("sigma_floor_px", o.sigma_floor_px, "minimum standard deviation across a line [px]",
         {0.01, 10});
-  field("similar_observations", o.similar_observations,
+  field.internal().formerly("alike_sightings")("similar_observations", o.similar_observations,
         "observations of an edge in the window that count as one independent one", {1, 1000});
-  field("min_rotation_steered_deg", o.min_rotation_steered_deg,
+  field.internal().formerly("min_turn_steered_deg")("min_rotation_steered_deg", o.min_rotation_steered_deg,
         "triangulation.min_rotation_deg where directions provide the rotation [deg]", {0.01, 45});
-  field("stay_frames", o.stay_frames,
+  field.internal()("stay_frames", o.stay_frames,
         "prediction horizon in which a preferred new edge stays in the image [frames]", {0, 100});
   field("outlier_px", o.outlier_px, "residual above which a line is removed [px]", {0.5, 100});
 }
@@ -65,30 +65,30 @@ void visit(OptionVisitor& field, ManhattanFrameOptions& o) {
         "standard deviation in a new keyframe, beyond the window's covariance [deg]", {1e-3, 10});
   field("persistence", o.persistence,
         "keyframes of the window that must observe a new Manhattan frame", {1, 1000});
-  field("max_frames", o.max_frames, "maximum number; the one unobserved for longest is removed",
+  field.formerly("max_worlds")("max_frames", o.max_frames, "maximum number; the one unobserved for longest is removed",
         {1, 100});
 }
 
 void ManhattanCueOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, ManhattanCueOptions& o) {
-  field.group("segments", o.segments, "detection of straight edges");
-  field.group("directions", o.directions, "detection of vanishing points and Manhattan frames");
-  field.group("manhattan_frames", o.manhattan_frames, "Manhattan frames of the sliding window");
+  field.internal().group("segments", o.segments, "detection of straight edges");
+  field.internal().group("directions", o.directions, "detection of vanishing points and Manhattan frames");
+  field.internal().formerly("worlds").group("frames", o.frames, "Manhattan frames of the sliding window");
   field("max_width_px", o.max_width_px, "image width above which images are halved first [px]",
         {16, 1e5});
   field("max_sigma_deg", o.max_sigma_deg, "maximum standard deviation of used directions [deg]",
         {0.01, 30});
-  field("few_points", o.few_points,
+  field.internal()("few_points", o.few_points,
         "inliers below which frames also take their rotation from Manhattan frames", {0, 1e6});
 }
 
 void PlaneLandmarkOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, PlaneLandmarkOptions& o) {
-  field("enabled", o.enabled, "planes in the depth images of keyframes as landmarks");
-  field.group("depth", o.depth, "detection of planes in a depth image");
-  field("correlation", o.correlation, "number of neighbouring keyframes that count as one",
+  field.basic()("enabled", o.enabled, "planes in the depth images of keyframes as landmarks");
+  field.internal().group("depth", o.depth, "detection of planes in a depth image");
+  field.internal()("correlation", o.correlation, "number of neighbouring keyframes that count as one",
         {1, 1000});
   field("drift_deg", o.drift_deg,
         "standard deviation of a normal, beyond the window's covariance [deg]", {0, 10});
@@ -104,25 +104,25 @@ void visit(OptionVisitor& field, PlaneLandmarkOptions& o) {
 void DirectCueOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, DirectCueOptions& o) {
-  field.group("surface", o.surface, "ground under a vehicle, from depths");
-  field.group("planes", o.planes, "fit of planes to the depths of the whole image");
-  field.group("align", o.align, "direct alignment of surfaces");
+  field.internal().group("surface", o.surface, "ground under a vehicle, from depths");
+  field.internal().group("planes", o.planes, "fit of planes to the depths of the whole image");
+  field.internal().group("align", o.align, "direct alignment of surfaces");
   field("depths", o.depths, "number of depths measured over the image to find planes",
         {50, 1000000});
   field("max_planes", o.max_planes, "maximum number of planes aligned at once", {1, 50});
   field("min_plane_share", o.min_plane_share, "minimum share of the depths that support a plane",
         {0, 1});
-  field("evenness_distance", o.evenness_distance,
+  field.internal()("evenness_distance", o.evenness_distance,
         "minimum relative standard deviation of a plane's distance", {0, 1});
-  field("evenness_deg", o.evenness_deg, "minimum standard deviation of a plane's normal [deg]",
+  field.internal()("evenness_deg", o.evenness_deg, "minimum standard deviation of a plane's normal [deg]",
         {0, 45});
-  field("nodding_deg", o.nodding_deg,
+  field.internal()("nodding_deg", o.nodding_deg,
         "standard deviation of pitch and roll about their mean; monocular [deg]", {0, 45});
-  field("sigma_height", o.sigma_height,
+  field.internal()("sigma_height", o.sigma_height,
         "relative standard deviation of the camera height; monocular", {1e-4, 1});
   field("keyframe_share", o.keyframe_share,
         "share of the samples in view or inlying below which a keyframe is created", {0, 1});
-  field("max_disagreement", o.max_disagreement,
+  field.internal()("max_disagreement", o.max_disagreement,
         "maximum difference of forward and backward motion, in standard deviations", {0.1, 1000});
 }
 

@@ -47,7 +47,7 @@ ManhattanCue::ManhattanCue(const ManhattanCueOptions& options, const Camera& cam
       camera_(camera),
       seed_(seed),
       log_(std::move(log)),
-      manhattan_frames_(options.manhattan_frames) {
+      manhattan_frames_(options.frames) {
   options_.check();
 }
 

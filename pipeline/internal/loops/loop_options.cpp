@@ -5,21 +5,21 @@ namespace placegraph {
 void LoopOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, LoopOptions& o) {
-  field("enabled", o.enabled, "detect loop closures");
+  field.basic()("enabled", o.enabled, "detect loop closures");
   field.group("detector", o.detector, "features of a keyframe");
-  field.group("database", o.database, "retrieval by visual words");
-  field.group("verifier", o.verifier, "geometric verification");
-  field("min_frame_gap", o.min_frame_gap,
+  field.internal().group("database", o.database, "retrieval by visual words");
+  field.internal().group("verifier", o.verifier, "geometric verification");
+  field.basic()("min_frame_gap", o.min_frame_gap,
         "minimum number of frames between two keyframes of a loop", {1, 1e6});
-  field("candidates", o.candidates, "maximum number of keyframes retrieved and verified per query",
+  field.basic()("candidates", o.candidates, "maximum number of keyframes retrieved and verified per query",
         {1, 100});
-  field("min_similarity", o.min_similarity,
+  field.basic()("min_similarity", o.min_similarity,
         "minimum similarity of a candidate, as a share of that of the previous keyframe", {0, 10});
-  field("support_window", o.support_window, "keyframes within which a second loop must agree",
+  field.internal()("support_window", o.support_window, "keyframes within which a second loop must agree",
         {1, 1000});
-  field("support_translation", o.support_translation,
+  field.internal()("support_translation", o.support_translation,
         "maximum disagreement of two loops over (median depth + path length)", {0.001, 10});
-  field("support_angle_deg", o.support_angle_deg,
+  field.internal()("support_angle_deg", o.support_angle_deg,
         "maximum disagreement of two loops in rotation [deg]", {0.01, 180});
   field("drift_translation", o.drift_translation,
         "assumed odometry drift over (median depth + path length)", {0.001, 10});
@@ -27,7 +27,7 @@ void visit(OptionVisitor& field, LoopOptions& o) {
         "assumed rotation drift per median depth of path length [deg]", {0.001, 180});
   field("drift_scale", o.drift_scale,
         "assumed monocular scale drift (logarithm) per median depth of path length", {0, 10});
-  field("information_scale", o.information_scale,
+  field.internal()("information_scale", o.information_scale,
         "factor on a loop's information, because feature noise is correlated", {1e-6, 1});
 }
 

@@ -20,7 +20,7 @@ void MapLearnerOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, MapLearnerOptions& o) {
   field.group("cues", o.cues, "descriptors that distinguish places, and their weights");
-  field("similar", o.similar, "share of the similarity of neighbours below which a place ends",
+  field.formerly("alike")("similar", o.similar, "share of the similarity of neighbours below which a place ends",
         {0, 1});
 }
 

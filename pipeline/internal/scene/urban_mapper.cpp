@@ -19,7 +19,7 @@ UrbanMapper::UrbanMapper(const UrbanMapperOptions& options, const Calibration& c
   calibration_.check();
   require(urban_.kind == SceneModel::Kind::kUrban && surfaces_.kind == SceneModel::Kind::kSurfaces,
           "urban mapper: a model of urban classes and one of surfaces are needed");
-  (void)moving_classes(options_.observation.moving, urban_);
+  (void)moving_classes(options_.labelling.moving, urban_);
 }
 
 void UrbanMapper::add(KeyframeId keyframe, const Frame& frame, const SE3& T_map_cam) {
@@ -30,7 +30,7 @@ void UrbanMapper::add(KeyframeId keyframe, const Frame& frame, const SE3& T_map_
   KeyframeSemantics observation =
       see_street(frame.colour.empty() ? frame.image : frame.colour, depth, camera,
                  calibration_.baseline_m, calibration_.camera_height_m.value_or(0), urban_,
-                 surfaces_, options_.observation)
+                 surfaces_, options_.labelling)
           .observation;
   observation.keyframe = keyframe;
   if (options_.residuals) drop_seen_through(observation, depth, T_map_cam);

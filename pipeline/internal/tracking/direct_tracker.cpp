@@ -49,11 +49,11 @@ class BestAlignment {
 
 DirectTracker::DirectTracker(const OdometryOptions& options, const Calibration& calibration,
                              std::uint64_t seed, LogSink log, StageTimes& times)
-    : options_(options.surfaces),
+    : options_(options.direct),
       max_interval_(options.keyframe.max_interval),
       log_(std::move(log)),
       times_(times),
-      surfaces_(options.surfaces, calibration, options.stereo, parse_cues(options.cues).direct) {
+      surfaces_(options.direct, calibration, options.stereo, parse_cues(options.cues).direct) {
   if (parse_cues(options.cues).manhattan)
     manhattan_.emplace(options.manhattan, calibration.camera, seed, log_);
 }

@@ -25,7 +25,7 @@ FeatureTracker::FeatureTracker(const OdometryOptions& options, const Calibration
   if (lines_ && !cues_.points && !metric) lines_->use_compass();
   if (cues_.manhattan) manhattan_.emplace(options.manhattan, calibration.camera, seed_, log_);
   if (options.planes.enabled && calibration.depth) planes_.emplace(options.planes, log_);
-  if (cues_.direct) surfaces_.emplace(options.surfaces, calibration, options.stereo);
+  if (cues_.direct) surfaces_.emplace(options.direct, calibration, options.stereo);
 }
 
 void FeatureTracker::reset() {
@@ -209,8 +209,8 @@ Outcome FeatureTracker::enough_to_begin(const LocalMap& map) const {
 }
 
 void FeatureTracker::assume(const std::optional<Assumptions>& assumptions) {
-  manhattan_trusted_ = !assumptions || assumptions->manhattan_frame_id;
-  if (assumptions && assumptions->manhattan_frame_id && !manhattan_ && cues_.points)
+  manhattan_trusted_ = !assumptions || assumptions->manhattan_frame;
+  if (assumptions && assumptions->manhattan_frame && !manhattan_ && cues_.points)
     manhattan_.emplace(options_.manhattan, calibration_.camera, seed_, log_);
 }
 

@@ -27,7 +27,7 @@ TEST(Environment, TrustsLabelsOfStreetsOutdoorsOnly) {
   EXPECT_TRUE(assumptions_of(Environment::kRoad).street_surfaces);
   EXPECT_FALSE(assumptions_of(Environment::kCorridor).street_surfaces);
   EXPECT_FALSE(assumptions_of(Environment::kRoom).ground_height);
-  EXPECT_TRUE(assumptions_of(Environment::kHall).manhattan_frame_id);
+  EXPECT_TRUE(assumptions_of(Environment::kHall).manhattan_frame);
 }
 
 }  // namespace

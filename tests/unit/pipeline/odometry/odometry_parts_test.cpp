@@ -61,7 +61,7 @@ TEST(OdometryParts, EachCueIsThereOnlyIfItIsNamed) {
   EXPECT_NE(all.tracker->manhattan(), nullptr);
   EXPECT_TRUE(all.tracker->corrects_rotations());
   Assumptions none;
-  none.manhattan_frame_id = false;
+  none.manhattan_frame = false;
   all.tracker->assume(none);
   EXPECT_EQ(all.tracker->manhattan(), nullptr);
   all.tracker->assume(std::nullopt);

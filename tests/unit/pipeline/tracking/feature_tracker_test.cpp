@@ -226,11 +226,11 @@ TEST(FeatureTracker, ManhattanFramesAreUsedWhereTheSurroundingsHaveThem) {
   Tracking t;
   EXPECT_FALSE(t.tracker.corrects_rotations());
   Assumptions rooms;
-  rooms.manhattan_frame_id = true;
+  rooms.manhattan_frame = true;
   t.tracker.assume(rooms);
   EXPECT_TRUE(t.tracker.corrects_rotations());  // from now on
   EXPECT_NE(t.tracker.manhattan(), nullptr);
-  rooms.manhattan_frame_id = false;
+  rooms.manhattan_frame = false;
   t.tracker.assume(rooms);
   EXPECT_EQ(t.tracker.manhattan(), nullptr);
 }
