@@ -15,23 +15,23 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// Variables of any kinds and factors between them, to estimate more than poses.
-/// Factors are those of backend/factors/ or the program's own: see Factor and
+/// Variables of several kinds and factors between them, for estimates of more than poses.
+/// Factors are those of backend/factors/ or defined by the application: see Factor and
 /// examples/custom_factor.cpp. For a pose graph optimize_pose_graph is faster.
 struct FactorGraph {
-  /// A variable: the start of the optimization or its result.
+  /// A variable with its initial value or, after optimization, its estimate.
   struct Node {
-    Variable value;     ///< its present value
-    bool held = false;  ///< optimization leaves it as it is
+    Variable value;     ///< current value
+    bool held = false;  ///< whether optimization keeps the value fixed
   };
-  /// A factor, the variables that it is a function of, and a robust kernel.
+  /// A factor, the variables it depends on, and a robust kernel.
   struct Term {
-    std::shared_ptr<const Factor> factor;  ///< may be shared between graphs
+    std::shared_ptr<const Factor> factor;  ///< factor; graphs may share it
     std::vector<int> variables;            ///< positions in `variables`, in the factor's order
-    RobustKernel kernel;                   ///< of |r|^2; none by default
+    RobustKernel kernel;                   ///< robust kernel of |r|^2; none by default
   };
-  std::vector<Node> variables;  ///< named by their positions
-  std::vector<Term> terms;      ///< in any order
+  std::vector<Node> variables;  ///< variables, identified by their positions
+  std::vector<Term> terms;      ///< terms, in any order
 
   /// Adds a variable and returns its position.
   int add_variable(const Variable& value, bool held = false);
@@ -40,16 +40,16 @@ struct FactorGraph {
   void add(F factor, std::vector<int> between, const RobustKernel& kernel = {}) {
     terms.push_back({std::make_shared<const F>(std::move(factor)), std::move(between), kernel});
   }
-  /// The value of a variable; throws ArgumentError if it is not there or not of kind T.
+  /// The value of a variable; throws ArgumentError if it does not exist or is not of kind T.
   template <class T>
   const T& value(int variable) const {
     return std::get<T>(value_of_kind(variable, Variable(std::in_place_type<T>).index()));
   }
 
   /// Throws ArgumentError naming the first entry that is invalid.
-  /// Invalid are a value that is not finite; a term without factor or rows, or whose variables are
-  /// not there, repeat or are not of the kinds that its factor takes; a kernel of no positive
-  /// width.
+  /// Invalid are: a value that is not finite; a term without a factor or without rows; a term whose
+  /// variables do not exist, repeat or are not of the kinds that its factor takes; a kernel whose
+  /// width is not positive.
   void check() const;
 
  private:
@@ -58,40 +58,40 @@ struct FactorGraph {
 
 /// The result of optimizing a factor graph.
 struct FactorGraphReport {
-  Outcome outcome;                          ///< see optimize_factor_graph
-  FactorGraph graph;                        ///< with the estimate; the input if there is none
+  Outcome outcome;                          ///< outcome, see optimize_factor_graph
+  FactorGraph graph;                        ///< graph with the estimate; the input if there is none
   double cost_initial = 0, cost_final = 0;  ///< half the sum of rho(|r|^2)
-  int iterations = 0;                       ///< steps of Levenberg-Marquardt
+  int iterations = 0;                       ///< number of steps of Levenberg-Marquardt
 };
 
-/// Minimizes sum rho(|r|^2) / 2 by Levenberg-Marquardt, from the values of the variables.
+/// Minimizes sum rho(|r|^2) / 2 by Levenberg-Marquardt from the current values.
 /// If most variables are points and lines, these are eliminated first. Directions that no term
-/// determines stay near the start. Deterministic, single-threaded. Throws ArgumentError as
-/// FactorGraph::check and for options out of range. kTooFewData: no term, or all variables are
-/// held; kNotConverged: stopped by the number of iterations (the report has the estimate so far) or
-/// because a factor could not be computed.
+/// determines stay near their initial values. Deterministic, single-threaded. Throws ArgumentError
+/// as FactorGraph::check and for options out of range. kTooFewData: there is no term, or all
+/// variables are held. kNotConverged: the maximum number of iterations was reached (the report has
+/// the last estimate), or a factor could not be computed.
 [[nodiscard]] FactorGraphReport optimize_factor_graph(const FactorGraph& graph,
                                                       const FactorGraphOptions& options);
 
-/// |r|^2 of every term at the present values, without kernels.
-/// Nothing for a term whose residual cannot be computed. Throws as FactorGraph::check.
+/// Squared residual |r|^2 of every term at the current values, without kernels.
+/// Empty for a term whose residual cannot be computed. Throws as FactorGraph::check.
 std::vector<std::optional<double>> squared_residuals(const FactorGraph& graph);
 
-/// The joint covariance of some variables.
+/// The joint covariance of selected variables.
 struct MarginalCovariance {
-  Outcome outcome;             ///< kDegenerate: some direction is not determined by the terms
-  Eigen::MatrixXd covariance;  ///< of the tangents, in the order of the variables asked for
+  Outcome outcome;             ///< kDegenerate: the terms leave a direction undetermined
+  Eigen::MatrixXd covariance;  ///< joint, of the tangents, in the order of the requested variables
 };
 
-/// Joint covariance of some variables' tangents at the present values, others marginalized.
-/// It consists of the blocks of (J^T J)^-1; kernels enter by their weights. Throws ArgumentError as
-/// FactorGraph::check and if a variable is not there, repeats or is held.
+/// Joint covariance of the tangents of selected variables; the others are marginalized.
+/// It consists of blocks of (J^T J)^-1 at the current values; kernels enter by their weights.
+/// Throws ArgumentError as FactorGraph::check and if a variable does not exist, repeats or is held.
 [[nodiscard]] MarginalCovariance marginal_covariance(const FactorGraph& graph,
                                                      const std::vector<int>& variables);
 
-/// A pose graph as a factor graph.
-/// Variables are in the order of its nodes, terms in that of its constraints. Held are the fixed
-/// nodes and those that optimize_pose_graph would hold. Throws as PoseGraph::check.
+/// Converts a pose graph to a factor graph.
+/// The variables are in the order of the nodes, the terms in the order of the constraints. The
+/// fixed nodes and those that optimize_pose_graph would hold are held. Throws as PoseGraph::check.
 FactorGraph to_factor_graph(const PoseGraph& graph,
                             RotationError rotation_error = RotationError::kLog);
 

@@ -6,7 +6,7 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// When optimize_factor_graph stops.
+/// Stopping criteria of optimize_factor_graph.
 struct FactorGraphOptions {
   int max_iterations = 100;         ///< steps of Levenberg-Marquardt at most
   double relative_decrease = 1e-9;  ///< stop when the cost falls by less than this share
@@ -14,20 +14,20 @@ struct FactorGraphOptions {
 };
 void visit(OptionVisitor& field, FactorGraphOptions& options);
 
-/// When adjust_bundle stops, and its robust kernel.
+/// Stopping criteria of adjust_bundle, and its robust kernel.
 struct BundleOptions {
   int max_iterations = 200;         ///< steps of Levenberg-Marquardt at most
   double relative_decrease = 1e-7;  ///< stop when the cost falls by less than this share
-  RobustKernel kernel;              ///< of the reprojection errors, width in pixels
+  RobustKernel kernel;              ///< kernel of the reprojection errors, width [px]
   void check() const;
 };
 void visit(OptionVisitor& field, BundleOptions& options);
 
-/// What optimize_landmark_graph minimizes, and when it stops.
+/// Rotation error, solver and stopping criteria of optimize_landmark_graph.
 struct LandmarkGraphOptions {
-  RotationError rotation_error = RotationError::kLog;  ///< of relative poses and of priors
-  PoseGraphEngine engine = PoseGraphEngine::kNative;   ///< kCeres: as a factor graph
-  int max_iterations = 200;                            ///< steps at most
+  RotationError rotation_error = RotationError::kLog;  ///< error of relative poses and of priors
+  PoseGraphEngine engine = PoseGraphEngine::kNative;   ///< solver; kCeres: as a factor graph
+  int max_iterations = 200;                            ///< maximum number of steps
   double relative_decrease = 1e-9;  ///< stop when the cost falls by less than this share
 };
 

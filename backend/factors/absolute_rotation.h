@@ -3,16 +3,16 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// A measured Manhattan frame, as the vanishing points of a camera's image give it:
+/// A Manhattan frame measured in a camera, e.g. by the vanishing points of its image:
 ///
 ///   r = W log(E),   E = R_world_manhattan^T R_world_cam R_cam_manhattan
 ///   d r / d phi_cam       =  W right_jacobian_inverse(log E) R_cam_manhattan^T
 ///   d r / d phi_manhattan = -W right_jacobian_inverse(log E) E^T
 ///
-/// W^T W = information about the rotation of E on the right, of any rank: where the lines of an
-/// image show fewer than two directions, a rotation stays undetermined. The measurement says which
-/// of the 24 frames along the same axes is meant. To measure a camera's absolute rotation, hold the
-/// variable R_world_manhattan.
+/// W^T W = information about the rotation of E on the right, of any rank: an image whose lines have
+/// fewer than two directions leaves a rotation undetermined. The measurement selects one of the 24
+/// frames along the same axes. To measure a camera's absolute rotation, hold the variable
+/// R_world_manhattan.
 class AbsoluteRotationFactor final : public SizedFactor<3, SE3, SO3> {
  public:
   /// Measured rotation and W [1/rad].
@@ -32,7 +32,7 @@ class AbsoluteRotationFactor final : public SizedFactor<3, SE3, SO3> {
     std::get<1>(*J).noalias() = -J_E * E.matrix().transpose();
     return true;
   }
-  /// A copy: the measurement depends neither on the world frame nor on the unit of length.
+  /// A copy: the measurement is independent of the world frame and the scale.
   std::shared_ptr<const Factor> transformed(const Sim3&) const override {
     return std::make_shared<AbsoluteRotationFactor>(*this);
   }

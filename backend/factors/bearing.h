@@ -3,18 +3,18 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// A measured direction from one camera to another, without the distance:
+/// A measured direction from one camera to another, with unknown distance:
 ///
 ///   r = W (u - u_measured),   u = t / |t|,   t = R_a^T (t_b - t_a),   |u_measured| = 1
 ///   d u / d t = (I - u u^T) / |t|,   d t / d xi_a = [-I, hat(t)],   d t / d xi_b = [R_a^T R_b, 0]
 ///
-/// Two-view geometry and three views of lines give such a direction. W^T W = information of u; its
-/// part along u has no effect. The residual is the chord, not its projection: the opposite
-/// direction is the worst, not a second minimum. Where the cameras coincide, the direction is
-/// undefined and the derivatives are zero.
+/// Two-view geometry and three views of lines measure such a direction. W^T W = information of u;
+/// its part along u has no effect. The residual is the chord, not its projection, so that the
+/// opposite direction has the largest residual instead of being a second minimum. If the cameras
+/// coincide, the direction is undefined and the derivatives are zero.
 class BearingFactor final : public SizedFactor<3, SE3, SE3> {
  public:
-  /// Measured direction in frame a, of any length but zero, and W.
+  /// Measured direction in frame a, of any length except zero, and W.
   BearingFactor(const Eigen::Vector3d& direction_a, const Eigen::Matrix3d& whitening)
       : measured_(direction_a.normalized()), W_(whitening) {}
 

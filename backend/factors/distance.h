@@ -3,13 +3,13 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// Distance between the origins of two poses, in standard deviations:
+/// A measured distance between the origins of two poses, in standard deviations:
 ///
 ///   r = (|t_b - t_a| - distance) / sigma,   u = (t_b - t_a) / |t_b - t_a|
 ///   d r / d xi_a = [-u^T R_a, 0] / sigma,   d r / d xi_b = [u^T R_b, 0] / sigma
 ///
-/// (T exp(xi) moves the origin by R rho.) Where the two coincide the direction is undefined and the
-/// derivatives are zero.
+/// (T exp(xi) moves the origin by R rho.) If the origins coincide, the direction is undefined and
+/// the derivatives are zero.
 class DistanceFactor final : public SizedFactor<1, SE3, SE3> {
  public:
   /// Measured distance and its standard deviation, which must be positive.
@@ -28,7 +28,7 @@ class DistanceFactor final : public SizedFactor<1, SE3, SE3> {
     std::get<1>(*J) << inverse_ * u * T_map_b.rotation().matrix(), 0, 0, 0;
     return true;
   }
-  /// The distance and its standard deviation in the new unit of length.
+  /// The distance and its standard deviation in the new scale.
   std::shared_ptr<const Factor> transformed(const Sim3& S_new_old) const override {
     const auto result = std::make_shared<DistanceFactor>(*this);
     result->distance_ *= S_new_old.scale();

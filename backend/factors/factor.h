@@ -11,7 +11,7 @@
 namespace [[gnu::visibility("default")]] placegraph {
 
 /// A term of a factor graph: a whitened residual r of a few variables, with its derivatives.
-/// The graph minimizes the sum of rho(|r|^2) / 2. Derive from this, or more easily from
+/// The graph minimizes the sum of rho(|r|^2) / 2. Derive from this class or, more simply, from
 /// SizedFactor. A factor must not change once it is in a graph.
 class Factor {
  public:
@@ -21,16 +21,16 @@ class Factor {
   virtual int residual_size() const = 0;
   /// The kinds of the variables, in order: indices of the alternatives of Variable.
   virtual std::vector<std::size_t> variable_kinds() const = 0;
-  /// Writes r and, where `jacobians` is not empty, its derivatives by the variables' tangents.
+  /// Writes r and, if `jacobians` is not empty, its derivatives by the variables' tangents.
   /// There is one Jacobian for each variable, residual_size x degrees_of_freedom, with
-  /// T [+] xi = T exp(xi); all sizes are set already. Returns false where the residual cannot be
-  /// computed: the solver then tries a shorter step.
+  /// T [+] xi = T exp(xi); all sizes are already set. Returns false if the residual cannot be
+  /// computed; the solver then tries a shorter step.
   virtual bool evaluate(std::span<const Variable* const> values, Eigen::Ref<Eigen::VectorXd> r,
                         std::span<Eigen::MatrixXd> jacobians) const = 0;
-  /// The same measurement in another world frame and unit of length, p_new = S_new_old p_old.
-  /// Its residual at the variables in the new frame is that of this factor at the variables in the
-  /// old one. Null (the default) where that is not known: such a factor cannot be in a sliding
-  /// window, which is moved and rescaled.
+  /// The same measurement in another world frame and scale, p_new = S_new_old p_old.
+  /// Its residual at the variables in the new frame equals that of this factor at the variables in
+  /// the old one. Null (the default) if the factor does not support it: such a factor cannot be
+  /// used in a sliding window, which is moved and rescaled.
   virtual std::shared_ptr<const Factor> transformed(const Sim3& S_new_old) const {
     static_cast<void>(S_new_old);
     return nullptr;
@@ -41,14 +41,14 @@ class Factor {
 template <int Rows, class T>
 using FactorJacobian = Eigen::Matrix<double, Rows, VariableBlock<T>::kDof>;
 
-/// A factor whose sizes and variables are known when it is compiled:
+/// A factor whose sizes and variables are known at compile time:
 ///
 ///     class Range final : public SizedFactor<1, SE3, Eigen::Vector3d> {
 ///       bool compute(const SE3& T_world_body, const Eigen::Vector3d& p_world, Residual& r,
 ///                    Jacobians* J) const override { ... std::get<1>(*J) = ...; return true; }
 ///     };
 ///
-/// `J` is null where no derivatives are asked for; what it points to comes uninitialized.
+/// `J` is null if no derivatives are requested; the Jacobians it points to are uninitialized.
 template <int Rows, class... Variables>
 class SizedFactor : public Factor {
  public:

@@ -8,10 +8,10 @@ namespace [[gnu::visibility("default")]] placegraph {
 ///   r = [(1/z - observed) / sigma, 0],   [x y z] = p_cam
 ///   A = d r / d p_cam = [0, 0, -1/(z^2 sigma); 0, 0, 0]
 ///
-/// The second row is always zero: with all residuals of points of height two, Ceres eliminates the
+/// The second row is always zero: if all residuals of points have two rows, Ceres eliminates the
 /// points by its fixed-size code (2 rows, 3 and 6 columns), which is several times faster.
 struct InverseDepth {
-  double observed;       ///< measured [1/m]
+  double observed;       ///< measured inverse depth [1/m]
   double inverse_sigma;  ///< 1 / standard deviation of the inverse depth [m]
 
   /// Measured inverse depth and its standard deviation [1/m], which must be positive.

@@ -5,8 +5,8 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// An observed segment of a line: distances of its ends from the projected line.
-/// Signed, in standard deviations, for an undistorted pinhole camera:
+/// Distances of the ends of an observed line segment from the projected line.
+/// The distances are signed, in standard deviations, for an undistorted pinhole camera:
 ///
 ///   l = K_line m_c,   K_line = det(K) K^-T,   [m_cam, v_cam] = the line in the camera frame
 ///   m_c = m_cam - c x v_cam,   c = centre of the observing camera in the camera frame
@@ -16,12 +16,13 @@ namespace [[gnu::visibility("default")]] placegraph {
 ///   d [m_cam, v_cam] / d line: see transform_to
 ///
 /// The observing camera has the orientation of the camera frame: c = 0 for the camera itself,
-/// [baseline, 0, 0] for the right camera of a stereo pair. The ends measure the line's position
-/// across its direction only. A line whose plane with the centre is parallel to the image has no
-/// image: its residual is kUnprojectableResidual, its derivatives are zero.
+/// [baseline, 0, 0] for the right camera of a stereo pair. The ends measure only the line's
+/// position across its direction. If the plane through the line and the camera centre is parallel
+/// to the image, the line has no image: the residual is kUnprojectableResidual and the derivatives
+/// are zero.
 class LineReprojectionFactor final : public SizedFactor<2, SE3, Line3> {
  public:
-  /// Intrinsics (distortion is ignored), both ends, their standard deviation, and c [m].
+  /// Intrinsics (distortion is ignored), both ends and their standard deviation [px], c [m].
   LineReprojectionFactor(const Camera& camera, const Eigen::Vector2d& start_px,
                          const Eigen::Vector2d& end_px, double sigma_px,
                          const Eigen::Vector3d& second_in_cam = Eigen::Vector3d::Zero())

@@ -4,8 +4,8 @@
 namespace [[gnu::visibility("default")]] placegraph {
 
 /// The constraint that a wheeled vehicle does not slip sideways.
-/// Its rear axle moves along an arc, so the step has opposite components across the vehicle in the
-/// frames of start and end; r is their sum in standard deviations:
+/// The rear axle moves along an arc, so the translation of a step has opposite lateral components
+/// in the frames of its start and its end; r is their sum in standard deviations:
 ///
 ///   r = a^T (t + R^T t + (R - R^T) l) / (2 sigma),   (R, t) = E = T_world_from^-1 T_world_to
 ///   d r / d xi_to   =  a^T [R + I, hat(R^T t) - R hat(l) - hat(R^T l)] / (2 sigma)

@@ -32,9 +32,9 @@ class PlaneObservationFactor final : public SizedFactor<3, SE3, Plane3> {
     std::get<1>(*J) = J_e * std::get<1>(*J).eval();
     return true;
   }
-  /// The plane in the new unit of length.
-  /// The tangent of a plane is not linear in the unit, so that the residual is the same only to
-  /// first order of the error.
+  /// The measured plane in the new scale.
+  /// The tangent of a plane is not linear in the scale, so the residual is the same only to first
+  /// order of the error.
   std::shared_ptr<const Factor> transformed(const Sim3& S_new_old) const override {
     const auto result = std::make_shared<PlaneObservationFactor>(*this);
     if (S_new_old.scale() == 1.0) return result;
@@ -45,8 +45,8 @@ class PlaneObservationFactor final : public SizedFactor<3, SE3, Plane3> {
   }
 
  private:
-  /// The plane in a unit of length in which its distance is `scale` times as large, and the
-  /// derivative of its tangent by that of `plane`.
+  /// The plane with its distance multiplied by `scale`, and the derivative of its tangent by that
+  /// of `plane`.
   static Plane3 scaled(const Plane3& plane, double scale, Eigen::Matrix3d* J_new_old) {
     Eigen::Matrix3d J_normal_old, J_normal_new;
     Eigen::RowVector3d J_distance_old, J_distance_new;
@@ -54,7 +54,7 @@ class PlaneObservationFactor final : public SizedFactor<3, SE3, Plane3> {
     const Plane3 result(n_old, scale * plane.distance(&J_distance_old));
     const double sign = result.normal(&J_normal_new).dot(n_old) < 0 ? -1 : 1;
     result.distance(&J_distance_new);
-    Eigen::Matrix<double, 4, 3> J_old, J_new;  // of [normal, distance], by either tangent
+    Eigen::Matrix<double, 4, 3> J_old, J_new;  // [normal, distance] by either tangent
     J_old << sign * J_normal_old, sign * scale * J_distance_old;
     J_new << J_normal_new, J_distance_new;
     *J_new_old = (J_new.transpose() * J_new).inverse() * J_new.transpose() * J_old;

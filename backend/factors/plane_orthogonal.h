@@ -9,7 +9,7 @@ namespace [[gnu::visibility("default")]] placegraph {
 ///   d r / d w_a = n_b^T d n_a / d w_a / sigma,   d r / d w_b = n_a^T d n_b / d w_b / sigma
 class PlaneOrthogonalFactor final : public SizedFactor<1, Plane3, Plane3> {
  public:
-  /// Standard deviation of the angle from a right one, which must be positive.
+  /// Standard deviation of the angle from a right angle [rad], which must be positive.
   explicit PlaneOrthogonalFactor(double sigma_rad) : inverse_sigma_(1.0 / sigma_rad) {}
 
   /// The residual and its Jacobians as above; always true.
@@ -23,7 +23,7 @@ class PlaneOrthogonalFactor final : public SizedFactor<1, Plane3, Plane3> {
     std::get<1>(*J).noalias() = inverse_sigma_ * n_a.transpose() * J_b;
     return true;
   }
-  /// A copy: an angle depends neither on the world frame nor on the unit of length.
+  /// A copy: an angle is independent of the world frame and the scale.
   std::shared_ptr<const Factor> transformed(const Sim3&) const override {
     return std::make_shared<PlaneOrthogonalFactor>(*this);
   }

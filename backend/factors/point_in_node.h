@@ -4,16 +4,16 @@
 namespace [[gnu::visibility("default")]] placegraph {
 
 /// The error T_world_node^-1 p_world - p_node of a point [m], with its derivatives.
-/// The point is treated as a pose without rotation, T_world_point = (I, p_world); derivatives are
-/// by T exp(xi) of both:
+/// The point is treated as a pose without rotation, T_world_point = (I, p_world); the derivatives
+/// are by T exp(xi) of node and point:
 ///
 ///   d e / d rho_node = -I,   d e / d phi_node = hat(e + p_node),   d e / d rho_point = R_node^T
 ///
-/// In the plane the third component is left out (zero). A similarity measures in its own unit of
-/// length: d e / d rho_point is divided by its scale.
+/// In the plane the third component is zero. A similarity has a scale of its own: d e / d rho_point
+/// is divided by it.
 template <class Group>
 struct PointLinearization {
-  Eigen::Vector3d e = Eigen::Vector3d::Zero();  ///< the error, in the node's frame
+  Eigen::Vector3d e = Eigen::Vector3d::Zero();  ///< error in the node's frame [m]
   /// Derivatives of the error by the tangents of the node and of the point.
   Eigen::Matrix<double, 3, Group::kDof> J_node = Eigen::Matrix<double, 3, Group::kDof>::Zero(),
                                         J_point = Eigen::Matrix<double, 3, Group::kDof>::Zero();

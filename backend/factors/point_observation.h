@@ -7,15 +7,15 @@
 namespace [[gnu::visibility("default")]] placegraph {
 
 /// A measurement of a point in a camera as a factor of T_world_cam and p_world.
-/// `Measurement` (Reprojection, InverseDepth) gives r and A = d r / d p_cam, PointInCamera the
-/// rest. For a point that cannot be projected the residual is kUnprojectableResidual and the
-/// derivatives are zero.
+/// `Measurement` (Reprojection, InverseDepth) computes r and A = d r / d p_cam, PointInCamera the
+/// other derivatives. For a point that cannot be projected the residual is kUnprojectableResidual
+/// and the derivatives are zero.
 template <class Measurement>
 class PointObservationFactor final : public SizedFactor<Measurement::kRows, SE3, Eigen::Vector3d> {
   using Base = SizedFactor<Measurement::kRows, SE3, Eigen::Vector3d>;
 
  public:
-  /// The factor of a measurement, which is copied.
+  /// Creates the factor of a measurement, which is copied.
   explicit PointObservationFactor(const Measurement& measurement) : measurement_(measurement) {}
 
   /// The residual and its Jacobians as above; always true.

@@ -3,12 +3,12 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// A point that lies on a plane, in standard deviations:
+/// A point on a plane: its distance from the plane, in standard deviations:
 ///
 ///   r = (n^T p - d) / sigma,   d r / d p = n^T / sigma,   d r / d w: see Plane3::distance_to
 class PointOnPlaneFactor final : public SizedFactor<1, Eigen::Vector3d, Plane3> {
  public:
-  /// Standard deviation of the distance from the plane, which must be positive.
+  /// Standard deviation of the distance from the plane [m], which must be positive.
   explicit PointOnPlaneFactor(double sigma_m) : inverse_sigma_(1.0 / sigma_m) {}
 
   /// The residual and its Jacobians as above; always true.

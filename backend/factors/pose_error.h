@@ -5,13 +5,13 @@
 namespace [[gnu::visibility("default")]] placegraph {
 
 /// The coordinates e of an error pose E, and their derivative by E exp(xi).
-/// E = T_from_to^-1 T_world_from^-1 T_world_to for a relative pose. The derivative is exact at any
-/// size of the error.
+/// E = T_from_to^-1 T_world_from^-1 T_world_to for a relative pose. The derivative is exact for
+/// errors of any size.
 ///
 ///   kLog:        e = log(E),                d e / d xi = right_jacobian_inverse(e)
 ///   kQuaternion: e = [t_E, v_E, (log s_E)], with the quaternion's sign such that w_E >= 0,
 ///                d t_E / d rho = s_E R_E,   d v_E / d phi = (w_E I + hat(v_E)) / 2;
-///                in the plane e = [t_E, angle_E], as g2o's EDGE_SE2 has it
+///                in the plane e = [t_E, angle_E], as in g2o's EDGE_SE2
 template <class Group>
 typename Group::Tangent pose_error(const Group& E, RotationError kind,
                                    typename Group::Jacobian* J_e_xi = nullptr) {
@@ -55,8 +55,8 @@ typename Group::Tangent pose_error(const Group& E, RotationError kind,
 ///   d e / d xi_from = -d e / d xi Ad((T_world_from^-1 T_world_to)^-1)
 template <class Group>
 struct RelativePoseLinearization {
-  typename Group::Tangent e;              ///< the error, see pose_error
-  typename Group::Jacobian J_from, J_to;  ///< its derivatives by the tangents of the two poses
+  typename Group::Tangent e;              ///< error, see pose_error
+  typename Group::Jacobian J_from, J_to;  ///< derivatives of e by the tangents of the two poses
 
   /// Linearizes at two poses; T_to_from_measured is the inverse of the measured T_from_to.
   RelativePoseLinearization(const Group& T_to_from_measured, const Group& T_world_from,

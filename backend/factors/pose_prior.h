@@ -11,7 +11,7 @@ class PosePriorFactor final : public SizedFactor<Group::kDof, Group> {
   using Base = SizedFactor<Group::kDof, Group>;
 
  public:
-  /// The measured pose, W, and which coordinates of the error pose W refers to.
+  /// The measured pose, W, and the coordinates of the error pose that W refers to.
   PosePriorFactor(const Group& T_world_node, const typename Group::Jacobian& whitening,
                   RotationError kind = RotationError::kLog)
       : T_node_world_(T_world_node.inverse()), W_(whitening), kind_(kind) {}
@@ -24,7 +24,7 @@ class PosePriorFactor final : public SizedFactor<Group::kDof, Group> {
     if (J) std::get<0>(*J).noalias() = W_ * J_e_xi;
     return true;
   }
-  /// The measured pose in the new frame and unit of length, for SE3; null for other groups.
+  /// The measured pose in the new frame and scale, for SE3; null for other groups.
   std::shared_ptr<const Factor> transformed(const Sim3& S_new_old) const override {
     if constexpr (std::is_same_v<Group, SE3>) {
       const SE3 T_old_node = T_node_world_.inverse();

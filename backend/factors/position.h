@@ -4,7 +4,7 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// A measured position of a point that a pose carries, see PositionConstraint: r = W e.
+/// A measured position of a point fixed to a node, see PositionConstraint: r = W e.
 /// W^T W = information; e and its derivative are those of PositionLinearization.
 template <class Group>
 class PositionFactor final : public SizedFactor<3, Group> {

@@ -8,11 +8,11 @@ namespace [[gnu::visibility("default")]] placegraph {
 ///
 ///   d e / d rho = s R,   d e / d phi = -s R hat(lever_arm),   d e / d log s = s R lever_arm
 ///
-/// A node of SE(2) lies in the plane: the third component of the error is left out (zero).
+/// A node of SE(2) is in the plane: the third component of the error is zero.
 template <class Group>
 struct PositionLinearization {
-  Eigen::Vector3d e = Eigen::Vector3d::Zero();  ///< the error, in the world frame
-  /// Its derivative by the tangent of the pose.
+  Eigen::Vector3d e = Eigen::Vector3d::Zero();  ///< error in the world frame [m]
+  /// Derivative of the error by the tangent of the pose.
   Eigen::Matrix<double, 3, Group::kDof> J = Eigen::Matrix<double, 3, Group::kDof>::Zero();
 
   /// Linearizes at a pose.

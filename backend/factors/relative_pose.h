@@ -12,7 +12,7 @@ class RelativePoseFactor final : public SizedFactor<Group::kDof, Group, Group> {
   using Base = SizedFactor<Group::kDof, Group, Group>;
 
  public:
-  /// The measured pose, W, and which coordinates of the error pose W refers to.
+  /// The measured pose, W, and the coordinates of the error pose that W refers to.
   RelativePoseFactor(const Group& T_from_to, const typename Group::Jacobian& whitening,
                      RotationError kind = RotationError::kLog)
       : T_to_from_(T_from_to.inverse()), W_(whitening), kind_(kind) {}
@@ -30,7 +30,7 @@ class RelativePoseFactor final : public SizedFactor<Group::kDof, Group, Group> {
     std::get<1>(*J).noalias() = W_ * at.J_to;
     return true;
   }
-  /// The measured pose in the new unit of length, for SE3; null for other groups.
+  /// The measured pose in the new scale, for SE3; null for other groups.
   std::shared_ptr<const Factor> transformed(const Sim3& S_new_old) const override {
     if constexpr (std::is_same_v<Group, SE3>) {
       const auto result = std::make_shared<RelativePoseFactor>(*this);

@@ -13,7 +13,7 @@ namespace [[gnu::visibility("default")]] placegraph {
 ///   d r / d xi = A [-I, hat(p_cam)],   d r / d p_map = A R_map_cam^T
 struct Reprojection {
   double fx, fy, cx, cy;  ///< intrinsics [px]
-  double u, v;            ///< observed [px]
+  double u, v;            ///< observed pixel [px]
   double w00, w10, w11;   ///< W, lower triangular [1/px]
 
   /// An observed pixel with one standard deviation; the camera's distortion is ignored.
@@ -37,7 +37,7 @@ struct Reprojection {
   }
 
   static constexpr int kRows = 2;  ///< rows of the residual
-  /// An error [px] in standard deviations: W times it.
+  /// W times an error [px]: the error in standard deviations.
   Eigen::Vector2d whiten(const Eigen::Vector2d& error_px) const {
     return {w00 * error_px[0], w10 * error_px[0] + w11 * error_px[1]};
   }

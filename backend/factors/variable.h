@@ -9,13 +9,14 @@ namespace [[gnu::visibility("default")]] placegraph {
 
 /// A square marker of known size: x right, y up, z out of its face, origin in the middle.
 struct Marker {
-  SE3 T_world_marker;  ///< pose, which is estimated
-  double size_m = 1;   ///< length of a side; known, not estimated
+  SE3 T_world_marker;  ///< estimated pose
+  double size_m = 1;   ///< length of a side [m]; known, not estimated
 };
 
-/// What a factor graph can estimate: a scalar (a scale, a bias), poses `T_world_node` of three
-/// kinds, a Manhattan frame `R_world_manhattan`, a point in the world frame (or any three numbers),
-/// a line, a plane, a marker.
+/// A variable that a factor graph can estimate.
+/// Its kinds are: a scalar (a scale, a bias), poses `T_world_node` of three groups, a Manhattan
+/// frame `R_world_manhattan`, a point in the world frame (or any three numbers), a line, a plane, a
+/// marker.
 using Variable = std::variant<double, SE2, SE3, Sim3, SO3, Eigen::Vector3d, Line3, Plane3, Marker>;
 
 /// The tangent and the memory layout of a kind of variable.
@@ -36,7 +37,7 @@ struct GroupBlock {
   static Tangent minus(const Group& y, const Group& x) { return (x.inverse() * y).log(); }
 };
 
-/// [x, y, angle]
+/// A planar pose, stored as [x, y, angle].
 template <>
 struct VariableBlock<SE2> : GroupBlock<SE2> {
   static constexpr int kSize = 3;
@@ -48,7 +49,7 @@ struct VariableBlock<SE2> : GroupBlock<SE2> {
   static SE2 load(const double* x) { return SE2(x[0], x[1], x[2]); }
 };
 
-/// [qx, qy, qz, qw]
+/// A rotation, stored as [qx, qy, qz, qw].
 template <>
 struct VariableBlock<SO3> : GroupBlock<SO3> {
   static constexpr int kSize = 4;
@@ -58,7 +59,7 @@ struct VariableBlock<SO3> : GroupBlock<SO3> {
   static SO3 load(const double* x) { return SO3(Eigen::Quaterniond(x)); }
 };
 
-/// [qx, qy, qz, qw, x, y, z]
+/// A pose, stored as [qx, qy, qz, qw, x, y, z].
 template <>
 struct VariableBlock<SE3> : GroupBlock<SE3> {
   static constexpr int kSize = 7;
@@ -72,7 +73,7 @@ struct VariableBlock<SE3> : GroupBlock<SE3> {
   }
 };
 
-/// [qx, qy, qz, qw, x, y, z, scale]
+/// A similarity, stored as [qx, qy, qz, qw, x, y, z, scale].
 template <>
 struct VariableBlock<Sim3> : GroupBlock<Sim3> {
   static constexpr int kSize = 8;
@@ -107,7 +108,7 @@ struct VariableBlock<Eigen::Vector3d> {
   static Eigen::Vector3d load(const double* x) { return Eigen::Map<const Eigen::Vector3d>(x); }
 };
 
-/// [quaternion of U, angle]
+/// A line, stored as [quaternion of U, angle].
 template <>
 struct VariableBlock<Line3> {
   static constexpr int kDof = Line3::kDof, kSize = 5;
@@ -121,7 +122,7 @@ struct VariableBlock<Line3> {
   static Line3 load(const double* x) { return {VariableBlock<SO3>::load(x), x[4]}; }
 };
 
-/// The plane's quaternion.
+/// A plane, stored as its quaternion.
 template <>
 struct VariableBlock<Plane3> {
   static constexpr int kDof = Plane3::kDof, kSize = 4;
@@ -134,7 +135,7 @@ struct VariableBlock<Plane3> {
   static Plane3 load(const double* x) { return Plane3(VariableBlock<SO3>::load(x)); }
 };
 
-/// [T_world_marker, size]
+/// A marker, stored as [T_world_marker, size].
 template <>
 struct VariableBlock<Marker> {
   static constexpr int kDof = SE3::kDof, kSize = 8;
@@ -154,13 +155,13 @@ struct VariableBlock<Marker> {
 
 /// Size of the variable's tangent.
 int degrees_of_freedom(const Variable& variable);
-/// The name of the variable's kind for messages: "scalar", "SE2", "SE3", "plane" and so on.
+/// Name of the variable's kind for messages: "scalar", "SE2", "SE3", "plane" etc.
 const char* kind_name(const Variable& variable);
 /// Number of doubles in the variable's block, see VariableBlock.
 int block_size(const Variable& variable);
 /// Writes the variable's value to `block`, which has room for block_size doubles.
 void store_block(const Variable& variable, double* block);
-/// Gives `variable` the value in `block`; its kind stays.
+/// Sets `variable` to the value in `block`; its kind stays the same.
 void load_block(const double* block, Variable& variable);
 /// y [-] x of two variables; throws ArgumentError if they are of different kinds.
 Eigen::VectorXd minus(const Variable& y, const Variable& x);

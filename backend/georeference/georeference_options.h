@@ -8,33 +8,34 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// How a component of a map is aligned to the fixes before optimization.
+/// Options of the alignment of a map's component to the fixes before optimization.
 struct GpsAlignmentOptions {
-  /// How far drift may have bent the map, in percent of the length of the path.
+  /// Maximum deformation of the map by drift, in percent of the path length.
   double max_bend_percent = 3;
-  double max_angle_sigma_deg = 10;        ///< of the rotation; if it is less certain: kDegenerate
-  RansacOptions ransac{1000, 0.9999, 3};  ///< search for fixes that agree
+  double max_angle_sigma_deg = 10;  ///< maximum sigma of the rotation [deg]; above it: kDegenerate
+  RansacOptions ransac{1000, 0.9999, 3};  ///< search for consistent fixes
   void check() const;
 };
 void visit(OptionVisitor& field, GpsAlignmentOptions& options);
 
-/// What georeference estimates, and how it weights the fixes.
+/// Options of georeference: the estimated quantities and the weights of the fixes.
 struct GeoreferenceOptions {
-  /// Of the error of a fix in standard deviations. The default gives gross errors no weight.
+  /// Robust kernel of a fix's error in standard deviations. The default gives gross errors no
+  /// weight.
   RobustKernel kernel{RobustKernel::Kind::kTukey, 6.0};
-  double min_accuracy_m = 0.02;     ///< least standard deviation of a fix, whatever it states
-  bool estimate_accuracy = true;    ///< raise the standard deviations of fixes that scatter more
-  bool estimate_odometry = true;    ///< scale covariances of edges that the fixes contradict
-  bool estimate_delay = true;       ///< of the map's poses against their stamps, if that is clear
-  double max_gap_s = 1.0;           ///< longer gaps of the motion are not bridged
-  double dropout_s = 1.0;           ///< longer times without a fix are reported
-  bool estimate_lever_arm = false;  ///< with a prior at the given one
-  double lever_arm_sigma_m = 2.0;   ///< standard deviation of that prior, each component
-  bool estimate_clock_offset = false;  ///< with a prior at the given one; then no delay
-  double clock_offset_sigma_s = 0.2;   ///< of that prior, and of one of the map's delay
-  GpsAlignmentOptions alignment;       ///< of each component, before optimization
-  PoseGraphOptions solver;             ///< its `start` is ignored: the alignment is the start
-  std::uint64_t seed = 1;              ///< of the random search for the alignment
+  double min_accuracy_m = 0.02;        ///< smallest standard deviation assumed for a fix [m]
+  bool estimate_accuracy = true;       ///< increase the sigmas of fixes that scatter more
+  bool estimate_odometry = true;       ///< scale covariances of edges that the fixes contradict
+  bool estimate_delay = true;          ///< correct the latency of the map's poses if significant
+  double max_gap_s = 1.0;              ///< longest gap of the motion that is interpolated [s]
+  double dropout_s = 1.0;              ///< longer gaps between fixes are reported [s]
+  bool estimate_lever_arm = false;     ///< estimate it, with a prior at the given one
+  double lever_arm_sigma_m = 2.0;      ///< standard deviation of each component of the prior [m]
+  bool estimate_clock_offset = false;  ///< estimate it instead of a delay, with a prior
+  double clock_offset_sigma_s = 0.2;   ///< sigma of that prior and of that of the map's delay [s]
+  GpsAlignmentOptions alignment;       ///< alignment of each component before optimization
+  PoseGraphOptions solver;  ///< its `start` is ignored: the alignment is the initialization
+  std::uint64_t seed = 1;   ///< seed of the random search for the alignment
   void check() const;
 };
 void visit(OptionVisitor& field, GeoreferenceOptions& options);

@@ -4,98 +4,101 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// The solver that finds the minimum: the library's own or Ceres.
+/// The solver of the optimization: the library's own solver or Ceres.
 enum class PoseGraphEngine { kNative, kCeres };
 
-/// How the native engine steps; Ceres always takes Levenberg-Marquardt.
+/// Step rule of the native engine; Ceres always uses Levenberg-Marquardt.
 enum class StepRule { kDogleg, kGaussNewton, kLevenbergMarquardt };
 
-/// The poses from which the descent begins.
+/// The initial poses of the optimization.
 enum class PoseGraphInitialization {
-  kAuto,       ///< the cheapest start whose minimum can be trusted
-  kFile,       ///< the poses as they are
+  kAuto,       ///< the cheapest initialization whose minimum can be trusted
+  kFile,       ///< the poses of the input
   kOdometry,   ///< measurements chained along a spanning tree, odometry first
   kChordal,    ///< chordal relaxation: rotations by linear least squares, then translations
   kCertified,  ///< semidefinite relaxation: the global minimum where the relaxation is tight
 };
 
-/// Name of a start as in the options: "auto", "file", "odometry", "chordal" or "certified".
+/// Name of an initialization as in the options.
+/// "auto", "file", "odometry", "chordal" or "certified".
 const char* to_string(PoseGraphInitialization start);
 
 /// The robust cost that graduated non-convexity approaches.
 enum class GncSurrogate { kTruncated, kGemanMcClure };
 
 /// The schedule of graduated non-convexity (Yang et al. 2020).
-/// Each round lowers the threshold of squared errors by `least_factor`, or further as long as it
-/// rejects no more than `share_per_round` of the edges that are neither accepted nor rejected.
+/// Each round divides the threshold of squared errors by `least_factor`, or by more as long as it
+/// rejects at most `share_per_round` of the edges that are neither accepted nor rejected yet.
 struct GncOptions {
-  GncSurrogate surrogate = GncSurrogate::kTruncated;  ///< the robust cost that is approached
-  double least_factor = 1.4;     ///< by which a round lowers the threshold at least, see above
-  double share_per_round = 0.1;  ///< of the undecided edges that a round may reject, see above
-  int max_rounds = 60;           ///< of reweighting, at most
+  GncSurrogate surrogate = GncSurrogate::kTruncated;  ///< approximated robust cost
+  double least_factor = 1.4;     ///< minimum factor of the threshold per round, see above
+  double share_per_round = 0.1;  ///< share of the undecided edges that a round may reject
+  int max_rounds = 60;           ///< maximum number of rounds of reweighting
   void check() const;
 };
 void visit(OptionVisitor& field, GncOptions& options);
 
-/// Which loops are compared with which: true loops agree with true ones nearby.
+/// Selection of the loops that are compared: true loops agree with true loops nearby.
 struct LoopSupportOptions {
-  int reach = 100;      ///< poses that may lie between the ends of two loops that are compared
-  int neighbours = 10;  ///< loops that one loop is compared with, the nearest ones
-  double least_probability = 0.9;  ///< that two loops are both true, for them to support each other
+  int reach = 100;      ///< maximum number of poses between the ends of two compared loops
+  int neighbours = 10;  ///< number of nearest loops that each loop is compared with
+  double least_probability = 0.9;  ///< minimum probability that supporting loops are both true
   void check() const;
 };
 void visit(OptionVisitor& field, LoopSupportOptions& options);
 
-/// How loops are accepted and tested, from the best supported ones on (kAuto, kGnc and kPcm).
+/// Acceptance and tests of loops by loop set growth (kAuto, kGnc and kPcm).
+/// It starts with the loops that have most support.
 struct LoopSetGrowthOptions {
-  /// The gate of a loop's squared error is this many times the chi-squared quantile of Gaussian
-  /// noise: measured loops have longer tails.
+  /// The gate of a loop's squared error is this factor times the chi-squared quantile of Gaussian
+  /// noise, because measured loops have longer tails.
   double margin = 1.5;
-  /// A loop with an error beyond the gate is still accepted if the error is at most this many times
-  /// the largest error among the accepted ones.
+  /// A loop whose error exceeds the gate is still accepted if the error is at most this factor
+  /// times the largest error among the accepted loops.
   double tail = 3;
-  /// A loop whose error is at most this share of the map's extent and of half a turn is badly
-  /// measured rather than false: its gate is twenty times as wide.
+  /// A loop whose error is at most this share of the map's extent and of a rotation by 180 deg is
+  /// considered inaccurate, not false: its gate is twenty times as wide.
   double nearly_right = 0.01;
-  int max_rounds = 20;  ///< of testing every loop, at most
+  int max_rounds = 20;  ///< maximum number of rounds in which every loop is tested
   void check() const;
 };
 void visit(OptionVisitor& field, LoopSetGrowthOptions& options);
 
-/// What is done against false loops. Odometry and measured positions are always trusted.
+/// Robust methods against false loops; odometry and measured positions are always accepted.
 enum class RobustMethod {
-  kNone,   ///< nothing: all constraints with the kernels that they carry
+  kNone,   ///< none: all constraints with their own kernels
   kHuber,  ///< Huber's kernel on every loop; none is rejected
   kDcs,    ///< dynamic covariance scaling of every loop (Agarwal et al. 2013); none is rejected
   kGnc,    ///< graduated non-convexity (Yang et al. 2020), then a test of every loop
-  kPcm,    ///< pairwise consistency maximization (Mangelsdorf et al. 2018), then such a test
-  kAuto    ///< none if no loop looks false, else loops by the support of others: the best choice
+  kPcm,    ///< pairwise consistency maximization (Mangelsdorf et al. 2018), then the same test
+  kAuto    ///< none if no loop appears false, else loop set growth; the recommended method
 };
 
-/// What is done against false loops, and how strictly loops are judged.
+/// Options of the robust optimization against false loops.
 struct RobustOptions {
-  RobustMethod method = RobustMethod::kNone;  ///< the default rejects nothing
-  double kernel_width = 1;                    ///< of kHuber and kDcs, in standard deviations
-  /// Share of the true loops whose squared error is below the gate, were their noise Gaussian.
+  RobustMethod method = RobustMethod::kNone;  ///< method; the default rejects no loop
+  double kernel_width = 1;                    ///< for kHuber and kDcs, in standard deviations
+  /// Share of the true loops whose squared error would be below the gate if their noise were
+  /// Gaussian.
   double gate_probability = 0.999;
-  GncOptions gnc = {};          ///< of kGnc, kPcm and kAuto
-  LoopSupportOptions support;   ///< of kGnc, kPcm and kAuto
-  LoopSetGrowthOptions growth;  ///< of kGnc, kPcm and kAuto
+  GncOptions gnc = {};          ///< schedule, for kGnc, kPcm and kAuto
+  LoopSupportOptions support;   ///< compared loops, for kGnc, kPcm and kAuto
+  LoopSetGrowthOptions growth;  ///< acceptance of loops, for kGnc, kPcm and kAuto
   void check() const;
 };
 void visit(OptionVisitor& field, RobustOptions& options);
 
-/// What optimize_pose_graph minimizes, from which start and by which solver.
+/// Options of optimize_pose_graph: cost, initialization, solver and robust method.
 struct PoseGraphOptions {
-  RotationError rotation_error = RotationError::kLog;  ///< how the error of a rotation is written
-  PoseGraphEngine engine = PoseGraphEngine::kNative;   ///< which solver finds the minimum
-  StepRule step_rule = StepRule::kDogleg;              ///< of the native engine
-  /// With a robust method kAuto means the poses as they are (with kGnc those of the odometry),
-  /// because false loops spoil the other starts.
+  RotationError rotation_error = RotationError::kLog;  ///< parametrization of a rotation's error
+  PoseGraphEngine engine = PoseGraphEngine::kNative;   ///< solver
+  StepRule step_rule = StepRule::kDogleg;              ///< step rule of the native engine
+  /// Initialization. With a robust method kAuto selects the poses of the input (with kGnc those of
+  /// the odometry), because false loops corrupt the other initializations.
   PoseGraphInitialization start = PoseGraphInitialization::kAuto;
-  int max_iterations = 200;         ///< steps of one descent at most; kAuto may make several
+  int max_iterations = 200;         ///< maximum steps of one descent; kAuto may run several
   double relative_decrease = 1e-9;  ///< stop when the cost falls by less than this share
-  RobustOptions robust = {};        ///< what is done against false loops
+  RobustOptions robust = {};        ///< robust method against false loops
   void check() const;
 };
 void visit(OptionVisitor& field, PoseGraphOptions& options);

@@ -11,15 +11,16 @@
 namespace placegraph {
 namespace {
 
-/// The order of elimination and, for every variable, those it still meets when its turn comes.
+/// The order of elimination and, for every variable, its neighbours when it is eliminated.
 struct Elimination {
   std::vector<int> order;
   VariableSets met;  ///< set i belongs to order[i]; members not sorted
 };
 
-/// The order by CAMD, those with `late` last. An edge joins two variables; a larger set is a vertex
-/// of its own, joined to its members and eliminated before all variables, which joins these each to
-/// each without their pairs being written out.
+/// The order by CAMD, those with `late` last.
+/// An edge connects two variables. A larger set is a vertex of its own, connected to its members
+/// and eliminated before all variables, which connects the members pairwise without listing their
+/// pairs.
 std::vector<int> order_late_last(int variables, const VariableSets& sets,
                                  const std::vector<char>& late) {
   const auto size = [&](int s) { return sets.begin[s + 1] - sets.begin[s]; };
@@ -50,28 +51,29 @@ std::vector<int> order_late_last(int variables, const VariableSets& sets,
                   sets.members.begin() + sets.begin[s + 1]);
     begin.push_back(static_cast<int>(joined.size()));
   }
-  std::vector<int> turn(vertices, 0);
-  const int first_rotation = vertices > variables ? 1 : 0;
+  std::vector<int> stage(vertices, 0);
+  const int first_stage = vertices > variables ? 1 : 0;
   const bool all_late = std::find(late.begin(), late.end(), 0) == late.end();
-  for (int v = 0; v < variables; ++v) turn[v] = first_rotation + (late[v] && !all_late ? 1 : 0);
+  for (int v = 0; v < variables; ++v) stage[v] = first_stage + (late[v] && !all_late ? 1 : 0);
   double control[CAMD_CONTROL];
   camd_defaults(control);
-  control[CAMD_DENSE] = -1;  // no vertex is left out: one of a set joins as many as the set has
+  // No dense vertex is left out: that of a set has as many neighbours as the set has members.
+  control[CAMD_DENSE] = -1;
   std::vector<int> order(vertices);
   if (vertices > 0 && camd_order(vertices, begin.data(), joined.data(), order.data(), control,
-                                 nullptr, turn.data()) < 0)
-    throw std::bad_alloc();  // all else it could refuse is excluded by construction
+                                 nullptr, stage.data()) < 0)
+    throw std::bad_alloc();  // all other errors are excluded by construction
   std::erase_if(order, [&](int v) { return v >= variables; });
   return order;
 }
 
-/// Eliminates in `order`: a variable replaces the sets that hold it by their union.
+/// Eliminates in `order`: a variable replaces the sets that contain it by their union.
 Elimination eliminate(int variables, const VariableSets& sets, std::vector<int> order) {
   Elimination result;
   VariableSets& met = result.met;
   std::vector<int> step(variables), mark(variables, -1);
   for (int i = 0; i < variables; ++i) step[order[i]] = i;
-  // Sets, and after them the unions, wait in lists for the first step that takes one of theirs.
+  // Sets, and then the unions, are in lists of the first step that eliminates one of their members.
   std::vector<int> waiting(variables, -1), next(sets.size() + variables, -1);
   const auto wait = [&](int s, const int* members, const int* end) {
     if (members == end) return;
@@ -105,7 +107,7 @@ Elimination eliminate(int variables, const VariableSets& sets, std::vector<int> 
   return result;
 }
 
-/// Fronts while they grow, named by the step of their last variable.
+/// Fronts during their construction, identified by the step of their last variable.
 struct Group {
   std::vector<int> frontal;  ///< steps
   std::int64_t zeros = 0;
@@ -117,7 +119,7 @@ std::int64_t entries(std::int64_t frontal, std::int64_t separator) {
   return frontal * (frontal + 1) / 2 + frontal * separator;
 }
 
-/// Takes children into `parent` as long as few zeros come with them.
+/// Merges children into `parent` as long as they add few zeros.
 void absorb_children(std::vector<Group>& groups, std::vector<int>& children, int parent,
                      double zero_share) {
   Group& group = groups[parent];

@@ -9,7 +9,7 @@
 namespace placegraph {
 namespace {
 
-/// Zeros a front may hold for being larger.
+/// Maximum share of zeros in a merged front.
 constexpr double kZeroShare = 0.2;
 
 }  // namespace
@@ -24,7 +24,7 @@ template <int D>
 void EliminationTree<D>::set_active(int variable, bool active) {
   Variable& v = forest_.variables[variable];
   if (v.active == active) return;
-  // Whatever the variable is joined to has it in a separator on the way to the root, or will have.
+  // Every neighbour of the variable has it in a separator on the path to the root, or will have it.
   for (const int t : v.terms) {
     touch(forest_.terms[t].a);
     if (forest_.terms[t].b >= 0) touch(forest_.terms[t].b);
@@ -57,7 +57,7 @@ int EliminationTree<D>::add_term(int a, int b) {
   return t;
 }
 
-/// Whether some front holds all active variables of the term.
+/// Whether a front contains all active variables of the term.
 template <int D>
 bool EliminationTree<D>::covered(const Term& term) const {
   if (term.b < 0) return true;
@@ -93,7 +93,7 @@ void EliminationTree<D>::remove_term(int term) {
   for (const int v : {forest_.terms[term].a, forest_.terms[term].b}) {
     if (v < 0) continue;
     std::erase(forest_.variables[v].terms, term);
-    if (forest_.terms[term].b >= 0) touch(v);  // what it filled in is to go, too
+    if (forest_.terms[term].b >= 0) touch(v);  // its fill is to be removed, too
   }
   free_terms_.push_back(term);
 }
@@ -117,7 +117,7 @@ template <int D>
 void EliminationTree<D>::mark_stale(int front, bool matrix) {
   for (; front >= 0; front = forest_.fronts[front].parent) {
     Front& f = forest_.fronts[front];
-    if (f.rhs_stale && (f.matrix_stale || !matrix)) return;  // and so are all above it
+    if (f.rhs_stale && (f.matrix_stale || !matrix)) return;  // all fronts above it are stale, too
     if (!f.rhs_stale) stale_rhs_.push_back(front);
     f.rhs_stale = true;
     if (!matrix || f.matrix_stale) continue;
@@ -137,8 +137,9 @@ int EliminationTree<D>::new_front() {
   return front;
 }
 
-/// Takes all fronts on the way from the touched variables to their roots out of the forest; returns
-/// their active variables and those that were in no front, and the fronts that hung below.
+/// Removes all fronts on the paths from the touched variables to their roots from the forest.
+/// Returns their active variables and those that were in no front, and the fronts whose parents
+/// were removed.
 template <int D>
 std::vector<int> EliminationTree<D>::collect_top(std::vector<int>& orphans) {
   std::vector<int> top, fronts;
@@ -177,13 +178,13 @@ std::vector<int> EliminationTree<D>::collect_top(std::vector<int>& orphans) {
     front.in_top = false;
     free_fronts_.push_back(f);
   }
-  // Older ones first, so that the order does not depend on the way they were found.
+  // Older variables first, so that the order does not depend on the order of the search.
   std::sort(top.begin(), top.end());
   return top;
 }
 
-/// What is eliminated together or fills in together, by places in `top`: the pairs of its terms and
-/// the separators of the orphans.
+/// The sets of variables in `top` that are connected, by positions in `top`.
+/// They are the pairs of the terms and the separators of the orphans.
 template <int D>
 VariableSets EliminationTree<D>::sets_of(const std::vector<int>& top,
                                          const std::vector<int>& orphans) const {

@@ -9,56 +9,57 @@
 
 namespace placegraph {
 
-/// Multifrontal Cholesky factor of a block-sparse symmetric matrix H that grows and changes, with
-/// blocks of D x D: a forest of dense fronts in which the term of two variables concerns only the
-/// fronts on the way from them to their root (the Bayes tree of Kaess et al. 2012, kept with the
-/// Schur complement of every front, so that what hangs below a changed part is not touched).
+/// Incremental multifrontal Cholesky factor of a block-sparse symmetric matrix H.
+/// The blocks are D x D. The factor is a forest of dense fronts in which the term of two variables
+/// affects only the fronts on the path from them to their root (the Bayes tree of Kaess et al.
+/// 2012, with the Schur complement of every front, so that the subtrees below a changed part are
+/// not affected).
 ///
-/// H is a sum of terms over one or two variables. New terms change the order of elimination of the
-/// fronts on the way to the root only, the variables of the newest terms last.
+/// H is a sum of terms over one or two variables. New terms change the order of elimination only of
+/// the fronts on the path to the root, with the variables of the newest terms last.
 template <int D>
 class EliminationTree {
  public:
   using Block = typename FrontForest<D>::Block;
   using Vector = typename FrontForest<D>::Vector;
 
-  /// A variable that is not active yet; returns its number, which counts from 0.
+  /// Adds a variable that is not active yet; returns its number, starting from 0.
   int add_variable();
-  /// Only active variables are eliminated; of a term with a variable that is not, the other's part
-  /// counts alone.
+  /// Only active variables are eliminated; a term with an inactive variable affects only the other
+  /// variable.
   void set_active(int variable, bool active);
   bool active(int variable) const { return forest_.variables[variable].active; }
 
-  /// A term over `a` and `b` (-1: over `a` alone), zero at first; returns its number.
+  /// Adds a term over `a` and `b` (-1: over `a` only), initially zero; returns its number.
   int add_term(int a, int b);
-  /// As if it had never been there; its number serves a later term.
+  /// Removes a term and its effects; its number is used for a later term.
   void remove_term(int term);
   void set_information(int term, const Block& H_aa, const Block& H_ab, const Block& H_bb);
-  /// g of H delta = -g.
+  /// Sets g of H delta = -g.
   void set_gradient(int variable, const Vector& g);
-  /// Added to the diagonal: this share of the mean of the variable's own diagonal.
+  /// Adds this share of the mean of a variable's own diagonal to the diagonal.
   void set_damping(double damping);
   double damping() const { return damping_; }
-  /// Everything is ordered anew by the next factorize().
+  /// Makes the next factorize() compute the complete order again.
   void reorder() { reorder_all_ = true; }
 
-  /// Brings the factor up to date with all that was set. False if H is not positive definite.
+  /// Updates the factor to the current H. False if H is not positive definite.
   [[nodiscard]] bool factorize();
-  /// Brings L y = -g up to date and returns |y|^2 = g^T H^-1 g: what the quadratic model
-  /// c + 2 g^T delta + delta^T H delta falls by at its minimum.
+  /// Updates L y = -g and returns |y|^2 = g^T H^-1 g, the decrease of the quadratic model c + 2 g^T
+  /// delta + delta^T H delta to its minimum.
   double model_decrease();
 
-  /// Solves for the part of delta that matters: goes down from the roots, leaves a front out where
-  /// delta^T H_vv delta of none of its variables exceeds `threshold` and the decrease that its
-  /// subtree still holds does not either. Returns the variables solved for; delta(v) is theirs.
+  /// Solves for the significant part of delta: from the roots down, without fronts where neither
+  /// delta^T H_vv delta of a variable nor the remaining decrease of the subtree exceeds
+  /// `threshold`. Returns the variables solved for; delta(v) is their step.
   const std::vector<int>& solve(double threshold);
   const Vector& delta(int variable) const { return forest_.variables[variable].delta; }
 
-  /// Blocks of H^-1 over the given active variables, in their order; needs an up-to-date factor.
+  /// Blocks of H^-1 over the given active variables, in their order; requires an up-to-date factor.
   Eigen::MatrixXd covariance(const std::vector<int>& variables) const;
 
-  int variables_refactored() const { return variables_refactored_; }  ///< by the last factorize()
-  /// Entries of the factor's fronts, and those there were when all was ordered last.
+  int variables_refactored() const { return variables_refactored_; }  ///< in the last factorize()
+  /// Number of entries of the factor's fronts, now and after the last complete ordering.
   std::int64_t entries() const { return entries_; }
   std::int64_t entries_when_ordered() const { return entries_when_ordered_; }
 
@@ -79,7 +80,7 @@ class EliminationTree {
   FrontForest<D> forest_;
   std::vector<int> free_terms_, free_fronts_;
   MatrixPool pool_;
-  std::vector<int> touched_;  ///< variables whose way to the root is to be reordered
+  std::vector<int> touched_;  ///< variables whose path to the root is to be reordered
   std::vector<int> stale_matrices_, stale_rhs_;  ///< fronts, with all their ancestors
   std::vector<int> solved_;
   std::int64_t next_order_ = 0;

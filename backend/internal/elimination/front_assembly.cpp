@@ -7,7 +7,7 @@ namespace placegraph {
 
 namespace {
 
-/// Tells each variable of the front its place in it, the frontal ones first; all others keep -1.
+/// Sets the position of each variable in the front, the frontal ones first; all others keep -1.
 template <int D>
 class Places {
  public:
@@ -29,7 +29,7 @@ class Places {
   const typename FrontForest<D>::Front& front_;
 };
 
-/// The block of a front's matrix that begins at a row and column of blocks.
+/// The block of a front's matrix at a row and column of blocks.
 template <int D>
 class Blocks {
  public:
@@ -45,7 +45,7 @@ class Blocks {
   int rows_;
 };
 
-/// The terms of H that the front's own variables have with those of the front.
+/// Adds the terms of H between the frontal variables and all variables of the front.
 template <int D>
 void add_terms(FrontForest<D>& forest, const typename FrontForest<D>::Front& front, double damping,
                const Blocks<D>& at) {
@@ -59,7 +59,7 @@ void add_terms(FrontForest<D>& forest, const typename FrontForest<D>::Front& fro
       if (term.zero || term.b < 0) continue;
       const int other = term.a == v ? term.b : term.a;
       const int row = forest.variables[other].local;
-      if (row <= column) continue;  // not in this front (-1), or this pair's turn was before
+      if (row <= column) continue;  // not in this front (-1), or added already
       if (term.a == v)
         at(row, column) += term.H_ab.transpose();
       else
@@ -98,7 +98,7 @@ void assemble(FrontForest<D>& forest, typename FrontForest<D>::Front& front, dou
   pool.provide(front.matrix, static_cast<std::size_t>(rows) * rows);
   front.rhs.resize(rows);
   double* const matrix = front.matrix.data();
-  for (int c = 0; c < rows; ++c)  // the lower blocks; what is above them is never read
+  for (int c = 0; c < rows; ++c)  // the lower blocks; the upper ones are never read
     std::fill_n(matrix + static_cast<std::size_t>(c) * rows + c / D * D, rows - c / D * D, 0.0);
   const Places<D> places(forest, front);
   const Blocks<D> at(matrix, rows);

@@ -8,15 +8,15 @@ namespace placegraph {
 template <int D>
 Eigen::MatrixXd covariance(const FrontForest<D>& forest, const std::vector<int>& variables) {
   using Front = typename FrontForest<D>::Front;
-  // H X = E: forward from the fronts of the variables up, backward down again; nothing else
-  // matters.
-  std::vector<int> way;
+  // Solves H X = E: forward from the fronts of the variables up to the roots, then backward; other
+  // fronts have no effect.
+  std::vector<int> path;
   for (const int v : variables)
-    for (int f = forest.variables[v].front; f >= 0; f = forest.fronts[f].parent) way.push_back(f);
-  std::sort(way.begin(), way.end(), [&](int a, int b) { return forest.earlier(a, b); });
-  way.erase(std::unique(way.begin(), way.end()), way.end());
+    for (int f = forest.variables[v].front; f >= 0; f = forest.fronts[f].parent) path.push_back(f);
+  std::sort(path.begin(), path.end(), [&](int a, int b) { return forest.earlier(a, b); });
+  path.erase(std::unique(path.begin(), path.end()), path.end());
   std::vector<int> place(forest.variables.size(), -1), members;
-  for (const int f : way)
+  for (const int f : path)
     for (const int v : forest.fronts[f].frontal) {
       place[v] = static_cast<int>(members.size());
       members.push_back(v);
@@ -39,9 +39,9 @@ Eigen::MatrixXd covariance(const FrontForest<D>& forest, const std::vector<int>&
         X.template block<D, 1>(place[v] * D, column) = x.template segment<D>(next++ * D);
   };
   for (Eigen::Index column = 0; column < X.cols(); ++column) {
-    for (auto f = way.begin(); f != way.end(); ++f)
+    for (auto f = path.begin(); f != path.end(); ++f)
       gather_and(forest.fronts[*f], column, FrontKernels<D>::forward);
-    for (auto f = way.rbegin(); f != way.rend(); ++f)
+    for (auto f = path.rbegin(); f != path.rend(); ++f)
       gather_and(forest.fronts[*f], column, FrontKernels<D>::backward);
   }
   Eigen::MatrixXd covariance(count * D, count * D);

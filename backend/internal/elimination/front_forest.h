@@ -14,16 +14,16 @@ struct FrontForest {
 
   struct Variable {
     bool active = false;
-    int front = -1;          ///< where it is eliminated
-    std::int64_t order = 0;  ///< later eliminated: larger
+    int front = -1;          ///< front that eliminates the variable
+    std::int64_t order = 0;  ///< larger for later elimination
     std::vector<int> terms;
     Block diagonal = Block::Zero();
     Vector gradient = Vector::Zero(), delta = Vector::Zero();
     bool diagonal_stale = false, significant = false;
-    int local = -1;  ///< scratch: place in the front at hand
+    int local = -1;  ///< temporary: position in the current front
   };
   struct Term {
-    int a, b;  ///< variables; b = -1: over a alone
+    int a, b;  ///< variables; b = -1: over a only
     Block H_aa, H_ab, H_bb;
     bool zero = true;
   };
@@ -31,7 +31,7 @@ struct FrontForest {
     std::vector<int> frontal, separator, children;
     int parent = -1;
     std::vector<double> matrix;  ///< factor and Schur complement, see FrontKernels
-    std::vector<double> rhs;     ///< [y; what the subtree adds to the separator's right-hand side]
+    std::vector<double> rhs;     ///< [y; contribution to the separator's right-hand side]
     double decrease = 0;         ///< |y|^2 of the subtree
     bool matrix_stale = true, rhs_stale = true, in_top = false;
     int blocks() const { return static_cast<int>(frontal.size() + separator.size()); }
@@ -48,7 +48,7 @@ struct FrontForest {
            variables[fronts[front_b].frontal.front()].order;
   }
 
-  /// The variable's own block of H, summed over its terms where one has changed.
+  /// The variable's own block of H, summed over its terms if one has changed.
   const Block& diagonal(int variable) {
     Variable& v = variables[variable];
     if (!v.diagonal_stale) return v.diagonal;

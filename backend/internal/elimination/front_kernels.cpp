@@ -22,7 +22,7 @@ void dgemv_(const char* trans, const int* m, const int* n, const double* alpha, 
 namespace placegraph {
 namespace {
 
-/// From this many rows on BLAS was measured to be faster than the loops.
+/// Number of rows from which BLAS is faster than the loops (measured).
 constexpr int kBlasRows = 64;
 
 bool factorize_with_blas(double* matrix, int rows, int frontal) {
@@ -39,8 +39,8 @@ bool factorize_with_blas(double* matrix, int rows, int frontal) {
   return true;
 }
 
-/// Cholesky of the D columns that begin at `column` (their diagonal block at its top), rows below
-/// included.
+/// Cholesky of the D columns from `column` on (with their diagonal block at the top), including the
+/// rows below.
 template <int D>
 PLACEGRAPH_INLINE bool factorize_panel(double* column, int rows, int below) {
   for (int c = 0; c < D; ++c) {

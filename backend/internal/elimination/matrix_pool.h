@@ -4,20 +4,21 @@
 
 namespace placegraph {
 
-/// Memory of matrices that are gone, for those that come: fresh pages cost more than the sums they
-/// are to hold. Keeps no more than is in use (and 0.8 MB).
+/// Reuses the memory of released matrices for new ones.
+/// New pages of memory cost more than the sums that are stored in them. The pool keeps no more
+/// memory than is in use (plus 0.8 MB).
 class MatrixPool {
  public:
-  /// Gives `matrix` room for `size` doubles: its own if it has that, the smallest sufficient one of
-  /// the pool unless that is more than twice as large, else fresh memory. What it holds is
-  /// undefined.
+  /// Provides `matrix` with memory for `size` doubles: its own if that is sufficient, the smallest
+  /// sufficient memory of the pool unless that is more than twice as large, else new memory. Its
+  /// content is undefined.
   void provide(std::vector<double>& matrix, std::size_t size);
-  /// Takes the memory of `matrix`, which is empty then.
+  /// Takes the memory of `matrix` into the pool; `matrix` is empty then.
   void release(std::vector<double>& matrix);
 
  private:
-  std::vector<std::vector<double>> pool_;  // the oldest first
-  std::size_t pooled_ = 0, used_ = 0;      // doubles in the pool, and given out
+  std::vector<std::vector<double>> pool_;  // oldest memory first
+  std::size_t pooled_ = 0, used_ = 0;      // numbers of doubles in the pool and in use
 };
 
 }  // namespace placegraph

@@ -24,7 +24,7 @@ std::vector<Variable> values_of(const FactorGraph& graph, const FactorGraph::Ter
   return values;
 }
 
-/// One manifold of every kind that needs one.
+/// One manifold for every kind of variable that needs one.
 class Manifolds {
  public:
   ceres::Manifold* of(const Variable& variable) {
@@ -46,7 +46,7 @@ class Manifolds {
       manifolds_;
 };
 
-/// A factor graph as a Ceres problem on blocks of its own. Variables without a term are not in it.
+/// A factor graph as a Ceres problem with its own blocks; variables without a term are left out.
 class FactorGraphProblem {
  public:
   explicit FactorGraphProblem(const FactorGraph& graph) : graph_(graph), problem_(ownership()) {
@@ -91,8 +91,8 @@ class FactorGraphProblem {
     }
   }
 
-  /// Whether there are many variables that share no term with one another, as the points of a
-  /// bundle: eliminating them first leaves a small system.
+  /// Whether there are many variables without common terms, as the points of a bundle.
+  /// Their elimination first leaves a small system.
   bool has_landmarks() const {
     std::size_t landmarks = 0;
     for (const FactorGraph::Node& node : graph_.variables)
@@ -111,13 +111,13 @@ class FactorGraphProblem {
   }
 
   const FactorGraph& graph_;
-  std::vector<std::size_t> offsets_;  ///< of the variables' blocks in `blocks_`
+  std::vector<std::size_t> offsets_;  ///< first number of each variable's block in `blocks_`
   std::vector<double> blocks_;
   std::deque<DynamicCeresFactor> costs_;
   std::deque<KernelLoss> kernels_;
   Manifolds manifolds_;
   int free_ = 0;
-  ceres::Problem problem_;  // after all it points to
+  ceres::Problem problem_;  // declared after all objects that it points to
 };
 
 ceres::Solver::Options solver_options(const FactorGraphOptions& options, bool landmarks) {

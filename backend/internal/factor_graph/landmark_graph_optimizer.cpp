@@ -12,7 +12,7 @@
 namespace placegraph {
 namespace {
 
-/// Where nodes and points of a landmark graph stand among the variables.
+/// Positions of the nodes and points of a landmark graph among the variables.
 struct VariableIndex {
   NodeIndex nodes, points;
   int first_point = 0;
@@ -27,7 +27,7 @@ struct VariableIndex {
   int point(NodeId id) const { return first_point + points.at(id); }
 };
 
-/// The connected parts of nodes and points.
+/// The connected components of nodes and points.
 DisjointSets connected(const LandmarkGraph& graph, const VariableIndex& index) {
   DisjointSets sets(graph.poses.nodes.size() + graph.points.size());
   for (const Constraint& constraint : graph.poses.constraints)
@@ -38,7 +38,7 @@ DisjointSets connected(const LandmarkGraph& graph, const VariableIndex& index) {
   return sets;
 }
 
-/// Fixed variables, and the first node of every part that nothing ties to the world.
+/// Fixed variables, and the first node of every component that nothing ties to the world.
 std::vector<char> held_variables(const LandmarkGraph& graph, const VariableIndex& index) {
   const std::size_t count = graph.poses.nodes.size() + graph.points.size();
   DisjointSets sets = connected(graph, index);
@@ -101,7 +101,7 @@ double chi2(const LandmarkGraph& graph, RotationError rotation_error) {
 }
 
 int count_components(const LandmarkGraph& graph) {
-  // Nodes come first, and so do the numbers of their parts.
+  // Nodes are the first variables, so their components have the first numbers.
   const std::vector<int> numbers = connected(graph, VariableIndex(graph)).numbers();
   const auto nodes = static_cast<std::ptrdiff_t>(graph.poses.nodes.size());
   return nodes == 0 ? 0 : 1 + *std::max_element(numbers.begin(), numbers.begin() + nodes);
@@ -117,7 +117,7 @@ std::vector<int> held_for_want_of_a_tie(const LandmarkGraph& graph) {
 
 namespace {
 
-/// By the normal equations of the pose graph, points as poses that do not turn.
+/// Optimizes with the normal equations of the pose graph; points are poses without rotation.
 template <class Group>
 LandmarkGraphReport solve_packed(LandmarkGraph graph, const LandmarkGraphOptions& options) {
   constexpr int dim = Group::kDof == 3 ? 2 : 3;

@@ -51,11 +51,11 @@ class CeresFactorOf<F, std::tuple<Variables...>> final
 };
 
 /// A Factor of any size as a Ceres cost function on the blocks of its variables: see
-/// VariableManifold, and CeresFactor for factors whose type is known. For one thread. Where r or a
-/// derivative is not finite the evaluation fails: the solver then tries a shorter step.
+/// VariableManifold, and CeresFactor for factors whose type is known. For one thread. If r or a
+/// derivative is not finite, the evaluation fails and the solver tries a shorter step.
 class DynamicCeresFactor final : public ceres::CostFunction {
  public:
-  /// `factor` must outlive it; `values` are any of the kinds that it takes.
+  /// `factor` must outlive this object; `values` are any values of the kinds that it takes.
   DynamicCeresFactor(const Factor& factor, std::vector<Variable> values)
       : factor_(factor), values_(std::move(values)) {
     set_num_residuals(factor_.residual_size());
@@ -87,7 +87,7 @@ class DynamicCeresFactor final : public ceres::CostFunction {
 
  private:
   const Factor& factor_;
-  // Room for one evaluation, of the right kinds and sizes.
+  // Buffers of one evaluation, with the right kinds and sizes.
   mutable std::vector<Variable> values_;
   std::vector<const Variable*> pointers_;
   mutable std::vector<Eigen::MatrixXd> J_;

@@ -3,8 +3,8 @@
 
 namespace placegraph {
 
-/// A sensor at a known height above a plane, as a camera on a vehicle above the ground, in standard
-/// deviations:
+/// A known height of a sensor above a plane, e.g. of a vehicle's camera above the ground.
+/// In standard deviations:
 ///
 ///   r = (s (n^T t - d) - height) / sigma,   s = sign of n^T t - d
 ///   d r / d xi = [s n^T R, 0] / sigma,      d r / d w: see Plane3::distance_to

@@ -4,7 +4,7 @@
 
 namespace placegraph {
 
-/// A RobustKernel as Ceres wants it: both scale rho alike.
+/// Adapts a RobustKernel to Ceres; both scale rho in the same way.
 class KernelLoss final : public ceres::LossFunction {
  public:
   explicit KernelLoss(const RobustKernel& kernel) : kernel_(kernel) {}

@@ -8,16 +8,17 @@
 
 namespace placegraph {
 
-/// What marginalization leaves of the keyframes and landmarks that are gone: one linear residual on
-/// the deviations of the retained keyframes, planes and worlds from their linearization points,
+/// The prior by marginalized keyframes and landmarks.
+/// It is one linear residual of the deviations of the remaining keyframes, planes and Manhattan
+/// frames from their linearization points,
 ///
 ///   r = e + J delta,   delta_k = x_k [-] x_lin_k   (right tangents, stacked in that order)
 ///   d r / d xi_k = J_k right_jacobian_inverse(delta_k)
 ///
-/// For a plane the tangent is that of its quaternion, so that the Jacobian is SO(3)'s.
+/// For a plane the tangent is that of its quaternion, so the Jacobian is that of SO(3).
 struct MarginalPrior {
   std::vector<KeyframeId> keyframes;  ///< ascending; six columns of J each
-  std::vector<SE3> T_map_cam_lin;     ///< first estimates: fixed once a keyframe is in the prior
+  std::vector<SE3> T_map_cam_lin;     ///< first estimates, fixed once a keyframe is in the prior
   std::vector<PlaneId> planes;        ///< ascending; three columns each, after the keyframes'
   std::vector<Plane3> plane_lin;      ///< first estimates
   std::vector<ManhattanFrameId>
@@ -40,8 +41,9 @@ struct MarginalPrior {
   }
 };
 
-/// The prior as a factor on the blocks T_map_cam of `prior.keyframes`, then those of
-/// `prior.planes`, then R_map_manhattan of `prior.worlds`; `prior` must outlive it.
+/// The prior as a Ceres cost function.
+/// Its blocks are T_map_cam of `prior.keyframes`, then those of `prior.planes`, then
+/// R_map_manhattan of `prior.manhattan_frames`. `prior` must outlive it.
 class MarginalPriorFactor final : public ceres::CostFunction {
  public:
   explicit MarginalPriorFactor(const MarginalPrior& prior) : prior_(prior) {

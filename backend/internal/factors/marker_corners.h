@@ -5,14 +5,14 @@
 
 namespace placegraph {
 
-/// The four corners of a square marker in an undistorted pinhole camera, in standard deviations;
-/// from upper left clockwise as seen from in front of it, c = size / 2 [-1 1 0], [1 1 0], [1 -1 0],
-/// [-1 -1 0] in its frame:
+/// The four corners of a square marker in an undistorted pinhole camera, in standard deviations.
+/// Seen from the front they are clockwise from the upper left one: c = size / 2 [-1 1 0], [1 1 0],
+/// [1 -1 0], [-1 -1 0] in the marker's frame:
 ///
 ///   r_k = Reprojection of R_w_m c_k + t_w_m,   A_k = d r_k / d p_cam
 ///   d r_k / d xi_cam = A_k [-I, hat(p_cam)],   d r_k / d xi_marker = A_k R_cam_marker [I, -hat(c)]
 ///
-/// A corner that cannot be projected gets kUnprojectableResidual and pulls nowhere.
+/// A corner that cannot be projected has the residual kUnprojectableResidual and zero derivatives.
 class MarkerCornersFactor final : public SizedFactor<8, SE3, Marker> {
  public:
   using Corners = std::array<Eigen::Vector2d, 4>;
@@ -23,7 +23,7 @@ class MarkerCornersFactor final : public SizedFactor<8, SE3, Marker> {
                         {camera, corners_px[2], sigma_px},
                         {camera, corners_px[3], sigma_px}}} {}
 
-  /// In the marker's frame.
+  /// The corners in the marker's frame [m].
   static std::array<Eigen::Vector3d, 4> corners(double size_m) {
     const double h = 0.5 * size_m;
     return {{{-h, h, 0}, {h, h, 0}, {h, -h, 0}, {-h, -h, 0}}};

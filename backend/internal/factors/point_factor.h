@@ -6,7 +6,7 @@ namespace placegraph {
 
 /// A measurement of a map point in a camera (Reprojection, InverseDepth) between the blocks
 /// T_map_cam [qx qy qz qw x y z] and p_map [x y z]. Derivatives by the tangent of T_map_cam, see
-/// VariableManifold. A point that cannot be projected gets kUnprojectableResidual.
+/// VariableManifold. The residual of a point that cannot be projected is kUnprojectableResidual.
 template <class Measurement>
 class PointFactor final : public ceres::SizedCostFunction<Measurement::kRows, 7, 3> {
  public:

@@ -5,8 +5,8 @@
 
 namespace placegraph {
 
-/// Reprojection with unknown focal length and radial distortion, principal point at zero, as in
-/// "Bundle Adjustment in the Large" (Agarwal et al. 2010), in standard deviations:
+/// Reprojection error with unknown focal length and radial distortion, in standard deviations.
+/// The principal point is zero, as in "Bundle Adjustment in the Large" (Agarwal et al. 2010):
 ///
 ///   r = (f d q - observed) / sigma,   q = [x/z, y/z],   d = 1 + k1 s + k2 s^2,   s = |q|^2
 ///   d r / d q = f (d I + 2 (k1 + 2 k2 s) q q^T) / sigma
@@ -14,7 +14,8 @@ namespace placegraph {
 ///   d r / d xi = A [-I, hat(p_cam)],   d r / d p_world = A R_world_cam^T,   A = d r / d p_cam
 ///
 /// Variables T_world_cam (z forward), [f, k1, k2] and p_world. As in those problems a point behind
-/// its camera is projected too; only one in the plane of the camera's centre cannot be.
+/// its camera is projected too; only a point in the plane through the camera's centre cannot be
+/// projected.
 class RadialReprojectionFactor final
     : public SizedFactor<2, SE3, Eigen::Vector3d, Eigen::Vector3d> {
  public:

@@ -8,12 +8,12 @@
 
 namespace placegraph {
 
-/// A variable's [+] and [-] as Ceres wants them.
+/// A variable's [+] and [-] as a Ceres manifold.
 ///
 /// Factors write their derivatives with respect to the tangent xi into the first kDof columns of a
-/// block's Jacobian and zeros into the rest, so the derivative of [+] is handed out as [I; 0]:
-/// Ceres' chain rule then yields the tangent derivative itself, and no factor has to go by way of
-/// the over-parametrized block.
+/// block's Jacobian and zeros into the rest, so the derivative of [+] is returned as [I; 0]: Ceres'
+/// chain rule then yields the tangent derivative itself, and factors need no derivatives by the
+/// over-parametrized block.
 template <class T>
 class VariableManifold final : public ceres::Manifold {
  public:
@@ -27,8 +27,8 @@ class VariableManifold final : public ceres::Manifold {
   bool Plus(const double* x, const double* delta, double* x_plus_delta) const override {
     Tangent xi = Eigen::Map<const Tangent>(delta);
     if (!xi.allFinite()) return false;
-    // Ceres tries out the whole negative gradient and gives up if that fails: the scale of that
-    // must stay a positive number. No useful step is as large.
+    // Ceres tries a step along the whole negative gradient and fails if that is invalid: its scale
+    // must stay a positive number. No useful step is that large.
     if constexpr (std::is_same_v<T, Sim3>)
       xi[6] = std::clamp(xi[6], -kMaxLogScaleStep, kMaxLogScaleStep);
     Block::store(Block::plus(Block::load(x), xi), x_plus_delta);

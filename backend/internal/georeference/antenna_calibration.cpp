@@ -93,7 +93,7 @@ class CalibrationProblem {
   }
 
   /// Covariance of the estimated components: inverse of C - B^T A^-1 B, with the normal equations
-  /// [A B; B^T C] of poses and calibration. Nothing if they are singular.
+  /// [A B; B^T C] of poses and calibration. Empty if they are singular.
   std::optional<Eigen::Matrix4d> covariance() {
     Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
     const auto k = static_cast<Eigen::Index>(estimated_.size());
@@ -145,7 +145,7 @@ class CalibrationProblem {
   std::vector<double*> moving_;
   std::vector<int> estimated_;
   std::deque<KernelLoss> losses_;
-  ceres::Problem problem_;  // after what it points to
+  ceres::Problem problem_;  // declared after all objects that it points to
 };
 
 template <class Group>

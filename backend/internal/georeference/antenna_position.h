@@ -6,8 +6,8 @@
 
 namespace placegraph {
 
-/// A measured position whose lever arm and clock offset are unknowns shared by all fixes, block
-/// c = [lever_arm, clock_offset]:
+/// A measured position with unknown lever arm and clock offset.
+/// All fixes share these unknowns, block c = [lever_arm, clock_offset]:
 ///
 ///   r = W (T_world_node * a - position_world),   a = A lever_arm + t + v clock_offset
 ///   d r / d xi = W d e / d xi (as PositionFactor at a),   d r / d c = W s R [A, v]
@@ -40,8 +40,8 @@ class AntennaPositionFactor final
       Eigen::Matrix<double, 3, 4> J_a_c;
       J_a_c << fix_.A, fix_.v;
       Eigen::Map<Eigen::Matrix<double, 3, 4, Eigen::RowMajor>> J(jacobians[1]);
-      // The first columns of the linearization are d e / d a: moving the node by rho or the antenna
-      // within it is the same.
+      // The first columns of the linearization are d e / d a: a translation of the node by rho and
+      // one of the antenna within the node have the same effect.
       if constexpr (Group::kDof == 3)
         J.noalias() = W_.template leftCols<2>() * at.J.template topLeftCorner<2, 2>() *
                       J_a_c.template topRows<2>();

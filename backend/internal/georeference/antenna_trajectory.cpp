@@ -7,11 +7,11 @@
 namespace placegraph {
 namespace {
 
-/// Half the time over which a velocity is taken: about a frame, so that noise of the motion stays
-/// out of it.
+/// Half the time over which a velocity is computed: about a frame, which suppresses noise of the
+/// motion.
 constexpr std::int64_t kHalfStep_ns = 50'000'000;
 
-/// From a to b by `share`: translation linear, rotation geodesic.
+/// Interpolates from a to b by `share`: translation linearly, rotation geodesically.
 SE3 between(const SE3& a, const SE3& b, double share) {
   const SO3 R_a_b = a.rotation().inverse() * b.rotation();
   return SE3(a.rotation().plus(share * R_a_b.log()),
@@ -45,8 +45,8 @@ AntennaTrack::AntennaTrack(const PoseGraph& graph, std::vector<NodeVisit> visits
   const auto index = graph.index_by_id();
   for (const NodeVisit& visit : visits) {
     const std::optional<int> node = index.find(visit.node);
-    require(node.has_value(),
-            "georeference: a time of node " + to_string(visit.node) + ", which is not there");
+    require(node.has_value(), "georeference: a time of node " + to_string(visit.node) +
+                                  ", which is not in the graph");
     require(visits_.empty() || visits_.back().stamp_ns < visit.stamp_ns,
             "georeference: two nodes have the time " + std::to_string(visit.stamp_ns) + " ns");
     visits_.push_back({visit.stamp_ns, *node});
@@ -56,8 +56,8 @@ AntennaTrack::AntennaTrack(const PoseGraph& graph, std::vector<NodeVisit> visits
       motion_.poses.push_back({visit.stamp_ns, T_map_node_[visit.node].isometry()});
 }
 
-/// Positions in visits_: the last one not after `stamp_ns` and the first one after it; both the
-/// same outside of the visits.
+/// Positions in visits_ of the last visit not after `stamp_ns` and the first one after it; both are
+/// the same outside of the visits.
 std::pair<int, int> AntennaTrack::neighbours(std::int64_t stamp_ns) const {
   const auto after =
       std::upper_bound(visits_.begin(), visits_.end(), stamp_ns,

@@ -5,11 +5,10 @@
 
 namespace placegraph {
 
-/// T_enu_map in front of a pose of the map; a node of SE(2) keeps to the plane.
+/// A pose of the map transformed by T_enu_map; a node of SE(2) stays in the plane.
 Pose placed(const Sim3& T_enu_map, const Pose& T_map_node);
 
-/// The part of a graph whose nodes are kept: relative poses that join dropped ones go too, as do
-/// measured positions.
+/// The subgraph of the kept nodes, without measured positions and edges to dropped nodes.
 PoseGraph kept_part(const PoseGraph& graph, const std::vector<char>& keep);
 
 }  // namespace placegraph

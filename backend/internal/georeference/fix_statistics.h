@@ -8,25 +8,27 @@
 
 namespace placegraph {
 
-/// Of all coordinates by themselves, longitudes relative to the first fix: gross errors do not move
-/// it. At least one fix.
+/// Median position of the fixes, robust against gross errors.
+/// It is the median of each coordinate, with longitudes relative to the first fix. At least one
+/// fix.
 GeodeticPosition median_position(const std::vector<GpsFix>& fixes);
 
-/// The times longer than `least_s` between the first and the last visit in which no fix lies.
+/// The gaps without a fix longer than `least_s` between the first and the last visit.
 std::vector<GpsDropout> find_dropouts(const std::vector<NodeVisit>& visits,
                                       const std::vector<std::int64_t>& stamps_of_fixes_ns,
                                       double least_s);
 
-/// What a map leaves of a fix.
+/// Residual of a fix against a map.
 struct FixResidual {
   std::int64_t stamp_ns = 0;
   Eigen::Vector3d e_enu = Eigen::Vector3d::Zero();  ///< [m]
-  double accuracy_m = 1;                            ///< as the receiver states it
+  double accuracy_m = 1;                            ///< accuracy stated by the receiver [m]
 };
 
-/// By which factor fixes scatter more than they state (1 if they do not), from differences of
-/// successive residuals at most `max_gap_s` apart: what a map that does not fit leaves cancels in
-/// them, and the median passes over gross errors. Nothing below twenty pairs.
+/// Factors by which fixes scatter more than stated; 1 if they do not.
+/// They are estimated from the differences of successive residuals at most `max_gap_s` apart, in
+/// which the errors of the map cancel; the median is robust against gross errors. Empty below
+/// twenty pairs.
 struct FixDispersion {
   double horizontal = 1, vertical = 1;
 };

@@ -23,7 +23,7 @@ constexpr double kHuberWidth = 1.345;
 constexpr double kRejectedWeight = 0.1;
 constexpr double kGrossChi2 = 25;
 
-/// The work of georeference(), step by step.
+/// The steps of georeference().
 class Georeferencer {
  public:
   Georeferencer(const GeoreferenceInput& input, const GeoreferenceOptions& options,
@@ -81,17 +81,17 @@ class Georeferencer {
   const GeoreferenceOptions& options_;
   const LogSink& log_;
   GeoreferenceResult result_;
-  std::vector<NodeVisit> visits_;        ///< of the nodes that are placed
-  PoseGraph graph_;                      ///< T_enu_node of the nodes that are placed
-  PoseGraph map_;                        ///< T_map_node of the same
+  std::vector<NodeVisit> visits_;        ///< visits of the placed nodes
+  PoseGraph graph_;                      ///< T_enu_node of the placed nodes
+  PoseGraph map_;                        ///< T_map_node of the placed nodes
   Trajectory motion_;                    ///< T_map_body
-  std::optional<AntennaTrack> track_;    ///< of both
-  std::vector<std::int64_t> stamps_ns_;  ///< of the fixes, by the nodes' clock
+  std::optional<AntennaTrack> track_;    ///< track of map_ and motion_
+  std::vector<std::int64_t> stamps_ns_;  ///< times of the fixes, by the nodes' clock
   std::vector<Eigen::Vector3d> positions_enu_;
   std::vector<double> accuracy_m_;
   AntennaCalibration prior_;
-  Eigen::Vector4d calibration_;  ///< as it stands
-  std::vector<int> fix_of_;      ///< of every observation, its fix
+  Eigen::Vector4d calibration_;  ///< current calibration
+  std::vector<int> fix_of_;      ///< fix of every observation
   std::vector<AntennaObservation> observations_;
 };
 
@@ -113,7 +113,7 @@ void Georeferencer::locate_fixes() {
   }
 }
 
-/// Takes the fixes to the nodes at the clock offset found so far.
+/// Transfers the fixes to the nodes with the current clock offset.
 void Georeferencer::carry(const AntennaTrack& track) {
   std::vector<std::int64_t> stamps_ns = stamps_ns_;
   const auto offset_ns = static_cast<std::int64_t>(std::llround(1e9 * calibration_[3]));
@@ -174,7 +174,7 @@ Outcome Georeferencer::align() {
 GpsAlignment Georeferencer::align_component(int component, const std::vector<int>& component_of,
                                             Random& random) {
   const PoseKind kind = in_.graph.kind();
-  // In a Sim(3) map the length of the lever arm is not known yet, and it hardly matters here.
+  // The lever arm in the scale of a Sim(3) map is still unknown; its effect here is small.
   const Eigen::Vector3d arm =
       kind == PoseKind::kSim3 ? Eigen::Vector3d::Zero() : Eigen::Vector3d(calibration_.head<3>());
   std::vector<PositionPair> pairs;
@@ -212,7 +212,7 @@ void Georeferencer::place(const std::vector<std::optional<Sim3>>& T_enu_map,
   carry_again();
 }
 
-/// Optimizes with Huber's kernel until the scatter of the fixes stays the same.
+/// Optimizes with Huber's kernel until the dispersion of the fixes is constant.
 void Georeferencer::dispersion_of_fixes() {
   for (int round = 0; round < 5; ++round) {
     solve({RobustKernel::Kind::kHuber, kHuberWidth});
@@ -220,7 +220,7 @@ void Georeferencer::dispersion_of_fixes() {
     std::vector<FixResidual> residuals;
     for (std::size_t i = 0; i < observations_.size(); ++i) {
       const Eigen::Vector3d e = residual_of(observations_[i], graph_, calibration_);
-      // The first round knows no scale by which to call an error gross.
+      // In the first round no scale is known by which an error can be classified as gross.
       if (round == 0 || e.dot(observations_[i].information * e) <= kGrossChi2)
         residuals.push_back({stamps_ns_[fix_of_[i]], e, accuracy_m_[fix_of_[i]]});
     }
@@ -243,8 +243,9 @@ void Georeferencer::scale_odometry_by(double translation, double rotation) {
   result_.odometry_factor_rotation *= rotation;
 }
 
-/// Odometry that claims to be much worse than it fits (information of 1, say) lets the map crumple
-/// before its scatter can be told: it begins with what the rigid fit leaves.
+/// Bounds the stated covariance of the odometry by the residuals of the rigid fit.
+/// Odometry whose stated covariance is far too large (e.g. an information of 1) would let the map
+/// deform before its dispersion can be estimated.
 void Georeferencer::bound_odometry() {
   if (!options_.estimate_odometry) return;
   constexpr double kMuchWorse = 5;
@@ -257,9 +258,9 @@ void Georeferencer::bound_odometry() {
   scale_odometry_by(bound(drift.by_translation), bound(drift.by_rotation));
 }
 
-/// Believes what the edges claim of themselves unless the fixes contradict it; then takes the
-/// scatter that the fixes show. None is taken for so good that the fixes could not tell it from a
-/// rigid map.
+/// Keeps the stated covariances of the edges unless the fixes contradict them.
+/// Then it uses the estimated dispersion. The factors are bounded from below so that the fixes
+/// could distinguish the edges from a rigid map.
 void Georeferencer::variance_components_of_odometry() {
   if (!options_.estimate_odometry) return;
   constexpr int kRounds = 15;
@@ -283,8 +284,8 @@ void Georeferencer::variance_components_of_odometry() {
   }
 }
 
-/// Where the data show clearly that the map's poses lag behind their stamps (or run ahead), takes
-/// map and motion to their stamps; again, until nothing of the delay is left.
+/// Corrects a significant latency (or advance) of the map's poses.
+/// Map and motion are moved to their stamps; this repeats until the remaining delay is negligible.
 void Georeferencer::undo_delay() {
   constexpr int kRounds = 6;
   constexpr double kClear = 3, kLittle = 0.2;  // standard deviations
@@ -304,7 +305,7 @@ void Georeferencer::undo_delay() {
     take_further(delay_s);
   }
   if (result_.map_delay_s == 0) return;
-  // What the delay did to the fit is no fault of the edges: from the beginning once more.
+  // The delay had affected the residuals of the edges: estimates their dispersion again.
   scale_odometry_by(1 / result_.odometry_factor_translation, 1 / result_.odometry_factor_rotation);
   bound_odometry();
   solve({RobustKernel::Kind::kHuber, kHuberWidth});
@@ -342,7 +343,7 @@ void Georeferencer::calibrate() {
                                                                  k, k)) < 0.5 * prior_.sigma[k];
 }
 
-/// Optimizes the poses with the calibration as it stands.
+/// Optimizes the poses with the current calibration.
 void Georeferencer::solve(const RobustKernel& kernel) {
   PoseGraph graph = graph_;
   for (const AntennaObservation& seen : observations_)
@@ -351,7 +352,7 @@ void Georeferencer::solve(const RobustKernel& kernel) {
         seen.fix.antenna(calibration_.head<3>(), calibration_[3]), seen.information, kernel});
   PoseGraphOptions options = options_.solver;
   options.start =
-      PoseGraphInitialization::kFile;  // the alignment; other starts know nothing of fixes
+      PoseGraphInitialization::kFile;  // the alignment; other initializations do not use the fixes
   const PoseGraphReport report = optimize_pose_graph(graph, options, log_);
   result_.outcome = report.outcome;
   result_.iterations += report.iterations;

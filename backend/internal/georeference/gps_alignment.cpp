@@ -12,7 +12,7 @@ namespace {
 constexpr double kGate = 3.0;  ///< standard deviations
 constexpr double kMinInlierShare = 0.5;
 
-/// The rotation about the vertical and the translation that fit best, heights left out.
+/// Least-squares rotation about the vertical and translation, without heights.
 Sim3 fit_planar(const Eigen::Matrix3Xd& map, const Eigen::Matrix3Xd& enu) {
   const Eigen::Vector3d mean_map = map.rowwise().mean(), mean_enu = enu.rowwise().mean();
   const Eigen::Matrix3Xd a = map.colwise() - mean_map, b = enu.colwise() - mean_enu;
@@ -42,7 +42,7 @@ Sim3 fit(const std::vector<PositionPair>& pairs, const std::vector<int>& chosen,
   return Sim3(SO3::from_matrix(T.topLeftCorner<3, 3>() / scale), T.topRightCorner<3, 1>(), scale);
 }
 
-/// Whether a sample determines a rotation (and a scale) at all, for fit() to be well-behaved.
+/// Whether a sample determines a rotation (and a scale), as fit() requires.
 bool usable(const std::vector<PositionPair>& pairs, const std::vector<int>& sample,
             AlignmentGroup group) {
   const Eigen::Vector3d a = pairs[sample[1]].map - pairs[sample[0]].map;
@@ -76,7 +76,7 @@ double angle_sigma_deg(const std::vector<PositionPair>& pairs, const std::vector
   }
   const Eigen::Vector3d spread =
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter, Eigen::EigenvaluesOnly).eigenvalues();
-  // About axis k the arm is what lies across it: the two other directions.
+  // The lever arm about axis k is the spread along the two other axes.
   const double across =
       scale * scale *
       (group == AlignmentGroup::kPlanar ? spread[1] + spread[2] : spread[0] + spread[1]);
@@ -112,7 +112,7 @@ GpsAlignment align_to_fixes(const std::vector<PositionPair>& pairs, AlignmentGro
       [&](const Sim3& T_enu_map, int i) {
         Eigen::Vector3d e = T_enu_map * pairs[i].map - pairs[i].enu;
         if (group == AlignmentGroup::kPlanar) e[2] = 0;
-        // The bend is a bound, not a deviation: a third of it for a gate of three.
+        // The deformation is a bound, not a standard deviation: a third of it for a gate of three.
         const double sigma = pairs[i].sigma_m;
         return e.squaredNorm() / (sigma * sigma + bend_m * bend_m / (kGate * kGate));
       },
@@ -129,8 +129,9 @@ GpsAlignment align_to_fixes(const std::vector<PositionPair>& pairs, AlignmentGro
     result.outcome =
         result.angle_sigma_deg > options.max_angle_sigma_deg
             ? Outcome::failure(Outcome::Code::kDegenerate,
-                               "the positions coincide or lie on a line: nothing to align by")
-            : Outcome::failure(Outcome::Code::kNoConsensus, "no fixes agree on a place of the map");
+                               "the positions coincide or are on a line: alignment undetermined")
+            : Outcome::failure(Outcome::Code::kNoConsensus,
+                               "no fixes agree on an alignment of the map");
     return result;
   }
   result.T_enu_map = found.model;
@@ -147,15 +148,15 @@ GpsAlignment align_to_fixes(const std::vector<PositionPair>& pairs, AlignmentGro
       static_cast<double>(found.inliers.size()) / static_cast<double>(pairs.size());
   if ((result.outcome || result.outcome.code == Outcome::Code::kNoConsensus) &&
       share < kMinInlierShare)
-    result.outcome =
-        Outcome::failure(Outcome::Code::kNoConsensus, std::to_string(found.inliers.size()) +
-                                                          " of " + std::to_string(pairs.size()) +
-                                                          " fixes agree on a place of the map");
+    result.outcome = Outcome::failure(Outcome::Code::kNoConsensus,
+                                      std::to_string(found.inliers.size()) + " of " +
+                                          std::to_string(pairs.size()) +
+                                          " fixes agree on an alignment of the map");
   if (result.outcome && result.angle_sigma_deg > options.max_angle_sigma_deg)
-    result.outcome = Outcome::failure(Outcome::Code::kDegenerate,
-                                      "the positions lie nearly on a line: a rotation about it is "
-                                      "known to " +
-                                          std::to_string(result.angle_sigma_deg) + " deg only");
+    result.outcome = Outcome::failure(
+        Outcome::Code::kDegenerate,
+        "the positions are nearly on a line: the standard deviation of the rotation about it is " +
+            std::to_string(result.angle_sigma_deg) + " deg");
   return result;
 }
 

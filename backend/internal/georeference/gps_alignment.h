@@ -7,10 +7,10 @@
 
 namespace placegraph {
 
-/// A position in the map and where a fix saw it.
+/// A position in the map and its measurement by a fix.
 struct PositionPair {
-  Eigen::Vector3d map, enu;  ///< [map's unit], [m]
-  double sigma_m = 1;        ///< of each coordinate of `enu`
+  Eigen::Vector3d map, enu;  ///< in the map's scale; in metres
+  double sigma_m = 1;        ///< standard deviation of each coordinate of `enu`
 };
 
 enum class AlignmentGroup {
@@ -19,22 +19,23 @@ enum class AlignmentGroup {
   kSimilarity,  ///< Sim(3)
 };
 
-/// Of a map whose nodes are of that kind.
+/// The alignment group of a map whose nodes are of that kind.
 AlignmentGroup alignment_group(PoseKind kind);
 
 struct GpsAlignment {
   Outcome outcome;
   Sim3 T_enu_map;
   std::vector<int> inliers;
-  double rmse_m = 0;           ///< of the inliers
-  double angle_sigma_deg = 0;  ///< about the direction least determined
+  double rmse_m = 0;           ///< RMS error of the inliers [m]
+  double angle_sigma_deg = 0;  ///< standard deviation about the least determined axis
 };
 
-/// The similarity that puts a map roughly onto its fixes, `pairs` in the order of its way: least
-/// squares (Umeyama 1991) inside of MSAC, so that gross errors have no say. It need not be exact,
-/// for the map may be bent by drift and is unbent afterwards. Outcomes: kTooFewData below three
-/// pairs (two in the plane); kNoConsensus if fewer than half of the pairs agree; kDegenerate if the
-/// positions lie on a line or point, so that a rotation stays open.
+/// Estimates a similarity that aligns a map approximately to its fixes.
+/// `pairs` are in the order of the path. Least squares (Umeyama 1991) within MSAC, which is robust
+/// against gross errors. The result need not be exact, because the map may be deformed by drift,
+/// which is corrected afterwards. Outcomes: kTooFewData below three pairs (two in the plane);
+/// kNoConsensus if fewer than half of the pairs agree; kDegenerate if the positions are on a line
+/// or point, which leaves a rotation undetermined.
 [[nodiscard]] GpsAlignment align_to_fixes(const std::vector<PositionPair>& pairs,
                                           AlignmentGroup group, const GpsAlignmentOptions& options,
                                           Random& random);

@@ -7,7 +7,7 @@
 namespace placegraph {
 namespace {
 
-/// T_map_later T_map_now^-1 about `stamp_ns`: how the motion goes on within the delay, in the map.
+/// The motion within the delay after `stamp_ns` in the map's frame, T_map_later T_map_now^-1.
 std::optional<SE3> movement(const Trajectory& motion, std::int64_t stamp_ns, double delay_s,
                             double max_gap_s) {
   const auto delay_ns = static_cast<std::int64_t>(std::llround(1e9 * delay_s));
@@ -20,7 +20,7 @@ std::optional<SE3> movement(const Trajectory& motion, std::int64_t stamp_ns, dou
   return std::nullopt;
 }
 
-/// A rigid step as a pose of the kind of `like`, in its unit.
+/// A rigid step as a pose of the kind of `like`.
 Pose of_kind(const SE3& step, const Pose& like) {
   if (std::holds_alternative<SE3>(like)) return step;
   if (std::holds_alternative<Sim3>(like)) return Sim3(step.rotation(), step.translation(), 1);

@@ -11,11 +11,11 @@ namespace placegraph {
 namespace {
 
 constexpr double kLeastRedundancy = 0.5;
-constexpr double kSmallest = 1e-3, kLargest = 1e3;  ///< of a factor in one step
+constexpr double kSmallest = 1e-3, kLargest = 1e3;  ///< bounds of a factor in one step
 
 struct Component {
   double squares = 0, redundancy = 0;
-  /// Of one edge: its error, claimed and remaining covariance in these directions.
+  /// Adds an edge: its stated and remaining covariance and its error in these directions.
   void add(const Eigen::MatrixXd& claimed, const Eigen::MatrixXd& remaining,
            const Eigen::VectorXd& e) {
     const Eigen::LLT<Eigen::MatrixXd> factor(claimed);
@@ -33,7 +33,7 @@ struct Component {
   }
 };
 
-/// The edges whose scatter is judged.
+/// The edges whose dispersion is estimated.
 std::vector<int> judged(const PoseGraph& graph) {
   std::vector<int> odometry, all;
   for (std::size_t i = 0; i < graph.constraints.size(); ++i) {

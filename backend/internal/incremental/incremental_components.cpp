@@ -18,7 +18,7 @@ void IncrementalComponents::set_held(int node, bool held) {
   changed_.push_back(node);
 }
 
-/// Holds the first node of a component without anchors and lets it go in one that has some.
+/// Holds the first node of a component without anchors, and frees it if the component has anchors.
 void IncrementalComponents::settle(Component& component) {
   const int hold = component.anchors > 0 || component.nodes.empty() ? -1 : component.first;
   if (component.held == hold) return;
@@ -37,7 +37,7 @@ std::vector<int> IncrementalComponents::join(int a, int b) {
   std::vector<int> moved;
   if (components_[moves].anchors == 0) moved = components_[moves].nodes;
 
-  // The larger one keeps its number.
+  // The larger component keeps its number.
   Component &x = components_[stays], &y = components_[moves];
   const bool swap = x.nodes.size() < y.nodes.size();
   Component &into = swap ? y : x, &from = swap ? x : y;

@@ -3,22 +3,22 @@
 
 namespace placegraph {
 
-/// Which nodes of a growing graph hang together, and which are held: the fixed ones, and the first
-/// node of a component that neither a fixed node nor a measured position ties to the world (its
-/// anchors).
+/// The connected components of an incremental graph, and its held nodes.
+/// Held are the fixed nodes, and the first node of a component without anchors, i.e. without a
+/// fixed node or a measured position.
 class IncrementalComponents {
  public:
-  /// Returns the node's number, which counts from 0.
+  /// Adds a node and returns its number, starting from 0.
   int add_node(bool fixed);
   bool held(int node) const { return nodes_[node].held; }
   bool together(int a, int b) const { return nodes_[a].component == nodes_[b].component; }
-  /// Makes one component of two. Returns the nodes of the one that should be moved to where the
-  /// other says: the one without anchors, else the one whose first node came later; none if both
+  /// Joins two components. Returns the nodes of the component that should be moved to fit the
+  /// other: the one without anchors, else the one whose first node was added later; empty if both
   /// have anchors.
   std::vector<int> join(int a, int b);
-  /// Takes `part` of a component out of it.
+  /// Splits `part` of a component off.
   void split(const std::vector<int>& part);
-  /// A measured position of the node came (+1) or went (-1).
+  /// A measured position of the node was added (+1) or removed (-1).
   void anchor(int node, int count);
   /// Nodes whose held() has changed since the last call.
   std::vector<int> take_changed();
@@ -33,14 +33,14 @@ class IncrementalComponents {
     std::vector<int> nodes;
     int first;
     int anchors = 0;
-    int held = -1;  ///< the node held for want of an anchor
+    int held = -1;  ///< the node held in the absence of an anchor
   };
   void settle(Component& component);
   void set_held(int node, bool held);
 
   std::vector<Node> nodes_;
   std::vector<Component> components_;
-  std::vector<int> free_components_;  ///< emptied by join()
+  std::vector<int> free_components_;  ///< unused components, emptied by join()
   std::vector<int> changed_;
 };
 

@@ -9,23 +9,24 @@
 namespace placegraph {
 namespace {
 
-/// Steps go down the tree to where a node's share of the cost is below this part of what is
-/// allowed.
+/// Steps descend the tree to nodes whose share of the cost is below this part of the allowed
+/// excess.
 constexpr double kThresholdShare = 0.005;
-/// An iteration that leaves more than this part of the predicted excess is slow: the model is off.
+/// An iteration that leaves more than this part of the predicted excess is slow: the model is
+/// inaccurate.
 constexpr double kSlow = 0.25;
-/// Edges whose Jacobians have changed by this share are then linearized anew, a tenth of that at
-/// the next time, and so on. A long chain bends far by little in each of its edges.
+/// Then edges whose Jacobians have changed by this share are linearized again, with a tenth of it
+/// the next time, and so on. A long chain bends far by small changes of each edge.
 constexpr double kFirstChange = 3e-4, kLastChange = 1e-8;
-/// Iterations begin at a part of the excess that is allowed, so that they seldom end above it and
-/// few steps need a second one: lowered by every step that does, raised by every one that does not.
+/// Iterations start at a part of the allowed excess, so that they seldom end above it and few steps
+/// need a second one. Steps with a second iteration lower this part, the others raise it.
 constexpr double kLeastBegin = 0.4, kLowerBegin = 0.6, kRaiseBegin = 1.02;
-/// Costs below are rounding.
+/// Costs below this value are rounding.
 constexpr double kNoCost = 1e-12;
-/// Of the tree, as a share of the diagonal: keeps open directions solvable.
+/// Damping of the tree as a share of the diagonal; undetermined directions stay solvable.
 constexpr double kDamping = 1e-10;
 constexpr int kMostPatience = 64;
-constexpr const char* kIndefinite = "the normal equations are indefinite at any damping";
+constexpr const char* kIndefinite = "the normal equations are indefinite with any damping";
 
 }  // namespace
 
@@ -35,7 +36,8 @@ IncrementalEngineOf<Group>::IncrementalEngineOf(const IncrementalOptions& option
   tree_.set_damping(kDamping);
 }
 
-/// False if no damping makes the factor positive: what was added is not finite, or nearly so.
+/// False if the factor is indefinite with any damping: an addition is not finite or extremely
+/// large.
 template <class Group>
 bool IncrementalEngineOf<Group>::factorize(IncrementalStep& step) {
   const int nodes = graph_.nodes();
@@ -56,8 +58,8 @@ bool IncrementalEngineOf<Group>::factorize(IncrementalStep& step) {
   return done;
 }
 
-/// Lowers a raised damping again after a while, longer every time it was of no avail: it costs
-/// a factorization of everything.
+/// Lowers a raised damping after some steps; every failure increases their number.
+/// Each attempt costs a factorization of the whole graph.
 template <class Group>
 void IncrementalEngineOf<Group>::relax_damping() {
   if (tree_.damping() == kDamping) return;
@@ -66,7 +68,7 @@ void IncrementalEngineOf<Group>::relax_damping() {
   patience_ = std::min(2 * patience_, kMostPatience);
 }
 
-/// Moves the nodes that matter. False, and nothing has moved, if the cost would not fall.
+/// Moves the nodes with significant steps; false, without a motion, if the cost would not fall.
 template <class Group>
 bool IncrementalEngineOf<Group>::iterate(double threshold, IncrementalStep& step) {
   const std::vector<int>& moved = tree_.solve(threshold);
@@ -108,7 +110,7 @@ void IncrementalEngineOf<Group>::optimize(double excess, IncrementalStep& step) 
       step.edges_relinearized += graph_.relinearize(graph_.visited(), options_.relinearization);
       continue;
     }
-    // The model does not hold what it promised: bring it up to date, and take more nodes along.
+    // The decrease was smaller than predicted: updates the model and moves more nodes.
     const int count = graph_.relinearize_all(change);
     step.edges_relinearized += count;
     if (!slow && count == 0 && change < kLastChange) break;
@@ -159,7 +161,7 @@ Eigen::MatrixXd IncrementalEngineOf<Group>::covariance(const std::vector<int>& n
 
 template <class Group>
 Information IncrementalEngineOf<Group>::relative_covariance(int from, int to) const {
-  require(graph_.together(from, to), "incremental optimizer: nothing joins nodes " +
+  require(graph_.together(from, to), "incremental optimizer: no constraints connect nodes " +
                                          to_string(graph_.id(from)) + " and " +
                                          to_string(graph_.id(to)));
   constexpr int dof = Group::kDof;

@@ -8,14 +8,14 @@
 
 namespace placegraph {
 
-/// What IncrementalOptimizer does, whatever the group.
+/// Group-independent interface of the implementation of IncrementalOptimizer.
 class IncrementalEngine {
  public:
   virtual ~IncrementalEngine() = default;
   virtual PoseKind kind() const = 0;
-  /// All that comes in has been checked by the caller.
+  /// The caller has checked all inputs.
   virtual void add_node(const PoseNode& node) = 0;
-  /// `poses_hold`: constraints that join components move neither.
+  /// `poses_hold`: constraints that connect components move neither component.
   virtual void add_constraints(const std::vector<Constraint>& constraints, bool poses_hold) = 0;
   virtual void revise(const ConstraintRevision& revision) = 0;
   virtual void set_weight(const ConstraintWeight& weight) = 0;
@@ -24,7 +24,7 @@ class IncrementalEngine {
 
   virtual int constraints() const = 0;
   virtual const Constraint& constraint(int number) const = 0;
-  virtual int find(NodeId node_id) const = 0;  ///< -1: unknown
+  virtual int find(NodeId node_id) const = 0;  ///< position; -1: unknown
   virtual Pose pose(int node) const = 0;
   virtual PoseGraph graph() const = 0;
   virtual double cost() const = 0;
@@ -65,8 +65,9 @@ class IncrementalEngineOf final : public IncrementalEngine {
   IncrementalOptions options_;
   IncrementalGraph<Group> graph_;
   typename IncrementalGraph<Group>::Tree& tree_;
-  double begin_ = 1;  ///< share of the allowed excess at which iterations begin
-  /// Steps since the tree's damping was raised, and after how many it is lowered again.
+  double begin_ = 1;  ///< share of the allowed excess at which iterations start
+  /// Steps since the tree's damping was raised, and the number of steps after which it is lowered
+  /// again.
   int steps_damped_ = 0, patience_ = 1;
   int nodes_when_ordered_ = 0;
 };

@@ -8,7 +8,7 @@
 namespace placegraph {
 namespace {
 
-/// A place in the list that is free, else a new one at its end.
+/// An unused place in the list, else a new one at its end.
 template <class List>
 int take_place(List& list, std::vector<int>& free) {
   if (free.empty()) {
@@ -42,7 +42,7 @@ void IncrementalGraph<Group>::add_node(const PoseNode& node) {
 template <class Group>
 void IncrementalGraph<Group>::add_constraints(const std::vector<Constraint>& constraints,
                                               bool poses_hold) {
-  // Odometry first, and nothing depends on the order in which the rest is given.
+  // Odometry first; the result does not depend on the order of the other constraints.
   std::vector<std::tuple<int, int, int, int>> order;
   const int first = static_cast<int>(constraints_.size());
   for (std::size_t i = 0; i < constraints.size(); ++i) {
@@ -70,8 +70,8 @@ void IncrementalGraph<Group>::attach(int number, double weight) {
     add_position(std::get<PositionConstraint>(constraints_[number]), number, weight);
 }
 
-/// Takes a constraint out of everything but the list of constraints: dead ones cost neither time
-/// nor memory beside their record.
+/// Removes a constraint from everything except the list of constraints.
+/// Removed constraints cost no time, and no memory besides their record.
 template <class Group>
 void IncrementalGraph<Group>::detach(int number) {
   const int place = std::exchange(place_[number], -1);
@@ -197,11 +197,11 @@ void IncrementalGraph<Group>::join(const Edge& edge) {
   const Group T_new_old = from_moves
                               ? T_world_to * edge.edge.T_to_from * T_world_from.inverse()
                               : T_world_from * edge.edge.T_to_from.inverse() * T_world_to.inverse();
-  // No edge of the component feels it; if it has just one node it is put there exactly.
+  // No edge of the component changes; a component of one node is set exactly.
   for (const int node : moved) nodes_[node].T_world_node = T_new_old * nodes_[node].T_world_node;
 }
 
-/// An edge of two nodes is gone: makes two components of one unless another way joins them.
+/// After the removal of an edge: splits its component unless another path connects the two nodes.
 template <class Group>
 void IncrementalGraph<Group>::split(int from, int to) {
   std::vector<char> seen(nodes_.size(), false);
@@ -224,7 +224,7 @@ void IncrementalGraph<Group>::apply_held() {
   for (const int node : components_.take_changed()) tree_.set_active(node, !components_.held(node));
 }
 
-// Its terms at the present poses.
+// Its terms at the current poses.
 
 template <class Group>
 void IncrementalGraph<Group>::evaluate(int e) {
@@ -253,7 +253,7 @@ void IncrementalGraph<Group>::evaluate_position(int p) {
   if (!std::exchange(nodes_[node].gradient_stale, true)) gradient_stale_.push_back(node);
 }
 
-/// Edges and positions of the nodes, which have moved.
+/// Edges and positions of the moved nodes.
 template <class Group>
 void IncrementalGraph<Group>::evaluate_around(const std::vector<int>& nodes) {
   visited_.clear();

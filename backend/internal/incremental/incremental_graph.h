@@ -9,9 +9,9 @@
 
 namespace placegraph {
 
-/// Nodes and constraints of a pose graph that grows, their terms at the present poses, and the
-/// elimination tree that these are written into. Constraints of weight zero are taken out of
-/// everything but the list of constraints. All that comes in has been checked by the caller.
+/// Nodes and constraints of an incremental graph, their terms and their elimination tree.
+/// The terms are at the current poses and are written into the tree. Constraints of weight zero are
+/// removed from everything except the list of constraints. The caller has checked all inputs.
 template <class Group>
 class IncrementalGraph {
  public:
@@ -19,7 +19,7 @@ class IncrementalGraph {
   explicit IncrementalGraph(RotationError rotation_error) : rotation_error_(rotation_error) {}
 
   void add_node(const PoseNode& node);
-  /// `poses_hold`: constraints that join components move neither.
+  /// `poses_hold`: constraints that connect components move neither component.
   void add_constraints(const std::vector<Constraint>& constraints, bool poses_hold);
   void revise(const ConstraintRevision& revision);
   void set_weight(const ConstraintWeight& weight);
@@ -27,27 +27,27 @@ class IncrementalGraph {
   int nodes() const { return static_cast<int>(nodes_.size()); }
   int constraints() const { return static_cast<int>(constraints_.size()); }
   const Constraint& constraint(int number) const { return constraints_[number]; }
-  int find(NodeId node_id) const;  ///< -1: unknown
+  int find(NodeId node_id) const;  ///< position; -1: unknown
   NodeId id(int node) const { return ids_[node]; }
   const Group& pose(int node) const { return nodes_[node].T_world_node; }
   bool together(int a, int b) const { return components_.together(a, b); }
-  /// Of the terms at the present poses.
+  /// Cost of the terms at the current poses.
   double cost() const;
   PackedGraph<Group> packed() const;
   PoseGraph graph() const;
 
   Tree& tree() { return tree_; }
   const Tree& tree() const { return tree_; }
-  /// By their steps in the tree; move_back undoes that.
+  /// Moves nodes by their steps in the tree; move_back undoes that.
   void move(const std::vector<int>& nodes);
   void move_back(const std::vector<int>& nodes);
   void set_poses(const std::vector<Group>& T_world_nodes);
-  /// Writes what has changed into the tree.
+  /// Writes the changed gradients into the tree.
   void set_gradients();
-  /// Edges of the nodes that moved last.
+  /// Edges of the nodes moved in the last iteration.
   const std::vector<int>& visited() const { return visited_; }
-  /// Linearizes those of the edges anew whose Jacobians have changed by more than `change`; returns
-  /// how many.
+  /// Linearizes those of the edges again whose Jacobians have changed by more than `change`;
+  /// returns their number.
   int relinearize(const std::vector<int>& edges, double change);
   int relinearize_all(double change);
 
@@ -55,12 +55,12 @@ class IncrementalGraph {
   using Tangent = typename Group::Tangent;
 
   struct Node {
-    Group T_world_node, T_before;  ///< before the present iteration
+    Group T_world_node, T_before;  ///< current pose, and that before the current iteration
     std::vector<int> edges, positions;
     bool gradient_stale = false;
   };
   struct Edge : EdgeTerm<Group> {
-    int term = -1;  ///< of the tree
+    int term = -1;  ///< term of the tree
     bool visited = false;
   };
   struct Position : PositionTerm<Group> {
@@ -85,15 +85,15 @@ class IncrementalGraph {
   std::unordered_map<NodeId, int> index_;
   std::vector<char> fixed_;
   std::vector<Constraint> constraints_;
-  std::vector<int> place_;  ///< of every constraint in edges_ or positions_; -1: of weight 0
+  std::vector<int> place_;  ///< place of every constraint in edges_ or positions_; -1: weight 0
   std::vector<Node> nodes_;
   IncrementalComponents components_;
   std::vector<Edge> edges_;
-  std::vector<double> edge_costs_;  ///< of every edge, close together
+  std::vector<double> edge_costs_;  ///< cost of every edge, contiguous
   std::vector<Position> positions_;
-  std::vector<int> free_edges_, free_positions_;  ///< places that wait for others
+  std::vector<int> free_edges_, free_positions_;  ///< unused places
   std::vector<int> visited_, gradient_stale_;     ///< edges of the iteration; nodes
-  bool poses_hold_ = false;                       ///< joining components moves neither
+  bool poses_hold_ = false;                       ///< connecting components moves neither
   Tree tree_;
 };
 

@@ -15,7 +15,7 @@ void add_once(PoseGraph& graph, std::vector<NodeId>& seen, const PoseNode& node)
   graph.nodes.push_back(node);
 }
 
-/// The part of the graph that is new, with the earlier nodes that it is joined to.
+/// The new part of the graph, with the earlier nodes that it is connected to.
 PoseGraph neighbourhood(const IncrementalEngine* engine, const std::vector<PoseNode>& nodes,
                         const std::vector<Constraint>& constraints) {
   PoseGraph graph;
@@ -27,7 +27,7 @@ PoseGraph neighbourhood(const IncrementalEngine* engine, const std::vector<PoseN
     const int node = engine->find(id);
     if (node >= 0) add_once(graph, seen, {id, engine->pose(node), false});
   };
-  for (const PoseNode& node : nodes) add_known(node.id);  // a second time: check() refuses that
+  for (const PoseNode& node : nodes) add_known(node.id);  // a repeated node, which check() rejects
   for (const Constraint& constraint : constraints) {
     if (const auto* relative = std::get_if<RelativePoseConstraint>(&constraint)) {
       add_known(relative->from);
@@ -38,7 +38,7 @@ PoseGraph neighbourhood(const IncrementalEngine* engine, const std::vector<PoseN
   }
   if (!graph.nodes.empty() && kind_of(graph.nodes.front().T_world_node) != engine->kind())
     throw ArgumentError("pose graph: node " + to_string(graph.nodes.front().id) +
-                        ": of another kind than the first");
+                        ": its kind differs from that of the first node");
   return graph;
 }
 
@@ -62,7 +62,7 @@ void check(const IncrementalEngine* engine, const GraphChange& change) {
         "incremental optimizer: revision of constraint " + std::to_string(revision.constraint);
     check_number(revision.constraint, subject);
     if (!same_nodes(engine->constraint(revision.constraint), revision.measured))
-      throw ArgumentError(subject + ": it joins other nodes");
+      throw ArgumentError(subject + ": it connects other nodes");
     measured.push_back(revision.measured);
   }
   for (const ConstraintWeight& w : change.weights) {

@@ -8,13 +8,13 @@ void visit(OptionVisitor& field, IncrementalOptions& o) {
   field.choice("rotation_error", o.rotation_error, {"log", "quaternion"},
                "error of a relative pose: log of the group, or g2o's quaternion vector part");
   field("excess", o.excess,
-        "iterate until the cost is predicted to lie above its minimum by no more than this share",
+        "maximum predicted excess of the cost over its minimum, as a share of the cost",
         {1e-12, 1});
-  field("final_excess", o.final_excess, "the same at the end", {1e-12, 1});
+  field("final_excess", o.final_excess, "the same for the last poses of a run", {1e-12, 1});
   field("relinearization", o.relinearization,
-        "linearize an edge anew when its Jacobian has changed by this share", {0, 1});
+        "relative change of an edge's Jacobian at which it is linearized again", {0, 1});
   field("max_iterations", o.max_iterations,
-        "of a step, before the whole graph is solved from scratch", {1, 1000});
+        "maximum iterations of a step, before the graph is solved from scratch", {1, 1000});
 }
 
 }  // namespace placegraph

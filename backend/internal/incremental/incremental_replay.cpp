@@ -18,7 +18,7 @@ double thread_cpu_ms() {
 
 struct Steps {
   std::vector<int> nodes;                     ///< positions, in the order of their ids
-  std::vector<std::vector<int>> constraints;  ///< of every step
+  std::vector<std::vector<int>> constraints;  ///< constraints of every step
 };
 
 Steps steps_of(const PoseGraph& graph) {

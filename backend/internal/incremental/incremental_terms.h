@@ -4,8 +4,9 @@
 
 namespace placegraph {
 
-/// An edge of a packed graph with its cost and gradient at the present poses and its normal matrix
-/// at those where it was linearized.
+/// An edge of a packed graph with its terms.
+/// Cost and gradient are at the current poses, the normal matrix is at those where the edge was
+/// linearized.
 template <class Group>
 struct EdgeTerm {
   using Tangent = typename Group::Tangent;
@@ -13,11 +14,11 @@ struct EdgeTerm {
 
   typename PackedGraph<Group>::Edge edge;
   double cost = 0;                                           ///< weight * rho(e^T Omega e)
-  Tangent g_from = Tangent::Zero(), g_to = Tangent::Zero();  ///< half its derivatives
+  Tangent g_from = Tangent::Zero(), g_to = Tangent::Zero();  ///< half the derivatives of the cost
   Jacobian J_from, J_to;                                     ///< as linearized
-  double scale = -1;  ///< weight * rho' as linearized; negative: never was
-  /// How far the Jacobians are from those as linearized, as a share of their norm; the same of the
-  /// scale if that is more.
+  double scale = -1;  ///< weight * rho' as linearized; negative: never linearized
+  /// Relative change of the Jacobians since the linearization, or that of the scale if it is
+  /// larger.
   double change = 0;
 
   struct NormalBlocks {
@@ -28,7 +29,7 @@ struct EdgeTerm {
   NormalBlocks linearize(const Group& T_world_from, const Group& T_world_to, RotationError kind);
 };
 
-/// The same of a measured position, which is linearized whenever it is evaluated.
+/// A measured position with its terms, which are linearized in every evaluation.
 template <class Group>
 struct PositionTerm {
   typename PackedGraph<Group>::Position position;

@@ -9,7 +9,7 @@ inline bool positive_definite(const Eigen::MatrixXd& covariance) {
   return covariance.allFinite() && Eigen::LLT<Eigen::MatrixXd>(covariance).info() == Eigen::Success;
 }
 
-/// Inverse of a symmetric matrix, exactly symmetric: an information from a covariance, and back.
+/// Exactly symmetric inverse of a symmetric matrix, e.g. the information of a covariance.
 inline Eigen::MatrixXd symmetric_inverse(const Eigen::MatrixXd& matrix) {
   const Eigen::MatrixXd inverse =
       matrix.ldlt().solve(Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols()));

@@ -19,7 +19,9 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 using Code = Outcome::Code;
 
-Outcome not_started() { return Outcome::failure(Code::kNotAttempted, "the filter has not begun"); }
+Outcome not_started() {
+  return Outcome::failure(Code::kNotAttempted, "the filter has not been started");
+}
 
 }  // namespace
 
@@ -33,12 +35,12 @@ void PositionFilter::start(const BodyState& state) {
   require(state.T_world_body.translation().allFinite() && state.velocity_world.allFinite() &&
               state.gyro_bias.allFinite() && state.accel_bias.allFinite() &&
               state.covariance.allFinite(),
-          "PositionFilter: the state to start from is not finite");
+          "PositionFilter: the initial state is not finite");
   events_.clear();
   Event first;
   first.stamp_ns = state.stamp_ns;
   first.after = state;
-  // At rest until the inertial sensor speaks; then as it says.
+  // The body is assumed at rest until the first inertial sample.
   first.imu_assumed = true;
   first.imu.stamp_ns = state.stamp_ns;
   first.imu.gyro_rad_s = state.gyro_bias;
@@ -47,22 +49,22 @@ void PositionFilter::start(const BodyState& state) {
   events_.push_back(first);
 }
 
-/// One step of the strapdown equations with the error's transition and noise.
+/// One step of the strapdown equations, with the transition and the noise of the error.
 BodyState PositionFilter::predict(const Event& from, std::int64_t to_ns,
                                   const ImuSample& imu) const {
   BodyState state = from.after;
   const double dt = seconds(from.stamp_ns, to_ns);
   state.stamp_ns = to_ns;
   if (dt <= 0) return state;
-  const Vector3d turn = (imu.gyro_rad_s - state.gyro_bias) * dt;
+  const Vector3d step_rotation = (imu.gyro_rad_s - state.gyro_bias) * dt;
   const Vector3d force = imu.accel_m_s2 - state.accel_bias;
   const SO3 R_begin = state.T_world_body.rotation();
-  // Force is constant in the body: what it adds turns with it, in the middle of the step.
-  const Matrix3d R = (R_begin * SO3::exp(0.5 * turn)).matrix();
+  // The specific force is constant in the body frame; it is rotated by the attitude at mid-step.
+  const Matrix3d R = (R_begin * SO3::exp(0.5 * step_rotation)).matrix();
   const Vector3d accel = R * force + gravity();
-  state.T_world_body =
-      SE3(R_begin * SO3::exp(turn), Vector3d(state.T_world_body.translation() +
-                                             dt * state.velocity_world + 0.5 * dt * dt * accel));
+  state.T_world_body = SE3(R_begin * SO3::exp(step_rotation),
+                           Vector3d(state.T_world_body.translation() + dt * state.velocity_world +
+                                    0.5 * dt * dt * accel));
   state.velocity_world += dt * accel;
 
   Covariance F = Covariance::Identity();
@@ -72,8 +74,8 @@ BodyState PositionFilter::predict(const Event& from, std::int64_t to_ns,
   F.block<3, 3>(kPosition, kAccelBias) = -0.5 * dt * dt * R;
   F.block<3, 3>(kVelocity, kAttitude) = dt * force_by_attitude;
   F.block<3, 3>(kVelocity, kAccelBias) = -dt * R;
-  F.block<3, 3>(kAttitude, kAttitude) = SO3::exp(-turn).matrix();
-  F.block<3, 3>(kAttitude, kGyroBias) = -dt * SO3::right_jacobian(turn);
+  F.block<3, 3>(kAttitude, kAttitude) = SO3::exp(-step_rotation).matrix();
+  F.block<3, 3>(kAttitude, kGyroBias) = -dt * SO3::right_jacobian(step_rotation);
   F.block<3, 3>(kVelocity, kGyroBias) = 0.5 * dt * force_by_attitude * -dt;
   Covariance Q = Covariance::Zero();
   const auto add = [&](int at, double density) {
@@ -91,7 +93,7 @@ BodyState PositionFilter::predict(const Event& from, std::int64_t to_ns,
   return state;
 }
 
-/// Nothing where the measurement cannot be told from this state: a camera below the floor.
+/// Empty if the state does not predict the measurement: the camera is below the floor.
 std::optional<PositionFilter::Innovation> PositionFilter::innovation(
     const BodyState& state, const ImuSample& imu, const Measurement& measurement) const {
   Innovation result;
@@ -114,13 +116,13 @@ std::optional<PositionFilter::Innovation> PositionFilter::innovation(
   const Vector3d v_body = R.transpose() * state.velocity_world;
   const Vector3d v_cam = R_cam_body * (v_body + rate.cross(arm));
   const Vector3d up_by_attitude = -(R * hat(arm)).row(2).transpose();
-  // At the first image, half the time before.
+  // The height at the first image, half the interval earlier.
   const double height = (state.T_world_body * arm).z() - floor_z_m_ -
                         0.5 * dt * (state.velocity_world + R * rate.cross(arm)).z();
   constexpr double kLeastHeight_m = 0.01;
   if (!(height > kLeastHeight_m) || !(dt > 0)) return std::nullopt;
   const double share = dt / height;
-  // The flow's axes are the camera's at the first image, the state's those of the middle.
+  // The axes of the flow are those of the camera at the first image, half a step before the state.
   const Matrix3d R_first_middle = SO3::exp(R_cam_body * Vector3d(0.5 * dt * rate)).matrix();
   const Vector3d expected = share * R_first_middle * v_cam;
   result.residual = flow->over_distance - expected;
@@ -135,9 +137,9 @@ std::optional<PositionFilter::Innovation> PositionFilter::innovation(
   result.H.col(kVelocity + 2) -= by_height * 0.5 * dt;
   result.R = flow->covariance;
   if (flow->J_rotation) {
-    // What the gyro's noise and bias did to the turn they did to the attitude, with the other sign.
+    // Noise and bias of the gyroscope affect this rotation and the attitude with opposite signs.
     const Matrix3d J = *flow->J_rotation * R_cam_body;
-    // The turn as it is with what is known of the bias by now.
+    // Corrects the rotation with the current estimate of the bias.
     result.residual -= dt * J * (state.gyro_bias - flow->gyro_bias);
     const double variance = options_.gyro_noise * options_.gyro_noise * dt;
     result.H.block<3, 3>(0, kGyroBias) += dt * J;
@@ -148,7 +150,7 @@ std::optional<PositionFilter::Innovation> PositionFilter::innovation(
   return result;
 }
 
-/// False if the measurement is outside the gate; then the state stays.
+/// False if the measurement is outside the gate; then the state is unchanged.
 bool PositionFilter::correct(const Innovation& innovation, BodyState& state) const {
   const MatrixXd& H = innovation.H;
   MatrixXd PHt = state.covariance * H.transpose();
@@ -171,7 +173,7 @@ bool PositionFilter::correct(const Innovation& innovation, BodyState& state) con
   state.velocity_world += step.segment<3>(kVelocity);
   state.gyro_bias += step.segment<3>(kGyroBias);
   state.accel_bias += step.segment<3>(kAccelBias);
-  // Joseph's form stays positive; then the attitude's error is about the new attitude.
+  // Joseph's form keeps the covariance positive; G refers the attitude's error to the new attitude.
   const Covariance I_KH = Covariance::Identity() - K * H;
   state.covariance = I_KH * state.covariance * I_KH.transpose() + K * innovation.R * K.transpose();
   if (correlated) {
@@ -185,7 +187,7 @@ bool PositionFilter::correct(const Innovation& innovation, BodyState& state) con
   return true;
 }
 
-/// Everything from event `from` on, anew.
+/// Repeats the predictions and corrections from event `from` on.
 void PositionFilter::replay(std::size_t from) {
   for (std::size_t i = from; i < events_.size(); ++i) {
     Event& event = events_[i];
@@ -193,7 +195,7 @@ void PositionFilter::replay(std::size_t from) {
     event.imu = before.imu;
     event.imu_assumed = before.imu_assumed;
     if (const auto* sample = std::get_if<ImuSample>(&event.measurement)) {
-      // Between two samples the mean of both, except over what was skipped.
+      // The mean of two successive samples, except across a gap.
       ImuSample mean = *sample;
       constexpr double kSkipped_s = 0.1;
       if (!before.imu_assumed && seconds(before.imu.stamp_ns, sample->stamp_ns) < kSkipped_s) {
@@ -298,12 +300,13 @@ PositionFilter::StateEstimate PositionFilter::at(std::int64_t stamp_ns) const {
       events_.begin(), events_.end(), stamp_ns,
       [](std::int64_t stamp, const Event& event) { return stamp < event.stamp_ns; });
   if (after == events_.begin()) {
-    answer.outcome = Outcome::failure(Code::kTooFewData, "the time lies before the history");
+    answer.outcome = Outcome::failure(Code::kTooFewData, "the time is before the history");
     return answer;
   }
   const Event& last = *(after - 1);
   answer.state = predict(last, stamp_ns, last.imu);
-  // The last sample is held: what changes after it is not known, the same way all the time.
+  // The last sample is extrapolated as constant; its unknown change is the same over the whole
+  // time.
   const double ahead = std::max(0.0, seconds(last.imu.stamp_ns, stamp_ns));
   Eigen::Matrix<double, 15, 3> unknown_rotation = Eigen::Matrix<double, 15, 3>::Zero();
   Eigen::Matrix<double, 15, 3> unknown_push = unknown_rotation;
@@ -327,8 +330,8 @@ PositionFilter::StateEstimate PositionFilter::at(std::int64_t stamp_ns) const {
   const double variance = answer.state.covariance.topLeftCorner<3, 3>().diagonal().maxCoeff();
   answer.outcome =
       std::sqrt(variance) > options_.max_position_sigma_m
-          ? Outcome::failure(Code::kDegenerate, "the position is known to " +
-                                                    std::to_string(std::sqrt(variance)) + " m only")
+          ? Outcome::failure(Code::kDegenerate, "the standard deviation of the position is " +
+                                                    std::to_string(std::sqrt(variance)) + " m")
           : Outcome::ok();
   return answer;
 }

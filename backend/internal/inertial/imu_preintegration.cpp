@@ -10,16 +10,16 @@ using Eigen::Vector3d;
 }  // namespace
 
 void ImuPreintegration::add(const Vector3d& gyro_rad_s, const Vector3d& accel_m_s2, double dt) {
-  const Vector3d turn = (gyro_rad_s - gyro_bias_) * dt;
+  const Vector3d step_rotation = (gyro_rad_s - gyro_bias_) * dt;
   const Vector3d force = accel_m_s2 - accel_bias_;
-  // What the force adds is that of the middle of the step.
-  const Matrix3d R = (rotation_ * SO3::exp(0.5 * turn)).matrix();
+  // The specific force is rotated by the attitude at mid-step.
+  const Matrix3d R = (rotation_ * SO3::exp(0.5 * step_rotation)).matrix();
   const Vector3d accel = R * force;
   const Matrix3d by_attitude = -R * hat(force);
-  const Matrix3d rotated_back = SO3::exp(-turn).matrix();
-  const Matrix3d half_back = SO3::exp(-0.5 * turn).matrix();
-  const Matrix3d by_gyro = -dt * SO3::right_jacobian(turn);
-  const Matrix3d half_by_gyro = -0.5 * dt * SO3::right_jacobian(0.5 * turn);
+  const Matrix3d rotated_back = SO3::exp(-step_rotation).matrix();
+  const Matrix3d half_back = SO3::exp(-0.5 * step_rotation).matrix();
+  const Matrix3d by_gyro = -dt * SO3::right_jacobian(step_rotation);
+  const Matrix3d half_by_gyro = -0.5 * dt * SO3::right_jacobian(0.5 * step_rotation);
 
   Matrix9d F = Matrix9d::Identity();
   F.block<3, 3>(kPosition, kVelocity) = dt * Matrix3d::Identity();
@@ -45,7 +45,7 @@ void ImuPreintegration::add(const Vector3d& gyro_rad_s, const Vector3d& accel_m_
 
   position_ += dt * velocity_ + 0.5 * dt * dt * accel;
   velocity_ += dt * accel;
-  rotation_ = rotation_ * SO3::exp(turn);
+  rotation_ = rotation_ * SO3::exp(step_rotation);
   duration_s_ += dt;
 }
 

@@ -37,31 +37,31 @@ StateError inertial_error(const ImuPreintegration& motion, const BodyState& firs
   const auto change = motion.change(first.gyro_bias, first.accel_bias);
   const SO3 R_first = first.T_world_body.rotation();
   const Matrix3d to_first = R_first.matrix().transpose();
-  const Vector3d way =
+  const Vector3d translation =
       to_first * (second.T_world_body.translation() - first.T_world_body.translation() -
                   t * first.velocity_world - 0.5 * t * t * gravity());
   const Vector3d faster = to_first * (second.velocity_world - first.velocity_world - t * gravity());
   const SO3 R_first_second = R_first.inverse() * second.T_world_body.rotation();
-  const Vector3d turn = (change.rotation.inverse() * R_first_second).log();
+  const Vector3d rotation_error = (change.rotation.inverse() * R_first_second).log();
 
   StateError error;
   error.r.resize(15);
-  error.r << way - change.position, faster - change.velocity, turn,
+  error.r << translation - change.position, faster - change.velocity, rotation_error,
       second.gyro_bias - first.gyro_bias, second.accel_bias - first.accel_bias;
   MatrixXd& J = error.J_first;
   J = MatrixXd::Zero(15, 15);
   J.block<3, 3>(kPosition, kPosition) = -to_first;
   J.block<3, 3>(kPosition, kVelocity) = -t * to_first;
-  J.block<3, 3>(kPosition, kAttitude) = hat(way);
+  J.block<3, 3>(kPosition, kAttitude) = hat(translation);
   J.block<3, 3>(kVelocity, kVelocity) = -to_first;
   J.block<3, 3>(kVelocity, kAttitude) = hat(faster);
   J.block<6, 6>(kPosition, kGyroBias) = -motion.by_bias().topRows<6>();
-  const Matrix3d rotation_inverse = SO3::right_jacobian_inverse(turn);
+  const Matrix3d rotation_inverse = SO3::right_jacobian_inverse(rotation_error);
   J.block<3, 3>(kAttitude, kAttitude) = -rotation_inverse * R_first_second.matrix().transpose();
-  // A bias moves the rotation at its right end; the logarithm sees that from the other side.
+  // The bias acts on the right of the preintegrated rotation, whose inverse is in the logarithm.
   const Vector3d off =
       motion.by_bias().bottomRows<3>().leftCols<3>() * (first.gyro_bias - motion.gyro_bias());
-  J.block<3, 3>(kAttitude, kGyroBias) = -rotation_inverse * SO3::exp(-turn).matrix() *
+  J.block<3, 3>(kAttitude, kGyroBias) = -rotation_inverse * SO3::exp(-rotation_error).matrix() *
                                         SO3::right_jacobian(off) *
                                         motion.by_bias().bottomRows<3>().leftCols<3>();
   J.block<3, 3>(kGyroBias, kGyroBias) = -Matrix3d::Identity();
@@ -76,7 +76,7 @@ StateError inertial_error(const ImuPreintegration& motion, const BodyState& firs
   MatrixXd covariance = MatrixXd::Zero(15, 15);
   covariance.topLeftCorner<9, 9>() = motion.covariance();
   const ImuNoise& noise = motion.noise();
-  // Biases that are said not to walk still must be numbers.
+  // A lower bound keeps the information finite for biases without random walk.
   constexpr double kLeastWalk = 1e-9;
   const auto walk = [&](double density) {
     return Matrix3d(std::pow(std::max(density, kLeastWalk), 2) * t * Matrix3d::Identity());
@@ -89,16 +89,16 @@ StateError inertial_error(const ImuPreintegration& motion, const BodyState& firs
 
 StateError pose_error(const PoseMeasurement& observation, const BodyState& state) {
   const Matrix3d to_seen = observation.T_world_body.rotation().matrix().transpose();
-  const Vector3d way =
+  const Vector3d translation =
       to_seen * (state.T_world_body.translation() - observation.T_world_body.translation());
-  const Vector3d turn =
+  const Vector3d rotation_error =
       (observation.T_world_body.rotation().inverse() * state.T_world_body.rotation()).log();
   StateError error;
   error.r.resize(6);
-  error.r << way, turn;
+  error.r << translation, rotation_error;
   error.J_first = MatrixXd::Zero(6, 15);
   error.J_first.block<3, 3>(0, kPosition) = to_seen;
-  error.J_first.block<3, 3>(3, kAttitude) = SO3::right_jacobian_inverse(turn);
+  error.J_first.block<3, 3>(3, kAttitude) = SO3::right_jacobian_inverse(rotation_error);
   error.information = symmetric_inverse(observation.covariance);
   return error;
 }
@@ -114,16 +114,16 @@ std::optional<StateError> flow_error(const FlowMeasurement& observation, const S
   const double height = begin.z() - floor_z_m;
   constexpr double kLeastHeight_m = 0.01;
   if (!(height > kLeastHeight_m)) return std::nullopt;
-  const Vector3d way = R_first.transpose() * (end - begin);
-  const Vector3d flow = R_cam_body * way / height;
+  const Vector3d translation = R_first.transpose() * (end - begin);
+  const Vector3d flow = R_cam_body * translation / height;
   StateError error;
   error.r = flow - observation.over_distance;
   error.J_first = MatrixXd::Zero(3, 15);
   error.J_second = MatrixXd::Zero(3, 15);
   const Matrix3d to_flow = R_cam_body / height;
   error.J_first.block<3, 3>(0, kPosition) = -to_flow * R_first.transpose();
-  // The camera's arm turns with the body, and so do the axes in which the way is measured.
-  error.J_first.block<3, 3>(0, kAttitude) = to_flow * (hat(way) + hat(arm));
+  // The lever arm of the camera and the axes of the translation rotate with the body.
+  error.J_first.block<3, 3>(0, kAttitude) = to_flow * (hat(translation) + hat(arm));
   error.J_second.block<3, 3>(0, kPosition) = to_flow * R_first.transpose();
   error.J_second.block<3, 3>(0, kAttitude) = -to_flow * R_first.transpose() * R_second * hat(arm);
   const Vector3d by_height = -flow / height;

@@ -5,26 +5,26 @@
 namespace placegraph {
 
 struct PositionFilterOptions {
-  double gyro_noise = 2e-3;          ///< [rad / s / sqrt(Hz)]
-  double accel_noise = 2e-2;         ///< [m / s^2 / sqrt(Hz)]
-  double gyro_bias_walk = 2e-5;      ///< [rad / s^2 / sqrt(Hz)]
-  double accel_bias_walk = 5e-4;     ///< [m / s^3 / sqrt(Hz)]
-  double gate = 0.999;               ///< a measurement less likely than that is not believed
-  double history_s = 0.5;            ///< a measurement that comes later than that is refused
-  double max_prediction_s = 0.25;    ///< beyond the last inertial sample
-  double ahead_rotation_rad_s2 = 3;  ///< how the body may begin to turn beyond it
-  double ahead_push_m_s3 = 5;        ///< how the force on it may change beyond it
-  double max_position_sigma_m = 1;   ///< a position less sure than that is no answer
+  double gyro_noise = 2e-3;          ///< density of the gyroscope's noise [rad / s / sqrt(Hz)]
+  double accel_noise = 2e-2;         ///< density of the accelerometer's noise [m / s^2 / sqrt(Hz)]
+  double gyro_bias_walk = 2e-5;      ///< random walk of the bias [rad / s^2 / sqrt(Hz)]
+  double accel_bias_walk = 5e-4;     ///< random walk of the bias [m / s^3 / sqrt(Hz)]
+  double gate = 0.999;               ///< probability of the gate of a measurement's squared error
+  double history_s = 0.5;            ///< maximum delay of a measurement; later ones are rejected
+  double max_prediction_s = 0.25;    ///< longest prediction beyond the last inertial sample
+  double ahead_rotation_rad_s2 = 3;  ///< assumed angular acceleration beyond it
+  double ahead_push_m_s3 = 5;        ///< assumed change of the specific force beyond it
+  double max_position_sigma_m = 1;   ///< maximum standard deviation of a returned position
   void check() const;
 };
 void visit(OptionVisitor& field, PositionFilterOptions& options);
 
 struct InertialWindowOptions {
-  ImuNoise noise{2e-3, 2e-2, 2e-5, 5e-4};  ///< as PositionFilterOptions has them
-  int max_states = 20;                     ///< the oldest is marginalized beyond this
+  ImuNoise noise{2e-3, 2e-2, 2e-5, 5e-4};  ///< defaults of PositionFilterOptions
+  int max_states = 20;                     ///< above this number the oldest is marginalized
   int max_iterations = 4;
-  double gate = 0.999;             ///< a measurement less likely than that is not believed
-  double max_prediction_s = 0.25;  ///< beyond the last inertial sample
+  double gate = 0.999;             ///< probability of the gate of a measurement's squared error
+  double max_prediction_s = 0.25;  ///< longest prediction beyond the last inertial sample
   void check() const;
 };
 void visit(OptionVisitor& field, InertialWindowOptions& options);

@@ -16,7 +16,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 Outcome window_not_started() {
-  return Outcome::failure(Code::kNotAttempted, "the window has not begun");
+  return Outcome::failure(Code::kNotAttempted, "the window has not been started");
 }
 
 }  // namespace
@@ -41,7 +41,7 @@ struct InertialWindow::Chain {
     diagonal[first + 1] += weighted_second * error.J_second;
     gradient[first + 1] += weighted_second * error.r;
   }
-  /// What the states before k say of it, itself included: diagonal and gradient.
+  /// Forward elimination: diagonal and gradient of every state k, with those of all earlier states.
   void eliminate_forwards(std::vector<StateMatrix>& H, std::vector<StateStep>& g) const {
     H = diagonal;
     g = gradient;
@@ -69,7 +69,7 @@ struct InertialWindow::Chain {
     }
     return x;
   }
-  /// Of states k and k + 1 together: all others marginalized.
+  /// Joint information of states k and k + 1, all others marginalized.
   MatrixXd pair_information(std::size_t k) const {
     std::vector<StateMatrix> forwards;
     std::vector<StateStep> g;
@@ -94,7 +94,7 @@ void InertialWindow::start(const BodyState& state) {
   require(state.T_world_body.translation().allFinite() && state.velocity_world.allFinite() &&
               state.gyro_bias.allFinite() && state.accel_bias.allFinite() &&
               positive_definite(state.covariance),
-          "InertialWindow: the state to start from or its covariance is unusable");
+          "InertialWindow: the initial state or its covariance is invalid");
   states_.clear();
   samples_.clear();
   State first;
@@ -103,7 +103,7 @@ void InertialWindow::start(const BodyState& state) {
   prior_at_ = state;
   prior_.H = symmetric_inverse(state.covariance);
   prior_.b = VectorXd::Zero(15);
-  // At rest until the inertial sensor speaks; then as it says.
+  // The body is assumed at rest until the first inertial sample.
   begins_at_rest_ = true;
   samples_.push_back(
       {state.stamp_ns, state.gyro_bias,
@@ -120,7 +120,7 @@ Outcome InertialWindow::add(const ImuSample& sample) {
   return Outcome::ok();
 }
 
-/// A new state where the inertial samples lead from the newest one.
+/// Appends a state, predicted from the newest state by the inertial samples.
 Outcome InertialWindow::append(std::int64_t stamp_ns) {
   if (seconds(samples_.back().stamp_ns, stamp_ns) > options_.max_prediction_s)
     return Outcome::failure(Code::kTooFewData, "no inertial samples reach to the measurement");
@@ -129,7 +129,7 @@ Outcome InertialWindow::append(std::int64_t stamp_ns) {
   std::int64_t now = last.stamp_ns;
   std::size_t at = 0;
   while (now < stamp_ns) {
-    // Between two samples the mean of both; beyond the last one as it was.
+    // The mean of two successive samples; beyond the last sample its own values.
     while (at + 1 < samples_.size() && samples_[at + 1].stamp_ns <= now) ++at;
     const ImuSample& before = samples_[at];
     const ImuSample& after = samples_[std::min(at + 1, samples_.size() - 1)];
@@ -161,7 +161,7 @@ Outcome InertialWindow::append(std::int64_t stamp_ns) {
   return Outcome::ok();
 }
 
-/// The state of that time, made where it is newer than all.
+/// Finds the state at a time; appends it if the time is newer than all states.
 Outcome InertialWindow::reach(std::int64_t stamp_ns, std::size_t& index) {
   if (stamp_ns > states_.back().value.stamp_ns) {
     const Outcome made = append(stamp_ns);
@@ -172,7 +172,7 @@ Outcome InertialWindow::reach(std::int64_t stamp_ns, std::size_t& index) {
   return Outcome::failure(Code::kTooFewData, "the window has no state of that time");
 }
 
-/// Terms of the states from `from` to before `to`; the prior with that of the oldest.
+/// Terms of the states in [`from`, `to`); the prior is added with the oldest state.
 InertialWindow::Chain InertialWindow::linearize(std::size_t from, std::size_t to) const {
   Chain chain(to - from);
   if (from == 0) {
@@ -200,7 +200,7 @@ bool InertialWindow::is_within_gate(const StateError& error, std::size_t index) 
   const bool alone = error.J_second.size() == 0;
   MatrixXd J(error.r.size(), 30), covariance = MatrixXd::Zero(30, 30);
   if (alone && index + 1 == states_.size()) {
-    // The newest state is the second of the last pair, or all there is.
+    // The newest state is the second of the last pair, or the only state.
     std::vector<StateMatrix> H;
     std::vector<StateStep> g;
     chain.eliminate_forwards(H, g);
@@ -246,7 +246,8 @@ Outcome InertialWindow::add(const FlowMeasurement& observation) {
     if (!reached) return reached;
   }
   if (to != from + 1)
-    return Outcome::failure(Code::kTooFewData, "there are states between the flow's two images");
+    return Outcome::failure(Code::kTooFewData,
+                            "there are states between the two images of the flow");
   const auto error =
       flow_error(observation, T_body_cam_, floor_z_m_, states_[from].value, states_[to].value);
   const bool accepted = error && is_within_gate(*error, from);
@@ -259,11 +260,11 @@ Outcome InertialWindow::add(const FlowMeasurement& observation) {
                   : Outcome::failure(Code::kInconsistent, "the measurement is outside the gate");
 }
 
-/// The oldest states go into the prior of the next.
+/// Marginalizes the oldest states into the prior of the next one.
 void InertialWindow::forget() {
   while (static_cast<int>(states_.size()) > options_.max_states) {
     Chain chain = linearize(0, 2);
-    // What is of the second state alone stays with it.
+    // Terms of the second state alone are not marginalized.
     for (const PoseMeasurement& seen : states_[1].poses) {
       const StateError error = pose_error(seen, states_[1].value);
       chain.diagonal[1] -= error.J_first.transpose() * error.information * error.J_first;
@@ -280,7 +281,7 @@ void InertialWindow::forget() {
   }
 }
 
-/// Gauss-Newton steps from where the states are.
+/// Gauss-Newton steps from the current states.
 void InertialWindow::improve(int iterations) {
   constexpr double kStill = 1e-6;
   for (int i = 0; i < iterations; ++i) {
@@ -307,7 +308,7 @@ InertialWindow::StateEstimate InertialWindow::solve() {
   chain.eliminate_forwards(forwards, g);
   const std::vector<StateMatrix> backwards = chain.eliminate_backwards();
   for (std::size_t k = 0; k < states_.size(); ++k) {
-    // Both directions count what is of the state itself.
+    // Both eliminations contain the state's own terms, which are subtracted once.
     states_[k].value.covariance = symmetric_inverse(forwards[k] + backwards[k] - chain.diagonal[k]);
     answer.states.push_back(states_[k].value);
   }

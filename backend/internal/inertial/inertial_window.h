@@ -10,31 +10,32 @@
 
 namespace placegraph {
 
-/// The smoother beside PositionFilter: pose, velocity and biases at the times of the last images by
-/// Gauss-Newton over all measurements between them: preintegrated inertial samples, poses told by
-/// markers, flow over a level floor. What is older is marginalized into a quadratic prior of the
-/// oldest state (Schur complement). The states are a chain: forwards and backwards elimination
-/// gives the steps and the covariance of every state. Deterministic; single-threaded.
+/// Fixed-lag smoother: pose, velocity and biases at the times of the last images.
+/// It is an alternative to PositionFilter: Gauss-Newton over all measurements of the window, i.e.
+/// preintegrated inertial samples, poses measured by markers, flow over a level floor. Older states
+/// are marginalized into a quadratic prior of the oldest state (Schur complement). The states are a
+/// chain: forward and backward elimination compute the steps and the covariance of every state.
+/// Deterministic; single-threaded.
 class InertialWindow {
  public:
-  /// As PositionFilter: `T_body_cam` is the mounting of the camera that flow is seen by.
+  /// As PositionFilter: `T_body_cam` is the pose of the camera that measures flow.
   InertialWindow(const InertialWindowOptions& options, const SE3& T_body_cam, double floor_z_m = 0);
 
-  /// Begins at this state with its covariance. Throws ArgumentError if either is not usable.
+  /// Starts from this state with its covariance. Throws ArgumentError if either is invalid.
   void start(const BodyState& state);
   bool started() const { return !states_.empty(); }
 
-  /// Inertial samples come in the order of their stamps. Outcomes: inconsistent (not after the last
-  /// one, not finite), not attempted (before `start`).
+  /// Adds an inertial sample; they must be in the order of their stamps. Outcomes: inconsistent
+  /// (not after the last one, not finite), not attempted (before `start`).
   Outcome add(const ImuSample& sample);
-  /// A measurement makes the states at its times, if they are newer than the newest. Outcomes:
+  /// Adds a measurement, and states at its times that are newer than the newest state. Outcomes:
   /// inconsistent (outside the gate, not finite), not attempted (before `start`), too few data
-  /// (older than the window or between its states; no inertial samples reach to it).
+  /// (older than the window, between its states, or after the inertial samples).
   Outcome add(const PoseMeasurement& observation);
   Outcome add(const FlowMeasurement& observation);
 
-  /// The states of the window, oldest first, at the minimum. The oldest ones know most of what came
-  /// after them. Outcomes: not attempted.
+  /// The states of the window at the minimum, oldest first. The estimates of the oldest states use
+  /// most later measurements. Outcomes: not attempted.
   struct StateEstimate {
     Outcome outcome;
     std::vector<BodyState> states;
@@ -44,10 +45,10 @@ class InertialWindow {
  private:
   struct State {
     BodyState value;
-    /// From the state before; of the first not used.
+    /// Motion since the previous state; not used for the first state.
     std::optional<ImuPreintegration> motion;
     std::vector<PoseMeasurement> poses;
-    std::vector<FlowMeasurement> flows;  ///< from the state before
+    std::vector<FlowMeasurement> flows;  ///< flow since the previous state
   };
   struct Chain;
 
@@ -62,10 +63,10 @@ class InertialWindow {
   SE3 T_body_cam_;
   double floor_z_m_;
   std::deque<State> states_;
-  std::deque<ImuSample> samples_;  ///< the last before the newest state, and those after
-  bool begins_at_rest_ = false;    ///< the first of them was assumed, not measured
-  BodyState prior_at_;             ///< where the prior was taken
-  QuadraticForm prior_;            ///< of the oldest state's step from there
+  std::deque<ImuSample> samples_;  ///< the last sample before the newest state, and all later ones
+  bool begins_at_rest_ = false;    ///< whether the first sample was assumed, not measured
+  BodyState prior_at_;             ///< linearization point of the prior
+  QuadraticForm prior_;            ///< prior of the oldest state's step from prior_at_
 };
 
 }  // namespace placegraph

@@ -2,7 +2,7 @@
 
 namespace placegraph {
 
-/// Where the errors of a body state stand in its covariance (BodyState::covariance), three each.
+/// First row of each error (of three) in the covariance of a body state (BodyState::covariance).
 inline constexpr int kPosition = 0, kVelocity = 3, kAttitude = 6, kGyroBias = 9, kAccelBias = 12;
 
 }  // namespace placegraph

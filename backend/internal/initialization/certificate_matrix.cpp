@@ -8,10 +8,10 @@
 namespace placegraph {
 namespace {
 
-/// A cost below this share of n d scale (residuals of 3e-5 rad) is taken for zero: the gap is then
-/// reckoned against it.
+/// A cost below this share of n d scale (residuals of 3e-5 rad) is regarded as zero; the gap is
+/// then relative to this share.
 constexpr double kCostFloor = 1e-9;
-/// A matrix that this many times its scale does not make positive is not finite.
+/// A matrix that is not positive with a shift of this multiple of its scale is not finite.
 constexpr double kLargestShift = 1e9;
 
 /// (Schur complement of the certificate matrix on the rotations + shift)^-1, for Spectra.
@@ -91,7 +91,7 @@ CertificateMatrix<dim>::CertificateMatrix(const IsotropicProblem<dim>& problem,
 
 template <int dim>
 bool CertificateMatrix<dim>::factorize(double shift) {
-  // The translations of a component are free together; pinning one of them changes nothing else.
+  // The translations of a component have a common free translation; fixing one of them removes it.
   Eigen::VectorXd added =
       Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem_.nodes) * (dim + 1));
   for (int i = 0; i < problem_.nodes; ++i) added.segment<dim>(i * (dim + 1)).setConstant(shift);
@@ -129,8 +129,8 @@ typename CertificateMatrix<dim>::Curvature CertificateMatrix<dim>::curvature(dou
   const double largest = lanczos.eigenvalues()[0];
   curvature.smallest_eigenvalue = 1 / largest - shift;
   curvature.direction = inverse.solve(lanczos.eigenvectors().col(0)) / largest;
-  // What was found is proven by a factor: with a little more than the eigenvalue as the shift, and
-  // no less than the rounding of a row of some hundred entries.
+  // The eigenvalue is proven by a factorization. The shift is slightly above it, and at least the
+  // rounding of a row of some hundred entries.
   for (const double rounding : {0.1 * floor, floor}) {
     const double proven = std::max(0.0, -curvature.smallest_eigenvalue) * 1.001 + rounding;
     if (proven >= shift || !factorize(proven)) continue;
@@ -150,7 +150,7 @@ template <int dim>
 double CertificateMatrix<dim>::relative_gap(double cost, double lower_bound) const {
   const double floor = kCostFloor * problem_.nodes * dim * scale_;
   if (!std::isfinite(cost)) return 1;
-  if (!std::isfinite(lower_bound)) lower_bound = 0;  // no cost is below that
+  if (!std::isfinite(lower_bound)) lower_bound = 0;  // no cost is below zero
   return std::max(0.0, cost - lower_bound) / std::max(cost, floor);
 }
 

@@ -11,28 +11,29 @@ namespace placegraph {
 namespace {
 
 constexpr int kMostLifts = 6;
-/// Steps of all lifted descents together, times poses: where the relaxation is not tight they are
-/// many and gain nothing.
+/// Maximum steps of all lifted descents times poses: without a tight relaxation many steps gain
+/// nothing.
 constexpr double kLiftedEffort = 2e5;
 constexpr double kFewestLiftedSteps = 20, kMostLiftedSteps = 300;
-/// A lifted descent that lowers the cost by less than this share has left nothing to climb for.
+/// The staircase ends when a lifted descent lowers the cost by less than this share.
 constexpr double kLiftedGain = 1e-7;
 constexpr double kLiftedPromiseShare = 1e-12;
-/// Where a minimum of higher rank lies by this share below the one that it rounds to, the
-/// relaxation is not tight: a bound is still to be had, but no lower minimum of rank d.
+/// If a minimum of higher rank is below the one that it rounds to by this share, the relaxation is
+/// not tight: a bound can still be computed, but no lower minimum of rank d.
 constexpr double kGapOfNoReturn = 1e-2;
-/// Of the effort, that one descent may take.
+/// Share of the effort that one descent may take.
 constexpr double kDescentShare = 0.4;
-/// Of the search for an eigenvalue, by Lanczos; a restart solves so many systems.
+/// Number of systems that a restart of the Lanczos search for an eigenvalue solves.
 constexpr int kSolutionsOfRestart = 12;
 constexpr double kFewestRestarts = 5, kMostRestarts = 300;
 constexpr double kTightGap = 1e-5;
-/// A shift of the certificate matrix that costs this share of the bound is accepted unseen.
+/// A shift of the certificate matrix that lowers the bound by this share is accepted without a
+/// search.
 constexpr double kAcceptedShare = 1e-7;
-constexpr int kShortDescent = 15;  ///< steps to a minimum that is near
+constexpr int kShortDescent = 15;  ///< steps to a nearby minimum
 
-/// Rotations and translations of the point of rank d into the poses, every component moved as a
-/// whole to where its first anchor stands; anchors keep their poses.
+/// Writes the rotations and translations of the point of rank d to the poses.
+/// Every component is moved as a whole to the pose of its first anchor; anchors keep their poses.
 template <class Group>
 void set_poses(const Eigen::MatrixXd& X, const ComponentAnchors& anchors,
                PackedGraph<Group>& graph) {
@@ -69,7 +70,7 @@ void set_poses(const Eigen::MatrixXd& X, const ComponentAnchors& anchors,
   }
 }
 
-/// Descents and searches of one certified start, and what they may cost together.
+/// Descents and searches of one certified initialization, with their common maximum effort.
 template <int dim>
 class Climber {
  public:
@@ -78,7 +79,7 @@ class Climber {
 
   double effort() const { return effort_; }
   bool exhausted() const { return effort_ >= max_effort_; }
-  /// With no more than this share of what may be spent at all.
+  /// A descent with at most this share of the maximum effort.
   typename ChordalRelaxation<dim>::Descent minimize(
       Eigen::MatrixXd& X, double share, typename ChordalRelaxation<dim>::DescentOptions options) {
     options.max_effort = share * max_effort_;
@@ -160,7 +161,7 @@ bool proves_itself(const ChordalRelaxation<dim>& relaxation, int nodes, const Ei
   CertificateMatrix<dim> matrix = relaxation.certificate_matrix(X);
   const double shift =
       0.5 * kTightGap * cost / (static_cast<double>(nodes) * dim) + 1e-13 * matrix.scale();
-  // No cost is below zero, whatever is proven.
+  // The cost is nonnegative, so zero is always a lower bound.
   return matrix.relative_gap(cost, 0) <= kTightGap ||
          (matrix.positive_with(shift) &&
           matrix.relative_gap(cost, matrix.lower_bound(shift)) <= kTightGap);
@@ -194,7 +195,7 @@ bool certified_as_they_are(const PackedGraph<Group>& graph, RotationError rotati
       held_node_constraints(graph, find_anchors(graph), rotation_error);
   if (problem.edges.empty()) return true;
   const ChordalRelaxation<dim> relaxation(problem);
-  // With the translations best for the rotations, the multipliers are far nearer to critical.
+  // With the optimal translations for the rotations the point is much nearer to critical.
   const Eigen::MatrixXd here = relaxation.round(relaxation.point(graph.poses));
   if (proves_itself(relaxation, problem.nodes, here)) return true;
   Eigen::MatrixXd X = here;

@@ -8,14 +8,14 @@
 namespace placegraph {
 namespace {
 
-constexpr int kMaxProducts = 200;  ///< of one step
+constexpr int kMaxProducts = 200;  ///< maximum number of products of one step
 
 double inner(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) { return A.cwiseProduct(B).sum(); }
 
 /// A step of the descent.
 struct DescentStep {
   Eigen::MatrixXd eta;
-  double promise = 0, length = 0;  // decrease of the model; norm in the preconditioner's metric
+  double promise = 0, length = 0;  // predicted decrease; norm in the preconditioner's metric
   bool at_border = false;
   int products = 0;
 };
@@ -124,7 +124,7 @@ typename ChordalRelaxation<dim>::Descent ChordalRelaxation<dim>::minimize(
     descent.effort += effort_.step(rank, step.products);
     const Eigen::MatrixXd next = problem_.retract(X, step.eta);
     const double next_cost = problem_.cost(next);
-    // At the end both are rounding.
+    // Near convergence both decreases are rounding.
     const double slack = 1e-13 * descent.cost;
     const double quality = (0.5 * (descent.cost - next_cost) + slack) / (step.promise + slack);
     if (quality < 0.25)
@@ -158,7 +158,8 @@ Eigen::MatrixXd ChordalRelaxation<dim>::escape(const Eigen::MatrixXd& X,
   for (int i = 0; i < problem_.nodes(); ++i)
     largest = std::max(largest, direction.segment<dim>(i * Lifted::kBlock).norm());
   tangent.bottomRows(1) = direction.transpose() / largest;
-  // Halved from a radian at the rotation that moves most until the cost falls.
+  // The step starts with one radian of the rotation that moves most, and is halved until the cost
+  // falls.
   const double cost_here = problem_.cost(X);
   Eigen::MatrixXd best = lifted;
   double best_cost = cost_here;

@@ -8,10 +8,11 @@
 
 namespace placegraph {
 
-/// The semidefinite relaxation of the isotropic chordal problem, by its lifted forms of low rank
-/// (LiftedProblem; Rosen et al. 2019), whose cost is f.
+/// The semidefinite relaxation of the isotropic chordal problem.
+/// It is solved in its lifted forms of low rank (LiftedProblem; Rosen et al. 2019), whose cost is
+/// f.
 ///
-/// At r = d it is the problem itself (with reflections admitted). A first-order critical point of
+/// For r = d it is the problem itself (with reflections allowed). A first-order critical point of
 /// any r at which S = Q - Lambda(X) is positive semi-definite is a global minimum over all r, and
 /// f there a lower bound of the problem.
 template <int dim>
@@ -27,33 +28,36 @@ class ChordalRelaxation {
 
   struct DescentOptions {
     int max_steps = 300;
-    /// The end: the preconditioned gradient promises less than this share of the cost.
+    /// Stop when the preconditioned gradient predicts a decrease below this share of the cost.
     double promise_share = 1e-14;
-    /// No step is begun after that; in iterations, see Descent.
+    /// No step starts after this effort; in iterations, see Descent.
     double max_effort = std::numeric_limits<double>::infinity();
   };
   struct Descent {
     double cost = 0;
-    int iterations = 0, products = 0;  ///< outer steps; Hessian products inside them
+    int iterations = 0, products = 0;  ///< outer steps; Hessian products within them
     double effort = 0;                 ///< see DescentEffort
     bool converged = false;
   };
-  /// Down to a critical point near X, by a Riemannian trust-region method with truncated conjugate
-  /// gradients (Absil et al. 2007), preconditioned with the Gauss-Newton Hessian's Cholesky factor.
+  /// Descends to a critical point near X.
+  /// By a Riemannian trust-region method with truncated conjugate gradients (Absil et al. 2007),
+  /// preconditioned with the Gauss-Newton Hessian's Cholesky factor.
   Descent minimize(Eigen::MatrixXd& X, const DescentOptions& options) const;
   Descent minimize(Eigen::MatrixXd& X) const { return minimize(X, DescentOptions{}); }
 
-  /// Of so many factorizations of S and solutions with it; see DescentEffort.
+  /// Effort of these numbers of factorizations of S and solutions with it; see DescentEffort.
   double certificate_effort(int factorizations, int solutions) const;
 
   /// S at X.
   CertificateMatrix<dim> certificate_matrix(const Eigen::MatrixXd& X) const;
 
-  /// X with one row more, lowered along a direction of negative curvature.
+  /// X with one more row, after a step along a direction of negative curvature that lowers the
+  /// cost.
   Eigen::MatrixXd escape(const Eigen::MatrixXd& X, const Eigen::VectorXd& direction) const;
 
-  /// The point of rank d nearest to X: rows turned onto the d leading singular vectors, rotations
-  /// made proper; translations follow.
+  /// The point of rank d nearest to X.
+  /// The rows are projected on the d leading singular vectors, and the rotations are made proper;
+  /// the translations follow.
   Eigen::MatrixXd round(const Eigen::MatrixXd& X) const;
 
  private:

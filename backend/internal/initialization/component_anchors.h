@@ -3,16 +3,16 @@
 
 namespace placegraph {
 
-/// What ties the connected components of a graph (over edges whose weight is not zero) to the
-/// world.
+/// The anchors that tie the connected components of a graph to the world.
+/// Components are connected by edges of nonzero weight.
 struct ComponentAnchors {
-  std::vector<int> component;  ///< of every node, numbered from 0 in node order
+  std::vector<int> component;  ///< component of every node, numbered from 0 in node order
   int components = 0;
   std::vector<int> roots;  ///< the first node of every component
-  /// Held nodes, and the first node of every component that has none: where they stand, the rest
-  /// can be reckoned from.
+  /// Held nodes, and the first node of every component without one: their poses determine the other
+  /// poses.
   std::vector<char> anchor;
-  /// Of every component: no held node, but measured positions.
+  /// Whether a component has no held node, but measured positions.
   std::vector<char> floating;
 };
 

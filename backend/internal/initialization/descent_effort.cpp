@@ -3,7 +3,7 @@
 namespace placegraph {
 namespace {
 
-/// Operations per edge, beside those that grow with the rank, and per node.
+/// Operations per edge (except those that grow with the rank) and per node.
 constexpr double kLinearization = 500, kProduct = 200, kNode = 100;
 
 }  // namespace
@@ -33,24 +33,24 @@ double DescentEffort::solution_operations(int block) const {
   return 2 * factor_fill_ * block * block;
 }
 
-/// Of one Gauss-Newton iteration on the pose graph.
+/// Operations of one Gauss-Newton iteration on the pose graph.
 double DescentEffort::iteration_operations() const {
   const int dof = dim_ * (dim_ + 1) / 2;
   return factorization_operations(dof) + solution_operations(dof) + edges_ * dof * kLinearization;
 }
 
-/// Coordinates of a node: of its rotation on the Stiefel manifold and of its translation.
+/// Number of coordinates of a node: its rotation on the Stiefel manifold and its translation.
 int DescentEffort::lifted_block(int rank) const {
   return dim_ * rank - dim_ * (dim_ + 1) / 2 + rank;
 }
 
-/// Of a product with the Hessian and one with the preconditioner.
+/// Operations of a product with the Hessian and one with the preconditioner.
 double DescentEffort::product_operations(int rank) const {
   return solution_operations(lifted_block(rank)) + edges_ * (kProduct + 8.0 * rank * dim_) +
          nodes_ * (kNode + 8.0 * rank * rank * dim_);
 }
 
-/// Of an outer step, beside the products.
+/// Operations of an outer step, without the products.
 double DescentEffort::step_operations(int rank) const {
   const int block = lifted_block(rank);
   return factorization_operations(block) + edges_ * (kProduct + 4.0 * rank * block * block) +

@@ -3,17 +3,19 @@
 
 namespace placegraph {
 
-/// What work on a lifted chordal problem (LiftedProblem) costs, as a multiple of one Gauss-Newton
-/// iteration on the pose graph itself. Operations are counted, not timed, so that the same input
-/// gives the same bits.
+/// Effort of computations on a lifted chordal problem (LiftedProblem).
+/// The unit is one Gauss-Newton iteration on the pose graph itself. Operations are counted, not
+/// timed, so that the same input gives bitwise identical results.
 class DescentEffort {
  public:
-  /// `dim`: of space, 2 or 3; `ordering`: of the graph's blocks, which serves any block size.
+  /// `dim`: dimension of space, 2 or 3; `ordering`: order of the graph's blocks, for any block
+  /// size.
   DescentEffort(int dim, int nodes, std::size_t edges, const BlockOrdering& ordering);
 
-  /// Of a step of the descent at this rank, with so many products with the Hessian inside.
+  /// Effort of a step of the descent at this rank, with the given number of products with the
+  /// Hessian.
   double step(int rank, int products) const;
-  /// Of so many factorizations of the certificate's matrix and solutions with it.
+  /// Effort of these numbers of factorizations of the certificate's matrix and solutions with it.
   double certificate(int factorizations, int solutions) const;
 
  private:
@@ -26,7 +28,7 @@ class DescentEffort {
 
   int dim_, nodes_;
   double edges_;
-  double factor_operations_, factor_fill_;  // of blocks of one number
+  double factor_operations_, factor_fill_;  // for blocks of size one
 };
 
 }  // namespace placegraph

@@ -6,7 +6,7 @@
 namespace placegraph {
 namespace {
 
-constexpr double kStiffness = 1e3;  // in the heaviest edge's weights
+constexpr double kStiffness = 1e3;  // relative to the weights of the heaviest edge
 
 template <class Group>
 void constrain_held_nodes(const PackedGraph<Group>& graph, const ComponentAnchors& anchors,
@@ -16,7 +16,7 @@ void constrain_held_nodes(const PackedGraph<Group>& graph, const ComponentAnchor
     rotation_weight = std::max(rotation_weight, kStiffness * edge.rotation_weight);
     translation_weight = std::max(translation_weight, kStiffness * edge.translation_weight);
   }
-  std::vector<int> last(anchors.components, -1);  // held node of the component
+  std::vector<int> last(anchors.components, -1);  // last held node of the component
   for (std::size_t i = 0; i < graph.poses.size(); ++i) {
     if (!graph.held[i]) continue;
     int& previous = last[anchors.component[i]];

@@ -4,10 +4,10 @@
 
 namespace placegraph {
 
-/// The isotropic problem of the graph at the scales of its poses, the held nodes of a component
-/// tied to each other, as they stand, by edges a thousand times as stiff as the heaviest one. With
-/// all held nodes in place the ties cost nothing: a bound of this problem is one of the problem
-/// with its nodes held.
+/// The isotropic problem of the graph at the scales of its poses, with ties between held nodes.
+/// The held nodes of a component are tied to each other, at their current poses, by edges a
+/// thousand times as stiff as the heaviest edge. With all held nodes in place the ties have zero
+/// cost, so a bound of this problem is also one of the problem with its nodes held.
 template <class Group>
 IsotropicProblem<kSpaceDim<Group>> held_node_constraints(const PackedGraph<Group>& graph,
                                                          const ComponentAnchors& anchors,

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kParts = 100;
 
-/// The nodes along the odometry, run after run; without any as they stand.
+/// The nodes in the order of the odometry, run by run; without odometry in their own order.
 template <class Group>
 std::vector<int> order_of_growth(const PackedGraph<Group>& graph) {
   const OdometryChain<Group> odometry(graph);
@@ -26,8 +26,8 @@ std::vector<int> order_of_growth(const PackedGraph<Group>& graph) {
   return order;
 }
 
-/// The constraints of the graph with their weights, by the later one of their nodes in the order;
-/// places in that order serve as ids.
+/// The constraints of the graph with their weights, by the later of their nodes in the order.
+/// Positions in that order are the ids.
 template <class Group>
 std::vector<std::vector<Constraint>> constraints_by_step(const PackedGraph<Group>& graph,
                                                          const std::vector<int>& order) {

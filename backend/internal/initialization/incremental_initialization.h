@@ -4,12 +4,12 @@
 
 namespace placegraph {
 
-/// Sets the poses to those of the graph as it grew: nodes along the odometry, a hundredth at a
-/// time, each time brought to the minimum of what is there (IncrementalOptimizer). Where loops are
-/// short against the drift between them, that ends in a lower minimum than a descent from the
-/// odometry. False, and the poses are as before, if it would eliminate more than
-/// `most_factorizations` times as many nodes as there are, or the minimum of some part cannot be
-/// computed.
+/// Sets the poses by incremental optimization along the odometry.
+/// A hundredth of the nodes is added at a time, and the present part is optimized
+/// (IncrementalOptimizer). If loops are short compared with the drift between them, the result is a
+/// lower minimum than that of a descent from the odometry. False, with unchanged poses, if it would
+/// eliminate more than `most_factorizations` times the number of nodes, or if the minimum of some
+/// part cannot be computed.
 template <class Group>
 bool incremental_initialization_of(PackedGraph<Group>& graph, RotationError rotation_error,
                                    double most_factorizations);

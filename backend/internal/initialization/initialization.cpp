@@ -10,9 +10,9 @@
 namespace placegraph {
 namespace {
 
-/// The unknowns of the linear systems: the nodes that are no anchors.
+/// The unknowns of the linear systems: all nodes except the anchors.
 struct Unknowns {
-  std::vector<int> block;  // of every node; -1: anchor
+  std::vector<int> block;  // block of every node; -1: anchor
   int count = 0;
   std::vector<std::pair<int, int>> pairs;
 
@@ -69,7 +69,7 @@ class LeastSquares {
     rhs_.template middleRows<size>(i * size) += weight * b;
   }
 
-  /// By blocks of the unknowns; nothing if the system is singular to rounding.
+  /// The solution by blocks of the unknowns; empty if the system is singular up to rounding.
   std::optional<Eigen::MatrixXd> solve() {
     for (int i = 0; i < unknowns_.count; ++i)
       block(matrix_.slot(i, i)).diagonal().setConstant(diagonal_[i]);
@@ -99,8 +99,8 @@ Group with(const Group& pose, const decltype(pose.rotation())& rotation,
     return Group(rotation, translation);
 }
 
-/// Step 2: rotations of all unknowns. In the plane the matrices M_i are multiples of rotations, and
-/// their first rows are all there is to find.
+/// Step 2: rotations of all unknowns. In the plane the matrices M_i are multiples of rotations,
+/// determined by their first rows.
 template <class Group, int dim = kSpaceDim<Group>>
 bool chordal_rotations(PackedGraph<Group>& graph, const IsotropicProblem<dim>& problem,
                        const Unknowns& unknowns, const BlockOrdering& ordering) {
@@ -142,7 +142,7 @@ double position_weight(const typename PackedGraph<Group>::Position& position) {
          harmonic_mean<dim>(position.information.template topLeftCorner<dim, dim>());
 }
 
-/// Step 3: translations of all unknowns; measured positions count where something else ties their
+/// Step 3: translations of all unknowns; measured positions are used if a held node ties their
 /// component to the world.
 template <class Group, int dim = kSpaceDim<Group>>
 bool chordal_translations(PackedGraph<Group>& graph, const IsotropicProblem<dim>& problem,
@@ -192,8 +192,8 @@ Eigen::VectorXd solve_log_scales(const PackedGraph<Sim3>& graph, const Unknowns&
   return log_scale;
 }
 
-/// Weighted point pairs of one component, and the motion that lays the first over the second
-/// (Umeyama 1991), a similarity where the group is one.
+/// Weighted point pairs of one component, and the motion that aligns the first to the second
+/// (Umeyama 1991); a similarity for Sim(3).
 template <class Group>
 class Alignment {
  public:
@@ -321,7 +321,7 @@ void chordal_initialization(PackedGraph<Group>& graph, RotationError rotation_er
   if (!chordal_rotations(graph, problem, unknowns, ordering) ||
       !chordal_translations(graph, problem, unknowns, ordering, anchors)) {
     spanning_tree_initialization(
-        graph);  // weights so far apart that the systems are singular to rounding
+        graph);  // the weights differ so much that the systems are singular up to rounding
     return;
   }
   align_to_positions(graph);

@@ -8,10 +8,10 @@
 namespace placegraph {
 namespace {
 
-constexpr double kEigenvalueFloor = 1e-3;  ///< of the mean of a block
-constexpr double kWeightFloor = 1e-6;      ///< of the median over the edges
+constexpr double kEigenvalueFloor = 1e-3;  ///< relative to the mean of a block
+constexpr double kWeightFloor = 1e-6;      ///< relative to the median over the edges
 
-/// Lifts the weights that are zero (or next to it) to a share of the median.
+/// Raises weights that are (nearly) zero to a share of the median.
 template <class Edges, class Weight>
 void lift(Edges& edges, Weight&& weight) {
   std::vector<double> positive;

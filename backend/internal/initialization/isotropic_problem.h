@@ -4,13 +4,13 @@
 
 namespace placegraph {
 
-/// The isotropic chordal problem of a pose graph: over rotations R_i and translations t_i
+/// The isotropic chordal problem of a pose graph, over rotations R_i and translations t_i:
 ///
 ///   f = sum rotation_weight |R_j - R_i R_ij|_F^2 + translation_weight |t_j - t_i - R_i t_ij|^2
 ///
-/// (Rosen et al. 2019, problem 1, kappa and tau). Starts and certificates are made from it. Of the
-/// graph's own cost it keeps every measurement, but not the directions of their information, nor
-/// kernels, measured positions and fixed poses.
+/// (Rosen et al. 2019, problem 1, kappa and tau). It is the basis of initializations and
+/// certificates. It has every relative pose of the graph's cost, but neither the directions of
+/// their information nor kernels, measured positions and fixed poses.
 template <int dim>
 struct IsotropicProblem {
   using Matrix = Eigen::Matrix<double, dim, dim>;
@@ -57,14 +57,14 @@ double rotation_information(const typename Group::Jacobian& information) {
 ///
 /// so that for isotropic information f is the graph's cost to second order in the rotation errors
 /// (|R - R'|_F^2 = 8 sin^2(angle / 2)), and for kQuaternion in space it is that cost exactly.
-/// Blocks without information get a millionth of the median weight. Sim(3): `log_scale` of every
-/// node is taken as known; t_ij is scaled by it, and the weight with it.
+/// Blocks without information have a millionth of the median weight. Sim(3): `log_scale` of every
+/// node is assumed known; t_ij and its weight are scaled by it.
 template <class Group>
 IsotropicProblem<kSpaceDim<Group>> isotropic_problem(const PackedGraph<Group>& graph,
                                                      RotationError rotation_error,
                                                      const Eigen::VectorXd& log_scale = {});
 
-/// f at the poses of the graph, whose scales are passed over.
+/// f at the poses of the graph, without their scales.
 template <class Group>
 double isotropic_cost(const IsotropicProblem<kSpaceDim<Group>>& problem,
                       const std::vector<Group>& poses);

@@ -5,8 +5,8 @@
 namespace placegraph {
 namespace {
 
-constexpr double kDamping = 1e-11;  ///< of the diagonal, against rounding
-constexpr double kHold = 1e6;       ///< of the diagonal, at the held nodes
+constexpr double kDamping = 1e-11;  ///< share of the diagonal, against rounding
+constexpr double kHold = 1e6;       ///< multiple of the diagonal, at the held nodes
 
 /// Orthonormal basis of [W; K], W d x d antisymmetric, K (r-d) x d, as columns of r d numbers.
 template <int dim>
@@ -62,7 +62,7 @@ template <int dim>
 void LiftedPreconditioner<dim>::assemble() {
   matrix_.set_zero();
   const int size = angles_ + rank_;
-  // Tangent vectors turned by the edge's measurement, and applied to its translation.
+  // Tangent vectors rotated by the edge's measurement, and applied to its translation.
   Eigen::MatrixXd rotated(rank_ * dim, angles_), seen(rank_ * dim, angles_),
       shifted(rank_, angles_);
   Eigen::MatrixXd from(size, size), to(size, size), cross(size, size);

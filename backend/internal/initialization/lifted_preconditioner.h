@@ -4,19 +4,19 @@
 
 namespace placegraph {
 
-/// The inverse of the Gauss-Newton Hessian of the lifted chordal problem (ChordalRelaxation) on the
-/// tangent space at a point: B^T Q B with B an orthonormal basis of the tangent vectors. At node i,
-/// with [Y_i Z_i] an orthogonal frame of R^r, these are V_i = Y_i W + Z_i K, W antisymmetric, and
-/// [Y_i Z_i] u for the translation. The first node of every component is held, which takes away the
-/// freedom of the whole (gauge).
+/// Inverse of the Gauss-Newton Hessian of the lifted chordal problem (ChordalRelaxation).
+/// The Hessian on the tangent space at a point is B^T Q B with B an orthonormal basis of the
+/// tangent vectors. At node i, with [Y_i Z_i] an orthogonal frame of R^r, these are V_i = Y_i W +
+/// Z_i K, W antisymmetric, and [Y_i Z_i] u for the translation. The first node of every component
+/// is held, which fixes the gauge.
 template <int dim>
 class LiftedPreconditioner {
  public:
-  /// The pattern of the problem, whose ordering serves any rank.
+  /// Prepares the pattern of the problem; the ordering is valid for any rank.
   LiftedPreconditioner(const IsotropicProblem<dim>& problem, const BlockOrdering& ordering,
                        int rank);
 
-  /// At the point X, r x (d+1)n.
+  /// Factorizes at the point X, r x (d+1)n.
   void factorize(const Eigen::MatrixXd& X);
   /// The tangent vector B (B^T Q B)^-1 B^T V at the point of the last factorization.
   Eigen::MatrixXd apply(const Eigen::MatrixXd& V) const;
@@ -26,9 +26,8 @@ class LiftedPreconditioner {
   void assemble();
 
   const IsotropicProblem<dim>& problem_;
-  int rank_, angles_;  // coordinates of a node: angles_ of the rotation, rank_ of the translation
-  Eigen::MatrixXd
-      basis_;  // r d x angles_: the tangent vectors in the node's frame, column by column
+  int rank_, angles_;  // coordinates of a node: angles_ for the rotation, rank_ for the translation
+  Eigen::MatrixXd basis_;  // r d x angles_: tangent vectors in the node's frame, as columns
   BlockCholesky matrix_;
   std::vector<Eigen::MatrixXd> frames_;  // r x r
 };

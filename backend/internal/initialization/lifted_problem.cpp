@@ -29,7 +29,7 @@ LiftedProblem<dim>::LiftedProblem(const IsotropicProblem<dim>& isotropic) : isot
   factorize_translations();
 }
 
-/// The translations' Laplacian, the first one of every component held.
+/// The Laplacian of the translations, with the first of every component held.
 template <int dim>
 void LiftedProblem<dim>::factorize_translations() {
   laplacian_.emplace(isotropic_.nodes, 1, pairs_, ordering_);

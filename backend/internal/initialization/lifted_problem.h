@@ -9,15 +9,15 @@
 
 namespace placegraph {
 
-/// The isotropic chordal problem lifted to r >= d dimensions, and the manifold that it lives on
-/// (Rosen et al. 2019, problem 9; here with the translations kept): over X = [Y_1 p_1 ... Y_n p_n],
-/// r x (d+1)n, Y_i of the Stiefel manifold St(d, r), p_i of R^r
+/// The isotropic chordal problem lifted to r >= d dimensions, and its manifold.
+/// Rosen et al. 2019, problem 9; here with the translations kept: over X = [Y_1 p_1 ... Y_n p_n], r
+/// x (d+1)n, Y_i of the Stiefel manifold St(d, r), p_i of R^r
 ///
 ///   f(X) = tr(X Q X^T) = sum rotation_weight |Y_j - Y_i R_ij|_F^2
 ///                            + translation_weight |p_j - p_i - Y_i t_ij|^2
 ///
-/// One object serves every rank r, which is the number of rows of X. Tangent vectors V have the
-/// form of X.
+/// One object is valid for every rank r, the number of rows of X. Tangent vectors V have the form
+/// of X.
 template <int dim>
 class LiftedProblem {
  public:
@@ -27,7 +27,7 @@ class LiftedProblem {
   explicit LiftedProblem(const IsotropicProblem<dim>& isotropic);
 
   const IsotropicProblem<dim>& isotropic() const { return isotropic_; }
-  /// Of the nodes, for any matrix with the pattern of Q.
+  /// Ordering of the nodes, for any matrix with the pattern of Q.
   const BlockOrdering& ordering() const { return ordering_; }
   int nodes() const { return isotropic_.nodes; }
 
@@ -46,22 +46,22 @@ class LiftedProblem {
   Eigen::MatrixXd hessian(const Eigen::MatrixXd& X, const Multipliers& lambda,
                           const Eigen::MatrixXd& V) const;
 
-  /// Onto the tangent space at X: V_i - Y_i sym(Y_i^T V_i).
+  /// Projects V on the tangent space at X: V_i - Y_i sym(Y_i^T V_i).
   void project(const Eigen::MatrixXd& X, Eigen::MatrixXd& V) const;
-  /// From X along V, by the polar factor of Y_i + V_i; the translations follow the rotations, so
-  /// that a bend of a long chain is not held back by them.
+  /// The retraction of V at X, by the polar factor of Y_i + V_i. The translations follow the
+  /// rotations, so that they do not resist a bend of a long chain.
   Eigen::MatrixXd retract(const Eigen::MatrixXd& X, const Eigen::MatrixXd& V) const;
-  /// Replaces the translations by the best ones for the rotations, the first one of every component
-  /// at the origin; leaves them where the measurements do not fix them.
+  /// Replaces the translations by the optimal ones for the rotations, with the first of every
+  /// component at the origin; they are unchanged if the measurements do not determine them.
   void solve_translations(Eigen::MatrixXd& X) const;
 
  private:
   void factorize_translations();
 
   IsotropicProblem<dim> isotropic_;
-  std::vector<std::pair<int, int>> pairs_;  // of the blocks
+  std::vector<std::pair<int, int>> pairs_;  // pairs of nodes with off-diagonal blocks
   BlockOrdering ordering_;
-  std::optional<BlockCholesky> laplacian_;  // of the translations, factorized
+  std::optional<BlockCholesky> laplacian_;  // Laplacian of the translations, factorized
 };
 
 }  // namespace placegraph

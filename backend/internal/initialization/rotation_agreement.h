@@ -9,13 +9,13 @@ namespace placegraph {
 double cosine_of(const SO2& R);
 double cosine_of(const SO3& R);
 
-/// Whether two estimates are turned against each other nowhere by more than 0.3 rad, each relative
-/// to its own first pose, whatever holds the gauge. Noise turns no pose by more than that within
-/// one minimum: a descent from either ends in the same.
+/// Whether the rotations of two estimates differ by at most 0.3 rad for every pose.
+/// Each estimate is relative to its own first pose, so the gauge has no effect. Within one minimum
+/// noise rotates no pose by more than that: descents from both end in the same minimum.
 template <class Group>
 bool rotations_agree(const std::vector<Group>& a, const std::vector<Group>& b);
 
-/// The same of two points of rank d of the isotropic chordal problem (ChordalRelaxation), of the
+/// The same for two points of rank d of the isotropic chordal problem (ChordalRelaxation), with the
 /// same gauge.
 template <int dim>
 bool points_agree(const Eigen::MatrixXd& X, const Eigen::MatrixXd& Z);

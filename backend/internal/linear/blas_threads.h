@@ -2,9 +2,10 @@
 
 namespace placegraph {
 
-/// Tells OpenBLAS to compute with one thread. This is a setting of the whole process (the library
-/// has no other), and it stays: sums must not depend on the number of threads, and taking it back
-/// would disturb an optimization that runs beside this one.
+/// Sets OpenBLAS to a single thread.
+/// Sums must not depend on the number of threads. The setting applies to the whole process (the
+/// library has no other such setting) and is permanent, because a reset would disturb concurrent
+/// optimizations.
 void use_one_blas_thread();
 
 }  // namespace placegraph

@@ -23,8 +23,8 @@ using FactorOfMuchFill = SupernodalFactor;
 using FactorOfMuchFill = ScalarFactor;
 #endif
 
-/// Where a factor has fewer operations than this per entry, the block-wise kernels are faster than
-/// BLAS on supernodes (measured on published pose graphs, the heaviest at 320).
+/// If a factor has fewer operations per entry, the block-wise kernels are faster than BLAS on
+/// supernodes (measured on published pose graphs, of which the heaviest has 320).
 constexpr double kSupernodalSwitch = 400;
 /// Nested dissection costs about as much time as this many operations for every block, counted over
 /// the factorizations that its better order can shorten.
@@ -88,10 +88,10 @@ BlockOrdering order_blocks(int block_count, int block_size,
 struct BlockCholesky::Impl {
   BlockOrdering ordering;
   BlockPanels matrix;
-  std::optional<SimplicialFactor> simplicial;  // one of the two
+  std::optional<SimplicialFactor> simplicial;  // exactly one of the two is set
   std::optional<FactorOfMuchFill> supernodal;
   bool factorized = false;
-  Eigen::VectorXd factorized_diagonal;  // of the matrix that was factorized, by positions
+  Eigen::VectorXd factorized_diagonal;  // diagonal of the factorized matrix, by positions
 
   Impl(int count, int size, const std::vector<std::pair<int, int>>& pairs, BlockOrdering order)
       : ordering(std::move(order)) {
@@ -144,7 +144,7 @@ struct BlockCholesky::Impl {
     for (int column = 0, i = 0; column < count; ++column)
       for (int c = 0; c < size; ++c, ++i) diagonal_entry(column, c) = diagonal[i];
   }
-  /// From blocks as the caller numbers them to the order of elimination, and back.
+  /// Reorders rows of blocks from the caller's numbering to the order of elimination, and back.
   Eigen::MatrixXd to_positions(const Eigen::Ref<const Eigen::MatrixXd>& x) const {
     const int size = matrix.block_size, count = matrix.pattern.count();
     Eigen::MatrixXd permuted(x.rows(), x.cols());

@@ -12,7 +12,7 @@ struct BlockColumns {
 };
 
 /// A block-sparse matrix as dense panels: column j of blocks is one column-major matrix of
-/// block_size columns and `rows(j)` rows. Of the diagonal block only the lower part counts.
+/// block_size columns and `rows(j)` rows. Only the lower part of the diagonal block is used.
 struct BlockPanels {
   int block_size = 0;
   BlockColumns pattern;

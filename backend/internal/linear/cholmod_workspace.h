@@ -3,7 +3,7 @@
 
 namespace placegraph {
 
-/// CHOLMOD's workspace and settings, quiet.
+/// CHOLMOD's workspace and settings, without its printed messages.
 class CholmodWorkspace {
  public:
   CholmodWorkspace() {

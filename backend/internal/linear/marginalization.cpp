@@ -8,9 +8,9 @@
 namespace placegraph {
 namespace {
 
-/// Share of the largest eigenvalue of the scaled matrix below which there is rounding only.
+/// Eigenvalues of the scaled matrix below this share of the largest are rounding.
 constexpr double kFloor = 1e-12;
-/// Share of a diagonal entry that differences of sums of its size leave as rounding.
+/// Rounding of differences of sums, as a share of a diagonal entry.
 constexpr double kCancellation = 1e-10;
 
 /// H = D V diag(lambda) V^T D with D^2 = diag(H): translations in metres and rotations in radians

@@ -3,8 +3,8 @@
 
 namespace placegraph {
 
-/// Covariance of T_from_to in its right tangent from those of both poses in theirs and the cross
-/// one. With Ad the adjoint of T_to_from, d T_from_to = d to - Ad d from, so that
+/// Covariance of T_from_to in its right tangent from the joint covariance of both poses.
+/// With Ad the adjoint of T_to_from, d T_from_to = d to - Ad d from, so that
 /// Sigma = S_to - Ad S_from_to - S_from_to^T Ad^T + Ad S_from Ad^T.
 inline Information relative_covariance(const Information& adjoint_to_from,
                                        const Information& S_from, const Information& S_to,

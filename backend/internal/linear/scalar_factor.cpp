@@ -10,7 +10,7 @@ using Sparse = Eigen::SparseMatrix<double, Eigen::ColMajor, std::ptrdiff_t>;
 
 struct ScalarFactor::Impl {
   const BlockPanels& panels;
-  Sparse matrix;  // the lower part by scalars; its values are those of the panels, in their order
+  Sparse matrix;  // lower part by scalars; its values are those of the panels, in their order
   Eigen::SimplicialLLT<Sparse, Eigen::Lower, Eigen::NaturalOrdering<std::ptrdiff_t>> llt;
 
   explicit Impl(const BlockPanels& m) : panels(m) {

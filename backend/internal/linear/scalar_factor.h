@@ -6,10 +6,10 @@
 
 namespace placegraph {
 
-/// Cholesky factor of a block-sparse matrix, scalar by scalar, by Eigen's simplicial method. It
-/// takes the place of SupernodalFactor, with the same interface, where the parts of CHOLMOD that
-/// are under the GPL are left out (PLACEGRAPH_GPL=OFF); it serves every size of blocks and is
-/// slower. The matrix stands in the order of elimination.
+/// Scalar Cholesky factor of a block-sparse matrix, by Eigen's simplicial method.
+/// It replaces SupernodalFactor, with the same interface, if the GPL parts of CHOLMOD are left out
+/// (PLACEGRAPH_GPL=OFF). It supports every block size and is slower. The matrix is in the order of
+/// elimination.
 class ScalarFactor {
  public:
   /// `matrix` must outlive the factor and keep its pattern; its values may change.
@@ -18,7 +18,7 @@ class ScalarFactor {
 
   /// False if the matrix is not positive definite.
   [[nodiscard]] bool factorize();
-  /// In place, column by column, ordered as the matrix.
+  /// Solves in place, column by column, in the order of the matrix.
   void solve(Eigen::Ref<Eigen::MatrixXd> x);
   Eigen::VectorXd pivots() const;  ///< diagonal of L
   BlockFactor blocks() const;

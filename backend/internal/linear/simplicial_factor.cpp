@@ -83,10 +83,10 @@ struct Work {
   const BlockPanels& matrix;
   const BlockColumns& factor;
   double* values;
-  int* place;       ///< of a row's block in the column at hand
-  int* list;        ///< of every row: the first finished column whose next block stands there
-  int* link;        ///< the column after it in the same list
-  int* next_block;  ///< of every finished column
+  int* place;       ///< position of a row's block in the current column
+  int* list;        ///< for every row: the first finished column whose next block is there
+  int* link;        ///< next column in the same list
+  int* next_block;  ///< next block of every finished column
 };
 
 template <int b>

@@ -3,8 +3,9 @@
 
 namespace placegraph {
 
-/// What Ceres factorizes sparse matrices with. SuiteSparse's supernodal Cholesky and its QR are
-/// under the GPL; Eigen's are not, and slower (docs/licences.md).
+/// Library with which Ceres factorizes sparse matrices.
+/// SuiteSparse's supernodal Cholesky and its QR are under the GPL; Eigen's are not, but slower
+/// (docs/licences.md).
 constexpr ceres::SparseLinearAlgebraLibraryType kSparseAlgebra =
     PLACEGRAPH_GPL ? ceres::SUITE_SPARSE : ceres::EIGEN_SPARSE;
 

@@ -13,8 +13,8 @@ using ConstBlock = Eigen::Map<const Eigen::MatrixXd>;
 // With Z = (L L^T)^-1, Z L = L^-T is upper triangular with 1 / L_jj on its diagonal, hence by
 // blocks below the diagonal of column j
 //   Z_ij = -(sum_k Z_ik L_kj) L_jj^-1,       Z_jj = (L_jj^-T - sum_k Z_jk L_kj) L_jj^-1,
-// k over the rows of column j below j. All Z_ik are in the pattern: rows of one column are joined
-// by fill.
+// k over the rows of column j below j. All Z_ik are in the pattern: the rows of one column are
+// pairwise connected by fill.
 BlockFactor sparse_inverse(const BlockFactor& factor, int block_size) {
   const BlockColumns& pattern = factor.pattern;
   const int count = pattern.count(), square = block_size * block_size;
@@ -25,7 +25,7 @@ BlockFactor sparse_inverse(const BlockFactor& factor, int block_size) {
   const auto Z = [&](int k) {
     return Block(&inverse.values[static_cast<std::size_t>(k) * square], block_size, block_size);
   };
-  std::vector<int> place(static_cast<std::size_t>(count), -1);  // of a row in column j
+  std::vector<int> place(static_cast<std::size_t>(count), -1);  // position of a row in column j
   for (int j = count - 1; j >= 0; --j) {
     const int diagonal = pattern.start[j], end = pattern.start[j + 1];
     for (int k = diagonal + 1; k < end; ++k) place[pattern.row[k]] = k;

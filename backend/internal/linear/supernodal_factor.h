@@ -6,11 +6,11 @@
 
 namespace placegraph {
 
-/// Cholesky factor of a block-sparse matrix by CHOLMOD's supernodal method: dense kernels of BLAS,
-/// for factors with much fill. The matrix stands in the order of elimination and in postorder.
-/// The factorization is the library's; only the way of the blocks into it and out of it is ours.
-/// That part of CHOLMOD is under the GPL: without it (PLACEGRAPH_GPL=OFF) ScalarFactor takes its
-/// place.
+/// Cholesky factor of a block-sparse matrix by CHOLMOD's supernodal method.
+/// It uses dense kernels of BLAS, for factors with much fill. The matrix is in the order of
+/// elimination and in postorder. This class only converts the blocks to CHOLMOD's factorization and
+/// back. That part of CHOLMOD is under the GPL: without it (PLACEGRAPH_GPL=OFF) ScalarFactor
+/// replaces this class.
 class SupernodalFactor {
  public:
   /// `matrix` must outlive the factor and keep its pattern; its values may change.
@@ -19,7 +19,7 @@ class SupernodalFactor {
 
   /// False if the matrix is not positive definite.
   [[nodiscard]] bool factorize();
-  /// In place, column by column, ordered as the matrix.
+  /// Solves in place, column by column, in the order of the matrix.
   void solve(Eigen::Ref<Eigen::MatrixXd> x);
   Eigen::VectorXd pivots() const;  ///< diagonal of L
   BlockFactor blocks() const;

@@ -4,8 +4,9 @@
 
 namespace placegraph {
 
-/// W with W^T W = information, for information of any rank (rows of directions without information
-/// are zero). `deficient`, if given, is set where the rank is not full.
+/// W with W^T W = information, for information of any rank.
+/// Rows of directions without information are zero. `deficient`, if given, is set if the rank is
+/// not full.
 template <class Matrix>
 Matrix whitening(const Matrix& information, bool* deficient = nullptr) {
   const Eigen::LLT<Matrix> llt(information);

@@ -15,16 +15,17 @@ namespace placegraph {
 namespace {
 
 constexpr double kLogOdds = 6;
-constexpr int kMostContinued = 4;   // times that a descent which ran out of iterations goes on
-constexpr double kWithinReach = 2;  // times the lowest minimum: a descent above that is given up
-/// What the certified start and the replay may cost, in descents like the first one; the certified
-/// start at least so many iterations: where its relaxation is tight it takes a few dozen.
+constexpr int kMostContinued = 4;   // continuations of a descent at its maximum of iterations
+constexpr double kWithinReach = 2;  // cost over the lowest minimum, above which it is aborted
+/// Maximum costs of the certified initialization and of the replay, in first descents. The
+/// certified initialization may take at least this number of iterations; with a tight relaxation it
+/// takes a few dozen.
 constexpr double kCertifiedDescents = 5, kLeastCertifiedIterations = 200;
 constexpr double kReplayDescents = 10;
 constexpr double kCosineOfNear = 0.88;  // 0.5 rad
 
-/// The residual rotation of an edge, turned into the world frame (its third component in the
-/// plane), and the inverse of the rotation weight.
+/// The residual rotation of an edge in the world frame, and the inverse of the rotation weight.
+/// In the plane the rotation is the third component.
 struct Residual {
   Eigen::Vector3d angles;
   double variance;
@@ -50,7 +51,7 @@ std::vector<Residual> rotation_residuals(const PackedGraph<Group>& graph) {
   return residuals;
 }
 
-/// Edges by node, without those that carry no rotation.
+/// Edges by node, without those that do not measure rotation.
 struct Adjacency {
   std::vector<int> start, edge;
   template <class Edges>
@@ -72,13 +73,14 @@ struct Adjacency {
   }
 };
 
-/// A breadth-first spanning forest: for every node the sum of the residual rotations on the way
-/// from its root, and of their variances.
+/// A breadth-first spanning forest.
+/// Every node has the sum of the residual rotations along the path from its root, and the sum of
+/// their variances.
 struct Tree {
   struct Node {
     Eigen::Vector3d angles = Eigen::Vector3d::Zero();
     double variance = -1;  // not reached yet
-    int edge = -1;         // by which it was reached
+    int edge = -1;         // edge by which it was reached
   };
   std::vector<Node> nodes;
   int roots = 0;
@@ -111,7 +113,8 @@ struct Tree {
   }
 };
 
-/// A descent that goes on where it ran out of iterations, was still falling and is below `worth`.
+/// A descent that continues beyond its maximum of iterations while its cost falls and is below
+/// `worth`.
 template <class Group>
 LocalSolution descend_to_the_end(PackedGraph<Group>& graph, LocalSolver<Group>& solver,
                                  double worth = std::numeric_limits<double>::infinity()) {
@@ -128,7 +131,7 @@ LocalSolution descend_to_the_end(PackedGraph<Group>& graph, LocalSolver<Group>& 
   return solution;
 }
 
-/// Whether a is to be preferred: first of all it must have ended, then be lower.
+/// Whether a is preferred: convergence is decisive, then the lower cost.
 bool better(const LocalSolution& a, const LocalSolution& b) {
   if (std::isfinite(a.cost_final) != std::isfinite(b.cost_final))
     return std::isfinite(a.cost_final);
@@ -137,7 +140,7 @@ bool better(const LocalSolution& a, const LocalSolution& b) {
   return a.cost_final < b.cost_final;
 }
 
-/// Descents from several starts; remembers the lowest minimum.
+/// Descents from several initializations; keeps the lowest minimum.
 template <class Group>
 class Candidates {
  public:
@@ -157,7 +160,7 @@ class Candidates {
     best_.used = start;
     poses_ = graph_.poses;
   }
-  /// Unless a descent from about there has been made.
+  /// Descends unless there was a descent from nearby poses.
   void descend_if_new(const std::vector<Group>& poses, PoseGraphInitialization start) {
     for (const std::vector<Group>& earlier : starts_)
       if (rotations_agree(earlier, poses)) return;
@@ -166,7 +169,7 @@ class Candidates {
   int iterations() const { return iterations_; }
   const LocalSolution& best() const { return best_.solution; }
   const std::vector<Group>& poses() const { return poses_; }
-  /// Leaves the lowest minimum in the graph.
+  /// Sets the graph to the lowest minimum.
   InitializedSolution take() {
     graph_.poses = std::move(poses_);
     best_.solution.iterations = iterations_;
@@ -183,7 +186,7 @@ class Candidates {
   int iterations_ = 0;
 };
 
-/// Whether no measured rotation is further from the poses than a step of Gauss-Newton can mend.
+/// Whether every rotation error is small enough for steps of Gauss-Newton.
 template <class Group>
 bool rotations_are_near(const PackedGraph<Group>& graph) {
   for (const auto& edge : graph.edges) {
@@ -208,7 +211,7 @@ InitializedSolution solve_automatically(PackedGraph<Group>& graph, RotationError
   if (!file_first) {
     const double file_cost = robust_cost(graph, rotation_error);
     make_chordal();
-    // A file that is not finite in cost (absurdly far out) loses the comparison.
+    // Poses of the input whose cost is not finite (extremely far off) are not selected.
     file_first = file_cost <= robust_cost(graph, rotation_error);
   }
   Candidates<Group> candidates(graph, solver);
@@ -277,9 +280,9 @@ template <class Group>
 bool windings_are_settled(const PackedGraph<Group>& graph) {
   const std::vector<Residual> residuals = rotation_residuals(graph);
   const Tree tree(graph, residuals);
-  // Rotations that hang on translations alone: nothing is said about those.
+  // No statement is possible about rotations that only translations determine.
   if (tree.roots > find_anchors(graph).components) return false;
-  // How many times the scatter is what the weights say.
+  // Ratio of the dispersion to the variances of the weights.
   double squares = 0;
   int edges = 0;
   for (const Residual& residual : residuals) {
@@ -297,7 +300,8 @@ bool windings_are_settled(const PackedGraph<Group>& graph) {
     if (residuals[e].variance == 0 || from.edge == static_cast<int>(e) ||
         to.edge == static_cast<int>(e))
       continue;
-    // What both ways share does not belong to the cycle; counted all the same, to be careful.
+    // The common part of both paths is not in the cycle; it is counted nevertheless, which is
+    // conservative.
     const double variance = factor * (from.variance + to.variance + residuals[e].variance);
     const double sum = (from.angles + residuals[e].angles - to.angles).norm();
     if (2 * std::numbers::pi * (std::numbers::pi - sum) < kLogOdds * variance) return false;

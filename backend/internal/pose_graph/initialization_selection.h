@@ -4,47 +4,46 @@
 
 namespace placegraph {
 
-/// Sets the poses to a start; kAuto and kFile leave them.
+/// Sets the poses to an initialization; kAuto and kFile leave them unchanged.
 template <class Group>
 void set_initialization(PackedGraph<Group>& graph, PoseGraphInitialization start,
                         RotationError rotation_error);
 
 struct InitializedSolution {
-  LocalSolution solution;  ///< of the descent that was kept; iterations of all of them
+  LocalSolution solution;  ///< result of the selected descent; total iterations of all descents
   PoseGraphInitialization used = PoseGraphInitialization::kFile;  ///< never kAuto
   bool refined_from_certified = false;                            ///< used == kCertified
 };
 
-/// Solves `graph` from a start. kAuto:
+/// Solves `graph` from an initialization. kAuto:
 ///
-///   1. down from the poses as they are if no edge's rotation is off by more than 0.5 rad there,
-///   else
-///      from them or the chordal start, whichever costs less;
-///   2. the minimum is kept if the descent ended and `windings_are_settled` or, where they are in
-///   doubt, it is `certified_as_they_are`;
-///   3. else the certified start: if its relaxation is tight and it is turned from the minimum by
-///   no more than 0.3 rad anywhere, the minimum is kept; else down from it as well and, where the
-///   relaxation is not tight, from the dearer one of the first two, from the odometry start and
-///   from the `incremental_initialization_of`; of the descents that ended the lowest minimum is
-///   kept.
+///   1. a descent from the given poses if no edge's rotation error exceeds 0.5 rad there, else from
+///      the given poses or the chordal initialization, whichever has the lower cost;
+///   2. the minimum is kept if the descent converged and `windings_are_settled` or, if they are in
+///      doubt, it is `certified_as_they_are`;
+///   3. else the certified initialization: if its relaxation is tight and it is rotated from the
+///      minimum by no more than 0.3 rad anywhere, the minimum is kept; else a descent from it as
+///      well and, if the relaxation is not tight, from the costlier of the first two, from the
+///      odometry initialization and from the `incremental_initialization_of`; of the descents that
+///      converged the lowest minimum is kept.
 ///
-/// In operations, the certified start is given up where it costs more than five times the first
-/// descent (and 200 iterations), the replay where it costs more than ten times. A descent of kAuto
-/// or kCertified that runs out of iterations while it falls goes on, up to four times, if it has
-/// come within twice the lowest minimum.
+/// The certified initialization is aborted if its operations exceed five times those of the first
+/// descent (and 200 iterations), the replay if they exceed ten times. A descent of kAuto or
+/// kCertified that reaches the maximum number of iterations while its cost decreases is continued,
+/// up to four times, if its cost is below twice the lowest minimum.
 template <class Group>
 InitializedSolution solve_from_initialization(PackedGraph<Group>& graph,
                                               PoseGraphInitialization start,
                                               RotationError rotation_error,
                                               LocalSolver<Group>& solver);
 
-/// Whether a minimum is beyond doubt as far as rotations go. Wrong minima of a pose graph are
-/// wound: around some cycle the residual rotations add up to a full turn too much. For every edge
-/// outside a breadth-first spanning tree let s be the sum of the residual rotations around the
-/// cycle that it closes and sigma^2 their variance by the scatter of all residuals (so no scale of
-/// the information matters). The cycle wound once less would have the sum 2 pi - |s|; that is less
-/// likely by exp(-((2 pi - |s|)^2 - s^2) / (2 sigma^2)), and settled if that is below exp(-6) for
-/// every cycle.
+/// Whether the rotations of a minimum are certainly correct.
+/// At wrong minima of a pose graph the residual rotations around some cycle add up to a multiple of
+/// 360 deg too much. For every edge outside a breadth-first spanning tree let s be the sum of the
+/// residual rotations around the cycle that it closes and sigma^2 their variance by the dispersion
+/// of all residuals (so the scale of the information has no effect). With one winding less the sum
+/// would be 2 pi - |s|, which is less likely by the factor exp(-((2 pi - |s|)^2 - s^2) / (2
+/// sigma^2)). The windings are settled if this factor is below exp(-6) for every cycle.
 template <class Group>
 bool windings_are_settled(const PackedGraph<Group>& graph);
 

@@ -28,15 +28,16 @@ double sum(const std::vector<double>& values) {
   return total;
 }
 
-/// Where a robust method begins. False loops spoil starts that are made from loops; of the others
-/// graduated non-convexity needs one that is worth something, whatever the poses are.
+/// The initialization of a robust method.
+/// False loops corrupt initializations that use loops. Graduated non-convexity uses the odometry,
+/// because it needs a good initialization even if the given poses are not.
 PoseGraphInitialization robust_initialization(const PoseGraphOptions& options) {
   if (options.start != PoseGraphInitialization::kAuto) return options.start;
   return options.robust.method == RobustMethod::kGnc ? PoseGraphInitialization::kOdometry
                                                      : PoseGraphInitialization::kFile;
 }
 
-/// From the chosen start to the minimum; fills what the report says of the way there.
+/// Optimizes from the selected initialization, and fills the report's fields about it.
 template <class Group>
 void minimize(PackedGraph<Group>& graph, const LocalSolverOptions& local,
               const PoseGraphOptions& options, PoseGraphReport& report) {

@@ -6,50 +6,55 @@ void GncOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, GncOptions& o) {
   field.choice("surrogate", o.surrogate, {"truncated", "geman_mcclure"},
-               "the robust cost that is approached");
-  field("least_factor", o.least_factor, "by which a round lowers the threshold at least",
+               "robust cost that the rounds approximate");
+  field("least_factor", o.least_factor, "minimum factor by which a round lowers the threshold",
         {1.01, 100});
   field("share_per_round", o.share_per_round,
-        "of the undecided edges that a round may leave behind", {0, 1});
-  field("max_rounds", o.max_rounds, "of reweighting", {1, 10000});
+        "share of the undecided edges that a round may reject", {0, 1});
+  field("max_rounds", o.max_rounds, "maximum number of rounds of reweighting", {1, 10000});
 }
 
 void LoopSupportOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, LoopSupportOptions& o) {
-  field("reach", o.reach, "poses between the ends of two loops that are held against each other",
+  field("reach", o.reach, "maximum number of poses between the ends of two compared loops",
         {1, 100000});
-  field("neighbours", o.neighbours, "loops that one loop is held against, the nearest ones",
+  field("neighbours", o.neighbours, "number of nearest loops that each loop is compared with",
         {1, 1000});
   field("least_probability", o.least_probability,
-        "that two loops are both true, for them to support each other", {0.01, 0.9999});
+        "minimum probability that two loops which support each other are both true",
+        {0.01, 0.9999});
 }
 
 void LoopSetGrowthOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, LoopSetGrowthOptions& o) {
   field("margin", o.margin,
-        "of the gate over the chi-squared quantile: real noise has longer tails", {0.1, 1000});
-  field("tail", o.tail, "times the largest error of true loops that another one may have",
+        "factor of the gate over the chi-squared quantile, for noise with longer tails",
+        {0.1, 1000});
+  field("tail", o.tail,
+        "largest error of another true loop, as a multiple of the largest accepted error",
         {1, 100});
   field("nearly_right", o.nearly_right,
-        "share of the map's extent (and of half a turn) by which a true loop may be badly measured",
-        {0, 1});
-  field("max_rounds", o.max_rounds, "of testing every loop", {1, 1000});
+        "largest error of an inaccurate true loop [share of map extent and of 180 deg]", {0, 1});
+  field("max_rounds", o.max_rounds, "maximum number of rounds in which every loop is tested",
+        {1, 1000});
 }
 
 void RobustOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, RobustOptions& o) {
   field.choice("method", o.method, {"none", "huber", "dcs", "gnc", "pcm", "auto"},
-               "what is done against false loops; none: the kernels the constraints carry");
-  field("kernel_width", o.kernel_width, "of huber and dcs, in standard deviations", {1e-9, 1e9});
+               "robust method against false loops; none: the kernels of the constraints");
+  field("kernel_width", o.kernel_width,
+        "width of the kernel of huber and dcs [standard deviations]", {1e-9, 1e9});
   field("gate_probability", o.gate_probability,
-        "share of the true loops whose squared error lies below the gate, were noise Gaussian",
+        "share of true loops with a squared error below the gate under Gaussian noise",
         {0.5, 0.999999});
   field.group("gnc", o.gnc, "graduated non-convexity");
-  field.group("support", o.support, "which loops agree with loops nearby");
-  field.group("growth", o.growth, "which loops are true, from the best supported ones on");
+  field.group("support", o.support, "selection of loops that agree with loops nearby");
+  field.group("growth", o.growth,
+              "loop set growth: acceptance of loops, starting with the best supported");
 }
 
 void PoseGraphOptions::check() const { check_ranges(*this); }
@@ -57,15 +62,15 @@ void PoseGraphOptions::check() const { check_ranges(*this); }
 void visit(OptionVisitor& field, PoseGraphOptions& o) {
   field.choice("rotation_error", o.rotation_error, {"log", "quaternion"},
                "error of a relative pose: log of the group, or g2o's quaternion vector part");
-  field.choice("engine", o.engine, {"native", "ceres"}, "which solver finds the minimum");
+  field.choice("engine", o.engine, {"native", "ceres"}, "solver of the optimization");
   field.choice("step_rule", o.step_rule, {"dogleg", "gauss_newton", "levenberg_marquardt"},
-               "how the native engine steps");
+               "step rule of the native engine");
   field.formerly("start").choice("initialization", o.start, {"auto", "file", "odometry", "chordal", "certified"},
-               "where the descent begins; auto: the cheapest start whose minimum can be trusted");
-  field("max_iterations", o.max_iterations, "steps of the descent at most", {1, 100000});
+               "initial poses; auto: the cheapest initialization whose minimum can be trusted");
+  field("max_iterations", o.max_iterations, "maximum number of steps of one descent", {1, 100000});
   field("relative_decrease", o.relative_decrease,
-        "stop when the cost falls by less than this share", {0, 1});
-  field.group("robust", o.robust, "what is done against false loops");
+        "stop when the cost decreases by less than this share", {0, 1});
+  field.group("robust", o.robust, "robust optimization against false loops");
 }
 
 }  // namespace placegraph

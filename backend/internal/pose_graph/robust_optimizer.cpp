@@ -20,13 +20,13 @@ LocalSolution solve_with_kernel(PackedGraph<Group>& graph, const RobustKernel& k
   return LocalSolver<Group>(solver).solve(graph);
 }
 
-/// Whether the errors at a plain minimum leave no doubt about any loop: the noise is about that of
-/// the rings of neighbouring loops, and no loop lies far outside of the others.
+/// Whether the errors at a plain minimum show that all loops are true.
+/// The noise must be near that of the rings of neighbouring loops, and no loop may be an outlier.
 template <class Group>
 bool beyond_doubt(const PackedGraph<Group>& graph, double ring_scale, const RobustOptions& options,
                   RotationError rotation_error) {
-  constexpr double kDrift = 10;  // the noise of long rings over that of short ones
-  constexpr double kTail = 10;   // the worst of true loops over the worst but one in a hundred
+  constexpr double kDrift = 10;  // ratio of the noise of long rings to that of short ones
+  constexpr double kTail = 10;   // ratio of the largest error of true loops to their 99 % quantile
   const std::vector<double> chi2 = chi2_by_edge(graph, rotation_error);
   const auto redundant =
       static_cast<double>(graph.edges.size()) - static_cast<double>(graph.poses.size()) + 1;
@@ -43,7 +43,7 @@ bool beyond_doubt(const PackedGraph<Group>& graph, double ring_scale, const Robu
   return scale <= kDrift * ring_scale && loops.back() <= std::max(gate, kTail * usual);
 }
 
-/// Lays the poses along the odometry, where it alone reaches them all.
+/// Sets the poses by the odometry, if odometry connects them all.
 template <class Group>
 void initialize_from_odometry(PackedGraph<Group>& graph, const OdometryChain<Group>& chain) {
   const auto held = std::find(graph.held.begin(), graph.held.end(), 1) - graph.held.begin();
@@ -55,8 +55,8 @@ void initialize_from_odometry(PackedGraph<Group>& graph, const OdometryChain<Gro
     if (!graph.held[i]) graph.poses[i] = T_world_first * chain.pose(static_cast<int>(i));
 }
 
-/// Where the plain descent begins: at the poses as they are, or where these are rough at the
-/// chordal ones if they cost less.
+/// Initializes the plain descent: with the given poses, or with the chordal initialization if the
+/// given poses are rough and its cost is lower.
 template <class Group>
 void initialize_plain(PackedGraph<Group>& graph, RotationError rotation_error) {
   constexpr double kRough = 0.5;  // [rad]
@@ -80,14 +80,15 @@ template <class Group>
 RobustSolution solve_auto(PackedGraph<Group>& graph, const OdometryChain<Group>& chain,
                           const LoopSupport& support, const LocalSolverOptions& solver,
                           const RobustOptions& options, bool free_start) {
-  // Where many loops stand alone the plain minimum is not worth its time: false loops are many.
+  // If many loops have no support, many are false, and the plain minimum is not computed.
   constexpr double kManyAlone = 0.05;
   const std::size_t loops = support.loops();
   RobustSolution result;
   PackedGraph<Group> plain = graph;
   const bool tried = support.alone <= kManyAlone * static_cast<double>(loops) || loops < 50;
   if (tried) {
-    // Where nothing is false a few steps do; with false loops the minimum is far and of no use.
+    // Without false loops a few steps suffice; with false loops the minimum is far away and
+    // useless.
     constexpr int kSteps = 20;
     LocalSolverOptions short_solver = solver;
     short_solver.max_iterations = std::min(solver.max_iterations, kSteps);
@@ -105,7 +106,7 @@ RobustSolution solve_auto(PackedGraph<Group>& graph, const OdometryChain<Group>&
   result.noise_scale = growth.noise_scale;
   const bool all = std::all_of(graph.edges.begin(), graph.edges.end(),
                                [](const auto& edge) { return edge.weight > 0; });
-  // Nothing was false after all: the plain minimum, if it is the same one.
+  // No loop was false: the plain minimum is used if it is the same.
   constexpr double kSameCost = 1 + 1e-6;
   if (all && tried && result.local.outcome &&
       result.local.cost_final <= growth.local.cost_final * kSameCost)
@@ -140,7 +141,7 @@ std::vector<RejectedEdge> edges_without_weight(const PackedGraph<Group>& graph,
   return rejected;
 }
 
-/// The methods that leave loops out.
+/// Optimizes by one of the methods that leave loops out.
 template <class Group>
 RobustSolution solve_rejecting(PackedGraph<Group>& graph, const LocalSolverOptions& solver,
                                const RobustOptions& options, bool free_start) {

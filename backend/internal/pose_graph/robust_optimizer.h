@@ -10,25 +10,26 @@ namespace placegraph {
 struct RobustSolution {
   LocalSolution local;
   std::vector<RejectedEdge> rejected;  ///< in the order of the constraints
-  double noise_scale = 1;  ///< variance of the noise in units of what the information claims
-  bool judged = true;      ///< false: too few loops to know that scale; none was left out
+  double noise_scale = 1;              ///< variance of the noise relative to the information
+  bool judged = true;  ///< false: too few loops to estimate that scale; none was left out
 };
 
-/// Minimizes a pose graph some of whose loops are false. Odometry (and measured positions) are
-/// believed, of several odometry edges between the same nodes one (parallel_odometry.h); every
-/// other edge may be left out.
-///   none   all edges as they are, with the kernels they carry
-///   huber, dcs   that kernel on every loop; none is left out
+/// Minimizes a pose graph with false loops.
+/// Odometry and measured positions are accepted, but only one of several odometry edges between the
+/// same nodes (parallel_odometry.h); every other edge may be left out.
+///   none   all edges, with their own kernels
+///   huber, dcs   this kernel on every loop; none is left out
 ///   gnc    graduated non-convexity from the poses of the graph (gnc.h), with the gate calibrated
-///          by rings of neighbouring loops (loop_support.h), then every loop tested against the
+///          by rings of neighbouring loops (loop_clusters.h), then every loop tested against the
 ///          solution (settle_loops)
-///   pcm    the largest set of loops that agree each with each over all odometry between them
-///          (pcm.h), then every loop tested against the solution that follows (loop_growth.h)
-///   auto   the plain minimum if its errors show that no loop is false, else loop_growth.h
-/// Where too few loops agree to know the scale of the noise (LoopSupport::scale_is_known), gnc, pcm
-/// and auto judge none: the plain minimum, and a warning.
-/// With `free_start` auto's plain descent may begin at the chordal start instead of the poses.
-/// `graph` comes out with the poses of the solution and weight 0 on what was left out.
+///   pcm    the largest set of pairwise consistent loops over all odometry between them (pcm.h),
+///          then every loop tested against the resulting solution (loop_set_growth.h)
+///   auto   the plain minimum if its errors show that no loop is false, else loop_set_growth.h
+/// If too few loops agree to estimate the scale of the noise (LoopSupport::scale_is_known), gnc,
+/// pcm and auto test no loop: they return the plain minimum, with `judged` false.
+/// With `free_start` the plain descent of auto may start from the chordal initialization instead of
+/// the given poses. On return `graph` has the poses of the solution, and weight 0 for the edges
+/// that were left out.
 template <class Group>
 [[nodiscard]] RobustSolution solve_robustly(PackedGraph<Group>& graph,
                                             const LocalSolverOptions& solver,

@@ -8,7 +8,7 @@
 namespace placegraph {
 namespace {
 
-/// Weight of a squared error s while errors above `upper` >= gate count for nothing.
+/// Weight of a squared error s if errors above `upper` >= gate have no weight.
 double weight_of(double s, double gate, double upper, GncSurrogate surrogate) {
   if (surrogate == GncSurrogate::kGemanMcClure) {  // eq. 12, with mu = upper / gate
     const double scale = upper / (upper + s);

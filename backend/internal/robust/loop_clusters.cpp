@@ -10,20 +10,20 @@
 namespace placegraph {
 namespace {
 
-/// Three kinds of rings; shares sum to one.
+/// Mixture of three kinds of rings; the shares add up to one.
 struct Mixture {
   double scale = 1, wide_scale = 1;
   double share = 0.5, wide_share = 0.25;
   double log_likelihood = -std::numeric_limits<double>::infinity();
 };
-/// What calls a ring confused rather than badly measured: its noise is this much larger.
+/// Minimum ratio of the noise of confused rings to that of inaccurate ones, in standard deviations.
 constexpr double kWide = 100;
-/// Rings that must close at a scale, lest a pair of equal loops be taken for one.
+/// Minimum number of rings that close at a scale, so that a pair of equal loops does not suffice.
 constexpr double kLeast = 10;
-/// Single loops that tell the scale against the odometry, where rings of two do not.
+/// Minimum number of single loops that determine the scale with the odometry if rings of two do
+/// not.
 constexpr std::size_t kFewestLoops = 4;
-/// Below this share of the map, misclosures are rounding and the solver's tolerance rather than
-/// noise.
+/// Misclosures below this share of the map are caused by rounding and the solver's tolerance.
 constexpr double kLeastShare = 1e-7;
 
 struct Posterior {
@@ -31,7 +31,7 @@ struct Posterior {
   double log_density;
 };
 
-/// What is the same for every ring in the posterior of a mixture.
+/// The common terms of all rings in the posterior of a mixture.
 class RingPosterior {
  public:
   RingPosterior(const Mixture& m, int dof, double log_volume)
@@ -53,11 +53,11 @@ class RingPosterior {
 
  private:
   double scale_, wide_scale_;
-  double closes_, confused_, anywhere_;  ///< logs of share times density at misclosure zero
+  double closes_, confused_, anywhere_;  ///< log(share * density at misclosure zero)
 };
 
-/// The scale of the noise at which a usual ring misses by kLeastShare of the map, in the geometric
-/// mean of its directions: where the information grows by a factor, so does this scale.
+/// The scale of the noise at which a typical misclosure is kLeastShare of the map.
+/// It is the geometric mean over the directions, and is proportional to the information.
 double least_scale(const std::vector<RingMisclosure>& rings, int dof, double log_volume) {
   std::vector<double> log_determinants;
   for (const RingMisclosure& ring : rings) log_determinants.push_back(ring.log_determinant);
@@ -67,7 +67,7 @@ double least_scale(const std::vector<RingMisclosure>& rings, int dof, double log
   return std::exp((2 * log_volume - *middle) / dof + 2 * std::log(kLeastShare));
 }
 
-/// Scales to begin at, ten times larger from one to the next: they span what the rings miss by.
+/// Initial scales, each ten times the previous one, over the range of the misclosures.
 std::vector<double> scales_to_try(const std::vector<RingMisclosure>& rings, int dof, double least) {
   std::vector<double> chi2;
   for (const RingMisclosure& ring : rings) chi2.push_back(ring.chi2 / dof);
@@ -75,7 +75,7 @@ std::vector<double> scales_to_try(const std::vector<RingMisclosure>& rings, int 
   const auto quantile = [&](double q) {
     return chi2[static_cast<std::size_t>(q * static_cast<double>(chi2.size() - 1))];
   };
-  constexpr double kLow = 0.02, kHigh = 0.9;  // quantiles; the extremes say nothing
+  constexpr double kLow = 0.02, kHigh = 0.9;  // quantiles, because the extremes are not informative
   std::vector<double> scales{std::max(0.1 * quantile(kLow), least)};
   while (10 * scales.back() < quantile(kHigh)) scales.push_back(10 * scales.back());
   return scales;
@@ -97,11 +97,11 @@ Mixture fit(const std::vector<RingMisclosure>& rings, int dof, double log_volume
     }
     const double before = mixture.log_likelihood;
     mixture.log_likelihood = log_likelihood;
-    if (closing < std::min(kLeast, 0.5 * n)) return {};  // nothing to tell a scale from
+    if (closing < std::min(kLeast, 0.5 * n)) return {};  // too few rings to estimate a scale
     mixture.scale = std::max(chi2_closing / (dof * closing), least);
     mixture.wide_scale =
         std::max(confused > 1 ? chi2_confused / (dof * confused) : 0, kWide * mixture.scale);
-    // One of each kind more than was seen: none becomes impossible.
+    // One additional ring of each kind keeps all shares positive.
     mixture.share = (closing + 1) / (n + 3);
     mixture.wide_share = (confused + 1) / (n + 3);
     if (std::abs(log_likelihood - before) < 1e-7 * n) break;
@@ -118,8 +118,8 @@ double tangent_volume(const PackedGraph<Group>& graph, const OdometryChain<Group
     low = low.cwiseMin(chain.pose(i).translation());
     high = high.cwiseMax(chain.pose(i).translation());
   }
-  // A misclosure may be as long as the map in either direction; a map counts as nowhere flatter
-  // than a tenth of its length (a plane walked in 3D).
+  // A misclosure may be as long as the map in either direction. The extent of a map is at least a
+  // tenth of its length in every direction (for planar paths in 3D).
   const typename Group::Point extent =
       2 * (high - low).cwiseMax(0.1 * (high - low).norm()).cwiseMax(1e-9);
   const double rotations =
@@ -148,10 +148,10 @@ std::vector<std::vector<int>> clusters_of(const std::vector<LoopOnChain<Group>>&
 
 namespace {
 
-/// The likeliest mixture from several starting scales; nothing where too few rings close to tell.
+/// The likeliest mixture from several initial scales; empty if too few rings close.
 std::optional<Mixture> likeliest_mixture(const std::vector<RingMisclosure>& rings, int dof,
                                          double log_volume) {
-  // A few rings choose where to begin, more of them give the few numbers.
+  // A few rings select the initial scale, more rings determine the parameters.
   constexpr std::size_t kFew = 500, kSample = 4000;
   constexpr int kFewIterations = 20, kIterations = 60;
   const auto sample = [&](std::size_t size) {
@@ -171,13 +171,13 @@ std::optional<Mixture> likeliest_mixture(const std::vector<RingMisclosure>& ring
     const Mixture mixture = fit(few, dof, log_volume, start, least, kFewIterations);
     if (mixture.log_likelihood > best.log_likelihood) best = mixture;
   }
-  const bool told = best.log_likelihood > -std::numeric_limits<double>::infinity();
-  if (told) best = fit(sample(kSample), dof, log_volume, best, least, kIterations);
+  const bool found = best.log_likelihood > -std::numeric_limits<double>::infinity();
+  if (found) best = fit(sample(kSample), dof, log_volume, best, least, kIterations);
   if (!(best.log_likelihood > -std::numeric_limits<double>::infinity())) return std::nullopt;
   return best;
 }
 
-/// The rings that single loops close with the odometry between their ends, where it is of one run.
+/// The rings that single loops close with the odometry between their ends, if it is in one run.
 template <class Group>
 std::vector<RingMisclosure> drift_rings(const std::vector<LoopOnChain<Group>>& loops,
                                         const OdometryChain<Group>& chain) {
@@ -218,7 +218,7 @@ LoopSupport support_loops(const PackedGraph<Group>& graph, const OdometryChain<G
   LoopSupport support;
   if (graph.poses.empty()) return support;
   auto loops = loops_on_chain(graph, chain);
-  std::vector<std::vector<int>> steps;  // repeat one step of the chain
+  std::vector<std::vector<int>> steps;  // edges that repeat one step of the chain
   std::erase_if(loops, [&](const LoopOnChain<Group>& loop) {
     if (!chain.repeats_step(loop.from, loop.to)) return false;
     steps.push_back({loop.edge});

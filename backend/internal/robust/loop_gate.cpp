@@ -7,7 +7,7 @@
 namespace placegraph {
 namespace {
 
-/// How much wider the gate of a loop is that says nearly the right thing.
+/// Factor of the gate for a loop that is nearly right.
 constexpr double kNearlyRightFactor = 20;
 
 /// Length of the diagonal of the box around all poses [m].

@@ -51,7 +51,7 @@ class RelativeCovariance {
     return result;
   }
 
-  /// An estimate from samples of the noise carried to the poses: x = H^-1 J^T Omega^1/2 n has
+  /// An estimate from samples of the noise propagated to the poses: x = H^-1 J^T Omega^1/2 n has
   /// covariance H^-1.
   std::vector<Jacobian> sampled(const std::vector<int>& edges) const {
     constexpr int kSamples = 48;
@@ -130,8 +130,8 @@ std::vector<double> costs(const PackedGraph<Group>& graph, const std::vector<int
 template <class Group>
 std::vector<double> cost_of_adding(const PackedGraph<Group>& graph, const std::vector<int>& edges,
                                    RotationError rotation_error, double enough) {
-  // By how much an estimate from the samples may exceed the truth: no eigenvalue of a sampled
-  // covariance falls below a third of the true one, but with a probability of 1e-6 or so.
+  // Largest ratio of a sampled estimate to the true cost: an eigenvalue of a sampled covariance is
+  // below a third of the true one with a probability of about 1e-6.
   constexpr double kSafety = 4;
   constexpr std::size_t kWorthSampling = 100;
   if (edges.empty()) return {};

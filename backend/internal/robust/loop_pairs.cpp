@@ -69,7 +69,7 @@ template <class Group>
 std::vector<LoopPair> neighbouring_pairs(const std::vector<LoopOnChain<Group>>& loops,
                                          const OdometryChain<Group>& chain, int reach,
                                          int neighbours) {
-  // Loops by cells of `reach` x `reach` poses: neighbours lie in the same or an adjoining one.
+  // Loops by cells of `reach` x `reach` poses: neighbours are in the same or an adjacent cell.
   using Cell = std::tuple<int, int, int, int>;
   const auto cell_of = [&](const LoopOnChain<Group>& loop, int di, int dj) {
     return Cell{chain.run(loop.from), chain.run(loop.to), chain.position(loop.from) / reach + di,

@@ -3,10 +3,11 @@
 
 namespace placegraph {
 
-/// A loop as the odometry sees it: W = T_first_from * T_from_to (measured) * T_first_to^-1 would be
-/// the identity without drift. Two loops a, b between the same runs close a ring with the odometry
-/// between their ends; its misclosure, seen from the first node of the run of `from`, is
-/// W_a * W_b^-1 (Mangelsdorf et al. 2018, eq. 5, conjugated: so it costs one product a pair).
+/// A loop relative to the odometry.
+/// W = T_first_from * T_from_to (measured) * T_first_to^-1 would be the identity without drift. Two
+/// loops a, b between the same runs close a ring with the odometry between their ends; its
+/// misclosure in the frame of the first node of the run of `from` is W_a * W_b^-1 (Mangelsdorf et
+/// al. 2018, eq. 5, conjugated, so that it costs one product per pair).
 template <class Group>
 struct LoopOnChain {
   int edge;      ///< position in PackedGraph::edges
@@ -14,27 +15,27 @@ struct LoopOnChain {
   Group W;
   /// Covariance of the measurement as a left perturbation of W.
   typename Group::Jacobian covariance;
-  typename Group::Jacobian adjoint;  ///< of W
+  typename Group::Jacobian adjoint;  ///< adjoint of W
 };
 
-/// The edges that are not odometry, in an order that depends on their ends and measurements alone.
+/// The edges that are not odometry, in an order that depends only on their ends and measurements.
 template <class Group>
 std::vector<LoopOnChain<Group>> loops_on_chain(const PackedGraph<Group>& graph,
                                                const OdometryChain<Group>& chain);
 
-/// Misclosure of the ring of two loops against the noise that the information claims.
+/// Misclosure of the ring of two loops, weighted by the stated information.
 struct RingMisclosure {
   double chi2 = 0;
-  double log_determinant = 0;  ///< of its covariance
+  double log_determinant = 0;  ///< log determinant of the misclosure's covariance
 };
 
-/// Both loops must join the same runs.
+/// The misclosure of the ring of two loops, which must connect the same runs.
 template <class Group>
 RingMisclosure ring_misclosure(const LoopOnChain<Group>& a, const LoopOnChain<Group>& b,
                                const OdometryChain<Group>& chain);
 
-/// The same of the ring that one loop closes with the odometry between its ends, which must lie in
-/// one run: what drift would have to explain.
+/// The misclosure of one loop with the odometry between its ends, which must be in one run.
+/// For a true loop it is caused by drift.
 template <class Group>
 RingMisclosure drift_misclosure(const LoopOnChain<Group>& loop, const OdometryChain<Group>& chain);
 
@@ -43,7 +44,7 @@ struct LoopPair {
   RingMisclosure ring;
 };
 
-/// For every loop its rings with the `neighbours` nearest other ones, at most `reach` poses away at
+/// The rings of every loop with its `neighbours` nearest other loops, at most `reach` poses away at
 /// each end. Sorted, without repetition.
 template <class Group>
 std::vector<LoopPair> neighbouring_pairs(const std::vector<LoopOnChain<Group>>& loops,

@@ -10,14 +10,14 @@
 namespace placegraph {
 namespace {
 
-using Cluster = std::vector<int>;  // of loops, as positions in PackedGraph::edges
+using Cluster = std::vector<int>;  // loops, as positions in PackedGraph::edges
 
 LocalSolverOptions roughly(LocalSolverOptions options) {
   options.relative_decrease = std::max(options.relative_decrease, 1e-4);
   return options;
 }
 
-/// Gives weight to the loops of least error that tie parts of the graph to the rest.
+/// Sets the weight of the loops of least error that connect parts of the graph to the rest.
 template <class Group>
 void reconnect(PackedGraph<Group>& graph, const std::vector<double>& chi2) {
   DisjointSets sets(graph.poses.size());
@@ -37,7 +37,7 @@ void reconnect(PackedGraph<Group>& graph, const std::vector<double>& chi2) {
   }
 }
 
-/// A growth under way: the weights of the loops say what is taken.
+/// The state of a loop set growth; loops with nonzero weight are accepted.
 template <class Group>
 class Growth {
  public:
@@ -92,7 +92,7 @@ class Growth {
 
   std::vector<int> those_it_can_follow(const std::vector<int>& candidates) const {
     if (candidates.empty()) return {};
-    std::vector<int> middle;  // one loop stands for its group
+    std::vector<int> middle;  // one representative loop of each group
     for (const int c : candidates) middle.push_back(clusters_[c][clusters_[c].size() / 2]);
     const auto gate_of = [&](int c) {
       return static_cast<double>(clusters_[c].size()) * gate_.of_noise();
@@ -109,8 +109,8 @@ class Growth {
     for (const int c : candidates)
       for (const int edge : clusters_[c]) graph_.edges[edge].weight = 1;
     (void)graduated_non_convexity(graph_, gate_.of_noise(), rough_, gnc_);
-    // Groups stand or fall as a whole; of those that stand every loop is looked at again, with the
-    // noise as it shows now.
+    // Groups are accepted or dropped as a whole; every loop of the accepted groups is tested again
+    // with the updated noise.
     std::vector<char> in_question(graph_.edges.size(), false);
     for (const Cluster& cluster : clusters_) {
       const bool stands = taken(cluster);
@@ -124,8 +124,8 @@ class Growth {
       (void)rough_solver_.solve(graph_);
   }
 
-  /// Takes the loops in question whose error at the present poses is within the limit, drops the
-  /// others; returns how many that changed.
+  /// Accepts the loops in question whose error at the current poses is within the limit and drops
+  /// the others; returns the number of changes.
   int test(const std::vector<char>& in_question) {
     const std::vector<double> error = chi2();
     gate_.learn(graph_, error);
@@ -141,7 +141,7 @@ class Growth {
     return changed;
   }
 
-  /// Takes loops that the solution does not confirm but can follow.
+  /// Accepts loops that do not agree with the solution but to which it can adapt.
   int take_lone() {
     std::vector<int> left;
     for (std::size_t i = 0; i < graph_.edges.size(); ++i)

@@ -43,8 +43,8 @@ class Search {
   bool complete() const { return steps_left_ > 0; }
 
  private:
-  /// Vertices of `candidates` by colour classes (no two of a class are joined), and for each the
-  /// number of classes so far: no clique among it and those before it is larger.
+  /// Vertices of `candidates` by colour classes (no two of a class are adjacent), and for each the
+  /// number of classes so far, an upper bound of a clique of it and the vertices before it.
   void colour(Bits candidates, std::vector<int>& vertices, std::vector<int>& bound) const {
     for (int classes = 1; std::any_of(candidates.begin(), candidates.end(),
                                       [](std::uint64_t word) { return word != 0; });
@@ -70,7 +70,7 @@ class Search {
     steps_left_ -= static_cast<std::int64_t>(vertices.size());
     for (std::size_t i = vertices.size(); i-- > 0;) {
       if (current_.size() + static_cast<std::size_t>(bound[i]) <= best_.size()) return;
-      if (!complete() && !best_.empty()) return;  // the first branch is followed to its end
+      if (!complete() && !best_.empty()) return;  // the first branch is searched completely
       const int v = vertices[i];
       current_.push_back(v);
       Bits next(candidates.size());

@@ -17,7 +17,7 @@ class BitGraph {
   std::size_t words() const { return words_; }
   const std::uint64_t* row(int v) const { return &bits_[words_ * static_cast<std::size_t>(v)]; }
   bool joined(int a, int b) const { return row(a)[b / 64] >> (b % 64) & 1; }
-  /// a != b.
+  /// Adds an edge between a and b, a != b.
   void join(int a, int b) {
     set(a, b);
     set(b, a);
@@ -34,14 +34,15 @@ class BitGraph {
 
 struct Clique {
   std::vector<int> vertices;  ///< ascending
-  bool proven = false;        ///< that none is larger; else the search ended at its limit
+  bool proven = false;        ///< whether no clique is larger; else the search reached its limit
 };
 
-/// A largest set of vertices each joined to each: branch and bound with greedy colouring (Tomita &
-/// Kameda 2007, on bit sets as San Segundo et al. 2011), vertices of high degree first, so that the
-/// first branch is a good heuristic already. `max_steps` (vertices coloured) bounds the search by
-/// count, not by the clock: same graph, same answer. Boost.Graph lists all maximal cliques, which
-/// are too many here; it has no search for the largest one that cuts off branches by a bound.
+/// A largest set of pairwise adjacent vertices.
+/// Branch and bound with greedy colouring (Tomita & Kameda 2007, on bit sets as San Segundo et al.
+/// 2011), vertices of high degree first, so that the first branch is already a good heuristic.
+/// `max_steps` (coloured vertices) limits the search by count, not by time, so that the same graph
+/// has the same result. Boost.Graph only lists all maximal cliques, which are too many here; it has
+/// no branch-and-bound search for the largest one.
 Clique max_clique(const BitGraph& graph, std::int64_t max_steps);
 
 }  // namespace placegraph

@@ -11,7 +11,7 @@ namespace {
 
 using Parallel = std::vector<int>;  // edges between the same two nodes
 
-/// T_a_b of an edge between a and b, whichever way it points.
+/// T_a_b of an edge between a and b, for either direction of the edge.
 template <class Group>
 Group motion(const PackedGraph<Group>& graph, int edge, int a) {
   const auto& e = graph.edges[edge];
@@ -40,13 +40,13 @@ std::vector<Parallel> parallel_odometry(const PackedGraph<Group>& graph) {
   return result;
 }
 
-/// One loop and the odometry between its ends, or two (`b` >= 0) and that between theirs.
+/// A ring of one loop and the odometry between its ends, or of two loops (`b` >= 0) and theirs.
 struct Ring {
   int length;  ///< steps of odometry
   int a, b;    ///< positions in the vector of loops
 };
 
-/// What the edges of parallel odometry are held against.
+/// The loops, odometry and poses with which edges of parallel odometry are compared.
 template <class Group>
 class Surroundings {
  public:
@@ -62,7 +62,7 @@ class Surroundings {
     unit_ = Group::kDof * support_loops(graph, chain_, options).noise_scale;
   }
 
-  /// The edge that fits best of those between two nodes; the first is on the chain.
+  /// The edge between two nodes that fits best; the first of them is on the chain.
   int best_of(const Parallel& edges) const {
     const int chosen = chosen_of(edges), u = graph_.edges[chosen].from, v = graph_.edges[chosen].to;
     const std::vector<Ring> rings =
@@ -88,7 +88,7 @@ class Surroundings {
   int steps(int a, int b) const { return std::abs(chain_.position(a) - chain_.position(b)); }
   double cost(double chi2) const { return std::log1p(chi2 / unit_); }
 
-  /// Whether the step from `u` to `v` lies between `a` and `b`.
+  /// Whether the step from `u` to `v` is between `a` and `b`.
   bool between(int u, int v, int a, int b) const {
     if (chain_.run(a) != chain_.run(u) || chain_.run(b) != chain_.run(u)) return false;
     const int before = std::min(chain_.position(u), chain_.position(v));
@@ -126,7 +126,7 @@ class Surroundings {
         const typename Group::Tangent e = (motion(graph_, other, u).inverse() * T_u_v).log();
         sum += cost(0.5 * e.dot(graph_.edges[other].information * e));
       }
-    // With this edge on the chain all later poses of the run move by D.
+    // With this edge on the chain, all later poses of the run move by D.
     Group D = chain_.pose(u) * T_u_v * chain_.pose(v).inverse();
     if (chain_.position(u) > chain_.position(v))
       D = chain_.pose(v) * T_u_v.inverse() * chain_.pose(u).inverse();
@@ -165,7 +165,8 @@ int set_parallel_odometry_apart(PackedGraph<Group>& graph, const LoopSupportOpti
     apart += static_cast<int>(edges.size()) - 1;
     for (const int edge : edges) graph.edges[edge].odometry = edge == edges.front();
   }
-  // What a step is held against leads over others: again while they change.
+  // The rings of a step contain other steps with parallel edges: repeats while the selection
+  // changes.
   constexpr int kRounds = 4;
   for (int round = 0; round < kRounds; ++round) {
     const Surroundings<Group> surroundings(graph, options);

@@ -14,7 +14,7 @@
 namespace placegraph {
 namespace {
 
-/// A packed graph as a Ceres problem over pose blocks of its own.
+/// A packed graph as a Ceres problem with its own pose blocks.
 template <class Group>
 class GraphProblem {
  public:
@@ -48,9 +48,10 @@ class GraphProblem {
   }
 
   ceres::Problem& problem() { return problem_; }
-  /// Whether some constraint leaves directions open: the normal equations may be singular then.
+  /// Whether a constraint leaves directions undetermined; the normal equations may be singular
+  /// then.
   bool deficient() const { return deficient_; }
-  /// Writes the poses of the nodes the problem could move.
+  /// Writes back the poses of the nodes that were free.
   void read_back(PackedGraph<Group>& graph) const {
     for (std::size_t i = 0; i < graph.poses.size(); ++i) {
       const double* const pose = &poses_[i * kSize];
@@ -79,7 +80,7 @@ class GraphProblem {
   std::deque<KernelLoss> kernels_;
   std::deque<ceres::ScaledLoss> scales_;
   bool deficient_ = false;
-  ceres::Problem problem_;  // after what it points to
+  ceres::Problem problem_;  // declared after all objects that it points to
 };
 
 ceres::Solver::Options solver_options(const LocalSolverOptions& options, bool deficient) {
@@ -91,9 +92,9 @@ ceres::Solver::Options solver_options(const LocalSolverOptions& options, bool de
   solver.function_tolerance = options.relative_decrease;
   solver.gradient_tolerance = 0;
   solver.parameter_tolerance = 0;
-  // Nearly Gauss-Newton at first: measured on published graphs it takes half the iterations of the
-  // usual damping and reaches the same minima. Where directions may be open, only damping keeps
-  // the first steps from running away along them.
+  // Nearly Gauss-Newton in the first steps: on published graphs it takes half the iterations of the
+  // usual damping and reaches the same minima. If directions may be undetermined, damping is
+  // required against diverging first steps along them.
   solver.initial_trust_region_radius = deficient ? 1e4 : 1e10;
   solver.max_num_consecutive_invalid_steps = 20;
   solver.logging_type = ceres::SILENT;

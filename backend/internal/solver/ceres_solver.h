@@ -5,7 +5,7 @@
 namespace placegraph {
 
 /// The engine `ceres`: Levenberg-Marquardt with analytic cost functions and a sparse Cholesky
-/// factorization (SuiteSparse's; without the GPL Eigen's).
+/// factorization (SuiteSparse's; Eigen's without the GPL parts).
 template <class Group>
 LocalSolution solve_with_ceres(PackedGraph<Group>& graph, const LocalSolverOptions& options);
 

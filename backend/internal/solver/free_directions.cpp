@@ -8,7 +8,8 @@
 namespace placegraph {
 namespace {
 
-/// Of the diagonal: what counts as no curvature, and what is added to factorize.
+/// Share of the diagonal that is regarded as zero curvature, and that is added for the
+/// factorization.
 constexpr double kNothing = 1e-10;
 
 /// The null space of H in units of the diagonal, one column a direction; at most
@@ -17,7 +18,7 @@ class NullSpace {
  public:
   explicit NullSpace(BlockCholesky& H) : H_(H) {
     const Eigen::VectorXd diagonal = H.diagonal();
-    constexpr double kLeast = 1e-6;  // of the greatest: a diagonal of zero is a free direction
+    constexpr double kLeast = 1e-6;  // share of the largest; a zero diagonal is a free direction
     const Eigen::VectorXd unit = diagonal.cwiseMax(kLeast * diagonal.maxCoeff());
     root_ = unit.cwiseSqrt();
     factorized_ = H_.factorize(kNothing * unit);
@@ -43,7 +44,7 @@ class NullSpace {
     return block;
   }
 
-  /// What of the subspace is free, after iterating (H + shift)^-1 on it. In scaled coordinates
+  /// The free part of the subspace, after iterations of (H + shift)^-1 on it. In scaled coordinates
   /// y = sqrt(diag) x.
   Eigen::MatrixXd flat_part(Eigen::MatrixXd y) const {
     constexpr int kIterations = 4;
@@ -66,7 +67,7 @@ class NullSpace {
   }
 
   BlockCholesky& H_;
-  Eigen::VectorXd root_;  ///< of the diagonal
+  Eigen::VectorXd root_;  ///< square root of the diagonal
   bool factorized_;
 };
 

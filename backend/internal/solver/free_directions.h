@@ -5,15 +5,15 @@
 
 namespace placegraph {
 
-/// The null space of the normal equations of the edges with weight, by subspace iteration on their
-/// shifted inverse: what is below 1e-10 of the diagonal counts as nothing. Costs one factorization
-/// where there is none.
+/// The null space of the normal equations of the edges with weight.
+/// It is computed by subspace iteration on their shifted inverse; curvatures below 1e-10 of the
+/// diagonal are regarded as zero. Without a null space the cost is one factorization.
 template <class Group>
 FreeDirections find_free_directions(const PackedGraph<Group>& graph, RotationError rotation_error);
-/// The same of a pose graph. Throws as PoseGraph::check.
+/// The same for a pose graph. Throws as PoseGraph::check.
 FreeDirections find_free_directions(const PoseGraph& graph, RotationError rotation_error);
-/// The same of a landmark graph; `nodes` counts its points on behind its nodes. Throws as
-/// LandmarkGraph::check.
+/// The same for a landmark graph; in `nodes` the numbers of its points follow those of its nodes.
+/// Throws as LandmarkGraph::check.
 FreeDirections find_free_directions(const LandmarkGraph& graph, RotationError rotation_error);
 
 }  // namespace placegraph

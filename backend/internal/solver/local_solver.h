@@ -6,9 +6,9 @@
 
 namespace placegraph {
 
-/// Moves the poses of a packed graph down to a minimum of sum weight * rho(e^T Omega e) near them.
-/// What follows from the pattern alone (ordering, symbolic analysis) is kept from one call to the
-/// next, so that solving again with other weights, kernels or poses is cheap.
+/// Moves the poses of a packed graph to a nearby minimum of sum weight * rho(e^T Omega e).
+/// Ordering and symbolic analysis, which depend only on the pattern, are kept between calls, so
+/// that further solutions with other weights, kernels or poses are cheap.
 template <class Group>
 class LocalSolver {
  public:
@@ -27,7 +27,7 @@ class LocalSolver {
 /// e^T Omega e of every edge, without kernel and weight, in the order of `graph.edges`.
 template <class Group>
 std::vector<double> chi2_by_edge(const PackedGraph<Group>& graph, RotationError rotation_error);
-/// The same of every measured position.
+/// The same for every measured position.
 template <class Group>
 std::vector<double> chi2_by_position(const PackedGraph<Group>& graph);
 /// Sum of weight * rho(e^T Omega e).

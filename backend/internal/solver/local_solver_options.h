@@ -19,8 +19,8 @@ struct LocalSolution {
   Outcome outcome;
   int iterations = 0;
   double cost_initial = 0, cost_final = 0;  ///< sum of weight * rho(e^T Omega e)
-  /// The normal equations were positive definite near the end: the minimum is the only one around.
-  /// False where they were not, or nobody looked (Ceres).
+  /// Whether the normal equations were positive definite near the end, so that the minimum is
+  /// locally unique. Also false if that was not tested (Ceres).
   bool regular = false;
 };
 

@@ -8,24 +8,24 @@
 namespace placegraph {
 namespace {
 
-/// A step is good enough when its residual has fallen by this share in the preconditioner's norm:
-/// Gauss-Newton itself gains about two digits a step near the minimum.
+/// Relative residual of a sufficiently accurate step in the preconditioner's norm: near the minimum
+/// Gauss-Newton itself gains about two digits per step.
 constexpr double kForcing = 1e-2;
-/// Pivots below this share of the diagonal count as open directions.
+/// Pivots below this share of the diagonal are regarded as undetermined directions.
 constexpr double kSingularPivot = 1e-12;
-constexpr double kLeastGain = 1e-4;  ///< share of the promised decrease that a step must bring
+constexpr double kLeastGain = 1e-4;  ///< minimum share of the predicted decrease
 constexpr int kMaxRejections = 30;
-/// So many shortened steps in a row, and the poses go back to where they began and are damped from
-/// there: where a long chain is to bend, the dogleg crumples it for hundreds of steps. Next to no
-/// damping at first, as bending has next to no curvature.
+/// After this number of successive shortened steps the solver restarts from the initial poses with
+/// damping: the dogleg would need hundreds of steps to bend a long chain. The initial damping is
+/// very small, because bending has very little curvature.
 constexpr int kMostShortened = 8;
 constexpr double kDampingOfOpenDirections = 1e-4;
 constexpr double kFirstDamping = 1e-10, kLeastDamping = 1e-16;
 
 }  // namespace
 
-/// H dx = -g: by conjugate gradients where the last factor is near enough, else by a new factor.
-/// Nothing where H is singular.
+/// Solves H dx = -g by conjugate gradients if the last factor is accurate enough, else by a new
+/// factor. Empty if H is singular.
 template <class Group>
 auto NativeSolver<Group>::newton_step() -> std::optional<Step> {
   BlockCholesky& H = equations_->matrix();
@@ -41,8 +41,9 @@ auto NativeSolver<Group>::newton_step() -> std::optional<Step> {
   return step;
 }
 
-/// Preconditioned conjugate gradients (Hestenes & Stiefel 1952) on H dx = -g from zero; nothing if
-/// they do not arrive within `max_iterations`, seen as early as their pace shows it.
+/// Preconditioned conjugate gradients (Hestenes & Stiefel 1952) on H dx = -g from zero; empty if
+/// they do not converge within `max_iterations`, which is predicted early from the convergence
+/// rate.
 template <class Group>
 auto NativeSolver<Group>::conjugate_gradients(int max_iterations) -> std::optional<Step> {
   BlockCholesky& H = equations_->matrix();
@@ -99,12 +100,12 @@ bool NativeSolver<Group>::negligible(const Step& step) const {
          step.dx.template lpNorm<Eigen::Infinity>() < 1e-13;
 }
 
-/// Moves by the step if the cost falls by a fair share of what it promises.
+/// Moves by the step if the cost falls by a sufficient share of the predicted decrease.
 template <class Group>
 bool NativeSolver<Group>::take(PackedGraph<Group>& graph, const Step& step) {
   const std::vector<Group> before = graph.poses;
   equations_->move(graph, step.dx);
-  // Steps are nearly always taken, so the equations are set up at once at the new poses.
+  // Steps are nearly always accepted, so the equations are directly computed at the new poses.
   const double cost = equations_->linearize(graph, options_.rotation_error);
   gain_ = (cost_ - cost) / step.promised;
   const bool taken = options_.step_rule == StepRule::kGaussNewton && lambda_ == 0
@@ -121,7 +122,7 @@ bool NativeSolver<Group>::take(PackedGraph<Group>& graph, const Step& step) {
 }
 
 /// Powell's dogleg (Nocedal & Wright 2006, section 4.1) in the norm of sqrt(diag(H)): the Newton
-/// step while the trust region has room, else the bend between it and the Cauchy point.
+/// step if it is in the trust region, else the combination of it and the Cauchy point.
 template <class Group>
 bool NativeSolver<Group>::take_dogleg(PackedGraph<Group>& graph, const Step& newton) {
   BlockCholesky& H = equations_->matrix();
@@ -188,7 +189,8 @@ LocalSolution NativeSolver<Group>::solve(PackedGraph<Group>& graph) {
   shortened_ = 0;
   LocalSolution solution;
   cost_ = solution.cost_initial = equations_->linearize(graph, options_.rotation_error);
-  solution.outcome = Outcome::failure(Outcome::Code::kNotConverged, "out of iterations");
+  solution.outcome = Outcome::failure(Outcome::Code::kNotConverged,
+                                      "the maximum number of iterations was reached");
   int rejections = 0;
   for (;;) {
     std::optional<Step> step;
@@ -215,7 +217,7 @@ LocalSolution NativeSolver<Group>::solve(PackedGraph<Group>& graph) {
                                                                       : take_dogleg(graph, *step);
     rejections = taken ? 0 : rejections + 1;
     log(options_.log, LogLevel::kDebug, "iteration {}: cost {:f}", solution.iterations, cost_);
-    // A step that leads nowhere at any length: the minimum, to rounding.
+    // No step of any length lowers the cost: the minimum, up to rounding.
     if (!taken && (lambda_ == 0 || rejections == kMaxRejections)) {
       solution.outcome = Outcome::ok();
       break;

@@ -4,12 +4,12 @@
 
 namespace placegraph {
 
-/// The engine `native`: Gauss-Newton steps, kept in a trust region by Powell's dogleg where the
-/// cost would rise, or Levenberg-Marquardt, over block-sparse normal equations. A factor is kept as
-/// long as it serves: later steps come from conjugate gradients preconditioned with it while that
-/// is cheaper than factorizing anew. Where the constraints leave directions open (singular normal
-/// equations), or where the dogleg had to be shortened time and again, the steps are damped
-/// whatever the rule.
+/// The engine `native`: Gauss-Newton or Levenberg-Marquardt on block-sparse normal equations.
+/// If the cost would rise, Gauss-Newton steps are limited to a trust region by Powell's dogleg. A
+/// factor is reused: later steps are by conjugate gradients preconditioned with it while that is
+/// cheaper than a new factorization. If the constraints leave directions undetermined (singular
+/// normal equations), or if the dogleg was shortened repeatedly, the steps are damped regardless of
+/// the step rule.
 template <class Group>
 class NativeSolver {
  public:
@@ -19,7 +19,7 @@ class NativeSolver {
  private:
   struct Step {
     Eigen::VectorXd dx;
-    double promised = 0;  ///< decrease of the cost by the quadratic model
+    double promised = 0;  ///< predicted decrease of the cost by the quadratic model
   };
   std::optional<Step> newton_step();
   std::optional<Step> conjugate_gradients(int max_iterations);
@@ -32,13 +32,13 @@ class NativeSolver {
 
   LocalSolverOptions options_;
   std::optional<NormalEquations<Group>> equations_;
-  double cost_ = 0;               ///< at the poses where the equations were linearized
-  double relative_decrease_ = 1;  ///< of the last step: how near the last factor still is
-  double radius_ = 0;             ///< of the trust region, in the norm of sqrt(diag(H))
+  double cost_ = 0;               ///< cost at the poses where the equations were linearized
+  double relative_decrease_ = 1;  ///< by the last step; small if the last factor is accurate
+  double radius_ = 0;             ///< radius of the trust region, in the norm of sqrt(diag(H))
   double lambda_ = 0;             ///< damping in units of diag(H); 0: not damped
-  double raise_ = 2;              ///< by which the next rejection raises it
-  double gain_ = 0;               ///< of the last step, taken or not, as a share of its promise
-  int shortened_ = 0;             ///< steps of the dogleg in a row that were no Newton steps
+  double raise_ = 2;              ///< factor of the damping at the next rejection
+  double gain_ = 0;    ///< decrease by the last step, accepted or not, as a share of the prediction
+  int shortened_ = 0;  ///< number of successive dogleg steps that were no Newton steps
   std::vector<Group> before_shortening_;
 };
 

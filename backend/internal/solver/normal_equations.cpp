@@ -69,7 +69,8 @@ bool NormalEquations<Group>::fits(const PackedGraph<Group>& graph) const {
     return false;
   for (std::size_t node = 0; node < graph.held.size(); ++node)
     if ((graph.held[node] != 0) != (block_of_node_[node] < 0)) return false;
-  // Dropped edges leave the pattern too large but right; when many are gone, a new order pays.
+  // After edges are dropped the pattern is still valid, but too large; if many are dropped, a new
+  // order is faster.
   std::size_t kept = 0, dropped = 0;
   for (std::size_t i = 0; i < graph.edges.size(); ++i) {
     if (graph.edges[i].weight != 0 && !in_pattern_[i]) return false;

@@ -7,10 +7,10 @@
 
 namespace placegraph {
 
-/// The normal equations H dx = -g of a packed graph, one block for every node that is not held:
+/// The normal equations H dx = -g of a packed graph, with one block for every free node:
 /// f(x [+] dx) ~ f + 2 g^T dx + dx^T H dx with f = sum weight rho(e^T Omega e), H = sum w J^T Omega
 /// J, g = sum w J^T Omega e, w = weight rho' (iteratively reweighted Gauss-Newton). Points have
-/// blocks of the same size, their turn (and scale) uncoupled and held by something on the diagonal.
+/// blocks of the same size; their rotation (and scale) is uncoupled and fixed by a diagonal entry.
 template <class Group>
 class NormalEquations {
  public:
@@ -19,8 +19,8 @@ class NormalEquations {
   /// The pattern is that of the edges whose weight is not zero.
   explicit NormalEquations(const PackedGraph<Group>& graph);
 
-  /// Whether the graph still has the pattern: same nodes, same held nodes, same edges; edges that
-  /// had no weight may have none now either.
+  /// Whether the graph still has the pattern: the same nodes, held nodes and edges; edges that had
+  /// no weight must still have none.
   bool fits(const PackedGraph<Group>& graph) const;
 
   /// Fills H and g at the graph's poses; returns the cost f.
@@ -33,7 +33,7 @@ class NormalEquations {
   int block_of(int node) const { return block_of_node_[static_cast<std::size_t>(node)]; }
   int block_count() const { return matrix_.block_count(); }
 
-  /// graph [+] dx
+  /// Moves the graph: graph [+] dx.
   void move(PackedGraph<Group>& graph, const Eigen::VectorXd& dx) const;
 
  private:
@@ -45,7 +45,7 @@ class NormalEquations {
   void add_observations(const PackedGraph<Group>& graph, double& cost);
 
   std::vector<int> block_of_node_;
-  std::vector<char> in_pattern_;  // of every edge
+  std::vector<char> in_pattern_;  // whether each edge is in the pattern
   BlockCholesky matrix_;
   std::vector<Slot> diagonal_;  // by blocks
   std::vector<Slot> coupling_;  // by edges; empty slot where there is none

@@ -6,9 +6,9 @@
 namespace placegraph {
 namespace {
 
-using Successors = std::vector<int>;  // edge to the next node, -1: none
+using Successors = std::vector<int>;  // edge to the next node; -1: none
 
-/// A total order of the edges between the same nodes that does not depend on where they stand.
+/// A total order of the edges between the same nodes that is independent of their positions.
 template <class Edge>
 bool more_informative(const Edge& a, const Edge& b) {
   const double trace_a = a.information.trace(), trace_b = b.information.trace();

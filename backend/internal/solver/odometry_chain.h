@@ -5,11 +5,12 @@
 
 namespace placegraph {
 
-/// The odometry of a packed graph laid end to end: what it says of the motion between any two poses
-/// of one run, and how surely, in constant time (prefix products and prefix sums).
+/// The concatenated odometry of a packed graph.
+/// It computes the motion between any two poses of one run and its covariance in constant time
+/// (prefix products and prefix sums).
 ///
-/// Where a node has several odometry edges to a successor, the most informative one is taken. A
-/// node without odometry is a run of its own.
+/// If a node has several odometry edges to a successor, the most informative one is used. A node
+/// without odometry is a run of its own.
 template <class Group>
 class OdometryChain {
  public:
@@ -21,9 +22,9 @@ class OdometryChain {
   int run(int node) const { return run_[node]; }
   /// Steps from the first node of the run.
   int position(int node) const { return position_[node]; }
-  /// T_first_node: the node seen from the first node of its run.
+  /// T_first_node: pose of the node relative to the first node of its run.
   const Group& pose(int node) const { return pose_[node]; }
-  /// Whether the nodes follow each other in one run.
+  /// Whether the nodes are successive in one run.
   bool repeats_step(int a, int b) const {
     return run_[a] == run_[b] && std::abs(position_[a] - position_[b]) == 1;
   }
@@ -39,8 +40,8 @@ class OdometryChain {
   std::vector<Jacobian, Eigen::aligned_allocator<Jacobian>> sum_;
 };
 
-/// Inverse of an information matrix; directions that are known less than 1e-9 times as well as the
-/// best known one (or not at all) get the variance of that bound.
+/// Inverse of an information matrix; the information of every direction is at least 1e-9 times that
+/// of the best determined one.
 template <class Jacobian>
 Jacobian covariance_of(const Jacobian& information);
 

@@ -3,8 +3,8 @@
 
 namespace placegraph {
 
-/// A pose graph of one group with ids resolved to positions and every variant opened: what the
-/// solvers of this folder work on. The order of nodes and constraints is kept.
+/// A pose graph of one group for the solvers, with positions instead of ids and without variants.
+/// The order of nodes and constraints is the same.
 template <class Group>
 struct PackedGraph {
   struct Edge {
@@ -15,7 +15,7 @@ struct PackedGraph {
                       ///< T_to)
     typename Group::Jacobian information;
     RobustKernel kernel;
-    double weight = 1;  ///< of the edge's cost, set by whoever reweights (GNC); 0 leaves it out
+    double weight = 1;  ///< weight of the edge's cost, set by robust methods (GNC); 0 excludes it
   };
   struct Position {
     int node;
@@ -30,11 +30,11 @@ struct PackedGraph {
     Eigen::Vector3d p_node;
     Eigen::Matrix3d information;
   };
-  /// T_world_node; of a LandmarkGraph then its points, as poses that do not turn, and last the
-  /// world, held: measured poses are edges from it.
+  /// T_world_node; for a LandmarkGraph then its points, as poses without rotation, and last the
+  /// world, which is held: measured poses are edges from it.
   std::vector<Group> poses;
-  /// Nodes that do not move: the fixed ones, and the first of every component that neither a fixed
-  /// node nor a measured position ties to the world.
+  /// Held nodes: the fixed ones, and the first node of every component without a fixed node or a
+  /// measured position.
   std::vector<char> held;
   std::vector<Edge> edges;
   std::vector<Position> positions;
@@ -44,11 +44,12 @@ struct PackedGraph {
 /// `graph` must have passed PoseGraph::check and be of the kind of `Group`.
 template <class Group>
 PackedGraph<Group> pack(const PoseGraph& graph);
-/// The same of SE2 and SE3 with what is beside the poses. Edges of priors belong to constraint -1.
+/// Packs a landmark graph of SE2 or SE3 with its points and priors; edges of priors have constraint
+/// -1.
 template <class Group>
 PackedGraph<Group> pack(const LandmarkGraph& graph);
 
-/// The place of a point, which is kept as a pose that does not turn; z is 0 in the plane.
+/// The position of a point, which is stored as a pose without rotation; z is 0 in the plane.
 inline Eigen::Vector3d point_of(const SE2& T) {
   return {T.translation().x(), T.translation().y(), 0};
 }

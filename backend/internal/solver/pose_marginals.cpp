@@ -7,7 +7,7 @@
 
 namespace placegraph {
 
-/// What does not depend on the group: the factor, and adjoints where relative poses are asked for.
+/// The group-independent part: the factor, and adjoints for relative poses.
 struct PoseMarginals::Impl {
   virtual ~Impl() = default;
 
@@ -28,7 +28,7 @@ struct PoseMarginals::Impl {
   }
   void require_outcome() const {
     require(static_cast<bool>(outcome),
-            "PoseMarginals: there are no covariances: " + outcome.reason);
+            "PoseMarginals: the covariances are not available: " + outcome.reason);
   }
   Information relative(int from, int to, const Information& S_from, const Information& S_to,
                        const Information& S_from_to) const {
@@ -50,10 +50,10 @@ struct Implementation final : Base {
     this->dof = Group::kDof;
     equations.linearize(packed, rotation_error);
     BlockCholesky& H = equations.matrix();
-    this->outcome =
-        H.factorize() && H.smallest_pivot() > 1e-12
-            ? Outcome::ok()
-            : Outcome::failure(Outcome::Code::kDegenerate, "the constraints leave directions open");
+    this->outcome = H.factorize() && H.smallest_pivot() > 1e-12
+                        ? Outcome::ok()
+                        : Outcome::failure(Outcome::Code::kDegenerate,
+                                           "the constraints leave directions undetermined");
   }
   const BlockCholesky& matrix() const override { return equations.matrix(); }
   int block_of(int node) const override { return equations.block_of(node); }

@@ -8,11 +8,11 @@
 
 namespace placegraph {
 
-/// How well a pose graph knows its poses: covariances of the normal equations' Gaussian at the
-/// graph's poses (which ought to be its optimum), in the right tangents T_world_node exp(xi), held
-/// nodes without uncertainty (those of the optimizer: fixed ones, else the first of a component).
-/// Robust kernels count with their weight at these poses. One factorization in the constructor;
-/// nothing is ever inverted densely.
+/// Covariances of the poses of an optimized pose graph.
+/// They are those of the Gaussian of the normal equations at the graph's poses (which should be the
+/// optimum), in the right tangents T_world_node exp(xi). Held nodes (as in the optimizer: fixed
+/// ones, else the first of a component) have no uncertainty. Robust kernels enter by their weights
+/// at these poses. The constructor makes one factorization; no dense inverse is computed.
 class PoseMarginals {
  public:
   /// Throws as PoseGraph::check.
@@ -22,18 +22,19 @@ class PoseMarginals {
   PoseMarginals(PoseMarginals&&) noexcept;
   PoseMarginals& operator=(PoseMarginals&&) noexcept;
 
-  /// kDegenerate: the constraints leave directions open; then no covariance may be asked for.
+  /// kDegenerate: the constraints leave directions undetermined; no covariance may be requested
+  /// then.
   const Outcome& outcome() const;
 
   /// Covariance of one pose, dof x dof.
   Information covariance(NodeId id) const;
-  /// Of several poses jointly, in the order of `ids`: by one solve for every column of theirs.
+  /// Joint covariance of several poses, in the order of `ids`; one solve for every column.
   Eigen::MatrixXd joint_covariance(const std::vector<NodeId>& ids) const;
-  /// Of the relative pose T_from_to in its own right tangent.
+  /// Covariance of the relative pose T_from_to in its own right tangent.
   Information relative_covariance(NodeId from, NodeId to) const;
-  /// Of the relative pose that every relative-pose constraint speaks of, as the graph now knows it,
-  /// in the order of the constraints (empty for other constraints): all at once from the sparse
-  /// inverse subset.
+  /// Covariances in the graph of the relative poses of all relative-pose constraints, in the order
+  /// of the constraints (empty for other constraints); computed together from the sparse inverse
+  /// subset.
   std::vector<Information> constraint_covariances() const;
 
  private:

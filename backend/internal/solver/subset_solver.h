@@ -3,16 +3,16 @@
 
 namespace placegraph {
 
-/// LocalSolver on the edges that have weight. Edges without weight cost fill-in when they stay in
-/// the pattern of the normal equations, a new pattern costs an analysis: the pattern is kept while
-/// most of its edges have weight.
+/// LocalSolver on the edges that have weight.
+/// Edges without weight in the pattern of the normal equations cost fill-in, a new pattern costs an
+/// analysis: the pattern is kept while most of its edges have weight.
 template <class Group>
 class SubsetSolver {
  public:
   explicit SubsetSolver(const LocalSolverOptions& options) : options_(options) {}
 
   /// Moves the poses of `graph` to a minimum near them. The edges with weight must connect every
-  /// node to one that is held.
+  /// node to a held node.
   [[nodiscard]] LocalSolution solve(PackedGraph<Group>& graph);
 
  private:
@@ -22,7 +22,7 @@ class SubsetSolver {
   LocalSolverOptions options_;
   std::unique_ptr<LocalSolver<Group>> solver_;
   PackedGraph<Group> subset_;
-  std::vector<int> edges_;  ///< of the subset, as positions in the whole graph's edges
+  std::vector<int> edges_;  ///< edges of the subset, as positions in the whole graph's edges
 };
 
 }  // namespace placegraph

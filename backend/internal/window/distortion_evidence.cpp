@@ -47,7 +47,7 @@ class LensEquations {
       for (int i = 0; i < 6; ++i) columns_.push_back(column_.at(o.keyframe) + i);
     }
     columns_.push_back(H_.cols() - 1);
-    // What no move of the point explains.
+    // Projects on the complement of the effects of the point's position.
     const Eigen::HouseholderQR<Eigen::MatrixXd> point(J_point_);
     J_.applyOnTheLeft(point.householderQ().adjoint());
     r_.applyOnTheLeft(point.householderQ().adjoint());
@@ -56,10 +56,10 @@ class LensEquations {
     b_(columns_) += J.transpose() * r_.tail(4 * views - 3);
   }
 
-  /// The poses eliminated; directions that nothing measures (where the window lies, a single eye's
-  /// unit) carry nothing.
+  /// The evidence with the poses eliminated; directions that no residual measures (the pose of the
+  /// whole window, the scale of a monocular camera) are left out.
   DistortionEvidence evidence() const {
-    constexpr double kNothing = 1e-9;  // of the largest
+    constexpr double kNothing = 1e-9;  // share of the largest eigenvalue
     const Eigen::Index poses = H_.cols() - 1;
     const Eigen::VectorXd unit =
         H_.diagonal().head(poses).cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
@@ -95,17 +95,17 @@ class LensEquations {
   std::map<KeyframeId, Eigen::Index> column_;
   Eigen::MatrixXd H_;
   Eigen::VectorXd b_;
-  // Of one point: rows of its residuals, columns of the keyframes that see it.
+  // Jacobian of one point: rows of its residuals, columns of the keyframes that observe it.
   Eigen::MatrixXd J_, J_point_;
   Eigen::VectorXd r_;
   std::vector<Eigen::Index> columns_;
-  double weight_ = 1;  // square root of it, of the last rows
+  double weight_ = 1;  // square root of the weight of the last rows
 };
 
 }  // namespace
 
 DistortionEvidence lens_evidence(const WindowState& state) {
-  constexpr std::size_t kViews = 3;  // two views of a point agree on nearly any lens
+  constexpr std::size_t kViews = 3;  // two views are consistent with nearly any distortion
   LensEquations equations(state);
   int residuals = 0;
   for (const auto& [id, landmark] : state.landmarks) {

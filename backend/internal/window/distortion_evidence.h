@@ -4,8 +4,8 @@ namespace placegraph {
 
 struct WindowState;
 
-/// What bundle adjustment over a window says of a lens that should show no distortion: the sum of
-/// its squared residuals, poses and points free and no prior, is to second order
+/// Evidence of residual lens distortion by bundle adjustment over a window.
+/// The sum of the squared residuals with free poses and points and without prior is to second order
 ///
 ///   cost(k1) = cost(0) + 2 gradient k1 + information k1^2
 ///   px = c + f (1 + k1 r^2) [X/Z, Y/Z],   r^2 = (X^2 + Y^2) / Z^2
@@ -14,10 +14,10 @@ struct WindowState;
 struct DistortionEvidence {
   double gradient = 0;
   double information = 0;
-  int residuals = 0;  ///< of points seen from three keyframes at least, two per pixel
+  int residuals = 0;  ///< residuals of points seen from at least three keyframes, two per pixel
 };
 
-/// What the points of the window, at its estimate and without its prior, say of the lens.
+/// Evaluates the evidence of the window's points at its estimate, without its prior.
 DistortionEvidence lens_evidence(const WindowState& state);
 
 }  // namespace placegraph

@@ -8,8 +8,8 @@
 
 namespace placegraph {
 
-/// A landmark's normal equations and its share in those of the variables that see it. `N` is its
-/// number of directions.
+/// Normal equations of a landmark and of the variables that observe it.
+/// `N` is the number of the landmark's directions.
 template <int N>
 class LandmarkEquations {
  public:
@@ -19,7 +19,7 @@ class LandmarkEquations {
     v_.setZero();
   }
 
-  /// A residual r with weight w of the landmark and the variable at `column` (-1: constant).
+  /// Adds a residual r with weight w of the landmark and the variable at `column` (-1: constant).
   template <int R, int M>
   void add(const Eigen::Matrix<double, R, 1>& r, double w,
            const Eigen::Matrix<double, R, N>& J_landmark, Eigen::Index column,
@@ -38,8 +38,8 @@ class LandmarkEquations {
     view.b.template head<M>() += w * J.transpose() * r;
   }
 
-  /// H -= W V^-1 W^T, b -= W V^-1 v over the variables that see the landmark. Directions of the
-  /// landmark that its views leave open carry nothing (floor of rounding size).
+  /// H -= W V^-1 W^T, b -= W V^-1 v over the variables that observe the landmark. Directions of the
+  /// landmark that its views leave undetermined are left out (floor of rounding size).
   void eliminate(QuadraticForm& form) {
     if (views_.empty()) return;
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, N, N>> eigen(V_);
@@ -63,7 +63,7 @@ class LandmarkEquations {
   }
 
  private:
-  /// One variable's share; a plane uses the first three rows only.
+  /// The blocks of one variable; a plane uses the first three rows only.
   struct View {
     Eigen::Index column = -1, size = 0;
     Matrix6d H = Matrix6d::Zero();

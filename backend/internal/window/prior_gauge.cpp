@@ -7,12 +7,13 @@
 namespace placegraph {
 namespace {
 
-/// Smallest eigenvalue, scaled by the diagonal, of the prior's information on motions of the whole
-/// window below which it does not hold them.
+/// Smallest eigenvalue, scaled by the diagonal, of the prior's information about motions of the
+/// whole window for which it constrains them.
 constexpr double kGaugeFloor = 1e-8;
 
-/// What a motion of all keyframes, planes and worlds together, by a right tangent of the prior's
-/// first keyframe, does to the residuals: the others' tangents are Ad(T_k^-1 T_first) times it.
+/// Derivative of the residuals by a common motion of all keyframes, planes and Manhattan frames.
+/// The motion is a right tangent of the prior's first keyframe; the others' tangents are Ad(T_k^-1
+/// T_first) times it.
 Eigen::MatrixXd common_motion_of(const MarginalPrior& prior) {
   const SE3 T_map_first = prior.T_map_cam_lin.front();
   Eigen::MatrixXd J = Eigen::MatrixXd::Zero(prior.J.rows(), 6);
@@ -32,11 +33,10 @@ Eigen::MatrixXd common_motion_of(const MarginalPrior& prior) {
   return J;
 }
 
-/// What a growth of all the window about a centre, by a logarithm of one, does to the residuals of
-/// the prior.
+/// Change of the prior's residuals by a scaling of the whole window about a centre, per log(scale).
 struct Growth {
   Eigen::VectorXd change;
-  double size = 0;  ///< sum of the squares of what the variables bring, one by one
+  double size = 0;  ///< sum of the squared changes by the single variables
 };
 
 Growth growth_of(const MarginalPrior& prior, const Eigen::Vector3d& center_map) {
@@ -51,7 +51,7 @@ Growth growth_of(const MarginalPrior& prior, const Eigen::Vector3d& center_map) 
         (T_map_cam.rotation().inverse() * (T_map_cam.translation() - center_map)));
   }
   for (std::size_t k = 0; k < prior.planes.size(); ++k) {
-    // The distance from the centre grows, the normal stays.
+    // The distance from the centre is scaled, the normal stays the same.
     Eigen::RowVector3d J_distance;
     prior.plane_lin[k].distance(&J_distance);
     add(prior.plane_columns(k) * J_distance.transpose() *
@@ -78,7 +78,7 @@ bool holds_scale(const MarginalPrior& prior, const Eigen::Vector3d& center_map) 
   return growth.change.squaredNorm() > kGaugeFloor * growth.size;
 }
 
-/// J s being what the growth does, the residuals are whitened by I + sigma^2 J s (J s)^T.
+/// With J s the change by the scaling, the residuals are whitened by I + sigma^2 J s (J s)^T.
 void relax_scale(MarginalPrior& prior, const Eigen::Vector3d& center_map, double sigma) {
   if (prior.empty()) return;
   const Eigen::VectorXd change = growth_of(prior, center_map).change;
@@ -90,10 +90,10 @@ void relax_scale(MarginalPrior& prior, const Eigen::Vector3d& center_map, double
   prior.e -= lost * along * along.dot(prior.e);
 }
 
-/// The residuals are projected on the complement of what common motions do.
+/// The residuals are projected on the complement of the changes by common motions.
 void hold_first(MarginalPrior& prior) {
   const Eigen::MatrixXd common = common_motion_of(prior);
-  // An orthonormal basis of the common motions' part; what is not resisted has none.
+  // An orthonormal basis of the changes by common motions; unconstrained motions have none.
   const Eigen::VectorXd length = common.colwise().norm().transpose().cwiseMax(1e-300);
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(common * length.cwiseInverse().asDiagonal());
   const Eigen::MatrixXd basis =
@@ -105,7 +105,7 @@ void hold_first(MarginalPrior& prior) {
   prior.T_map_cam_lin.erase(prior.T_map_cam_lin.begin());
 }
 
-/// The residuals are projected on the complement of what that plane does.
+/// The residuals are projected on the complement of the changes by that plane.
 void forget_plane(MarginalPrior& prior, std::size_t k) {
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(prior.plane_columns(k));
   const Eigen::MatrixXd basis =

@@ -31,10 +31,11 @@ void insert_observation(std::vector<Observation>& list, const Observation& o,
   list.insert(at, o);
 }
 
-void require_sound(const LineObservation::SecondCamera& eye, const std::string& name) {
-  require(eye.second_in_cam.allFinite() && eye.second_in_cam.norm() > 0 &&
-              eye.start_px.allFinite() && eye.end_px.allFinite() && positive(eye.sigma_px),
-          name + ": a second eye must lie elsewhere, be finite and its sigma_px positive");
+void require_sound(const LineObservation::SecondCamera& second, const std::string& name) {
+  require(
+      second.second_in_cam.allFinite() && second.second_in_cam.norm() > 0 &&
+          second.start_px.allFinite() && second.end_px.allFinite() && positive(second.sigma_px),
+      name + ": a second camera must be finite, at another position and have a positive sigma_px");
 }
 
 /// "sliding window: landmark 3"
@@ -145,13 +146,13 @@ void SlidingWindow::add_plane_point(const PlanePoint& point) {
   require_variable(*state_, plane_variable(point.plane));
   WindowLandmark& landmark = find(change().landmarks, point.landmark, "landmark");
   require(positive(point.sigma_m), "sliding window: sigma_m must be finite and positive");
-  require(!landmark.on_plane, name_of("landmark", point.landmark) + " lies on a plane already");
+  require(!landmark.on_plane, name_of("landmark", point.landmark) + " is already on a plane");
   landmark.on_plane = point;
 }
 
 void SlidingWindow::add_manhattan_frame(ManhattanFrameId id, const SO3& R_map_manhattan) {
-  require(R_map_manhattan.matrix().allFinite(), name_of("world", id) + " is not finite");
-  insert(change().manhattan_frames, id, R_map_manhattan, "world");
+  require(R_map_manhattan.matrix().allFinite(), name_of("Manhattan frame", id) + " is not finite");
+  insert(change().manhattan_frames, id, R_map_manhattan, "Manhattan frame");
 }
 
 void SlidingWindow::add(const WindowFactor& factor) {
@@ -161,8 +162,8 @@ void SlidingWindow::add(const WindowFactor& factor) {
   check(factor, name);
   for (const WindowVariable& variable : factor.variables) require_variable(*state_, variable);
   WindowState& state = change();
-  // Factors of one type stand together: so it changes no sum how measurements of several types
-  // alternate, as those of a frame do.
+  // Factors are grouped by type, so that the order of measurements of different types does not
+  // change the sums.
   const auto same_type = [&added = *factor.factor](const WindowFactor& other) {
     const Factor& before = *other.factor;
     return typeid(before) == typeid(added);
@@ -210,7 +211,7 @@ void SlidingWindow::remove(const WindowFactor& factor) {
   const std::shared_ptr<const Factor> which = factor.factor;  // `factor` may be one of the window's
   const std::size_t removed = std::erase_if(
       change().factors, [&](const WindowFactor& other) { return other.factor == which; });
-  require(removed > 0, "sliding window: a measurement that is to be removed is not there");
+  require(removed > 0, "sliding window: a measurement to be removed is not in the window");
 }
 
 void SlidingWindow::revise_inverse_depth(KeyframeId keyframe, LandmarkId landmark,
@@ -234,7 +235,7 @@ void SlidingWindow::revise_second_camera(KeyframeId keyframe, LineId line,
       o.second = second;
       return;
     }
-  throw ArgumentError(name_of("line", line) + " has no second eye" + in_keyframe);
+  throw ArgumentError(name_of("line", line) + " has no second camera" + in_keyframe);
 }
 
 void SlidingWindow::keep(const WindowVariable& variable, bool kept) {
@@ -256,7 +257,7 @@ std::vector<KeyframeId> SlidingWindow::marginalize() { return marginalize_window
 
 void SlidingWindow::rescale(double scale) {
   require(!has_metric_observation(*state_) && !state_->prior_is_metric,
-          "sliding window: the scale is measured already, it cannot be set");
+          "sliding window: the scale cannot be set because it is already measured");
   rescale_window(change(), scale);
 }
 

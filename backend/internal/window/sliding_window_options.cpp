@@ -9,12 +9,14 @@ void SlidingWindowOptions::check() const {
 }
 
 void visit(OptionVisitor& field, SlidingWindowOptions& o) {
-  field("max_keyframes", o.max_keyframes, "the oldest keyframe is marginalized beyond this",
-        {2, 1000});
-  field("max_iterations", o.max_iterations, "steps of Levenberg-Marquardt", {1, 1000});
-  field("huber_px", o.huber_px, "width of the Huber kernel, in standard deviations", {1e-3, 1e6});
+  field.basic()("max_keyframes", o.max_keyframes,
+        "maximum number of keyframes; above it the oldest is marginalized", {2, 1000});
+  field("max_iterations", o.max_iterations, "maximum number of steps of Levenberg-Marquardt",
+        {1, 1000});
+  field("huber_px", o.huber_px, "width of the Huber kernel [standard deviations of a pixel]",
+        {1e-3, 1e6});
   field("relative_decrease", o.relative_decrease,
-        "stop when the cost falls by less than this share", {0, 1});
+        "stop when the cost decreases by less than this share", {0, 1});
 }
 
 }  // namespace placegraph

@@ -9,7 +9,7 @@
 namespace placegraph {
 namespace {
 
-/// The first estimate of a variable if the prior holds one.
+/// The first estimate of a variable, if the prior has one.
 template <class Key, class T>
 std::optional<Variable> first_estimate(const std::vector<Key>& in_prior, const std::vector<T>& lin,
                                        Key id) {
@@ -158,7 +158,7 @@ void WindowEquations::add_prior() {
     const typename VariableBlock<T>::Tangent delta =
         VariableBlock<T>::minus(std::get<T>(at.now), lin);
     if (at.column < 0) {
-      // In the prior and constant: what it has moved by since then stays in the residual.
+      // Constant and in the prior: its deviation since then stays in the residual.
       e += J_k * typename VariableBlock<T>::Tangent(at.delta);
     } else if (first_estimates_) {
       J.middleCols(at.column, delta.size()) = J_k;

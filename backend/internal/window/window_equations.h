@@ -5,35 +5,37 @@
 
 namespace placegraph {
 
-/// Number of columns of variables one after the other.
+/// Total number of columns of variables.
 Eigen::Index columns_of(const std::vector<WindowVariable>& variables);
 
-/// Where the factors of a variable are linearized: residuals at the estimate, Jacobians at the
-/// first estimate if it is in the prior already (else at the estimate, and delta is zero).
+/// The linearization of a variable in its factors.
+/// Residuals are at the estimate, Jacobians at the first estimate if the variable is already in the
+/// prior (else at the estimate, and delta is zero).
 struct LinearizedVariable {
   Variable now, lin;
-  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1> delta;  ///< now [-] lin
-  Eigen::Index column = -1;                                 ///< in the equations; -1: constant
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1> delta;  ///< estimate [-] lin
+  Eigen::Index column = -1;  ///< first column in the equations; -1: constant
 };
 
-/// Gauss-Newton form of a window in the deviations delta of its keyframes, planes and worlds from
-/// their linearization points; points and lines are eliminated as they come. Robust kernels enter
-/// by their weights.
+/// Gauss-Newton form of a window in the deviations delta of its variables.
+/// The deviations are those of keyframes, planes and Manhattan frames from their linearization
+/// points; points and lines are eliminated when they are added. Robust kernels enter by their
+/// weights.
 class WindowEquations {
  public:
-  /// The columns stand in the order of `variables`; any other variable of the window (the fixed
-  /// keyframe) is constant. With `first_estimates` what is in the prior is linearized where it was
-  /// when it went there.
+  /// The columns are in the order of `variables`; any other variable of the window (the fixed
+  /// keyframe) is constant. With `first_estimates` the variables in the prior are linearized at
+  /// their values when they entered it.
   WindowEquations(const WindowState& state, const std::vector<WindowVariable>& variables,
                   bool first_estimates);
 
   void add_landmark(const WindowLandmark& landmark);
   void add_line(const WindowLine& line);
   void add(const WindowFactor& factor);
-  /// With first estimates the prior is linear in delta as it stands; else it is relinearized.
+  /// Adds the prior. With first estimates it is linear in delta; else it is relinearized.
   void add_prior();
 
-  /// Where a variable is linearized.
+  /// The linearization point of a variable.
   const Variable& linearization_point(const WindowVariable& variable) const {
     return variables_.at(variable).lin;
   }

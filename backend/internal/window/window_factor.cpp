@@ -24,7 +24,7 @@ void check(const WindowFactor& factor, const std::string& name) {
             name + ": " + to_string(variable) + " repeats");
   }
   require(factor.factor->transformed(Sim3()) != nullptr,
-          name + ": the factor does not say what it becomes in another frame");
+          name + ": the factor cannot be transformed to another frame");
 }
 
 WindowFactor transformed(const WindowFactor& factor, const Sim3& S_new_old) {

@@ -7,37 +7,40 @@
 
 namespace placegraph {
 
-/// A measurement between variables of a sliding window: a factor of backend/factors and the
-/// variables that it stands between, in the order in which the factor takes them. The window knows
-/// no kinds of measurements beyond this: it evaluates the factor, marginalizes it with the first of
-/// its variables that leaves, and asks Factor::transformed what it becomes in another frame or unit
-/// of length. So a new kind is a factor with `transformed` and a caller, and a virtual function
-/// does what a std::variant of the known kinds could not: take a factor of somebody who embeds the
-/// library.
+/// A measurement between variables of a sliding window.
+/// It consists of a factor of backend/factors and its variables, in the order in which the factor
+/// takes them. The window does not distinguish kinds of measurements: it evaluates the factor,
+/// marginalizes it with the first of its variables that leaves, and transforms it to another frame
+/// or scale by Factor::transformed. So a new kind of measurement needs only a factor with
+/// `transformed` and a caller. Unlike a std::variant of the known kinds, virtual functions also
+/// admit factors of applications that embed the library.
 struct WindowFactor {
-  /// What the measurement says of the unit of length. Declared, not found from the derivatives: a
-  /// motion of full rank without translation and a length of zero measure the unit too.
+  /// The information of the measurement about the scale. It is declared, not derived from the
+  /// Jacobians: a motion of full rank without translation and a length of zero measure the scale,
+  /// too.
   enum class Length {
-    kNone,      ///< nothing, as rotations and directions
-    kMeasured,  ///< it gives the unit: a distance, a measured plane, a motion of full rank
-    kPosition,  ///< a position in the map: two positions give the unit
-    kHeight,    ///< a height above a plane: it gives the unit if three points lie on the plane
+    kNone,      ///< none: rotations and directions
+    kMeasured,  ///< measures the scale: a distance, a measured plane, a motion of full rank
+    kPosition,  ///< a position in the map: two positions determine the scale
+    kHeight,    ///< a height above a plane: determines the scale if three points are on the plane
   };
 
   std::shared_ptr<const Factor> factor;
   std::vector<WindowVariable> variables;
-  bool robust = true;  ///< under the window's Huber kernel
+  bool robust = true;  ///< whether the window's Huber kernel is applied
   Length length = Length::kNone;
 };
 
 bool touches(const WindowFactor& factor, const WindowVariable& variable);
 
-/// Throws ArgumentError, whose text begins with `name`, if there is no factor, if the variables are
-/// not of its kinds or repeat, or if it does not say what it becomes in another frame.
+/// Throws ArgumentError, whose text begins with `name`, if the measurement is invalid.
+/// Invalid are: no factor, variables that are not of its kinds or repeat, a factor without
+/// `transformed`.
 void check(const WindowFactor& factor, const std::string& name);
 
-/// The same measurement where the map's frame and its unit of length are others: its residual at
-/// the transformed variables is that of `factor` at the old ones. See Factor::transformed.
+/// The same measurement in another frame and scale of the map.
+/// Its residual at the transformed variables is that of `factor` at the old ones. See
+/// Factor::transformed.
 WindowFactor transformed(const WindowFactor& factor, const Sim3& S_new_old);
 
 }  // namespace placegraph

@@ -19,7 +19,7 @@ bool is_held(const WindowState& state, const WindowVariable& variable) {
   return variable.kind == Kind::kKeyframe && state.fixed == variable.keyframe();
 }
 
-/// The information of a keyframe's pose in the map, all else marginalized.
+/// The information of a keyframe's pose in the map, all other variables marginalized.
 Matrix6d absolute_information(const SlidingWindow& window, KeyframeId keyframe) {
   return clamp_to_semidefinite(
       joint_information(window.state(), window.information(), {keyframe_variable(keyframe)}), 1e-9);
@@ -32,7 +32,7 @@ std::optional<Matrix6d> inverse_if_full(const Matrix6d& information) {
   return Matrix6d(information.llt().solve(Matrix6d::Identity()));
 }
 
-/// J information^-1 J^T; nothing where a direction of the information is open.
+/// J information^-1 J^T; empty if a direction of the information is undetermined.
 std::optional<Eigen::Matrix3d> propagated_covariance(const Eigen::MatrixXd& information,
                                                      const Eigen::MatrixXd& J) {
   const Eigen::VectorXd scale = information.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
@@ -64,7 +64,7 @@ WindowInformation window_information(const WindowState& state) {
 
 Eigen::MatrixXd joint_information(const WindowState& state, const WindowInformation& information,
                                   const std::vector<WindowVariable>& variables) {
-  // All else first, so that it can be marginalized.
+  // All other variables first, so that they can be marginalized.
   std::vector<Eigen::Index> columns;
   std::vector<Eigen::Index> asked(variables.size(), -1);
   Eigen::Index column = 0;
@@ -89,7 +89,7 @@ Matrix6d relative_information(const SlidingWindow& window, KeyframeId from, Keyf
   for (const KeyframeId id : {from, to}) require_variable(state, keyframe_variable(id));
   require(from != to, "sliding window: a relative pose needs two keyframes");
   const SE3 T_from_to = state.keyframes.at(from).inverse() * state.keyframes.at(to);
-  // The held keyframe is the map's frame: what the prior knows, it knows from there.
+  // The held keyframe is the frame of the map and of the prior's information.
   if (state.fixed == from) return absolute_information(window, to);
   if (state.fixed == to) {
     // T_from exp(x) changes T_from_to as exp(xi) on its right does, x = -Ad(T_from_to) xi.
@@ -100,7 +100,7 @@ Matrix6d relative_information(const SlidingWindow& window, KeyframeId from, Keyf
                                         {keyframe_variable(from), keyframe_variable(to)}),
                       Eigen::VectorXd::Zero(12)};
   // From (xi_from, xi_to) to (xi_from, xi of T_from_to): xi_to = xi + Ad(T_from_to^-1) xi_from. A
-  // window without a prior does not constrain xi_from then, all that is left of it is rounding.
+  // window without a prior does not constrain xi_from then; its remaining entries are rounding.
   Eigen::Matrix<double, 12, 12> M = Eigen::Matrix<double, 12, 12>::Identity();
   M.bottomLeftCorner<6, 6>() = T_from_to.inverse().adjoint();
   const Eigen::VectorXd size_before =
@@ -136,8 +136,9 @@ std::optional<Eigen::Matrix3d> manhattan_covariance(const SlidingWindow& window,
   variables.push_back(manhattan_variable(manhattan_frame));
   QuadraticForm form{joint_information(state, window.information(), variables), {}};
   form.b = Eigen::VectorXd::Zero(form.H.rows());
-  if (!held) form = marginalize_first(form, 3);  // where the keyframe is
-  // R_cam_manhattan turns on its right by that of the world, less that of the camera seen from it.
+  if (!held) form = marginalize_first(form, 3);  // position of the keyframe
+  // The right tangent of R_cam_manhattan is that of the Manhattan frame minus that of the camera,
+  // transformed to the Manhattan frame.
   Eigen::MatrixXd J = Eigen::MatrixXd::Zero(3, form.H.cols());
   J.rightCols<3>().setIdentity();
   if (!held) J.leftCols<3>() = -R_world_cam.matrix();
@@ -158,8 +159,8 @@ std::optional<Eigen::Matrix3d> plane_covariance(const SlidingWindow& window, Pla
     H = J_inverse.transpose() *
         joint_information(state, window.information(), {plane_variable(plane)}) * J_inverse;
   } else {
-    // From (xi, w of the plane) to (xi, w of the plane in the camera), of which a window that
-    // floats as a whole leaves xi open.
+    // From (xi, w of the plane) to (xi, w of the plane in the camera), where an unconstrained
+    // window leaves xi undetermined.
     QuadraticForm joint{joint_information(state, window.information(),
                                           {keyframe_variable(keyframe), plane_variable(plane)}),
                         Eigen::VectorXd::Zero(9)};
@@ -186,7 +187,7 @@ double sigma_log_length_ratio(const SlidingWindow& window, KeyframeId first, Key
   const WindowState& state = window.state();
   for (const KeyframeId id : {first, middle, last}) require_variable(state, keyframe_variable(id));
   require(first != middle && middle != last && first != last,
-          "sliding window: a ratio of lengths needs three keyframes");
+          "sliding window: a ratio of lengths needs three different keyframes");
   const SE3 &T_a = state.keyframes.at(first), &T_b = state.keyframes.at(middle),
             &T_c = state.keyframes.at(last);
   const Eigen::Vector3d ab = T_b.translation() - T_a.translation();
@@ -201,8 +202,9 @@ double sigma_log_length_ratio(const SlidingWindow& window, KeyframeId first, Key
   J.segment<3>(6) = -(d_ab + d_bc) * T_b.rotation().matrix();
   J.segment<3>(12) = d_bc * T_c.rotation().matrix();
 
-  // The ratio does not feel the gauge, whose directions the information leaves open: they are left
-  // out of the inverse. Scaled to a unit diagonal, as metres and radians have no common size.
+  // The ratio is independent of the gauge, whose undetermined directions are left out of the
+  // inverse. The information is scaled to a unit diagonal, because metres and radians are not
+  // comparable.
   const Eigen::MatrixXd H = joint_information(
       state, window.information(),
       {keyframe_variable(first), keyframe_variable(middle), keyframe_variable(last)});

@@ -14,8 +14,8 @@ bool sees(const Landmark& landmark, KeyframeId keyframe) {
                      [&](const auto& o) { return o.keyframe == keyframe; });
 }
 
-/// Whether a point or line is seen from the leaving keyframe and no longer from the newest one: it
-/// goes into the prior.
+/// Whether the leaving keyframe observes a point or line and the newest does not: it is
+/// marginalized.
 template <class Landmark>
 bool ends(const Landmark& landmark, KeyframeId leaving, KeyframeId newest) {
   return sees(landmark, leaving) && !sees(landmark, newest);
@@ -26,8 +26,9 @@ bool touches_any(const WindowFactor& factor, const std::set<WindowVariable>& var
                      [&](const WindowVariable& one) { return variables.contains(one); });
 }
 
-/// The keyframe, and the planes and worlds that nothing in the window but what leaves with it ties
-/// to keyframes, and that nobody wants kept.
+/// The leaving keyframe, and the planes and Manhattan frames that leave with it.
+/// These are not kept, and only measurements that leave with the keyframe connect them to
+/// keyframes.
 std::set<WindowVariable> leaving_variables(const WindowState& state, KeyframeId leaving,
                                            KeyframeId newest) {
   const WindowVariable keyframe = keyframe_variable(leaving);
@@ -53,8 +54,8 @@ std::set<WindowVariable> leaving_variables(const WindowState& state, KeyframeId 
   return result;
 }
 
-/// Adds what leaves with the keyframe and the other variables, and the prior. Returns whether
-/// something among it measures the unit of length.
+/// Adds the landmarks and factors that leave, and the prior; returns whether any measures the
+/// scale.
 bool add_leaving(const WindowState& state, const std::set<WindowVariable>& gone, KeyframeId leaving,
                  KeyframeId newest, WindowEquations& equations) {
   bool metric = false;
@@ -78,7 +79,7 @@ bool add_leaving(const WindowState& state, const std::set<WindowVariable>& gone,
   return metric;
 }
 
-/// The part of a form that carries anything, as the prior on those variables.
+/// The nonzero part of a form as a prior on its variables.
 MarginalPrior make_prior(const QuadraticForm& form, const std::vector<WindowVariable>& variables,
                          const WindowEquations& equations) {
   MarginalPrior prior;
@@ -109,7 +110,7 @@ MarginalPrior make_prior(const QuadraticForm& form, const std::vector<WindowVari
   return prior;
 }
 
-/// Takes out of the window what has gone into the prior.
+/// Removes the marginalized variables and measurements from the window.
 void erase_leaving(WindowState& state, const std::set<WindowVariable>& gone, KeyframeId leaving,
                    KeyframeId newest) {
   const auto erase_from = [&](auto& landmarks) {
@@ -136,10 +137,10 @@ void erase_leaving(WindowState& state, const std::set<WindowVariable>& gone, Key
   }
 }
 
-/// After a keyframe has left: what holds the window in the map, and its unit of length.
+/// Fixes the pose and the scale of the window after a keyframe has left.
 void settle_gauge(WindowState& state, bool was_fixed) {
   if (was_fixed) state.fixed.reset();
-  // Where everything the leaving keyframe saw is still in view, nothing went into the prior.
+  // If all landmarks of the leaving keyframe are still in view, nothing is added to the prior.
   const auto& [oldest, T_map_oldest] = *state.keyframes.begin();
   if (state.options.hold_oldest) {
     if (!state.prior.keyframes.empty() && state.prior.keyframes.front() == oldest)
@@ -158,7 +159,7 @@ void settle_gauge(WindowState& state, bool was_fixed) {
 void marginalize_keyframe(WindowState& state, KeyframeId leaving) {
   const KeyframeId newest = state.keyframes.rbegin()->first;
   const std::set<WindowVariable> gone = leaving_variables(state, leaving, newest);
-  // What leaves comes first; a keyframe that is held has no columns.
+  // Leaving variables are first; a held keyframe has no columns.
   const auto is_constant = [&](const WindowVariable& variable) {
     return variable.kind == WindowVariable::Kind::kKeyframe && state.fixed == variable.keyframe();
   };
@@ -183,7 +184,7 @@ void marginalize_keyframe(WindowState& state, KeyframeId leaving) {
 std::vector<KeyframeId> marginalize_window(WindowState& state) {
   std::vector<KeyframeId> left;
   while (static_cast<int>(state.keyframes.size()) > state.options.max_keyframes) {
-    // The newest stays in any case.
+    // The newest keyframe is never marginalized.
     const auto newest = std::prev(state.keyframes.end());
     const auto oldest = std::find_if(state.keyframes.begin(), newest, [&](const auto& keyframe) {
       return !state.kept.contains(keyframe_variable(keyframe.first));

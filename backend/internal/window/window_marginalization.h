@@ -4,9 +4,10 @@
 
 namespace placegraph {
 
-/// Moves one keyframe into the prior, with the landmarks that end with it and the planes and worlds
-/// that no other keyframe measures. A measurement leaves with the first of its variables; one
-/// between planes and worlds alone keeps none of them in the window.
+/// Marginalizes one keyframe into the prior.
+/// With it go the landmarks that end with it and the planes and Manhattan frames that no other
+/// keyframe measures. A measurement leaves with the first of its variables; a measurement between
+/// planes and Manhattan frames alone keeps none of them in the window.
 void marginalize_keyframe(WindowState& state, KeyframeId leaving);
 
 /// Marginalizes the oldest keyframes that are not kept until at most max_keyframes are left.

@@ -26,7 +26,7 @@ bool is_symmetric(const Matrix& m) {
   return m.allFinite() && m.isApprox(m.transpose(), 1e-9);
 }
 
-/// Throws unless the information says something and contradicts itself nowhere.
+/// Throws unless the information is symmetric, positive semi-definite and not zero.
 template <class Matrix>
 void require_information(const Matrix& information, const std::string& name) {
   require(is_symmetric(information), name + ": the information must be symmetric and finite");
@@ -69,8 +69,8 @@ WindowFactor window_factor(const PlaneObservation& o) {
 }
 
 WindowFactor window_factor(const ManhattanObservation& o) {
-  const std::string name = "sliding window: sighting of world " + to_string(o.manhattan_frame) +
-                           " in keyframe " + to_string(o.keyframe);
+  const std::string name = "sliding window: observation of Manhattan frame " +
+                           to_string(o.manhattan_frame) + " in keyframe " + to_string(o.keyframe);
   require(o.R_cam_manhattan.matrix().allFinite(), name + ": the rotation must be finite");
   require_information(o.information, name);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(o.information);
@@ -86,7 +86,7 @@ WindowFactor window_factor(const PosePrior& prior) {
   const std::string name = "sliding window: pose prior of keyframe " + to_string(prior.keyframe);
   require(prior.T_map_cam.matrix().allFinite(), name + ": the pose must be finite");
   require_information(prior.information, name);
-  // What is known of a rotation alone has no unit.
+  // A prior of the rotation alone has no scale.
   const bool rotation_only = prior.information.topRows<3>().isZero(0);
   return {std::make_shared<PosePriorFactor<SE3>>(prior.T_map_cam, whitening(prior.information)),
           {keyframe_variable(prior.keyframe)},
@@ -99,7 +99,7 @@ WindowFactor window_factor(const MotionObservation& motion) {
                            " to " + to_string(motion.to);
   require(motion.T_from_to.matrix().allFinite(), name + ": the pose must be finite");
   require_information(motion.information, name);
-  // What holds a direction of the way only does so in any unit.
+  // A motion of deficient rank, e.g. a direction of translation, does not measure the scale.
   bool deficient = false;
   const Matrix6d W = whitening(motion.information, &deficient);
   return {std::make_shared<RelativePoseFactor<SE3>>(motion.T_from_to, W),

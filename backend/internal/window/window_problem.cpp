@@ -16,10 +16,10 @@
 namespace placegraph {
 namespace {
 
-/// A free keyframe outside the prior needs this many points and lines to be determined.
+/// Minimum number of points and lines that determine a free keyframe outside the prior.
 constexpr int kMinPointsPerKeyframe = 3;
 
-/// Blocks and factors belong to the problem's owner.
+/// Options with which the problem does not own blocks and factors.
 ceres::Problem::Options borrowed_parts() {
   ceres::Problem::Options options;
   options.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
@@ -33,7 +33,8 @@ Outcome too_few(const std::string& reason) {
   return Outcome::failure(Outcome::Code::kTooFewData, reason);
 }
 
-/// The window as a Ceres problem: points first, which are eliminated, then lines and all else.
+/// The window as a Ceres problem: points, which are eliminated first, lines and all other
+/// variables.
 class WindowProblem {
  public:
   explicit WindowProblem(const WindowState& state)
@@ -50,14 +51,14 @@ class WindowProblem {
     add_variables();
   }
 
-  /// Why the data determine no estimate, or ok.
+  /// Ok, or the reason for which the data determine no estimate.
   Outcome check() const;
-  /// Motions one after the other agree as they are: there is no step that makes less of nothing.
+  /// Whether the cost is already zero, as for a chain of motions: no step can lower it.
   bool settled();
   ceres::Solver::Summary solve();
   bool finite() const { return blocks_.finite(); }
-  /// Takes the estimate over. Points and lines that were not in the problem move with the keyframe
-  /// that saw them last.
+  /// Writes the estimate to the state. Points and lines that were not in the problem move with the
+  /// keyframe that observed them last.
   void read_back(WindowState& state) const;
 
  private:
@@ -86,7 +87,7 @@ class WindowProblem {
   std::deque<CeresFactor<PointOnPlaneFactor>> plane_points_;
   std::deque<DynamicCeresFactor> factors_;
   std::optional<MarginalPriorFactor> prior_;
-  ceres::Problem problem_;  // after all it points to
+  ceres::Problem problem_;  // declared after all objects that it points to
   std::shared_ptr<ceres::ParameterBlockOrdering> ordering_;
 };
 
@@ -116,8 +117,8 @@ void WindowProblem::add_point(const WindowLandmark& landmark, double* point) {
       blocks_.at(plane_variable(landmark.on_plane->plane)));
 }
 
-/// Lines are few and stand beside the poses: with blocks of one size only among what is eliminated,
-/// Ceres' code for points stays fast.
+/// Lines are few and are solved with the poses: Ceres' code for points is fast only if all
+/// eliminated blocks have the same size.
 void WindowProblem::add_lines() {
   std::size_t i = 0;
   for (const auto& [id, line] : state_.lines) {
@@ -186,7 +187,7 @@ void WindowProblem::add_variables() {
   }
 }
 
-/// Whether something says where the k-th keyframe is.
+/// Whether the data determine the pose of the k-th keyframe.
 bool WindowProblem::is_determined(std::size_t k) const {
   const WindowVariable& keyframe = blocks_.variables()[k];
   if (state_.fixed == keyframe.keyframe() || points_by_keyframe_[k] >= kMinPointsPerKeyframe)
@@ -204,9 +205,9 @@ Outcome WindowProblem::check() const {
   if (blocks_.keyframes() < 2) return too_few("a window of fewer than two keyframes");
   for (std::size_t k = 0; k < blocks_.keyframes(); ++k)
     if (!is_determined(k))
-      return too_few(to_string(blocks_.variables()[k]) + " sees " +
+      return too_few(to_string(blocks_.variables()[k]) + " observes " +
                      std::to_string(points_by_keyframe_[k]) +
-                     " points or lines that others see too, " +
+                     " points or lines that other keyframes observe, too; " +
                      std::to_string(kMinPointsPerKeyframe) + " needed");
   return Outcome::ok();
 }
@@ -220,7 +221,7 @@ bool WindowProblem::settled() {
 
 ceres::Solver::Summary WindowProblem::solve() {
   ceres::Solver::Options options;
-  // Lines meet keyframes only, not one another.
+  // Residuals connect lines to keyframes only, not to other lines.
   options.linear_solver_type = state_.lines.empty() ? ceres::DENSE_SCHUR : ceres::SPARSE_SCHUR;
   options.sparse_linear_algebra_library_type = kSparseAlgebra;
   options.dense_linear_algebra_library_type = ceres::EIGEN;
@@ -296,7 +297,7 @@ WindowSummary optimize_window(WindowState& state) {
   const Eigen::Vector3d p_map_oldest = state.keyframes.begin()->second.translation();
   problem.read_back(state);
   if (held) {
-    // A prior that holds the window in the map swings it at the end of the way behind it.
+    // A prior that ties the window to the map rotates it about a distant point of the past path.
     rotate_window(state, *state.held_manhattan_frame, *held);
     const Eigen::Vector3d moved_to = state.keyframes.begin()->second.translation();
     move_window(state, SE3(SO3(), p_map_oldest - moved_to));

@@ -4,8 +4,8 @@
 
 namespace placegraph {
 
-/// Minimizes over all of the window. The outcome says why the data determine no estimate: then the
-/// window stays as it is.
+/// Minimizes the cost of the window over all its variables.
+/// If the data determine no estimate, the outcome has the reason and the window is unchanged.
 WindowSummary optimize_window(WindowState& state);
 
 }  // namespace placegraph

@@ -21,7 +21,7 @@ bool contains(const WindowState& state, const WindowVariable& variable) {
   }
 }
 
-/// The estimates of a factor's variables, and pointers to them; empty if one is not in the window.
+/// The estimates of a factor's variables and pointers to them; empty if one is not in the window.
 struct FactorValues {
   std::vector<Variable> values;
   std::vector<const Variable*> pointers;
@@ -42,7 +42,7 @@ int points_on(const WindowState& state, PlaneId plane) {
   return points;
 }
 
-/// A height says nothing of the unit while its plane lies where the height alone puts it.
+/// Whether points determine the plane of a height; otherwise the height does not measure the scale.
 bool lies_among_points(const WindowState& state, const WindowFactor& factor) {
   return std::any_of(
       factor.variables.begin(), factor.variables.end(), [&](const WindowVariable& variable) {

@@ -24,8 +24,8 @@ struct WindowLine {
   std::vector<LineObservation> observations;  ///< ascending keyframes
 };
 
-/// All that a sliding window knows. Ordered containers only: every sum runs in the order of the
-/// ids, and over the factors as they stand.
+/// The complete state of a sliding window.
+/// It has ordered containers only: all sums are in the order of the ids and of the factors.
 struct WindowState {
   SlidingWindowOptions options;
   Camera camera;
@@ -34,19 +34,19 @@ struct WindowState {
   std::map<LineId, WindowLine> lines;
   std::map<PlaneId, Plane3> planes;                  ///< planes of the map
   std::map<ManhattanFrameId, SO3> manhattan_frames;  ///< R_map_manhattan
-  std::set<WindowVariable> kept;                     ///< are not to be marginalized
-  /// Where the window lies as a whole is chosen so that this one stays as it is.
+  std::set<WindowVariable> kept;                     ///< variables excluded from marginalization
+  /// The window is rotated as a whole so that this Manhattan frame stays the same.
   std::optional<ManhattanFrameId> held_manhattan_frame;
-  /// All measurements but those of points and lines: those of one type together, in the order in
-  /// which they came.
+  /// All measurements except those of points and lines, grouped by type; within a type in the order
+  /// in which they were added.
   std::vector<WindowFactor> factors;
   MarginalPrior prior;
-  bool prior_is_metric = false;  ///< what measures the scale went into the prior
+  bool prior_is_metric = false;  ///< whether a measurement of the scale was marginalized
   bool prior_holds_scale = false;
-  /// The oldest keyframe, while no prior holds position and heading of the window.
+  /// The oldest keyframe, while no prior constrains position and heading of the window.
   std::optional<KeyframeId> fixed;
-  /// Nothing but the prior leads back to the keyframe that set the map's frame; once another has to
-  /// be held instead, what is known is known from there only.
+  /// Whether the prior still relates the window to the keyframe that defined the map's frame. False
+  /// once another keyframe is held instead; covariances are then relative to that one.
   bool tied_to_map = true;
 };
 
@@ -55,18 +55,18 @@ void require_variable(const WindowState& state, const WindowVariable& variable);
 /// The estimate of a variable, which must be in the window.
 Variable value_of(const WindowState& state, const WindowVariable& variable);
 
-/// All of them: keyframes, planes, worlds, each in the order of their ids.
+/// All variables: keyframes, planes, Manhattan frames, each in the order of their ids.
 std::vector<WindowVariable> variables_of(const WindowState& state);
 
-/// The whitened residual of a factor at the estimate; nothing where it cannot be computed or one of
-/// its variables is not in the window.
+/// The whitened residual of a factor at the estimate.
+/// Empty if it cannot be computed or one of its variables is not in the window.
 std::optional<Eigen::VectorXd> residual(const WindowState& state, const WindowFactor& factor);
-/// Whether a factor leaves no direction of one of its variables open, were the others known.
+/// Whether a factor determines all directions of one of its variables if the others are known.
 bool determines(const WindowState& state, const WindowFactor& factor,
                 const WindowVariable& variable);
 
-/// The observations of a landmark that an estimate can use: those whose point lies in front of the
-/// camera, and only if there are at least two. (One view moves its own point only.)
+/// The usable observations of a landmark: those with the point in front of the camera.
+/// Empty if there are fewer than two, because a single view constrains only its own point.
 std::vector<const WindowObservation*> usable_observations(const WindowState& state,
                                                           const WindowLandmark& landmark);
 
@@ -75,7 +75,7 @@ inline Reprojection reprojection_of(const Camera& camera, const WindowObservatio
   return Reprojection(camera, o.px, o.sigma_px);
 }
 
-/// A line that an estimate can use: at least three images of it, in two keyframes or more.
+/// Whether a line is usable: at least three images of it, in at least two keyframes.
 bool is_usable(const WindowLine& line);
 
 /// Calls `use` with the one or two factors of an observation.
@@ -87,18 +87,18 @@ void for_factors(const Camera& camera, const LineObservation& o, Use&& use) {
                                o.second->second_in_cam));
 }
 
-/// Whether a factor of one keyframe alone leaves no direction of it open: it holds the window in
-/// the map.
+/// Whether a factor of a single keyframe determines all its directions and so ties it to the map.
 bool is_full_pose_prior(const WindowState& state, const WindowFactor& factor);
 bool has_full_pose_prior(const WindowState& state);
 
-/// Whether something in the window gives the scale: a depth, a measured length, a height above a
-/// plane with at least three points, two known positions.
+/// Whether a measurement in the window determines the scale.
+/// Such are a depth, a measured length, a height above a plane with at least three points, two
+/// known positions.
 bool has_metric_observation(const WindowState& state);
 
-/// While nothing gives the scale (nothing measures it, no prior), it is held by a soft distance
-/// (1 %) between the oldest keyframe and the one farthest from it, at its present length: this
-/// picks one of the equivalent solutions and changes none of their residuals.
+/// A soft distance (1 %) that fixes the scale if neither a measurement nor the prior determines it.
+/// It is between the oldest keyframe and the farthest from it, at the current length. It selects
+/// one of the equivalent solutions and does not change their residuals.
 std::optional<WindowFactor> scale_reference(const WindowState& state);
 
 }  // namespace placegraph

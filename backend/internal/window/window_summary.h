@@ -3,7 +3,7 @@
 
 namespace placegraph {
 
-/// What optimizing a sliding window came to.
+/// Result of the optimization of a sliding window.
 struct WindowSummary {
   Outcome outcome;
   double cost_initial = 0, cost_final = 0;  ///< half the robust sum of squares

@@ -46,7 +46,7 @@ void move_window(WindowState& state, const SE3& T_new_old) {
   for (auto& [id, R_map_manhattan] : state.manhattan_frames)
     R_map_manhattan = T_new_old.rotation() * R_map_manhattan;
   transform_factors(state, Sim3(T_new_old));
-  // Right tangents of poses and rotations are the same in any frame; those of planes turn.
+  // Right tangents of poses and rotations are the same in any frame; those of planes are rotated.
   MarginalPrior& prior = state.prior;
   for (SE3& T_map_cam : prior.T_map_cam_lin) T_map_cam = T_new_old * T_map_cam;
   for (SO3& R_map_manhattan : prior.R_map_manhattan_lin)
@@ -83,7 +83,8 @@ void rescale_window(WindowState& state, double scale) {
     plane_map = Plane3(plane_map.normal(),
                        plane_map.normal().dot(move(plane_map.distance() * plane_map.normal())));
   transform_factors(state, Sim3(SO3(), (1 - scale) * center_map, scale));
-  // Deviations of position grow by `scale`, so their columns shrink: the residual stays the same.
+  // Deviations of position are multiplied by `scale`, so their columns are divided by it: the
+  // residual stays the same.
   for (std::size_t k = 0; k < state.prior.keyframes.size(); ++k) {
     SE3& T_lin = state.prior.T_map_cam_lin[k];
     T_lin = SE3(T_lin.rotation(), move(T_lin.translation()));

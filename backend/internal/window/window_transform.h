@@ -4,21 +4,22 @@
 
 namespace placegraph {
 
-/// A line in another frame.
+/// Transforms a line to another frame.
 Line3 moved(const Line3& line, const SE3& T_new_old);
 
-/// Moves all that a window knows, its measurements and the linearization points of its prior too,
-/// by T_new_old on the left: the same window in another frame. Its cost stays as it is.
+/// Transforms a window to another frame, by T_new_old on the left.
+/// This includes its measurements and the linearization points of its prior. The cost stays the
+/// same.
 void move_window(WindowState& state, const SE3& T_new_old);
 
-/// Turns the window about its oldest keyframe so that `world` comes to lie at R_map_manhattan.
+/// Rotates the window about its oldest keyframe so that `manhattan_frame` becomes R_map_manhattan.
 void rotate_window(WindowState& state, ManhattanFrameId manhattan_frame,
                    const SO3& R_map_manhattan);
 
-/// The same window in another unit of length: all lengths, those of its measurements and of its
-/// prior too, become `scale` times as long, the oldest keyframe stays where it is. The cost stays
-/// as it is (that of measured planes to first order of their errors). A window without keyframes
-/// stays as it is.
+/// Scales a window by `scale`.
+/// All lengths are multiplied, including those of its measurements and of its prior; the oldest
+/// keyframe keeps its pose. The cost stays the same (that of measured planes to first order of
+/// their errors). A window without keyframes is unchanged.
 void rescale_window(WindowState& state, double scale);
 
 }  // namespace placegraph

@@ -8,13 +8,13 @@
 
 namespace placegraph {
 
-/// A variable of a sliding window that measurements stand between: a keyframe's pose T_map_cam, a
-/// plane of the map, the rotation R_map_manhattan of a rectangular world. (Points and lines, which
-/// cameras alone observe, have a path of their own.)
+/// A variable of a sliding window that measurements connect.
+/// It is a keyframe's pose T_map_cam, a plane of the map or the rotation R_map_manhattan of a
+/// Manhattan frame. (Points and lines, which only cameras observe, are treated separately.)
 struct WindowVariable {
   enum class Kind { kKeyframe, kPlane, kManhattanFrame };
   Kind kind = Kind::kKeyframe;
-  std::int64_t id = 0;  ///< its number among those of its kind
+  std::int64_t id = 0;  ///< number among the variables of its kind
   auto operator<=>(const WindowVariable&) const = default;
 
   /// The id of a variable of that kind.
@@ -33,18 +33,18 @@ inline WindowVariable manhattan_variable(ManhattanFrameId id) {
   return {WindowVariable::Kind::kManhattanFrame, id.value()};
 }
 
-/// Number of directions in which it can move: columns that it has in the normal equations.
+/// Number of directions in which a variable can move: its columns in the normal equations.
 inline int degrees_of_freedom(const WindowVariable& variable) {
   return variable.kind == WindowVariable::Kind::kKeyframe ? 6 : 3;
 }
 
-/// "keyframe 3": for messages.
+/// The name of a variable in messages: "keyframe 3".
 inline std::string to_string(const WindowVariable& variable) {
-  const char* const names[] = {"keyframe ", "plane ", "world "};
+  const char* const names[] = {"keyframe ", "plane ", "Manhattan frame "};
   return names[static_cast<int>(variable.kind)] + std::to_string(variable.id);
 }
 
-/// What a factor takes for it: the index of SE3, Plane3 or SO3 among the alternatives of Variable.
+/// The index of the variable's type (SE3, Plane3 or SO3) among the alternatives of Variable.
 inline std::size_t factor_kind(const WindowVariable& variable) {
   switch (variable.kind) {
     case WindowVariable::Kind::kPlane:
