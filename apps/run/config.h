@@ -18,8 +18,8 @@ struct ConfigArguments {
   std::vector<std::string> settings;  ///< "key=value"
   ConfigForm form = ConfigForm::kYaml;
   OptionLevel level = OptionLevel::kBasic;  ///< the last level that is printed
-  std::string out;     ///< file to write; empty: none
-  bool force = false;  ///< overwrite it
+  std::string out;                          ///< file to write; empty: none
+  bool force = false;                       ///< overwrite it
 };
 
 /// `placegraph config`: the options with their values after the file and the settings.

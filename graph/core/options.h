@@ -123,7 +123,7 @@ struct OptionEntry {
   std::string doc;    ///< meaning, one line
   std::string type;   ///< bool | int | uint | double | string | list | choice | group
   Range range;        ///< allowed values of an int, a double or the elements of a list
-  std::vector<std::string> choices;  ///< allowed names of a choice, else empty
+  std::vector<std::string> choices;            ///< allowed names of a choice, else empty
   OptionLevel level = OptionLevel::kAdvanced;  ///< who it is for; of a group: its fields
   std::string former_path;  ///< the path that it had in earlier versions; empty: the same
 };

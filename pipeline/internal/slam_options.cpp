@@ -13,9 +13,11 @@ void visit(OptionVisitor& field, SceneUseOptions& o) {
 }
 
 void visit(OptionVisitor& field, ContextOptions& o) {
-  field.basic()("enabled", o.enabled, "classify the environment of keyframes and label places with it");
+  field.basic()("enabled", o.enabled,
+                "classify the environment of keyframes and label places with it");
   field.basic()("assume", o.assume, "rely only on cues that usually hold in the environment");
-  field.internal().group("filter", o.filter, "smoothing of the environment class over consecutive keyframes");
+  field.internal().group("filter", o.filter,
+                         "smoothing of the environment class over consecutive keyframes");
 }
 
 void SlamOptions::check() const { check_ranges(*this); }
@@ -30,7 +32,8 @@ void visit(OptionVisitor& field, SlamOptions& o) {
   field.group("semantics", o.semantics, "surface labels for odometry and place recognition");
   field.group("context", o.context, "environment class and the assumptions that follow from it");
   field.basic()("max_lost_frames", o.max_lost_frames,
-        "consecutive lost frames after which a new component of the map begins", {1, 1000000});
+                "consecutive lost frames after which a new component of the map begins",
+                {1, 1000000});
 }
 
 }  // namespace placegraph

@@ -44,8 +44,8 @@ void visit(OptionVisitor& field, IndoorMapperOptions& options);
 
 /// Options for making a semantic street map from the stereo keyframes of a metric map.
 struct UrbanMapperOptions {
-  DenseStereoOptions stereo{128, 9};   ///< depth of the stereo pair
-  StreetLabellingOptions labelling;  ///< labelled points of a keyframe
+  DenseStereoOptions stereo{128, 9};  ///< depth of the stereo pair
+  StreetLabellingOptions labelling;   ///< labelled points of a keyframe
   /// Drop points that the previous or the next keyframe sees through: these points have moved.
   bool residuals = true;
   SeenThroughOptions seen_through;  ///< conditions for a point to count as seen through

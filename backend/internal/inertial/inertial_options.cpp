@@ -19,8 +19,9 @@ void visit(OptionVisitor& field, PositionFilterOptions& o) {
         {0, 60});
   field("max_prediction_s", o.max_prediction_s,
         "longest prediction beyond the last inertial sample [s]", {0, 10});
-  field.formerly("ahead_turn_rad_s2")("ahead_rotation_rad_s2", o.ahead_rotation_rad_s2,
-        "angular acceleration assumed beyond the last sample [rad/s^2]", {0, 1000});
+  field.formerly("ahead_turn_rad_s2")(
+      "ahead_rotation_rad_s2", o.ahead_rotation_rad_s2,
+      "angular acceleration assumed beyond the last sample [rad/s^2]", {0, 1000});
   field("ahead_push_m_s3", o.ahead_push_m_s3,
         "change of the specific force assumed beyond the last sample [m/s^3]", {0, 1000});
   field("max_position_sigma_m", o.max_position_sigma_m,

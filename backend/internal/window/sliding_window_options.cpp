@@ -10,7 +10,7 @@ void SlidingWindowOptions::check() const {
 
 void visit(OptionVisitor& field, SlidingWindowOptions& o) {
   field.basic()("max_keyframes", o.max_keyframes,
-        "maximum number of keyframes; above it the oldest is marginalized", {2, 1000});
+                "maximum number of keyframes; above it the oldest is marginalized", {2, 1000});
   field("max_iterations", o.max_iterations, "maximum number of steps of Levenberg-Marquardt",
         {1, 1000});
   field("huber_px", o.huber_px, "width of the Huber kernel [standard deviations of a pixel]",

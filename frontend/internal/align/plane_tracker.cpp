@@ -115,7 +115,8 @@ void visit(OptionVisitor& field, PlaneTrackerOptions& o) {
         {0.01, 100});
   field.group("finder", o.finder, "search by point features");
   field.formerly("key_likeness")("key_similarity", o.key_similarity,
-        "minimum similarity of a view that becomes the second template", {0, 1});
+                                 "minimum similarity of a view that becomes the second template",
+                                 {0, 1});
   field("key_interval", o.key_interval, "minimum number of frames between second templates",
         {1, 1000000});
   field.group("normal", o.normal, "the plane's normal from several views");

@@ -9,33 +9,37 @@ void PointTrackerOptions::check() const {
 }
 
 void visit(OptionVisitor& field, PointTrackerOptions& o) {
-  field.basic()("max_tracks", o.max_tracks, "maximum number of points tracked at once", {20, 10000});
+  field.basic()("max_tracks", o.max_tracks, "maximum number of points tracked at once",
+                {20, 10000});
   field("window_px", o.window_px, "side of the Lucas-Kanade window, odd [px]", {5, 63});
   field("pyramid_levels", o.pyramid_levels, "number of levels of the image pyramid", {1, 8});
   field("max_forward_backward_px", o.max_forward_backward_px,
         "maximum error of a point tracked forward and back; beyond, the track ends [px]",
         {0.01, 10});
   field.internal()("min_eigenvalue", o.min_eigenvalue,
-        "minimum eigenvalue of the gradient matrix per pixel, for grey levels / 255", {0, 1});
+                   "minimum eigenvalue of the gradient matrix per pixel, for grey levels / 255",
+                   {0, 1});
   field("cell_px", o.cell_px, "side of the cells over which tracks are balanced [px]", {8, 512});
   field("min_distance_px", o.min_distance_px, "minimum distance of a new point from others [px]",
         {1, 256});
   field.internal()("max_anchor_shift_px", o.max_anchor_shift_px,
-        "maximum correction of a track to its anchor at a keyframe; 0: no anchors [px]", {0, 100});
+                   "maximum correction of a track to its anchor at a keyframe; 0: no anchors [px]",
+                   {0, 100});
   field.internal()("min_anchor_correlation", o.min_anchor_correlation,
-        "minimum correlation with the anchor; below it a new anchor is taken", {0, 1});
+                   "minimum correlation with the anchor; below it a new anchor is taken", {0, 1});
   field("sigma_px", o.sigma_px, "noise added at a keyframe where the anchor was not found [px]",
         {0.05, 10});
   field.internal()("min_sigma_px", o.min_sigma_px,
-        "minimum standard deviation of a point whose anchor was found [px]", {0.01, 10});
+                   "minimum standard deviation of a point whose anchor was found [px]", {0.01, 10});
   field.internal()("max_sigma_px", o.max_sigma_px,
-        "maximum accumulated noise of a track; beyond, the track ends [px]", {0.1, 100});
+                   "maximum accumulated noise of a track; beyond, the track ends [px]", {0.1, 100});
 }
 
 void DetectorOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, DetectorOptions& o) {
-  field.basic()("max_features", o.max_features, "maximum number of features per image", {50, 20000});
+  field.basic()("max_features", o.max_features, "maximum number of features per image",
+                {50, 20000});
   field("octaves", o.octaves, "number of levels of the image pyramid", {1, 12});
   field("scale_factor", o.scale_factor, "ratio of the sizes of two pyramid levels", {1.05, 2});
   field("fast_threshold", o.fast_threshold,
@@ -57,7 +61,8 @@ void visit(OptionVisitor& field, StereoMatcherOptions& o) {
   field("half_width_px", o.half_width_px, "half the width of the compared patches [px]", {2, 31});
   field("half_height_px", o.half_height_px, "half the height of the compared patches [px]",
         {1, 31});
-  field.basic()("max_disparity_px", o.max_disparity_px, "maximum disparity searched [px]", {4, 1024});
+  field.basic()("max_disparity_px", o.max_disparity_px, "maximum disparity searched [px]",
+                {4, 1024});
   field("min_score", o.min_score, "minimum zero-mean normalized cross-correlation of a match",
         {0, 1});
   field("max_left_right_px", o.max_left_right_px,
@@ -69,8 +74,9 @@ void visit(OptionVisitor& field, StereoMatcherOptions& o) {
 void RectificationOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, RectificationOptions& o) {
-  field.basic()("enabled", o.enabled,
-        "estimate the rectification error of the stereo pair and correct disparities by it");
+  field.basic()(
+      "enabled", o.enabled,
+      "estimate the rectification error of the stereo pair and correct disparities by it");
   field("prior_sigma_px", o.prior_sigma_px,
         "initial standard deviation of offset, by_x and by_y [px]", {1e-3, 10});
   field("batch_sigma_px", o.batch_sigma_px,

@@ -60,7 +60,8 @@ void visit(OptionVisitor& field, WallFinderOptions& o) {
   field("max_sigma_m", o.max_sigma_m, "maximum standard deviation of a point that is used",
         {0.001, 10});
   field.formerly("max_turn_deg")("max_rotation_deg", o.max_rotation_deg,
-        "maximum angle between the normals of a point and its wall", {1, 44});
+                                 "maximum angle between the normals of a point and its wall",
+                                 {1, 44});
   field("band_m", o.band_m, "half the thickness of a set of points that counts as one plane",
         {0.02, 1});
   field("min_height_m", o.min_height_m,

@@ -39,7 +39,7 @@ void visit(OptionVisitor& field, SegmentFlowOptions& o) {
   field("robust_grey", o.robust_grey, "width of the Huber kernel on residuals [grey levels of 255]",
         {1, 255});
   field.formerly("max_turn_deg")("max_rotation_deg", o.max_rotation_deg,
-        "maximum rotation from the predicted direction [deg]", {1, 60});
+                                 "maximum rotation from the predicted direction [deg]", {1, 60});
 }
 
 void VanishingNoise::check() const { check_ranges(*this); }
@@ -131,11 +131,12 @@ void visit(OptionVisitor& field, LineStereoOptions& o) {
 }
 
 void visit(OptionVisitor& field, LineTriangulationOptions& o) {
-  field.formerly("min_turn_deg")("min_rotation_deg", o.min_rotation_deg,
-        "minimum angle between the planes through the line and two camera centres [deg]",
-        {0.01, 45});
+  field.formerly("min_turn_deg")(
+      "min_rotation_deg", o.min_rotation_deg,
+      "minimum angle between the planes through the line and two camera centres [deg]", {0.01, 45});
   field.formerly("min_turn_sigmas")("min_rotation_sigmas", o.min_rotation_sigmas,
-        "minimum ratio of that angle to its standard deviation", {1, 1000});
+                                    "minimum ratio of that angle to its standard deviation",
+                                    {1, 1000});
   field("max_error_sigmas", o.max_error_sigmas,
         "maximum residual of an observation [standard deviations]", {1, 1000});
 }
@@ -160,8 +161,9 @@ void visit(OptionVisitor& field, LineInitializerOptions& o) {
   field.internal().group("ransac", o.ransac, "five-line hypotheses of the translations");
   field("threshold_px", o.threshold_px,
         "maximum residual in the middle image of a line from the others [px]", {0.1, 50});
-  field.formerly("min_turn_deg")("min_rotation_deg", o.min_rotation_deg,
-        "minimum rotation of a line's plane for use in the translation [deg]", {0.01, 45});
+  field.formerly("min_turn_deg")(
+      "min_rotation_deg", o.min_rotation_deg,
+      "minimum rotation of a line's plane for use in the translation [deg]", {0.01, 45});
   field("min_lines", o.min_lines,
         "minimum number of lines tracked from the first to the last image", {6, 1000});
 }

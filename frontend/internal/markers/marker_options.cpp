@@ -50,18 +50,21 @@ void visit(OptionVisitor& field, BeaconPoseOptions& o) {
 void MarkerFilterOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, MarkerFilterOptions& o) {
-  field.formerly("decided_nats")("decided_log_ratio", o.decided_log_ratio,
-        "log-likelihood ratio to the best pose at which a pose is rejected", {1, 1000});
+  field.formerly("decided_nats")(
+      "decided_log_ratio", o.decided_log_ratio,
+      "log-likelihood ratio to the best pose at which a pose is rejected", {1, 1000});
   field("extra_sigma_px", o.extra_sigma_px,
         "additional standard deviation of a corner: print, lens, layout [px]", {0, 10});
   field("gate", o.gate, "probability of the gate on a marker's corners, given the camera pose",
         {0.5, 0.999999});
   field("gravity_sigma_deg", o.gravity_sigma_deg,
         "standard deviation of the accelerometer's direction in flight [deg]", {0.1, 90});
-  field.formerly("turn_sigma_deg")("rotation_sigma_deg", o.rotation_sigma_deg,
-        "standard deviation of the gyro's rotation from view to view [deg]", {1e-3, 90});
+  field.formerly("turn_sigma_deg")(
+      "rotation_sigma_deg", o.rotation_sigma_deg,
+      "standard deviation of the gyro's rotation from view to view [deg]", {1e-3, 90});
   field.formerly("max_turn_rad_s")("max_rotation_rad_s", o.max_rotation_rad_s,
-        "maximum rotation rate of the body without a gyro [rad/s]", {0.01, 100});
+                                   "maximum rotation rate of the body without a gyro [rad/s]",
+                                   {0.01, 100});
   field("max_speed_m_s", o.max_speed_m_s, "maximum speed of the body [m/s]", {0.01, 100});
   field("memory_s", o.memory_s, "age after which hypotheses without an observation are removed [s]",
         {0, 60});

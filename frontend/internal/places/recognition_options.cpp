@@ -84,7 +84,8 @@ void PlaceRecognizerOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, PlaceRecognizerOptions& o) {
   field.group("cues", o.cues, "cues by which views are compared, and their weights");
-  field.formerly("glanced")("shortlisted", o.shortlisted, "number of views that pass the first comparison", {1, 1e6});
+  field.formerly("glanced")("shortlisted", o.shortlisted,
+                            "number of views that pass the first comparison", {1, 1e6});
   field("short_list", o.short_list, "number of views that are compared in full", {1, 1e6});
   field("verified", o.verified,
         "number of views, best by all other cues, whose corners are compared", {0, 1e6});

@@ -37,13 +37,14 @@ void visit(OptionVisitor& field, SemanticGridOptions& o) {
   field("cell_m", o.cell_m, "side of a cell [m]", {0.05, 5});
   field("max_sigma_m", o.max_sigma_m, "largest standard deviation of the depth of a point [m]",
         {0.01, 100});
-  field.formerly("sight_weight")("observation_weight", o.observation_weight,
-        "weight of a keyframe; below 1, as errors of keyframes are correlated", {0.01, 1});
+  field.formerly("sight_weight")(
+      "observation_weight", o.observation_weight,
+      "weight of a keyframe; below 1, as errors of keyframes are correlated", {0.01, 1});
   field("full_weight", o.full_weight,
         "weight of a keyframe's points in a cell at which it counts fully", {0.1, 1000});
   field("min_weight", o.min_weight, "minimum weight of the points of a known cell", {0, 1e6});
-  field.formerly("min_sights")("min_observations", o.min_observations, "minimum number of keyframes of a known cell",
-        {1, 1000});
+  field.formerly("min_sights")("min_observations", o.min_observations,
+                               "minimum number of keyframes of a known cell", {1, 1000});
   field("min_confidence", o.min_confidence, "minimum probability of the class of a known cell",
         {0, 1});
 }

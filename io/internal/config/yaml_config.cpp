@@ -219,11 +219,13 @@ class OptionsFile::Reader : public AssigningVisitor {
     for (const auto& entry : levels_.back().map) {
       const std::string& key = entry.first.Scalar();
       const Level& level = levels_.back();
-      if (std::ranges::count(level.known, key) + std::ranges::count(level.former, key) > 0) continue;
+      if (std::ranges::count(level.known, key) + std::ranges::count(level.former, key) > 0)
+        continue;
       const int line = yaml_line(entry.first);
       if (unknown_ && unknown_line_ <= line) continue;
       unknown_line_ = line;
-      unknown_.emplace(document_.path(), line, joined(prefix_, key) + ": unknown key" + did_you_mean(key, level.known));
+      unknown_.emplace(document_.path(), line,
+                       joined(prefix_, key) + ": unknown key" + did_you_mean(key, level.known));
     }
     levels_.pop_back();
   }

@@ -10,16 +10,17 @@ void visit(OptionVisitor& field, GroundPlaneScaleOptions& o) {
   field("sigma_relative", o.sigma_relative,
         "relative standard deviation of one scale, beyond that of the alignment", {0, 1});
   field.internal()("max_log_jump", o.max_log_jump,
-        "maximum distance of a used scale from the median of the last five (logarithm)", {0.01, 5});
+                   "maximum distance of a used scale from the median of the last five (logarithm)",
+                   {0.01, 5});
   field("mounting_sigma_deg", o.mounting_sigma_deg,
         "initial standard deviation of the camera's pitch and roll [deg]", {0.01, 45});
   field("pitching_sigma_deg", o.pitching_sigma_deg,
         "standard deviation of one frame's pitch and roll about their mean [deg]", {0.01, 45});
   field.internal()("mounting_drift_deg", o.mounting_drift_deg,
-        "random walk of mean pitch and roll per measurement [deg]", {0, 10});
+                   "random walk of mean pitch and roll per measurement [deg]", {0, 10});
   field.internal()("level_sigma_deg", o.level_sigma_deg,
-        "standard deviation of a level floor's normal, beyond that of the edges [deg]",
-        {0.001, 45});
+                   "standard deviation of a level floor's normal, beyond that of the edges [deg]",
+                   {0.001, 45});
   field("min_baseline_heights", o.min_baseline_heights,
         "minimum translation between the two frames, in camera heights", {0.01, 10});
 }
@@ -31,9 +32,11 @@ void visit(OptionVisitor& field, FloorLineScaleOptions& o) {
   field("sigma_relative", o.sigma_relative,
         "relative standard deviation of one height, beyond that of its lines", {0, 1});
   field.internal()("max_log_jump", o.max_log_jump,
-        "maximum distance of a used scale from the median of the last five (logarithm)", {0.01, 5});
+                   "maximum distance of a used scale from the median of the last five (logarithm)",
+                   {0.01, 5});
   field.internal()("max_sigma_at_first", o.max_sigma_at_first,
-        "maximum relative standard deviation of the height for the first scale", {0.001, 1});
+                   "maximum relative standard deviation of the height for the first scale",
+                   {0.001, 1});
 }
 
 void LineCueOptions::check() const { check_ranges(*this); }
@@ -41,18 +44,23 @@ void LineCueOptions::check() const { check_ranges(*this); }
 void visit(OptionVisitor& field, LineCueOptions& o) {
   field.group("tracker", o.tracker, "tracking of lines");
   field.internal().group("stereo", o.stereo, "matching of lines in the right image");
-  field.internal().group("triangulation", o.triangulation, "conditions for the triangulation of a line");
+  field.internal().group("triangulation", o.triangulation,
+                         "conditions for the triangulation of a line");
   field.internal().group("pose", o.pose, "pose of a frame from lines");
-  field.internal().formerly("start").group("initialization", o.start, "first keyframes of a monocular camera without points");
+  field.internal().formerly("start").group("initialization", o.start,
+                                           "first keyframes of a monocular camera without points");
   field.group("floor", o.floor, "metric scale from lines on the floor, without points");
-  field.internal()("sigma_floor_px", o.sigma_floor_px, "minimum standard deviation across a line [px]",
-        {0.01, 10});
-  field.internal().formerly("alike_sightings")("similar_observations", o.similar_observations,
-        "observations of an edge in the window that count as one independent one", {1, 1000});
-  field.internal().formerly("min_turn_steered_deg")("min_rotation_steered_deg", o.min_rotation_steered_deg,
-        "triangulation.min_rotation_deg where directions provide the rotation [deg]", {0.01, 45});
+  field.internal()("sigma_floor_px", o.sigma_floor_px,
+                   "minimum standard deviation across a line [px]", {0.01, 10});
+  field.internal().formerly("alike_sightings")(
+      "similar_observations", o.similar_observations,
+      "observations of an edge in the window that count as one independent one", {1, 1000});
+  field.internal().formerly("min_turn_steered_deg")(
+      "min_rotation_steered_deg", o.min_rotation_steered_deg,
+      "triangulation.min_rotation_deg where directions provide the rotation [deg]", {0.01, 45});
   field.internal()("stay_frames", o.stay_frames,
-        "prediction horizon in which a preferred new edge stays in the image [frames]", {0, 100});
+                   "prediction horizon in which a preferred new edge stays in the image [frames]",
+                   {0, 100});
   field("outlier_px", o.outlier_px, "residual above which a line is removed [px]", {0.5, 100});
 }
 
@@ -65,22 +73,26 @@ void visit(OptionVisitor& field, ManhattanFrameOptions& o) {
         "standard deviation in a new keyframe, beyond the window's covariance [deg]", {1e-3, 10});
   field("persistence", o.persistence,
         "keyframes of the window that must observe a new Manhattan frame", {1, 1000});
-  field.formerly("max_worlds")("max_frames", o.max_frames, "maximum number; the one unobserved for longest is removed",
-        {1, 100});
+  field.formerly("max_worlds")("max_frames", o.max_frames,
+                               "maximum number; the one unobserved for longest is removed",
+                               {1, 100});
 }
 
 void ManhattanCueOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, ManhattanCueOptions& o) {
   field.internal().group("segments", o.segments, "detection of straight edges");
-  field.internal().group("directions", o.directions, "detection of vanishing points and Manhattan frames");
-  field.internal().formerly("worlds").group("frames", o.frames, "Manhattan frames of the sliding window");
+  field.internal().group("directions", o.directions,
+                         "detection of vanishing points and Manhattan frames");
+  field.internal().formerly("worlds").group("frames", o.frames,
+                                            "Manhattan frames of the sliding window");
   field("max_width_px", o.max_width_px, "image width above which images are halved first [px]",
         {16, 1e5});
   field("max_sigma_deg", o.max_sigma_deg, "maximum standard deviation of used directions [deg]",
         {0.01, 30});
   field.internal()("few_points", o.few_points,
-        "inliers below which frames also take their rotation from Manhattan frames", {0, 1e6});
+                   "inliers below which frames also take their rotation from Manhattan frames",
+                   {0, 1e6});
 }
 
 void PlaneLandmarkOptions::check() const { check_ranges(*this); }
@@ -88,8 +100,8 @@ void PlaneLandmarkOptions::check() const { check_ranges(*this); }
 void visit(OptionVisitor& field, PlaneLandmarkOptions& o) {
   field.basic()("enabled", o.enabled, "planes in the depth images of keyframes as landmarks");
   field.internal().group("depth", o.depth, "detection of planes in a depth image");
-  field.internal()("correlation", o.correlation, "number of neighbouring keyframes that count as one",
-        {1, 1000});
+  field.internal()("correlation", o.correlation,
+                   "number of neighbouring keyframes that count as one", {1, 1000});
   field("drift_deg", o.drift_deg,
         "standard deviation of a normal, beyond the window's covariance [deg]", {0, 10});
   field("drift_m", o.drift_m,
@@ -113,17 +125,19 @@ void visit(OptionVisitor& field, DirectCueOptions& o) {
   field("min_plane_share", o.min_plane_share, "minimum share of the depths that support a plane",
         {0, 1});
   field.internal()("evenness_distance", o.evenness_distance,
-        "minimum relative standard deviation of a plane's distance", {0, 1});
-  field.internal()("evenness_deg", o.evenness_deg, "minimum standard deviation of a plane's normal [deg]",
-        {0, 45});
+                   "minimum relative standard deviation of a plane's distance", {0, 1});
+  field.internal()("evenness_deg", o.evenness_deg,
+                   "minimum standard deviation of a plane's normal [deg]", {0, 45});
   field.internal()("nodding_deg", o.nodding_deg,
-        "standard deviation of pitch and roll about their mean; monocular [deg]", {0, 45});
+                   "standard deviation of pitch and roll about their mean; monocular [deg]",
+                   {0, 45});
   field.internal()("sigma_height", o.sigma_height,
-        "relative standard deviation of the camera height; monocular", {1e-4, 1});
+                   "relative standard deviation of the camera height; monocular", {1e-4, 1});
   field("keyframe_share", o.keyframe_share,
         "share of the samples in view or inlying below which a keyframe is created", {0, 1});
   field.internal()("max_disagreement", o.max_disagreement,
-        "maximum difference of forward and backward motion, in standard deviations", {0.1, 1000});
+                   "maximum difference of forward and backward motion, in standard deviations",
+                   {0.1, 1000});
 }
 
 }  // namespace placegraph

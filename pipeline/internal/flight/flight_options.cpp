@@ -3,15 +3,17 @@
 namespace placegraph {
 
 void visit(OptionVisitor& field, FlightOptions& o) {
-  field.basic()("floor_z_m", o.floor_z_m, "height of the floor in the world frame [m]", {-1e6, 1e6});
+  field.basic()("floor_z_m", o.floor_z_m, "height of the floor in the world frame [m]",
+                {-1e6, 1e6});
   visit(field, o.flow);
-  field.basic()("marker_delay_s", o.marker_delay_s, "delay of marker poses after their image [s]", {0, 60});
+  field.basic()("marker_delay_s", o.marker_delay_s, "delay of marker poses after their image [s]",
+                {0, 60});
   visit(field, o.marker_sensor);
   field.group("tracker", o.flow.tracker, "tracking of corners on the floor");
   field.formerly("start").group("initialization", o.start, "uncertainty of the initial state");
   field.basic().group("filter", o.filter, "sensor noise and gates of the position filter");
   field.basic()("map_interval_s", o.map_interval_s,
-        "time between images that are searched completely for markers to map [s]", {0, 60});
+                "time between images that are searched completely for markers to map [s]", {0, 60});
   field.group("map", o.map, "mapping of markers with unknown poses");
 }
 
@@ -28,7 +30,7 @@ void visit(OptionVisitor& field, FloorFlowOptions& o) {
 
 void visit(OptionVisitor& field, MarkerSensorOptions& o) {
   field.basic()("max_markers", o.max_markers,
-        "maximum number of markers searched for; the largest are preferred", {1, 1000});
+                "maximum number of markers searched for; the largest are preferred", {1, 1000});
   field("restart_after", o.restart_after,
         "consecutive images with contradicting markers before the filter restarts", {1, 100000});
   field("search_interval", o.search_interval,

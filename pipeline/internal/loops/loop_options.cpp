@@ -10,17 +10,19 @@ void visit(OptionVisitor& field, LoopOptions& o) {
   field.internal().group("database", o.database, "retrieval by visual words");
   field.internal().group("verifier", o.verifier, "geometric verification");
   field.basic()("min_frame_gap", o.min_frame_gap,
-        "minimum number of frames between two keyframes of a loop", {1, 1e6});
-  field.basic()("candidates", o.candidates, "maximum number of keyframes retrieved and verified per query",
-        {1, 100});
+                "minimum number of frames between two keyframes of a loop", {1, 1e6});
+  field.basic()("candidates", o.candidates,
+                "maximum number of keyframes retrieved and verified per query", {1, 100});
   field.basic()("min_similarity", o.min_similarity,
-        "minimum similarity of a candidate, as a share of that of the previous keyframe", {0, 10});
-  field.internal()("support_window", o.support_window, "keyframes within which a second loop must agree",
-        {1, 1000});
+                "minimum similarity of a candidate, as a share of that of the previous keyframe",
+                {0, 10});
+  field.internal()("support_window", o.support_window,
+                   "keyframes within which a second loop must agree", {1, 1000});
   field.internal()("support_translation", o.support_translation,
-        "maximum disagreement of two loops over (median depth + path length)", {0.001, 10});
+                   "maximum disagreement of two loops over (median depth + path length)",
+                   {0.001, 10});
   field.internal()("support_angle_deg", o.support_angle_deg,
-        "maximum disagreement of two loops in rotation [deg]", {0.01, 180});
+                   "maximum disagreement of two loops in rotation [deg]", {0.01, 180});
   field("drift_translation", o.drift_translation,
         "assumed odometry drift over (median depth + path length)", {0.001, 10});
   field("drift_angle_deg", o.drift_angle_deg,
@@ -28,7 +30,8 @@ void visit(OptionVisitor& field, LoopOptions& o) {
   field("drift_scale", o.drift_scale,
         "assumed monocular scale drift (logarithm) per median depth of path length", {0, 10});
   field.internal()("information_scale", o.information_scale,
-        "factor on a loop's information, because feature noise is correlated", {1e-6, 1});
+                   "factor on a loop's information, because feature noise is correlated",
+                   {1e-6, 1});
 }
 
 }  // namespace placegraph

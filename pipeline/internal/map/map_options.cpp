@@ -20,8 +20,8 @@ void MapLearnerOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, MapLearnerOptions& o) {
   field.group("cues", o.cues, "descriptors that distinguish places, and their weights");
-  field.formerly("alike")("similar", o.similar, "share of the similarity of neighbours below which a place ends",
-        {0, 1});
+  field.formerly("alike")("similar", o.similar,
+                          "share of the similarity of neighbours below which a place ends", {0, 1});
 }
 
 void PlaceLabelOptions::check() const { check_ranges(*this); }
