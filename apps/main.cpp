@@ -1,5 +1,5 @@
 // The command line: `placegraph GROUP COMMAND ...`. Exit codes: 0 success, 1 the data allow no
-// result, 2 usage, configuration or file error.
+// result, 2 usage, configuration or file error, 130 a run was interrupted by a signal.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -15,7 +15,7 @@
 
 namespace {
 
-constexpr int kNoAnswer = 1, kUsage = 2;
+constexpr int kNoAnswer = 1, kUsage = 2, kInterrupted = 130;  // 130: as shells report SIGINT
 
 int complain(int code, const std::string& message) {
   std::fprintf(stderr, "placegraph: %s\n", placegraph::apps::one_line(message).c_str());
@@ -60,6 +60,8 @@ int main(int argc, char** argv) {
     return parse_and_run(*app, present_spelling({argv + 1, argv + argc}));
   } catch (const NoAnswer& reason) {
     return complain(kNoAnswer, reason.what());
+  } catch (const Interrupted& reason) {
+    return complain(kInterrupted, reason.what());
   } catch (const std::exception& error) {
     return complain(kUsage, error.what());
   }

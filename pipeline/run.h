@@ -35,6 +35,8 @@ struct RunResult {
   /// Message of the FileError if a frame could not be read; the map then contains the frames before
   /// it.
   std::optional<std::string> broken_off;
+  /// Whether RunInputs::stop ended the run: the map holds the frames before.
+  bool stopped = false;
   /// First frame that was processed, if the run resumed an interrupted one.
   std::optional<FrameId> resumed_at;
   /// CPU time of reading images and of the stages of Slam. With more than one thread, the next
@@ -81,6 +83,8 @@ struct RunInputs {
   /// Event listener; not owned. run_began is called at each start of the run, including a restart
   /// with undistorted images.
   SlamEvents* events = nullptr;
+  /// Called before each frame; `true` ends the run, which can be resumed later. May be empty.
+  std::function<bool()> stop = {};
   LogSink log = {};  ///< receiver of log messages; may be empty
 };
 

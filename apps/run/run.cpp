@@ -1,5 +1,6 @@
 #include "apps/run/run.h"
 
+#include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/internal/pose_graph/rigid_graph.h>
 #include <placegraph/graph/place_transitions.h>
@@ -21,6 +22,8 @@
 #include "apps/results/semantic_map_files.h"
 #include "apps/run/draw_frame.h"
 #include "apps/run/run_notes.h"
+#include "apps/run/run_messages.h"
+#include "apps/support/interruption.h"
 #include "apps/support/output.h"
 #include "apps/support/progress.h"
 #include "apps/support/scene_models.h"
@@ -145,8 +148,8 @@ PreparedRun prepare(RunArguments arguments) {
   return prepared;
 }
 
-/// The run itself, with its progress on stderr.
-RunResult run_prepared(const PreparedRun& prepared, const LogSink& log) {
+/// Runs the sequence with progress and messages on stderr.
+RunResult run_prepared(const PreparedRun& prepared) {
   const RunArguments& arguments = prepared.arguments;
   const Dataset& dataset = *prepared.dataset;
   RunInputs inputs;
@@ -154,11 +157,17 @@ RunResult run_prepared(const PreparedRun& prepared, const LogSink& log) {
     inputs.observer = [&](const Frame& frame, const FrameResult& result, const FrameView& view) {
       write_frame_drawing(arguments.draw, frame, result, view);
     };
+  const Verbosity verbosity = arguments.verbosity;
   Progress progress("running " + dataset.name(), frames_to_run(dataset, prepared.options));
-  inputs.progress = [&](std::size_t done, std::size_t, const FrameResult&) {
-    progress.update(static_cast<std::int64_t>(done));
-  };
-  inputs.log = log;
+  if (verbosity != Verbosity::kQuiet)
+    inputs.progress = [&](std::size_t done, std::size_t, const FrameResult&) {
+      progress.update(static_cast<std::int64_t>(done));
+    };
+  RunMessages messages(verbosity, [&](const std::string& line) { progress.print(line); });
+  inputs.log = messages.log();
+  if (verbosity != Verbosity::kQuiet) inputs.events = &messages;
+  const Interruption interruption;
+  inputs.stop = [&] { return interruption.requested(); };
   inputs.map_file = {run_map_path(arguments.out), fs::absolute(arguments.sequence).string(),
                      !arguments.resume.empty()};
   inputs.surfaces = prepared.surfaces;
@@ -210,7 +219,7 @@ class RunClock {
 
 }  // namespace
 
-RunReport run(const RunArguments& asked, const LogSink& log) {
+RunReport run(const RunArguments& asked) {
   PreparedRun prepared = prepare(asked);
   const RunArguments& arguments = prepared.arguments;
   const RunOptions& options = prepared.options;
@@ -221,14 +230,14 @@ RunReport run(const RunArguments& asked, const LogSink& log) {
   cv::setNumThreads(options.threads);
 
   RunClock clock;
-  RunResult run = run_prepared(prepared, log);
+  RunResult run = run_prepared(prepared);
   json floor_plan, semantic_map;
   if (options.scene.geometry) floor_plan = map_scene(arguments, options, dataset, run);
   if (options.scene.semantics) semantic_map = map_street(arguments, options, dataset, run);
   clock.stop();
 
   const Trajectory optimized = run.map.trajectory_optimized();
-  RunReport report{arguments.out, summarize(prepared, run, optimized), {}, {}};
+  RunReport report{arguments.out, summarize(prepared, run, optimized), {}, {}, {}};
   json& summary = report.summary;
   clock.describe(summary);
   if (!floor_plan.is_null()) summary["floor_plan"] = floor_plan;
@@ -242,6 +251,10 @@ RunReport run(const RunArguments& asked, const LogSink& log) {
   if (run.broken_off)
     report.broken_off = *run.broken_off + " (results of the " + std::to_string(optimized.size()) +
                         " frames before it are in " + arguments.out + ")";
+  else if (run.stopped)
+    report.interrupted = fmt::format(
+        "interrupted after {} of {} frames; continue with: placegraph run --resume {}",
+        optimized.size(), frames_to_run(dataset, options), arguments.out);
   else if (optimized.posed() == 0)
     report.no_answer = arguments.sequence + ": no frame could be posed" + why_unposed(run);
   return report;

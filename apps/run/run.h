@@ -1,14 +1,13 @@
 #pragma once
-#include <placegraph/graph/core/log.h>
-
 #include "apps/run/run_options.h"
 #include "apps/run/run_report.h"
 
 namespace placegraph::apps {
 
-/// `placegraph run`: runs the sequence, or goes on with a run that was broken off, and writes the
-/// results into their folder. Messages go to `log`, progress and warnings to stderr. Throws
-/// ArgumentError, FileError.
-RunReport run(const RunArguments& asked, const LogSink& log = {});
+/// `placegraph run`: runs a sequence, or resumes an unfinished run, and writes the results.
+/// Progress, events, log messages and warnings go to stderr as `asked.verbosity` admits. SIGINT,
+/// SIGTERM and SIGHUP end the run after the present frame; its results are written all the same.
+/// Throws ArgumentError, FileError.
+RunReport run(const RunArguments& asked);
 
 }  // namespace placegraph::apps

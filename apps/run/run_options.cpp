@@ -99,8 +99,7 @@ RunOptions prepare_run(RunArguments& arguments) {
   const RunOptions options = run_options(arguments);
   require(arguments.force || !is_unfinished_map(run_map_path(arguments.out)),
           arguments.out +
-              ": holds a run that was broken off; --resume goes on with it, --force "
-              "begins anew");
+              ": holds an unfinished run; --resume continues it, --force begins again");
   require_free_folder(arguments.out, arguments.force);
   return options;
 }

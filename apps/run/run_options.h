@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/run/run_messages.h"
+
 namespace placegraph::apps {
 
 struct RunArguments {
@@ -20,6 +22,7 @@ struct RunArguments {
   std::optional<std::int64_t> seed;
   std::optional<int> threads;
   bool no_loops = false;
+  Verbosity verbosity = Verbosity::kNormal;
   bool force = false;  ///< write into folders that are not empty
 };
 

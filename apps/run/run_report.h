@@ -11,6 +11,8 @@ struct RunReport {
   nlohmann::json summary;  ///< what result.json in it says
   /// A frame could not be read: its error. The results are those of the frames before it.
   std::optional<std::string> broken_off;
+  /// A signal ended the run: how to continue it. The results are those of the frames before it.
+  std::optional<std::string> interrupted;
   std::optional<std::string> no_answer;  ///< no frame could be posed: why
 };
 

@@ -11,6 +11,12 @@ class NoAnswer : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A signal ended the command early: `main` prints the reason and ends with exit code 130.
+class Interrupted : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// Throws ArgumentError if a file stands at `path` already and `force` is not given, or if there is
 /// no folder for it, FileError if nothing can be written there. To be called before the work whose
 /// result goes there.

@@ -52,4 +52,11 @@ void Progress::update(std::int64_t done) {
   }
 }
 
+void Progress::print(const std::string& line) {
+  const std::size_t blanks = width_ > line.size() ? width_ - line.size() : 0;
+  std::fprintf(stderr, "%s%s%s\n", width_ > 0 ? "\r" : "", line.c_str(),
+               std::string(blanks, ' ').c_str());
+  width_ = 0;
+}
+
 }  // namespace placegraph::apps

@@ -18,6 +18,9 @@ class Progress {
   /// `done` of the total are done.
   void update(std::int64_t done);
 
+  /// Prints a line above the progress.
+  void print(const std::string& line);
+
  private:
   using Clock = std::chrono::steady_clock;
   std::string what_, unit_;

@@ -230,6 +230,8 @@ class SequenceRun {
     const std::size_t first = go_on(stored, slam);
     FrameReader reader(dataset_, lens_, result_.sensor, end_, options_.threads > 1);
     for (std::size_t i = first; i < end_; ++i) {
+      result_.stopped = inputs_.stop && inputs_.stop();
+      if (result_.stopped) break;
       Frame frame;
       try {
         const auto span = times_.measure("reading");
@@ -250,7 +252,7 @@ class SequenceRun {
     result_.lens_k1 = lens_.k1();
     result_.map = slam.finish();
     result_.unposed = unposed_frames(result_.map.trajectory_optimized(), result_.map, reasons_);
-    if (inputs_.map_file) commit(slam, !result_.broken_off);
+    if (inputs_.map_file) commit(slam, !result_.broken_off && !result_.stopped);
     result_.environments = slam.environments();
     result_.stages = times_.stages();
     result_.stages.insert(result_.stages.end(), slam.stages().begin(), slam.stages().end());

@@ -1,0 +1,94 @@
+#include "apps/run/run_messages.h"
+
+#include <fmt/format.h>
+#include <placegraph/graph/internal/core/id_format.h>
+
+#include <utility>
+
+namespace placegraph::apps {
+
+RunMessages::RunMessages(Verbosity verbosity, Print print)
+    : verbosity_(verbosity), print_(std::move(print)) {}
+
+LogSink RunMessages::log() {
+  return [this](LogLevel level, const std::string& message) {
+    switch (level) {
+      case LogLevel::kWarning:
+        return print(Verbosity::kQuiet, "warning", message);
+      case LogLevel::kInfo:
+        return print(Verbosity::kVerbose, "info", message);
+      case LogLevel::kDebug:
+        return print(Verbosity::kDebug, "debug", message);
+    }
+  };
+}
+
+void RunMessages::run_began() {
+  if (has_begun_)
+    print(Verbosity::kNormal, "event", "the run begins again with undistorted images");
+  has_begun_ = true;
+  has_pose_ = false;
+  lost_ = 0;
+}
+
+void RunMessages::frame_posed(const FrameResult& frame) {
+  if (lost_ > 0)
+    print(Verbosity::kNormal, "event",
+          fmt::format("frame {}: tracking recovered after {} {} without a pose", frame.frame, lost_,
+                      lost_ == 1 ? "frame" : "frames"));
+  has_pose_ = true;
+  lost_ = 0;
+}
+
+void RunMessages::frame_lost(const FrameResult& frame) {
+  if (!has_pose_)
+    return print(Verbosity::kVerbose, "event",
+                 fmt::format("frame {}: no pose yet: {}", frame.frame, frame.outcome.reason));
+  print(lost_ == 0 ? Verbosity::kNormal : Verbosity::kVerbose, "event",
+        fmt::format("frame {}: tracking lost: {}", frame.frame, frame.outcome.reason));
+  ++lost_;
+}
+
+void RunMessages::loop_accepted(const LoopRecord& loop) {
+  print(Verbosity::kNormal, "event",
+        fmt::format("frame {}: loop closed with frame {}", loop.query_frame, loop.match_frame));
+}
+
+void RunMessages::loop_refused(const LoopRecord& loop) {
+  print(Verbosity::kDebug, "event",
+        fmt::format("frame {}: loop with frame {} refused at stage {}", loop.query_frame,
+                    loop.match_frame, to_string(loop.stage)));
+}
+
+void RunMessages::place_added(const PlaceAdded& place) {
+  print(Verbosity::kVerbose, "event",
+        fmt::format("place {} added to component {}", place.place, place.component));
+}
+
+void RunMessages::places_merged(const PlacesMerged& places) {
+  print(Verbosity::kVerbose, "event",
+        fmt::format("place {} merged into place {}", places.gone, places.kept));
+}
+
+void RunMessages::component_joined(const ComponentJoined& component) {
+  print(Verbosity::kNormal, "event",
+        fmt::format("component {} joined to component {}", component.component, component.into));
+}
+
+void RunMessages::map_moved(const MapMoved& move) {
+  if (move.scale != 1)
+    print(Verbosity::kNormal, "event", "the metric scale of the map is known");
+  print(Verbosity::kDebug, "event",
+        fmt::format("{} places moved by up to {:.3g}", move.places, move.translation));
+}
+
+void RunMessages::print(Verbosity least, const char* level, const std::string& line) const {
+  if (verbosity_ < least) return;
+  if (verbosity_ == Verbosity::kDebug) {
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin_;
+    return print_(fmt::format("{:9.3f} s  {:<7}  {}", elapsed.count(), level, line));
+  }
+  print_(least == Verbosity::kQuiet ? "warning: " + line : line);
+}
+
+}  // namespace placegraph::apps
