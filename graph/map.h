@@ -41,7 +41,7 @@ struct LoopRecord {
   /// Similarity of the images, relative to that of the query and its predecessor.
   double similarity = 0;
   /// Estimated probability that both frames show the same place, from all evidence of the decision:
-  /// see docs/place_recognition.md.
+  /// see docs/place_graph.md.
   double probability = 0;
 
   /// Whether the loop became a constraint of the map.

@@ -50,7 +50,8 @@ void visit(OptionVisitor& field, CornerAgreementOptions& options);
 /// Cues by which the appearance of images is compared, and their weights.
 ///
 /// A weight of 0 leaves a cue out. With the defaults the similarities of all cues spread about
-/// equally over different places; they were chosen over three sets of images (docs/places.md).
+/// equally over different places; they were chosen over three sets of images
+/// (docs/place_recognition.md).
 struct PlaceCueOptions {
   double tiny = 1;        ///< weight of the shrunk image itself
   double colour = 1.5;    ///< weight of histograms of hue, saturation and value

@@ -8,8 +8,8 @@ namespace [[gnu::visibility("default")]] placegraph {
 
 /// Reads the motion of a body as measured by wheels, a laser or inertial sensors.
 ///
-/// A file (docs/odometry.md) has one kind of line, recognized by its number of fields; `#` begins a
-/// comment:
+/// A file (docs/other_sensors.md) has one kind of line, recognized by its number of fields; `#`
+/// begins a comment:
 ///
 ///     8   t tx ty tz qx qy qz qw               stamped poses (TUM), noise from `noise`
 ///     12  row-major 3x4 (KITTI)                poses of the frames `stamps_ns`, noise likewise
