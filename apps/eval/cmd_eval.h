@@ -3,7 +3,7 @@
 
 namespace placegraph::apps {
 
-/// `placegraph eval GT EST...`: figures of estimated trajectories against ground truth.
+/// Adds `placegraph eval trajectory TRUTH EST...`, which evaluates estimated trajectories.
 void add_eval_trajectory_command(CLI::App& eval_group);
 
 }  // namespace placegraph::apps

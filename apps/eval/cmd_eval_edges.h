@@ -3,7 +3,8 @@
 
 namespace placegraph::apps {
 
-/// `placegraph eval-edges GT RUN`: whether the edges of a run's place graph know what they claim.
+/// Adds `placegraph eval edges POSES RUN`.
+/// It compares the errors of a place graph's edges with their stated covariances.
 void add_eval_edges_command(CLI::App& eval_group);
 
 }  // namespace placegraph::apps

@@ -3,7 +3,7 @@
 
 namespace placegraph::apps {
 
-/// `placegraph loops`: what place recognizers found, judged against ground truth.
+/// Adds `placegraph eval loops`, which evaluates place recognizers against ground truth.
 void add_eval_loops_command(CLI::App& eval_group);
 
 }  // namespace placegraph::apps

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// One comparison to make: two files and what the result is called.
+// One estimate to evaluate: both files and the name of the result.
 struct Job {
   std::string truth, estimate, name;
 };
@@ -30,7 +30,7 @@ std::vector<fs::path> files_in(const std::string& folder) {
   return files;
 }
 
-// The file of `folder` of the same name, or else the only one with the same stem.
+// The file in `folder` with the same name, or else the only one with the same stem.
 fs::path partner(const fs::path& truth, const std::vector<fs::path>& candidates) {
   std::vector<fs::path> same_stem;
   for (const fs::path& candidate : candidates) {
@@ -58,7 +58,7 @@ std::vector<Job> folder_jobs(const std::string& truth, const std::string& estima
   return jobs;
 }
 
-// The file's name, else its folder's, else its path: the first that no other estimate has too.
+// The first of file name, folder name and path that no other estimate shares.
 std::string short_name(const std::string& estimate, const std::vector<std::string>& all) {
   const auto folder = [](const fs::path& path) { return path.parent_path().filename(); };
   const auto is_unique = [&](auto&& part) {
@@ -100,14 +100,14 @@ Trajectory read(const std::string& path, const std::string& times) {
   return trajectory;
 }
 
-/// The trajectories are gone when it returns: long ones take most of the memory.
+/// The trajectories are local, because long ones take most of the memory.
 PairingResult pair(const Job& job, const EvalArguments& arguments,
                    const EvaluationOptions& options) {
   const std::string truth_times = arguments.times.empty() ? "" : arguments.times.front();
   const std::string estimate_times = arguments.times.empty() ? "" : arguments.times.back();
   const Trajectory estimate = read(job.estimate, estimate_times);
   Trajectory truth = read(job.truth, truth_times);
-  // A KITTI sequence keeps its times beside its poses; they are wanted where the estimate has some.
+  // A KITTI sequence stores its times beside its poses; they are needed if the estimate has times.
   const fs::path beside = fs::path(job.truth).parent_path() / "times.txt";
   if (!truth.has_times && estimate.has_times && fs::path(job.truth).filename() == "poses.txt" &&
       options.association != Association::kIndex && fs::exists(beside))

@@ -6,36 +6,38 @@
 
 namespace placegraph::apps {
 
-/// The names in the order of Alignment, and in that of Association.
+/// Names of the alignments and of the associations, in the order of Alignment and Association.
 const std::vector<std::string>& eval_alignments();
 const std::vector<std::string>& eval_associations();
 
 struct EvalArguments {
-  std::string truth;  ///< a trajectory, the folder of a KITTI sequence, or of trajectories
-  std::vector<std::string> estimates;  ///< trajectories, or one folder of them
-  std::vector<std::string> times;  ///< of KITTI files: one for all, or ground truth's, estimate's
+  std::string truth;  ///< true trajectory, folder of a KITTI sequence, or folder of trajectories
+  std::vector<std::string> estimates;  ///< estimated trajectories, or one folder of them
+  std::vector<std::string> times;  ///< files of times for KITTI trajectories: one for all, or one
+                                   ///< for the truth and one for the estimates
   std::string align = "se3";       ///< one of eval_alignments()
   std::string associate = "auto";  ///< one of eval_associations()
-  EvaluationOptions options;       ///< but the two that the names above choose
+  EvaluationOptions options;       ///< alignment and association are chosen by the two names above
   std::string csv, latex, plot;    ///< files to write; empty: none
   bool force = false;              ///< overwrite them
 };
 
 struct EvalResult {
   std::vector<EvaluationResult> results;  ///< one for each estimate
-  bool folders = false;                   ///< the files of two folders were paired by name
+  bool folders = false;                   ///< true if the files of two folders were paired by name
 
-  /// Whether one file was judged by another.
+  /// True if a single estimate was evaluated.
   bool single() const { return results.size() == 1 && !folders; }
-  /// The first that the data did not allow; nullptr if there is none. Then no file was written.
+  /// The first result without an outcome, or nullptr; with such a result no file is written.
   const EvaluationResult* refused() const;
 };
 
-/// `placegraph eval`: judges trajectories by the true ones, and writes the files asked for if none
-/// is refused. Throws ArgumentError, FileError.
+/// Evaluates trajectories against the true ones: `placegraph eval trajectory`.
+/// Writes the requested files if every estimate could be evaluated. Throws ArgumentError,
+/// FileError.
 EvalResult eval(const EvalArguments& arguments);
 
-/// One result in full, of several a table.
+/// A single result in full, several results as a table.
 std::string to_text(const EvalResult& result);
 std::string to_json(const EvalResult& result);
 

@@ -16,8 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-/// True poses of the places, by node of the graph: where the true camera was at the frames of their
-/// anchors.
+/// True pose of the camera at each place's anchor frame, by node of the graph.
 std::map<NodeId, SE3> true_places(const Trajectory& truth, const RunMap& map) {
   std::map<NodeId, SE3> result;
   for (const Place& place : map.graph.places) {

@@ -9,15 +9,16 @@ namespace placegraph::apps {
 
 struct EvalEdgesArguments {
   std::string truth;  ///< true poses of every frame of the sequence, or its folder with poses.txt
-  std::string run;    ///< folder that placegraph run has written
+  std::string run;    ///< folder written by `placegraph run`
 };
 
 struct EvalEdgesResult {
-  std::map<ConstraintSource, EdgeConsistency> by_source;  ///< of the sources that edges have
+  std::map<ConstraintSource, EdgeConsistency>
+      by_source;  ///< edge consistency of every source that occurs
 };
 
-/// `placegraph eval-edges`: whether the edges of a run's place graph are as sure as they claim.
-/// Throws ArgumentError where the truth has too few frames, FileError.
+/// Compares edge errors with stated covariances: `placegraph eval edges`.
+/// Throws ArgumentError if the truth has too few frames, FileError.
 EvalEdgesResult eval_edges(const EvalEdgesArguments& arguments);
 
 /// A table, one row per source.

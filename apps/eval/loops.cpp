@@ -46,7 +46,7 @@ Protocol protocol_of(const LoopsArguments& arguments) {
   return protocol;
 }
 
-// Poses say how many images there are; a prediction beyond them belongs to another set.
+// The poses determine the number of images; a prediction beyond them belongs to another set.
 void require_known(const std::string& path, const std::vector<LoopPrediction>& predictions,
                    std::int64_t images) {
   for (const LoopPrediction& p : predictions)
@@ -114,14 +114,14 @@ std::string cell(const std::optional<double>& value) {
   return value ? fmt::format("{:.4f}", *value) : "none";
 }
 
-/// What was left out, and how far probabilities are to be believed.
+/// Remarks on omitted predictions and on the reliability of the probabilities.
 std::string remarks_text(const std::vector<LoopJudgement>& judgements) {
   std::string text;
   for (const LoopJudgement& judgement : judgements) {
     const LoopBenchmark& b = judgement.benchmark;
     if (b.dropped > 0 || b.unjudged > 0)
       text += fmt::format(
-          "{}: left out: {} predictions for images that the truth does not speak of, {} whose "
+          "{}: left out: {} predictions for images that the truth does not cover,  {} whose "
           "candidate is too young or out of range\n",
           judgement.name, b.unjudged, b.dropped);
   }
@@ -170,7 +170,8 @@ void check(const LoopsArguments& arguments) {
   require_plot_name(arguments.plot);
   const std::size_t systems = arguments.predictions.size();
   require(systems > 0, "--predictions: none are given");
-  require(arguments.truth.empty() != arguments.poses.empty(), "one of --truth and --poses is needed");
+  require(arguments.truth.empty() != arguments.poses.empty(),
+          "one of --truth and --poses is needed");
   require(arguments.formats.size() == 1 || arguments.formats.size() == systems,
           "--format: one for all, or one for each of --predictions");
   require(arguments.names.empty() || arguments.names.size() == systems,

@@ -11,19 +11,20 @@
 namespace placegraph::apps {
 
 struct LoopsArguments {
-  std::vector<std::string> predictions;  ///< files of what systems found
-  std::vector<std::string> names;        ///< of the systems; empty: the names of their files
-  std::vector<LoopFileFormat> formats = {LoopFileFormat::kScores};  ///< one for all, or one each
-  std::string truth;              ///< ground truth: matches of every query; or
-  std::string poses;           ///< ground truth: one true pose per image
-  RevisitOptions revisit;      ///< with `poses`; its age is the next member's
-  std::optional<int> min_age;  ///< images by which a candidate must be older
-  int tolerance = 0;           ///< images by which a candidate may miss a true match
-  std::string csv, plot;       ///< files to write; empty: none
-  bool force = false;          ///< overwrite them
+  std::vector<std::string> predictions;  ///< files of predictions, one per system
+  std::vector<std::string> names;        ///< names of the systems; empty: the names of their files
+  std::vector<LoopFileFormat> formats = {
+      LoopFileFormat::kScores};  ///< formats of the files: one for all, or one each
+  std::string truth;             ///< ground truth: matches of every query; or
+  std::string poses;             ///< ground truth: one true pose per image
+  RevisitOptions revisit;        ///< only with `poses`; `min_age` below replaces its age
+  std::optional<int> min_age;    ///< smallest age of a candidate, in images
+  int tolerance = 0;             ///< largest distance from a true match, in images
+  std::string csv, plot;         ///< files to write; empty: none
+  bool force = false;            ///< overwrite them
 };
 
-/// How one system did.
+/// Evaluation of one system.
 struct LoopJudgement {
   std::string name, path;
   LoopBenchmark benchmark;
@@ -31,12 +32,12 @@ struct LoopJudgement {
 };
 
 struct LoopsResult {
-  std::string protocol;  ///< what counted as a match, in words
+  std::string protocol;  ///< definition of a true match, as text
   std::vector<LoopJudgement> systems;
 };
 
-/// `placegraph loops`: judges what place recognizers found, and writes the files asked for. Throws
-/// ArgumentError, FileError.
+/// Evaluates place recognizers and writes the requested files: `placegraph eval loops`.
+/// Throws ArgumentError, FileError.
 LoopsResult loops(const LoopsArguments& arguments);
 
 /// A table, one row per system, with remarks below it.

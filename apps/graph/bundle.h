@@ -6,10 +6,10 @@
 namespace placegraph::apps {
 
 struct BundleArguments {
-  std::string in;               ///< problem in the form of BAL
-  std::string out;              ///< where the adjusted one is written; empty: nowhere
+  std::string in;               ///< problem in BAL format
+  std::string out;              ///< file for the adjusted problem; empty: none
   std::string kernel = "none";  ///< one of robust_kernel_names()
-  BundleOptions options;        ///< but the kind of kernel, which `kernel` names
+  BundleOptions options;        ///< the kind of the kernel is set by `kernel`
   bool force = false;           ///< overwrite `out`
 };
 
@@ -20,8 +20,8 @@ struct BundleResult {
   double cpu_ms = 0, wall_ms = 0;
 };
 
-/// `placegraph bundle`: reads the problem, adjusts it and writes it. Throws ArgumentError,
-/// FileError, and NoAnswer where the problem has no solution.
+/// Reads a problem, adjusts it and writes it: `placegraph graph bundle`.
+/// Throws ArgumentError, FileError, and NoAnswer if the problem has no solution.
 BundleResult bundle(const BundleArguments& arguments);
 
 /// Three lines of text.

@@ -3,7 +3,7 @@
 
 namespace placegraph::apps {
 
-/// `placegraph bundle IN.txt [-o OUT.txt]`: full bundle adjustment of a problem in BAL's form.
+/// Adds `placegraph graph bundle IN`: bundle adjustment of a problem in BAL format.
 void add_bundle_command(CLI::App& graph);
 
 }  // namespace placegraph::apps

@@ -3,7 +3,7 @@
 
 namespace placegraph::apps {
 
-/// `placegraph convert IN OUT`: trajectories between KITTI, TUM and EuRoC form, g2o normalized.
+/// Adds `placegraph graph convert IN OUT`, which converts trajectories and pose graphs.
 void add_convert_command(CLI::App& graph);
 
 }  // namespace placegraph::apps

@@ -47,7 +47,7 @@ void add_optimize_command(CLI::App& graph) {
       ->check(CLI::IsMember(pose_graph_option("engine").choices))
       ->capture_default_str();
   command->add_option("--initialization", a.start, "initial poses; auto computes better ones if they are needed")
-      ->check(CLI::IsMember(pose_graph_option("start").choices))
+      ->check(CLI::IsMember(pose_graph_option("initialization").choices))
       ->capture_default_str();
   command->add_option("--robust", a.robust, "method against false loops")
       ->check(CLI::IsMember(pose_graph_option("robust.method").choices))

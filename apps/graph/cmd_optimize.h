@@ -3,7 +3,7 @@
 
 namespace placegraph::apps {
 
-/// `placegraph optimize IN.g2o -o OUT.g2o`: a pose graph's best estimate.
+/// Adds `placegraph graph optimize IN -o OUT`, which optimizes a pose graph.
 void add_optimize_command(CLI::App& graph);
 
 }  // namespace placegraph::apps

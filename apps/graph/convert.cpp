@@ -19,11 +19,11 @@
 namespace placegraph::apps {
 namespace {
 
-/// What a file holds; g2o, or one of the trajectory forms.
+/// Content of a file: a g2o graph, or one of the trajectory forms.
 using Form = std::optional<TrajectoryFormat>;
 constexpr Form kG2o = std::nullopt;
 
-/// By the first tag, of g2o's, TORO's or iSAM's form.
+/// Detects a pose graph by its first tag in g2o, TORO or iSAM form.
 bool is_pose_graph(const std::string& path) {
   TextFile file(path);
   std::string_view line;
@@ -32,7 +32,7 @@ bool is_pose_graph(const std::string& path) {
          line.starts_with("FIX") || line.starts_with("PARAMS_");
 }
 
-/// By --to, else by the extension of OUT.
+/// The form of OUT by --to, else by its extension.
 Form wanted_form(const ConvertArguments& arguments) {
   static const std::map<std::string, Form> by_name = {{"kitti", TrajectoryFormat::kKitti},
                                                       {"tum", TrajectoryFormat::kTum},
@@ -53,11 +53,11 @@ Form wanted_form(const ConvertArguments& arguments) {
   const auto found = by_extension.find(extension);
   if (found != by_extension.end()) return found->second;
   throw ArgumentError(arguments.out +
-                      ": the extension says no form (.kitti .txt .tum .csv .g2o); " +
+                      ": the extension is not that of a known form (.kitti .txt .tum .csv .g2o); " +
                       "name it with --to");
 }
 
-/// T_world_node without the scale it may have; in the plane z = 0.
+/// T_world_node without its scale; nodes of a plane have z = 0.
 Eigen::Isometry3d rigid(const Pose& pose) {
   if (const SE2* planar = std::get_if<SE2>(&pose))
     return SE3(SO3::exp({0, 0, planar->rotation().angle()}), position_of(pose)).isometry();
@@ -103,8 +103,8 @@ ConvertResult convert_graph(const ConvertArguments& arguments, Form to) {
   return result;
 }
 
-/// Without the frames that have no pose, in it or in the trajectory `posed_in` (if given) of as
-/// many frames: what is left of both has a line for each line of the other.
+/// Removes the frames without a pose, here or in the trajectory `posed_in` (if given) of as many
+/// frames, so that both files keep one line for each remaining frame.
 Trajectory posed_frames(const Trajectory& trajectory, const std::string& path,
                         const std::string& posed_in) {
   Trajectory other = trajectory;

@@ -6,15 +6,15 @@ namespace placegraph::apps {
 
 struct ConvertArguments {
   std::string in, out;
-  std::string to;        ///< kitti, tum, euroc or g2o; empty: what the extension of `out` says
-  std::string times;     ///< file of the times of a KITTI trajectory, one [s] a line
-  std::string posed_in;  ///< trajectory of as many frames: those without a pose in it are left out
-  bool posed_only = false;  ///< frames without a pose are left out
-  bool rigid = false;       ///< similarities become poses in space
+  std::string to;        ///< kitti, tum, euroc or g2o; empty: according to the extension of `out`
+  std::string times;     ///< file of times of a KITTI trajectory, one per line [s]
+  std::string posed_in;  ///< trajectory of as many frames; frames without a pose in it are left out
+  bool posed_only = false;  ///< leave out frames without a pose
+  bool rigid = false;       ///< convert similarities to SE(3) poses
   bool force = false;       ///< overwrite `out`
 };
 
-/// What was written; the counts are those of its kind.
+/// Counts of the written file; only the members of its kind are set.
 struct ConvertResult {
   enum class Kind { kTrajectory, kGraph, kPosesOfGraph };
   Kind kind = Kind::kTrajectory;
@@ -27,8 +27,9 @@ struct ConvertResult {
   bool poses_alone = true;  ///< kGraph: no priors and no landmarks
 };
 
-/// `placegraph convert`: reads a trajectory or a pose graph, whichever the content is, and writes
-/// it in another form. Throws ArgumentError where the form cannot hold it, FileError.
+/// Converts a trajectory or a pose graph to another form: `placegraph graph convert`.
+/// The content of the file decides which of them it is. Throws ArgumentError if the form cannot
+/// represent it, FileError.
 ConvertResult convert(const ConvertArguments& arguments);
 
 /// One line.

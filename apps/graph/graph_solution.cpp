@@ -16,7 +16,7 @@
 namespace placegraph::apps {
 namespace {
 
-constexpr int kStepsPerLine = 500;  ///< of progress
+constexpr int kStepsPerLine = 500;  ///< steps between two lines of progress
 
 PoseGraphReport solve_incrementally(const PoseGraph& graph, const GraphTask& task,
                                     const LogSink& log, std::vector<double>& step_cpu_ms) {

@@ -8,32 +8,36 @@
 
 namespace placegraph::apps {
 
-/// What `optimize` is asked to do.
+/// Task of the solver of `optimize`.
 struct GraphTask {
   PoseGraphOptions options;
-  bool split = false;        ///< the components, one after the other
-  bool incremental = false;  ///< as if the graph grew pose by pose
-  bool certify = false;      ///< prove how good the solution is, too
+  bool split = false;        ///< solve the components one after the other
+  bool incremental = false;  ///< solve an incremental graph, pose by pose
+  bool certify = false;      ///< also certify the solution
 };
 
-/// What `optimize` found, and what it cost from the parsed graph to the solution.
+/// Solution of `optimize` and its cost in time, from the parsed graph to the solution.
 struct GraphSolution {
   PoseGraph graph;
   int components = 1;
   int iterations = 0;
-  std::string start;  ///< the one that was kept; of several components the dearest
-  bool refined_from_certified = false;     ///< every component
+  std::string
+      start;  ///< initialization that was used; of several components the most expensive one
+  bool refined_from_certified = false;     ///< true if it holds for every component
   std::vector<RejectedEdge> rejected;      ///< in the order of graph.constraints
   std::vector<double> chi2_by_constraint;  ///< in the order of graph.constraints; incremental: none
-  bool loops_judged = true;  ///< false: in a component too few loops to know the noise's scale
-  FreeDirections free;       ///< of all components together
-  std::vector<double> step_cpu_ms;  ///< incremental: of every pose
+  bool loops_judged =
+      true;  ///< false if a component has too few loops to estimate the scale of the noise
+  FreeDirections free;              ///< free directions of all components together
+  std::vector<double> step_cpu_ms;  ///< incremental only: time of every pose
   double cpu_ms = 0, wall_ms = 0, peak_mb = 0;
-  std::optional<ChordalIsotropicCertificate> certificate;  ///< its cost is not in the times
+  std::optional<ChordalIsotropicCertificate>
+      certificate;  ///< its computation is not part of the times
   double certificate_cpu_ms = 0;
 };
 
-/// Throws NoAnswer where the graph or a component has no solution, ArgumentError as
+/// Optimizes a pose graph.
+/// Throws NoAnswer if the graph or a component has no solution, and ArgumentError like
 /// optimize_pose_graph.
 GraphSolution solve(PoseGraph graph, const GraphTask& task, const LogSink& log);
 

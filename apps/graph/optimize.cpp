@@ -51,7 +51,7 @@ Json rejected_edges(const GraphSolution& solution) {
   return list;
 }
 
-/// Edges that were kept though their chi2 at the solution is beyond the 99.9 % bound.
+/// Edges that were kept although their chi2 at the solution exceeds the 99.9 % bound.
 int doubtful_edges(const GraphSolution& solution) {
   if (solution.chi2_by_constraint.empty()) return 0;
   const double bound = chi_squared_quantile(0.999, degrees_of_freedom(solution.graph.kind()));
@@ -64,10 +64,10 @@ int doubtful_edges(const GraphSolution& solution) {
   return static_cast<int>(beyond - rejected);
 }
 
-/// How many times what the information of the edges lets expect the cost is, where the least
-/// squares of a graph with loops look like those of a wrong graph.
+/// Ratio of the cost to its expectation from the information of the edges, if the least squares of
+/// a graph with loops look like those of a wrong graph.
 std::optional<double> misfit_of(const OptimizeResult& result) {
-  constexpr double kMuch = 10;  // times what is expected
+  constexpr double kMuch = 10;  // factor above the expected cost
   const PoseGraph& graph = result.solution.graph;
   const auto free = static_cast<double>(graph.constraints.size()) -
                     static_cast<double>(graph.nodes.size()) + result.solution.components;
@@ -86,7 +86,7 @@ std::string some_ids(const std::vector<NodeId>& ids) {
   return text;
 }
 
-/// One line where another start may end elsewhere at the same cost.
+/// One line if another initialization may end at another solution of the same cost.
 void warn_of_free_directions(const std::string& in, int count,
                              const std::vector<NodeId>& vertices) {
   if (count == 0) return;
@@ -98,7 +98,7 @@ void warn_of_free_directions(const std::string& in, int count,
                   some_ids(vertices)));
 }
 
-/// One line where parts of a graph with priors or landmarks stand for themselves.
+/// One line if components of a graph with priors or landmarks are not tied to the world.
 void warn_of_parts(const std::string& in, const LandmarkSolution& solution) {
   const std::vector<NodeId>& held = solution.held_vertices;
   if (solution.components < 2 || held.empty()) return;
@@ -114,12 +114,12 @@ std::vector<NodeId> free_vertices(const GraphSolution& solution) {
   return ids;
 }
 
-/// How long the steps of a graph that grew took.
+/// Statistics of the times of incremental steps.
 struct StepTimes {
   double mean_ms = 0, p95_ms = 0, max_ms = 0;
 };
 
-/// Precondition: there is a step.
+/// Precondition: there is at least one step.
 StepTimes times_of(std::vector<double> cpu_ms) {
   std::sort(cpu_ms.begin(), cpu_ms.end());
   const std::size_t count = cpu_ms.size();
@@ -163,13 +163,13 @@ void draw(const std::string& path, const PoseGraph& before, const GraphSolution&
   write_plot(path, plot);
 }
 
-/// The options that the names among the arguments stand for; all arguments are checked.
+/// Checks all arguments and returns the options that their names stand for.
 PoseGraphOptions checked_options(const OptimizeArguments& arguments) {
   PoseGraphOptions options = arguments.task.options;
   options.rotation_error = choice<RotationError>("--cost", optimize_costs(), arguments.cost);
   options.engine =
       choice<PoseGraphEngine>("--engine", pose_graph_option("engine").choices, arguments.engine);
-  options.start = choice<PoseGraphInitialization>("--start", pose_graph_option("start").choices,
+  options.start = choice<PoseGraphInitialization>("--initialization", pose_graph_option("initialization").choices,
                                                   arguments.start);
   options.robust.method = choice<RobustMethod>(
       "--robust", pose_graph_option("robust.method").choices, arguments.robust);
@@ -177,7 +177,7 @@ PoseGraphOptions checked_options(const OptimizeArguments& arguments) {
   require(
       !arguments.task.incremental ||
           (arguments.robust == "none" && arguments.engine == "native" && arguments.start == "auto"),
-      "--incremental goes with --engine native, --robust none and --start auto");
+      "--incremental goes with --engine native, --robust none and --initialization auto");
   require(!arguments.drop_rejected || arguments.robust != "none",
           "--drop-rejected goes with --robust, which rejects");
   require_plot_name(arguments.plot);
@@ -188,7 +188,7 @@ PoseGraphOptions checked_options(const OptimizeArguments& arguments) {
   return options;
 }
 
-/// What belongs to pose graphs alone is refused of a graph with priors and point landmarks.
+/// Rejects options that do not apply to a graph with priors and point landmarks.
 void require_for_landmarks(const OptimizeArguments& arguments, const GraphTask& task,
                            const LandmarkGraph& graph) {
   const PoseGraphOptions& options = task.options;
@@ -199,7 +199,7 @@ void require_for_landmarks(const OptimizeArguments& arguments, const GraphTask& 
               arguments.plot.empty(),
           arguments.in +
               ": has priors or point landmarks, which --robust, --incremental, "
-              "--components, --certify, --plot and --start odometry, chordal and "
+              "--components, --certify, --plot and --initialization odometry, chordal and "
               "certified do not take");
   require(
       options.rotation_error == RotationError::kLog ||
@@ -287,7 +287,7 @@ Json describe(const OptimizeResult& result) {
   return report;
 }
 
-/// The line of the edges that were kept though they lie far off; empty if there are none.
+/// A line on the edges that were kept although they are far off; empty without any.
 std::string doubtful_text(const OptimizeResult& result) {
   const int doubtful = doubtful_edges(result.solution);
   if (doubtful == 0 || result.robust == "none") return {};
@@ -297,7 +297,7 @@ std::string doubtful_text(const OptimizeResult& result) {
       weighs ? "; the method gives them less weight, chi2 above counts them in full" : "");
 }
 
-/// The lines of the certificate and of the steps; empty where there are none.
+/// Lines on the certificate and on the incremental steps; empty without them.
 std::string details_text(const GraphSolution& solution) {
   std::string text;
   if (const auto& certificate = solution.certificate)

@@ -11,11 +11,11 @@
 
 namespace placegraph::apps {
 
-/// A choice among the options of the backend, by its path: its names and default stand there.
-/// Throws ArgumentError if there is none of that path.
+/// Option of the backend with the given path, with its names and its default.
+/// Throws ArgumentError if there is none.
 OptionEntry pose_graph_option(const std::string& path);
 
-/// The names of the rotation errors, in the order of RotationError.
+/// Names of the rotation errors, in the order of RotationError.
 const std::vector<std::string>& optimize_costs();
 
 struct OptimizeArguments {
@@ -23,28 +23,29 @@ struct OptimizeArguments {
   std::string plot;     ///< .png or .svg of the poses before and after; empty: none
   std::string cost = "log";
   std::string engine = pose_graph_option("engine").value;
-  std::string start = pose_graph_option("start").value;
+  std::string start = pose_graph_option("initialization").value;
   std::string robust = pose_graph_option("robust.method").value;
-  GraphTask task;              ///< but what the four names above choose among its options
-  bool drop_rejected = false;  ///< `out` is written without rejected constraints
+  GraphTask task;              ///< its options with a name above are set by that name
+  bool drop_rejected = false;  ///< leave rejected constraints out of `out`
   bool force = false;          ///< overwrite `out` and `plot`
 };
 
-/// chi2 of a graph in both conventions, over the constraints that are not left out.
+/// chi2 of a graph in both conventions, over the constraints that were not rejected.
 struct GraphCosts {
   double g2o = 0, log = 0;
 };
 
 struct OptimizeResult {
-  std::string in, out, cost, engine, robust;  ///< as asked
+  std::string in, out, cost, engine, robust;  ///< as in the arguments
   GraphCosts before, after;
   GraphSolution solution;
-  std::optional<LandmarkSolution> landmarks;  ///< in place of the two above: of a graph with some
+  std::optional<LandmarkSolution>
+      landmarks;  ///< replaces `before`, `after` and `solution` for a graph with landmarks
 };
 
-/// `placegraph optimize`: reads a graph, optimizes it and writes it and its plot. What it does goes
-/// to `sink`, with a warning where the cost looks like that of a wrong graph. Throws ArgumentError,
-/// FileError, and NoAnswer where there is no solution; then nothing is written.
+/// Reads a graph, optimizes it, and writes it and its plot: `placegraph graph optimize`.
+/// Progress goes to `sink`, with a warning if the cost looks like that of a wrong graph. Throws
+/// ArgumentError, FileError, and NoAnswer if there is no solution; then nothing is written.
 OptimizeResult optimize(const OptimizeArguments& arguments, const LogSink& sink = {});
 
 std::string to_text(const OptimizeResult& result);

@@ -31,8 +31,8 @@ void add_detect(CLI::App& image) {
 void add_match(CLI::App& image) {
   auto arguments = std::make_shared<LinesMatchArguments>();
   LinesMatchArguments& a = *arguments;
-  CLI::App* command = image.add_subcommand(
-      "match-lines", "Match the straight edges of two images of any baseline");
+  CLI::App* command =
+      image.add_subcommand("match-lines", "Match the straight edges of two images of any baseline");
   command->footer("placegraph image match-lines a.png b.png -o matches.txt");
   auto* images = command->add_option("IMAGES", a.images, "two images")->required()->expected(2);
   command
@@ -40,11 +40,12 @@ void add_match(CLI::App& image) {
                    "file to write, `i j` a line: numbers of the segments from 0, in the order of "
                    "--segments or --write-segments")
       ->required();
-  // Positions alone do not tell: a mere reflection of a facade explains half of its edges, too.
+  // Positions alone are ambiguous: a mirrored facade explains half of its edges as well.
   const auto take_segments = [&a, images](const std::vector<std::string>& files) {
-    require(images->count() > 0,
-            "--segments: needs the two images as well, `image match-lines A.png B.png --segments A.txt "
-            "B.txt`: the images are needed to compare the surroundings of the segments");
+    require(
+        images->count() > 0,
+        "--segments: needs the two images as well, `image match-lines A.png B.png --segments A.txt "
+        "B.txt`: the images are needed to compare the surroundings of the segments");
     a.segments = files;
   };
   auto* given = command->add_option_function<std::vector<std::string>>(

@@ -3,8 +3,7 @@
 
 namespace placegraph::apps {
 
-/// `placegraph lines detect IMAGE` and `placegraph lines match A B` and `placegraph lines track
-/// SEQUENCE`: straight edges of images.
+/// Adds `placegraph image lines IMAGE` and `placegraph image match-lines A B`.
 void add_lines_commands(CLI::App& image);
 
 }  // namespace placegraph::apps

@@ -3,7 +3,7 @@
 
 namespace placegraph::apps {
 
-/// `placegraph lines track SEQUENCE`: follows lines through a sequence and counts.
+/// Adds `placegraph track lines SEQUENCE`, which tracks lines through a sequence.
 void add_lines_track_command(CLI::App& track);
 
 }  // namespace placegraph::apps

@@ -5,7 +5,7 @@ class App;
 
 namespace placegraph::apps {
 
-/// `placegraph vanishing`: in which directions the edges of a scene point.
+/// Adds `placegraph image vanishing LINES`, which finds vanishing points.
 void add_vanishing_command(CLI::App& image);
 
 }  // namespace placegraph::apps

@@ -8,7 +8,7 @@ namespace placegraph::apps {
 
 struct LinesDetectArguments {
   std::string image;
-  std::string out;  ///< file of the segments, `u1 v1 u2 v2` a line [px]
+  std::string out;  ///< file for the segments, `u1 v1 u2 v2` per line [px]
   SegmentDetectorOptions options;
   bool force = false;  ///< overwrite `out`
 };
@@ -18,8 +18,8 @@ struct LinesDetectResult {
   std::vector<LineSegment> segments;  ///< as written, the brighter side on the right
 };
 
-/// `placegraph lines detect`: finds the straight edges of an image and writes them. Throws
-/// ArgumentError, FileError, and NoAnswer where there are none; then nothing is written.
+/// Detects the straight edges of an image and writes them: `placegraph image lines`.
+/// Throws ArgumentError, FileError, and NoAnswer if there are none; then nothing is written.
 LinesDetectResult lines_detect(const LinesDetectArguments& arguments);
 
 /// One line.

@@ -8,25 +8,24 @@
 namespace placegraph::apps {
 
 struct LinesMatchArguments {
-  std::vector<std::string> images;        ///< two
-  std::vector<std::string> segments;      ///< two files of their segments; empty: detected
+  std::vector<std::string> images;        ///< paths of the two images
+  std::vector<std::string> segments;      ///< two files of their segments; empty: they are detected
   std::vector<std::string> segments_out;  ///< two files to write the segments to; empty: none
-  std::string out;                        ///< file of the matches, `i j` a line
-  SegmentDetectorOptions detector;        ///< where segments are detected
+  std::string out;                        ///< file for the matches, `i j` per line
+  SegmentDetectorOptions detector;        ///< used if segments are detected
   SegmentMatcherOptions matcher;
-  bool force = false;  ///< overwrite what is written
+  bool force = false;  ///< overwrite the output files
 };
 
 struct LinesMatchResult {
-  std::string pair;  ///< both images, for people
+  std::string pair;  ///< text that names both images
   std::string out;
-  std::vector<LineSegment> a, b;      ///< segments of the images
-  std::vector<SegmentMatch> matches;  ///< indices into both
+  std::vector<LineSegment> a, b;      ///< segments of the two images
+  std::vector<SegmentMatch> matches;  ///< matches as indices into `a` and `b`
 };
 
-/// `placegraph lines match`: finds the same straight edges in two images and writes which they are.
-/// Throws ArgumentError, FileError, and NoAnswer where nothing joins the images; then nothing is
-/// written.
+/// Matches the straight edges of two images and writes the matches: `image match-lines`.
+/// Throws ArgumentError, FileError, and NoAnswer if no edges match; then nothing is written.
 LinesMatchResult lines_match(const LinesMatchArguments& arguments);
 
 /// One line.

@@ -67,7 +67,7 @@ void count_lengths(const LineTracks& tracks, LinesTrackResult& result) {
   std::vector<double> lengths, of_use;
   for (const auto& [id, observations] : tracks)
     lengths.push_back(static_cast<double>(observations.size()));
-  // Fewer than three views of a line say nothing of motion or place.
+  // A line with fewer than three views contributes nothing to motion or structure.
   std::copy_if(lengths.begin(), lengths.end(), std::back_inserter(of_use),
                [](double n) { return n >= 3; });
   result.tracks = tracks.size();
@@ -109,7 +109,7 @@ std::string to_text(const LinesTrackResult& result) {
   std::string line = fmt::format("{}: {} lines followed, median over {:g} frames", result.sequence,
                                  result.tracks, result.median_length_frames);
   if (const auto& judged = result.judgement)
-    line += fmt::format("; by the true poses {} of {} sightings wrong ({:.2f} %), {} undecided",
+    line += fmt::format("; by the true poses {} of {} observations wrong ({:.2f} %), {} undecided",
                         judged->wrong, judged->judged, judged->wrong_percent(), judged->undecided);
   return line + "\n";
 }

@@ -28,7 +28,7 @@ ordered_json frame_json(const ManhattanFrame& frame) {
           {"axis_of_segment", frame.axis}};
 }
 
-/// A vanishing point and what it is to the worlds.
+/// A vanishing point and its relation to the Manhattan frames.
 ordered_json point_json(const VanishingPoint& point, const PointRole& role) {
   ordered_json json = {{"covariance", rows_json(point.covariance)},
                        {"segments", point.segments},
@@ -46,10 +46,9 @@ ordered_json point_json(const VanishingPoint& point, const PointRole& role) {
 }
 
 std::string role_text(const PointRole& role) {
-  if (role.axis >= 0) return fmt::format(", axis {} of world {}", role.axis, role.frame);
+  if (role.axis >= 0) return fmt::format(", axis {} of frame {}", role.axis, role.frame);
   if (role.across_axis < 0) return "";
-  return fmt::format(", at right angles to axis {} of world {}", role.across_axis,
-                     role.across_frame);
+  return fmt::format(", orthogonal to axis {} of frame {}", role.across_axis, role.across_frame);
 }
 
 }  // namespace
@@ -63,7 +62,7 @@ VanishingResult vanishing(const VanishingArguments& arguments) {
   Random random(arguments.seed);
   result.scene = find_scene_directions(segments, camera, arguments.options, random);
   result.cpu_ms = watch.cpu_ms();
-  // No common direction is an answer, too, where there were segments enough.
+  // Segments without a common direction are a valid result.
   if (result.scene.vanishing.outcome.code == Outcome::Code::kTooFewData)
     throw NoAnswer(arguments.in + ": " + result.scene.vanishing.outcome.reason);
   return result;
@@ -73,7 +72,7 @@ std::string to_text(const VanishingResult& result) {
   const SceneDirections& scene = result.scene;
   const VanishingPoints& vanishing = scene.vanishing;
   std::string text =
-      fmt::format("{}: {} segments, {} vanishing points, {} rectangular worlds\n", result.in,
+      fmt::format("{}: {} segments, {} vanishing points, {} Manhattan frames\n", result.in,
                   result.segments, vanishing.points.size(), scene.frames.size());
   for (std::size_t i = 0; i < vanishing.points.size(); ++i) {
     const Eigen::Vector3d& v = vanishing.points[i].direction;
@@ -86,10 +85,10 @@ std::string to_text(const VanishingResult& result) {
     const Eigen::Vector3d w = frame.R_cam_manhattan.log() * (180 / std::numbers::pi);
     const Eigen::Vector3d s = frame.covariance.diagonal().cwiseSqrt() * (180 / std::numbers::pi);
     text += fmt::format(
-        "  world {}: turned by {:.3f} {:.3f} {:.3f} deg, known to {:.3f} {:.3f} {:.3f} deg\n", f,
+        "  frame {}: rotation vector {:.3f} {:.3f} {:.3f} deg, sigma {:.3f} {:.3f} {:.3f} deg\n", f,
         w.x(), w.y(), w.z(), s.x(), s.y(), s.z());
   }
-  if (scene.frames.empty()) text += "  no rectangular world: too little speaks for one\n";
+  if (scene.frames.empty()) text += "  no Manhattan frame: too little evidence\n";
   return text + fmt::format("  {:.1f} ms CPU\n", result.cpu_ms);
 }
 

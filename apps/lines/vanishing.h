@@ -7,10 +7,10 @@
 namespace placegraph::apps {
 
 struct VanishingArguments {
-  std::string in;     ///< file of segments, `u1 v1 u2 v2` a line [px]
-  std::string calib;  ///< of their camera
+  std::string in;     ///< file of segments, `u1 v1 u2 v2` per line [px]
+  std::string calib;  ///< calibration file of their camera
   SceneDirectionOptions options;
-  std::uint64_t seed = 1;  ///< of the random samples
+  std::uint64_t seed = 1;  ///< seed of the random samples
 };
 
 struct VanishingResult {
@@ -20,8 +20,9 @@ struct VanishingResult {
   double cpu_ms = 0;
 };
 
-/// `placegraph vanishing`: in which directions the edges of a scene point. Throws ArgumentError,
-/// FileError, and NoAnswer where there are too few segments; no common direction is an answer.
+/// Finds the vanishing points of an image's edges: `placegraph image vanishing`.
+/// Throws ArgumentError, FileError, and NoAnswer if there are too few segments. A result without a
+/// common direction is an answer.
 VanishingResult vanishing(const VanishingArguments& arguments);
 
 /// Some lines.

@@ -3,7 +3,7 @@
 
 namespace placegraph::apps {
 
-/// `placegraph explain`: what a map knows of one frame.
+/// Adds `placegraph map explain MAP FRAME`, which explains the pose of one frame.
 void add_explain_command(CLI::App& map);
 
 }  // namespace placegraph::apps

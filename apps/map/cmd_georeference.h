@@ -3,7 +3,7 @@
 
 namespace placegraph::apps {
 
-/// `placegraph georeference GRAPH --gps OXTS --out DIR`: a map put onto the earth.
+/// Adds `placegraph map georeference MAP --gps OXTS --out DIR`, which places a map on the earth.
 void add_georeference_command(CLI::App& map);
 
 }  // namespace placegraph::apps

@@ -3,7 +3,7 @@
 
 namespace placegraph::apps {
 
-/// `placegraph localize`: new images placed in a saved map.
+/// Adds `placegraph map localize MAP IMAGES`, which localizes new images in a saved map.
 void add_localize_command(CLI::App& map);
 
 }  // namespace placegraph::apps

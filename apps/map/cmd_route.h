@@ -3,7 +3,7 @@
 
 namespace placegraph::apps {
 
-/// `placegraph route MAP --from A --to B [--backtrack]`: the shortest way over a run's places.
+/// Adds `placegraph map route MAP --from A --to B`, which finds the shortest path.
 void add_route_command(CLI::App& map);
 
 }  // namespace placegraph::apps

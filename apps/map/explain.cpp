@@ -36,35 +36,35 @@ json list_of(const std::vector<LoopRecord>& loops) {
   return list;
 }
 
-/// Where it is: pose T_map_cam, and the standard deviations of what the graph knows of it.
-json where(const Explanation& told, const Map& map) {
-  if (!told.posed) return {{"posed", false}};
-  const Eigen::Vector3d& t = told.T_map_cam.translation();
-  const Eigen::Quaterniond q = told.T_map_cam.rotation().quaternion();
+/// Pose T_map_cam of the frame and its standard deviations in the graph.
+json where(const Explanation& explanation, const Map& map) {
+  if (!explanation.posed) return {{"posed", false}};
+  const Eigen::Vector3d& t = explanation.T_map_cam.translation();
+  const Eigen::Quaterniond q = explanation.T_map_cam.rotation().quaternion();
   json at = {{"posed", true},
-             {"place", *told.place},
-             {"labels", told.labels},
-             {"keyframe", *told.keyframe},
-             {"way_to_keyframe", told.way_to_keyframe},
-             {"component", told.component},
+             {"place", *explanation.place},
+             {"labels", explanation.labels},
+             {"keyframe", *explanation.keyframe},
+             {"way_to_keyframe", explanation.way_to_keyframe},
+             {"component", explanation.component},
              {"unit", map.metric ? "m" : "arbitrary"},
              {"position", {t.x(), t.y(), t.z()}},
              {"quaternion_xyzw", {q.x(), q.y(), q.z(), q.w()}},
              {"covariance", nullptr}};
-  if (!told.covariance) return at;
+  if (!explanation.covariance) return at;
   json rows = json::array();
   for (int i = 0; i < 6; ++i) {
-    const Vector6d row = told.covariance->row(i).transpose();
+    const Vector6d row = explanation.covariance->row(i).transpose();
     rows.push_back(std::vector<double>(row.data(), row.data() + 6));
   }
   at["covariance"] = rows;
-  const Vector6d sigma = told.covariance->diagonal().cwiseMax(0).cwiseSqrt();
+  const Vector6d sigma = explanation.covariance->diagonal().cwiseMax(0).cwiseSqrt();
   at["sigma_position"] = sigma.head<3>().norm();
   at["sigma_angle_deg"] = rad_to_deg(sigma.tail<3>().norm());
   return at;
 }
 
-/// Shares of the picture by class, the largest first.
+/// Shares of the image by class, the largest first.
 json shares_of(const std::vector<float>& probabilities, const std::vector<std::string>& classes,
                const SceneView& view) {
   const SceneLabels labels = most_probable(probabilities, static_cast<int>(classes.size()), view);
@@ -82,12 +82,11 @@ json shares_of(const std::vector<float>& probabilities, const std::vector<std::s
   return shares;
 }
 
-/// What the picture shows, by the models that came with the program; why not, where it cannot be
-/// told.
+/// Content of the image by the installed models, or the reason why it is unknown.
 json seen_in(const StoredMap& stored, FrameId frame) {
   const std::string& sequence = stored.origin.sequence;
   if (sequence.empty() || !std::filesystem::exists(sequence))
-    return {{"unknown", "the pictures are not where they were: " + sequence}};
+    return {{"unknown", "the images are no longer at " + sequence}};
   SceneModel urban, surfaces;
   try {
     urban = load_scene_model(SceneModel::Kind::kUrban, "");
@@ -98,24 +97,25 @@ json seen_in(const StoredMap& stored, FrameId frame) {
   const auto dataset = open_dataset(sequence);
   if (frame.value() >= static_cast<std::int64_t>(dataset->size()))
     return {{"unknown", sequence + " has " + std::to_string(dataset->size()) + " frames now"}};
-  const Frame picture =
-      dataset->frame(static_cast<std::size_t>(frame.value()), stored.origin.sensor);
-  const SceneView view = view_scene(picture.colour.empty() ? picture.image : picture.colour);
+  const Frame image = dataset->frame(static_cast<std::size_t>(frame.value()), stored.origin.sensor);
+  const SceneView view = view_scene(image.colour.empty() ? image.image : image.colour);
   const UrbanLabels labels = label_urban(urban, surfaces, view);
   return {{"surfaces", shares_of(labels.surfaces, surfaces.classes, view)},
           {"classes", shares_of(labels.classes, urban.classes, view)}};
 }
 
-/// What the run took for granted there.
-json assumed_by(const StoredMap& stored, const RunOptions& options, const Explanation& told) {
+/// Assumptions of the run at this frame.
+json assumed_by(const StoredMap& stored, const RunOptions& options,
+                const Explanation& explanation) {
   const auto& calibration = stored.origin.calibration;
   const double height_m = calibration ? calibration->camera_height_m.value_or(0) : 0;
   const bool monocular = calibration && calibration->baseline_m == 0 && !calibration->depth;
-  json assumed = {{"sensor", monocular ? "one eye" : "depths measured"},
+  json assumed = {{"sensor", monocular ? "monocular" : "measured depth"},
                   {"cues", options.slam.odometry.cues},
                   {"metric", stored.map.metric}};
   if (monocular && height_m > 0) assumed["ground_below_camera_m"] = height_m;
-  const Place* place = told.posed ? stored.map.place_graph.find(*told.place) : nullptr;
+  const Place* place =
+      explanation.posed ? stored.map.place_graph.find(*explanation.place) : nullptr;
   if (const auto kind = place ? environment_of(*place) : std::nullopt) {
     const Assumptions there = assumptions_of(*kind);
     assumed["environment"] = {{"kind", environment_name(*kind)},
@@ -150,7 +150,7 @@ std::string labels_of(const json& labels) {
 
 std::string where_text(const json& at) {
   if (!at["posed"].get<bool>()) {
-    return "where      not posed: tracking was lost or waited here\n";
+    return "where      not posed: tracking was lost or not yet initialized\n";
   }
   const auto unit = at["unit"].get<std::string>();
   std::string text = fmt::format(
@@ -160,9 +160,9 @@ std::string where_text(const json& at) {
   text += fmt::format("           position {}, orientation {}(x y z w)\n", joined(at["position"]),
                       joined(at["quaternion_xyzw"]));
   if (at.contains("sigma_position"))
-    text += fmt::format(
-        "           its place known to {:.3g} {}, {:.3g} deg, seen from the first one\n",
-        at["sigma_position"].get<double>(), unit, at["sigma_angle_deg"].get<double>());
+    text +=
+        fmt::format("           sigma {:.3g} {} and {:.3g} deg, relative to the first place\n",
+                    at["sigma_position"].get<double>(), unit, at["sigma_angle_deg"].get<double>());
   return text;
 }
 
@@ -178,7 +178,7 @@ std::string assumptions(const json& assumed) {
     for (const char* what : {"ground_height", "manhattan_world", "street_surfaces"})
       text += std::string(there[what].get<bool>() ? " " : " no ") + what;
   }
-  return text + (assumed["metric"].get<bool>() ? ", unit the metre" : ", no unit of length");
+  return text + (assumed["metric"].get<bool>() ? ", metric" : ", unknown scale");
 }
 
 std::string sees_text(const json& sees) {
@@ -192,31 +192,32 @@ std::string sees_text(const json& sees) {
 
 ExplainResult explain(const ExplainArguments& arguments) {
   const StoredMap stored = read_stored_map(arguments.map);
-  const auto told = explain_frame(stored.map, arguments.frame);
-  if (!told) throw NoAnswer(arguments.map + ": has no frame " + to_string(arguments.frame));
+  const auto explanation = explain_frame(stored.map, arguments.frame);
+  if (!explanation) throw NoAnswer(arguments.map + ": has no frame " + to_string(arguments.frame));
   RunOptions options;
   if (!stored.origin.options.empty())
     read_options_text(map_path_of(arguments.map), stored.origin.options, options);
-  return {{{"frame", told->frame},
-           {"stamp_s", 1e-9 * static_cast<double>(told->stamp_ns)},
-           {"where", where(*told, stored.map)},
+  return {{{"frame", explanation->frame},
+           {"stamp_s", 1e-9 * static_cast<double>(explanation->stamp_ns)},
+           {"where", where(*explanation, stored.map)},
            {"known_by",
-            {{"inliers", told->inliers},
-             {"features", told->features},
-             {"features_placed", told->features_placed},
-             {"constraints", told->constraints},
-             {"loops", list_of(told->loops)}}},
-           {"sees", seen_in(stored, told->frame)},
-           {"assumed", assumed_by(stored, options, *told)},
-           {"refused", list_of(told->refused)}}};
+            {{"inliers", explanation->inliers},
+             {"features", explanation->features},
+             {"features_placed", explanation->features_placed},
+             {"constraints", explanation->constraints},
+             {"loops", list_of(explanation->loops)}}},
+           {"sees", seen_in(stored, explanation->frame)},
+           {"assumed", assumed_by(stored, options, *explanation)},
+           {"refused", list_of(explanation->refused)}}};
 }
 
 std::string to_text(const ExplainResult& result) {
-  const json& told = result.told;
-  std::string text = fmt::format("frame      {}, {:.3f} s\n", told["frame"].get<std::int64_t>(),
-                                 told["stamp_s"].get<double>());
-  text += where_text(told["where"]);
-  const json& by = told["known_by"];
+  const json& explanation = result.explanation;
+  std::string text =
+      fmt::format("frame      {}, {:.3f} s\n", explanation["frame"].get<std::int64_t>(),
+                  explanation["stamp_s"].get<double>());
+  text += where_text(explanation["where"]);
+  const json& by = explanation["known_by"];
   text +=
       fmt::format("known by   {} landmarks; keyframe with {} features, {} placed; constraints {}\n",
                   by["inliers"].get<int>(), by["features"].get<int>(),
@@ -227,16 +228,16 @@ std::string to_text(const ExplainResult& result) {
                         loop["match_frame"].get<std::int64_t>(), loop["inliers"].get<int>(),
                         loop["lines"].get<int>(), loop["model"].get<std::string>(),
                         loop["probability"].get<double>());
-  text += sees_text(told["sees"]);
-  text += fmt::format("assumed    {}\n", assumptions(told["assumed"]));
-  if (told["refused"].empty()) text += "refused    nothing\n";
-  for (const json& loop : told["refused"])
+  text += sees_text(explanation["sees"]);
+  text += fmt::format("assumed    {}\n", assumptions(explanation["assumed"]));
+  if (explanation["refused"].empty()) text += "refused    nothing\n";
+  for (const json& loop : explanation["refused"])
     text += fmt::format("refused    frame {} by {}: probability {:.3f}, {} points\n",
                         loop["match_frame"].get<std::int64_t>(), loop["stage"].get<std::string>(),
                         loop["probability"].get<double>(), loop["inliers"].get<int>());
   return text;
 }
 
-std::string to_json(const ExplainResult& result) { return result.told.dump(1) + "\n"; }
+std::string to_json(const ExplainResult& result) { return result.explanation.dump(1) + "\n"; }
 
 }  // namespace placegraph::apps

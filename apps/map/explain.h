@@ -7,17 +7,17 @@
 namespace placegraph::apps {
 
 struct ExplainArguments {
-  std::string map;  ///< map.db, or the folder of placegraph run with it
-  FrameId frame;    ///< its number in the sequence
+  std::string map;  ///< map.db, or a folder written by `placegraph run`
+  FrameId frame;    ///< number of the frame in its sequence
 };
 
 struct ExplainResult {
-  /// frame, stamp_s, where, known_by, sees, assumed, refused: what the map knows of each.
-  nlohmann::json told;
+  /// Members frame, stamp_s, where, known_by, sees, assumed, refused.
+  nlohmann::json explanation;
 };
 
-/// `placegraph explain`: where one frame of a map is, how that is known, what it sees and what was
-/// refused. Throws ArgumentError, FileError, and NoAnswer where the map has no such frame.
+/// Explains one frame: its pose, the evidence, the scene, rejected loops (`map explain`).
+/// Throws ArgumentError, FileError, and NoAnswer if the map has no such frame.
 ExplainResult explain(const ExplainArguments& arguments);
 
 std::string to_text(const ExplainResult& result);

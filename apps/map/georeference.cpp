@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// "a,b,c"
+/// Parses "x,y,z".
 Eigen::Vector3d three_numbers(const std::string& flag, const std::string& text) {
   std::vector<std::string_view> fields;
   split_comma(text, fields);
@@ -66,7 +66,7 @@ void set_what_is_known(const GeoreferenceArguments& arguments, GeoreferenceInput
   }
 }
 
-/// The times of the nodes that were placed; of several visits the first.
+/// Time of every placed node; the first one of several visits.
 std::vector<std::int64_t> stamps_of(const PoseGraph& graph, const std::vector<NodeVisit>& visits) {
   std::unordered_map<NodeId, std::int64_t> first;
   for (const NodeVisit& visit : visits) {
@@ -85,7 +85,7 @@ std::vector<std::int64_t> stamps_of(const PoseGraph& graph, const std::vector<No
 void write_results(const std::string& folder, const GeoreferenceInput& input,
                    const GeoreferenceResult& result, const std::string& summary) {
   const auto path = [&](const char* name) { return (fs::path(folder) / name).string(); };
-  fs::remove(path("georeference.json"));  // written last: it vouches for the others
+  fs::remove(path("georeference.json"));  // written last: its presence marks complete results
   GeoDocument document;
   document.name = fs::path(folder).lexically_normal().filename().string();
   document.origin = result.origin;
@@ -119,7 +119,7 @@ GeoreferenceReport georeference(const GeoreferenceArguments& arguments) {
   const double cpu_ms = 1e3 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   if (!result.outcome) throw NoAnswer(arguments.graph + ": " + result.outcome.reason);
   if (!result.unplaced_nodes.empty())
-    warn(fmt::format("{} nodes lie in components that the fixes do not place; they are left out",
+    warn(fmt::format("{} nodes are in components that the fixes do not place; they are left out",
                      result.unplaced_nodes.size()));
 
   report.summary = describe_georeference(result);
@@ -134,7 +134,7 @@ std::string to_text(const GeoreferenceReport& report) {
       fmt::format("origin       {:.9f}, {:.9f}, {:.3f} m (latitude, longitude, height)\n",
                   result.origin.latitude_deg, result.origin.longitude_deg, result.origin.height_m);
   text += fmt::format(
-      "fixes        {} used, {} rejected, {} beside the map's time; residual {:.3f} m RMS\n",
+      "fixes        {} used, {} rejected, {} outside the map's time; residual {:.3f} m RMS\n",
       result.fixes_used, result.fixes_rejected,
       static_cast<int>(result.fixes.size()) - result.fixes_used - result.fixes_rejected,
       result.residual_rms_m);
@@ -144,7 +144,7 @@ std::string to_text(const GeoreferenceReport& report) {
                         1e-9 * static_cast<double>(dropout.end_ns));
   if (result.odometry_factor_translation != 1 || result.odometry_factor_rotation != 1)
     text += fmt::format(
-        "odometry     scatters {:.3g} (translation) and {:.3g} (rotation) times as claimed\n",
+        "odometry     dispersion {:.3g} (translation) and {:.3g} (rotation) times the stated one\n",
         result.odometry_factor_translation, result.odometry_factor_rotation);
   if (result.map_delay_s != 0)
     text += fmt::format("map delay    {:.4f} +- {:.4f} s, undone\n", result.map_delay_s,

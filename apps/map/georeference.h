@@ -8,27 +8,28 @@
 namespace placegraph::apps {
 
 struct GeoreferenceArguments {
-  std::string graph, gps, out;  ///< map, fixes (OXTS), and folder of the results
-  std::string times;            ///< times of a .g2o graph's nodes; empty: none
-  std::string lever_arm;        ///< "x,y,z" [m], "estimate", or empty: 0
-  std::string origin;           ///< "latitude,longitude,height" [deg, m], or empty: of the fixes
-  std::string clock_offset;     ///< seconds, "estimate", or empty: 0
+  std::string graph, gps, out;  ///< map, GPS fixes (OXTS), and folder for the results
+  std::string times;            ///< file of times of a .g2o graph's nodes; empty: none
+  std::string lever_arm;        ///< antenna, "x,y,z" [m] or "estimate"; empty: 0
+  std::string origin;           ///< "latitude,longitude,height" [deg, m]; empty: from the fixes
+  std::string clock_offset;     ///< seconds or "estimate"; empty: 0
   std::vector<std::string> settings;  ///< "key=value"
   bool force = false;                 ///< write into a folder that is not empty
 };
 
 struct GeoreferenceReport {
-  std::string out;                 ///< the folder of the results
-  GeoreferenceResult result;       ///< its outcome is ok
-  nlohmann::ordered_json summary;  ///< what georeference.json in it says
+  std::string out;                 ///< folder of the results
+  GeoreferenceResult result;       ///< result with outcome ok
+  nlohmann::ordered_json summary;  ///< content of georeference.json
 };
 
-/// `placegraph georeference`: puts a map onto the earth and writes the results into their folder.
-/// Throws ArgumentError, FileError, and NoAnswer where the fixes do not place the map.
+/// Places a map on the earth and writes the results: `placegraph map georeference`.
+/// Throws ArgumentError, FileError, and NoAnswer if the fixes do not determine the position of the
+/// map.
 GeoreferenceReport georeference(const GeoreferenceArguments& arguments);
 
 std::string to_text(const GeoreferenceReport& report);
-/// georeference.json.
+/// Content of georeference.json.
 std::string to_json(const GeoreferenceReport& report);
 
 }  // namespace placegraph::apps

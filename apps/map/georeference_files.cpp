@@ -22,10 +22,10 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-/// How much the scale of a mono map may change from one place to the next.
+/// Allowed change of the scale of a monocular map from one place to the next.
 constexpr double kScaleSigma = 0.02;
 
-/// Members of the places, each once: a keyframe's time at its place.
+/// Members of the places, each once: the time of a keyframe at its place.
 std::vector<NodeVisit> read_visits(const std::string& path) {
   const json document = read_json(path);
   std::vector<NodeVisit> visits;
@@ -34,14 +34,14 @@ std::vector<NodeVisit> read_visits(const std::string& path) {
       for (const json& member : place.at("members"))
         visits.push_back({member.at("stamp_ns").get<std::int64_t>(), place.at("id").get<NodeId>()});
   } catch (const json::exception& error) {
-    throw FileError(path, std::string("is not what placegraph run writes: ") + error.what());
+    throw FileError(path, std::string("was not written by `placegraph run`: ") + error.what());
   }
   return visits;
 }
 
 Sim3 with_scale(const Pose& pose) { return Sim3(std::get<SE3>(pose)); }
 
-/// The same graph with a free scale at every node.
+/// The same graph with an unobservable scale at every node.
 PoseGraph similarity_graph(const PoseGraph& graph) {
   PoseGraph out = graph;
   for (PoseNode& node : out.nodes) node.T_world_node = with_scale(node.T_world_node);

@@ -20,7 +20,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Views are compared by the cues they were described with, features as the run did.
+/// Views are compared by the cues of their descriptions, features as in the run of the map.
 LocalizerOptions options_of(const LocalizeArguments& arguments, const StoredMap& stored,
                             const std::string& path) {
   LocalizerOptions options;
@@ -37,7 +37,7 @@ LocalizerOptions options_of(const LocalizeArguments& arguments, const StoredMap&
   return options;
 }
 
-/// As files have it: -1 stands for none.
+/// Number of an id as in the files: -1 for none.
 template <class Id>
 std::int64_t number_of(const std::optional<Id>& id) {
   return id ? id->value() : -1;
@@ -106,7 +106,7 @@ json json_of(const LocalizeCounts& counts, const std::vector<std::string>& notes
           {"notes", notes}};
 }
 
-/// The file of the answers: a line an image, or JSON.
+/// The results as text, one line per image, or as JSON.
 std::string answers_text(const LocalizeResult& result) {
   std::string text;
   for (std::size_t i = 0; i < result.answers.size(); ++i)

@@ -26,7 +26,8 @@ QueryImages bare_images(const std::string& path, const std::vector<int>& range) 
           {}};
 }
 
-/// Images whose camera nobody tells: those of the size of the map's are taken for its own.
+/// Images without a calibration; those of the size of the map's images are assumed to be from its
+/// camera.
 QueryImages images_without_camera(const std::string& path, const std::vector<int>& range,
                                   const Camera& map_camera) {
   QueryImages images = bare_images(path, range);
@@ -40,8 +41,7 @@ QueryImages images_without_camera(const std::string& path, const std::vector<int
   return images;
 }
 
-/// The distortion that the run which made the map found in its images is in these, too, if they are
-/// of the same camera as it was given.
+/// The distortion that the run of the map estimated, if the images are from the same camera.
 std::optional<LensCorrection> lens_of_map(const Calibration& given, const MapOrigin& origin) {
   if (origin.lens_k1 == 0) return std::nullopt;
   LensCorrection lens(given);

@@ -8,19 +8,20 @@
 
 namespace placegraph::apps {
 
-/// Images that are to be placed in a map, as the map's camera would have taken them.
+/// Images to localize in a map, as taken by the map's camera.
 struct QueryImages {
   std::size_t count = 0;
-  std::int64_t first = 0;                   ///< number of the first in its folder
-  std::function<Frame(std::size_t)> frame;  ///< of 0 ... count - 1
-  /// What is odd about them, and how they were made to fit the map's camera.
+  std::int64_t first = 0;                   ///< number of the first image in its folder
+  std::function<Frame(std::size_t)> frame;  ///< the image with an index from 0 to count - 1
+  /// Remarks on the images and on their conversion to the map's camera.
   std::vector<std::string> notes;
 };
 
-/// The images of a sequence (open_dataset), undistorted and resampled to the camera of the map, or
-/// of a folder without a camera, as they are; those from number `range[0]` to `range[1]`, all where
-/// it is empty. A map of images alone takes images as they are. Throws FileError where a sequence
-/// is broken, ArgumentError for a range without images.
+/// Images of a sequence (open_dataset) or of a folder without a calibration.
+/// Images of a sequence are undistorted and resampled to the camera of the map; those of a folder,
+/// and all for a map without a camera, are taken as they are. `range` has the first and the last
+/// number, or is empty for all. Throws FileError if a sequence is invalid, ArgumentError for a
+/// range without images.
 QueryImages query_images(const std::string& path, const std::vector<int>& range,
                          const MapOrigin& origin);
 

@@ -19,10 +19,10 @@ namespace {
 
 using nlohmann::json;
 
-/// Between where a place's view looks (its z axis) and where the way goes on from there [deg].
+/// Angle between the optical axis (z) of a place's view and the path to the next place [deg].
 double off_travel_deg(const RouteStep& next) {
-  const Eigen::Vector3d way = next.T_previous_place.translation();
-  return rad_to_deg(std::atan2(way.head<2>().norm(), way.z()));
+  const Eigen::Vector3d leg = next.T_previous_place.translation();
+  return rad_to_deg(std::atan2(leg.head<2>().norm(), leg.z()));
 }
 
 json step_json(const Route& route, std::size_t i, const RunMap& map) {
@@ -45,12 +45,12 @@ Plot route_plot(const Route& route, const RunMap& map) {
   Plot plot;
   plot.title = fmt::format("from place {} to place {}: {:.1f} m", route.steps.front().place,
                            route.steps.back().place, route.length_m());
-  PlotCurve places{"places", {}, true}, way{"way", {}, false};
+  PlotCurve places{"places", {}, true}, path{"path", {}, false};
   for (const Place& place : map.graph.places)
     places.positions_m.emplace_back(place.T_map_place.translation());
   for (const RouteStep& step : route.steps)
-    way.positions_m.emplace_back(map.graph.find(step.place)->T_map_place.translation());
-  plot.curves = {places, way};
+    path.positions_m.emplace_back(map.graph.find(step.place)->T_map_place.translation());
+  plot.curves = {places, path};
   for (const RelativePoseConstraint& edge : map.graph.constraints)
     if (edge.source == ConstraintSource::kLoop)
       plot.links_m.emplace_back(map.graph.find(place_of_node(edge.from))->T_map_place.translation(),

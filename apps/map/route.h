@@ -10,25 +10,25 @@
 namespace placegraph::apps {
 
 struct RouteArguments {
-  std::string map;         ///< folder that placegraph run has written, or a map.db
-  std::string out, plot;   ///< files to write: JSON, and .png or .svg; empty: none
-  PlaceId from, to;        ///< places
-  bool backtrack = false;  ///< the way back from `to`
-  bool force = false;      ///< overwrite files
+  std::string map;         ///< map.db, or a folder written by `placegraph run`
+  std::string out, plot;   ///< files for the path: JSON, and .png or .svg; empty: none
+  PlaceId from, to;        ///< first and last place of the path
+  bool backtrack = false;  ///< return the path back from `to`
+  bool force = false;      ///< overwrite existing files
 };
 
 struct RouteResult {
-  Route route;  ///< it has steps
+  Route route;  ///< route with at least one step
   RunMap map;
 };
 
-/// `placegraph route`: the shortest way over the places of a map. Throws ArgumentError, FileError,
-/// and NoAnswer where there is no way; then nothing is written.
+/// Finds the shortest path over the places of a map: `placegraph map route`.
+/// Throws ArgumentError, FileError, and NoAnswer if there is no path; then nothing is written.
 RouteResult route(const RouteArguments& arguments);
 
-/// A row for each place of the way.
+/// A table with one row per place of the path.
 std::string to_text(const RouteResult& result);
-/// Relative poses from place to place, and the frame whose view to expect at each.
+/// Relative poses from place to place, and the keyframe that shows the view at each.
 std::string to_json(const RouteResult& result);
 
 }  // namespace placegraph::apps

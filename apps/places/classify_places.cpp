@@ -79,13 +79,13 @@ PlaceCueVectors read_view(const std::string& path, const std::vector<std::string
 void require_some_cue(const ClassifyPlacesArguments& arguments, const PlaceCueVectors& view) {
   const auto known = [](const Eigen::VectorXf& cue) { return cue.size() > 0; };
   require(std::any_of(view.begin(), view.end(), known),
-          arguments.folder + ": grey images, and --cues asks for colours alone");
+          arguments.folder + ": grey images, and --appearance asks for colours alone");
   const bool asked = counts(arguments.cues, "colours") || counts(arguments.cues, "quarters");
   if (asked && !known(view[0]) && !known(view[1]))
-    warn(arguments.folder + ": grey images; places are told without the colour cues");
+    warn(arguments.folder + ": grey images; the colour cues are not used");
 }
 
-/// The training half, described.
+/// Describes the views of the training half.
 struct LabelledViews {
   std::vector<PlaceCueVectors> views;
   std::vector<int> labels;
@@ -113,11 +113,11 @@ LabelledViews read_training_set(const ClassifyPlacesArguments& arguments,
   return training_set;
 }
 
-std::vector<ClassifiedPlace> tell(const ClassifyPlacesArguments& arguments,
-                                  const std::vector<std::string>& images,
-                                  const std::set<FrameId>& asked, const PlaceClassifier& classifier,
-                                  LabelFilter filter) {
-  std::vector<ClassifiedPlace> told;
+std::vector<ClassifiedPlace> classify(const ClassifyPlacesArguments& arguments,
+                                      const std::vector<std::string>& images,
+                                      const std::set<FrameId>& asked,
+                                      const PlaceClassifier& classifier, LabelFilter filter) {
+  std::vector<ClassifiedPlace> predictions;
   for (const FrameId image : asked) {
     Eigen::VectorXd probabilities = classifier.classify(
         read_view(images[static_cast<std::size_t>(image.value())], arguments.cues));
@@ -126,9 +126,9 @@ std::vector<ClassifiedPlace> tell(const ClassifyPlacesArguments& arguments,
     const double probability = probabilities.maxCoeff(&best);
     const bool accepted =
         probability >= arguments.reject && entropy_share(probabilities) <= arguments.max_entropy;
-    told.push_back({image, accepted ? static_cast<int>(best) : -1, probability});
+    predictions.push_back({image, accepted ? static_cast<int>(best) : -1, probability});
   }
-  return told;
+  return predictions;
 }
 
 }  // namespace
@@ -137,7 +137,8 @@ ClassifyPlacesResult classify_places(const ClassifyPlacesArguments& arguments) {
   PlaceClassifierOptions options;
   options.machine =
       choice<PlaceMachineKind>("--classifier", place_machines(), arguments.classifier);
-  for (const std::string& cue : arguments.cues) (void)choice<int>("--cues", place_cues(), cue);
+  for (const std::string& cue : arguments.cues)
+    (void)choice<int>("--appearance", place_cues(), cue);
   require_free(arguments.out, arguments.force);
   const fs::path inside = fs::path(arguments.folder) / "images";
   const std::vector<std::string> images =
@@ -149,9 +150,10 @@ ClassifyPlacesResult classify_places(const ClassifyPlacesArguments& arguments) {
   ClassifyPlacesResult result;
   result.out = arguments.out;
   result.learned = training_set.labels.size();
-  result.told = tell(arguments, images, halves.asked, classifier, LabelFilter(training_set.labels));
+  result.predictions =
+      classify(arguments, images, halves.asked, classifier, LabelFilter(training_set.labels));
   std::string lines;
-  for (const ClassifiedPlace& place : result.told) {
+  for (const ClassifiedPlace& place : result.predictions) {
     result.refused += place.label < 0;
     lines += fmt::format("{} {} {:.6f}\n", place.image, place.label, place.probability);
   }
@@ -167,10 +169,11 @@ std::string to_text(const ClassifyPlacesResult& result) {
   for (std::size_t m = 0; m < result.weights.size(); ++m)
     weights += fmt::format("{}{} {:.2g}", m == 0 ? "" : ", ", place_cues()[m], result.weights[m]);
   return fmt::format(
-      "{} views learned, {} told, {} refused; weights of {}; on left out parts accuracy {:.3f}, "
+      "{} training views, {} predictions, {} rejected; weights of {}; cross-validated accuracy "
+      "{:.3f}, "
       "log loss {:.3f}; written to {}\n",
-      result.learned, result.told.size(), result.refused, weights, result.accuracy, result.log_loss,
-      result.out);
+      result.learned, result.predictions.size(), result.refused, weights, result.accuracy,
+      result.log_loss, result.out);
 }
 
 }  // namespace placegraph::apps

@@ -9,43 +9,45 @@
 
 namespace placegraph::apps {
 
-/// What learns places, in the order of PlaceMachineKind.
+/// Names of the classifiers, in the order of PlaceMachineKind.
 const std::vector<std::string>& place_machines();
-/// The cues that views are told apart by, in the order of PlaceCueVectors.
+/// Names of the cues of a view, in the order of PlaceCueVectors.
 const std::vector<std::string>& place_cues();
 
 struct ClassifyPlacesArguments {
-  /// With images (or images/), labels.txt, and gt.txt, whose candidates are learned and whose
-  /// queries are told.
+  /// Folder with images (or images/), labels.txt, and gt.txt, whose candidates are the training set
+  /// and whose queries are classified.
   std::string folder;
-  std::string out;           ///< file of the answers
-  std::optional<int> train;  ///< the first so many are learned, whatever gt.txt says
-  double reject = 0;         ///< nothing is told below this probability
-  double max_entropy = 1;    ///< nor above this entropy, a share of that of knowing nothing
+  std::string out;  ///< file for the predictions
+  std::optional<int>
+      train;  ///< number of images at the beginning that are the training set, instead of gt.txt
+  double reject = 0;  ///< predictions below this probability are rejected
+  double max_entropy =
+      1;  ///< predictions above this entropy are rejected, as a share of a uniform distribution's
   std::string classifier = place_machines().front();
-  std::vector<std::string> cues = place_cues();  ///< those that count
-  bool sequence = false;                         ///< the evidence of the images before is added
+  std::vector<std::string> cues = place_cues();  ///< cues to compare
+  bool sequence = false;                         ///< add the evidence of the previous images
   bool force = false;                            ///< overwrite `out`
 };
 
 struct ClassifiedPlace {
   FrameId image;
-  int label = -1;  ///< -1 where it was refused
+  int label = -1;  ///< -1 if rejected
   double probability = 0;
 };
 
 struct ClassifyPlacesResult {
   std::string out;
-  std::size_t learned = 0;            ///< views
-  std::vector<ClassifiedPlace> told;  ///< one an image that was asked for
-  std::size_t refused = 0;            ///< of those
-  std::vector<double> weights;        ///< of the cues
-  double accuracy = 0;                ///< on left out parts of what was learned
-  double log_loss = 0;                ///< there
+  std::size_t learned = 0;                   ///< number of training views
+  std::vector<ClassifiedPlace> predictions;  ///< one prediction per query image
+  std::size_t refused = 0;                   ///< number of rejected predictions
+  std::vector<double> weights;               ///< weights of the cues
+  double accuracy = 0;                       ///< cross-validated accuracy on the training set
+  double log_loss = 0;                       ///< cross-validated log loss
 };
 
-/// `placegraph places classify`: learns the labels of some images, tells those of the others and
-/// writes them. Warnings go to stderr. Throws ArgumentError, FileError.
+/// Learns the labels of some images and predicts those of the others: `places classify`.
+/// The predictions are written to a file, warnings go to stderr. Throws ArgumentError, FileError.
 ClassifyPlacesResult classify_places(const ClassifyPlacesArguments& arguments);
 
 /// One line.

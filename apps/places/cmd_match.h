@@ -3,7 +3,7 @@
 
 namespace placegraph::apps {
 
-/// `placegraph match DIR --out FILE [--sequence]`: which older image shows the place of each.
+/// Adds `placegraph places match DIR --out FILE`, which finds an older image of the same place.
 void add_match_command(CLI::App& places);
 
 }  // namespace placegraph::apps

@@ -3,7 +3,7 @@
 
 namespace placegraph::apps {
 
-/// `placegraph places classify DIR --out FILE`: labelled places, learned and told.
+/// Adds `placegraph places classify DIR --out FILE`, which predicts the labels of places.
 void add_classify_command(CLI::App& places);
 
 }  // namespace placegraph::apps

@@ -3,7 +3,7 @@
 
 namespace placegraph::apps {
 
-/// `placegraph vocabulary train IMAGES... --out FILE`, `placegraph vocabulary info FILE`.
+/// Adds `placegraph train vocabulary IMAGES... --out FILE` and `placegraph places vocabulary FILE`.
 void add_train_vocabulary_command(CLI::App& train);
 void add_vocabulary_command(CLI::App& places);
 

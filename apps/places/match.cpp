@@ -24,7 +24,7 @@
 namespace placegraph::apps {
 
 void visit(OptionVisitor& field, MatchOptions& options) {
-  field.group("recognizer", options.recognizer, "likeness of two views");
+  field.group("recognizer", options.recognizer, "similarity of two views");
   field.group("codes", options.codes, "visual words");
   field.group("sequence", options.sequence, "evidence of past images");
 }
@@ -45,12 +45,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// An image and the older ones it is compared with.
+/// An image and the range of older ones it is compared with.
 struct MatchQuery {
   int image = 0, first = 0, last = 0;
 };
 
-// Of the ground truth only who is compared with whom is taken.
+// From the ground truth, only the candidates of each query are used.
 std::vector<MatchQuery> listed_queries(const std::string& path, int images) {
   const LoopTruthFile file = read_loop_truth(path);
   if (file.format != LoopTruthFormat::kRanges)
@@ -79,7 +79,7 @@ std::vector<MatchQuery> queries_of(const MatchArguments& arguments, int images) 
   return queries;
 }
 
-// Views are compared in colour only where all have it: the first says which it is to be.
+// Views are compared in colour only if all have it; the first one decides.
 Image compared_view(const std::string& path, bool colour) {
   const GreyAndColour image = read_image(path);
   if (!colour) return image.grey;
@@ -87,7 +87,8 @@ Image compared_view(const std::string& path, bool colour) {
   return image.colour;
 }
 
-/// Answers which stored views an image resembles (the views `among`, if any), and stores it.
+/// Returns the stored views that resemble an image (among the views `among`, if given), and stores
+/// it.
 using LookUp = std::function<std::vector<PlaceSimilarity>(const Image&,
                                                           const std::optional<ViewRange>& among)>;
 
@@ -119,7 +120,7 @@ LookUp by_words(const MatchArguments& arguments, PlaceCode code) {
   };
 }
 
-/// The first of each short list; if asked, after the evidence of the images just before.
+/// The best match of each list, if desired with the evidence of the previous images.
 class BestMatch {
  public:
   BestMatch(const SequenceFilterOptions& options, bool sequence)
@@ -171,7 +172,7 @@ std::vector<LoopPrediction> matches_of(const MatchArguments& arguments,
 
 PlaceRecognizerOptions with_cues(PlaceRecognizerOptions options,
                                  const std::vector<std::string>& cues) {
-  for (const std::string& cue : cues) (void)choice<int>("--cues", match_cues(), cue);
+  for (const std::string& cue : cues) (void)choice<int>("--appearance", match_cues(), cue);
   const auto keep = [&](const char* name, double& weight) {
     if (std::find(cues.begin(), cues.end(), name) == cues.end()) weight = 0;
   };
@@ -199,8 +200,7 @@ MatchResult match(const MatchArguments& asked) {
   const bool colour = !words && !read_image(images.front()).colour.empty();
   const LookUp look_up =
       words ? by_words(arguments, static_cast<PlaceCode>(code - 1)) : by_cues(recognizer);
-  if (!colour && !words)
-    warn(arguments.folder + ": grey images; places are told without the colour cue");
+  if (!colour && !words) warn(arguments.folder + ": grey images; the colour cue is not used");
   const Stopwatch watch;
   MatchResult result{arguments.out, images.size(), queries.size(),
                      matches_of(arguments, images, queries, colour, look_up)};

@@ -19,22 +19,21 @@ struct MatchOptions {
 };
 void visit(OptionVisitor& field, MatchOptions& options);
 
-/// The cues of two views that are compared.
+/// Names of the cues by which two views are compared.
 const std::vector<std::string>& match_cues();
-/// What views are compared by: "cues", or visual words in the order of PlaceCode.
+/// Names of the descriptions of a view: "cues", or visual words in the order of PlaceCode.
 const std::vector<std::string>& match_codes();
 
 struct MatchArguments {
-  std::string folder;  ///< of images; gt.txt in it names the candidates of each query
-  std::string out;     ///< file of the answers
+  std::string folder;  ///< folder of images; gt.txt in it lists the candidates of each query
+  std::string out;     ///< file for the matches
   std::string codes = match_codes().front();
-  std::string vocabulary;                        ///< words of train_vocabulary; empty: none
-  std::vector<std::string> cues = match_cues();  ///< those that count
-  /// Every image is compared with those at least so many older, whatever gt.txt says; where there
-  /// is none, 300.
+  std::string vocabulary;                        ///< file written by train_vocabulary; empty: none
+  std::vector<std::string> cues = match_cues();  ///< cues to compare
+  /// Smallest age of a candidate, in images; it replaces gt.txt. Without it and gt.txt: 300.
   std::optional<int> min_age;
-  bool sequence = false;              ///< the evidence of the images before each query is added
-  std::vector<std::string> settings;  ///< "key=value", above `options`
+  bool sequence = false;              ///< add the evidence of the images before each query
+  std::vector<std::string> settings;  ///< "key=value"; they override `options`
   MatchOptions options;
   bool force = false;  ///< overwrite `out`
 };
@@ -42,13 +41,13 @@ struct MatchArguments {
 struct MatchResult {
   std::string out;
   std::size_t images = 0, queries = 0;
-  std::vector<LoopPrediction> found;  ///< one a query that has an answer
+  std::vector<LoopPrediction> found;  ///< one match per query with an answer
   double cpu_ms_an_image = 0;
 };
 
-/// `placegraph match`: finds for each image the older one that shows the same place and writes
-/// them. Progress and warnings go to stderr. Throws ArgumentError, FileError, and NoAnswer where no
-/// query has an answer; then nothing is written.
+/// Finds an older image of the same place for each image: `placegraph places match`.
+/// The matches are written to a file, progress and warnings go to stderr. Throws ArgumentError,
+/// FileError, and NoAnswer if no query has a match; then nothing is written.
 MatchResult match(const MatchArguments& arguments);
 
 /// One line.

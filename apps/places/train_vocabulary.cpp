@@ -25,14 +25,14 @@ const std::vector<std::string>& vocabulary_kinds() {
 
 namespace {
 
-/// Descriptors of all images, those of one beside each other.
+/// Descriptors of all images, those of one image next to each other.
 template <class Descriptors>
 struct WordTrainingSet {
   Descriptors descriptors;
-  std::vector<int> end;  ///< of each image's descriptors
+  std::vector<int> end;  ///< end index of each image's descriptors
 };
 
-// As few levels as keep nodes small; each has as many children as gives the words asked for.
+// The fewest levels with small nodes; the number of children follows from the number of words.
 VocabularyOptions tree_of(int words) {
   constexpr double kChildren = 24;
   VocabularyOptions options;
@@ -51,7 +51,7 @@ std::vector<std::string> all_images_of(const TrainVocabularyArguments& arguments
   return images;
 }
 
-// Images one after the other show much the same: rather many descriptors of some than few of all.
+// Consecutive images are similar, so many descriptors of some images are better than few of all.
 std::vector<std::string> thinned(std::vector<std::string> images, int descriptors) {
   constexpr std::size_t kOfAnImage = 150;
   const std::size_t stride = images.size() * kOfAnImage / static_cast<std::size_t>(descriptors) + 1;
@@ -99,7 +99,7 @@ WordTree train_binary(const TrainVocabularyArguments& arguments,
   return vocabulary.tree();
 }
 
-// Of key-points and of the grid, half and half: one vocabulary serves words, codes and landmarks.
+// Key points and grid points, half and half: one vocabulary serves words, codes and landmarks.
 WordTree train_float(const TrainVocabularyArguments& arguments,
                      const std::vector<std::string>& images, std::size_t share) {
   std::vector<FloatDescriptors> parts;

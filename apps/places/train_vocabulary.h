@@ -6,28 +6,28 @@
 
 namespace placegraph::apps {
 
-/// The kinds of words, in the order of WordTree::Kind.
+/// Names of the kinds of words, in the order of WordTree::Kind.
 const std::vector<std::string>& vocabulary_kinds();
 
 struct TrainVocabularyArguments {
-  std::vector<std::string> folders;  ///< of images, or with them in images/ or image_0/
-  std::string out;                   ///< the vocabulary to write
+  std::vector<std::string> folders;  ///< folders of images, or with images in images/ or image_0/
+  std::string out;                   ///< file for the vocabulary
   std::string kind = vocabulary_kinds().front();
-  int words = 10000;          ///< about; fewer where images show fewer
-  int descriptors = 200'000;  ///< to learn from, at most
-  std::uint64_t seed = 1;     ///< of the clustering
+  int words = 10000;          ///< approximate number of words; fewer if the images show fewer
+  int descriptors = 200'000;  ///< largest number of descriptors to learn from
+  std::uint64_t seed = 1;     ///< seed of the clustering
   bool force = false;         ///< overwrite `out`
 };
 
 struct TrainVocabularyResult {
   std::string out, kind;
   int words = 0;
-  std::size_t images = 0;  ///< that were learned from
+  std::size_t images = 0;  ///< number of training images
 };
 
-/// `placegraph vocabulary train`: learns visual words from the images of some folders. Progress and
-/// warnings go to stderr. Throws ArgumentError, FileError, and NoAnswer where no image shows
-/// anything to learn from; then nothing is written.
+/// Learns visual words from the images of some folders: `placegraph train vocabulary`.
+/// Progress and warnings go to stderr. Throws ArgumentError, FileError, and NoAnswer if no image
+/// has a feature; then nothing is written.
 TrainVocabularyResult train_vocabulary(const TrainVocabularyArguments& arguments);
 
 /// One line.

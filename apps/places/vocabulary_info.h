@@ -5,17 +5,17 @@
 namespace placegraph::apps {
 
 struct VocabularyInfoArguments {
-  std::string vocabulary;  ///< file of train_vocabulary
+  std::string vocabulary;  ///< file written by train_vocabulary
 };
 
 struct VocabularyInfoResult {
   std::string vocabulary, kind;
   int words = 0;
   std::size_t nodes = 0;
-  double wall_ms = 0;  ///< of reading it
+  double wall_ms = 0;  ///< time to read the file
 };
 
-/// `placegraph vocabulary info`: what a vocabulary holds. Throws FileError.
+/// Summarizes a vocabulary: `placegraph places vocabulary`. Throws FileError.
 VocabularyInfoResult vocabulary_info(const VocabularyInfoArguments& arguments);
 
 /// One line.

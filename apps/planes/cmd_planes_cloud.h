@@ -3,9 +3,7 @@
 
 namespace placegraph::apps {
 
-/// The positional form of `placegraph planes`: CLOUD_OR_DEPTH --out LABELS, the planes of a point
-/// cloud. To be called when the subcommands of `planes` are there: it does nothing where one of
-/// them was asked for.
+/// Adds `placegraph image planes CLOUD_OR_DEPTH --out LABELS`, which finds planes in a point cloud.
 void add_planes_command(CLI::App& image);
 
 }  // namespace placegraph::apps

@@ -22,7 +22,7 @@ void run_track_plane(const TrackPlaneCommand& command) {
   print(command.json ? to_json(result) : to_text(result));
 }
 
-/// An option whose value is one of an enum's names.
+/// Adds an option whose value is one of the names of an enum.
 template <class Enum>
 void add_choice(CLI::App& command, const std::string& name, Enum& value,
                 const std::vector<std::string>& names, const std::string& doc) {
@@ -71,13 +71,11 @@ void add_track_plane_command(CLI::App& track) {
              "similarity to maximize");
   add_choice(*command, "--optimizer", a.options.align.optimizer, align_optimizer_names(),
              "optimizer of the search from frame to frame");
-  command->add_option("--normal", a.normal,
-                      "normal of the plane in the first camera, x,y,z");
+  command->add_option("--normal", a.normal, "normal of the plane in the first camera, x,y,z");
   command->add_option("--trajectory", a.trajectory,
                       "poses of the camera in units of the plane's distance; .tum or KITTI's form");
   command->add_option("--draw", a.draw, "draw the input with the result");
-  command->add_option("--seed", a.options.align.swarm.seed, kSeedText)
-      ->capture_default_str();
+  command->add_option("--seed", a.options.align.swarm.seed, kSeedText)->capture_default_str();
   command->add_flag("--json", track_command->json, kJsonText);
   command->add_flag("--force", a.force, kForceText);
   command->callback([track_command, calibration] {

@@ -5,7 +5,7 @@
 
 namespace placegraph::apps {
 
-/// A model that `placegraph train planarity` wrote. Throws FileError.
+/// Reads a model written by `placegraph train planarity`. Throws FileError.
 PlanarityModel read_planarity(const std::string& path);
 
 }  // namespace placegraph::apps

@@ -8,15 +8,15 @@
 
 namespace placegraph::apps {
 
-/// What `placegraph track-plane` leaves behind, as the contents of files.
+/// Contents of the files that `placegraph track plane` writes.
 
-/// A line a frame: number, tracked or lost, corners [px], similarity; nine nan where it is lost.
+/// One line per frame: number, tracked or lost, corners [px], similarity; nine nan if it is lost.
 std::string track_lines(const std::vector<PlaneTrack>& tracks);
-/// Everything that is known of a frame.
+/// All results of a frame.
 nlohmann::ordered_json track_json(const PlaneTrack& track, std::size_t frame);
-/// T_ref_cur in units of the plane's distance; lost where the track or its motion is unknown.
+/// T_ref_cur in units of the plane's distance; nothing if the track or its motion is unknown.
 std::optional<SE3> pose_of(const PlaneTrack& track);
-/// The frame with the template's outline, or why it is lost; PNG bytes.
+/// The frame with the template's outline, or the reason for the loss; PNG bytes.
 std::string track_picture(const Image& image, const PlaneTrack& track, std::size_t frame);
 
 }  // namespace placegraph::apps

@@ -23,7 +23,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr int kMostLabels = 255;  ///< of an 8-bit image
+constexpr int kMostLabels = 255;  ///< largest label of an 8-bit image
 
 bool is_image(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
@@ -36,7 +36,7 @@ PointCloud read_depth_cloud(const PlanesCloudArguments& arguments) {
   require(!arguments.calib.empty(), "--calib: a depth image needs its camera");
   require(std::isfinite(arguments.depth_scale) && arguments.depth_scale > 0,
           "--depth-scale: " + std::to_string(arguments.depth_scale) + " is not above 0");
-  // A step of a metre or more is none that a sensor has: then it is steps a metre.
+  // No sensor has steps of a metre or more: such a value means steps per metre.
   const double step_m =
       arguments.depth_scale < 1 ? arguments.depth_scale : 1 / arguments.depth_scale;
   const Camera camera =
@@ -62,7 +62,7 @@ std::vector<int> read_truth(const PlanesCloudArguments& arguments, std::size_t p
     int a = 0, b = 0;
     char sign = 0, rest = 0;
     require(std::sscanf(pair.c_str(), "%d%c%d%c", &a, &sign, &b, &rest) == 3 && sign == '=',
-            "--gt-same: " + pair + " is not of the form 14=5");
+            "--truth-same: " + pair + " is not of the form 14=5");
     std::replace(labels.begin(), labels.end(), a, b);
   }
   for (const int label : arguments.none) std::replace(labels.begin(), labels.end(), label, 0);
@@ -99,7 +99,7 @@ ordered_json plane_json(int id, const CloudPlane& plane) {
   return json;
 }
 
-/// Boxes and rooms: middle and axes in the sensor's frame, sides, and the plane that each side is.
+/// Boxes and rooms: centre and axes in the sensor's frame, sides, and the plane of each side.
 ordered_json cuboids_json(const std::vector<Cuboid>& cuboids) {
   ordered_json list = ordered_json::array();
   for (const Cuboid& cuboid : cuboids) {
@@ -132,7 +132,7 @@ ordered_json check_json(const PlaneCheck& check) {
           {"extra_pieces", check.extra_pieces}};
 }
 
-/// The options with their method, when all that can be refused beforehand is in order.
+/// Checks the arguments and returns the options with their method.
 CloudPlanesOptions checked_options(const PlanesCloudArguments& arguments) {
   require(!arguments.in.empty(), "planes: CLOUD or a subcommand is required");
   require(!arguments.out.empty(), "planes: --out is required");
@@ -152,9 +152,10 @@ CloudPlanesOptions checked_options(const PlanesCloudArguments& arguments) {
 std::vector<Cuboid> cuboids_of(const PlanesCloudArguments& arguments, const PointCloud& cloud,
                                const CloudPlanesResult& found) {
   if (!found.from_origin)
-    throw FileError(arguments.in,
-                    "--cuboids: not taken from the origin, which side of a plane "
-                    "is seen is not known");
+    throw FileError(
+        arguments.in,
+        "--cuboids: the cloud was not taken from the origin, so the visible side of a plane "
+        "is seen is not known");
   return find_cuboids(cloud, found, arguments.cuboid_options);
 }
 
@@ -183,7 +184,7 @@ PlanesCloudResult planes_cloud(const PlanesCloudArguments& arguments) {
   const CloudPlanesResult& found = result.found;
   if (!found.outcome) throw FileError(arguments.in, found.outcome.reason);
   if (cloud.organised() && found.planes.size() > kMostLabels)
-    warn(fmt::format("{} planes: an 8-bit image tells {} apart, the others are 0",
+    warn(fmt::format("{} planes: an 8-bit image can number {}, the others are 0",
                      found.planes.size(), kMostLabels));
   result.points = std::count_if(cloud.points.begin(), cloud.points.end(),
                                 [](const Eigen::Vector3d& p) { return p.allFinite(); });

@@ -82,7 +82,7 @@ PlanesTwoViewResult planes_two_view(const PlanesTwoViewArguments& arguments) {
     result.motion = motion_from_planes(*camera, matches, result.planes, arguments.planes_motion);
   result.cpu_ms = watch.cpu_ms();
 
-  // No plane is an answer, too, where there were matches enough: all labels are 0.
+  // A result without planes is valid if there were enough matches: all labels are 0.
   if (result.planes.outcome.code == Outcome::Code::kTooFewData)
     throw NoAnswer(arguments.in + ": " + result.planes.outcome.reason);
   if (!arguments.motion.empty() && !result.motion) {

@@ -9,13 +9,13 @@
 namespace placegraph::apps {
 
 struct PlanesTwoViewArguments {
-  std::string in;      ///< file of matches, `xA yA xB yB` a line [px]
-  std::string out;     ///< file of labels, one a match: 0 on no plane, 1 the largest plane
-  std::string calib;   ///< of the camera of both views, for the motion; empty: no motion is sought
-  std::string motion;  ///< JSON file of motion and planes, which needs `calib`; empty: none
+  std::string in;      ///< file of matches, `xA yA xB yB` per line [px]
+  std::string out;     ///< file for labels, one per match: 0 no plane, 1 the largest plane
+  std::string calib;   ///< calibration of both views, for the motion; empty: no motion
+  std::string motion;  ///< JSON file for the motion and the planes, requires `calib`; empty: none
   PlanarRegionsOptions regions;
   MotionFromPlanesOptions planes_motion;
-  std::uint64_t seed = 1;  ///< of the random samples
+  std::uint64_t seed = 1;  ///< seed of the random samples
   bool force = false;      ///< overwrite `out` and `motion`
 };
 
@@ -23,15 +23,16 @@ struct PlanesTwoViewResult {
   std::string in;
   int matches = 0;
   PlanarRegionsResult planes;
-  /// Where the camera is known and there are planes. Where there are none and the motion is to be
-  /// written all the same: no consensus, without a reason.
+  /// Set if the camera is known and there are planes.
+  /// Without planes, if the motion is to be written nevertheless: no consensus, without a reason.
   std::optional<MotionFromPlanesResult> motion;
   double cpu_ms = 0;
 };
 
-/// `placegraph planes two-view`: the planes behind the matches of two views, and the motion between
-/// these. Throws ArgumentError, FileError, and NoAnswer where there are too few matches; then
-/// nothing is written. No plane is an answer.
+/// Labels the matches of two views by their planes: `placegraph image two-view-planes`.
+/// With a camera, estimates the motion from the planes. Throws ArgumentError, FileError, and
+/// NoAnswer if there are too few matches; then nothing is written. A result without planes is
+/// valid.
 PlanesTwoViewResult planes_two_view(const PlanesTwoViewArguments& arguments);
 
 /// Some lines.

@@ -23,7 +23,7 @@ namespace {
 using Eigen::Vector2d;
 using nlohmann::ordered_json;
 
-/// "1,2.5,3": as many numbers as asked for.
+/// Parses numbers separated by commas, such as "1,2.5,3"; their count is given.
 std::vector<double> numbers_of(const std::string& option, const std::string& text,
                                std::size_t count) {
   std::vector<std::string_view> fields;
@@ -50,7 +50,7 @@ std::vector<Vector2d> corners_of(const std::string& text, const Image& image) {
   return corners;
 }
 
-/// The camera of a file, or the sequence's own; nothing where none was asked for.
+/// The camera of a file, or the sequence's own; nothing if none was requested.
 std::optional<Camera> camera_of(const TrackPlaneArguments& arguments, const FrameSource& source,
                                 const Image& image) {
   if (!arguments.calib) return std::nullopt;
@@ -104,7 +104,7 @@ void check(const TrackPlaneArguments& arguments) {
   require(arguments.trajectory.empty() || calibrated, "--trajectory: needs --calib");
   require(arguments.normal.empty() || calibrated, "--normal: needs --calib");
   require(arguments.options.model == PlaneModel::kHomography || calibrated,
-          "--model: one with a rigid motion needs --calib");
+          "--motion-model: one with a rigid motion needs --calib");
   require(arguments.trajectory != arguments.out, "--trajectory: the same file as --out");
 }
 
@@ -156,7 +156,7 @@ TrackPlaneResult track_plane(const TrackPlaneArguments& arguments) {
   result.least_similarity = tracker.least_similarity();
   result.least_similarity_found = tracker.least_similarity_found();
   if (result.tracked() == 0)
-    throw NoAnswer(fmt::format("{}: the template is in none of {} frames: {}", arguments.in,
+    throw NoAnswer(fmt::format("{}: the template was found in none of {} frames: {}", arguments.in,
                                result.tracks.size(), result.tracks.front().outcome.reason));
   if (!arguments.draw.empty()) write_drawings(arguments.draw, source, result.tracks);
   write_file(arguments.out, track_lines(result.tracks));

@@ -8,30 +8,33 @@
 namespace placegraph::apps {
 
 struct TrackPlaneArguments {
-  std::string in;       ///< a sequence, or a folder of images
-  std::string corners;  ///< "x1,y1,...,x4,y4": of the region, around it [px]
-  std::string image;    ///< image that the corners are of; empty: the first of the sequence
-  /// File of the camera, or empty: the sequence's own. Nothing: no motion is sought.
+  std::string in;       ///< sequence, or folder of images
+  std::string corners;  ///< corners of the region in cyclic order, "x1,y1,...,x4,y4" [px]
+  std::string image;    ///< image of the corners; empty: the first one of the sequence
+  /// Calibration file, or empty for the sequence's own. Without a value no motion is estimated.
   std::optional<std::string> calib;
-  std::string normal;  ///< "nx,ny,nz": the plane's, in the camera of the template; empty: not known
+  std::string
+      normal;  ///< normal of the plane in the camera of the template, "nx,ny,nz"; empty: unknown
   PlaneTrackerOptions options;
-  std::string out;         ///< file with a line a frame, see track_lines()
-  std::string trajectory;  ///< poses of the camera, .tum or KITTI's form; empty: none
-  std::string draw;        ///< folder for the frames with the region's outline; empty: none
-  bool force = false;      ///< overwrite what is written
+  std::string out;         ///< file with one line per frame, see track_lines()
+  std::string trajectory;  ///< file for the poses of the camera, .tum or KITTI form; empty: none
+  std::string draw;        ///< folder for frames with the outline of the region; empty: none
+  bool force = false;      ///< overwrite the output files
 };
 
 struct TrackPlaneResult {
   std::string in;
-  std::vector<PlaneTrack> tracks;                           ///< of each frame
-  double least_similarity = 0, least_similarity_found = 0;  ///< to be tracked, to be found again
+  std::vector<PlaneTrack> tracks;  ///< one track per frame
+  double least_similarity = 0,
+         least_similarity_found =
+             0;  ///< smallest similarity to track a region, and to find it again
   double cpu_ms_per_frame = 0;
-  std::size_t tracked() const;  ///< frames
+  std::size_t tracked() const;  ///< number of tracked frames
 };
 
-/// `placegraph track-plane`: follows a planar region through a sequence, with progress on stderr.
-/// Throws ArgumentError, FileError, and NoAnswer where the template has too little texture or is in
-/// no frame; then nothing is written.
+/// Tracks a planar region through a sequence: `placegraph track plane`.
+/// Progress goes to stderr. Throws ArgumentError, FileError, and NoAnswer if the template has too
+/// little texture or is in no frame; then nothing is written.
 TrackPlaneResult track_plane(const TrackPlaneArguments& arguments);
 
 /// Some lines.

@@ -8,11 +8,11 @@
 
 namespace placegraph::apps {
 
-/// A line a keyframe: its frame, all evidence (empty where it was not looked at), the probability
-/// of each kind by this view alone, and the kind that was taken ("unknown" if none).
+/// One line per keyframe: its frame, all evidence (empty if not measured), the probability of each
+/// kind from this view alone, and the accepted kind ("unknown" if none).
 std::string environment_csv(const std::vector<EnvironmentObservation>& observations);
 
-/// Places of each kind, and those without one.
+/// Numbers of places of each kind and without a kind.
 nlohmann::json describe_environments(const PlaceGraph& graph);
 
 }  // namespace placegraph::apps

@@ -12,8 +12,7 @@ class Dataset;
 
 namespace placegraph::apps {
 
-/// The floor plan of a map whose images are those of `dataset`; `lens_k1` is the distortion that
-/// was taken out of them.
+/// The floor plan of a map made from `dataset`; `lens_k1` is the distortion that was removed.
 IndoorMap plan_of_map(const Map& map, const Calibration& calibration, const Dataset& dataset,
                       Sensor sensor, double lens_k1, const IndoorMapperOptions& options);
 
@@ -21,13 +20,14 @@ IndoorMap plan_of_map(const Map& map, const Calibration& calibration, const Data
 void write_floor_plan(const std::string& folder, const IndoorMap& plan, const Map& map,
                       const std::string& title);
 
-/// What result.json says of a plan: counts, and, where the sequence's folder holds the true plan
-/// (floorplan.json) and true poses, how far it is off, by the first pose ("origin") and after the
-/// alignment of the trajectory ("se3").
+/// Members of result.json for a floor plan.
+/// These are counts and, if the sequence's folder has the true plan (floorplan.json) and true
+/// poses, its errors: by the first pose ("origin") and after the alignment of the trajectory
+/// ("se3").
 nlohmann::json describe_floor_plan(const IndoorMap& plan, const Map& map, const Dataset& dataset,
                                    const std::string& sequence);
 
-/// Writes the places' labels into a saved map.
+/// Writes the labels of the places into a saved map.
 void save_labels(const std::string& map_file, const PlaceGraph& places);
 
 }  // namespace placegraph::apps

@@ -14,7 +14,8 @@ std::string map_path_of(const std::string& file_or_folder) {
 StoredMap read_stored_map(const std::string& file_or_folder) {
   const std::string path = map_path_of(file_or_folder);
   StoredMap stored = read_map(path);
-  if (!stored.finished) warn(path + ": its run was broken off; run --resume goes on with it");
+  if (!stored.finished)
+    warn(path + ": its run was broken off; `placegraph run --resume` continues it");
   return stored;
 }
 

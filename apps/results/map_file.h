@@ -5,10 +5,10 @@
 
 namespace placegraph::apps {
 
-/// The map.db of a folder that `placegraph run` has written, or the file itself.
+/// The map.db in a folder written by `placegraph run`, or the file itself.
 std::string map_path_of(const std::string& file_or_folder);
 
-/// Reads it; warns of a map whose run was broken off.
+/// Reads a saved map; warns if its run was broken off.
 StoredMap read_stored_map(const std::string& file_or_folder);
 
 }  // namespace placegraph::apps

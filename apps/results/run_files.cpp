@@ -36,7 +36,7 @@ PlotCurve curve_of(const Trajectory& trajectory, const std::string& name) {
   return curve;
 }
 
-/// Of the places that are in the frame of the map.
+/// Positions of the places that are in the frame of the map.
 std::vector<Eigen::Vector3d> place_positions(const Map& map, const AlignmentResult& alignment) {
   const std::vector<int> components = map.place_graph.joined_components();
   std::vector<Eigen::Vector3d> positions;

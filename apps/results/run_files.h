@@ -6,16 +6,16 @@
 
 namespace placegraph::apps {
 
-/// What `placegraph run` leaves in its folder, as the contents of files.
+/// Contents of the files that `placegraph run` writes.
 std::string places_json(const Map& map);
-std::string loops_csv(const Map& map);  ///< query,match,inliers,accepted,stage
-/// How many constraints of the place graph came from other sensors, and how far they lie from the
-/// map: median of |e| in claimed standard deviations, per coordinate.
+std::string loops_csv(const Map& map);  ///< columns query,match,inliers,accepted,stage,...
+/// Number of constraints from other sensors, and their deviation from the map.
+/// The deviation is the median of |e| in stated standard deviations, per coordinate.
 nlohmann::json describe_motion(const PlaceGraph& graph);
-/// Everything result.json says of the map and its trajectories; times are the caller's.
+/// Members of result.json for the map and its trajectories; the caller adds the times.
 nlohmann::json describe_run(const RunResult& run, const Trajectory& optimized);
-/// Top view of the trajectories and the places, loops as links, errors if the truth of the sequence
-/// is known (else nullptr); PNG bytes.
+/// Top view of the trajectories, the places and the loops as PNG bytes.
+/// With `ground_truth` (may be nullptr) it also shows the errors.
 std::string run_plot(const RunResult& run, const Trajectory& optimized,
                      const Trajectory* ground_truth, const std::string& title);
 

@@ -24,7 +24,7 @@ json judge_trajectory(const Trajectory& truth, const Trajectory& estimate, Align
   return figures;
 }
 
-/// Depth measures to centimetres, other sensors to a metre.
+/// Tolerance of the loop check: depth cameras measure to centimetres, other sensors to a metre.
 json judge_loops(const Trajectory& truth, const RunResult& run) {
   LoopCheckOptions options;
   if (run.sensor != Sensor::kRgbd) options.max_translation_m = 1;

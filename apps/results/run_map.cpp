@@ -33,7 +33,7 @@ Place place_of(const json& entry, RunMap& map) {
   return place;
 }
 
-/// places.json names the edges of graph.g2o in their order.
+/// places.json lists the edges of graph.g2o in their order.
 void take_edges(const json& edges, const PoseGraph& written, RunMap& map) {
   const char* mismatch = "its edges are not those of graph.g2o";
   require(edges.size() == written.constraints.size(), mismatch);

@@ -7,18 +7,18 @@
 
 namespace placegraph::apps {
 
-/// What a folder of `placegraph run` tells of its places (graph.g2o and places.json), or a saved
-/// map (map.db).
+/// Places of a folder of `placegraph run` (graph.g2o and places.json) or of a map.db.
 struct RunMap {
   PlaceGraph graph;  ///< without appearances
   std::map<KeyframeId, FrameId> frame_of_keyframe;
 
-  /// The frame that a place's anchor was seen in. Throws ArgumentError for a place without.
+  /// Frame of a place's anchor keyframe. Throws ArgumentError for a place without one.
   FrameId anchor_frame(const Place& place) const;
 };
 
-/// Throws FileError where a file is missing or not what `placegraph run` writes, ArgumentError for
-/// a map without poses.
+/// Reads the places of a folder or of a saved map.
+/// Throws FileError if a file is missing or not written by `placegraph run`, ArgumentError for a
+/// map without poses.
 RunMap read_run_map(const std::string& folder);
 
 }  // namespace placegraph::apps

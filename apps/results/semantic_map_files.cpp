@@ -76,7 +76,7 @@ Georeference read_georeference(const std::string& folder, const Map& map) {
     throw FileError(path, error.what());
   }
   const Trajectory trajectory = read_trajectory((fs::path(folder) / "trajectory_enu.tum").string());
-  constexpr std::int64_t kSame_ns = 1000000;  // stamps were written in decimal seconds
+  constexpr std::int64_t kSame_ns = 1000000;  // rounding of stamps written in decimal seconds
   std::map<KeyframeId, SE3> poses;
   for (const Keyframe& keyframe : map.keyframes) {
     const auto at = std::lower_bound(
@@ -105,7 +105,8 @@ UrbanMapper urban_mapper_of(const Map& map, const Calibration& calibration, cons
                             const UrbanModelPaths& models) {
   UrbanMapper mapper(options, calibration, load_scene_model(SceneModel::Kind::kUrban, models.urban),
                      load_scene_model(SceneModel::Kind::kSurfaces, models.surfaces));
-  if (!map.metric || calibration.baseline_m <= 0) return mapper;  // nothing can come of it
+  if (!map.metric || calibration.baseline_m <= 0)
+    return mapper;  // street labelling needs a metric map and a baseline
   LensCorrection lens(dataset.calibration(sensor));
   if (lens_k1 != 0) lens.add(lens_k1);
   std::optional<Progress> progress;

@@ -13,41 +13,44 @@ class Dataset;
 
 namespace placegraph::apps {
 
-/// Which models label the streets; empty: those that came with the program.
+/// Paths of the models for street labelling; empty: the installed ones.
 struct UrbanModelPaths {
   std::string urban, surfaces;
 };
 
-/// Where a map lies on the earth: what `placegraph georeference` wrote.
+/// Position of a map on the earth, as written by `placegraph map georeference`.
 struct Georeference {
   GeodeticPosition origin;
   KeyframePoses T_enu_keyframe;
 };
 
-/// Reads georeference.json and trajectory_enu.tum of a folder. Throws FileError.
+/// Reads georeference.json and trajectory_enu.tum in a folder. Throws FileError.
 Georeference read_georeference(const std::string& folder, const Map& map);
 
-/// Says what is wrong with models or options before any work. Throws FileError where a model is
-/// absent or broken, naming the command that makes it, and ArgumentError.
+/// Checks models and options before any work.
+/// Throws FileError if a model is missing or invalid, with the command that makes it, and
+/// ArgumentError.
 void check_urban_models(const UrbanMapperOptions& options, const UrbanModelPaths& models);
 
-/// A mapper that has taken the keyframes of a map whose images are those of `dataset`; `lens_k1` is
-/// the distortion that was taken out of them. Throws FileError where a model is absent.
+/// A mapper with the keyframes of a map made from `dataset`.
+/// `lens_k1` is the distortion that was removed from its images. Throws FileError if a model is
+/// missing.
 UrbanMapper urban_mapper_of(const Map& map, const Calibration& calibration, const Dataset& dataset,
                             Sensor sensor, double lens_k1, const UrbanMapperOptions& options,
                             const UrbanModelPaths& models);
 
-/// Writes semantic_map.ply, .json and .png into a folder; with an `origin`, in whose east-north-up
-/// frame the semantic map is, semantic_map.geojson too. `T_frame_keyframe` are the poses it was
-/// fused by.
+/// Writes semantic_map.ply, .json and .png into a folder.
+/// If the map is in the east-north-up frame of an `origin`, semantic_map.geojson is written too.
+/// `T_frame_keyframe` are the poses used for its fusion.
 void write_semantic_map(const std::string& folder, const SemanticMap& semantic,
                         const UrbanMapper& mapper, const Map& map,
                         const KeyframePoses& T_frame_keyframe, const std::string& title,
                         const std::optional<GeodeticPosition>& origin = std::nullopt);
 
-/// What result.json says of a semantic map: counts, and, where the sequence's folder holds the true
-/// scene (scene.ply) and true poses, how many cells are right: by the poses of the map
-/// ("optimized") and by those before corrections ("online"), nothing fitted.
+/// Members of result.json for a semantic map.
+/// These are counts and, if the sequence's folder has the true scene (scene.ply) and true poses,
+/// the number of correct cells, without any fit: by the poses of the map ("optimized") and by those
+/// before corrections ("online").
 nlohmann::json describe_semantic_map(const SemanticMap& semantic, const UrbanMapper& mapper,
                                      const Map& map, const Dataset& dataset,
                                      const std::string& sequence);

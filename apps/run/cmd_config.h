@@ -3,7 +3,7 @@
 
 namespace placegraph::apps {
 
-/// `placegraph config`: every option of `placegraph run`, with its default or as a file sets it.
+/// Adds `placegraph config`, which prints the options of `placegraph run` or `flight run`.
 void add_config_command(CLI::App& app);
 
 }  // namespace placegraph::apps

@@ -3,8 +3,7 @@
 
 namespace placegraph::apps {
 
-/// `placegraph hover DIR --out DIR`: where a small flying robot was, from its camera, its inertial
-/// sensor and markers.
+/// Adds `placegraph flight run FLIGHT --out DIR`, which estimates the states of a flying robot.
 void add_flight_command(CLI::App& flight);
 
 }  // namespace placegraph::apps

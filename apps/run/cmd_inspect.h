@@ -3,7 +3,7 @@
 
 namespace placegraph::apps {
 
-/// `placegraph inspect FOLDER`.
+/// Adds `placegraph inspect PATH`.
 void add_inspect_command(CLI::App& app);
 
 }  // namespace placegraph::apps

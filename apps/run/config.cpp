@@ -29,7 +29,7 @@ std::string plain_list(const std::vector<OptionEntry>& entries) {
   return text;
 }
 
-/// The fields up to a level, with the groups that hold them.
+/// The fields up to a level, with their groups.
 std::vector<OptionEntry> up_to(OptionLevel level, const std::vector<OptionEntry>& entries) {
   std::vector<OptionEntry> kept;
   for (const OptionEntry& entry : entries) {

@@ -15,9 +15,11 @@ namespace {
 
 std::string directions(const FrameView& view) {
   if (view.directed.empty()) return "";
-  std::optional<ManhattanFrameId> world;
-  for (const FrameView::DirectedLine& line : view.directed) world = std::max(world, line.world);
-  return world ? ", rectangular world " + to_string(*world) : ", no rectangular world";
+  std::optional<ManhattanFrameId> manhattan_frame;
+  for (const FrameView::DirectedLine& line : view.directed)
+    manhattan_frame = std::max(manhattan_frame, line.world);
+  return manhattan_frame ? ", Manhattan frame " + to_string(*manhattan_frame)
+                         : ", no Manhattan frame";
 }
 
 cv::Scalar colour_of(std::optional<double> off_px) {
@@ -27,7 +29,7 @@ cv::Scalar colour_of(std::optional<double> off_px) {
   return {0, 255 * std::min(1.0, 2 - 2 * off), 255 * std::min(1.0, 2 * off)};
 }
 
-/// Red, green and blue along the axes of a rectangular world, grey along none.
+/// Red, green and blue along the axes of a Manhattan frame, grey for other directions.
 cv::Scalar colour_of(const FrameView::DirectedLine& line) {
   static const cv::Scalar kColours[] = {{64, 64, 255}, {64, 224, 64}, {255, 96, 64}};
   return line.axis ? kColours[*line.axis] : cv::Scalar(128, 128, 128);

@@ -7,13 +7,13 @@
 
 namespace placegraph::apps {
 
-/// The frame as the system sees it: every track with its way from the frame before, landmarks from
-/// green (on their pixel) to red (3 px off), points without depth white, lines likewise, the ground
-/// outlined in blue, pixels of aligned surfaces from green to red (3 standard deviations off). BGR,
-/// of the frame's size.
+/// Drawing of a frame with its tracks, landmarks, lines, ground and aligned surfaces.
+/// Each track is drawn with its motion since the previous frame. Landmarks and lines go from green
+/// (no error) to red (3 px), points without depth are white. The ground is outlined in blue. Pixels
+/// of aligned surfaces go from green to red (3 standard deviations). BGR, of the frame's size.
 Image draw_frame(const Frame& frame, const FrameResult& result, const FrameView& view);
 
-/// Writes it as `folder`/NNNNNN.png, by the frame's number. Throws FileError.
+/// Writes the drawing as `folder`/NNNNNN.png, by the frame's number. Throws FileError.
 void write_frame_drawing(const std::string& folder, const Frame& frame, const FrameResult& result,
                          const FrameView& view);
 

@@ -13,8 +13,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// As sure as nothing of a recorded truth is: the filter learns the rest.
-BodyState surely(BodyState state) {
+/// The true state with standard deviations smaller than those of any recorded truth; the filter
+/// corrects the rest.
+BodyState with_small_covariance(BodyState state) {
   Eigen::Matrix<double, 15, 1> sigma;
   sigma << Eigen::Vector3d::Constant(1e-3), Eigen::Vector3d::Constant(1e-2),
       Eigen::Vector3d::Constant(1e-3), Eigen::Vector3d::Constant(1e-3),
@@ -59,7 +60,7 @@ FlightRunOptions flight_options(const FlightArguments& arguments, const ImuNoise
   if (arguments.no_markers) options.blind = {{-kForever_s, kForever_s}};
   options.predict_ahead_s = 1e-3 * arguments.predict_ahead_ms;
   require(!arguments.smooth || arguments.predict_ahead_ms == 0,
-          "--smooth: what is told ahead is not smoothed");
+          "--smooth: predicted states cannot be smoothed");
   require(options.predict_ahead_s >= 0 && options.predict_ahead_s <= filter.max_prediction_s,
           fmt::format("--predict-ahead-ms: {} is not within 0 and filter.max_prediction_s = {} s",
                       arguments.predict_ahead_ms, filter.max_prediction_s));
@@ -76,9 +77,9 @@ Flight open_flight(const FlightArguments& arguments) {
   if (!arguments.no_markers)
     flight.layout = read_marker_layout(arguments.markers.empty() ? beside : arguments.markers);
   require(!arguments.map_markers || !flight.layout.unplaced_sides_m.empty(),
-          "--map-markers: the layout gives every marker its place");
+          "--map-markers: the layout has the pose of every marker");
   require(!arguments.map_markers || arguments.predict_ahead_ms == 0,
-          "--map-markers: what is told ahead is not where an image was");
+          "--map-markers: cannot be combined with --predict-ahead-ms");
   const double length_s =
       1e-9 * static_cast<double>(flight.body.images->stamp_ns(flight.body.images->size() - 1) -
                                  flight.body.images->stamp_ns(0));
@@ -92,7 +93,7 @@ Flight open_flight(const FlightArguments& arguments) {
   if (fs::exists(truth)) flight.truth = read_body_states(truth);
   if (arguments.start_from_truth) {
     require(!flight.truth.empty(), "--start-from-truth: there is no " + truth);
-    flight.options.start = surely(flight.truth.front());
+    flight.options.start = with_small_covariance(flight.truth.front());
   }
   return flight;
 }

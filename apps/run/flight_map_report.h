@@ -6,12 +6,11 @@
 
 namespace placegraph::apps {
 
-/// The markers that were mapped, how sure they are, and how far from where `truth` has them (those
-/// it has).
+/// Mapped markers, their covariance, and their errors against `truth` where it has them.
 nlohmann::json describe_marker_map(const MarkerMap& map, const MarkerLayout& known,
                                    const MarkerLayout& truth);
 
-/// What is known afterwards: `known`, its unplaced markers where they were mapped.
+/// The layout `known`, with unplaced markers at their mapped poses.
 MarkerLayout with_mapped(const MarkerLayout& known, const MarkerMap& map);
 
 /// One line for people.

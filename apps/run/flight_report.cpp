@@ -15,7 +15,7 @@ using nlohmann::json;
 
 namespace {
 
-/// Times between believed markers, from one second on.
+/// Times between accepted markers, from one second upwards.
 std::vector<double> outages_of(const FlightRun& run) {
   std::vector<double> outages;
   std::int64_t last_ns = -1;

@@ -79,7 +79,7 @@ Flown fly(const FlightArguments& arguments, const Flight& flight) {
 void write_results(const std::string& folder, const Flown& flown, const MarkerLayout& layout) {
   const auto path = [&](const char* name) { return (fs::path(folder) / name).string(); };
   for (const char* name : {"result.json", "smoothed.csv", "markers.yaml"})
-    fs::remove(path(name));  // result.json is written last: it vouches for the others
+    fs::remove(path(name));  // result.json is written last: its presence marks complete results
   write_trajectory(path("trajectory.tum"), trajectory_of(flown.run), TrajectoryFormat::kTum);
   write_body_states(path("states.csv"), answers_of(flown.run));
   if (!flown.smoothed.empty()) write_body_states(path("smoothed.csv"), flown.smoothed);
@@ -99,7 +99,7 @@ FlightResult fly(const FlightArguments& arguments) {
   write_results(arguments.out, flown, flight.layout);
   FlightResult result{arguments.out, flown.summary, {}};
   if (answers_of(flown.run).empty())
-    result.no_answer = arguments.flight + ": no image could be told a state (" +
+    result.no_answer = arguments.flight + ": no image has a state (" +
                        flown.run.frames.back().outcome.reason + ")";
   else if (flown.map && !flown.map->outcome)
     result.no_answer =

@@ -74,7 +74,7 @@ json describe_times(const DatasetSummary& summary) {
           {"missing", spacing.missing}};
 }
 
-/// What `placegraph run` does with the sequence without options.
+/// Sensor and cues of `placegraph run` without options.
 json describe_use(const DatasetSummary& summary) {
   const Sensor sensor = summary.sensors.front();
   const std::string metric = metric_by(sensor, summary.calibration);
@@ -141,7 +141,7 @@ std::string depth_text(const Calibration& calibration) {
 std::string calibration_text(const Calibration& calibration) {
   std::string text = line("camera", camera_text(calibration.camera) + " (undistorted)");
   if (calibration.baseline_m > 0)
-    text += line("right eye", fmt::format("baseline {:.4g} m", calibration.baseline_m));
+    text += line("right camera", fmt::format("baseline {:.4g} m", calibration.baseline_m));
   if (calibration.depth) text += line("depth", depth_text(calibration));
   if (calibration.camera_height_m)
     text += line("height", fmt::format("{:.4g} m above the ground", *calibration.camera_height_m));
@@ -164,7 +164,7 @@ std::string use_text(const DatasetSummary& summary) {
   return line("run", text);
 }
 
-/// A folder of images that are no sequence, for the `reason` given: places are recognized in such.
+/// A folder of images that is no sequence, for the `reason` given; places can be recognized in it.
 InspectResult inspect_images(const std::string& path, const std::string& reason) {
   InspectResult result;
   result.path = image_folder_of(path);
@@ -207,8 +207,8 @@ std::string to_json(const InspectResult& result) {
 
 std::string to_text(const InspectResult& result) {
   if (result.no_sequence)
-    return line("images", fmt::format("{} in {}: match, lines and others that need no calibration "
-                                      "take them",
+    return line("images", fmt::format("{} in {}: usable by commands without calibration "
+                                      "(places match, image lines, ...)",
                                       result.images, result.path)) +
            line("run", "not possible: " + *result.no_sequence);
   const DatasetSummary& summary = result.summary;

@@ -9,25 +9,25 @@ namespace placegraph::apps {
 
 struct InspectArguments {
   std::string path;       ///< folder or video
-  bool read_all = false;  ///< read every image and count those that fail
+  bool read_all = false;  ///< read every image and count the unreadable ones
 };
 
-/// Frames that cannot be read, and the message of the first.
+/// Number of unreadable frames, and the message of the first.
 struct UnreadableFrames {
   std::size_t count = 0;
   std::string first;
 };
 
 struct InspectResult {
-  std::string path;                            ///< as given; of mere images the folder they are in
-  DatasetSummary summary;                      ///< of a sequence
-  std::optional<UnreadableFrames> unreadable;  ///< if all were read
-  std::optional<std::string> no_sequence;      ///< a folder of images that are none: why
-  std::size_t images = 0;                      ///< of such a folder
+  std::string path;                            ///< path as given; for bare images their folder
+  DatasetSummary summary;                      ///< summary of a sequence
+  std::optional<UnreadableFrames> unreadable;  ///< set if every image was read
+  std::optional<std::string> no_sequence;      ///< reason if a folder of images is no sequence
+  std::size_t images = 0;                      ///< number of images in such a folder
 };
 
-/// `placegraph inspect`: what a folder or video is taken for, and what run would use of it. Throws
-/// FileError, and UnknownLayout where it holds no images either.
+/// Describes how a folder or video is read and what `run` would use: `placegraph inspect`.
+/// Throws FileError, and UnknownLayout if it has no images.
 InspectResult inspect(const InspectArguments& arguments);
 
 std::string to_text(const InspectResult& result);

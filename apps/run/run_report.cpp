@@ -9,7 +9,7 @@ namespace {
 
 using nlohmann::json;
 
-/// A line with its text from the 14th byte on.
+/// A line whose text begins at the 14th byte.
 std::string line(const std::string& label, const std::string& text) {
   constexpr std::size_t kWidth = 12;
   return label + std::string(kWidth - std::min(kWidth, label.size()), ' ') + " " + text + "\n";
@@ -33,8 +33,8 @@ std::string frames_text(const json& summary) {
 std::string motion_text(const json& summary) {
   std::string text;
   if (summary.contains("motion") && summary["motion"]["median_deviation"].is_number())
-    text += line("", fmt::format("motion by other sensors: {} constraints, {:.2f} times as far off "
-                                 "as claimed",
+    text += line("", fmt::format("motion by other sensors: {} constraints, deviation {:.2f} times "
+                                 "the stated one",
                                  summary["motion"]["constraints"].get<int>(),
                                  summary["motion"]["median_deviation"].get<double>()));
   if (!summary.contains("evaluation")) return text;

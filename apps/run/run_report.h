@@ -5,22 +5,22 @@
 
 namespace placegraph::apps {
 
-/// What `placegraph run` found.
+/// Result of `placegraph run`.
 struct RunReport {
-  std::string out;         ///< the folder of the results
-  nlohmann::json summary;  ///< what result.json in it says
-  /// A frame could not be read: its error. The results are those of the frames before it.
+  std::string out;         ///< folder of the results
+  nlohmann::json summary;  ///< content of result.json
+  /// Error of the first unreadable frame; the results cover the frames before it.
   std::optional<std::string> broken_off;
   /// A signal ended the run: how to continue it. The results are those of the frames before it.
   std::optional<std::string> interrupted;
-  std::optional<std::string> no_answer;  ///< no frame could be posed: why
+  std::optional<std::string> no_answer;  ///< reason if no frame has a pose
 };
 
-/// What was found in a few lines.
+/// Summary in a few lines.
 std::string to_text(const RunReport& report);
-/// result.json.
+/// Content of result.json.
 std::string to_json(const RunReport& report);
-/// The table of the processor's time in each stage.
+/// Table of the CPU time of every stage.
 std::string stages_text(const RunReport& report);
 
 }  // namespace placegraph::apps

@@ -16,10 +16,10 @@
 namespace placegraph::apps {
 namespace {
 
-/// `map NAME MAP [--json]`: prints the result of `run`.
+/// Adds `map NAME MAP [--json]`, which prints the result of `run`.
 template <class Arguments, class Result>
 void add_report(CLI::App& map, const std::string& name, const char* what,
-              Result (*run)(const Arguments&)) {
+                Result (*run)(const Arguments&)) {
   auto arguments = std::make_shared<Arguments>();
   auto json = std::make_shared<bool>(false);
   CLI::App* command = map.add_subcommand(name, what);

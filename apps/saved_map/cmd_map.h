@@ -3,8 +3,7 @@
 
 namespace placegraph::apps {
 
-/// `placegraph map`: what a saved map holds, whether it is whole, and its parts as files; maps
-/// learned from images alone.
+/// Adds `placegraph map info`, `validate`, `export`, `learn`, `label`, `plan` and `street`.
 void add_map_commands(CLI::App& map);
 
 }  // namespace placegraph::apps

@@ -3,7 +3,7 @@
 
 namespace placegraph::apps {
 
-/// `placegraph map label`.
+/// Adds `placegraph map label MAP ROOMS`.
 void add_map_label_command(CLI::App& map);
 
 }  // namespace placegraph::apps

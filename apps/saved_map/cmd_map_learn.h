@@ -3,7 +3,7 @@
 
 namespace placegraph::apps {
 
-/// `placegraph map learn`.
+/// Adds `placegraph map learn IMAGES --out MAP`.
 void add_map_learn_command(CLI::App& map);
 
 }  // namespace placegraph::apps

@@ -6,7 +6,7 @@ class App;
 
 namespace placegraph::apps {
 
-/// `placegraph map plan`: the floor plan of a saved map.
+/// Adds `placegraph map plan MAP --out DIR`, which draws the floor plan of a saved map.
 void add_map_plan_command(CLI::App& map);
 
 }  // namespace placegraph::apps

@@ -13,17 +13,18 @@ void add_map_street_command(CLI::App& map) {
   auto arguments = std::make_shared<MapSemanticArguments>();
   auto json = std::make_shared<bool>(false);
   MapSemanticArguments& a = *arguments;
-  CLI::App* command = map.add_subcommand("street", "Make the semantic map of the streets of a map.");
+  CLI::App* command =
+      map.add_subcommand("street", "Make the semantic map of the streets of a map.");
   command->footer("placegraph map street out/town --out out/town-street");
   command->add_option("MAP", a.map, kMapText)->required();
   command->add_option("-o,--out", a.out, "folder for semantic_map.ply, .json and .png")->required();
   command->add_option("--georeference", a.georeference,
-                      "folder of placegraph georeference: the map is laid out east and north, and "
-                      "semantic_map.geojson written");
+                      "folder written by `placegraph map georeference`: use east-north-up axes and "
+                      "write semantic_map.geojson");
   command->add_option("--model", a.models.urban, kModelText);
-  command->add_option("--surfaces-model", a.models.surfaces, "model of surfaces to use instead of the installed one");
-  command->add_option("--set", a.settings, kSetText)
-      ->allow_extra_args(false);
+  command->add_option("--surfaces-model", a.models.surfaces,
+                      "model of surfaces to use instead of the installed one");
+  command->add_option("--set", a.settings, kSetText)->allow_extra_args(false);
   command->add_flag("--json", *json, kJsonText);
   command->add_flag("--force", a.force, kForceText);
   command->callback([arguments, json] {

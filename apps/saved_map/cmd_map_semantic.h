@@ -6,7 +6,7 @@ class App;
 
 namespace placegraph::apps {
 
-/// `placegraph map semantic`: what is where in the streets of a saved map.
+/// Adds `placegraph map street MAP --out DIR`, which makes the semantic map of the streets.
 void add_map_street_command(CLI::App& map);
 
 }  // namespace placegraph::apps

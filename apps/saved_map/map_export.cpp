@@ -18,54 +18,55 @@
 namespace placegraph::apps {
 namespace {
 
-/// A form with its writer: another one is another line here.
+/// A form with its writer. A new form is one more entry here.
 struct WrittenForm {
   MapExportForm form;
-  bool needs_poses = false;  ///< refused for a map without a camera
+  bool needs_poses = false;  ///< rejected for a map without a camera
   std::function<void(const std::string& path, const StoredMap& stored)> write;
 };
 
 std::vector<WrittenForm> written_forms() {
-  return {{{"--g2o", "the place graph"},
-           true,
-           [](const std::string& path, const StoredMap& stored) {
-             write_g2o(path, stored.map.place_graph.pose_graph());
-           }},
-          {{"--g2o-se3", "the same without the scales of places, for programs that know none"},
-           true,
-           [](const std::string& path, const StoredMap& stored) {
-             write_g2o(path, rigid_graph(stored.map.place_graph.pose_graph()));
-           }},
-          {{"--places", "places, members, edges and loops as JSON"},
-           false,
-           [](const std::string& path, const StoredMap& stored) {
-             write_file(path, places_json(stored.map));
-           }},
-          {{"--tum", "the optimized trajectory, TUM's form"},
-           true,
-           [](const std::string& path, const StoredMap& stored) {
-             write_trajectory(path, stored.map.trajectory_optimized(), TrajectoryFormat::kTum);
-           }},
-          {{"--kitti", "the optimized trajectory, KITTI's form"},
-           true,
-           [](const std::string& path, const StoredMap& stored) {
-             write_trajectory(path, stored.map.trajectory_optimized(), TrajectoryFormat::kKitti);
-           }},
-          {{"--graphml", "the topological map: places, transitions, loops; GraphML"},
-           true,
-           [](const std::string& path, const StoredMap& stored) {
-             write_file(path, to_graphml(stored.map.place_graph, place_transitions(stored.map)));
-           }},
-          {{"--dot", "the same for Graphviz"},
-           true,
-           [](const std::string& path, const StoredMap& stored) {
-             write_file(path, to_dot(stored.map.place_graph, place_transitions(stored.map)));
-           }},
-          {{"--revisits", "which older frame every frame is nearest to, for placegraph loops"},
-           true,
-           [](const std::string& path, const StoredMap& stored) {
-             write_loop_predictions(path, map_revisits(stored.map));
-           }}};
+  return {
+      {{"--g2o", "the place graph"},
+       true,
+       [](const std::string& path, const StoredMap& stored) {
+         write_g2o(path, stored.map.place_graph.pose_graph());
+       }},
+      {{"--g2o-se3", "the same without the scales of places, for programs without similarities"},
+       true,
+       [](const std::string& path, const StoredMap& stored) {
+         write_g2o(path, rigid_graph(stored.map.place_graph.pose_graph()));
+       }},
+      {{"--places", "places, members, edges and loops as JSON"},
+       false,
+       [](const std::string& path, const StoredMap& stored) {
+         write_file(path, places_json(stored.map));
+       }},
+      {{"--tum", "the optimized trajectory, TUM's form"},
+       true,
+       [](const std::string& path, const StoredMap& stored) {
+         write_trajectory(path, stored.map.trajectory_optimized(), TrajectoryFormat::kTum);
+       }},
+      {{"--kitti", "the optimized trajectory, KITTI's form"},
+       true,
+       [](const std::string& path, const StoredMap& stored) {
+         write_trajectory(path, stored.map.trajectory_optimized(), TrajectoryFormat::kKitti);
+       }},
+      {{"--graphml", "the topological map: places, transitions, loops; GraphML"},
+       true,
+       [](const std::string& path, const StoredMap& stored) {
+         write_file(path, to_graphml(stored.map.place_graph, place_transitions(stored.map)));
+       }},
+      {{"--dot", "the same for Graphviz"},
+       true,
+       [](const std::string& path, const StoredMap& stored) {
+         write_file(path, to_dot(stored.map.place_graph, place_transitions(stored.map)));
+       }},
+      {{"--revisits", "the nearest older frame of every frame, for `placegraph eval loops`"},
+       true,
+       [](const std::string& path, const StoredMap& stored) {
+         write_loop_predictions(path, map_revisits(stored.map));
+       }}};
 }
 
 }  // namespace

@@ -4,28 +4,29 @@
 
 namespace placegraph::apps {
 
-/// A form that a map, or a part of it, is written in.
+/// File form of a map or of a part of it.
 struct MapExportForm {
-  std::string flag;  ///< of the command line
-  std::string what;  ///< is written
+  std::string flag;  ///< flag of the command line
+  std::string what;  ///< description of the content
 };
 
-/// All forms there are.
+/// All forms.
 std::vector<MapExportForm> map_export_forms();
 
 struct MapExportArguments {
-  std::string map;                 ///< map.db, or the folder of placegraph run with it
-  std::vector<std::string> paths;  ///< one a form, in the order of map_export_forms(); empty: none
-  bool force = false;              ///< overwrite files
+  std::string map;  ///< map.db, or a folder written by `placegraph run`
+  std::vector<std::string>
+      paths;           ///< one path per form, in the order of map_export_forms(); empty: none
+  bool force = false;  ///< overwrite existing files
 };
 
 struct MapExportResult {
-  std::vector<std::string> written;  ///< files
+  std::vector<std::string> written;  ///< paths of the written files
 };
 
-/// `placegraph map export`: writes parts of a saved map as files of their own. Warns on stderr of a
-/// map whose run was broken off. Throws ArgumentError where nothing is to be written or a file is
-/// there already, FileError, and NoAnswer where a form needs poses and the map has none.
+/// Writes parts of a saved map as separate files: `placegraph map export`.
+/// Warns on stderr of a map whose run was broken off. Throws ArgumentError if nothing is to be
+/// written or a file exists, FileError, and NoAnswer if a form needs poses and the map has none.
 MapExportResult map_export(const MapExportArguments& arguments);
 
 }  // namespace placegraph::apps

@@ -70,18 +70,18 @@ MapInfoResult map_info(const MapInfoArguments& arguments) {
 }
 
 std::string to_text(const MapInfoResult& result) {
-  const json& told = result.told;
-  const auto count = [&](const char* key) { return told[key].get<std::int64_t>(); };
-  const auto megabytes = [&](const char* key) { return 1e-6 * told[key].get<double>(); };
-  return fmt::format("{}: schema {}, {}\n", told["file"].get<std::string>(), count("schema"),
-                     told["finished"].get<bool>() ? "finished" : "broken off") +
-         fmt::format("  from     {} ({})\n", told["sequence"].get<std::string>(),
-                     told["sensor"].get<std::string>()) +
+  const json& summary = result.summary;
+  const auto count = [&](const char* key) { return summary[key].get<std::int64_t>(); };
+  const auto megabytes = [&](const char* key) { return 1e-6 * summary[key].get<double>(); };
+  return fmt::format("{}: schema {}, {}\n", summary["file"].get<std::string>(), count("schema"),
+                     summary["finished"].get<bool>() ? "finished" : "broken off") +
+         fmt::format("  from     {} ({})\n", summary["sequence"].get<std::string>(),
+                     summary["sensor"].get<std::string>()) +
          fmt::format("  places   {} in {} components, {} constraints, {} loops\n", count("places"),
                      count("components"), count("constraints"), count("loops_accepted")) +
          fmt::format("  frames   {}, {} posed, {} keyframes, path {:.1f} {}\n", count("frames"),
-                     count("posed"), count("keyframes"), told["path_length"].get<double>(),
-                     told["metric"].get<bool>() ? "m" : "units") +
+                     count("posed"), count("keyframes"), summary["path_length"].get<double>(),
+                     summary["metric"].get<bool>() ? "m" : "(scale unknown)") +
          fmt::format("  content  {} features, {} views, {} landmarks\n", count("features"),
                      count("views"), count("landmarks")) +
          fmt::format("  size     {:.1f} MB: features {:.1f}, views {:.1f}, landmarks {:.1f}\n",
@@ -89,6 +89,6 @@ std::string to_text(const MapInfoResult& result) {
                      megabytes("landmarks_bytes"));
 }
 
-std::string to_json(const MapInfoResult& result) { return result.told.dump(1) + "\n"; }
+std::string to_json(const MapInfoResult& result) { return result.summary.dump(1) + "\n"; }
 
 }  // namespace placegraph::apps

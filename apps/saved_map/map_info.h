@@ -5,17 +5,17 @@
 namespace placegraph::apps {
 
 struct MapInfoArguments {
-  std::string map;  ///< map.db, or the folder of placegraph run with it
+  std::string map;  ///< map.db, or a folder written by `placegraph run`
 };
 
 struct MapInfoResult {
-  /// file, schema, finished, sequence, sensor; how many places, keyframes, frames, ... it has; the
-  /// length of its way (path_length); bytes of the file and of its largest tables.
-  nlohmann::json told;
+  /// Members file, schema, finished, sequence, sensor; numbers of places, keyframes, frames, ...;
+  /// the path length (path_length); bytes of the file and of its largest tables.
+  nlohmann::json summary;
 };
 
-/// `placegraph map info`: what a saved map holds. Warns on stderr of a map whose run was broken
-/// off. Throws FileError.
+/// Summarizes a saved map: `placegraph map info`.
+/// Warns on stderr of a map whose run was broken off. Throws FileError.
 MapInfoResult map_info(const MapInfoArguments& arguments);
 
 /// Six lines.

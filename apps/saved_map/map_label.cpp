@@ -28,14 +28,14 @@ const Image& picture(const Frame& frame, bool colour) {
   return colour ? frame.colour : frame.image;
 }
 
-/// Views are compared part by part: all must be of one shape.
+/// Views are compared part by part, so all must have the same shape.
 Image sized(const Image& image, const cv::Size& size) {
   Image result;
   cv::resize(image, result, size, 0, 0, cv::INTER_AREA);
   return result;
 }
 
-/// Whether it is UTF-8 without control characters.
+/// True if the text is UTF-8 without control characters.
 bool is_text(const std::string& line) {
   try {
     (void)json(line).dump();
@@ -46,7 +46,7 @@ bool is_text(const std::string& line) {
                       [](char c) { return static_cast<unsigned char>(c) < 0x20; });
 }
 
-/// One name a line, the first of label 0.
+/// Names from a file, one per line, the first of label 0.
 std::vector<std::string> read_names(const std::string& path) {
   std::ifstream file(path);
   if (!file) throw FileError(path, "cannot be read");
@@ -54,14 +54,14 @@ std::vector<std::string> read_names(const std::string& path) {
   for (std::string line; std::getline(file, line);) {
     if (!line.empty() && line.back() == '\r') line.pop_back();
     const int number = static_cast<int>(names.size()) + 1;
-    if (line.empty()) throw FileError(path, number, "an empty line names nothing");
+    if (line.empty()) throw FileError(path, number, "an empty name");
     if (!is_text(line)) throw FileError(path, number, "is no UTF-8 text");
     names.push_back(line);
   }
   return names;
 }
 
-/// The images of a map's keyframes, from where the map was made.
+/// Images of a map's keyframes, from the sequence of the map.
 std::function<Frame(const Keyframe&)> frames_of(const StoredMap& stored) {
   if (!stored.origin.calibration) {
     const ImageRange images = images_of(stored.origin.sequence, {});
@@ -106,7 +106,7 @@ PlaceClassifier learn(const MapLabelArguments& arguments, bool colour, int& plac
   return PlaceClassifier::train(std::move(views), labels, PlaceClassifierOptions());
 }
 
-/// A place with its new label as JSON; writes it into the place.
+/// Sets the label of a place; returns the place with its label as JSON.
 json relabelled(const PlaceLabel& of, const std::vector<std::string>& names, Place& place) {
   std::vector<std::string>& written = place.labels;
   written.clear();
@@ -126,7 +126,8 @@ MapLabelResult map_label(const MapLabelArguments& arguments) {
   StoredMap stored = read_map(map_path_of(arguments.map));
   Map& map = stored.map;
   if (!stored.finished)
-    throw NoAnswer(arguments.map + ": its run was broken off; run --resume goes on with it first");
+    throw NoAnswer(arguments.map +
+                   ": its run was broken off; finish it with `placegraph run --resume` first");
   if (map.keyframes.empty()) throw NoAnswer(arguments.map + ": has no keyframes");
   const auto frame_of = frames_of(stored);
   const bool colour = !frame_of(map.keyframes.front()).colour.empty();
@@ -155,7 +156,7 @@ MapLabelResult map_label(const MapLabelArguments& arguments) {
 }
 
 std::string to_text(const MapLabelResult& result) {
-  return fmt::format("{}: {} of {} places labelled ({} views; accuracy on left out parts {:.3f})\n",
+  return fmt::format("{}: {} of {} places labelled ({} views; cross-validated accuracy {:.3f})\n",
                      result.map, result.labelled, result.places, result.views, result.accuracy);
 }
 

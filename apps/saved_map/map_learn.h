@@ -8,9 +8,9 @@
 namespace placegraph::apps {
 
 struct MapLearnArguments {
-  std::string images, out;  ///< a folder of images in the order they were taken; the map to write
+  std::string images, out;  ///< folder of images in the order of their capture; file for the map
   std::vector<int> range;   ///< first and last image; empty: all
-  std::vector<std::string> settings;  ///< "key=value", above `options`
+  std::vector<std::string> settings;  ///< "key=value"; they override `options`
   MapLearnerOptions options;
   bool force = false;  ///< overwrite `out`
 };
@@ -20,8 +20,8 @@ struct MapLearnResult {
   std::size_t images = 0, places = 0;
 };
 
-/// `placegraph map learn`: a map of how places look, from images without a camera. Throws
-/// ArgumentError, FileError.
+/// Makes a map for recognition from images without a calibration: `placegraph map learn`.
+/// Throws ArgumentError, FileError.
 MapLearnResult map_learn(const MapLearnArguments& arguments);
 
 /// One line.

@@ -7,19 +7,19 @@
 namespace placegraph::apps {
 
 struct MapPlanArguments {
-  std::string map, out;               ///< map.db or the folder with it; folder of the results
-  std::vector<std::string> settings;  ///< "key=value", of the plan
+  std::string map, out;               ///< map.db or its folder; folder for the results
+  std::vector<std::string> settings;  ///< options of the floor plan, "key=value"
   bool force = false;                 ///< write into a folder that is not empty
 };
 
 struct MapPlanResult {
   std::string map, out;
   std::size_t walls = 0, doors = 0, rooms = 0;
-  nlohmann::json summary;  ///< as result.json says it of a run with a plan
+  nlohmann::json summary;  ///< as in result.json of a run with a floor plan
 };
 
-/// `placegraph map plan`: draws the floor plan of an indoor map. Throws ArgumentError, FileError,
-/// and NoAnswer where there is none; then nothing is written.
+/// Draws the floor plan of an indoor map: `placegraph map plan`.
+/// Throws ArgumentError, FileError, and NoAnswer if there is no plan; then nothing is written.
 MapPlanResult map_plan(const MapPlanArguments& arguments);
 
 /// One line.

@@ -40,7 +40,7 @@ MapSemanticResult map_semantic(const MapSemanticArguments& a) {
       {"keyframes", mapper.observations().size()},
       {"cells", std::count_if(semantic.cells.begin(), semantic.cells.end(),
                               [](const SemanticCell& cell) { return cell.label >= 0; })}};
-  if (!earth)  // true scenes are not on the earth
+  if (!earth)  // true scenes have no position on the earth
     result.summary =
         describe_semantic_map(semantic, mapper, stored.map, *dataset, stored.origin.sequence);
   return result;

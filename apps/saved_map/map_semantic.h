@@ -8,20 +8,20 @@
 namespace placegraph::apps {
 
 struct MapSemanticArguments {
-  std::string map, out;      ///< map.db or the folder with it; folder of the results
-  std::string georeference;  ///< folder of placegraph georeference; empty: not on the earth
-  std::vector<std::string> settings;  ///< "key=value", of the semantic map
+  std::string map, out;      ///< map.db or its folder; folder for the results
+  std::string georeference;  ///< folder written by `placegraph map georeference`; empty: none
+  std::vector<std::string> settings;  ///< options of the semantic map, "key=value"
   UrbanModelPaths models;
   bool force = false;  ///< write into a folder that is not empty
 };
 
 struct MapSemanticResult {
   std::string map, out;
-  nlohmann::json summary;  ///< as result.json says it of a run with a semantic map
+  nlohmann::json summary;  ///< as in result.json of a run with a semantic map
 };
 
-/// `placegraph map semantic`: what is where in the streets of a map. Throws ArgumentError,
-/// FileError, and NoAnswer where there is none; then nothing is written.
+/// Makes the semantic map of the streets of a saved map: `placegraph map street`.
+/// Throws ArgumentError, FileError, and NoAnswer if there is none; then nothing is written.
 MapSemanticResult map_semantic(const MapSemanticArguments& arguments);
 
 /// One line.

@@ -13,7 +13,7 @@
 namespace placegraph::apps {
 namespace {
 
-/// Keyframes and loops name frames of the map.
+/// Checks that keyframes and loops refer to frames of the map.
 void require_frames(const std::string& path, const Map& map) {
   std::set<FrameId> frames;
   for (const FrameRecord& record : map.frames) frames.insert(record.frame);

@@ -5,18 +5,19 @@
 namespace placegraph::apps {
 
 struct MapValidateArguments {
-  std::string map;  ///< map.db, or the folder of placegraph run with it
+  std::string map;  ///< map.db, or a folder written by `placegraph run`
 };
 
 struct MapValidateResult {
-  std::string map;  ///< the file
+  std::string map;  ///< path of the file
   bool finished = false;
   std::size_t places = 0, frames = 0;
 };
 
-/// `placegraph map validate`: whether a saved map is whole. Beside what reading checks (every row,
-/// reference and number) these are the file's own structure, frames that others name, and whether a
-/// run could go on from it. Throws FileError with what is wrong, by file, table and row.
+/// Checks a saved map: `placegraph map validate`.
+/// In addition to the checks of reading (every row, reference and number), it checks the structure
+/// of the file, the referenced frames, and whether a run can continue from it. Throws FileError
+/// with file, table, row and error.
 MapValidateResult map_validate(const MapValidateArguments& arguments);
 
 /// One line.

@@ -3,7 +3,7 @@
 
 namespace placegraph::apps {
 
-/// `placegraph scene WHAT`: what a picture shows.
+/// Adds `placegraph image orientation`, `surfaces`, `labels` and `popup`.
 void add_scene_commands(CLI::App& image);
 
 }  // namespace placegraph::apps

@@ -10,14 +10,16 @@
 namespace placegraph::apps {
 
 void add_eval_labels_command(CLI::App& eval_group) {
-  CLI::App* command = eval_group.add_subcommand("labels", "Evaluate label images against annotated ones");
+  CLI::App* command =
+      eval_group.add_subcommand("labels", "Evaluate label images against annotated ones");
   command->footer("placegraph eval labels labels camvid/val");
   auto arguments = std::make_shared<SceneCheckArguments>();
   auto json = std::make_shared<bool>(false);
   SceneCheckArguments& a = *arguments;
   command
-      ->add_option("LABELS", a.labels,
-                   "folder of `scene label` or `scene surfaces`; confidences in it are judged too")
+      ->add_option(
+          "LABELS", a.labels,
+          "folder of `image labels` or `image surfaces`; its confidences are evaluated too")
       ->required()
       ->check(CLI::ExistingDirectory);
   command
@@ -25,8 +27,7 @@ void add_eval_labels_command(CLI::App& eval_group) {
       ->required()
       ->check(CLI::ExistingDirectory);
   command
-      ->add_option("--classes", a.classes,
-                   "CLASSES.txt by which LABELS are numbered, where it is not that of DATA")
+      ->add_option("--classes", a.classes, "CLASSES.txt of LABELS, if it differs from that of DATA")
       ->check(CLI::ExistingFile);
   command->add_flag("--surfaces", a.surfaces, "LABELS are classes of surfaces");
   command->add_flag("--confusion", a.confusion, "print the confusion matrix of pixels");

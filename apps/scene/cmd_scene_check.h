@@ -3,7 +3,7 @@
 
 namespace placegraph::apps {
 
-/// `placegraph scene check LABELS DATA`: label images against those that people made.
+/// Adds `placegraph eval labels LABELS DATA`, which evaluates label images.
 void add_eval_labels_command(CLI::App& eval_group);
 
 }  // namespace placegraph::apps

@@ -3,7 +3,7 @@
 
 namespace placegraph::apps {
 
-/// `placegraph scene label INPUT --out DIR`: what each pixel of a street is.
+/// Adds `placegraph image labels INPUT --out DIR`, which classifies the pixels of a street.
 void add_image_labels_command(CLI::App& image);
 
 }  // namespace placegraph::apps

@@ -15,19 +15,24 @@ void add_image_orientation_command(CLI::App& image) {
   auto json = std::make_shared<bool>(false);
   SceneOrientationArguments& a = *arguments;
   CLI::App* command = image.add_subcommand(
-      "orientation", "How the surface behind each pixel is turned, from straight edges");
+      "orientation", "Estimate the orientation of the surface behind each pixel from edges");
   command->footer(
       "placegraph image orientation image.png --calib K.txt --out map.png --draw map_drawn.png");
   command->add_option("IMAGE", a.in, "an image, or a sequence: then --out and --draw are folders")
       ->required()
       ->check(CLI::ExistingPath);
   add_calib_option(*command, a.camera, kCalibFile);
-  command->add_option("-o,--out", a.out, "8-bit PNG: 0 none, else 1 + axis of the surface's normal");
+  command->add_option("-o,--out", a.out,
+                      "8-bit PNG: 0 none, else 1 + axis of the surface's normal");
   command->add_option("--draw", a.drawing, "draw the input with the result");
   command->add_option("--every", a.every, "use every n-th image")->capture_default_str();
-  command->add_option("--min-confidence", a.options.min_confidence, "smallest confidence of a labelled pixel")
+  command
+      ->add_option("--min-confidence", a.options.min_confidence,
+                   "smallest confidence of a labelled pixel")
       ->capture_default_str();
-  command->add_option("--min-margin", a.options.min_margin, "smallest margin of the best orientation over the second")
+  command
+      ->add_option("--min-margin", a.options.min_margin,
+                   "smallest margin of the best orientation over the second")
       ->capture_default_str();
   command->add_option("--seed", a.seed, kSeedText)->capture_default_str();
   command->add_flag("--json", *json, kJsonText);

@@ -8,7 +8,8 @@ namespace placegraph::apps {
 void add_scene_picture_options(CLI::App& command, ScenePictureArguments& a, bool& json) {
   command.add_option("INPUT", a.input, "an image, or a folder of them (or with them in images/)")
       ->required();
-  command.add_option("-o,--out", a.out, "folder for NAME.png, a class number a pixel")->required();
+  command.add_option("-o,--out", a.out, "folder for NAME.png with the class number of every pixel")
+      ->required();
   command.add_option("--model", a.model, kModelText);
   command
       .add_option("--unknown-below", a.unknown_below,

@@ -5,7 +5,7 @@
 
 namespace placegraph::apps {
 
-/// The options that `scene label` and `scene surfaces` have in common; `json`: print JSON.
+/// Adds the common options of `image labels` and `image surfaces`; `json`: print JSON.
 void add_scene_picture_options(CLI::App& command, ScenePictureArguments& arguments, bool& json);
 
 }  // namespace placegraph::apps

@@ -22,27 +22,26 @@ void add_image_popup_command(CLI::App& image) {
   command->add_option("IMAGE", a.image, "image, without distortion")->required();
   command->add_option("-o,--out", a.out, "file for the mesh, PLY, in the camera frame [m]")
       ->required();
-  add_calib_option(*command, a.calib,
-                   std::string("the camera: ") + kCalibFile + "; else a usual one is supposed");
+  add_calib_option(
+      *command, a.calib,
+      std::string("the camera: ") + kCalibFile + "; default: a lens of about 58 degrees");
   command->add_option("--camera-height", a.height_m, kCameraHeightText)
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command->add_option("--farthest", a.farthest_m, "distance of the farthest surface [m]")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command->add_option("--model", a.model,
-                      "of surfaces, in place of the one that came with the program");
+  command->add_option("--model", a.model, "model of surfaces to use instead of the installed one");
   command->add_option("--surface-labels", a.surfaces,
-                      "label image of `scene surfaces` to take instead of the model's");
+                      "label image of `image surfaces` to use instead of the model");
   command->add_flag("--level", a.level, "assume a level camera; ignore the edges");
   command->add_option("--box", a.box, "right,forward,width,depth,height [m] of a box on the ground")
       ->delimiter(',')
       ->expected(5);
   command->add_option("--draw", a.draw,
-                      "write the picture with the box in it, behind what is nearer");
+                      "image file: the input with the box, hidden by nearer surfaces");
   command->add_option("--mask", a.mask, "image file: box visible (255), hidden (128)");
-  command->add_option("--seed", a.seed, kSeedText)
-      ->capture_default_str();
+  command->add_option("--seed", a.seed, kSeedText)->capture_default_str();
   command->add_flag("--json", *json, kJsonText);
   command->add_flag("--force", a.force, kForceText);
   command->callback([arguments, json] {

@@ -3,8 +3,8 @@
 
 namespace placegraph::apps {
 
-/// `placegraph scene popup IMAGE --out FILE.ply`: a picture folded up into space, and things put
-/// into it.
+/// Adds `placegraph image popup IMAGE --out FILE.ply`.
+/// It makes a 3D model of planes from one image and inserts a box.
 void add_image_popup_command(CLI::App& image);
 
 }  // namespace placegraph::apps

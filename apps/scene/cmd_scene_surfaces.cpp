@@ -11,7 +11,7 @@ namespace placegraph::apps {
 
 void add_image_surfaces_command(CLI::App& image) {
   CLI::App* command = image.add_subcommand(
-      "surfaces", "Sky 0, ground 1, vertical 2 or object 3: each pixel of a picture");
+      "surfaces", "Label the pixels of an image: sky 0, ground 1, vertical 2, object 3");
   command->footer("placegraph image surfaces camvid/val --out surfaces");
   auto arguments = std::make_shared<ScenePictureArguments>();
   auto json = std::make_shared<bool>(false);

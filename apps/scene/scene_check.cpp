@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The names that stand behind the numbers of a label image.
+/// Names of the classes in a label image, by number.
 std::vector<std::string> label_names(const std::vector<SceneClass>& classes, bool surfaces) {
   std::vector<std::string> names;
   for (int s = 0; surfaces && s < kSurfaceCount; ++s)

@@ -3,9 +3,9 @@
 
 namespace placegraph::apps {
 
-/// `placegraph scene label`: what each pixel of a street is, by a model of classes and one of
-/// surfaces. Throws as label_pictures does, and
-/// FileError where a model is missing or of the other kind.
+/// Classifies the pixels of street images by two installed models: `image labels`.
+/// One is the model of classes, one the model of surfaces. Throws as label_pictures does, and
+/// FileError if a model is missing or of the other kind.
 ScenePictureResult scene_label(const ScenePictureArguments& arguments);
 
 }  // namespace placegraph::apps

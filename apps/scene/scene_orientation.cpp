@@ -38,7 +38,7 @@ SeenOrientation see(const Image& image, const Camera& camera,
   const SceneDirections scene = find_scene_directions(seen.segments, camera, {}, random);
   if (scene.frames.empty()) {
     seen.map.outcome = scene.vanishing.outcome
-                           ? Outcome::failure(Outcome::Code::kNoConsensus, "no rectangular world")
+                           ? Outcome::failure(Outcome::Code::kNoConsensus, "no Manhattan frame")
                            : scene.vanishing.outcome;
     return seen;
   }
@@ -50,28 +50,28 @@ SeenOrientation see(const Image& image, const Camera& camera,
 }
 
 /// The labels in pale red, green and blue by their axis (the vertical one green), the edges in full
-/// colour: nothing of the photograph.
+/// colour, without the photograph.
 Image draw(const SeenOrientation& seen, const Camera& camera) {
   const int vertical = seen.map.vertical_axis;
-  cv::Mat3b picture(camera.height, camera.width, cv::Vec3b(255, 255, 255));
+  cv::Mat3b drawing(camera.height, camera.width, cv::Vec3b(255, 255, 255));
   const auto colour = [&](int axis, int full, int rest) {
     const int channel = axis == vertical ? 1 : axis == (vertical + 1) % 3 ? 2 : 0;
     cv::Vec3b c(static_cast<uchar>(rest), static_cast<uchar>(rest), static_cast<uchar>(rest));
     c[channel] = static_cast<uchar>(full);
     return c;
   };
-  for (int v = 0; v < picture.rows; ++v)
-    for (int u = 0; u < picture.cols; ++u)
+  for (int v = 0; v < drawing.rows; ++v)
+    for (int u = 0; u < drawing.cols; ++u)
       if (const int label = seen.map.labels.at<uchar>(v, u))
-        picture(v, u) = colour(label - 1, 255, 190);
+        drawing(v, u) = colour(label - 1, 255, 190);
   for (std::size_t i = 0; i < seen.segments.size(); ++i) {
     const LineSegment& s = seen.segments[i];
     const cv::Vec3b c = seen.axis[i] < 0 ? cv::Vec3b(170, 170, 170) : colour(seen.axis[i], 200, 0);
-    cv::line(picture, cv::Point(cvRound(s.start[0]), cvRound(s.start[1])),
+    cv::line(drawing, cv::Point(cvRound(s.start[0]), cvRound(s.start[1])),
              cv::Point(cvRound(s.end[0]), cvRound(s.end[1])), cv::Scalar(c[0], c[1], c[2]), 1,
              cv::LINE_AA);
   }
-  return picture;
+  return drawing;
 }
 
 SceneOrientationResult orientation_of_image(const SceneOrientationArguments& arguments) {
@@ -98,7 +98,7 @@ SceneOrientationResult orientation_of_image(const SceneOrientationArguments& arg
   return {arguments.in, found, cpu_ms, {}};
 }
 
-/// Exact surfaces of a rendered sequence, as far as its folder holds them.
+/// True surfaces of a rendered sequence, if its folder has them.
 class RenderedSurfaces {
  public:
   RenderedSurfaces(const std::string& folder, const Dataset& dataset)
@@ -117,7 +117,7 @@ class RenderedSurfaces {
         (fs::path(folder_) / "planes_0" / fmt::format("{:06d}.png", frame)).string();
     const Image planes = read_image_as_stored(path);
     if (planes.type() != CV_16UC1 || planes.size() != seen.map.labels.size())
-      throw FileError(path, "is no 16-bit image of the sequence's size");
+      throw FileError(path, "is not a 16-bit image of the sequence's size");
     check_orientation(seen.map.labels, seen.R_cam_manhattan.matrix(), planes, normals_,
                       T_world_cam->rotation().matrix().transpose(), check);
   }
@@ -149,7 +149,7 @@ SceneOrientationResult orientation_of_sequence(const SceneOrientationArguments& 
     cpu_ms += watch.cpu_ms();
     ++found.images;
     if (!seen.map.outcome) seen.map.labels = Image(frame.image.size(), CV_8UC1, cv::Scalar(0));
-    found.told += static_cast<bool>(seen.map.outcome);
+    found.labelled += static_cast<bool>(seen.map.outcome);
     found.coverage += seen.map.coverage;
     const std::string name = fmt::format("{:06d}.png", i);
     if (!arguments.out.empty())
@@ -161,7 +161,7 @@ SceneOrientationResult orientation_of_sequence(const SceneOrientationArguments& 
   found.coverage /= std::max(1, found.images);
   if (truth.known()) found.check = check;
   SceneOrientationResult result{arguments.in, found, cpu_ms / std::max(1, found.images), {}};
-  if (found.told == 0) result.no_answer = arguments.in + ": no image shows a rectangular world";
+  if (found.labelled == 0) result.no_answer = arguments.in + ": no image shows a Manhattan frame";
   return result;
 }
 
@@ -178,20 +178,21 @@ ordered_json described(const ImageOrientation& found) {
 }
 
 ordered_json described(const SequenceOrientation& found) {
-  return {{"images", found.images}, {"told", found.told}, {"coverage", found.coverage}};
+  return {{"images", found.images}, {"told", found.labelled}, {"coverage", found.coverage}};
 }
 
-std::string said(const ImageOrientation& found) {
-  return fmt::format("{:.0f} % told: floor {:.0f}, ceiling {:.0f}, walls {:.0f} %",
+std::string text_of(const ImageOrientation& found) {
+  return fmt::format("{:.0f} % labelled: floor {:.0f}, ceiling {:.0f}, walls {:.0f} %",
                      100 * found.coverage, 100 * found.floor, 100 * found.ceiling,
                      100 * found.wall);
 }
 
-std::string said(const SequenceOrientation& found) {
+std::string text_of(const SequenceOrientation& found) {
   return fmt::format(
-      "{} of {} images told, {:.1f} % of their pixels{}", found.told, found.images,
+      "{} of {} images labelled, {:.1f} % of their pixels{}", found.labelled, found.images,
       100 * found.coverage,
-      found.check ? fmt::format(", {:.1f} % of those rightly", 100 * found.check->accuracy()) : "");
+      found.check ? fmt::format(", {:.1f} % of those correctly", 100 * found.check->accuracy())
+                  : "");
 }
 
 }  // namespace
@@ -218,7 +219,7 @@ std::string to_json(const SceneOrientationResult& result) {
 std::string to_text(const SceneOrientationResult& result) {
   const bool sequence = std::holds_alternative<SequenceOrientation>(result.found);
   return fmt::format("{}: {}; {:.0f} ms CPU{}\n", result.in,
-                     std::visit([](const auto& found) { return said(found); }, result.found),
+                     std::visit([](const auto& found) { return text_of(found); }, result.found),
                      result.cpu_ms, sequence ? " an image" : "");
 }
 

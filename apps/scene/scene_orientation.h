@@ -10,41 +10,41 @@
 namespace placegraph::apps {
 
 struct SceneOrientationArguments {
-  std::string in;          ///< an image, or the folder of a sequence
-  std::string camera;      ///< calibration of the image; of a sequence its own where it is empty
-  std::string out;         ///< map to write, or folder of them; empty: none
-  std::string drawing;     ///< picture of surfaces and edges, or folder of them; empty: none
-  int every = 1;           ///< of a sequence, every n-th image
-  std::uint64_t seed = 1;  ///< of the random samples
-  bool force = false;      ///< replace what is there
+  std::string in;          ///< image, or folder of a sequence
+  std::string camera;      ///< calibration file; empty: the calibration of the sequence
+  std::string out;         ///< file for the map, or folder for the maps; empty: none
+  std::string drawing;     ///< file for a drawing of surfaces and edges, or folder; empty: none
+  int every = 1;           ///< use every n-th image of a sequence
+  std::uint64_t seed = 1;  ///< seed of the random samples
+  bool force = false;      ///< overwrite existing outputs
   OrientationMapOptions options;
 };
 
-/// Of one image; shares of its pixels.
+/// Result of one image; shares of its pixels.
 struct ImageOrientation {
-  double coverage = 0;  ///< that are told
+  double coverage = 0;  ///< share of labelled pixels
   double floor = 0, ceiling = 0, wall = 0;
-  int vertical_axis = 0;  ///< a column of `R_cam_manhattan`
+  int vertical_axis = 0;  ///< column of `R_cam_manhattan`
   Eigen::Matrix3d R_cam_manhattan = Eigen::Matrix3d::Identity();
 };
 
-/// Of the images of a sequence.
+/// Result of the images of a sequence.
 struct SequenceOrientation {
-  int images = 0, told = 0;
-  double coverage = 0;                    ///< mean share of pixels that are told
-  std::optional<OrientationCheck> check;  ///< where the sequence holds its surfaces
+  int images = 0, labelled = 0;
+  double coverage = 0;                    ///< mean share of labelled pixels
+  std::optional<OrientationCheck> check;  ///< set if the sequence has true surfaces
 };
 
 struct SceneOrientationResult {
   std::string in;
   std::variant<ImageOrientation, SequenceOrientation> found;
-  double cpu_ms = 0;                     ///< an image
-  std::optional<std::string> no_answer;  ///< no image of the sequence shows a rectangular world
+  double cpu_ms = 0;                     ///< CPU time per image
+  std::optional<std::string> no_answer;  ///< reason if no image has a Manhattan frame
 };
 
-/// `placegraph scene orientation`: how the surface behind each pixel is turned, from straight
-/// edges; writes maps and drawings. Throws ArgumentError, FileError, and NoAnswer where the one
-/// image shows no rectangular world.
+/// Estimates the orientation of surfaces from straight edges: `image orientation`.
+/// Writes maps and drawings. Throws ArgumentError, FileError, and NoAnswer if a single image has no
+/// Manhattan frame.
 SceneOrientationResult scene_orientation(const SceneOrientationArguments& arguments);
 
 /// One line.

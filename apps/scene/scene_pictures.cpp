@@ -30,7 +30,7 @@ std::vector<std::string> pictures_of(const std::string& input) {
   return {input};
 }
 
-/// Pixels of each class, then unknown ones.
+/// Number of pixels of each class, then of unknown ones.
 std::vector<std::int64_t> label_picture(const std::string& path, const ScenePictureArguments& a,
                                         std::size_t classes,
                                         const std::function<SceneLabels(const SceneView&)>& label) {
@@ -61,7 +61,7 @@ std::vector<std::int64_t> label_picture(const std::string& path, const ScenePict
   return pixels;
 }
 
-/// Of all pixels, by class, then of unknown ones.
+/// Number of all pixels by class, then of unknown ones.
 std::vector<std::pair<std::string, double>> shares_of(const ScenePictureResult& result) {
   double sum = 0;
   for (const std::int64_t pixels : result.pixels) sum += static_cast<double>(pixels);
@@ -96,12 +96,12 @@ ScenePictureResult label_pictures(const ScenePictureArguments& a,
   std::set<std::string> names;
   for (const std::string& path : pictures)
     if (!names.insert(fs::path(path).stem().string()).second)
-      throw FileError(path, "another picture has the same name");
+      throw FileError(path, "another image has the same name");
   require_free_folder(a.out, a.force);
   const OutputFolder folder(a.out);
   const Stopwatch watch;
   std::vector<std::vector<std::int64_t>> pixels(pictures.size());
-  Progress progress("labelling", static_cast<std::int64_t>(pictures.size()), "pictures");
+  Progress progress("labelling", static_cast<std::int64_t>(pictures.size()), "images");
   const auto part = static_cast<std::size_t>(4 * a.threads);
   for (std::size_t begin = 0; begin < pictures.size(); begin += part) {
     const std::size_t count = std::min(part, pictures.size() - begin);
@@ -120,8 +120,8 @@ ScenePictureResult label_pictures(const ScenePictureArguments& a,
 }
 
 std::string to_text(const ScenePictureResult& result) {
-  std::string text = fmt::format("{} pictures, {:.0f} ms of the processor each:", result.pictures,
-                                 result.cpu_ms_a_picture);
+  std::string text =
+      fmt::format("{} images, {:.0f} ms CPU each:", result.pictures, result.cpu_ms_a_picture);
   for (const auto& [name, share] : shares_of(result))
     if (share > 0) text += fmt::format(" {} {:.3f}", name, share);
   return fmt::format("{}, written to {}\n", text, result.out);

@@ -22,10 +22,10 @@
 namespace placegraph::apps {
 namespace {
 
-/// Without calibration: a lens of about 58 degrees across that looks through the middle.
+/// Without a calibration: a lens of about 58 degrees with a centred principal point.
 Camera popup_camera(const ScenePopupArguments& a, const Image& image) {
   if (!a.calib.empty()) {
-    const Camera camera = read_calib_without_distortion(a.calib, "scene popup");
+    const Camera camera = read_calib_without_distortion(a.calib, "image popup needs");
     require_size(a.image, image, camera.width, camera.height);
     return camera;
   }
@@ -39,7 +39,7 @@ void put_bytes(std::string& bytes, const T& value) {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof(T));
 }
 
-/// A mesh of the pixels that have a place: squares whose corners are about as far.
+/// A mesh of the pixels with a position: squares whose corners have similar distances.
 std::string mesh_of(const PopUp& popup, const GroundView& view, const Image& bgr) {
   constexpr float kStep = 1.25f;  // ratio of distances within a square
   std::string vertices, faces;
@@ -92,7 +92,7 @@ Image surfaces_for(const ScenePopupArguments& a, const Image& picture) {
   return surfaces;
 }
 
-/// Puts the box into the picture and writes it, and its mask.
+/// Draws the box into the image and writes the image and the mask.
 PlacedBox place_box(const ScenePopupArguments& a, const Image& bgr, const PopUp& popup,
                     const GroundView& view) {
   const StandingBox box{a.box[0], a.box[1], a.box[2], a.box[3], a.box[4]};
@@ -111,8 +111,7 @@ PlacedBox place_box(const ScenePopupArguments& a, const Image& bgr, const PopUp&
 ScenePopupResult scene_popup(const ScenePopupArguments& a) {
   for (const std::string* path : {&a.out, &a.draw, &a.mask})
     if (!path->empty()) require_free(*path, a.force);
-  require(a.draw.empty() == a.box.empty(),
-          "--box: says what --draw puts into the picture; give both or neither");
+  require(a.draw.empty() == a.box.empty(), "--box: needs --draw, and --draw needs --box");
   require(a.box.empty() || a.box.size() == 5, "--box: five numbers are needed");
   cv::setNumThreads(1);
   const GreyAndColour read = read_image(a.image);
@@ -150,7 +149,7 @@ std::string to_json(const ScenePopupResult& result) {
 std::string to_text(const ScenePopupResult& result) {
   return fmt::format("{}: horizon at row {:.1f} of the middle column{}, written to {}\n",
                      result.image, result.horizon_row,
-                     result.horizon_from_lines ? "" : " (level: no edges say more)", result.out);
+                     result.horizon_from_lines ? "" : " (level camera assumed)", result.out);
 }
 
 }  // namespace placegraph::apps

@@ -9,38 +9,38 @@
 namespace placegraph::apps {
 
 struct ScenePopupArguments {
-  std::string image;        ///< without distortion
-  std::string out;          ///< the mesh to write, PLY, in metres of the camera's frame
-  std::string calib;        ///< the camera; empty: a lens of about 58 degrees is supposed
-  std::string model;        ///< of surfaces; empty: the one that came with the program
-  std::string surfaces;     ///< label image in place of the model's; empty: none
-  std::string draw;         ///< the picture with the box in it, to write; empty: none
-  std::string mask;         ///< where the box is seen (255) and hidden (128); empty: not written
-  double height_m = 1.5;    ///< of the camera above the ground
-  double farthest_m = 100;  ///< nothing but the sky is farther
-  std::vector<double> box;  ///< right, forward, width, depth, height [m]; empty: none
-  std::uint64_t seed = 1;   ///< of the search for vanishing points
-  bool level = false;       ///< the camera is level: edges are not asked
-  bool force = false;       ///< overwrite files
+  std::string image;        ///< image without distortion
+  std::string out;          ///< file for the mesh, PLY, in the camera frame [m]
+  std::string calib;        ///< calibration file; empty: a lens of about 58 degrees is assumed
+  std::string model;        ///< model of surfaces; empty: the installed one
+  std::string surfaces;     ///< label image to use instead of the model; empty: none
+  std::string draw;         ///< file for the image with the box; empty: none
+  std::string mask;         ///< file for the mask of the box, visible 255, hidden 128; empty: none
+  double height_m = 1.5;    ///< height of the camera above the ground
+  double farthest_m = 100;  ///< largest distance of a surface; only the sky is farther
+  std::vector<double> box;  ///< box as right, forward, width, depth, height [m]; empty: none
+  std::uint64_t seed = 1;   ///< seed of the search for vanishing points
+  bool level = false;       ///< assume a level camera; ignore the edges
+  bool force = false;       ///< overwrite existing files
   HorizonOptions horizon;
 };
 
-/// What became of the box in the picture.
+/// The box in the image.
 struct PlacedBox {
-  Eigen::Vector2d foot_px;         ///< the middle of its foot
-  int seen_px = 0, hidden_px = 0;  ///< pixels
+  Eigen::Vector2d foot_px;         ///< centre of its bottom face
+  int seen_px = 0, hidden_px = 0;  ///< visible and hidden pixels
 };
 
 struct ScenePopupResult {
   std::string image, out;
-  Eigen::Vector3d down = Eigen::Vector3d::UnitY();  ///< unit, camera frame
+  Eigen::Vector3d down = Eigen::Vector3d::UnitY();  ///< unit vector in the camera frame
   bool horizon_from_lines = false;
-  double horizon_row = 0;             ///< where the horizon crosses the middle column [px]
-  std::optional<PlacedBox> box = {};  ///< if one was asked for
+  double horizon_row = 0;             ///< row of the horizon in the middle column [px]
+  std::optional<PlacedBox> box = {};  ///< set if a box was requested
 };
 
-/// `placegraph scene popup`: folds a picture up into space, writes the mesh, and puts a box into
-/// it. Throws ArgumentError, FileError.
+/// Makes a 3D model of planes from one image and inserts a box: `image popup`.
+/// Writes the mesh and the image with the box. Throws ArgumentError, FileError.
 ScenePopupResult scene_popup(const ScenePopupArguments& arguments);
 
 /// One line.

@@ -3,8 +3,7 @@
 
 namespace placegraph::apps {
 
-/// `placegraph scene surfaces`: sky 0, ground 1, vertical 2 or object 3, each pixel of a picture.
-/// Throws as label_pictures does, and FileError where a model is missing or of the other kind.
+/// Labels the pixels of images as sky 0, ground 1, vertical 2 or object 3: `image surfaces`.
 ScenePictureResult scene_surfaces(const ScenePictureArguments& arguments);
 
 }  // namespace placegraph::apps

@@ -28,11 +28,11 @@ Eigen::Vector3d vector_of(const char* option, const std::vector<double>& values)
 
 /// What is known beside the images; throws ArgumentError for what does not fit together.
 CueSetting cue_setting(const FlowArguments& arguments) {
-  require(!arguments.calib.empty(), "--cues: need the camera, --calib");
+  require(!arguments.calib.empty(), "--flow-cues: need the camera, --calib");
   require(arguments.gyro.empty() || arguments.dt_s > 0, "--gyro: needs --dt");
   require(arguments.dt_s == 0 || (arguments.dt_s >= 1e-6 && arguments.dt_s <= 1e4),
           "--dt: between 1e-6 and 1e4 s");
-  require(std::isfinite(arguments.rotation_sigma), "--turn-sigma: is not finite");
+  require(std::isfinite(arguments.rotation_sigma), "--rotation-sigma: is not finite");
   CueSetting setting;
   setting.camera = read_calib(arguments.calib);
   if (arguments.dt_s > 0) setting.dt_s = arguments.dt_s;
@@ -43,7 +43,7 @@ CueSetting cue_setting(const FlowArguments& arguments) {
   }
   std::optional<Eigen::Vector3d> turn;
   if (!arguments.gyro.empty()) turn = arguments.dt_s * vector_of("--gyro", arguments.gyro);
-  if (!arguments.turn.empty()) turn = vector_of("--turn", arguments.turn);
+  if (!arguments.turn.empty()) turn = vector_of("--rotation", arguments.turn);
   if (turn)
     setting.turn = {SO3::exp(*turn), arguments.rotation_sigma * arguments.rotation_sigma *
                                          Eigen::Matrix3d::Identity()};
@@ -102,7 +102,7 @@ FlowResult flow(const FlowArguments& arguments) {
   if (truth) result.error = flow_error(found, *truth);
   if (cues) {
     result.cues = describe_cues(sampled_flow(from, found, arguments.cell_px), *cues);
-    if (!any_cue(result.cues)) result.no_answer = "--cues: the flow tells none";
+    if (!any_cue(result.cues)) result.no_answer = "--flow-cues: the flow tells none";
   }
   return result;
 }

@@ -7,7 +7,7 @@
 
 namespace placegraph::apps {
 
-/// What `placegraph flow --cues` knows beside the flow.
+/// What `placegraph image flow --flow-cues` knows beside the flow.
 struct CueSetting {
   Camera camera;
   std::optional<KnownRotation> turn;                  ///< nothing: none is taken out

@@ -69,12 +69,12 @@ MotionEstimate answer_of(const MotionArguments& arguments, const std::optional<C
 
 void check(const MotionArguments& arguments) {
   const std::string& model = arguments.model;
-  (void)choice<std::size_t>("--model", motion_model_names(), model);
-  require(model == "3d3d" || !arguments.calib.empty(), "--calib is required for --model " + model);
+  (void)choice<std::size_t>("--method", motion_model_names(), model);
+  require(model == "3d3d" || !arguments.calib.empty(), "--calib is required for --method " + model);
   require(model != "gravity" || !arguments.options.gravity.empty(),
-          "--gravity is required for --model gravity");
+          "--gravity is required for --method gravity");
   require(arguments.options.gravity.empty() || model == "gravity" || model == "circular",
-          "--gravity: --model " + model + " takes none");
+          "--gravity: --method " + model + " takes none");
 }
 
 }  // namespace

@@ -63,7 +63,7 @@ MotionEstimate motion_by_two_views(const std::string& name, const MotionModelOpt
                                    const Camera& camera, const MatchFile& file, Random& random) {
   RelativePoseOptions options;
   const auto& names = relative_pose_model_names();
-  options.model = choice<RelativePoseModel>("--model", names, name);
+  options.model = choice<RelativePoseModel>("--method", names, name);
   adopt(asked, options.two_view);
   adopt(asked, options.rotation);
   const RelativePose found = estimate_relative_pose(camera, file.px_a, file.px_b, options, random);

@@ -6,16 +6,16 @@ heading "$title"
 rendered="--rendered 11,12,13 --rendered-frames 25" # as for the models that come with the program
 command_line "placegraph train surfaces|urban \$DATA/scene/camvid --holdout SEQUENCE $rendered --ablation --out MODEL"
 command_line "placegraph scene surfaces|label SEQUENCE --model MODEL --confidence --out LABELS"
-command_line "placegraph scene check LABELS SEQUENCE [--surfaces]"
+command_line "placegraph eval labels LABELS SEQUENCE [--surfaces]"
 
 # labelled NAME FOLDER ARGUMENTS...: surfaces and classes of a folder, judged
 labelled() {
   part=$out/camvid-$1; folder=$2; shift 2
   say "labelling $part"
-  $placegraph scene surfaces "$folder" --out "$part-surfaces" --confidence --force --json ${1:+--model "$1"} > "$part-surfaces.json" 2> "$part.log"
-  $placegraph scene label "$folder" --out "$part-urban" --confidence --force --json ${1:+--model "$2" --surfaces-model "$1"} > "$part-urban.json" 2>> "$part.log"
-  $placegraph scene check "$part-surfaces" "$folder" --surfaces --json > "$part-surfaces.check.json"
-  $placegraph scene check "$part-urban" "$folder" --json > "$part-urban.check.json"
+  $placegraph image surfaces "$folder" --out "$part-surfaces" --confidence --force --json ${1:+--model "$1"} > "$part-surfaces.json" 2> "$part.log"
+  $placegraph image labels "$folder" --out "$part-urban" --confidence --force --json ${1:+--model "$2" --surfaces-model "$1"} > "$part-urban.json" 2>> "$part.log"
+  $placegraph eval labels "$part-surfaces" "$folder" --surfaces --json > "$part-surfaces.check.json"
+  $placegraph eval labels "$part-urban" "$folder" --json > "$part-urban.check.json"
 }
 for sequence in 0001TP 0006R0 0016E5; do
   folder=$out/camvid-$sequence

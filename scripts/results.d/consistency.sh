@@ -2,14 +2,14 @@
 title="Edges of the place graph against the truth"
 heading "$title"
 command_line "placegraph run WORLD --sensor SENSOR --cues CUES --no-loops --out OUT"
-command_line "placegraph eval-edges WORLD OUT --json"
+command_line "placegraph eval edges WORLD OUT --json"
 printf '\nNEES per degree of freedom of the odometry edges (1 where claims are right); of right claims 1 %% lie beyond the 99 %% bound.\n' >> "$rows"
 columns sequence sensor cues edges "mean NEES" "median NEES" "beyond 99 % [%]" "mean in [0.5, 2]" "beyond <= 3 %"
 # consistency_row NAME WORLD SENSOR CUES
 consistency_row() {
   run "$1" "$out/$2-world" --sensor "$3" --cues "$4" --no-loops
   f=$out/$1.edges.json
-  $placegraph eval-edges "$out/$2-world" "$out/$1" --json > "$f"
+  $placegraph eval edges "$out/$2-world" "$out/$1" --json > "$f"
   mean=$(number "$f" mean_nees)
   beyond=$(LC_ALL=C awk -v b="$(number "$f" share_beyond_99)" 'BEGIN { printf "%.1f", 100 * b }')
   in_range=$(verdict "$mean" ">=" 0.5); [ "$in_range" != yes ] || in_range=$(verdict "$mean" "<=" 2)

@@ -1,8 +1,8 @@
 # Floor plans of rendered buildings against their true ones.
 title="Floor plans"
 heading "$title"
-command_line "placegraph synth WORLD --seed SEED --difficulty DIFFICULTY --stereo --out SEQUENCE"
-command_line "placegraph run SEQUENCE --sensor SENSOR --scene geometry --out OUT     # one eye: --camera-height 1.4"
+command_line "placegraph synth sequence WORLD --seed SEED --difficulty DIFFICULTY --stereo --out SEQUENCE"
+command_line "placegraph run SEQUENCE --sensor SENSOR --config floor_plan --out OUT     # one eye: --camera-height 1.4"
 echo >> "$rows"
 echo "By the first pose, nothing fitted. Walls: median distance from the surfaces of true walls that the poses can have seen to the plan's," >> "$rows"
 echo "and from the plan's to true ones; rooms: the least intersection over union of those that were entered." >> "$rows"
@@ -28,7 +28,7 @@ for world in "corridor-loop 1 standard" "corridor-loop 7 hard" "warehouse 1 stan
   render "$plan" "$1" --seed "$2" --difficulty "$3" --stereo
   for sensor in rgbd stereo mono; do
     case $sensor in mono) height="--camera-height 1.4" ;; *) height= ;; esac
-    run "$plan-$sensor" "$out/$plan-world" --sensor "$sensor" --scene geometry $height
+    run "$plan-$sensor" "$out/$plan-world" --sensor "$sensor" --config floor_plan $height
     plan_row "$plan-$sensor" "$1, seed $2, $3" "$sensor"
   done
 done

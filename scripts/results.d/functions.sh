@@ -52,7 +52,7 @@ render() {
   name=$1; shift
   if [ -n "${REUSE_WORLDS:-}" ] && { [ -f "$out/$name-world/poses.txt" ] || [ -f "$out/$name-world/markers.yaml" ]; }; then return 0; fi
   say "rendering $name"
-  $placegraph synth "$@" --out "$out/$name-world" --force > "$out/$name-world.log" 2>&1 || {
+  $placegraph synth sequence "$@" --out "$out/$name-world" --force > "$out/$name-world.log" 2>&1 || {
     cat "$out/$name-world.log" >&2; return 1; }
 }
 render_town() { render town town-loop --difficulty standard; }

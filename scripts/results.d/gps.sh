@@ -7,7 +7,7 @@ georeferenced() {
   for seed in $(seq "$seeds"); do
     w=$out/$name-$seed
     build/release/make_gps_scenario "$kitti" "$w" "$seed" "$dropouts" $reference
-    $placegraph georeference "$w/odometry.g2o" --times "$w/times.txt" --gps "$w/oxts.txt" --lever-arm=-0.32,0.72,-1.08 \
+    $placegraph map georeference "$w/odometry.g2o" --times "$w/times.txt" --gps "$w/oxts.txt" --lever-arm=-0.32,0.72,-1.08 \
       --origin "$(cat "$w/origin.txt")" --out "$w/earth" --force "$@" > "$w.log"
     for part in outside inside; do
       $placegraph eval "$w/$part.tum" "$w/earth/trajectory_enu.tum" --align none --json > "$w-$part.json" 2> "$w-$part.err"
@@ -38,7 +38,7 @@ for drive in 00 06; do
   [ "$drive" != 00 ] || georeferenced "gps$drive-harder" "$s" "$spans" "time 0.041 8.8e-4" 10
   heading "$title"
   command_line "make_gps_scenario \$DATA/kitti_gt/$drive W SEED $spans time|line     # of the build; tests/support/gps_scenario.h says what it does"
-  command_line "placegraph georeference W/odometry.g2o --times W/times.txt --gps W/oxts.txt --lever-arm=-0.32,0.72,-1.08 --origin \$(cat W/origin.txt) [--clock-offset estimate] --out W/earth"
+  command_line "placegraph map georeference W/odometry.g2o --times W/times.txt --gps W/oxts.txt --lever-arm=-0.32,0.72,-1.08 --origin \$(cat W/origin.txt) [--clock-offset estimate] --out W/earth"
   command_line "placegraph eval W/outside.tum W/earth/trajectory_enu.tum --align none    # and W/inside.tum"
   table
   for how in "" -clock; do

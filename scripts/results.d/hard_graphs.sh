@@ -5,8 +5,8 @@ export OPENBLAS_NUM_THREADS=1
 # hard NAME SYNTH_GRAPH_ARGUMENTS...
 hard() {
   graph=$out/hard-$1.g2o; label=$1; shift
-  command_line "placegraph synth-graph $(echo "$*" | sed "s|$data|\$DATA|") -o $label.g2o"
-  $placegraph synth-graph "$@" -o "$graph" --force > "$out/hard-$label.log"
+  command_line "placegraph synth graph $(echo "$*" | sed "s|$data|\$DATA|") -o $label.g2o"
+  $placegraph synth graph "$@" -o "$graph" --force > "$out/hard-$label.log"
 }
 # report LABEL: all starts of one graph
 report() {
@@ -16,7 +16,7 @@ report() {
   auto=$(number "$out/hard-$label-auto.json" chi2_log); lowest=$auto
   for start in auto file odometry chordal certified; do
     f=hard-$label-$start
-    [ $start = auto ] || optimize "$f" "$out/hard-$label.g2o" --start $start
+    [ $start = auto ] || optimize "$f" "$out/hard-$label.g2o" --initialization $start
     chi2=$(number "$out/$f.json" chi2_log)
     [ -z "$chi2" ] || lowest=$(printf '%s\n' $lowest "$chi2" | LC_ALL=C sort -g | head -n 1)
     set -- "$@" "$(significant "$chi2" 9) ($(significant "$(number "$out/$f.json" cpu_ms)" 3) ms)"
@@ -35,6 +35,6 @@ if [ -f "$data/posegraphs/M3500.g2o" ]; then
   for noise in 0.1 0.2 0.3; do hard "M3500-$noise" "$data/posegraphs/M3500.g2o" --rotation-noise $noise; done
   made="M3500-0.1 M3500-0.2 M3500-0.3 $made"
 fi
-command_line "placegraph optimize GRAPH.g2o -o OUT.g2o --start START --json [--certify]"
+command_line "placegraph optimize GRAPH.g2o -o OUT.g2o --initialization START --json [--certify]"
 columns graph "chi2_log (CPU) from auto" file odometry chordal certified "kept by auto" "gap of the certificate" "auto is the lowest, within 1e-6"
 for label in $made; do report "$label"; done

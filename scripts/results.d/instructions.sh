@@ -78,9 +78,9 @@ published() {
 }
 
 heading "$title"
-command_line "placegraph synth-graph manhattan-walk --poses 3500|1000 [--false-loops 100] -o WALK.g2o"
-command_line "placegraph synth-graph \$DATA/posegraphs/intel.g2o --false-loops 100 -o INTEL.g2o"
-command_line "placegraph synth town-loop --frames 10 --stereo --depth --threads 1 --out TOWN"
+command_line "placegraph synth graph manhattan-walk --poses 3500|1000 [--false-loops 100] -o WALK.g2o"
+command_line "placegraph synth graph \$DATA/posegraphs/intel.g2o --false-loops 100 -o INTEL.g2o"
+command_line "placegraph synth sequence town-loop --frames 10 --stereo --depth --threads 1 --out TOWN"
 command_line "valgrind --tool=callgrind placegraph optimize GRAPH.g2o -o OUT.g2o --quiet [--incremental|--robust auto]"
 command_line "valgrind --tool=callgrind placegraph eval TRUTH.txt ESTIMATE.txt --align se3 --json"
 command_line "valgrind --tool=callgrind placegraph run TOWN --sensor SENSOR --threads 1 --out OUT    # one eye: --camera-height 1.65"

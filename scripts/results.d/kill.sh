@@ -2,7 +2,7 @@
 title="Killed 20 times (-9): the map that is left, and the run that goes on"
 render kill town-loop --frames 200 --difficulty standard --stereo --size 620x188
 heading "$title"
-command_line "placegraph synth town-loop --frames 200 --difficulty standard --stereo --size 620x188 --out WORLD"
+command_line "placegraph synth sequence town-loop --frames 200 --difficulty standard --stereo --size 620x188 --out WORLD"
 command_line "scripts/kill_study placegraph WORLD OUT 20 7"
 say "killing 20 runs"
 scripts/kill_study "$placegraph" "$out/kill-world" "$out/kill" 20 7 > "$out/kill.txt" 2> "$out/kill.err" || cat "$out/kill.err" >&2

@@ -3,9 +3,9 @@ title="Bundle adjustment: Ladybug, 49 cameras, 7776 points"
 s=$data/bal/problem-49-7776-pre.txt
 [ -f "$s" ] || { absent "$title"; return 0; }
 say "adjusting Ladybug"
-$placegraph bundle "$s" --json > "$out/ladybug.json"
+$placegraph graph bundle "$s" --json > "$out/ladybug.json"
 heading "$title"
-command_line "placegraph bundle \$DATA/bal/problem-49-7776-pre.txt --json"
+command_line "placegraph graph bundle \$DATA/bal/problem-49-7776-pre.txt --json"
 table
 f=$out/ladybug.json
 cost=$(number "$f" cost)

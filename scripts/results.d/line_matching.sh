@@ -4,7 +4,7 @@ s=$data/scene/line_matching
 [ -d "$s" ] || { absent "$title"; return 0; }
 build_bench bench_pair_scores
 heading "$title"
-command_line "placegraph lines match \$DATA/scene/line_matching/PAIR/1.png .../2.png --segments .../lsd1.txt .../lsd2.txt --out MATCHES.txt"
+command_line "placegraph image match-lines \$DATA/scene/line_matching/PAIR/1.png .../2.png --segments .../lsd1.txt .../lsd2.txt --out MATCHES.txt"
 command_line "build/release/tests/bench/bench_pair_scores lines \$DATA/scene/line_matching/PAIR/lsd_GroundTruthMatches.txt MATCHES.txt"
 cat >> "$rows" << 'NOTE'
 
@@ -21,7 +21,7 @@ for kind in lsd ed; do
     second=$(ls "$folder" | grep -E '^(img)?[2-9]\.(png|jpg)$')
     number_b=$(echo "$second" | tr -dc '0-9')
     matches=$out/line_matching.$pair.$kind
-    $placegraph lines match "$folder$first" "$folder$second" --segments "$folder${kind}1.txt" "$folder$kind$number_b.txt" \
+    $placegraph image match-lines "$folder$first" "$folder$second" --segments "$folder${kind}1.txt" "$folder$kind$number_b.txt" \
       --out "$matches.txt" --force > "$matches.log"
     build/release/tests/bench/bench_pair_scores lines "$folder${kind}_GroundTruthMatches.txt" "$matches.txt" > "$matches.tsv"
     tabbed "$matches.tsv" precision >> "$out/line_matching.$kind.precision"

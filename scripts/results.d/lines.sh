@@ -3,7 +3,7 @@ title="Lines: motion without points"
 s=$data/sequences
 render corridor corridor-loop --difficulty standard --stereo --depth --frames 620
 heading "$title"
-command_line "placegraph synth corridor-loop --out WORLD --difficulty standard --stereo --depth --frames 620"
+command_line "placegraph synth sequence corridor-loop --out WORLD --difficulty standard --stereo --depth --frames 620"
 command_line "placegraph run SEQUENCE --out OUT --sensor SENSOR --cues CUES --no-loops"
 command_line "placegraph eval SEQUENCE OUT/trajectory_optimized.kitti --align ALIGN --lengths LENGTHS --step STEP"
 columns sequence sensor cues "posed frames" align "ATE RMSE [m]" "lengths [m], step" "t_rel [%]" "RPE rot median [deg]" "CPU a frame [ms]" "target met"
@@ -28,9 +28,9 @@ for cues in lines points points,lines; do
   [ ! -d "$s/kitti06_stereo51" ] || line_row "kitti06-$cues" "$s/kitti06_stereo51" stereo $cues origin 10,20,30,40,50 1
 done
 printf '\nAssociations by the true poses: a sighting is wrong if it misses the line that most of its track sees by more than 3 px.\n\n' >> "$rows"
-command_line "placegraph lines track SEQUENCE --sensor stereo"
+command_line "placegraph track lines SEQUENCE --sensor stereo"
 columns sequence "tracks" "median length [frames]" "of those seen in 3 frames or more" "sightings" "wrong [%]" "target met"
-$placegraph lines track "$out/corridor-world" --sensor stereo --json > "$out/corridor-tracks.json"
+$placegraph track lines "$out/corridor-world" --sensor stereo --json > "$out/corridor-tracks.json"
 f=$out/corridor-tracks.json
 cells corridor-loop "$(number "$f" tracks)" "$(number "$f" median_length_frames)" "$(number "$f" median_length_of_use_frames)" "$(number "$f" sightings)" "$(digits "$(number "$f" wrong_percent)")" \
   "length >= 20: $(verdict "$(number "$f" median_length_frames)" ">=" 20); wrong <= 1 %: $(verdict "$(number "$f" wrong_percent)" "<=" 1)"

@@ -2,9 +2,9 @@
 title="Localization: images of a second traverse in a saved map"
 heading "$title"
 command_line "placegraph map learn PLACES --range FIRST LAST --out map.db    # the candidates of gt.txt"
-command_line "placegraph localize map.db PLACES --range QUERIES --sequence --out placed.txt"
-command_line "placegraph synth HALF_OF_KITTI_00 --out WORLD --difficulty standard --stereo --size 620x188; placegraph run WORLD --out MAP"
-command_line "placegraph synth HALF_OF_KITTI_00 --out OTHER --difficulty hard --mono --size 620x188; placegraph localize MAP OTHER --sequence --out placed.txt"
+command_line "placegraph map localize map.db PLACES --range QUERIES --sequence --out placed.txt"
+command_line "placegraph synth sequence HALF_OF_KITTI_00 --out WORLD --difficulty standard --stereo --size 620x188; placegraph run WORLD --out MAP"
+command_line "placegraph synth sequence HALF_OF_KITTI_00 --out OTHER --difficulty hard --mono --size 620x188; placegraph map localize MAP OTHER --sequence --out placed.txt"
 columns "set" images "placed rightly [%]" ">= 95" "wrong [%]" "<= 1" refused "CPU [ms an image]"
 # share NAME WHAT: of answers, from `right`, `wrong` and `refused` lines in $out/NAME.judged
 judged() {
@@ -35,7 +35,7 @@ by_pose() {
 place() {
   name=$1; map=$2; images=$3; shift 3
   say "placing $name"
-  $placegraph localize "$map" "$images" --out "$out/$name.txt" --force "$@" > "$out/$name.log" 2>&1 || [ $? = 1 ]
+  $placegraph map localize "$map" "$images" --out "$out/$name.txt" --force "$@" > "$out/$name.log" 2>&1 || [ $? = 1 ]
 }
 for s in corridor_milford gardens_day_thumb; do
   folder=$data/places/$s

@@ -3,7 +3,7 @@
 # corridor and the warehouse of seed 7 and the street of alike blocks (tests/bench/loop_probability_study); judged on others.
 title="Loop decisions"
 heading "$title"
-command_line "placegraph synth corridor-loop --out WORLD --seed 1 --difficulty standard    # warehouse likewise"
+command_line "placegraph synth sequence corridor-loop --out WORLD --seed 1 --difficulty standard    # warehouse likewise"
 command_line "placegraph run WORLD --sensor rgbd|mono [--cues points,lines] --out OUT"
 command_line "placegraph loops --predictions OUT/loops.csv --format run --poses WORLD/poses.txt --radius 1 --heading 40 --min-age 40 --json"
 

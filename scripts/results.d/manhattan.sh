@@ -18,7 +18,7 @@ york_row "marked points found within 2 deg" "$(figure recall)" ">=" 0.85
 york_row "false ones an image" "$(figure false)" "<=" 1
 
 printf '\nThe heading of a run with two eyes once round the rendered corridor without loop closing, against the truth from the first pose on: what rectangular worlds are worth.\n\n' >> "$rows"
-command_line "placegraph synth corridor-loop --difficulty standard --stereo --depth --labels --out WORLD"
+command_line "placegraph synth sequence corridor-loop --difficulty standard --stereo --depth --labels --out WORLD"
 command_line "placegraph run WORLD --sensor stereo --cues CUES --no-loops --out OUT"
 render heading corridor-loop --difficulty standard --stereo --depth --labels
 # heading_errors TRUTH ESTIMATE: median, greatest and last error about the first camera's y [deg], and the share of frames beyond 0.5 deg [%]

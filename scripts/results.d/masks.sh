@@ -53,7 +53,7 @@ with_and_without traffic "town-loop seed 3, hard traffic, $frames frames, one ey
 write_rounds 2 "$out/masks-rounds.txt"
 render masks-rounds "$out/masks-rounds.txt" --difficulty hard --mono --size 620x188
 printf '\nPlaces recognized again: two rounds of a block of 316 m in hard traffic, half size, one eye. Revisits (within 5 m and 30 deg of a view 300 frames older) as the finished map tells them.\n' >> "$rows"
-command_line "placegraph synth rounds.txt --out WORLD --difficulty hard --mono --size 620x188"
+command_line "placegraph synth sequence rounds.txt --out WORLD --difficulty hard --mono --size 620x188"
 command_line "placegraph run WORLD --sensor mono --camera-height 1.65 [--set semantics.enabled=true ...] --out OUT"
 command_line "placegraph map export OUT --revisits known.txt; placegraph loops --predictions known.txt --poses WORLD/poses.txt --min-age 300 --json"
 columns run "loops, true" "loops, false" "loops looked at" "revisits, R@1" AP "recall at full precision" "ATE [m] origin"

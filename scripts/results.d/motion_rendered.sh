@@ -6,7 +6,7 @@ render stereo06 "$s" --difficulty standard --stereo
 run stereo06 "$out/stereo06-world" --sensor stereo
 judge stereo06 "$out/stereo06-world" "$out/stereo06/trajectory_optimized.kitti" --align se3
 heading "$title"
-command_line "placegraph synth \$DATA/kitti_gt/06/poses.txt --out WORLD --difficulty standard --stereo"
+command_line "placegraph synth sequence \$DATA/kitti_gt/06/poses.txt --out WORLD --difficulty standard --stereo"
 command_line "placegraph run WORLD --sensor stereo --out OUT"
 command_line "placegraph eval WORLD OUT/trajectory_optimized.kitti --align se3"
 table
@@ -24,7 +24,7 @@ mono_drive() {
   run "$1" "$out/$1-world" --sensor mono --camera-height 1.65
   judge "$1" "$out/$1-world" "$out/$1/trajectory_optimized.kitti" --align origin
   heading "$title"
-  command_line "placegraph synth \$DATA/kitti_gt/$2/poses.txt --out WORLD --difficulty standard --mono"
+  command_line "placegraph synth sequence \$DATA/kitti_gt/$2/poses.txt --out WORLD --difficulty standard --mono"
   command_line "placegraph run WORLD --sensor mono --camera-height 1.65 --out OUT"
   command_line "placegraph eval WORLD OUT/trajectory_optimized.kitti --align origin"
   table

@@ -1,14 +1,14 @@
 # Orientation maps of single images against the surfaces that were rendered.
 title="Orientation maps"
 heading "$title"
-command_line "placegraph synth corridor-loop --seed SEED --difficulty DIFFICULTY --labels --mono --out WORLD"
-command_line "placegraph scene orientation WORLD --every 10"
+command_line "placegraph synth sequence corridor-loop --seed SEED --difficulty DIFFICULTY --labels --mono --out WORLD"
+command_line "placegraph image orientation WORLD --every 10"
 columns world images "CPU [ms an image]" "coverage [%]" ">= 60" "right of those [%]" ">= 88"
 for world in "corridor-loop 1 standard" "corridor-loop 7 hard" "warehouse 1 standard"; do
   set -- $world
   name=orientation-$1-$2
   render "$name" "$1" --seed "$2" --difficulty "$3" --labels --mono --frames 600
-  $placegraph scene orientation "$out/$name-world" --every 10 --json > "$out/$name.json"
+  $placegraph image orientation "$out/$name-world" --every 10 --json > "$out/$name.json"
   share() { awk -v v="$(number "$out/$name.json" "$1")" 'BEGIN { printf "%.1f", 100 * v }'; }
   coverage=$(share coverage); right=$(share accuracy)
   met60=-; met88=-

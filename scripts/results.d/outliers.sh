@@ -16,11 +16,11 @@ rejections() {
 attack() {
   clean=$data/posegraphs/$1.g2o; case_=outliers-$1-$2-$3
   say "$1 with $2 false loops ($3)"
-  $placegraph synth-graph "$4" --shuffle -o "$out/$case_-shuffled.g2o" --force > "$out/$case_.log"
+  $placegraph synth graph "$4" --shuffle -o "$out/$case_-shuffled.g2o" --force > "$out/$case_.log"
   optimize "$case_" "$out/$case_-shuffled.g2o" --robust auto
   f=$out/$case_.json
   if [ ! -f "$f" ]; then cells "$1" "$2" "$3" "no answer" "**no**" - - - - - - -; return 0; fi
-  $placegraph convert "$out/$case_.g2o" "$out/$case_.kitti" --force > "$out/$case_.log"
+  $placegraph graph convert "$out/$case_.g2o" "$out/$case_.kitti" --force > "$out/$case_.log"
   judge "$case_-rmse" "$out/outliers-$1-clean.kitti" "$out/$case_.kitti" --align se3
   rmse=$(number "$out/$case_-rmse.json" ate_rmse_m); ms=$(number "$f" cpu_ms)
   loops=$(edges "$clean" | awk '$2 - $1 != 1 && $1 - $2 != 1' | wc -l)
@@ -31,21 +31,21 @@ attack() {
 }
 
 heading "$title"
-command_line "placegraph synth-graph \$DATA/posegraphs/outliers/GRAPH_outN.g2o --shuffle -o IN.g2o    # theirs"
-command_line "placegraph synth-graph \$DATA/posegraphs/GRAPH.g2o --false-loops N --shuffle -o IN.g2o   # made"
+command_line "placegraph synth graph \$DATA/posegraphs/outliers/GRAPH_outN.g2o --shuffle -o IN.g2o    # theirs"
+command_line "placegraph synth graph \$DATA/posegraphs/GRAPH.g2o --false-loops N --shuffle -o IN.g2o   # made"
 command_line "placegraph optimize IN.g2o -o OUT.g2o --robust auto --json"
 command_line "placegraph optimize \$DATA/posegraphs/GRAPH.g2o -o CLEAN.g2o"
-command_line "placegraph convert OUT.g2o OUT.kitti; placegraph convert CLEAN.g2o CLEAN.kitti; placegraph eval CLEAN.kitti OUT.kitti --align se3"
+command_line "placegraph graph convert OUT.g2o OUT.kitti; placegraph graph convert CLEAN.g2o CLEAN.kitti; placegraph eval CLEAN.kitti OUT.kitti --align se3"
 columns graph "false loops" "whose" "RMSE of translation [m]" target met "true loops lost" target met "false loops kept" "CPU [s]" target met
 # graph, RMSE [m], share of true loops that may be lost, CPU [s]
 echo "intel 0.01 0 2
 kitti_00 0.1 0.05 2
 sphere2500 0.01 0 20" | while read -r graph rmse_limit lost_limit cpu_limit; do
   optimize "outliers-$graph-clean" "$data/posegraphs/$graph.g2o"
-  $placegraph convert "$out/outliers-$graph-clean.g2o" "$out/outliers-$graph-clean.kitti" --force > "$out/outliers-$graph-clean.log"
+  $placegraph graph convert "$out/outliers-$graph-clean.g2o" "$out/outliers-$graph-clean.kitti" --force > "$out/outliers-$graph-clean.log"
   for n in 10 100 1000; do
     attack $graph $n theirs "$data/posegraphs/outliers/${graph}_out$n.g2o" $rmse_limit $lost_limit $cpu_limit
-    $placegraph synth-graph "$data/posegraphs/$graph.g2o" --false-loops $n -o "$out/outliers-$graph-$n.g2o" --force > "$out/outliers-$graph-$n.log"
+    $placegraph synth graph "$data/posegraphs/$graph.g2o" --false-loops $n -o "$out/outliers-$graph-$n.g2o" --force > "$out/outliers-$graph-$n.log"
     attack $graph $n made "$out/outliers-$graph-$n.g2o" $rmse_limit $lost_limit $cpu_limit
   done
 done

@@ -3,7 +3,7 @@ title="Labelled places"
 house=$data/places/vtm_virtual_house
 [ -d "$house" ] || { absent "$title"; return 0; }
 heading "$title"
-command_line "placegraph places classify \$DATA/places/vtm_virtual_house --out told.txt --classifier CLASSIFIER --cues CUES"
+command_line "placegraph places classify \$DATA/places/vtm_virtual_house --out told.txt --classifier CLASSIFIER --appearance CUES"
 . scripts/results.d/place_sets.sh
 printf '\nAccuracy on the parts of the training half that were left out (which alone decides about weights and costs) / on the other half.\n\n' >> "$rows"
 columns cues kernel svm adaboost
@@ -11,7 +11,7 @@ for cues in colours quarters edges tiny gabor colours,quarters,edges,tiny,gabor;
   set --
   for machine in kernel svm adaboost; do
     say "telling places by $cues, $machine"
-    $placegraph places classify "$house" --out "$out/places-told.txt" --force --classifier $machine --cues $cues > "$out/places-told.log"
+    $placegraph places classify "$house" --out "$out/places-told.txt" --force --classifier $machine --appearance $cues > "$out/places-told.log"
     left_out=$(sed -n 's/.*parts accuracy \([0-9.]*\),.*/\1/p' "$out/places-told.log")
     last=$(told_right "$out/places-told.txt")
     set -- "$@" "$left_out / $(digits "$last")"

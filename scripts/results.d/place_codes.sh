@@ -2,8 +2,8 @@
 title="Places by visual words"
 [ -d "$data/places" ] || { absent "$title"; return 0; }
 heading "$title"
-command_line "placegraph vocabulary train OTHER SETS --out words.pgw --kind binary --words 10000 --descriptors 60000    # bow"
-command_line "placegraph vocabulary train OTHER SETS --out words.pgw --kind float --words 10000 --descriptors 60000     # the others"
+command_line "placegraph train vocabulary OTHER SETS --out words.pgw --kind binary --words 10000 --descriptors 60000    # bow"
+command_line "placegraph train vocabulary OTHER SETS --out words.pgw --kind float --words 10000 --descriptors 60000     # the others"
 command_line "placegraph match SET --codes CODES --vocabulary words.pgw --out found.txt"
 . scripts/results.d/place_sets.sh
 vocabularies=$out/place-vocabularies
@@ -17,7 +17,7 @@ learned() {
   done
   say "learning words for $left_out: $name"
   # shellcheck disable=SC2086
-  $placegraph vocabulary train $others --out "$vocabularies/$name-$left_out.pgw" --descriptors 60000 --force "$@" > "$out/vocabulary.log" 2>&1
+  $placegraph train vocabulary $others --out "$vocabularies/$name-$left_out.pgw" --descriptors 60000 --force "$@" > "$out/vocabulary.log" 2>&1
 }
 for s in $sets vtm_virtual_house; do
   learned "$s" binary --kind binary --words 10000
@@ -53,9 +53,9 @@ for s in $sets vtm_virtual_house; do all="$all $(folder_of "$s")"; done
 for kind in binary float; do
   say "learning many $kind words"
   # shellcheck disable=SC2086
-  $placegraph vocabulary train $all --out "$vocabularies/many-$kind.pgw" --kind $kind --words 100000 --descriptors 300000 --force > "$out/vocabulary.log" 2>&1
+  $placegraph train vocabulary $all --out "$vocabularies/many-$kind.pgw" --kind $kind --words 100000 --descriptors 300000 --force > "$out/vocabulary.log" 2>&1
   for file in "$vocabularies/$kind-corridor_milford.pgw" "$vocabularies/many-$kind.pgw"; do
-    told=$($placegraph vocabulary info "$file")
+    told=$($placegraph places vocabulary "$file")
     ms=$(echo "$told" | sed 's/.*read in \([0-9]*\) ms/\1/')
     cells $kind "$(echo "$told" | sed 's/.*: \([0-9]*\) .* words,.*/\1/')" "$ms" "<= 300" "$(verdict "$ms" "<=" 300)"
   done

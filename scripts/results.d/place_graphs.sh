@@ -8,7 +8,7 @@ whole_graph() {
   run "$keyframes" "$sequence" --set places.max_distance=0 "$@"
   for graph_of in "$places" "$keyframes"; do
     judge "$graph_of-se3" "$sequence" "$out/$graph_of/trajectory_optimized.kitti" --align se3
-    optimize "$graph_of-again" "$out/$graph_of/graph.g2o" --start file
+    optimize "$graph_of-again" "$out/$graph_of/graph.g2o" --initialization file
   done
   ours=$(number "$out/$places-se3.json" ate_rmse_m); all=$(number "$out/$keyframes-se3.json" ate_rmse_m)
   nodes=$(number "$out/$places/result.json" places); all_nodes=$(number "$out/$places/result.json" keyframes)
@@ -23,7 +23,7 @@ heading "The place graph against the graph of all keyframes"
 command_line "placegraph run SEQUENCE --out PLACES"
 command_line "placegraph run SEQUENCE --out KEYFRAMES --set places.max_distance=0"
 command_line "placegraph eval SEQUENCE OUT/trajectory_optimized.kitti --align se3"
-command_line "placegraph optimize OUT/graph.g2o -o AGAIN.g2o --start file --json"
+command_line "placegraph optimize OUT/graph.g2o -o AGAIN.g2o --initialization file --json"
 table
 [ -d "$out/town-world" ] || render_town
 whole_graph town "$out/town-world"

@@ -9,7 +9,7 @@ found() {
   folder=$(folder_of "$set_name")
   case "$set_name" in
     kitchen) age="--min-age 34"; truth="--poses $folder/poses.txt --radius 0.5 --heading 30 --min-age 34" ;;
-    *) age=""; truth="--gt $folder/gt.txt" ;;
+    *) age=""; truth="--truth $folder/gt.txt" ;;
   esac
   say "matching $name"
   $placegraph match "$folder" $age --out "$out/$name.txt" --force "$@" > "$out/$name.log" 2>&1

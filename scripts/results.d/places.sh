@@ -2,8 +2,8 @@
 title="Place recognition"
 [ -d "$data/places" ] || { absent "$title"; return 0; }
 heading "$title"
-command_line "placegraph match FOLDER --out found.txt [--sequence] [--cues CUES]    # kitchen: --min-age 34"
-command_line "placegraph loops --predictions found.txt --gt FOLDER/gt.txt --json"
+command_line "placegraph match FOLDER --out found.txt [--sequence] [--appearance CUES]    # kitchen: --min-age 34"
+command_line "placegraph loops --predictions found.txt --truth FOLDER/gt.txt --json"
 command_line "placegraph places classify \$DATA/places/vtm_virtual_house --out told.txt [--sequence]"
 command_line "placegraph loops --predictions found.txt --poses poses.txt --radius 0.5 --heading 30 --min-age 34 --json    # kitchen"
 . scripts/results.d/place_sets.sh
@@ -37,7 +37,7 @@ for n in 00 06; do
   case $n in 00) limits="0.818 0.870" ;; *) limits="0.814 0.814" ;; esac
   loops=$data/golden/loops
   [ -d "$loops" ] || continue
-  $placegraph loops --predictions "$loops/ibow_KITTI${n}_loops.txt" --format ibow --gt "$loops/KITTI_${n}_loops_10m.txt" --json > "$out/places-ibow-$n.json"
+  $placegraph loops --predictions "$loops/ibow_KITTI${n}_loops.txt" --format ibow --truth "$loops/KITTI_${n}_loops_10m.txt" --json > "$out/places-ibow-$n.json"
   set -- recall_at_100p ap
   for limit in $limits; do
     value=$(number "$out/places-ibow-$n.json" "$1")
@@ -61,7 +61,7 @@ columns cues $sets
 for cues in tiny colour gradients gabor corners colour,gradients,gabor,corners tiny,gradients,gabor,corners tiny,colour,gabor,corners tiny,colour,gradients,corners tiny,colour,gradients,gabor tiny,colour,gradients,gabor,corners; do
   set --
   for s in $sets; do
-    found places-cues "$s" --cues "$cues"
+    found places-cues "$s" --appearance "$cues"
     set -- "$@" "$(figures places-cues "$s")"
   done
   cells "$cues" "$@"

@@ -1,11 +1,11 @@
 # Plane landmarks: the same runs with and without them.
 title="Planes as landmarks"
 heading "$title"
-command_line "placegraph synth corridor-loop --difficulty standard --stereo --depth --frames 620 --out WORLD          # seed 1"
-command_line "placegraph synth corridor-loop --seed 7 --difficulty hard --mono --depth --frames 400 --out WORLD"
+command_line "placegraph synth sequence corridor-loop --difficulty standard --stereo --depth --frames 620 --out WORLD          # seed 1"
+command_line "placegraph synth sequence corridor-loop --seed 7 --difficulty hard --mono --depth --frames 400 --out WORLD"
 command_line "placegraph run SEQUENCE --sensor rgbd [--no-loops] --set odometry.planes.enabled=WITH --out OUT"
 command_line "placegraph eval SEQUENCE OUT/trajectory_optimized.kitti --align se3"
-command_line "placegraph eval-edges SEQUENCE OUT --json        # without loops"
+command_line "placegraph eval edges SEQUENCE OUT --json        # without loops"
 printf '\nRendered depth is exact but for its steps of 1 mm. NEES per degree of freedom of the odometry edges, 1 where claims are right.\n' >> "$rows"
 columns sequence sensor loops "ATE without [m]" "with [m]" "RPE rot median without [deg]" "with [deg]" "mean NEES without" with "beyond 99 % without [%]" "with [%]" "CPU a frame without [ms]" "with [ms]"
 # plane_row SEQUENCE-NAME SEQUENCE SENSOR LOOPS
@@ -15,7 +15,7 @@ plane_row() {
     n=planes-$1-$3-$4-$with
     run "$n" "$2" --sensor "$3" $loops --set "odometry.planes.enabled=$with"
     judge "$n" "$2" "$out/$n/trajectory_optimized.kitti" --align se3
-    [ "$4" = on ] || $placegraph eval-edges "$2" "$out/$n" --json > "$out/$n.edges.json"
+    [ "$4" = on ] || $placegraph eval edges "$2" "$out/$n" --json > "$out/$n.edges.json"
   done
   a=$out/planes-$1-$3-$4-false; b=$out/planes-$1-$3-$4-true
   set -- "$1" "$3" "$4"

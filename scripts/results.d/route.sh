@@ -1,8 +1,8 @@
 # Shortest ways over the places of rendered drives against the truth, and the way back replayed.
 build_bench bench_route_study
 heading "The way back over the places of rendered drives"
-command_line "placegraph synth town-loop --out TOWN --difficulty standard"
-command_line "placegraph synth \$DATA/kitti_gt/06/poses.txt --out R06 --difficulty standard --mono    # and 00"
+command_line "placegraph synth sequence town-loop --out TOWN --difficulty standard"
+command_line "placegraph synth sequence \$DATA/kitti_gt/06/poses.txt --out R06 --difficulty standard --mono    # and 00"
 command_line "build/release/tests/bench/bench_route_study WORLD [FRAMES [CAMERA_HEIGHT]]"
 printf '\nA map is made of a drive, or of its first frames, by two eyes in town, by one of known height elsewhere. **Ways**: the shortest ones between 500 pairs of its places, spread over all, against the\nshortest over the same roads with every place where it truly is: how many go over the very same places, and how much longer by the truth the others are at worst. The detour is against the shortest\nway along what was driven, where passes within 5 m that look the same way (30 deg) are one road: the map joins passes where it recognized them, some metres after they met. **Recognition**: at every step of the way back between\nplaces spread over the map the robot sees a frame that the map does not keep, of another pass within 5 m where there is one (of a later one than the map has seen, where\nit is made of the first frames), else a neighbour of the kept frame; it is looked up among all views of the map, without being told where it is, and right if recognized within 5 m and 30 deg of\nwhere it truly is.\n' >> "$rows"
 columns drive places "pairs over the same places" "worst excess [%]" "detour, median [%] (worst [m])" "length error, median (worst) [%]" "places recognized by another pass" "by neighbours" "position error there [m]" "steps back recognized" "ways back recognized whole" met

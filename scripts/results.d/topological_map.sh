@@ -5,9 +5,9 @@ drives=${DRIVES:-00 05 06 08}
 title="The topological map and its loops"
 [ -d "$data/kitti_gt/00" ] || { absent "$title"; return 0; }
 heading "$title"
-command_line "placegraph synth \$DATA/kitti_gt/NN/poses.txt --out WORLD --difficulty standard --mono --size 620x188"
-command_line "placegraph synth rounds.txt --out WORLD --difficulty standard --mono --size 620x188    # 316 m three times, 0.3 m aside"
-command_line "placegraph synth repeated-blocks --out WORLD --difficulty standard --mono --size 620x188"
+command_line "placegraph synth sequence \$DATA/kitti_gt/NN/poses.txt --out WORLD --difficulty standard --mono --size 620x188"
+command_line "placegraph synth sequence rounds.txt --out WORLD --difficulty standard --mono --size 620x188    # 316 m three times, 0.3 m aside"
+command_line "placegraph synth sequence repeated-blocks --out WORLD --difficulty standard --mono --size 620x188"
 command_line "placegraph run WORLD --sensor mono --camera-height 1.65 --out OUT    # place_check and loop_check of OUT/result.json"
 command_line "placegraph map export OUT --revisits known.txt"
 command_line "placegraph match WORLD --sequence --min-age 300 --out found.txt"

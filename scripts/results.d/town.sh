@@ -4,7 +4,7 @@ world=$out/town-world
 run town-no-loops "$world" --no-loops
 run town "$world"
 heading "town-loop (standard): what scripts/demo shows"
-command_line "placegraph synth town-loop --out WORLD --difficulty standard"
+command_line "placegraph synth sequence town-loop --out WORLD --difficulty standard"
 command_line "placegraph run WORLD --out OUT [--no-loops]"
 command_line "placegraph eval WORLD OUT/trajectory_optimized.kitti --align se3"
 table

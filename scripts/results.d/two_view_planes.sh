@@ -4,7 +4,7 @@ s=$data/scene/adelaide_planes
 [ -d "$s" ] || { absent "$title"; return 0; }
 build_bench bench_pair_scores
 heading "$title"
-command_line "placegraph planes two-view \$DATA/scene/adelaide_planes/PAIR.txt --out LABELS.txt"
+command_line "placegraph image two-view-planes \$DATA/scene/adelaide_planes/PAIR.txt --out LABELS.txt"
 command_line "build/release/tests/bench/bench_pair_scores planes \$DATA/scene/adelaide_planes/PAIR.txt LABELS.txt"
 cat >> "$rows" << 'NOTE'
 
@@ -16,7 +16,7 @@ columns pair matches "planes marked" "planes found" "misclassified [%]"
 for file in "$s"/*.txt; do
   pair=$(basename "$file" .txt)
   labels=$out/two_view_planes.$pair
-  $placegraph planes two-view "$file" --out "$labels.txt" --force --json > "$labels.json"
+  $placegraph image two-view-planes "$file" --out "$labels.txt" --force --json > "$labels.json"
   build/release/tests/bench/bench_pair_scores planes "$file" "$labels.txt" > "$labels.tsv"
   wrong=$(tabbed "$labels.tsv" misclassified_percent)
   echo "$wrong" >> "$out/two_view_planes.values"

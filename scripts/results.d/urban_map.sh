@@ -2,10 +2,10 @@
 # corrected them; the top view of a real street.
 title="Semantic maps of streets"
 heading "$title"
-command_line "placegraph synth town-loop --seed SEED --stereo --labels --frames 570 --out TOWN"
-command_line "placegraph run TOWN --sensor stereo --scene semantics --out OUT"
-command_line "placegraph map semantic OUT --out MAP --set min_step_m=4 --set OPTIONS     # what each part brings"
-command_line "placegraph run \$DATA/sequences/kitti06_stereo51 --sensor stereo --scene semantics --set scene.urban.sight.step_px=4 --out OUT"
+command_line "placegraph synth sequence town-loop --seed SEED --stereo --labels --frames 570 --out TOWN"
+command_line "placegraph run TOWN --sensor stereo --config street_map --out OUT"
+command_line "placegraph map street OUT --out MAP --set min_step_m=4 --set OPTIONS     # what each part brings"
+command_line "placegraph run \$DATA/sequences/kitti06_stereo51 --sensor stereo --config street_map --set scene.urban.sight.step_px=4 --out OUT"
 echo >> "$rows"
 echo "Cells of 0.3 m whose class is one that truly stands there, of all that are known, by the first pose: nothing is fitted. \`before\`" >> "$rows"
 echo "lays the sights out by the poses as they stood when each frame was done, \`after\` by those of the finished map, with its loops. The" >> "$rows"
@@ -33,14 +33,14 @@ score_rows() { # score_rows FILE WORLD LABELS TARGET
 another() {
   file=$out/urban-$1.json; label=$2; shift 2
   if [ -z "${REUSE_RUNS:-}" ] || [ ! -s "$file" ]; then
-    $placegraph map semantic "$out/urban-town-1" --out "$out/urban-other" --force --json --set min_step_m=4 "$@" \
+    $placegraph map street "$out/urban-town-1" --out "$out/urban-other" --force --json --set min_step_m=4 "$@" \
       > "$file" 2> "$out/urban-other.log" || { cat "$out/urban-other.log" >&2; return 1; }
   fi
   score_rows "$file" "town-loop, seed 1" "$label" -
 }
 for seed in 1 5; do
   render "urban-town-$seed" town-loop --seed $seed --stereo --labels --frames 570
-  run "urban-town-$seed" "$out/urban-town-$seed-world" --sensor stereo --scene semantics
+  run "urban-town-$seed" "$out/urban-town-$seed-world" --sensor stereo --config street_map
   score_rows "$out/urban-town-$seed/result.json" "town-loop, seed $seed" "as they are" ">= 90"
 done
 another apart "keyframes 4 m apart"
@@ -49,7 +49,7 @@ another residuals "the same, without residuals" --set residuals=false
 another moving "the same, nothing dropped as moving" --set residuals=false --set 'sight.moving=""'
 s=$data/sequences/kitti06_stereo51
 if [ -d "$s" ]; then
-  run urban-kitti06 "$s" --sensor stereo --scene semantics --set scene.urban.sight.step_px=4
+  run urban-kitti06 "$s" --sensor stereo --config street_map --set scene.urban.sight.step_px=4
   mkdir -p docs/images
   cp "$out/urban-kitti06/semantic_map.png" docs/images/urban_map_kitti06.png
   printf '\n![kitti06_stereo51 from above](images/urban_map_kitti06.png)\n' >> "$rows"

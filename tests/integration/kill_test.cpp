@@ -11,7 +11,7 @@ namespace {
 TEST(KilledRun, GoesOnFromWhatItHadSaved) {
   const test::TemporaryFolder dir;
   const test::CommandResult rendered = test::run_placegraph(
-      "synth town-loop --frames 60 --stereo --size 448x280 --difficulty clean --out drive",
+      "synth sequence town-loop --frames 60 --stereo --size 448x280 --difficulty clean --out drive",
       dir.path());
   ASSERT_EQ(rendered.code, 0) << rendered.err;
   constexpr int kRounds = 4;

@@ -52,7 +52,7 @@ struct MarkerMapOptions {
 };
 void visit(OptionVisitor& field, MarkerMapOptions& options);
 
-/// Options of `placegraph hover`: those of FlightEstimator and of `map_flight_markers`. The keys of
+/// Options of `placegraph flight run`: those of FlightEstimator and of `map_flight_markers`. The keys of
 /// `flow` and `marker_sensor` are not in groups of their own.
 struct FlightOptions {
   double floor_z_m = 0;  ///< height of the level floor in the world

@@ -14,7 +14,7 @@ struct TimeSpan {
   double from_s = 0, to_s = 0;
 };
 
-/// A flight over a recorded sequence: the options of `placegraph hover`.
+/// A flight over a recorded sequence: the options of `placegraph flight run`.
 struct FlightRunOptions {
   FlightOptions flight;
   std::vector<TimeSpan> blind;  ///< intervals whose images are not searched for markers

@@ -1,5 +1,5 @@
 // make_gps_scenario KITTI_GT OUT SEED FIRST-LAST[,FIRST-LAST...] [time|line] [A B]: writes what the
-// scenario of tests/support/gps_scenario.h is made of, for `placegraph georeference` and
+// scenario of tests/support/gps_scenario.h is made of, for `placegraph map georeference` and
 // `placegraph eval`: odometry.g2o, odometry.kitti, origin.txt, times.txt, oxts.txt with
 // times_oxts.txt, and the reference as inside.tum and outside.tum (of the dropouts, FIRST to LAST
 // in seconds). A and B: the walks of position and attitude, if not the defaults.

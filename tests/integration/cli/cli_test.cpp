@@ -246,7 +246,7 @@ TEST_F(Cli, BundleAdjustsAProblemAndReportsItsCost) {
   for (int camera = 0; camera < 4; ++camera)
     cameras += "0 0 0 " + std::to_string(-camera) + " 0 0 500 0 0\n";
   write_file(dir / "in.txt", problem + cameras + points);
-  const CommandResult result = run("bundle in.txt -o out.txt --json");
+  const CommandResult result = run("graph bundle in.txt -o out.txt --json");
   ASSERT_EQ(result.code, 0) << result.err;
   const auto json = nlohmann::json::parse(result.out);
   EXPECT_NEAR(json.at("cost_initial").get<double>(), 4.5, 1e-3);
@@ -254,12 +254,12 @@ TEST_F(Cli, BundleAdjustsAProblemAndReportsItsCost) {
   EXPECT_EQ(json.at("observations"), 48);
   for (const char* key : {"rms_px", "cpu_ms", "wall_ms"})
     EXPECT_TRUE(json.at(key).is_number()) << key;
-  EXPECT_EQ(run("bundle out.txt --kernel cauchy").code, 0);
-  expect_usage_error("bundle in.txt -o out.txt", "--force");
+  EXPECT_EQ(run("graph bundle out.txt --kernel cauchy").code, 0);
+  expect_usage_error("graph bundle in.txt -o out.txt", "--force");
   write_file(dir / "cut.txt", problem);
-  expect_usage_error("bundle cut.txt", "ends where a camera parameter is expected");
+  expect_usage_error("graph bundle cut.txt", "ends where a camera parameter is expected");
   write_file(dir / "empty.txt", "0 0 0\n");
-  EXPECT_EQ(run("bundle empty.txt").code, 1);
+  EXPECT_EQ(run("graph bundle empty.txt").code, 1);
 }
 
 TEST_F(Cli, ConfigDumpsWhatItTakesBack) {

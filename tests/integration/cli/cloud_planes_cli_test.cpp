@@ -115,14 +115,15 @@ TEST_F(CloudPlanesCli, LabelsPointsOfEveryKindOfFile) {
 TEST_F(CloudPlanesCli, JudgesByTrueLabels) {
   write_corner();
   const CommandResult result =
-      run("planes cloud.txt --gt cloud.txt --gt-same 3=2 --gt-none 1 --out l.txt --json");
+      run("planes cloud.txt --truth cloud.txt --truth-same 3=2 --truth-none 1 --out l.txt --json");
   ASSERT_EQ(result.code, 0) << result.err;
   const json check = json::parse(result.out)["check"];
   EXPECT_EQ(check["planes"], 1);  // of two faces
   EXPECT_EQ(check["over_segmented"], 1);
-  expect_usage_error("planes cloud.txt --gt cloud.txt --gt-same 3 --out m.txt", "--gt-same");
+  expect_usage_error("planes cloud.txt --truth cloud.txt --truth-same 3 --out m.txt",
+                     "--truth-same");
   dir.write("few.txt", "1\n2\n");
-  expect_usage_error("planes cloud.txt --gt few.txt --out m.txt", "2 labels for 12288 points");
+  expect_usage_error("planes cloud.txt --truth few.txt --out m.txt", "2 labels for 12288 points");
 }
 
 TEST_F(CloudPlanesCli, FindsNoPlaneWhereThereIsNone) {
@@ -197,13 +198,14 @@ TEST_F(CloudPlanesCli, FindsThePlanesOfTheCastleAndTheRangeScan) {
   int planes = 0, correct = 0;
   for (const std::string frame : {"0001", "0021", "0039"}) {
     const json found = check("'" + castle + "/depth/" + frame + ".png' --calib castle.txt" +
-                             " --depth-scale 32768 --gt '" + castle + "/plane_labels/" + frame +
-                             ".png' --gt-same 4=3 --gt-same 14=5 --gt-same 15=7"
-                             " --gt-min-points 300");
+                             " --depth-scale 32768 --truth '" + castle + "/plane_labels/" + frame +
+                             ".png' --truth-same 4=3 --truth-same 14=5 --truth-same 15=7"
+                             " --truth-min-points 300");
     planes += found["planes"].get<int>(), correct += found["correct"].get<int>();
   }
   EXPECT_GE(correct, 0.9 * planes);
-  const json found = check("'" + scan + "' --gt '" + scan + "' --gt-none 3 --gt-min-points 100");
+  const json found =
+      check("'" + scan + "' --truth '" + scan + "' --truth-none 3 --truth-min-points 100");
   EXPECT_EQ(found["planes"], 10);
   EXPECT_GE(found["correct"], 9);
 }

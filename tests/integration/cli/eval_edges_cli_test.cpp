@@ -38,27 +38,27 @@ class EvalEdges : public test::CliTest {
 };
 
 TEST_F(EvalEdges, GivesErrorsInClaimedDeviationsBySource) {
-  const auto result = run("eval-edges poses.txt run --json");
+  const auto result = run("eval edges poses.txt run --json");
   ASSERT_EQ(result.code, 0) << result.err;
   const auto json = nlohmann::json::parse(result.out);
   EXPECT_EQ(json.at("odometry").at("edges"), 1);
   EXPECT_NEAR(json.at("odometry").at("mean_nees").get<double>(), 4.0 / 6, 1e-9);
   EXPECT_EQ(json.at("odometry").at("share_beyond_99"), 0);
-  EXPECT_THAT(run("eval-edges . run").out, HasSubstr("odometry        1"));
+  EXPECT_THAT(run("eval edges . run").out, HasSubstr("odometry        1"));
 }
 
 TEST_F(EvalEdges, NamesWhatIsWrongWithItsInput) {
   write_places(2);
-  expect_usage_error("eval-edges poses.txt run", "frame 2, and the truth has 2");
+  expect_usage_error("eval edges poses.txt run", "frame 2, and the truth has 2");
   write_file(dir / "run/places.json", "{}");
-  expect_usage_error("eval-edges poses.txt run", "places.json: is not what placegraph run writes");
+  expect_usage_error("eval edges poses.txt run", "places.json: is not what placegraph run writes");
   write_file(dir / "run/places.json", "{");
-  expect_usage_error("eval-edges poses.txt run", "places.json: is not valid JSON, at byte");
+  expect_usage_error("eval edges poses.txt run", "places.json: is not valid JSON, at byte");
   std::filesystem::remove(dir / "run/places.json");
-  expect_usage_error("eval-edges poses.txt run", "places.json: cannot be opened");
+  expect_usage_error("eval edges poses.txt run", "places.json: cannot be opened");
   std::filesystem::remove(dir / "run/graph.g2o");
-  expect_usage_error("eval-edges poses.txt run", "graph.g2o");
-  expect_usage_error("eval-edges poses.txt none", "none");
+  expect_usage_error("eval edges poses.txt run", "graph.g2o");
+  expect_usage_error("eval edges poses.txt none", "none");
 }
 
 }  // namespace

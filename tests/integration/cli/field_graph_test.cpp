@@ -143,7 +143,7 @@ std::string square_with_tail(const std::string& information) {
 TEST_F(FieldGraphs, AMinimumThatIsNotUniqueIsReportedFromEveryStart) {
   PLACEGRAPH_CASE_OR_SKIP("graph_lower_triangle_information");
   for (const char* options :
-       {"--start file", "--start certified", "--engine ceres", "--incremental", "--robust huber"}) {
+       {"--initialization file", "--initialization certified", "--engine ceres", "--incremental", "--robust huber"}) {
     const json report = optimize(file("graph_lower_triangle_information/lower.g2o"), options);
     EXPECT_EQ(report["free_directions"], 57 - 42) << options;
     EXPECT_EQ(report["free_vertices"].size(), 19u) << options;
@@ -200,7 +200,7 @@ TEST_F(FieldGraphs, TimeStampsBehindVerticesArePassedOverAndThatIsSaid) {
   test::write_file(dir / "stamps.g2o", three_poses({" 1403.5", " 1403.6", " 1403.7"}));
   optimize("stamps.g2o");
   EXPECT_THAT(said, HasSubstr("3 vertices have one more number"));
-  EXPECT_THAT(run("convert stamps.g2o plain.g2o").err, HasSubstr("was skipped"));
+  EXPECT_THAT(run("graph convert stamps.g2o plain.g2o").err, HasSubstr("was skipped"));
   optimize("plain.g2o");
   EXPECT_THAT(said, IsEmpty());
   // Where it may be a part of the pose it is refused, and where nobody would say so.
@@ -215,7 +215,7 @@ TEST_F(FieldGraphs, TimeStampsBehindVerticesArePassedOverAndThatIsSaid) {
   refuses(three_poses({" 1 1", " 2 2", " 3 3"}), "odd.g2o:1: VERTEX_SE2: expected 4 numbers");
   refuses(three_poses({"", "", ""}) + "EDGE_SE2 0 2 2 0 0 1 0 0 1 0 1 5\n",
           "odd.g2o:6: EDGE_SE2: expected 11 numbers, found 12");
-  expect_usage_error("synth-graph stamps.g2o -o no.g2o --shuffle",
+  expect_usage_error("synth graph stamps.g2o -o no.g2o --shuffle",
                      "stamps.g2o:1: a number too many for a vertex");
 }
 

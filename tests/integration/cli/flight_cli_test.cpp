@@ -17,8 +17,8 @@ class FlightCli : public CliTest {
  protected:
   static void SetUpTestSuite() {
     rendered() = std::make_unique<TemporaryFolder>();
-    const CommandResult result =
-        run_placegraph("synth sequence hover --out flight --duration 4 --seed 6", rendered()->path());
+    const CommandResult result = run_placegraph(
+        "synth sequence flight --out flight --duration 4 --seed 6", rendered()->path());
     ASSERT_EQ(result.code, 0) << result.err;
   }
   static void TearDownTestSuite() { rendered().reset(); }
@@ -82,7 +82,8 @@ TEST_F(FlightCli, SmoothsTheSameMeasurements) {
   EXPECT_LT(smoother["position_rmse_m"].get<double>(), 0.02);
   EXPECT_GT(smoother["filter_over_smoother"].get<double>(), 0.5);
   EXPECT_TRUE(fs::exists(dir / "smooth/smoothed.csv"));
-  expect_usage_error("flight run " + flight() + " --out x --smooth --predict-ahead-ms 50", "--smooth");
+  expect_usage_error("flight run " + flight() + " --out x --smooth --predict-ahead-ms 50",
+                     "--smooth");
 }
 
 TEST_F(FlightCli, TellsWhereItWillBe) {
@@ -108,7 +109,7 @@ TEST_F(FlightCli, MapsMarkersWhosePlaceIsNotKnown) {
   write_marker_layout(dir / "partly.yaml", partly);
   const std::string command = "flight run " + flight() + " --markers partly.yaml --map-markers ";
   const CommandResult ran =
-      run(command + "--out out --true-markers " + flight() + "/markers.yaml --json");
+      run(command + "--out out --truth-markers " + flight() + "/markers.yaml --json");
   ASSERT_EQ(ran.code, 0) << ran.err;
   const json map = result("out")["marker_map"];
   ASSERT_GT(map["compared_markers"].get<int>(), 0);
@@ -128,7 +129,7 @@ TEST_F(FlightCli, MapsMarkersWhosePlaceIsNotKnown) {
 TEST_F(FlightCli, SaysNothingWithoutAStart) {
   const CommandResult ran = run("flight run " + flight() + " --out out --no-markers");
   EXPECT_EQ(ran.code, 1);
-  EXPECT_THAT(ran.err, HasSubstr("no image could be told a state"));
+  EXPECT_THAT(ran.err, HasSubstr("no image has a state"));
   EXPECT_EQ(result("out")["answered"], 0);
 }
 
@@ -168,8 +169,8 @@ TEST_F(FlightCli, RefusesOptionsThatMakeNoSense) {
 }
 
 TEST_F(FlightCli, WorldsOfOtherKindsHaveNoFlight) {
-  expect_usage_error("synth town-loop --out town --duration 5", "duration_s");
-  expect_usage_error("synth sequence hover --out town --stereo", "has one eye");
+  expect_usage_error("synth sequence town-loop --out town --duration 5", "duration_s");
+  expect_usage_error("synth sequence flight --out town --stereo", "has one eye");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// `placegraph flow`.
+// `placegraph image flow`.
 #include <nlohmann/json.hpp>
 
 #include "tests/support/cli_test.h"
@@ -37,24 +37,24 @@ TEST_F(FlowCli, WritesBothFormsAPictureAndItsErrors) {
     EXPECT_THAT(read_file(dir / "f.png"), StartsWith("\x89PNG"));
     EXPECT_EQ(read_file(dir / "f.flo").size(), 12u + 8 * 120 * 100);
   }
-  ASSERT_EQ(run("flow a.png b.png -o k.png").code, 0);
-  const CommandResult same = run("flow a.png b.png --method dis --truth k.png");
+  ASSERT_EQ(run("image flow a.png b.png -o k.png").code, 0);
+  const CommandResult same = run("image flow a.png b.png --method dis --truth k.png");
   ASSERT_EQ(same.code, 0) << same.err;
   EXPECT_THAT(same.out, HasSubstr("end-point error 0.00"));
 }
 
 TEST_F(FlowCli, RefusesWithOneLineAndWritesNothing) {
   dir.write("broken.png", "no picture");
-  expect_usage_error("flow a.png none.png", "none.png");
-  expect_usage_error("flow a.png broken.png -o f.flo", "broken.png");
-  expect_usage_error("flow a.png small.png -o f.flo", "small.png");
-  expect_usage_error("flow a.png b.png --method guess", "--method");
-  expect_usage_error("flow a.png b.png -o f.txt", "f.txt");
-  expect_usage_error("flow a.png b.png --set lucas_kanade.window=3", "lucas_kanade.window");
-  expect_usage_error("flow a.png b.png --truth a.png", "a.png: flow must have three channels");
+  expect_usage_error("image flow a.png none.png", "none.png");
+  expect_usage_error("image flow a.png broken.png -o f.flo", "broken.png");
+  expect_usage_error("image flow a.png small.png -o f.flo", "small.png");
+  expect_usage_error("image flow a.png b.png --method guess", "--method");
+  expect_usage_error("image flow a.png b.png -o f.txt", "f.txt");
+  expect_usage_error("image flow a.png b.png --set lucas_kanade.window=3", "lucas_kanade.window");
+  expect_usage_error("image flow a.png b.png --truth a.png", "a.png: flow must have three channels");
   EXPECT_FALSE(std::filesystem::exists(dir / "f.flo"));
   dir.write("f.flo", "mine");
-  expect_usage_error("flow a.png b.png -o f.flo", "f.flo");
+  expect_usage_error("image flow a.png b.png -o f.flo", "f.flo");
   EXPECT_EQ(read_file(dir / "f.flo"), "mine");
 }
 
@@ -69,10 +69,10 @@ TEST_F(FlowCli, TellsWhatFlowTellsAtOnce) {
   test::write_picture(dir / "far.png", test::render(camera, {}, {wall}).grey);
   test::write_picture(dir / "near.png", test::render(camera, T_1_2, {wall}).grey);
   dir.write("K.txt", "200 200 159.5 119.5 320 240\n");
-  const std::string command = "flow far.png near.png --cues --calib K.txt ";
+  const std::string command = "image flow far.png near.png --flow-cues --calib K.txt ";
   for (const char* method : {"interpolation", "lucas-kanade", "horn-schunck", "dis"}) {
     const CommandResult result =
-        run(command + "--json --dt 0.1 --gyro 0 0.02 0 --turn-sigma 1e-4 --method " + method);
+        run(command + "--json --dt 0.1 --gyro 0 0.02 0 --rotation-sigma 1e-4 --method " + method);
     ASSERT_EQ(result.code, 0) << result.err;
     const auto cues = nlohmann::json::parse(result.out)["cues"];
     EXPECT_NEAR(cues["time_to_contact"]["time"].get<double>(), 1.9, 0.05 * 1.9) << method;
@@ -83,12 +83,12 @@ TEST_F(FlowCli, TellsWhatFlowTellsAtOnce) {
     EXPECT_NEAR(cues["ventral"]["speed_over_distance"][0].get<double>(), 0, 0.02) << method;
     EXPECT_NEAR(cues["balance"]["balance"].get<double>(), 0, 0.05) << method;
   }
-  const CommandResult lines = run(command + "--turn 0,0.002,0");
+  const CommandResult lines = run(command + "--rotation 0,0.002,0");
   EXPECT_THAT(lines.out, HasSubstr("time to contact: 19."));  // in images
   EXPECT_THAT(run(command + "--normal 0 0 -1").out, HasSubstr("time to contact: none: "));
-  expect_usage_error("flow far.png near.png --cues", "--calib");
+  expect_usage_error("image flow far.png near.png --cues", "--calib");
   expect_usage_error(command + "--gyro 0 0 0", "--dt");
-  expect_usage_error("flow a.png b.png --cues --calib K.txt", "a.png");
+  expect_usage_error("image flow a.png b.png --flow-cues --calib K.txt", "a.png");
 }
 
 TEST_F(FlowCli, HasNoAnswerOfBlankImages) {
@@ -98,7 +98,7 @@ TEST_F(FlowCli, HasNoAnswerOfBlankImages) {
 
 TEST_F(FlowCli, RefusesWhatIsNoPicture) {
   test::write_picture(dir / "line.png", cv::Mat(1, 400, CV_8UC1, cv::Scalar(90)));
-  expect_usage_error("flow line.png line.png", "line.png: image is 400x1");
+  expect_usage_error("image flow line.png line.png", "line.png: image is 400x1");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// `placegraph georeference`.
+// `placegraph map georeference`.
 #include <placegraph/graph/internal/core/angle.h>
 
 #include <cmath>
@@ -67,7 +67,7 @@ class GeoreferenceCli : public test::CliTest {
     write_file(dir / "times_oxts.txt", times());
   }
   CommandResult run(const std::string& arguments) {
-    return CliTest::run("georeference " + arguments);
+    return CliTest::run("map georeference " + arguments);
   }
   /// One line on stderr, nothing on stdout, no folder made.
   void expect_failure(const std::string& arguments, int code, const std::string& message) {

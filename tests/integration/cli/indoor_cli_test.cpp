@@ -1,4 +1,4 @@
-// `placegraph scene orientation`, `run --scene geometry`, `map plan`.
+// `placegraph image orientation`, `run --config floor_plan`, `map plan`.
 #include <nlohmann/json.hpp>
 
 #include "tests/support/cli_test.h"
@@ -17,7 +17,7 @@ class IndoorCli : public test::CliTest {
   static void SetUpTestSuite() {
     made = new test::TemporaryFolder;
     const CommandResult result = test::run_placegraph(
-        "synth corridor-loop --frames 60 --size 320x240 --difficulty clean --labels --mono --out "
+        "synth sequence corridor-loop --frames 60 --size 320x240 --difficulty clean --labels --mono --out "
         "walk",
         made->path());
     ASSERT_EQ(result.code, 0) << result.err;
@@ -28,7 +28,7 @@ class IndoorCli : public test::CliTest {
 };
 
 TEST_F(IndoorCli, TellsOrientationsOfASequence) {
-  const CommandResult result = run("scene orientation " + walk() + " --every 20 --out maps --json");
+  const CommandResult result = run("image orientation " + walk() + " --every 20 --out maps --json");
   ASSERT_EQ(result.code, 0) << result.err;
   const json summary = json::parse(result.out);
   EXPECT_EQ(summary["images"], 3);
@@ -41,19 +41,19 @@ TEST_F(IndoorCli, TellsTheSurfacesOfAnImage) {
   dir.write("K.txt", "262.5 262.5 159.5 119.5 320 240\n");
   const std::string image = walk() + "/image_0/000000.png";
   const CommandResult result =
-      run("scene orientation " + image + " --calib K.txt --out map.png --draw drawn.png --json");
+      run("image orientation " + image + " --calib K.txt --out map.png --draw drawn.png --json");
   ASSERT_EQ(result.code, 0) << result.err;
   const json summary = json::parse(result.out);
   EXPECT_GT(summary["wall"].get<double>(), summary["ceiling"].get<double>());
   EXPECT_TRUE(fs::exists(dir / "map.png"));
   EXPECT_TRUE(fs::exists(dir / "drawn.png"));
-  expect_usage_error("scene orientation " + image + " --out other.png", "--calib");
-  expect_usage_error("scene orientation " + image + " --calib K.txt --out map.png", "map.png");
+  expect_usage_error("image orientation " + image + " --out other.png", "--calib");
+  expect_usage_error("image orientation " + image + " --calib K.txt --out map.png", "map.png");
 }
 
 TEST_F(IndoorCli, DrawsTheFloorPlanOfARun) {
   const CommandResult result =
-      run("run " + walk() + " --sensor rgbd --scene geometry --out out --json");
+      run("run " + walk() + " --sensor rgbd --config floor_plan --out out --json");
   ASSERT_EQ(result.code, 0) << result.err;
   const json plan = json::parse(result.out)["floor_plan"];
   EXPECT_EQ(plan["outcome"], "ok");
@@ -69,7 +69,7 @@ TEST_F(IndoorCli, DrawsTheFloorPlanOfARun) {
 
 TEST_F(IndoorCli, MonocularHasItsMetreFromTheFloorBetweenWalls) {
   const CommandResult result =
-      run("run " + walk() + " --sensor mono --camera-height 1.4 --scene geometry --out out --json");
+      run("run " + walk() + " --sensor mono --camera-height 1.4 --config floor_plan --out out --json");
   ASSERT_EQ(result.code, 0) << result.err;
   const json summary = json::parse(result.out);
   EXPECT_EQ(summary["floor_plan"]["outcome"], "ok");

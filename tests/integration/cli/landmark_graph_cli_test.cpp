@@ -120,7 +120,7 @@ TEST_F(LandmarkGraphs, FollowSensorsThatSitBesideTheNodes) {
         EXPECT_NEAR(written("VERTEX_TRACKXYZ", 11)[axis], rig.points[1][axis], 1e-5);
       }
       // What is written says the same.
-      ASSERT_EQ(run("convert out.g2o again.g2o --force").code, 0);
+      ASSERT_EQ(run("graph convert out.g2o again.g2o --force").code, 0);
       EXPECT_LT(optimize("again.g2o")["chi2_log_initial"].get<double>(), 1e-9);
     }
 }
@@ -268,11 +268,11 @@ TEST_F(LandmarkGraphs, SayWhatIsWrongAndWhere) {
 
 TEST_F(LandmarkGraphs, AreRefusedWhereOnlyPosesAreTaken) {
   dir.write("rig.g2o", RigOfThree().text(true, true));
-  for (const char* option : {"--robust auto", "--incremental", "--start chordal", "--certify"})
+  for (const char* option : {"--robust auto", "--incremental", "--initialization chordal", "--certify"})
     expect_usage_error(std::string("optimize rig.g2o -o no.g2o ") + option,
                        "rig.g2o: has priors or point landmarks");
-  expect_usage_error("synth-graph rig.g2o -o no.g2o --shuffle", "priors or point landmarks");
-  const CommandResult poses = run("convert rig.g2o poses.kitti");
+  expect_usage_error("synth graph rig.g2o -o no.g2o --shuffle", "priors or point landmarks");
+  const CommandResult poses = run("graph convert rig.g2o poses.kitti");
   EXPECT_EQ(poses.code, 0) << poses.err;
   EXPECT_THAT(poses.out, HasSubstr("2 landmarks left out"));
 }

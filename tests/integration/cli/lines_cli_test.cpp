@@ -63,7 +63,7 @@ TEST_F(LinesCli, MatchesGivenSegmentsWhereverTheirOptionStands) {
 
 TEST_F(LinesCli, MatchesWhatItDetectsAndWritesIt) {
   const CommandResult result =
-      run("lines match a.png b.png --out m.txt --write-segments sa.txt sb.txt");
+      run("image match-lines a.png b.png --out m.txt --write-segments sa.txt sb.txt");
   ASSERT_EQ(result.code, 0) << result.err;
   const auto a = rows(read_file(dir / "sa.txt")), b = rows(read_file(dir / "sb.txt"));
   const auto matches = rows(read_file(dir / "m.txt"));
@@ -72,22 +72,22 @@ TEST_F(LinesCli, MatchesWhatItDetectsAndWritesIt) {
     EXPECT_LT(match.at(0), static_cast<double>(a.size()));
     EXPECT_LT(match.at(1), static_cast<double>(b.size()));
   }
-  ASSERT_EQ(run("lines detect a.png -o d.txt").code, 0);
+  ASSERT_EQ(run("image lines a.png -o d.txt").code, 0);
   EXPECT_EQ(read_file(dir / "d.txt"), read_file(dir / "sa.txt"));
 }
 
 TEST_F(LinesCli, SaysWhatIsWrong) {
   expect_usage_error("lines", "subcommand");
-  expect_usage_error("lines match a.png -o m.txt", "IMAGES");
-  expect_usage_error("lines match a.png absent.png -o m.txt", "absent.png: image is missing");
-  expect_usage_error("lines match -o m.txt", "IMAGES is required");
-  expect_usage_error("lines match --segments a.txt b.txt -o m.txt",
+  expect_usage_error("image match-lines a.png -o m.txt", "IMAGES");
+  expect_usage_error("image match-lines a.png absent.png -o m.txt", "absent.png: image is missing");
+  expect_usage_error("image match-lines -o m.txt", "IMAGES is required");
+  expect_usage_error("image match-lines --segments a.txt b.txt -o m.txt",
                      "--segments: needs the two images as well");
   dir.write("bad.txt", "1 2 3\n");
-  expect_usage_error("lines match a.png b.png --segments a.txt bad.txt -o m.txt", "bad.txt:1:");
-  expect_usage_error("lines match a.png b.png -o a.txt", "--force");
+  expect_usage_error("image match-lines a.png b.png --segments a.txt bad.txt -o m.txt", "bad.txt:1:");
+  expect_usage_error("image match-lines a.png b.png -o a.txt", "--force");
   expect_usage_error(
-      "lines match a.png b.png --segments a.txt b.txt --write-segments c.txt d.txt -o m.txt",
+      "image match-lines a.png b.png --segments a.txt b.txt --write-segments c.txt d.txt -o m.txt",
       "--write-segments");
 }
 
@@ -100,7 +100,7 @@ TEST_F(LinesCli, BlankImagesAllowNoAnswer) {
 class LinesAloneCli : public test::CliTest {};
 
 TEST_F(LinesAloneCli, AreEnoughForMonocularOfKnownHeightInACorridor) {
-  ASSERT_EQ(run("synth corridor-loop --frames 50 --out w").code, 0);
+  ASSERT_EQ(run("synth sequence corridor-loop --frames 50 --out w").code, 0);
   ASSERT_EQ(run("run w --sensor mono --cues lines --no-loops --out o").code, 0);
   const CommandResult judged = run("eval w o/trajectory_optimized.kitti --align sim3 --json");
   ASSERT_EQ(judged.code, 0) << judged.err;
@@ -112,7 +112,7 @@ TEST_F(LinesAloneCli, AreEnoughForMonocularOfKnownHeightInACorridor) {
 }
 
 TEST_F(LinesAloneCli, SayThatNothingCouldBePosedWhereTheyAreTooFew) {
-  ASSERT_EQ(run("synth corridor-loop --frames 3 --out w").code, 0);
+  ASSERT_EQ(run("synth sequence corridor-loop --frames 3 --out w").code, 0);
   const CommandResult result = run("run w --sensor mono --cues lines --no-loops --out o");
   EXPECT_EQ(result.code, 1);
   EXPECT_THAT(result.err, HasSubstr("no frame could be posed"));

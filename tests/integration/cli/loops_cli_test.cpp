@@ -22,7 +22,7 @@ class Loops : public test::CliTest {
 };
 
 TEST_F(Loops, GivesTheFiguresOfOneSystemAsJson) {
-  const auto result = run("loops --predictions ours.txt --format scores --gt gt.txt --json");
+  const auto result = run("loops --predictions ours.txt --format scores --truth gt.txt --json");
   ASSERT_EQ(result.code, 0) << result.err;
   const auto json = nlohmann::json::parse(result.out);
   EXPECT_EQ(json.at("positives"), 2);
@@ -34,7 +34,7 @@ TEST_F(Loops, GivesTheFiguresOfOneSystemAsJson) {
 
 TEST_F(Loops, ComparesSystemsInATableALogAndAPlot) {
   const auto result =
-      run("loops --predictions ours.txt theirs.txt --names ours theirs --gt gt.txt --log log.csv "
+      run("loops --predictions ours.txt theirs.txt --names ours theirs --truth gt.txt --csv log.csv "
           "--plot "
           "pr.svg");
   ASSERT_EQ(result.code, 0) << result.err;
@@ -45,7 +45,7 @@ TEST_F(Loops, ComparesSystemsInATableALogAndAPlot) {
   EXPECT_THAT(log, HasSubstr("theirs,11,1,hit,3,0.8,1,accepted\n"));
   EXPECT_THAT(log, HasSubstr("theirs,12,0,silent,,,0,\n"));
   EXPECT_THAT(test::read_file(dir / "pr.svg"), HasSubstr("theirs: AP 1.000"));
-  expect_usage_error("loops --predictions ours.txt --gt gt.txt --log log.csv", "log.csv");
+  expect_usage_error("loops --predictions ours.txt --truth gt.txt --csv log.csv", "log.csv");
 }
 
 TEST_F(Loops, TakesTheTruthFromPosesAndSaysHow) {
@@ -69,21 +69,21 @@ TEST_F(Loops, TakesTheTruthFromPosesAndSaysHow) {
 
 TEST_F(Loops, RefusesBrokenInputWithItsLine) {
   write_file(dir / "ours.txt", "10 2 0.9\n11 4\n");
-  expect_usage_error("loops --predictions ours.txt --gt gt.txt", "ours.txt:2: 2 columns");
+  expect_usage_error("loops --predictions ours.txt --truth gt.txt", "ours.txt:2: 2 columns");
   write_file(dir / "gt.txt", "10 0 5 1\n11 0 5 9\n");
-  expect_usage_error("loops --predictions theirs.txt --gt gt.txt", "gt.txt:2: match 9");
-  expect_usage_error("loops --predictions theirs.txt", "one of --gt and --poses is needed");
-  expect_usage_error("loops --predictions theirs.txt --gt gt.txt --format other", "other");
-  expect_usage_error("loops --predictions none.txt --gt gt.txt", "none.txt");
+  expect_usage_error("loops --predictions theirs.txt --truth gt.txt", "gt.txt:2: match 9");
+  expect_usage_error("loops --predictions theirs.txt", "one of --truth and --poses is needed");
+  expect_usage_error("loops --predictions theirs.txt --truth gt.txt --format other", "other");
+  expect_usage_error("loops --predictions none.txt --truth gt.txt", "none.txt");
   write_file(dir / "gt.txt", "10 0 5 1\n");
-  expect_usage_error("loops --predictions theirs.txt --gt gt.txt --plot pr.pdf", "pr.pdf");
-  expect_usage_error("loops --predictions theirs.txt --gt gt.txt --names a b", "--names");
+  expect_usage_error("loops --predictions theirs.txt --truth gt.txt --plot pr.pdf", "pr.pdf");
+  expect_usage_error("loops --predictions theirs.txt --truth gt.txt --names a b", "--names");
 }
 
 TEST_F(Loops, ScoresAPublishedDetectorAsPublished) {
   PLACEGRAPH_DATA_OR_SKIP(folder, "golden/loops");
   const auto result =
-      run("loops --predictions " + folder + "/ibow_KITTI06_loops.txt --format ibow --gt " + folder +
+      run("loops --predictions " + folder + "/ibow_KITTI06_loops.txt --format ibow --truth " + folder +
           "/KITTI_06_loops_10m.txt --json");
   ASSERT_EQ(result.code, 0) << result.err;
   const auto json = nlohmann::json::parse(result.out);

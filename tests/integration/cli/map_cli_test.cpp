@@ -27,7 +27,8 @@ class MapCli : public test::CliTest {
   static void SetUpTestSuite() {
     made = new test::TemporaryFolder;
     CommandResult result = test::run_placegraph(
-        "synth town-loop --frames 40 --stereo --size 448x280 --difficulty clean --out drive",
+        "synth sequence town-loop --frames 40 --stereo --size 448x280 --difficulty clean --out "
+        "drive",
         made->path());
     ASSERT_EQ(result.code, 0) << result.err;
     result = test::run_placegraph("run drive --out whole", made->path());
@@ -98,8 +99,8 @@ TEST_F(MapCli, ExportsAreWhatTheRunWrote) {
 }
 
 TEST_F(MapCli, TheWayOverItsPlacesIsThatOfTheRunsFiles) {
-  const CommandResult by_files = run("route " + whole() + " --from 0 --to 4");
-  const CommandResult by_map = run("route " + whole() + "/map.db --from 0 --to 4");
+  const CommandResult by_files = run("map route " + whole() + " --from 0 --to 4");
+  const CommandResult by_map = run("map route " + whole() + "/map.db --from 0 --to 4");
   ASSERT_EQ(by_map.code, 0) << by_map.err;
   EXPECT_EQ(by_map.out, by_files.out);
 }
@@ -157,7 +158,7 @@ TEST_F(MapCli, NothingSavedIsSaid) {
 }
 
 TEST_F(MapCli, ExplainsAFrame) {
-  const CommandResult result = run("explain " + whole() + " 20 --json");
+  const CommandResult result = run("map explain " + whole() + " 20 --json");
   ASSERT_EQ(result.code, 0) << result.err;
   const json explanation = json::parse(result.out);
   EXPECT_EQ(explanation["frame"], 20);
@@ -167,15 +168,15 @@ TEST_F(MapCli, ExplainsAFrame) {
   EXPECT_GT(explanation["known_by"]["inliers"], 10);
   EXPECT_GT(explanation["known_by"]["constraints"]["odometry"], 0);
   EXPECT_GT(explanation["sees"]["surfaces"]["ground"], 0.05);
-  EXPECT_EQ(explanation["assumed"]["sensor"], "depths measured");
-  EXPECT_THAT(run("explain " + whole() + " 20").out, HasSubstr("known by"));
+  EXPECT_EQ(explanation["assumed"]["sensor"], "measured depth");
+  EXPECT_THAT(run("map explain " + whole() + " 20").out, HasSubstr("known by"));
   expect_failure("explain " + whole() + " 99", 1, "has no frame 99");
-  expect_usage_error("explain " + whole() + " -1", "FRAME");
-  expect_usage_error("explain nowhere 1", "nowhere");
+  expect_usage_error("map explain " + whole() + " -1", "FRAME");
+  expect_usage_error("map explain nowhere 1", "nowhere");
 }
 
 TEST_F(MapCli, FramesOfTheDriveStandWhereTheyWere) {
-  const CommandResult result = run("localize " + whole() + " " + drive() + " --out placed.txt");
+  const CommandResult result = run("map localize " + whole() + " " + drive() + " --out placed.txt");
   ASSERT_EQ(result.code, 0) << result.err;
   std::istringstream lines(read_file(dir / "placed.txt"));
   std::string line;
@@ -243,7 +244,7 @@ class LocalizeByAnotherCamera : public MapCli, public testing::WithParamInterfac
 
 TEST_P(LocalizeByAnotherCamera, StandsWhereTheDriveWas) {
   write_queries(GetParam());
-  const CommandResult result = run("localize " + whole() + " query --out placed.txt");
+  const CommandResult result = run("map localize " + whole() + " query --out placed.txt");
   ASSERT_EQ(result.code, 0) << result.err;
   EXPECT_THAT(result.err, HasSubstr("resampled to the map's"));
   const Trajectory drive = read_trajectory(whole() + "/trajectory_optimized.kitti");
@@ -281,7 +282,7 @@ TEST_F(MapCli, QueriesWithoutOrWithABrokenCalibrationAreReported) {
                cv::INTER_AREA);
     test::write_picture(dir / "query" + name, small);
   }
-  CommandResult result = run("localize " + whole() + " query --out placed.txt --json");
+  CommandResult result = run("map localize " + whole() + " query --out placed.txt --json");
   ASSERT_EQ(result.code, 0) << result.err;
   const json counts = json::parse(result.out);
   EXPECT_EQ(counts["images"], 2);
@@ -291,11 +292,11 @@ TEST_F(MapCli, QueriesWithoutOrWithABrokenCalibrationAreReported) {
   EXPECT_EQ(counts["notes"].size(), 1);
   // One of the map's size among them: each is told by its own.
   fs::copy_file(drive() + "/image_0/000012.png", dir / "query/000003.png");
-  result = run("localize " + whole() + " query --out mixed.txt");
+  result = run("map localize " + whole() + " query --out mixed.txt");
   EXPECT_THAT(result.out, HasSubstr("3 images, 3 placed (1 with a pose; 2 without: of 224 x 140"));
   EXPECT_THAT(result.err, HasSubstr("taken for the map's, without distortion"));
   dir.write("query/calibration.yaml", "width: 224\nheight: 140\nfx: abc\nfy: 1\ncx: 1\ncy: 1\n");
-  expect_usage_error("localize " + whole() + " query --out no.txt", "calibration.yaml:3");
+  expect_usage_error("map localize " + whole() + " query --out no.txt", "calibration.yaml:3");
   EXPECT_FALSE(fs::exists(dir / "no.txt"));
 }
 
@@ -307,11 +308,11 @@ TEST_F(MapCli, AMapOfImagesAloneHasPlacesAndNoPoses) {
   EXPECT_EQ(result.code, 1);
   EXPECT_THAT(result.err, HasSubstr("without a camera has no poses"));
   result =
-      run("localize images.db " + drive() + " --range 5 25 --sequence --out placed.txt --json");
+      run("map localize images.db " + drive() + " --range 5 25 --sequence --out placed.txt --json");
   ASSERT_EQ(result.code, 0) << result.err;
   const json placed = json::parse(read_file(dir / "placed.txt"));
   EXPECT_EQ(placed["images"].size(), 21u);
-  expect_usage_error("localize images.db " + drive() + " --range 5 99 --out no.txt",
+  expect_usage_error("map localize images.db " + drive() + " --range 5 99 --out no.txt",
                      "two numbers of images needed, from 0 to 39");
 }
 

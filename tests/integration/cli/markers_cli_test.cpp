@@ -39,7 +39,7 @@ class MarkersCli : public CliTest {
 
 TEST_F(MarkersCli, WritesIdsCornersAndBothPoses) {
   const CommandResult result =
-      run("markers detect two.png --calib K.txt --side 0.2 --out m.json --draw m.png");
+      run("image markers two.png --calib K.txt --side 0.2 --out m.json --draw m.png");
   ASSERT_EQ(result.code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("2 markers of apriltag_36h11"));
   const auto json = nlohmann::json::parse(read_file(dir / "m.json"));
@@ -60,7 +60,7 @@ TEST_F(MarkersCli, WritesIdsCornersAndBothPoses) {
 
 TEST_F(MarkersCli, FindsTheCameraInALayout) {
   const CommandResult result =
-      run("markers detect two.png --calib K.txt --layout markers.yaml --json");
+      run("image markers two.png --calib K.txt --layout markers.yaml --json");
   ASSERT_EQ(result.code, 0) << result.err;
   const auto json = nlohmann::json::parse(result.out);
   ASSERT_FALSE(json["T_world_cam"].is_null());
@@ -70,9 +70,9 @@ TEST_F(MarkersCli, FindsTheCameraInALayout) {
 TEST_F(MarkersCli, CountsPixelsFromTheCornerWhereAsked) {
   dir.write("corner.txt", "460 460 322.8 237.6 640 480\n");
   const auto centre =
-      nlohmann::json::parse(run("markers detect two.png --calib K.txt --side 0.2 --json").out);
+      nlohmann::json::parse(run("image markers two.png --calib K.txt --side 0.2 --json").out);
   const auto corner = nlohmann::json::parse(
-      run("markers detect two.png --calib corner.txt --side 0.2 --pixel-origin corner --json").out);
+      run("image markers two.png --calib corner.txt --side 0.2 --pixel-origin corner --json").out);
   const double a = centre["markers"][0]["corners_px"][0][0];
   const double b = corner["markers"][0]["corners_px"][0][0];
   EXPECT_NEAR(b - a, 0.5, 1e-9);
@@ -82,18 +82,18 @@ TEST_F(MarkersCli, CountsPixelsFromTheCornerWhereAsked) {
 
 TEST_F(MarkersCli, SaysWhatIsWrong) {
   expect_failure("markers detect plain.png --calib K.txt", 1, "no marker of apriltag_36h11");
-  expect_usage_error("markers detect two.png --calib K.txt --dictionary aruco_9x9",
+  expect_usage_error("image markers two.png --calib K.txt --dictionary aruco_9x9",
                      "no marker dictionary 'aruco_9x9' (known: aruco_4x4_50,");
-  expect_usage_error("markers detect two.png", "--calib is required");
-  EXPECT_EQ(run("markers detect two.png --camera K.txt").code, 0);  // its former name
-  expect_usage_error("markers detect none.png --calib K.txt", "none.png");
-  expect_usage_error("markers detect two.png --calib none.txt", "none.txt");
-  expect_usage_error("markers detect two.png --calib K.txt --side -1", "side");
-  expect_usage_error("markers detect two.png --calib K.txt --side nan", "side");
+  expect_usage_error("image markers two.png", "--calib is required");
+  EXPECT_EQ(run("image markers two.png --camera K.txt").code, 0);  // its former name
+  expect_usage_error("image markers none.png --calib K.txt", "none.png");
+  expect_usage_error("image markers two.png --calib none.txt", "none.txt");
+  expect_usage_error("image markers two.png --calib K.txt --side -1", "side");
+  expect_usage_error("image markers two.png --calib K.txt --side nan", "side");
   dir.write("small.txt", "460 460 160 120 320 240\n");
-  expect_usage_error("markers detect two.png --calib small.txt", "640x480");
+  expect_usage_error("image markers two.png --calib small.txt", "640x480");
   dir.write("kept.json", "{}");
-  expect_usage_error("markers detect two.png --calib K.txt --out kept.json", "kept.json");
+  expect_usage_error("image markers two.png --calib K.txt --out kept.json", "kept.json");
 }
 
 /// The file's corners are a detector's, too: they and its poses differ by up to a third of a pixel.

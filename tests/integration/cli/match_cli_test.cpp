@@ -38,7 +38,7 @@ TEST_F(Match, WritesOneBestCandidateAQueryThatTheBenchmarkReads) {
     const auto matched = run("match . --out found.txt --force " + mode);
     ASSERT_EQ(matched.code, 0) << matched.err;
     EXPECT_THAT(matched.out, HasSubstr("12 images, 6 queries"));
-    const auto judged = run("loops --predictions found.txt --gt gt.txt --json");
+    const auto judged = run("loops --predictions found.txt --truth gt.txt --json");
     ASSERT_EQ(judged.code, 0) << judged.err;
     const auto json = nlohmann::json::parse(judged.out);
     EXPECT_EQ(json.at("answered"), 6);
@@ -50,14 +50,14 @@ TEST_F(Match, WritesOneBestCandidateAQueryThatTheBenchmarkReads) {
 TEST_F(Match, ComparesWithWhatIsOldEnoughWithoutATruth) {
   std::filesystem::remove(dir / "gt.txt");
   expect_usage_error("match . --out found.txt", "12 images, and none is 300 older");
-  const auto matched = run("match images --min-age 6 --out found.txt --cues tiny,gradients");
+  const auto matched = run("match images --min-age 6 --out found.txt --appearance tiny,gradients");
   ASSERT_EQ(matched.code, 0) << matched.err;
   EXPECT_THAT(test::read_file(dir / "found.txt"), ::testing::StartsWith("6 0 "));
 }
 
 TEST_F(Match, RefusesBrokenInput) {
   expect_usage_error("match none --out found.txt", "none");
-  expect_usage_error("match . --out found.txt --cues smell", "smell");
+  expect_usage_error("match . --out found.txt --appearance smell", "smell");
   expect_usage_error("match . --out found.txt --set recognizer.short_lst=3", "unknown key");
   write_file(dir / "gt.txt", "6 0 50 0\n");
   expect_usage_error("match . --out found.txt", "gt.txt: image 50, and there are 12");
@@ -83,7 +83,7 @@ TEST_F(Match, LearnsLabelsOfTheTrainingHalfOnly) {
   for (const std::string mode : {"", "--sequence "}) {
     const auto classified = run("places classify . --out told.txt --force " + mode);
     ASSERT_EQ(classified.code, 0) << classified.err;
-    EXPECT_THAT(classified.out, HasSubstr("6 views learned, 6 told"));
+    EXPECT_THAT(classified.out, HasSubstr("6 training views, 6 predictions"));
     EXPECT_THAT(test::read_file(dir / "told.txt"), ::testing::StartsWith("6 0 "));
     EXPECT_THAT(test::read_file(dir / "told.txt"), HasSubstr("\n11 1 "));
   }
@@ -97,14 +97,14 @@ TEST_F(Match, LearnsLabelsOfTheTrainingHalfOnly) {
 }
 
 TEST_F(Match, TellsPlacesByWordsOfAVocabulary) {
-  const auto trained = run("vocabulary train images --kind float --words 30 --out words.pgw");
+  const auto trained = run("train vocabulary images --kind float --words 30 --out words.pgw");
   ASSERT_EQ(trained.code, 0) << trained.err;
   EXPECT_THAT(trained.out, HasSubstr("float words learned from 12 images"));
-  EXPECT_THAT(run("vocabulary info words.pgw").out, HasSubstr("float words, "));
+  EXPECT_THAT(run("places vocabulary words.pgw").out, HasSubstr("float words, "));
   const auto matched = run("match . --out found.txt --vocabulary words.pgw --codes llc");
   ASSERT_EQ(matched.code, 0) << matched.err;
   EXPECT_THAT(matched.out, HasSubstr("12 images, 6 queries"));
-  const auto judged = run("loops --predictions found.txt --gt gt.txt --json");
+  const auto judged = run("loops --predictions found.txt --truth gt.txt --json");
   EXPECT_GE(nlohmann::json::parse(judged.out).at("r_at_1").get<double>(), 0.8);
   // So smooth are the images that no key-point is found in them: no word, and no answer.
   const auto none = run("match . --out none.txt --vocabulary words.pgw --codes bow_float");
@@ -113,15 +113,15 @@ TEST_F(Match, TellsPlacesByWordsOfAVocabulary) {
 }
 
 TEST_F(Match, RefusesVocabulariesThatDoNotServe) {
-  ASSERT_EQ(run("vocabulary train images --kind binary --words 20 --out words.pgw").code, 0);
-  expect_usage_error("vocabulary train images --out words.pgw", "words.pgw");
+  ASSERT_EQ(run("train vocabulary images --kind binary --words 20 --out words.pgw").code, 0);
+  expect_usage_error("train vocabulary images --out words.pgw", "words.pgw");
   expect_usage_error("match . --out no.txt --codes llc", "needs a --vocabulary of --kind float");
   expect_usage_error("match . --out no.txt --codes llc --vocabulary words.pgw", "--kind float");
   const std::string bytes = test::read_file(dir / "words.pgw");
   write_file(dir / "cut.pgw", bytes.substr(0, bytes.size() - 1));
   expect_usage_error("match . --out no.txt --codes bow --vocabulary cut.pgw",
                      "cut.pgw: byte " + std::to_string(bytes.size() - 1) + ": truncated");
-  expect_usage_error("vocabulary info gt.txt", "gt.txt: byte 0: no vocabulary");
+  expect_usage_error("places vocabulary gt.txt", "gt.txt: byte 0: no vocabulary");
 }
 
 TEST_F(Match, TellsLabelsByEveryClassifierAndRefusesTheUnsure) {
@@ -129,10 +129,11 @@ TEST_F(Match, TellsLabelsByEveryClassifierAndRefusesTheUnsure) {
   for (int i = 0; i < 6; ++i) labels += std::to_string(i) + " " + std::to_string(i / 3) + "\n";
   write_file(dir / "labels.txt", labels);
   for (const std::string classifier : {"svm", "adaboost"}) {
-    const auto classified = run(
-        "places classify . --out told.txt --force --cues colours,tiny --classifier " + classifier);
+    const auto classified =
+        run("places classify . --out told.txt --force --appearance colours,tiny --classifier " +
+            classifier);
     ASSERT_EQ(classified.code, 0) << classified.err;
-    EXPECT_THAT(classified.out, HasSubstr("6 views learned, 6 told"));
+    EXPECT_THAT(classified.out, HasSubstr("6 training views, 6 predictions"));
   }
   ASSERT_EQ(run("places classify . --out told.txt --force --max-entropy 0").code, 0);
   EXPECT_THAT(test::read_file(dir / "told.txt"), HasSubstr("6 -1 "));
@@ -143,7 +144,7 @@ TEST_F(Match, KeepsItsTargetsOnARealCorridor) {
   PLACEGRAPH_DATA_OR_SKIP(folder, "places/corridor_milford");
   const auto matched = run("match " + folder + " --sequence --out found.txt");
   ASSERT_EQ(matched.code, 0) << matched.err;
-  const auto judged = run("loops --predictions found.txt --gt " + folder + "/gt.txt --json");
+  const auto judged = run("loops --predictions found.txt --truth " + folder + "/gt.txt --json");
   const auto json = nlohmann::json::parse(judged.out);
   EXPECT_GE(json.at("r_at_1").get<double>(), 0.99);
   EXPECT_GE(json.at("ap").get<double>(), 0.98);

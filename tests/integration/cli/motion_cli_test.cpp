@@ -1,4 +1,4 @@
-// `placegraph motion`.
+// `placegraph image motion`.
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -37,7 +37,7 @@ class MotionCli : public test::CliTest {
     dir.write("pairs.txt", pairs.str());
   }
   json answer(const std::string& arguments) {
-    const CommandResult result = run("motion " + arguments + " --json");
+    const CommandResult result = run("image motion " + arguments + " --json");
     EXPECT_EQ(result.code, 0) << result.err;
     return json::parse(result.out);
   }
@@ -69,11 +69,11 @@ TEST_F(MotionCli, TellsTheMotionByEveryModelThatFits) {
   for (const char* model :
        {"auto", "essential", "gravity --gravity 0,1,0", "gravity --gravity 0,1,0,0,2,0"}) {
     SCOPED_TRACE(model);
-    const json report = answer(std::string("matches.txt --calib K.txt --model ") + model);
+    const json report = answer(std::string("matches.txt --calib K.txt --method ") + model);
     expect_truth(report);
     EXPECT_EQ(report["covariance"].size(), 6u);
   }
-  const json circle = answer("matches.txt --calib K.txt --model circular");
+  const json circle = answer("matches.txt --calib K.txt --method circular");
   expect_truth(circle);
   EXPECT_NEAR(circle["yaw_rad"], 0.1, 1e-5);
   EXPECT_TRUE(circle["covariance"].is_null());
@@ -81,13 +81,13 @@ TEST_F(MotionCli, TellsTheMotionByEveryModelThatFits) {
 }
 
 TEST_F(MotionCli, TellsMetresByPointsOfKnownPlace) {
-  for (const char* form : {"seen.txt --calib K.txt --model 3d2d", "pairs.txt --model 3d3d"}) {
+  for (const char* form : {"seen.txt --calib K.txt --method 3d2d", "pairs.txt --method 3d3d"}) {
     SCOPED_TRACE(form);
     const json report = answer(form);
     EXPECT_TRUE(report["metric"].get<bool>());
     expect_truth(report);
   }
-  EXPECT_THAT(run("motion pairs.txt --model 3d3d --out m.json").out, HasSubstr("t_ref_cur"));
+  EXPECT_THAT(run("image motion pairs.txt --method 3d3d --out m.json").out, HasSubstr("t_ref_cur"));
   EXPECT_EQ(json::parse(test::read_file(dir / "m.json"))["model"], "3d3d");
 }
 
@@ -108,17 +108,17 @@ TEST_F(MotionCli, ReportsARotationWithoutATranslation) {
 }
 
 TEST_F(MotionCli, SaysWhatIsWrong) {
-  expect_usage_error("motion matches.txt", "--calib is required");
-  expect_usage_error("motion none.txt --calib K.txt", "none.txt");
-  expect_usage_error("motion matches.txt --calib K.txt --model gravity", "--gravity is required");
-  expect_usage_error("motion matches.txt --calib K.txt --model gravity --gravity 0,1",
+  expect_usage_error("image motion matches.txt", "--calib is required");
+  expect_usage_error("image motion none.txt --calib K.txt", "none.txt");
+  expect_usage_error("image motion matches.txt --calib K.txt --method gravity", "--gravity is required");
+  expect_usage_error("image motion matches.txt --calib K.txt --method gravity --gravity 0,1",
                      "--gravity: x,y,z");
-  expect_usage_error("motion matches.txt --calib K.txt --model gravity --gravity 0,0,0", "length");
-  expect_usage_error("motion matches.txt --calib K.txt --gravity 0,1,0", "takes none");
-  expect_usage_error("motion matches.txt --calib K.txt --model cubic", "cubic");
-  expect_usage_error("motion matches.txt --calib K.txt --threshold -1", "threshold_px");
-  expect_usage_error("motion matches.txt --model 3d3d", "matches.txt:1: 5 columns, at least 6");
-  expect_usage_error("motion pairs.txt --model 3d3d --noise 0", "--noise");
+  expect_usage_error("image motion matches.txt --calib K.txt --method gravity --gravity 0,0,0", "length");
+  expect_usage_error("image motion matches.txt --calib K.txt --gravity 0,1,0", "takes none");
+  expect_usage_error("image motion matches.txt --calib K.txt --method cubic", "cubic");
+  expect_usage_error("image motion matches.txt --calib K.txt --threshold -1", "threshold_px");
+  expect_usage_error("image motion matches.txt --method 3d3d", "matches.txt:1: 5 columns, at least 6");
+  expect_usage_error("image motion pairs.txt --method 3d3d --point-noise 0", "--point-noise");
   dir.write("few.txt", "1 2 3 4\n5 6 7 8\n");
   expect_failure("motion few.txt --calib K.txt", 1, "few.txt: 2 distinct matches, 8 needed");
   std::string repeated;
@@ -126,7 +126,7 @@ TEST_F(MotionCli, SaysWhatIsWrong) {
   dir.write("repeated.txt", repeated);
   expect_failure("motion repeated.txt --calib K.txt", 1, "2 distinct matches");
   // To those who read JSON the evidence is told all the same.
-  const CommandResult result = run("motion few.txt --calib K.txt --json");
+  const CommandResult result = run("image motion few.txt --calib K.txt --json");
   EXPECT_EQ(result.code, 1);
   EXPECT_EQ(json::parse(result.out)["outcome"], "too few data");
   EXPECT_TRUE(json::parse(result.out)["T_ref_cur"].is_null());

@@ -61,7 +61,7 @@ class OptimizeCli : public test::CliTest {
 };
 
 TEST_F(OptimizeCli, WritesTheGraphAndReportsBothCosts) {
-  const json report = optimized("in.g2o -o out.g2o --start file");
+  const json report = optimized("in.g2o -o out.g2o --initialization file");
   for (const char* key : {"chi2_g2o", "chi2_log", "chi2_g2o_initial", "chi2_log_initial", "cpu_ms",
                           "wall_ms", "peak_mb"})
     EXPECT_TRUE(report.at(key).is_number()) << key;
@@ -134,11 +134,11 @@ TEST_F(OptimizeCli, TakesAnyIdsRepeatedEdgesAndInformationOfAnyRank) {
 
 TEST_F(OptimizeCli, ReportsEveryIterationOnStandardErrorUnlessQuiet) {
   write_file(dir / "ring.g2o", ring(30));
-  const CommandResult loud = run("optimize ring.g2o -o a.g2o --start file --json");
+  const CommandResult loud = run("optimize ring.g2o -o a.g2o --initialization file --json");
   const int lines = static_cast<int>(std::count(loud.err.begin(), loud.err.end(), '\n'));
   EXPECT_GE(lines, json::parse(loud.out).at("iterations").get<int>()) << loud.err;
   EXPECT_THAT(loud.err, HasSubstr("cost"));
-  const CommandResult quiet = run("optimize ring.g2o -o b.g2o --start file --json --quiet");
+  const CommandResult quiet = run("optimize ring.g2o -o b.g2o --initialization file --json --quiet");
   EXPECT_THAT(quiet.err, IsEmpty());
   EXPECT_EQ(read_file(dir / "a.g2o"), read_file(dir / "b.g2o"));
 }
@@ -187,7 +187,7 @@ TEST_F(OptimizeCli, TakesEveryRobustMethod) {
 TEST_F(OptimizeCli, BeginsAtTheGivenPoses) {
   write_file(dir / "ring.g2o", ring(30));
   for (const char* start : {"auto", "file", "odometry", "chordal", "certified"}) {
-    const json report = optimized(std::string("ring.g2o -o out.g2o --start ") + start);
+    const json report = optimized(std::string("ring.g2o -o out.g2o --initialization ") + start);
     EXPECT_LT(report.at("chi2_log"), 1e-6) << start;
     if (start != std::string("auto")) {
       EXPECT_EQ(report.at("start"), start);

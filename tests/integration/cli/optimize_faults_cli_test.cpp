@@ -101,7 +101,7 @@ TEST_F(OptimizeFaults, RefusesBadOptions) {
   expect_usage_error("optimize in.g2o -o out.g2o --cost euler", "euler");
   expect_usage_error("optimize in.g2o -o out.g2o --engine steam", "steam");
   expect_usage_error("optimize in.g2o -o out.g2o --robust magic", "magic");
-  expect_usage_error("optimize in.g2o -o out.g2o --start nowhere", "nowhere");
+  expect_usage_error("optimize in.g2o -o out.g2o --initialization nowhere", "nowhere");
   expect_usage_error("optimize in.g2o -o out.g2o --iterations 0",
                      "--iterations: Value 0 not in range");
   expect_usage_error("optimize in.g2o -o out.g2o --iterations many", "--iterations");
@@ -132,7 +132,7 @@ TEST_F(OptimizeFaults, EndsWithOneAndWritesNothingWhereItFindsNoMinimum) {
   }
   write_file(dir / "ring.g2o", graph);
   const CommandResult result =
-      run("optimize ring.g2o -o out.g2o --start file --iterations 1 --quiet");
+      run("optimize ring.g2o -o out.g2o --initialization file --iterations 1 --quiet");
   EXPECT_EQ(result.code, 1);
   EXPECT_THAT(result.out, IsEmpty());
   EXPECT_THAT(result.err, HasSubstr("ring.g2o: "));
@@ -152,7 +152,7 @@ TEST_F(OptimizeFaults, RefusesNumbersWhoseCostOverflows) {
 }
 
 TEST_F(OptimizeFaults, GrowsNoGraphTheWayOthersAreSolved) {
-  for (const char* flag : {"--engine ceres", "--robust gnc", "--start chordal"})
+  for (const char* flag : {"--engine ceres", "--robust gnc", "--initialization chordal"})
     expect_usage_error(std::string("optimize in.g2o -o out.g2o --incremental ") + flag,
                        "--incremental goes with");
 }

@@ -1,4 +1,4 @@
-// `placegraph planes two-view`.
+// `placegraph image two-view-planes`.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -49,7 +49,7 @@ class PlanesCli : public test::CliTest {
 TEST_F(PlanesCli, LabelsMatchesAndTellsTheMotion) {
   const test::PlanesWorld world = make_world(2);
   const CommandResult result =
-      run("planes two-view matches.txt --out labels.txt --calib calibration.yaml "
+      run("image two-view-planes matches.txt --out labels.txt --calib calibration.yaml "
           "--motion motion.json --json");
   ASSERT_EQ(result.code, 0) << result.err;
   EXPECT_LT(test::misclassification(world.labels, labels_of(dir / "labels.txt")), 0.05);
@@ -73,7 +73,7 @@ TEST_F(PlanesCli, TakesTheCameraInEitherFormAndByItsFormerName) {
   line << k.fx << ' ' << k.fy << ' ' << k.cx << ' ' << k.cy << " 640 480\n";
   write_file(dir / "K.txt", line.str());
   const auto motion_by = [&](const std::string& camera) {
-    const CommandResult result = run("planes two-view matches.txt --out labels.txt --force " +
+    const CommandResult result = run("image two-view-planes matches.txt --out labels.txt --force " +
                                      camera + " --motion motion.json");
     EXPECT_EQ(result.code, 0) << result.err;
     return read_file(dir / "motion.json");
@@ -91,32 +91,28 @@ TEST_F(PlanesCli, LabelsAllZeroWhereThereIsNoPlane) {
     text += '\n';
   }
   write_file(dir / "matches.txt", text);
-  const CommandResult result = run("planes two-view matches.txt --out labels.txt");
+  const CommandResult result = run("image two-view-planes matches.txt --out labels.txt");
   ASSERT_EQ(result.code, 0) << result.err;
   EXPECT_EQ(labels_of(dir / "labels.txt"), std::vector<int>(60, 0));
 }
 
 TEST_F(PlanesCli, ReadsStrictlyAndNeverOverwritesUnasked) {
   make_world(1);
-  expect_usage_error("planes", "subcommand");
-  expect_usage_error("planes two-view matches.txt", "--out");
-  expect_usage_error("planes two-view none.txt --out l.txt", "none.txt");
-  expect_usage_error("planes two-view matches.txt --out l.txt --motion m.json", "--calib");
-  expect_usage_error(
-      "planes two-view matches.txt --out l.txt --calib calibration.yaml --calibration "
-      "calibration.yaml",
-      "excludes");
-  expect_usage_error("planes two-view matches.txt --out l.txt --noise 0", "noise_px");
+  expect_usage_error("planes", "CLOUD");
+  expect_usage_error("image two-view-planes matches.txt", "--out");
+  expect_usage_error("image two-view-planes none.txt --out l.txt", "none.txt");
+  expect_usage_error("image two-view-planes matches.txt --out l.txt --motion m.json", "--calib");
+  expect_usage_error("image two-view-planes matches.txt --out l.txt --noise 0", "noise_px");
   write_file(dir / "broken.txt", "1 2 3 4\n1 2 3\n");
-  expect_usage_error("planes two-view broken.txt --out l.txt", "broken.txt:2: ");
+  expect_usage_error("image two-view-planes broken.txt --out l.txt", "broken.txt:2: ");
   EXPECT_FALSE(fs::exists(dir / "l.txt"));
   write_file(dir / "few.txt", "1 2 3 4\n");
   expect_failure("planes two-view few.txt --out l.txt", 1, "8 needed");
   EXPECT_FALSE(fs::exists(dir / "l.txt"));
   write_file(dir / "labels.txt", "kept");
-  expect_usage_error("planes two-view matches.txt --out labels.txt", "labels.txt");
+  expect_usage_error("image two-view-planes matches.txt --out labels.txt", "labels.txt");
   EXPECT_EQ(read_file(dir / "labels.txt"), "kept");
-  EXPECT_EQ(run("planes two-view matches.txt --out labels.txt --force").code, 0);
+  EXPECT_EQ(run("image two-view-planes matches.txt --out labels.txt --force").code, 0);
 }
 
 TEST_F(PlanesCli, AgreesWithPeopleOnRealPairs) {
@@ -134,7 +130,7 @@ TEST_F(PlanesCli, AgreesWithPeopleOnRealPairs) {
       truth.push_back(label);
     }
     const CommandResult result =
-        run("planes two-view '" + entry.path().string() + "' --out labels.txt --force");
+        run("image two-view-planes '" + entry.path().string() + "' --out labels.txt --force");
     ASSERT_EQ(result.code, 0) << result.err;
     wrong.push_back(test::misclassification(truth, labels_of(dir / "labels.txt")));
     std::printf("%s: %.2f %%\n", entry.path().stem().c_str(), 100 * wrong.back());

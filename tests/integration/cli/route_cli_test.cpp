@@ -55,7 +55,7 @@ class RouteCli : public test::CliTest {
 };
 
 TEST_F(RouteCli, GivesTheShortestWayItsViewsAndTheWayBack) {
-  auto result = run("route run --from 0 --to 3 --out way.json --plot way.png");
+  auto result = run("map route run --from 0 --to 3 --out way.json --plot way.png");
   ASSERT_EQ(result.code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("3 places, 3.00 m"));
   auto way = nlohmann::json::parse(read_file(dir / "way.json"));
@@ -65,7 +65,7 @@ TEST_F(RouteCli, GivesTheShortestWayItsViewsAndTheWayBack) {
   EXPECT_NEAR(way.at("steps")[0].at("view_off_travel_deg").get<double>(), 90, 1e-9);
   EXPECT_NEAR(way.at("steps")[1].at("view_off_travel_deg").get<double>(), 0, 1e-9);
   EXPECT_TRUE(std::filesystem::exists(dir / "way.png"));
-  result = run("route run --from 0 --to 3 --backtrack --out way.json --force");
+  result = run("map route run --from 0 --to 3 --backtrack --out way.json --force");
   ASSERT_EQ(result.code, 0) << result.err;
   way = nlohmann::json::parse(read_file(dir / "way.json"));
   EXPECT_EQ(way.at("from"), 3);
@@ -74,15 +74,15 @@ TEST_F(RouteCli, GivesTheShortestWayItsViewsAndTheWayBack) {
 }
 
 TEST_F(RouteCli, NamesWhatIsWrongWithItsInput) {
-  expect_usage_error("route run --from 0 --to 7", "no place 7");
-  expect_usage_error("route run --from 0", "--to");
-  expect_usage_error("route none --from 0 --to 1", "none");
-  expect_usage_error("route run --from 0 --to 1 --plot way.txt", "way.txt");
+  expect_usage_error("map route run --from 0 --to 7", "no place 7");
+  expect_usage_error("map route run --from 0", "--to");
+  expect_usage_error("map route none --from 0 --to 1", "none");
+  expect_usage_error("map route run --from 0 --to 1 --plot way.txt", "way.txt");
   write_file(dir / "way.json", "kept");
-  expect_usage_error("route run --from 0 --to 1 --out way.json", "way.json");
+  expect_usage_error("map route run --from 0 --to 1 --out way.json", "way.json");
   EXPECT_EQ(read_file(dir / "way.json"), "kept");
   write_file(dir / "run/places.json", R"({"places": [], "edges": []})");
-  expect_usage_error("route run --from 0 --to 1", "not those of graph.g2o");
+  expect_usage_error("map route run --from 0 --to 1", "not those of graph.g2o");
 }
 
 }  // namespace

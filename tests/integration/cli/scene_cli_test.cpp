@@ -52,12 +52,12 @@ TEST_F(SceneCli, TrainsLabelsAndJudges) {
   train("urban", "--ablation");
   EXPECT_THAT(read_file(dir / "urban.pgscene.md"), HasSubstr("5 pictures, 2 variants, 5 trees"));
   const CommandResult labelled =
-      run("scene label set/val --out labels --model urban.pgscene --surfaces-model "
+      run("image labels set/val --out labels --model urban.pgscene --surfaces-model "
           "surfaces.pgscene --confidence --draw --json");
   ASSERT_EQ(labelled.code, 0) << labelled.err;
   EXPECT_EQ(json::parse(labelled.out)["pictures"], 1);
   EXPECT_TRUE(fs::exists(dir / "labels/one_4.drawn.png"));
-  const CommandResult judged = run("scene check labels set/val --json --confusion");
+  const CommandResult judged = run("eval labels labels set/val --json --confusion");
   ASSERT_EQ(judged.code, 0) << judged.err;
   const json report = json::parse(judged.out);
   EXPECT_GT(report["pixel_accuracy"], 0.9);
@@ -65,8 +65,8 @@ TEST_F(SceneCli, TrainsLabelsAndJudges) {
   EXPECT_EQ(report["confusion"]["Road"].size(), 5u);
 
   ASSERT_EQ(
-      run("scene surfaces set/val/images/one_4.png --out layout --model surfaces.pgscene").code, 0);
-  const CommandResult layout = run("scene check layout set/val --surfaces");
+      run("image surfaces set/val/images/one_4.png --out layout --model surfaces.pgscene").code, 0);
+  const CommandResult layout = run("eval labels layout set/val --surfaces");
   EXPECT_THAT(layout.out, HasSubstr("vertical"));
 }
 
@@ -98,25 +98,25 @@ TEST_F(SceneCli, TeachesAClassThatAModelDoesNotKnow) {
 
 TEST_F(SceneCli, SaysInOneLineWhatIsMissing) {
   make_set();
-  expect_usage_error("scene label none.png --out labels", "none.png");
-  expect_usage_error("scene surfaces set/val --out labels --model none.pgscene",
+  expect_usage_error("image labels none.png --out labels", "none.png");
+  expect_usage_error("image surfaces set/val --out labels --model none.pgscene",
                      "placegraph train surfaces DATA");
   fs::create_directory(dir / "empty");
   write_file(dir / "broken.pgscene", "PGSCENE\n");
-  expect_usage_error("scene surfaces empty --out labels --model broken.pgscene",
+  expect_usage_error("image surfaces empty --out labels --model broken.pgscene",
                      "ends within the header");
   expect_usage_error("train surfaces empty --out m.pgscene", "CLASSES.txt");
   expect_usage_error("train surfaces set --out m.pgscene --holdout three", "--holdout");
   train("surfaces");
-  expect_usage_error("scene surfaces empty --out labels --model surfaces.pgscene", "empty");
-  expect_usage_error("scene label set/val --out labels --model surfaces.pgscene",
+  expect_usage_error("image surfaces empty --out labels --model surfaces.pgscene", "empty");
+  expect_usage_error("image labels set/val --out labels --model surfaces.pgscene",
                      "a model of kind surfaces");
   test::write_picture(dir / "tiny.png", Image(8, 8, CV_8UC3, cv::Scalar::all(9)));
-  expect_usage_error("scene surfaces tiny.png --out labels --model surfaces.pgscene",
+  expect_usage_error("image surfaces tiny.png --out labels --model surfaces.pgscene",
                      "smaller than");
   fs::create_directory(dir / "wrong");
   test::write_picture(dir / "wrong/one_4.png", Image(8, 8, CV_8UC1, cv::Scalar(0)));
-  expect_usage_error("scene check wrong set/val", "one_4.png");
+  expect_usage_error("eval labels wrong set/val", "one_4.png");
 }
 
 TEST_F(SceneCli, TheModelsThatCameWithTheProgramKnowAStreet) {
@@ -128,11 +128,11 @@ TEST_F(SceneCli, TheModelsThatCameWithTheProgramKnowAStreet) {
     fs::copy(camvid + "/val/images/" + name + ".jpg", dir / "few/images");
     fs::copy(camvid + "/val/labels/" + name + ".png", dir / "few/labels");
   }
-  ASSERT_EQ(run("scene label few --out labels --confidence").code, 0);
-  const json classes = json::parse(run("scene check labels few --json").out);
+  ASSERT_EQ(run("image labels few --out labels --confidence").code, 0);
+  const json classes = json::parse(run("eval labels labels few --json").out);
   EXPECT_GT(classes["pixel_accuracy"], 0.8);
-  ASSERT_EQ(run("scene surfaces few --out surfaces").code, 0);
-  const json surfaces = json::parse(run("scene check surfaces few --surfaces --json").out);
+  ASSERT_EQ(run("image surfaces few --out surfaces").code, 0);
+  const json surfaces = json::parse(run("eval labels surfaces few --surfaces --json").out);
   EXPECT_GT(surfaces["pixel_accuracy"], 0.88);
 }
 

@@ -1,4 +1,4 @@
-// `placegraph synth`.
+// `placegraph synth sequence`.
 #include "tests/support/cli_test.h"
 
 namespace placegraph {
@@ -12,24 +12,24 @@ using ::testing::StartsWith;
 class SynthCli : public test::CliTest {
  protected:
   void expect_error(const std::string& arguments, const std::string& message) {
-    expect_usage_error("synth " + arguments, message);
+    expect_usage_error("synth sequence " + arguments, message);
     EXPECT_FALSE(fs::exists(dir / "out")) << arguments;
   }
 };
 
 TEST_F(SynthCli, HelpBeginsWithAnExample) {
-  const auto result = run("synth --help");
+  const auto result = run("synth sequence --help");
   EXPECT_EQ(result.code, 0);
-  EXPECT_THAT(result.out, StartsWith("Example: placegraph synth town-loop --out"));
+  EXPECT_THAT(result.out, StartsWith("Example: placegraph synth sequence town-loop --out"));
 }
 
 TEST_F(SynthCli, WritesBothCamerasOutdoorsAndDepthIndoors) {
   const std::string small = " --frames 2 --size 96x48 --threads 1";
-  ASSERT_EQ(run("synth town-loop --out town" + small).code, 0);
+  ASSERT_EQ(run("synth sequence town-loop --out town" + small).code, 0);
   EXPECT_TRUE(fs::exists(dir / "town/image_0/000001.png"));
   EXPECT_TRUE(fs::exists(dir / "town/image_1/000001.png"));
   EXPECT_FALSE(fs::exists(dir / "town/depth_0"));
-  ASSERT_EQ(run("synth corridor-loop --out hall" + small).code, 0);
+  ASSERT_EQ(run("synth sequence corridor-loop --out hall" + small).code, 0);
   EXPECT_FALSE(fs::exists(dir / "hall/image_1"));
   EXPECT_TRUE(fs::exists(dir / "hall/depth_0/000001.png"));
   EXPECT_TRUE(fs::exists(dir / "hall/floorplan.json"));
@@ -66,7 +66,7 @@ TEST_F(SynthCli, BadArgumentsGiveOneLineAndExitCode2) {
 TEST_F(SynthCli, DoesNotWriteIntoAFolderThatHoldsSomething) {
   fs::create_directory(dir / "full");
   test::write_file(dir / "full/notes.txt", "mine");
-  const std::string command = "synth town-loop --frames 1 --size 96x48 --out full";
+  const std::string command = "synth sequence town-loop --frames 1 --size 96x48 --out full";
   EXPECT_EQ(run(command).code, 2);
   EXPECT_FALSE(fs::exists(dir / "full/image_0"));
   EXPECT_EQ(run(command + " --force").code, 0);

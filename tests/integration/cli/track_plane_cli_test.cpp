@@ -1,4 +1,4 @@
-// `placegraph track-plane`.
+// `placegraph track plane`.
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -75,7 +75,7 @@ class TrackPlaneCli : public test::CliTest {
 
 TEST_F(TrackPlaneCli, WritesALineAFrameAndSaysWhereItIsLost) {
   make_sequence();
-  const CommandResult result = run("track-plane images " + corners + "--out t.txt --draw seen");
+  const CommandResult result = run("track plane images " + corners + "--out t.txt --draw seen");
   ASSERT_EQ(result.code, 0) << result.err;
   EXPECT_THAT(result.out, ::testing::HasSubstr("8 frames, 6 tracked, 2 lost"));
   const std::vector<Line> lines = lines_of(dir / "t.txt");
@@ -100,9 +100,9 @@ TEST_F(TrackPlaneCli, TellsEverythingAsJson) {
   ASSERT_TRUE(test::write_picture(dir / "template.png", board.picture(Matrix3d::Identity())));
   write_file(dir / "camera.yaml", "width: 320\nheight: 240\nfx: 300\nfy: 300\ncx: 160\ncy: 120\n");
   const CommandResult result =
-      run("track-plane images " + corners +
+      run("track plane images " + corners +
           "--template-image template.png --calib camera.yaml --normal 0,0,1 --trajectory t.kitti "
-          "--similarity ssd_gain_bias --optimizer gauss_newton --model homography "
+          "--similarity ssd_gain_bias --optimizer gauss_newton --motion-model homography "
           "--out t.txt --json");
   ASSERT_EQ(result.code, 0) << result.err;
   const json report = json::parse(result.out);
@@ -122,20 +122,20 @@ TEST_F(TrackPlaneCli, TellsEverythingAsJson) {
 TEST_F(TrackPlaneCli, RefusesWithOneLineAndLeavesNothingBehind) {
   make_sequence();
   const std::string whole = "track-plane images " + corners + "--out t.txt ";
-  expect_usage_error("track-plane images --out t.txt", "--template");
-  expect_usage_error("track-plane images " + corners, "--out");
-  expect_usage_error("track-plane none " + corners + "--out t.txt", "none");
-  expect_usage_error("track-plane images --template 1,2,3 --out t.txt", "not 8 numbers");
-  expect_usage_error("track-plane images --template 1,2,3,4,5,6,7,x --out t.txt", "not 8 numbers");
-  expect_usage_error("track-plane images --template 1,2,3,4,5,6,7,nan --out t.txt", "--template");
-  expect_usage_error("track-plane images --template 10,70,400,70,210,160,110,160 --out t.txt",
+  expect_usage_error("track plane images --out t.txt", "--template");
+  expect_usage_error("track plane images " + corners, "--out");
+  expect_usage_error("track plane none " + corners + "--out t.txt", "none");
+  expect_usage_error("track plane images --template 1,2,3 --out t.txt", "not 8 numbers");
+  expect_usage_error("track plane images --template 1,2,3,4,5,6,7,x --out t.txt", "not 8 numbers");
+  expect_usage_error("track plane images --template 1,2,3,4,5,6,7,nan --out t.txt", "--template");
+  expect_usage_error("track plane images --template 10,70,400,70,210,160,110,160 --out t.txt",
                      "outside the image");
-  expect_usage_error("track-plane images --template 110,70,210,160,210,70,110,160 --out t.txt",
+  expect_usage_error("track plane images --template 110,70,210,160,210,70,110,160 --out t.txt",
                      "convex");
-  expect_usage_error(whole + "--model cube", "--model");
+  expect_usage_error(whole + "--motion-model cube", "--motion-model");
   expect_usage_error(whole + "--similarity x", "--similarity");
   expect_usage_error(whole + "--optimizer x", "--optimizer");
-  expect_usage_error(whole + "--model se3plane", "--calib");
+  expect_usage_error(whole + "--motion-model se3plane", "--calib");
   expect_usage_error(whole + "--normal 0,0,1", "--calib");
   expect_usage_error(whole + "--trajectory p.txt", "--calib");
   expect_usage_error(whole + "--calib", "has no calibration");
@@ -146,7 +146,7 @@ TEST_F(TrackPlaneCli, RefusesWithOneLineAndLeavesNothingBehind) {
   expect_usage_error(whole + "--calib wide.yaml --normal 0,0,0", "--normal");
   write_file(dir / "broken.png", "no image");
   expect_usage_error(whole + "--template-image broken.png", "broken.png");
-  expect_usage_error("track-plane images " + corners + "--out none/t.txt", "none");
+  expect_usage_error("track plane images " + corners + "--out none/t.txt", "none");
   EXPECT_FALSE(fs::exists(dir / "t.txt"));
   write_file(dir / "t.txt", "kept");
   expect_usage_error(whole, "--force");
@@ -199,7 +199,7 @@ TEST_F(TrackPlaneCli, FollowsTheBoardOfARealSequence) {
     given += (given.empty() ? "" : ",") + std::to_string(px.x()) + "," + std::to_string(px.y());
   }
   const CommandResult result =
-      run("track-plane '" + folder + "' --template " + given + " --out t.txt");
+      run("track plane '" + folder + "' --template " + given + " --out t.txt");
   ASSERT_EQ(result.code, 0) << result.err;
   const std::vector<Line> lines = lines_of(dir / "t.txt");
   ASSERT_EQ(lines.size(), poses.T_world_cam.size());

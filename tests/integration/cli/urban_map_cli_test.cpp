@@ -1,4 +1,4 @@
-// `placegraph run --scene semantics`, `map semantic`.
+// `placegraph run --config street_map`, `map semantic`.
 #include <nlohmann/json.hpp>
 
 #include "tests/support/cli_test.h"
@@ -17,12 +17,12 @@ class UrbanMapCli : public test::CliTest {
   static void SetUpTestSuite() {
     made = new test::TemporaryFolder;
     CommandResult result = test::run_placegraph(
-        "synth town-loop --frames 30 --size 620x188 --difficulty clean --labels --stereo --out "
+        "synth sequence town-loop --frames 30 --size 620x188 --difficulty clean --labels --stereo --out "
         "town",
         made->path());
     ASSERT_EQ(result.code, 0) << result.err;
     result = test::run_placegraph(
-        "run town --sensor stereo --scene semantics --set scene.urban.min_step_m=0.5 "
+        "run town --sensor stereo --config street_map --set scene.urban.min_step_m=0.5 "
         "--set scene.urban.sight.step_px=3 --out out --json",
         made->path());
     ASSERT_EQ(result.code, 0) << result.err;
@@ -52,7 +52,7 @@ TEST_F(UrbanMapCli, TellsWhatTrulyStandsThere) {
 }
 
 TEST_F(UrbanMapCli, MakesTheSameMapFromTheSavedOne) {
-  ASSERT_EQ(run("map semantic " + at("out") + " --out map" + kDense).code, 0);
+  ASSERT_EQ(run("map street " + at("out") + " --out map" + kDense).code, 0);
   EXPECT_EQ(read_file(dir / "map/semantic_map.ply"), read_file(at("out/semantic_map.ply")));
   EXPECT_FALSE(fs::exists(dir / "map/semantic_map.geojson"));
 }
@@ -62,7 +62,7 @@ TEST_F(UrbanMapCli, LaysTheMapOutOnTheEarth) {
             R"({"origin": {"latitude_deg": 49, "longitude_deg": 8.4, "height_m": 115}})");
   dir.write("earth/trajectory_enu.tum", read_file(at("out/trajectory_optimized.tum")));
   const CommandResult result =
-      run("map semantic " + at("out") + " --georeference earth --out map" + kDense);
+      run("map street " + at("out") + " --georeference earth --out map" + kDense);
   ASSERT_EQ(result.code, 0) << result.err;
   const json document = json::parse(read_file(dir / "map/semantic_map.geojson"));
   EXPECT_EQ(document["type"], "FeatureCollection");
@@ -71,26 +71,26 @@ TEST_F(UrbanMapCli, LaysTheMapOutOnTheEarth) {
   EXPECT_NEAR(corner[0].get<double>(), 8.4, 0.01);
   EXPECT_NEAR(corner[1].get<double>(), 49, 0.01);
   dir.write("earth/georeference.json", "{}");
-  expect_usage_error("map semantic " + at("out") + " --georeference earth --out other",
+  expect_usage_error("map street " + at("out") + " --georeference earth --out other",
                      "georeference.json");
 }
 
 TEST_F(UrbanMapCli, SaysWhatIsMissing) {
   expect_usage_error(
-      "run " + at("town") + " --scene semantics --set scene.urban_model=none.pgscene --out other",
+      "run " + at("town") + " --config street_map --set scene.urban_model=none.pgscene --out other",
       "none.pgscene: no such model; `placegraph train urban DATA");
-  expect_usage_error("map semantic " + at("out") + " --model none.pgscene --out other",
+  expect_usage_error("map street " + at("out") + " --model none.pgscene --out other",
                      "placegraph train urban");
   expect_usage_error("run " + at("town") + " --scene semantic --out other", "--scene");
   expect_usage_error(
-      "run " + at("town") + " --scene semantics --set scene.urban.sight.moving=Tram --out other",
+      "run " + at("town") + " --config street_map --set scene.urban.sight.moving=Tram --out other",
       "Tram");
 }
 
 TEST_F(UrbanMapCli, NeedsStereo) {
   const CommandResult result =
       run("run " + at("town") +
-          " --sensor mono --camera-height 1.65 --set max_frames=6 --scene semantics --out other "
+          " --sensor mono --camera-height 1.65 --set max_frames=6 --config street_map --out other "
           "--json");
   ASSERT_EQ(result.code, 0) << result.err;
   EXPECT_THAT(result.err, testing::HasSubstr("no semantic map: a stereo camera is required"));

@@ -61,7 +61,7 @@ TEST_F(VanishingCli, TellsTheWorldAndItsPoints) {
   EXPECT_EQ(run("vanishing lines.txt --calib K.txt --json --seed 1").out.substr(0, 400),
             result.out.substr(0, 400));
   EXPECT_THAT(run("vanishing lines.txt --calib K.txt").out,
-              HasSubstr("3 vanishing points, 1 rectangular worlds"));
+              HasSubstr("3 vanishing points, 1 Manhattan frames"));
 }
 
 TEST_F(VanishingCli, SaysNullWhereNoWorldIsSupported) {
@@ -76,7 +76,7 @@ TEST_F(VanishingCli, SaysNullWhereNoWorldIsSupported) {
   EXPECT_TRUE(report["R_cam_manhattan"].is_null());
   EXPECT_TRUE(report["covariance"].is_null());
   EXPECT_TRUE(report["vanishing_points"].empty());
-  EXPECT_THAT(run("vanishing lines.txt --calib K.txt").out, HasSubstr("no rectangular world"));
+  EXPECT_THAT(run("vanishing lines.txt --calib K.txt").out, HasSubstr("no Manhattan frame"));
 }
 
 TEST_F(VanishingCli, TooFewSegmentsAllowNoAnswer) {

@@ -1,7 +1,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/internal/datasets/euroc.h>
 #include <placegraph/io/internal/measurements/marker_layout_file.h>
-#include <placegraph/io/internal/synthetic/worlds/hover.h>
+#include <placegraph/io/internal/synthetic/worlds/flight_world.h>
 #include <placegraph/io/internal/synthetic/writers/flight_writer.h>
 #include <placegraph/io/internal/trajectories/body_state_file.h>
 #include <placegraph/io/sensors/imu_file.h>
@@ -28,7 +28,7 @@ SyntheticWorld world_of(const std::string& name) {
 
 TEST(FlightWriter, WhatItWritesIsReadAsItWas) {
   const TemporaryFolder folder;
-  const SyntheticWorld world = world_of("hover");
+  const SyntheticWorld world = world_of("flight");
   SequenceWriterOptions options;
   options.contents.flow = true;
   write_flight(world, folder / "hover", options);

@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/graph/internal/core/random.h>
-#include <placegraph/io/internal/synthetic/worlds/hover.h>
+#include <placegraph/io/internal/synthetic/worlds/flight_world.h>
 #include <placegraph/pipeline/internal/flight/flight_estimator.h>
 
 #include <functional>

@@ -1,6 +1,6 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/internal/synthetic/render/hash_noise.h>
-#include <placegraph/io/internal/synthetic/worlds/hover.h>
+#include <placegraph/io/internal/synthetic/worlds/flight_world.h>
 #include <placegraph/io/internal/synthetic/worlds/synthetic_world.h>
 #include <placegraph/io/internal/synthetic/worlds/tours.h>
 
@@ -19,19 +19,25 @@ namespace {
 struct BuiltIn {
   const char* name;
   Tour (*make)(const TourRequest&);
+  const char* former_name = nullptr;  ///< still understood
 };
 constexpr BuiltIn kWorlds[] = {{"town-loop", synthetic::make_town_loop},
                                {"repeated-blocks", synthetic::make_repeated_blocks},
                                {"corridor-loop", synthetic::make_corridor_loop},
                                {"warehouse", synthetic::make_warehouse},
-                               {"hover", synthetic::make_flight_world}};
+                               {"flight", synthetic::make_flight_world, "hover"}};
+
+const BuiltIn* built_in(const std::string& name) {
+  for (const BuiltIn& world : kWorlds)
+    if (name == world.name || (world.former_name != nullptr && name == world.former_name))
+      return &world;
+  return nullptr;
+}
 
 Tour make_tour(const SyntheticOptions& options) {
   const TourRequest request{options.seed, synthetic::sensor_model(options.difficulty),
                             options.duration_s};
-  for (const BuiltIn& world : kWorlds) {
-    if (options.world == world.name) return world.make(request);
-  }
+  if (const BuiltIn* world = built_in(options.world)) return world->make(request);
   if (!std::filesystem::exists(options.world)) {
     std::string names;
     for (const BuiltIn& world : kWorlds)
@@ -56,7 +62,9 @@ void resize(Camera& camera, int width, int height) {
 void SyntheticOptions::check() const {
   check_ranges(*this);
   require(!world.empty(), "world: is empty");
-  require(duration_s == 0 || world == "hover", "duration_s: only for the world `hover`");
+  const BuiltIn* named = built_in(world);
+  require(duration_s == 0 || (named != nullptr && named->make == synthetic::make_flight_world),
+          "duration_s: only for the world `flight`");
   require((width == 0) == (height == 0), "size: width and height go together");
   require(width == 0 || (width >= 32 && height >= 32), "size: at least 32 x 32");
 }
@@ -68,7 +76,7 @@ void visit(OptionVisitor& field, SyntheticOptions& o) {
                "level of noise, exposure drift, motion blur, contrast and traffic");
   field("seed", o.seed, "seed of textures, scenery, traffic and noise");
   field("frames", o.frames, "maximum number of frames from the start; 0 = all", {0, 1e9});
-  field("duration_s", o.duration_s, "duration of the flight [s], world `hover` only; 0 = 120",
+  field("duration_s", o.duration_s, "duration of the flight [s], world `flight` only; 0 = 120",
         {0, 3600});
   field("width", o.width, "image width [px]; 0 = width of the world's camera", {0, 16384});
   field("height", o.height, "image height [px]; 0 = height of the world's camera", {0, 16384});

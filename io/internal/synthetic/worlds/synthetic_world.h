@@ -23,7 +23,7 @@ struct SyntheticOptions {
   synthetic::Difficulty difficulty = synthetic::Difficulty::kStandard;
   std::uint64_t seed = 1;
   int frames = 0;             ///< at most this many from the start; 0 = all
-  double duration_s = 0;      ///< duration of the flight, world `hover` only; 0 = 120 s
+  double duration_s = 0;      ///< duration of the flight, world `flight` only; 0 = 120 s
   int width = 0, height = 0;  ///< [px], intrinsics scaled along; 0 = the world's own
   int threads = 1;            ///< threads of one rendering
 

@@ -4,7 +4,7 @@
 #include <placegraph/io/internal/measurements/flow_file.h>
 #include <placegraph/io/internal/measurements/marker_layout_file.h>
 #include <placegraph/io/internal/sensors/euroc_sensor.h>
-#include <placegraph/io/internal/synthetic/worlds/hover.h>
+#include <placegraph/io/internal/synthetic/worlds/flight_world.h>
 #include <placegraph/io/internal/synthetic/writers/flight_writer.h>
 #include <placegraph/io/internal/synthetic/writers/sequence_folder.h>
 #include <placegraph/io/internal/trajectories/body_state_file.h>
@@ -40,7 +40,7 @@ std::string flight_yaml(const SyntheticWorld& world) {
 
 std::string readme(const SyntheticContents& contents) {
   std::string text =
-      "Rendered by `placegraph synth hover`. EuRoC's layout: mav0/cam0 (8-bit grey, no "
+      "Rendered by `placegraph synth sequence flight`. EuRoC's layout: mav0/cam0 (8-bit grey, no "
       "distortion),\n"
       "mav0/imu0, mav0/state_groundtruth_estimate0 (T_world_body, velocity, biases, exact).\n"
       "World: z up, the floor is z = 0. Body: the inertial sensor's axes, x forward, z up.\n"

@@ -94,7 +94,7 @@ TEST(LinesTrackText, SaysWhatTheTruthSays) {
   EXPECT_FALSE(nlohmann::json::parse(to_json(result)).contains("wrong"));
   result.judgement = LineTracksJudgement{.judged = 40, .wrong = 1, .undecided = 3};
   EXPECT_EQ(to_text(result),
-            line + "; by the true poses 1 of 40 sightings wrong (2.50 %), 3 undecided\n");
+            line + "; by the true poses 1 of 40 observations wrong (2.50 %), 3 undecided\n");
   const auto json = nlohmann::json::parse(to_json(result));
   EXPECT_EQ(json["sightings"], 40);
   EXPECT_EQ(json["wrong_percent"], 2.5);

@@ -56,7 +56,7 @@ TEST_F(VanishingCommand, FindsTheWorldAndSaysWhichOfItsAxesEveryPointIs) {
   }
   EXPECT_EQ(json["labels"].size(), 150u);
   EXPECT_THAT(to_text(result),
-              HasSubstr("lines.txt: 150 segments, 3 vanishing points, 1 rectangular worlds\n"));
+              HasSubstr("lines.txt: 150 segments, 3 vanishing points, 1 Manhattan frames\n"));
 }
 
 TEST_F(VanishingCommand, AnswersThatNoWorldIsSupported) {
@@ -69,7 +69,7 @@ TEST_F(VanishingCommand, AnswersThatNoWorldIsSupported) {
   const auto json = nlohmann::json::parse(to_json(result));
   EXPECT_FALSE(json["manhattan_supported"].get<bool>());
   EXPECT_TRUE(json["R_cam_manhattan"].is_null());
-  EXPECT_THAT(to_text(result), HasSubstr("\n  no rectangular world: too little speaks for one\n"));
+  EXPECT_THAT(to_text(result), HasSubstr("\n  no Manhattan frame: too little evidence\n"));
 }
 
 TEST_F(VanishingCommand, HasNoAnswerOfTooFewSegments) {
@@ -100,8 +100,8 @@ TEST(VanishingText, SaysWhatAPointIsToTheWorlds) {
   result.scene.roles.resize(2);
   result.scene.roles[0].frame = 0, result.scene.roles[0].axis = 2;
   result.scene.roles[1].across_frame = 0, result.scene.roles[1].across_axis = 1;
-  EXPECT_THAT(to_text(result), HasSubstr("  12 segments, axis 2 of world 0\n"));
-  EXPECT_THAT(to_text(result), HasSubstr("  5 segments, at right angles to axis 1 of world 0\n"));
+  EXPECT_THAT(to_text(result), HasSubstr("  12 segments, axis 2 of frame 0\n"));
+  EXPECT_THAT(to_text(result), HasSubstr("  5 segments, orthogonal to axis 1 of frame 0\n"));
   const auto json = nlohmann::json::parse(to_json(result));
   EXPECT_EQ(json["points"][0]["axis"], 2);
   EXPECT_TRUE(json["points"][0]["across"].is_null());

@@ -67,7 +67,7 @@ class ExplainTwoPlaces : public testing::Test {
  protected:
   json explained(std::int64_t frame) {
     write_map(folder / "map.db", stored);
-    return explain({folder.path(), FrameId(frame)}).told;
+    return explain({folder.path(), FrameId(frame)}).explanation;
   }
   test::TemporaryFolder folder;
   StoredMap stored = two_places();
@@ -95,12 +95,12 @@ TEST_F(ExplainTwoPlaces, SaysWhereAFrameIsAndHowThatIsKnown) {
 
 TEST_F(ExplainTwoPlaces, SaysWhatWasTakenForGranted) {
   const json assumed = explained(2)["assumed"];
-  EXPECT_EQ(assumed["sensor"], "one eye");
+  EXPECT_EQ(assumed["sensor"], "monocular");
   EXPECT_EQ(assumed["ground_below_camera_m"], 1.65);
   EXPECT_EQ(assumed["environment"]["kind"], "corridor");
   EXPECT_FALSE(explained(0)["assumed"].contains("environment"));
   stored.origin.calibration->baseline_m = 0.5;
-  EXPECT_EQ(explained(2)["assumed"]["sensor"], "depths measured");
+  EXPECT_EQ(explained(2)["assumed"]["sensor"], "measured depth");
 }
 
 TEST_F(ExplainTwoPlaces, ALostFrameHasNoPlace) {
@@ -135,31 +135,31 @@ TEST(ExplainCommand, RefusesAFrameThatTheMapDoesNotHave) {
 
 TEST(ExplainText, SaysWhatIsKnownLineByLine) {
   ExplainResult result;
-  result.told = {{"frame", 7},
-                 {"stamp_s", 1.5},
-                 {"where", {{"posed", false}}},
-                 {"known_by",
-                  {{"inliers", 3},
-                   {"features", 20},
-                   {"features_placed", 5},
-                   {"constraints", {{"odometry", 1}}},
-                   {"loops", json::array()}}},
-                 {"sees", {{"unknown", "no model"}}},
-                 {"assumed",
-                  {{"sensor", "one eye"},
-                   {"cues", "points"},
-                   {"metric", true},
-                   {"ground_below_camera_m", 1.65}}},
-                 {"refused", json::array()}};
+  result.explanation = {{"frame", 7},
+                        {"stamp_s", 1.5},
+                        {"where", {{"posed", false}}},
+                        {"known_by",
+                         {{"inliers", 3},
+                          {"features", 20},
+                          {"features_placed", 5},
+                          {"constraints", {{"odometry", 1}}},
+                          {"loops", json::array()}}},
+                        {"sees", {{"unknown", "no model"}}},
+                        {"assumed",
+                         {{"sensor", "monocular"},
+                          {"cues", "points"},
+                          {"metric", true},
+                          {"ground_below_camera_m", 1.65}}},
+                        {"refused", json::array()}};
   EXPECT_EQ(to_text(result),
             "frame      7, 1.500 s\n"
             "where      not posed: tracking was lost or waited here\n"
             "known by   3 landmarks; keyframe with 20 features, 5 placed; constraints "
             "{\"odometry\":1}\n"
             "sees       unknown: no model\n"
-            "assumed    one eye, cues points, ground 1.65 m below the camera, unit the metre\n"
+            "assumed    monocular, cues points, ground 1.65 m below the camera, metric\n"
             "refused    nothing\n");
-  EXPECT_EQ(json::parse(to_json(result)), result.told);
+  EXPECT_EQ(json::parse(to_json(result)), result.explanation);
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ class ClassifyPlacesCommand : public testing::Test {
     test::write_twelve_views(folder);
     write_labels(6);
     arguments.folder = folder.path();
-    arguments.out = folder / "told.txt";
+    arguments.out = folder / "predictions.txt";
   }
   void write_labels(int images) {
     std::string labels;
@@ -42,12 +42,12 @@ TEST_F(ClassifyPlacesCommand, TellsTheImagesThatAreAskedForByThoseThatWereLearne
     EXPECT_EQ(result.learned, 6u);
     EXPECT_EQ(result.refused, 0u);
     EXPECT_EQ(result.weights.size(), place_cues().size());
-    ASSERT_EQ(result.told.size(), 6u);
+    ASSERT_EQ(result.predictions.size(), 6u);
     for (std::size_t i = 0; i < 6; ++i) {
-      EXPECT_EQ(result.told[i].image, FrameId(static_cast<std::int64_t>(i) + 6));
-      EXPECT_EQ(result.told[i].label, static_cast<int>(i / 3));
-      EXPECT_GT(result.told[i].probability, 0.5);
-      EXPECT_LE(result.told[i].probability, 1);
+      EXPECT_EQ(result.predictions[i].image, FrameId(static_cast<std::int64_t>(i) + 6));
+      EXPECT_EQ(result.predictions[i].label, static_cast<int>(i / 3));
+      EXPECT_GT(result.predictions[i].probability, 0.5);
+      EXPECT_LE(result.predictions[i].probability, 1);
     }
     EXPECT_THAT(test::read_file(arguments.out), testing::StartsWith("6 0 0."));
     EXPECT_THAT(test::read_file(arguments.out), HasSubstr("\n11 1 0."));
@@ -59,7 +59,7 @@ TEST_F(ClassifyPlacesCommand, EveryMachineIsAnother) {
   std::set<double> probabilities;
   for (const std::string& machine : place_machines()) {
     arguments.classifier = machine;
-    probabilities.insert(classify_places(arguments).told.front().probability);
+    probabilities.insert(classify_places(arguments).predictions.front().probability);
   }
   EXPECT_EQ(probabilities.size(), 3u);
 }
@@ -69,8 +69,8 @@ TEST_F(ClassifyPlacesCommand, LearnsTheFirstImagesWhateverTheTruthSays) {
   arguments.train = 8;
   const ClassifyPlacesResult result = classify_places(arguments);
   EXPECT_EQ(result.learned, 8u);
-  ASSERT_EQ(result.told.size(), 4u);
-  EXPECT_EQ(result.told.front().image, FrameId(8));
+  ASSERT_EQ(result.predictions.size(), 4u);
+  EXPECT_EQ(result.predictions.front().image, FrameId(8));
   arguments.train = 12;
   arguments.force = true;
   EXPECT_THAT(message_of<ArgumentError>([&] { classify_places(arguments); }),
@@ -86,7 +86,8 @@ TEST_F(ClassifyPlacesCommand, RefusesToTellWhatItIsNotSureOf) {
   arguments.force = true;
   const ClassifyPlacesResult result = classify_places(arguments);
   EXPECT_EQ(result.refused, 6u);
-  for (const ClassifiedPlace& classified_place : result.told) EXPECT_EQ(classified_place.label, -1);
+  for (const ClassifiedPlace& classified_place : result.predictions)
+    EXPECT_EQ(classified_place.label, -1);
 }
 
 TEST_F(ClassifyPlacesCommand, ACueThatDoesNotCountHasNoWeight) {
@@ -121,17 +122,17 @@ TEST_F(ClassifyPlacesCommand, NamesTheFileAndThePlaceOfWhatIsWrong) {
 
 TEST(ClassifyPlacesText, SaysWhatWasLearnedAndHowWell) {
   ClassifyPlacesResult result;
-  result.out = "told.txt";
+  result.out = "predictions.txt";
   result.learned = 20;
-  result.told.resize(5);
+  result.predictions.resize(5);
   result.refused = 2;
   result.weights = {0.5, 1, 0, 0.25, 1};
   result.accuracy = 0.9, result.log_loss = 0.123;
-  EXPECT_EQ(
-      to_text(result),
-      "20 views learned, 5 told, 2 refused; weights of colours 0.5, quarters 1, edges 0, tiny "
-      "0.25, gabor 1; on left out parts accuracy 0.900, log loss 0.123; written to "
-      "told.txt\n");
+  EXPECT_EQ(to_text(result),
+            "20 training views, 5 predictions, 2 rejected; weights of colours 0.5, quarters 1, "
+            "edges 0, tiny "
+            "0.25, gabor 1; on left out parts accuracy 0.900, log loss 0.123; written to "
+            "predictions.txt\n");
 }
 
 }  // namespace

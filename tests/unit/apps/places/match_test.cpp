@@ -125,7 +125,7 @@ TEST_F(MatchCommand, AnImageWithoutWordsHasNoAnswer) {
 TEST_F(MatchCommand, NamesTheFileAndThePlaceOfWhatIsWrong) {
   arguments.cues = {"smell"};
   EXPECT_THAT(message_of<ArgumentError>([&] { match(arguments); }),
-              HasSubstr("--cues: 'smell' is none of tiny, "));
+              HasSubstr("--appearance: 'smell' is none of tiny, "));
   arguments.cues = match_cues();
   folder.write("gt.txt", "6 0 50 0\n");
   EXPECT_THAT(message_of([&] { match(arguments); }),

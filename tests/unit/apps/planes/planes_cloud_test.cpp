@@ -121,7 +121,7 @@ TEST_F(PlanesCloudCommand, NamesWhatItCannotUseAndWritesNothing) {
   arguments.same = {"3"};
   arguments.truth = folder / "truth.txt";
   EXPECT_EQ(message_of<ArgumentError>([&] { planes_cloud(arguments); }),
-            "--gt-same: 3 is not of the form 14=5");
+            "--truth-same: 3 is not of the form 14=5");
   arguments.truth = folder.write("few.txt", "1\n2\n");
   EXPECT_THAT(message_of([&] { planes_cloud(arguments); }),
               HasSubstr("few.txt: 2 labels for 12288 points"));

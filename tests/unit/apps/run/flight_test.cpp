@@ -61,7 +61,7 @@ TEST(FlightOptionsOfArguments, RefuseWhatDoesNotGoTogether) {
   FlightArguments arguments;
   arguments.smooth = true;
   arguments.predict_ahead_ms = 10;
-  EXPECT_THAT(message(arguments), HasSubstr("--smooth: what is told ahead is not smoothed"));
+  EXPECT_THAT(message(arguments), HasSubstr("--smooth: predicted states cannot be smoothed"));
   arguments = {};
   arguments.predict_ahead_ms = 1e6;
   EXPECT_THAT(message(arguments), HasSubstr("--predict-ahead-ms: 1000000 is not within 0 and "));

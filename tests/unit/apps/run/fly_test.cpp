@@ -24,7 +24,7 @@ class FlightCommand : public testing::Test {
   static void SetUpTestSuite() {
     made = new test::TemporaryFolder;
     SyntheticOptions options;
-    options.world = "hover";
+    options.world = "flight";
     options.duration_s = 1;
     options.seed = 6;
     write_flight(SyntheticWorld(options), *made / "flight", {});
@@ -69,7 +69,7 @@ TEST_F(FlightCommand, HasNoAnswerWithoutMarkersToBeginWith) {
   arguments.no_markers = true;
   const FlightResult result = fly(arguments);
   ASSERT_TRUE(result.no_answer);
-  EXPECT_THAT(*result.no_answer, HasSubstr("flight: no image could be told a state ("));
+  EXPECT_THAT(*result.no_answer, HasSubstr("flight: no image has a state ("));
   EXPECT_EQ(result.summary["answered"], 0);
   EXPECT_THAT(message_of([&] { read_trajectory(folder / "out/trajectory.tum"); }),
               HasSubstr("holds no poses"));

@@ -18,7 +18,7 @@ TEST(MapInfoCommand, CountsWhatTheMapHolds) {
   Random random(3);
   const StoredMap stored = test::random_map(random);
   write_map(folder / "map.db", stored);
-  const json info = map_info({folder.path()}).told;
+  const json info = map_info({folder.path()}).summary;
   EXPECT_EQ(info["file"], folder / "map.db");
   EXPECT_EQ(info["finished"], stored.finished);
   EXPECT_EQ(info["sequence"], "/data/somewhere");
@@ -57,7 +57,7 @@ TEST(MapInfoCommand, TheWayLeadsOverFramesThatHaveAPose) {
   map.trajectory_online.poses.resize(4);
   stored.history = {};
   write_map(folder / "map.db", stored);
-  const json info = map_info({folder / "map.db"}).told;
+  const json info = map_info({folder / "map.db"}).summary;
   EXPECT_EQ(info["frames"], 4);
   EXPECT_EQ(info["posed"], 3);
   EXPECT_NEAR(info["path_length"].get<double>(), 5, 1e-9);
@@ -73,27 +73,27 @@ TEST(MapInfoCommand, NamesTheFileThatIsNoMap) {
 
 TEST(MapInfoText, SaysItInSixLines) {
   MapInfoResult result;
-  result.told = {{"file", "out/map.db"},
-                 {"schema", 7},
-                 {"finished", false},
-                 {"sequence", "/data/town"},
-                 {"sensor", "stereo"},
-                 {"places", 4},
-                 {"components", 2},
-                 {"constraints", 3},
-                 {"loops_accepted", 1},
-                 {"frames", 40},
-                 {"posed", 38},
-                 {"keyframes", 9},
-                 {"path_length", 12.345},
-                 {"metric", true},
-                 {"features", 2000},
-                 {"views", 9},
-                 {"landmarks", 2500},
-                 {"file_bytes", 1'250'000},
-                 {"features_bytes", 400'000},
-                 {"views_bytes", 60'000},
-                 {"landmarks_bytes", 0}};
+  result.summary = {{"file", "out/map.db"},
+                    {"schema", 7},
+                    {"finished", false},
+                    {"sequence", "/data/town"},
+                    {"sensor", "stereo"},
+                    {"places", 4},
+                    {"components", 2},
+                    {"constraints", 3},
+                    {"loops_accepted", 1},
+                    {"frames", 40},
+                    {"posed", 38},
+                    {"keyframes", 9},
+                    {"path_length", 12.345},
+                    {"metric", true},
+                    {"features", 2000},
+                    {"views", 9},
+                    {"landmarks", 2500},
+                    {"file_bytes", 1'250'000},
+                    {"features_bytes", 400'000},
+                    {"views_bytes", 60'000},
+                    {"landmarks_bytes", 0}};
   EXPECT_EQ(to_text(result),
             "out/map.db: schema 7, broken off\n"
             "  from     /data/town (stereo)\n"
@@ -101,7 +101,7 @@ TEST(MapInfoText, SaysItInSixLines) {
             "  frames   40, 38 posed, 9 keyframes, path 12.3 m\n"
             "  content  2000 features, 9 views, 2500 landmarks\n"
             "  size     1.2 MB: features 0.4, views 0.1, landmarks 0.0\n");
-  EXPECT_EQ(json::parse(to_json(result)), result.told);
+  EXPECT_EQ(json::parse(to_json(result)), result.summary);
 }
 
 }  // namespace

@@ -70,7 +70,7 @@ TEST_F(SceneOrientationCommand, HoldsASequenceAgainstItsSurfaces) {
   const SceneOrientationResult result = scene_orientation(arguments);
   const auto& found = std::get<SequenceOrientation>(result.found);
   EXPECT_EQ(found.images, 2);
-  EXPECT_EQ(found.told, 2);
+  EXPECT_EQ(found.labelled, 2);
   EXPECT_FALSE(result.no_answer);
   ASSERT_TRUE(found.check);
   EXPECT_GT(found.check->judged, 100'000u);  // of 2 x 76800 pixels
@@ -96,9 +96,9 @@ TEST_F(SceneOrientationCommand, SaysWhyThereIsNoOrientation) {
   arguments.camera.clear();
   arguments.out.clear();
   const SceneOrientationResult result = scene_orientation(arguments);
-  EXPECT_EQ(std::get<SequenceOrientation>(result.found).told, 0);
+  EXPECT_EQ(std::get<SequenceOrientation>(result.found).labelled, 0);
   EXPECT_FALSE(std::get<SequenceOrientation>(result.found).check);
-  EXPECT_EQ(result.no_answer, arguments.in + ": no image shows a rectangular world");
+  EXPECT_EQ(result.no_answer, arguments.in + ": no image shows a Manhattan frame");
 }
 
 TEST_F(SceneOrientationCommand, NamesWhatIsMissingOrDoesNotFit) {
@@ -116,22 +116,22 @@ TEST(SceneOrientationText, SaysWhatOneImageAndWhatASequenceShows) {
   ImageOrientation image{0.8, 0.2, 0.1, 0.5, 1, Eigen::Matrix3d::Identity()};
   image.R_cam_manhattan(0, 2) = 0.25;
   const SceneOrientationResult one{"a.png", image, 31.6, {}};
-  EXPECT_EQ(to_text(one), "a.png: 80 % told: floor 20, ceiling 10, walls 50 %; 32 ms CPU\n");
+  EXPECT_EQ(to_text(one), "a.png: 80 % labelled: floor 20, ceiling 10, walls 50 %; 32 ms CPU\n");
   const auto json = nlohmann::json::parse(to_json(one));
   EXPECT_EQ(json["wall"], 0.5);
   EXPECT_EQ(json["R_cam_manhattan"][0], (std::vector<double>{1, 0, 0.25}));
   EXPECT_FALSE(json.contains("check"));
 
   SequenceOrientation sequence{4, 3, 0.75, OrientationCheck{200, 100, 90}};
-  EXPECT_EQ(
-      to_text({"walk", sequence, 20, {}}),
-      "walk: 3 of 4 images told, 75.0 % of their pixels, 90.0 % of those rightly; 20 ms CPU an "
-      "image\n");
+  EXPECT_EQ(to_text({"walk", sequence, 20, {}}),
+            "walk: 3 of 4 images labelled, 75.0 % of their pixels, 90.0 % of those correctly; 20 "
+            "ms CPU an "
+            "image\n");
   EXPECT_EQ(nlohmann::json::parse(to_json({"walk", sequence, 20, {}}))["check"],
             nlohmann::json({{"pixels", 200}, {"coverage", 0.5}, {"accuracy", 0.9}}));
   sequence.check.reset();
   EXPECT_EQ(to_text({"walk", sequence, 20, {}}),
-            "walk: 3 of 4 images told, 75.0 % of their pixels; 20 ms CPU an image\n");
+            "walk: 3 of 4 images labelled, 75.0 % of their pixels; 20 ms CPU an image\n");
 }
 
 }  // namespace

@@ -85,7 +85,7 @@ TEST_F(SynthCommand, NamesWhatItCannotUseAndWritesNothing) {
   EXPECT_THAT(message_of<ArgumentError>([&] { synth(arguments); }),
               HasSubstr("'easy' is none of clean, standard, hard"));
   arguments.difficulty = "clean";
-  arguments.world.world = "hover";
+  arguments.world.world = "flight";
   arguments.labels = true;
   EXPECT_EQ(message_of<ArgumentError>([&] { synth(arguments); }),
             "hover: has one eye, --stereo, --depth and --labels are for other worlds");

@@ -99,7 +99,7 @@ TEST_F(FlowCommand, SaysWhereTheFlowTellsNoCue) {
   arguments.cell_px = 512;  // one vector
   const FlowResult result = flow(arguments);
   EXPECT_GT(result.known, 0);
-  EXPECT_EQ(result.no_answer, "--cues: the flow tells none");
+  EXPECT_EQ(result.no_answer, "--flow-cues: the flow tells none");
 }
 
 TEST_F(FlowCommand, HasNoAnswerOfBlankImagesAndWritesNothing) {
@@ -124,7 +124,7 @@ TEST_F(FlowCommand, NamesWhatItCannotUse) {
   arguments.method = "dis";
   arguments.cues = true;
   EXPECT_EQ(message_of<ArgumentError>([&] { flow(arguments); }),
-            "--cues: need the camera, --calib");
+            "--flow-cues: need the camera, --calib");
   arguments.calib = folder.write("K.txt", "100 100 60 50 120 100\n");
   arguments.normal = {0, 1};
   EXPECT_EQ(message_of<ArgumentError>([&] { flow(arguments); }),

@@ -176,18 +176,18 @@ TEST_F(MotionCommand, NamesTheLineOfABrokenFile) {
 TEST_F(MotionCommand, RefusesWhatDoesNotBelongTogether) {
   const auto refusal = [&] { return message_of<ArgumentError>([&] { motion(arguments); }); };
   arguments.model = "cubic";
-  EXPECT_THAT(refusal(), StartsWith("--model: 'cubic' is none of auto, "));
+  EXPECT_THAT(refusal(), StartsWith("--method: 'cubic' is none of auto, "));
   arguments.model = "gravity";
-  EXPECT_EQ(refusal(), "--gravity is required for --model gravity");
+  EXPECT_EQ(refusal(), "--gravity is required for --method gravity");
   arguments.options.gravity = "0,1";
   EXPECT_THAT(refusal(), StartsWith("--gravity: x,y,z or x,y,z,x,y,z expected"));
   arguments.options.gravity = "0,0,0";
   EXPECT_EQ(refusal(), "--gravity: a direction needs a length");
   arguments.model = "auto";
-  EXPECT_EQ(refusal(), "--gravity: --model auto takes none");
+  EXPECT_EQ(refusal(), "--gravity: --method auto takes none");
   arguments.options.gravity.clear();
   arguments.calib.clear();
-  EXPECT_EQ(refusal(), "--calib is required for --model auto");
+  EXPECT_EQ(refusal(), "--calib is required for --method auto");
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ using synthetic::Glyph;
 
 SyntheticWorld flight_world(std::uint64_t seed, double duration_s) {
   SyntheticOptions options;
-  options.world = "hover";
+  options.world = "flight";
   options.difficulty = synthetic::Difficulty::kClean;
   options.seed = seed;
   options.duration_s = duration_s;

@@ -72,7 +72,7 @@ void study(int flights) {
 int main(int argc, char** argv) {
   const int flights = argc > 1 ? std::atoi(argv[1]) : 50;
   if (flights < 1) {
-    std::fprintf(stderr, "usage: bench_hover_study [FLIGHTS=50]\n");
+    std::fprintf(stderr, "usage: bench_flight_study [FLIGHTS=50]\n");
     return 2;
   }
   placegraph::study(flights);

@@ -1,6 +1,6 @@
 #include <placegraph/graph/internal/core/random.h>
 #include <placegraph/io/internal/synthetic/render/hash_noise.h>
-#include <placegraph/io/internal/synthetic/worlds/hover.h>
+#include <placegraph/io/internal/synthetic/worlds/flight_world.h>
 
 #include <algorithm>
 #include <cmath>
@@ -129,7 +129,7 @@ SE3 FlightSetting::T_world_scene() { return synthetic::T_scene_world().inverse()
 Tour make_flight_world(const TourRequest& request) {
   Random random(request.seed, 51);
   Tour tour;
-  tour.name = "hover";
+  tour.name = "flight";
   tour.scene.outdoor = false;
   tour.scene.seed = mix_bits(static_cast<std::uint32_t>(request.seed) * 2654435761U + 277U);
   lay_floor(tour.scene, random);

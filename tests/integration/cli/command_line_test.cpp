@@ -1,0 +1,170 @@
+// The table of all commands: names, descriptions, flags with one meaning and one unit, completion
+// and manual pages made from it.
+#include "apps/command_line.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <placegraph/graph/core/error.h>
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <map>
+#include <regex>
+#include <set>
+
+#include "apps/shell/completion.h"
+#include "apps/shell/man_pages.h"
+#include "tests/support/cli_test.h"
+
+namespace placegraph {
+namespace {
+
+using apps::commands_of;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+void for_each_command(const CLI::App& app, const std::function<void(const CLI::App&)>& visit) {
+  for (const CLI::App* command : commands_of(app)) {
+    visit(*command);
+    for_each_command(*command, visit);
+  }
+}
+
+/// "[px]" of a description, or "".
+std::string unit_of(const std::string& text) {
+  std::smatch match;
+  return std::regex_search(text, match, std::regex("\\[([a-z0-9/^]+)\\]")) ? match[1].str() : "";
+}
+
+class CommandLine : public testing::Test {
+ protected:
+  std::unique_ptr<CLI::App> app = apps::make_command_line();
+};
+
+TEST_F(CommandLine, HasTenGroupsAndASmallNumberOfCommandsBesideThem) {
+  std::vector<std::string> groups, others;
+  for (const CLI::App* command : commands_of(*app))
+    (commands_of(*command).empty() ? others : groups).push_back(command->get_name());
+  EXPECT_THAT(groups, ElementsAre("map", "eval", "graph", "places", "image", "track", "flight",
+                                  "synth", "train"));
+  EXPECT_THAT(others, ElementsAre("run", "inspect", "config", "completion", "man"));
+}
+
+TEST_F(CommandLine, EveryCommandHasADescriptionAndAnExampleOfItself) {
+  for_each_command(*app, [](const CLI::App& command) {
+    const std::string name = apps::full_name(command);
+    EXPECT_FALSE(command.get_description().empty()) << name;
+    EXPECT_THAT(command.get_footer(), StartsWith(name)) << name;
+  });
+}
+
+TEST_F(CommandLine, EveryFlagHasADescription) {
+  for_each_command(*app, [](const CLI::App& command) {
+    for (const CLI::Option* option : command.get_options())
+      EXPECT_GT(option->get_description().size(), 3U)
+          << apps::full_name(command) << " " << option->get_name();
+  });
+}
+
+TEST_F(CommandLine, AFlagHasOneUnitAndTakesAValueOrNotWhereverItIs) {
+  std::map<std::string, std::map<std::string, std::string>> units, arities;
+  for_each_command(*app, [&](const CLI::App& command) {
+    for (const CLI::Option* option : command.get_options())
+      for (const std::string& name : option->get_lnames()) {
+        units[name][unit_of(option->get_description())] = apps::full_name(command);
+        arities[name][option->get_items_expected_max() > 0 ? "value" : "flag"] =
+            apps::full_name(command);
+      }
+  });
+  arities.erase("draw");   // a folder for a sequence, nothing where NAME.drawn.png is its name
+  arities.erase("calib");  // of `track plane` the value may be left out
+  for (const auto& [name, found] : units)
+    EXPECT_EQ(found.size(), 1U) << "--" << name << " in " << found.begin()->second << " and "
+                                << found.rbegin()->second;
+  for (const auto& [name, found] : arities)
+    EXPECT_EQ(found.size(), 1U) << "--" << name << " in " << found.begin()->second << " and "
+                                << found.rbegin()->second;
+}
+
+TEST_F(CommandLine, WordsThatManyCommandsShareHaveOneDescription) {
+  const std::set<std::string> shared = {"config", "csv",     "force", "json",     "plot",
+                                        "profile", "range",  "seed",  "sensor",   "sequence",
+                                        "set",     "threads", "times", "camera-height"};
+  std::map<std::string, std::set<std::string>> meanings;
+  for_each_command(*app, [&](const CLI::App& command) {
+    for (const CLI::Option* option : command.get_options())
+      for (const std::string& name : option->get_lnames())
+        if (shared.contains(name)) meanings[name].insert(option->get_description());
+  });
+  EXPECT_EQ(meanings.size(), shared.size());
+  for (const auto& [name, found] : meanings)
+    EXPECT_EQ(found.size(), 1U) << "--" << name << ": " << testing::PrintToString(found);
+}
+
+TEST_F(CommandLine, TheOutputIsNamedByOneFlagInBothSpellings) {
+  for_each_command(*app, [](const CLI::App& command) {
+    for (const CLI::Option* option : command.get_options()) {
+      const auto& names = option->get_lnames();
+      if (std::find(names.begin(), names.end(), "out") == names.end()) continue;
+      EXPECT_THAT(option->get_snames(), ElementsAre("o")) << apps::full_name(command);
+    }
+  });
+}
+
+TEST_F(CommandLine, CompletionKnowsCommandsFlagsAndChoices) {
+  for (const std::string& shell : apps::completion_shells()) {
+    const std::string script = apps::completion_script(*app, shell);
+    for (const char* word : {"vanishing", "camera-height", "stereo", "georeference"})
+      EXPECT_THAT(script, HasSubstr(word)) << shell;
+  }
+  EXPECT_THROW(apps::completion_script(*app, "tcsh"), ArgumentError);
+}
+
+TEST_F(CommandLine, ThereIsAManualPageForEveryCommand) {
+  std::set<std::string> names;
+  for (const apps::ManPage& page : apps::man_pages(*app)) {
+    names.insert(page.name);
+    EXPECT_THAT(page.text, AllOf(StartsWith(".TH "), HasSubstr(".SH EXAMPLE"))) << page.name;
+  }
+  for_each_command(*app, [&](const CLI::App& command) {
+    std::string name = apps::full_name(command);
+    std::replace(name.begin(), name.end(), ' ', '-');
+    EXPECT_TRUE(names.contains(name + ".1")) << name;
+  });
+}
+
+class Misspelled : public test::CliTest {};
+
+TEST_F(Misspelled, CommandsFlagsAndKeysGetSuggestions) {
+  expect_usage_error("rnu", "no command 'rnu'; did you mean run? (see placegraph --help)");
+  expect_usage_error("map inof x", "no command 'inof'; did you mean info? (see placegraph map --help)");
+  expect_usage_error("run s --out o --camera_height 1.65",
+                     "no option '--camera_height'; did you mean --camera-height? (see placegraph run "
+                     "--help)");
+  expect_usage_error("run s --max-frames 20 --out o", "no option '--max-frames'");
+  expect_usage_error("map export m --ply a.ply", "(see placegraph map export --help)");
+  test::write_file(dir / "c.yaml", "loops:\n  enabeld: true\n");
+  expect_usage_error("config --config c.yaml",
+                     "c.yaml:2: loops.enabeld: unknown key; did you mean enabled?");
+  expect_usage_error("run s --out o --config kitty_mono", "did you mean kitti_mono?");
+}
+
+TEST_F(Misspelled, BashCompletesByTheScript) {
+  const auto completed = [&](const std::string& words, int at) {
+    test::write_file(dir / "c.sh", "source script\nCOMP_WORDS=(" + words + ")\nCOMP_CWORD=" +
+                                       std::to_string(at) + "\n_placegraph\necho \"${COMPREPLY[*]}\"\n");
+    const std::string command = "cd '" + dir.path() + "' && bash c.sh > completed";
+    EXPECT_EQ(std::system(command.c_str()), 0);
+    return test::read_file(dir / "completed");
+  };
+  test::write_file(dir / "script", run("completion bash").out);
+  EXPECT_EQ(completed("placegraph ma", 1), "map man\n");
+  EXPECT_EQ(completed("placegraph map exp", 2), "explain export\n");
+  EXPECT_EQ(completed("placegraph run --sensor st", 3), "stereo\n");
+  EXPECT_EQ(completed("placegraph run s --camera", 3), "--camera-height\n");
+}
+
+}  // namespace
+}  // namespace placegraph

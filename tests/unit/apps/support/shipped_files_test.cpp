@@ -1,0 +1,40 @@
+#include "apps/support/shipped_files.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <placegraph/graph/core/error.h>
+
+#include <filesystem>
+
+#include "tests/support/message_of.h"
+#include "tests/support/temporary_folder.h"
+
+namespace placegraph::apps {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+
+TEST(ConfigPath, IsTheFileItself) {
+  const test::TemporaryFolder folder;
+  const std::string mine = folder.write("mine.yaml", "seed: 1\n");
+  EXPECT_EQ(config_path(mine), mine);
+  EXPECT_EQ(config_path("./none.yaml"), "./none.yaml");  // whoever reads it names what is missing
+}
+
+TEST(ConfigPath, IsAShippedFileByItsName) {
+  const std::string path = config_path("kitti_mono");
+  EXPECT_THAT(path, EndsWith("/kitti_mono.yaml"));
+  EXPECT_TRUE(std::filesystem::exists(path));
+}
+
+TEST(ConfigPath, NamesSimilarOrAllShippedFiles) {
+  EXPECT_THAT(test::message_of<FileError>([] { config_path("kitty_mono"); }),
+              HasSubstr("kitty_mono: no such file; did you mean kitti_mono?"));
+  EXPECT_THAT(test::message_of<FileError>([] { config_path("mine"); }),
+              AllOf(HasSubstr("installed files are "), HasSubstr("kitti_stereo, ")));
+}
+
+}  // namespace
+}  // namespace placegraph::apps
