@@ -5,7 +5,7 @@
 namespace placegraph::apps {
 namespace {
 
-/// " LABEL: --a --b"; empty if there is none.
+/// Text " LABEL: --a --b"; empty without options.
 std::string by_name(const std::string& label, const std::set<CLI::Option*>& options) {
   std::set<std::string> names;
   for (const CLI::Option* option : options) names.insert(option->get_name());

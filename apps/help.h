@@ -4,7 +4,7 @@
 
 namespace placegraph::apps {
 
-/// Writes help that begins with an example: the footer of a command is its example line.
+/// Writes help that begins with an example, the footer of a command.
 class ExampleFormatter : public CLI::Formatter {
  public:
   std::string make_help(const CLI::App* app, std::string name,

@@ -31,7 +31,7 @@ void set_elements(const Elements& elements, RunOptions& options);
 /// Adds the cues that reduce rotation drift in a floor plan.
 ///
 /// Adds `manhattan` to the cues if points are among them, and enables plane landmarks from depth
-/// images, as `placegraph run --scene geometry` does. Throws ArgumentError for cues that
+/// images, as `placegraph run --elements geometry` does. Throws ArgumentError for cues that
 /// OdometryOptions::check() rejects.
 void enable_manhattan_and_planes(RunOptions& options);
 

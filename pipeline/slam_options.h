@@ -13,7 +13,7 @@ namespace [[gnu::visibility("default")]] placegraph {
 
 /// Options for storing the appearance of keyframes, which MapLocalizer needs.
 struct KeyframeViewOptions {
-  /// Store the appearance; required by MapLocalizer and `placegraph localize`.
+  /// Store the appearance; required by MapLocalizer and `placegraph map localize`.
   bool enabled = true;
   PlaceCueOptions cues;  ///< descriptors that are stored
 };

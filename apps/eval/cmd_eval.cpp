@@ -25,22 +25,25 @@ void add_eval_trajectory_command(CLI::App& eval_group) {
   EvalArguments& a = *arguments;
   CLI::App* command = eval_group.add_subcommand(
       "trajectory", "Evaluate trajectories against ground truth (KITTI, TUM or EuRoC format)");
-  command->footer("placegraph eval trajectory poses.txt trajectory_optimized.kitti --align se3 --plot e.png");
+  command->footer(
+      "placegraph eval trajectory poses.txt trajectory_optimized.kitti --align se3 --plot e.png");
   command
       ->add_option("TRUTH", a.truth,
                    "true trajectory, the folder of a sequence, or a folder of trajectories")
       ->required()
       ->check(CLI::ExistingPath);
   command
-      ->add_option("ESTIMATE", a.estimates,
-                   "estimated trajectories, or one folder whose files are paired with TRUTH's by name")
+      ->add_option(
+          "ESTIMATE", a.estimates,
+          "estimated trajectories, or one folder whose files are paired with TRUTH's by name")
       ->required()
       ->check(CLI::ExistingPath);
   command->add_option("--align", a.align, "transformation fitted before the errors are computed")
       ->check(CLI::IsMember(eval_alignments()))
       ->capture_default_str();
   command
-      ->add_option("--lengths", a.options.segments.lengths_m, "lengths of the segments [m], as 100,200,300")
+      ->add_option("--lengths", a.options.segments.lengths_m,
+                   "lengths of the segments [m], as 100,200,300")
       ->delimiter(',')
       ->capture_default_str();
   command->add_option("--step", a.options.segments.step, "frames between the starts of segments")
@@ -54,11 +57,11 @@ void add_eval_trajectory_command(CLI::App& eval_group) {
       ->add_option("--max-difference", a.options.time.max_difference_s,
                    "largest time difference of paired poses [s]")
       ->capture_default_str();
-  command->add_option("--offset", a.options.time.offset_s, "time added to the stamps of the estimate [s]")
-      ->capture_default_str();
   command
-      ->add_option("--times", a.times,
-                   kTimesText)
+      ->add_option("--offset", a.options.time.offset_s,
+                   "time added to the stamps of the estimate [s]")
+      ->capture_default_str();
+  command->add_option("--times", a.times, kTimesText)
       ->delimiter(',')
       ->expected(1)
       ->take_all()

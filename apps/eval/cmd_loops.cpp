@@ -23,8 +23,10 @@ void add_eval_loops_command(CLI::App& eval_group) {
   LoopsArguments& a = *arguments;
   CLI::App* command = eval_group.add_subcommand(
       "loops", "Evaluate loop closures: precision, recall and the curve of both");
-  command->footer("placegraph eval loops --predictions found.txt --format scores --truth gt.txt --json");
-  command->add_option("--predictions", a.predictions, "predictions of a system; several are compared")
+  command->footer(
+      "placegraph eval loops --predictions found.txt --format scores --truth gt.txt --json");
+  command
+      ->add_option("--predictions", a.predictions, "predictions of a system; several are compared")
       ->required()
       ->check(CLI::ExistingFile);
   command
@@ -34,7 +36,8 @@ void add_eval_loops_command(CLI::App& eval_group) {
                    "or one each")
       ->transform(CLI::CheckedTransformer(kFormats))
       ->default_str("scores");
-  command->add_option("--names", a.names, "names of the systems; default: the names of their files");
+  command->add_option("--names", a.names,
+                      "names of the systems; default: the names of their files");
   command
       ->add_option("--truth", a.truth,
                    "true matches: lines `q first last matches...`, lines `q matches...`, or a "
@@ -42,17 +45,20 @@ void add_eval_loops_command(CLI::App& eval_group) {
       ->check(CLI::ExistingFile);
   command->add_option("--poses", a.poses, "ground truth: one true pose per image")
       ->check(CLI::ExistingFile);
-  command->add_option("--radius", a.revisit.same.radius_m, "with --poses: largest distance of the same place [m]")
+  command
+      ->add_option("--radius", a.revisit.same.radius_m,
+                   "with --poses: largest distance of the same place [m]")
       ->capture_default_str();
-  command->add_option("--heading", a.revisit.same.heading_deg, "with --poses: largest angle between views of the same place [deg]")
+  command
+      ->add_option("--heading", a.revisit.same.heading_deg,
+                   "with --poses: largest angle between views of the same place [deg]")
       ->capture_default_str();
   command
       ->add_option("--min-age", a.min_age,
                    "smallest age of a candidate, in images; default: 300, or 0 if the truth names "
                    "the candidates")
       ->check(CLI::Range(0, 1'000'000'000));
-  command
-      ->add_option("--tolerance", a.tolerance, "largest distance from a true match, in images")
+  command->add_option("--tolerance", a.tolerance, "largest distance from a true match, in images")
       ->check(CLI::Range(0, 1'000'000))
       ->capture_default_str();
   command->add_flag("--json", *json, kJsonText);

@@ -12,27 +12,27 @@ namespace placegraph::apps {
 void add_convert_command(CLI::App& graph) {
   auto arguments = std::make_shared<ConvertArguments>();
   ConvertArguments& a = *arguments;
-  CLI::App* command = graph.add_subcommand("convert",
-                                         "Convert trajectories between KITTI, TUM and EuRoC form; "
-                                         "pose graphs to g2o's, or to their poses");
+  CLI::App* command =
+      graph.add_subcommand("convert",
+                           "Convert trajectories between KITTI, TUM and EuRoC form; "
+                           "pose graphs to g2o's, or to their poses");
   command->footer("placegraph graph convert poses.txt poses.tum --times times.txt");
-  command->add_option("IN", a.in, "file to read; what it is, is seen from its content")
+  command->add_option("IN", a.in, "file to read; its form is detected from its content")
       ->required()
       ->check(CLI::ExistingFile);
   command->add_option("OUT", a.out, "file to write (.kitti .txt: KITTI, .tum, .csv: EuRoC, .g2o)")
       ->required();
-  command->add_option("--to", a.to, "form of OUT, whatever its extension")
+  command->add_option("--to", a.to, "form of OUT; default: according to its extension")
       ->check(CLI::IsMember({"kitti", "tum", "euroc", "g2o"}));
-  command->add_option("--times", a.times, kTimesText)
-      ->check(CLI::ExistingFile);
+  command->add_option("--times", a.times, kTimesText)->check(CLI::ExistingFile);
   command->add_flag("--rigid", a.rigid,
-                    "similarities become poses in space, for programs that know no scale");
+                    "convert similarities to SE(3) poses, for programs without similarities");
   command->add_flag("--posed-only", a.posed_only,
                     "leave out frames without a pose, for programs that end at `nan`");
   command
       ->add_option("--posed-in", a.posed_in,
-                   "leave out the frames that this trajectory of as many frames has no pose for, "
-                   "too: so that a ground truth keeps its lines beside an estimate's")
+                   "also leave out frames without a pose in this trajectory of as many frames, "
+                   "so that the truth and the estimate keep corresponding lines")
       ->check(CLI::ExistingFile);
   command->add_flag("--force", a.force, kForceText);
   command->callback([arguments] { print(to_text(convert(*arguments))); });

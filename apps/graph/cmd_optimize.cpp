@@ -33,7 +33,8 @@ void add_optimize_command(CLI::App& graph) {
   OptimizeArguments& a = optimize_command->arguments;
   CLI::App* command =
       graph.add_subcommand("optimize", "Optimize a pose graph in g2o, TORO or iSAM format");
-  command->footer("placegraph graph optimize sphere.g2o -o optimized.g2o --cost g2o --plot sphere.png");
+  command->footer(
+      "placegraph graph optimize sphere.g2o -o optimized.g2o --cost g2o --plot sphere.png");
   command->add_option("IN", a.in, "graph to read: 2D, 3D or similarities")
       ->required()
       ->check(CLI::ExistingFile);
@@ -46,7 +47,9 @@ void add_optimize_command(CLI::App& graph) {
   command->add_option("--engine", a.engine, "solver: native, or ceres (a second opinion)")
       ->check(CLI::IsMember(pose_graph_option("engine").choices))
       ->capture_default_str();
-  command->add_option("--initialization", a.start, "initial poses; auto computes better ones if they are needed")
+  command
+      ->add_option("--initialization", a.start,
+                   "initial poses; auto computes better ones if they are needed")
       ->check(CLI::IsMember(pose_graph_option("initialization").choices))
       ->capture_default_str();
   command->add_option("--robust", a.robust, "method against false loops")
@@ -58,9 +61,9 @@ void add_optimize_command(CLI::App& graph) {
   command->add_flag("--certify", a.task.certify,
                     "prove how far the isotropic chordal problem is from its global minimum");
   command->add_flag("--incremental", a.task.incremental,
-                    "let the graph grow pose by pose, as it would on a robot");
+                    "incremental optimization, pose by pose, as on a robot");
   command->add_flag("--components", a.task.split,
-                    "optimize the parts of a graph that falls apart, each for itself");
+                    "optimize each component of a disconnected graph separately");
   command->add_flag("--drop-rejected", a.drop_rejected, "leave rejected constraints out of OUT");
   command->add_option("--plot", a.plot, kPlotText);
   command->add_flag("--json", optimize_command->json, kJsonText);

@@ -169,8 +169,8 @@ PoseGraphOptions checked_options(const OptimizeArguments& arguments) {
   options.rotation_error = choice<RotationError>("--cost", optimize_costs(), arguments.cost);
   options.engine =
       choice<PoseGraphEngine>("--engine", pose_graph_option("engine").choices, arguments.engine);
-  options.start = choice<PoseGraphInitialization>("--initialization", pose_graph_option("initialization").choices,
-                                                  arguments.start);
+  options.start = choice<PoseGraphInitialization>(
+      "--initialization", pose_graph_option("initialization").choices, arguments.start);
   options.robust.method = choice<RobustMethod>(
       "--robust", pose_graph_option("robust.method").choices, arguments.robust);
   options.check();

@@ -21,11 +21,11 @@ void add_lines_track_command(CLI::App& track) {
   command->add_option("--sensor", a.sensor, kSensorText)
       ->check(CLI::IsMember({"auto", "mono", "stereo", "rgbd"}))
       ->capture_default_str();
-  command->add_option("--cues", a.cues, "image evidence for the motion, joined by commas; lines among them")
+  command
+      ->add_option("--cues", a.cues,
+                   "image evidence for the motion, joined by commas; lines among them")
       ->capture_default_str();
-  command->add_option("--set", a.settings, kSetText)
-      ->type_size(1)
-      ->allow_extra_args(false);
+  command->add_option("--set", a.settings, kSetText)->type_size(1)->allow_extra_args(false);
   command->add_flag("--json", *json, kJsonText);
   command->add_flag("--force", a.force, kForceText);
   command->callback([arguments, json] {

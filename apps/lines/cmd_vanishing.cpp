@@ -25,7 +25,9 @@ void add_vanishing_command(CLI::App& image) {
       ->add_option("--noise", a.options.points.noise.end_px,
                    "approximate noise of the measurements [px]")
       ->capture_default_str();
-  command->add_option("--max-points", a.options.points.max_points, "largest number of vanishing points")
+  command
+      ->add_option("--max-points", a.options.points.max_points,
+                   "largest number of vanishing points")
       ->capture_default_str();
   command->add_option("--seed", a.seed, kSeedText)->capture_default_str();
   command->add_flag("--json", *json, kJsonText);

@@ -26,7 +26,9 @@ void add_train_vocabulary_command(CLI::App& train) {
   command->add_option("--kind", a.kind, "words of binary descriptors or of SIFT")
       ->check(CLI::IsMember(vocabulary_kinds()))
       ->capture_default_str();
-  command->add_option("--words", a.words, "approximate number of words; fewer if the images show fewer")
+  command
+      ->add_option("--words", a.words,
+                   "approximate number of words; fewer if the images show fewer")
       ->check(CLI::Range(2, 1'000'000))
       ->capture_default_str();
   command->add_option("--descriptors", a.descriptors, "largest number of descriptors to learn from")

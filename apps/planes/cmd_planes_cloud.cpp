@@ -43,7 +43,9 @@ void add_planes_command(CLI::App& image) {
   planes.add_option("--method", a.method, "algorithm")
       ->check(CLI::IsMember(cloud_planes_method_names()))
       ->capture_default_str();
-  planes.add_option("--flatness", a.options.flatness, "largest deviation from a plane, as a share of the depth")
+  planes
+      .add_option("--flatness", a.options.flatness,
+                  "largest deviation from a plane, as a share of the depth")
       ->capture_default_str();
   planes.add_option("--min-points", a.options.min_points, "smallest number of points of a plane")
       ->capture_default_str();
@@ -52,7 +54,9 @@ void add_planes_command(CLI::App& image) {
   planes.add_option("--seed", a.options.seed, kSeedText)->capture_default_str();
   planes.add_option("--truth", a.truth, "true labels, PNG or one per line: evaluate the result")
       ->check(CLI::ExistingFile);
-  planes.add_option("--truth-min-points", a.check.min_points, "smallest number of points of a true plane")
+  planes
+      .add_option("--truth-min-points", a.check.min_points,
+                  "smallest number of points of a true plane")
       ->capture_default_str();
   planes.add_option("--truth-same", a.same, "true labels to merge, as 14=5");
   planes.add_option("--truth-none", a.none, "true labels that are not planes");

@@ -68,9 +68,9 @@ std::optional<SE3> pose_of(const PlaneTrack& track) {
   return track.T_cur_ref->inverse();
 }
 
-std::string track_picture(const Image& image, const PlaneTrack& track, std::size_t frame) {
-  Image picture;
-  cv::cvtColor(image, picture, cv::COLOR_GRAY2BGR);
+std::string track_drawing(const Image& image, const PlaneTrack& track, std::size_t frame) {
+  Image drawing;
+  cv::cvtColor(image, drawing, cv::COLOR_GRAY2BGR);
   const cv::Scalar colour = track.outcome ? cv::Scalar(80, 200, 0) : cv::Scalar(40, 40, 230);
   constexpr int kFraction = 4;  // bits
   std::vector<cv::Point> corners;
@@ -80,8 +80,8 @@ std::string track_picture(const Image& image, const PlaneTrack& track, std::size
                          static_cast<int>(std::lround(at.y())));
   }
   if (!corners.empty()) {
-    cv::polylines(picture, corners, true, colour, 2, cv::LINE_AA, kFraction);
-    cv::circle(picture, corners[0], 4 << kFraction, colour, -1, cv::LINE_AA, kFraction);
+    cv::polylines(drawing, corners, true, colour, 2, cv::LINE_AA, kFraction);
+    cv::circle(drawing, corners[0], 4 << kFraction, colour, -1, cv::LINE_AA, kFraction);
   }
   const std::string text =
       track.outcome
@@ -89,8 +89,8 @@ std::string track_picture(const Image& image, const PlaneTrack& track, std::size
                         plane_track_source_names()[static_cast<std::size_t>(track.source)],
                         track.similarity)
           : fmt::format("{}: lost, {}", frame, track.outcome.reason);
-  cv::putText(picture, text, {8, 20}, cv::FONT_HERSHEY_SIMPLEX, 0.5, colour, 1, cv::LINE_AA);
-  return encode_png(picture);
+  cv::putText(drawing, text, {8, 20}, cv::FONT_HERSHEY_SIMPLEX, 0.5, colour, 1, cv::LINE_AA);
+  return encode_png(drawing);
 }
 
 }  // namespace placegraph::apps

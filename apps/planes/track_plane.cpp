@@ -94,7 +94,7 @@ void write_drawings(const std::string& path, const FrameSource& source,
                     const std::vector<PlaneTrack>& tracks) {
   for (std::size_t i = 0; i < tracks.size(); ++i) {
     const auto file = std::filesystem::path(path) / fmt::format("{:06d}.png", i);
-    write_file(file.string(), track_picture(source.image(i), tracks[i], i));
+    write_file(file.string(), track_drawing(source.image(i), tracks[i], i));
   }
 }
 

@@ -86,9 +86,9 @@ RunMap read_run_map(const std::string& folder) {
       map.graph.places.push_back(place_of(entry, map));
     take_edges(document.at("edges"), written, map);
   } catch (const json::exception& error) {
-    throw FileError(path, std::string("is not what placegraph run writes: ") + error.what());
+    throw FileError(path, std::string("was not written by `placegraph run`: ") + error.what());
   } catch (const ArgumentError& error) {
-    throw FileError(path, std::string("is not what placegraph run writes: ") + error.what());
+    throw FileError(path, std::string("was not written by `placegraph run`: ") + error.what());
   }
   return map;
 }

@@ -70,8 +70,8 @@ Georeference read_georeference(const std::string& folder, const Map& map) {
                      origin.at("longitude_deg").get<double>(), origin.at("height_m").get<double>()};
     result.origin.check();
   } catch (const json::exception& error) {
-    throw FileError(path,
-                    std::string("is not what placegraph georeference writes: ") + error.what());
+    throw FileError(
+        path, std::string("was not written by `placegraph map georeference`: ") + error.what());
   } catch (const ArgumentError& error) {
     throw FileError(path, error.what());
   }

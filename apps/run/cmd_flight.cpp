@@ -40,16 +40,15 @@ void add_flight_command(CLI::App& flight) {
       ->add_option("--markers-until", a.markers_until_s,
                    "use markers during the first seconds only [s]")
       ->excludes(none);
-  command
-      ->add_option("--blind", a.blind,
-                   "FROM:TO, interval without markers [s]; may be repeated")
+  command->add_option("--blind", a.blind, "FROM:TO, interval without markers [s]; may be repeated")
       ->allow_extra_args(false)
       ->excludes(none);
   auto* map = command->add_flag("--map-markers", a.map_markers,
                                 "estimate the poses of markers that the layout does not give; "
                                 "OUT/markers.yaml has all markers");
   map->excludes(none);
-  command->add_option("--truth-markers", a.true_markers, "true layout, to evaluate the estimated one")
+  command
+      ->add_option("--truth-markers", a.true_markers, "true layout, to evaluate the estimated one")
       ->check(CLI::ExistingFile)
       ->needs(map);
   command->add_flag("--start-from-truth", a.start_from_truth,
@@ -61,8 +60,7 @@ void add_flight_command(CLI::App& flight) {
   command->add_flag("--smooth", a.smooth,
                     "also estimate the states by a fixed-lag smoother of one second");
   command->add_option("--config", a.config, kConfigText);
-  command->add_option("--set", a.settings, kSetText)
-      ->allow_extra_args(false);
+  command->add_option("--set", a.settings, kSetText)->allow_extra_args(false);
   command->add_flag("--json", flight_command->json, kJsonText);
   command->add_flag("--profile", flight_command->profile, kProfileText);
   command->add_flag("--force", a.force, kForceText);

@@ -30,7 +30,8 @@ void add_inspect_command(CLI::App& app) {
       "inspect", "Show how a folder or video is read, and what `run` would use.");
   command->footer("placegraph inspect kitti/sequences/00");
   command->add_option("PATH", arguments->path, "folder or video; see docs/datasets.md")->required();
-  command->add_flag("--read", arguments->read_all, "read every image and count the unreadable ones");
+  command->add_flag("--read", arguments->read_all,
+                    "read every image and count the unreadable ones");
   command->add_flag("--json", *json, kJsonText);
   command->callback([arguments, json] { inspect_and_print(*arguments, *json); });
 }

@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-const Image& picture(const Frame& frame, bool colour) {
+const Image& image_of(const Frame& frame, bool colour) {
   return colour ? frame.colour : frame.image;
 }
 
@@ -95,7 +95,7 @@ PlaceClassifier learn(const MapLabelArguments& arguments, bool colour, int& plac
     if (colour && frame.colour.empty())
       throw FileError(images.paths[i], "is grey, and the map's images have colour");
     if (size.empty()) size = frame.image.size();
-    views.push_back(describe_for_classes(sized(picture(frame, colour), size)));
+    views.push_back(describe_for_classes(sized(image_of(frame, colour), size)));
     labels.push_back(label->second);
   }
   if (labels.empty()) throw FileError(path, "labels none of the images");
@@ -140,7 +140,7 @@ MapLabelResult map_label(const MapLabelArguments& arguments) {
           fmt::format("--names: {} names for {} labels", names.size(), places));
   const std::vector<PlaceLabel> labels = label_places(
       map, classifier,
-      [&](const Keyframe& keyframe) { return sized(picture(frame_of(keyframe), colour), size); },
+      [&](const Keyframe& keyframe) { return sized(image_of(frame_of(keyframe), colour), size); },
       arguments.options);
   MapLabelResult result;
   result.map = map_path_of(arguments.map);

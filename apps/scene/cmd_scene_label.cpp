@@ -13,13 +13,13 @@ void add_image_labels_command(CLI::App& image) {
   CLI::App* command =
       image.add_subcommand("labels", "Classify the pixels of a street: road, building, car, ...");
   command->footer("placegraph image labels camvid/val --out labels");
-  auto arguments = std::make_shared<ScenePictureArguments>();
+  auto arguments = std::make_shared<SceneImageArguments>();
   auto json = std::make_shared<bool>(false);
-  add_scene_picture_options(*command, *arguments, *json);
+  add_scene_image_options(*command, *arguments, *json);
   command->add_option("--surfaces-model", arguments->surfaces_model,
                       "model of surfaces to use instead of the installed one");
   command->callback([arguments, json] {
-    const ScenePictureResult result = scene_label(*arguments);
+    const SceneImageResult result = scene_label(*arguments);
     print(*json ? to_json(result) : to_text(result));
   });
 }

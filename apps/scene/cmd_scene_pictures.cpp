@@ -5,7 +5,7 @@
 
 namespace placegraph::apps {
 
-void add_scene_picture_options(CLI::App& command, ScenePictureArguments& a, bool& json) {
+void add_scene_image_options(CLI::App& command, SceneImageArguments& a, bool& json) {
   command.add_option("INPUT", a.input, "an image, or a folder of them (or with them in images/)")
       ->required();
   command.add_option("-o,--out", a.out, "folder for NAME.png with the class number of every pixel")

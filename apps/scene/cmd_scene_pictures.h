@@ -6,6 +6,6 @@
 namespace placegraph::apps {
 
 /// Adds the common options of `image labels` and `image surfaces`; `json`: print JSON.
-void add_scene_picture_options(CLI::App& command, ScenePictureArguments& arguments, bool& json);
+void add_scene_image_options(CLI::App& command, SceneImageArguments& arguments, bool& json);
 
 }  // namespace placegraph::apps

@@ -40,15 +40,14 @@ Image confidence_of(const fs::path& path, const Image& labels) {
 LabelCheck compare(const SceneCheckArguments& a, const LabelledSet& set,
                    const std::vector<std::string>& names) {
   LabelCheck check(static_cast<int>(names.size()));
-  for (const LabelledPicture& picture : set.train) {
-    const std::string name = fs::path(picture.image).stem().string();
+  for (const LabelledImage& image : set.train) {
+    const std::string name = fs::path(image.image).stem().string();
     const fs::path path = fs::path(a.labels) / (name + ".png");
-    if (!fs::exists(path))
-      throw FileError(path.string(), "missing: the labels of " + picture.image);
+    if (!fs::exists(path)) throw FileError(path.string(), "missing: the labels of " + image.image);
     const Image labels = read_image_as_stored(path.string());
     if (labels.type() != CV_8UC1)
       throw FileError(path.string(), "no label image: one channel of 8 bits is needed");
-    const Image truth = read_class_image(picture.labels, set.classes, names, a.surfaces);
+    const Image truth = read_class_image(image.labels, set.classes, names, a.surfaces);
     require_size(path.string(), labels, truth.cols, truth.rows);
     check.add(truth, labels,
               confidence_of(fs::path(a.labels) / (name + ".confidence.png"), labels));
@@ -67,7 +66,7 @@ SceneCheckResult scene_check(const SceneCheckArguments& a) {
 
 std::string to_json(const SceneCheckResult& result) {
   const LabelCheck& check = result.check;
-  nlohmann::json report = {{"pictures", result.pictures},
+  nlohmann::json report = {{"pictures", result.images},
                            {"pixels", check.pixels()},
                            {"pixel_accuracy", check.pixel_accuracy()},
                            {"class_accuracy", check.class_accuracy()},
@@ -86,9 +85,9 @@ std::string to_json(const SceneCheckResult& result) {
 
 std::string to_text(const SceneCheckResult& result) {
   const LabelCheck& check = result.check;
-  std::string text = fmt::format(
-      "{} pictures: pixel accuracy {:.4f}, class accuracy {:.4f}, mean IoU {:.4f}", result.pictures,
-      check.pixel_accuracy(), check.class_accuracy(), check.mean_iou());
+  std::string text =
+      fmt::format("{} images: pixel accuracy {:.4f}, class accuracy {:.4f}, mean IoU {:.4f}",
+                  result.images, check.pixel_accuracy(), check.class_accuracy(), check.mean_iou());
   if (!std::isnan(check.calibration_error()))
     text += fmt::format(", calibration error {:.4f}", check.calibration_error());
   text += "\n";

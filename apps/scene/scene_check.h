@@ -16,7 +16,7 @@ struct SceneCheckArguments {
 };
 
 struct SceneCheckResult {
-  std::size_t pictures = 0;
+  std::size_t images = 0;
   std::vector<std::string> names;  ///< names of the classes
   LabelCheck check;                ///< result over all images
   bool confusion = false;          ///< report the confusion matrix

@@ -6,12 +6,12 @@
 
 namespace placegraph::apps {
 
-ScenePictureResult scene_label(const ScenePictureArguments& a) {
+SceneImageResult scene_label(const SceneImageArguments& a) {
   const SceneModel urban = load_scene_model(SceneModel::Kind::kUrban, a.model);
   const SceneModel surfaces = load_scene_model(SceneModel::Kind::kSurfaces, a.surfaces_model);
   LabellerOptions options;
   options.relations = a.relations;
-  return label_pictures(a, urban.classes, [&](const SceneView& view) {
+  return label_images(a, urban.classes, [&](const SceneView& view) {
     return most_probable(label_urban(urban, surfaces, view, options).classes, urban.class_count(),
                          view, a.unknown_below);
   });

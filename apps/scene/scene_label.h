@@ -4,8 +4,8 @@
 namespace placegraph::apps {
 
 /// Classifies the pixels of street images by two installed models: `image labels`.
-/// One is the model of classes, one the model of surfaces. Throws as label_pictures does, and
+/// One is the model of classes, one the model of surfaces. Throws as label_images does, and
 /// FileError if a model is missing or of the other kind.
-ScenePictureResult scene_label(const ScenePictureArguments& arguments);
+SceneImageResult scene_label(const SceneImageArguments& arguments);
 
 }  // namespace placegraph::apps

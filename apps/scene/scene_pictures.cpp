@@ -25,20 +25,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<std::string> pictures_of(const std::string& input) {
+std::vector<std::string> image_paths_of(const std::string& input) {
   if (fs::is_directory(input)) return list_images(image_folder_of(input));
   return {input};
 }
 
 /// Number of pixels of each class, then of unknown ones.
-std::vector<std::int64_t> label_picture(const std::string& path, const ScenePictureArguments& a,
-                                        std::size_t classes,
-                                        const std::function<SceneLabels(const SceneView&)>& label) {
+std::vector<std::int64_t> label_image(const std::string& path, const SceneImageArguments& a,
+                                      std::size_t classes,
+                                      const std::function<SceneLabels(const SceneView&)>& label) {
   const GreyAndColour read = read_image(path);
-  const Image picture = read.colour.empty() ? read.grey : read.colour;
+  const Image image = read.colour.empty() ? read.grey : read.colour;
   SceneLabels found;
   try {
-    found = label(view_scene(picture));
+    found = label(view_scene(image));
   } catch (const ArgumentError& error) {
     throw FileError(path, error.what());
   }
@@ -53,8 +53,8 @@ std::vector<std::int64_t> label_picture(const std::string& path, const ScenePict
     write_png(out.string() + ".confidence.png", bytes);
   }
   if (a.draw) {
-    Image bgr = picture;
-    if (bgr.channels() == 1) cv::cvtColor(picture, bgr, cv::COLOR_GRAY2BGR);
+    Image bgr = image;
+    if (bgr.channels() == 1) cv::cvtColor(image, bgr, cv::COLOR_GRAY2BGR);
     write_png(out.string() + ".drawn.png",
               draw_labels(bgr, found.labels, static_cast<int>(classes)));
   }
@@ -62,7 +62,7 @@ std::vector<std::int64_t> label_picture(const std::string& path, const ScenePict
 }
 
 /// Number of all pixels by class, then of unknown ones.
-std::vector<std::pair<std::string, double>> shares_of(const ScenePictureResult& result) {
+std::vector<std::pair<std::string, double>> shares_of(const SceneImageResult& result) {
   double sum = 0;
   for (const std::int64_t pixels : result.pixels) sum += static_cast<double>(pixels);
   std::vector<std::pair<std::string, double>> shares;
@@ -88,48 +88,46 @@ Image draw_labels(const Image& bgr, const Image& labels, int classes) {
   return drawn;
 }
 
-ScenePictureResult label_pictures(const ScenePictureArguments& a,
-                                  const std::vector<std::string>& classes,
-                                  const std::function<SceneLabels(const SceneView&)>& label) {
+SceneImageResult label_images(const SceneImageArguments& a, const std::vector<std::string>& classes,
+                              const std::function<SceneLabels(const SceneView&)>& label) {
   cv::setNumThreads(1);
-  const std::vector<std::string> pictures = pictures_of(a.input);
+  const std::vector<std::string> images = image_paths_of(a.input);
   std::set<std::string> names;
-  for (const std::string& path : pictures)
+  for (const std::string& path : images)
     if (!names.insert(fs::path(path).stem().string()).second)
       throw FileError(path, "another image has the same name");
   require_free_folder(a.out, a.force);
   const OutputFolder folder(a.out);
   const Stopwatch watch;
-  std::vector<std::vector<std::int64_t>> pixels(pictures.size());
-  Progress progress("labelling", static_cast<std::int64_t>(pictures.size()), "images");
+  std::vector<std::vector<std::int64_t>> pixels(images.size());
+  Progress progress("labelling", static_cast<std::int64_t>(images.size()), "images");
   const auto part = static_cast<std::size_t>(4 * a.threads);
-  for (std::size_t begin = 0; begin < pictures.size(); begin += part) {
-    const std::size_t count = std::min(part, pictures.size() - begin);
+  for (std::size_t begin = 0; begin < images.size(); begin += part) {
+    const std::size_t count = std::min(part, images.size() - begin);
     parallel_for(static_cast<int>(count), a.threads, [&](int k) {
       const std::size_t at = begin + static_cast<std::size_t>(k);
-      pixels[at] = label_picture(pictures[at], a, classes.size(), label);
+      pixels[at] = label_image(images[at], a, classes.size(), label);
     });
     progress.update(static_cast<std::int64_t>(begin + count));
   }
-  ScenePictureResult result{a.out, classes, std::vector<std::int64_t>(classes.size() + 1, 0),
-                            pictures.size()};
-  for (const std::vector<std::int64_t>& of_picture : pixels)
-    for (std::size_t c = 0; c < of_picture.size(); ++c) result.pixels[c] += of_picture[c];
-  result.cpu_ms_a_picture = watch.cpu_ms() / static_cast<double>(pictures.size());
+  SceneImageResult result{a.out, classes, std::vector<std::int64_t>(classes.size() + 1, 0),
+                          images.size()};
+  for (const std::vector<std::int64_t>& of_image : pixels)
+    for (std::size_t c = 0; c < of_image.size(); ++c) result.pixels[c] += of_image[c];
+  result.cpu_ms_an_image = watch.cpu_ms() / static_cast<double>(images.size());
   return result;
 }
 
-std::string to_text(const ScenePictureResult& result) {
+std::string to_text(const SceneImageResult& result) {
   std::string text =
-      fmt::format("{} images, {:.0f} ms CPU each:", result.pictures, result.cpu_ms_a_picture);
+      fmt::format("{} images, {:.0f} ms CPU each:", result.images, result.cpu_ms_an_image);
   for (const auto& [name, share] : shares_of(result))
     if (share > 0) text += fmt::format(" {} {:.3f}", name, share);
   return fmt::format("{}, written to {}\n", text, result.out);
 }
 
-std::string to_json(const ScenePictureResult& result) {
-  nlohmann::json report = {{"pictures", result.pictures},
-                           {"ms_per_picture", result.cpu_ms_a_picture}};
+std::string to_json(const SceneImageResult& result) {
+  nlohmann::json report = {{"pictures", result.images}, {"ms_per_picture", result.cpu_ms_an_image}};
   for (const auto& [name, share] : shares_of(result)) report["shares"][name] = share;
   return report.dump(2) + "\n";
 }

@@ -10,7 +10,7 @@
 namespace placegraph::apps {
 
 /// Arguments of `image labels` and `image surfaces`: images in, label images out.
-struct ScenePictureArguments {
+struct SceneImageArguments {
   std::string input;  ///< image, or folder of images (or with images in images/)
   std::string out;    ///< folder for NAME.png
   std::string model;  ///< model to use instead of the installed one; empty: the installed one
@@ -24,25 +24,25 @@ struct ScenePictureArguments {
   bool force = false;       ///< write into a folder that is not empty
 };
 
-struct ScenePictureResult {
+struct SceneImageResult {
   std::string out;
   std::vector<std::string> classes;
   std::vector<std::int64_t> pixels;  ///< number of pixels of each class, then of unknown ones
-  std::size_t pictures = 0;
-  double cpu_ms_a_picture = 0;
+  std::size_t images = 0;
+  double cpu_ms_an_image = 0;
 };
 
 /// Labels one image or every image of a folder by `label`.
 /// Writes OUT/NAME.png of class numbers, and on demand NAME.confidence.png and NAME.drawn.png.
 /// Progress goes to stderr. Throws ArgumentError, and FileError also if two images would have the
 /// same name.
-ScenePictureResult label_pictures(const ScenePictureArguments& arguments,
-                                  const std::vector<std::string>& classes,
-                                  const std::function<SceneLabels(const SceneView&)>& label);
+SceneImageResult label_images(const SceneImageArguments& arguments,
+                              const std::vector<std::string>& classes,
+                              const std::function<SceneLabels(const SceneView&)>& label);
 
 /// Shares of the classes in one line.
-std::string to_text(const ScenePictureResult& result);
-std::string to_json(const ScenePictureResult& result);
+std::string to_text(const SceneImageResult& result);
+std::string to_json(const SceneImageResult& result);
 
 /// The image in the colour of each pixel's class; black if it is unknown.
 Image draw_labels(const Image& bgr, const Image& labels, int classes);

@@ -80,15 +80,15 @@ std::string mesh_of(const PopUp& popup, const GroundView& view, const Image& bgr
          vertices + faces;
 }
 
-Image surfaces_for(const ScenePopupArguments& a, const Image& picture) {
+Image surfaces_for(const ScenePopupArguments& a, const Image& image) {
   if (a.surfaces.empty())
     return classify_surfaces(load_scene_model(SceneModel::Kind::kSurfaces, a.model),
-                             view_scene(picture))
+                             view_scene(image))
         .surfaces.labels;
   const Image surfaces = read_image_as_stored(a.surfaces);
   if (surfaces.type() != CV_8UC1)
     throw FileError(a.surfaces, "no label image: one channel of 8 bits is needed");
-  require_size(a.surfaces, surfaces, picture.cols, picture.rows);
+  require_size(a.surfaces, surfaces, image.cols, image.rows);
   return surfaces;
 }
 

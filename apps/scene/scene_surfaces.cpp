@@ -6,11 +6,11 @@
 
 namespace placegraph::apps {
 
-ScenePictureResult scene_surfaces(const ScenePictureArguments& a) {
+SceneImageResult scene_surfaces(const SceneImageArguments& a) {
   const SceneModel model = load_scene_model(SceneModel::Kind::kSurfaces, a.model);
   LabellerOptions options;
   options.relations = a.relations;
-  return label_pictures(a, model.classes, [&](const SceneView& view) {
+  return label_images(a, model.classes, [&](const SceneView& view) {
     return classify_surfaces(model, view, a.unknown_below, options).surfaces;
   });
 }

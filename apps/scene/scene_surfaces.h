@@ -4,6 +4,6 @@
 namespace placegraph::apps {
 
 /// Labels the pixels of images as sky 0, ground 1, vertical 2 or object 3: `image surfaces`.
-ScenePictureResult scene_surfaces(const ScenePictureArguments& arguments);
+SceneImageResult scene_surfaces(const SceneImageArguments& arguments);
 
 }  // namespace placegraph::apps

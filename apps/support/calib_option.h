@@ -4,7 +4,7 @@
 
 namespace placegraph::apps {
 
-/// What `--calib` of these commands takes, for their help.
+/// Description of the argument of `--calib`.
 inline constexpr const char* kCalibFile =
     "one line fx fy cx cy width height [px], or a calibration.yaml";
 

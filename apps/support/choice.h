@@ -7,8 +7,8 @@
 
 namespace placegraph::apps {
 
-/// The value of an enumeration whose values `names` lists in their order. Throws ArgumentError that
-/// begins with `option` where `name` is none of them.
+/// The value of an enumeration whose names are `names`, in order.
+/// Throws an ArgumentError that begins with `option` if `name` is not among them.
 template <class Enum>
 Enum choice(const std::string& option, const std::vector<std::string>& names,
             const std::string& name) {

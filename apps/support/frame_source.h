@@ -8,11 +8,12 @@
 
 namespace placegraph::apps {
 
-/// The grey images of a sequence in their order: of a data set (see open_dataset), undistorted and
-/// with its camera, or of a bare folder of images, as they are and without.
+/// Grey images of a sequence in their order.
+/// Images of a data set (see open_dataset) are undistorted and have a camera. Images of a bare
+/// folder are taken as they are and have none.
 class FrameSource {
  public:
-  /// Throws FileError if `path` is neither.
+  /// Throws FileError if `path` is neither a data set nor a folder of images.
   explicit FrameSource(const std::string& path);
   std::size_t size() const { return dataset_ ? dataset_->size() : images_.size(); }
   /// Nothing for a bare folder.
@@ -25,7 +26,7 @@ class FrameSource {
  private:
   std::unique_ptr<Dataset> dataset_;
   std::vector<std::string> images_;
-  Image first_;  ///< of a bare folder
+  Image first_;  ///< first image of a bare folder
 };
 
 }  // namespace placegraph::apps

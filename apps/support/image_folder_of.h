@@ -4,7 +4,7 @@
 
 namespace placegraph::apps {
 
-/// Where the images of a folder are: in images/ or image_0/ if it has one, or in itself.
+/// Folder of the images: images/ or image_0/ in `folder` if there is one, else `folder`.
 inline std::string image_folder_of(const std::string& folder) {
   for (const char* name : {"images", "image_0"}) {
     const std::filesystem::path inside = std::filesystem::path(folder) / name;

@@ -8,8 +8,8 @@
 
 namespace placegraph::apps {
 
-/// First and last number that `--range` selects of `count`, all where it is empty. Throws
-/// ArgumentError if it is not two ascending numbers below `count`.
+/// First and last index that `--range` selects of `count` images; all if it is empty.
+/// Throws ArgumentError unless it has two ascending numbers below `count`.
 std::pair<std::int64_t, std::int64_t> selected_range(const std::vector<int>& range,
                                                      std::size_t count);
 
@@ -20,7 +20,7 @@ struct ImageRange {
 };
 ImageRange images_of(const std::string& folder, const std::vector<int>& range);
 
-/// Grey and, where the file has it, in colour.
+/// Reads an image in grey and, if the file has it, in colour.
 Frame read_frame(const ImageRange& images, std::size_t index);
 
 }  // namespace placegraph::apps

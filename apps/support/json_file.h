@@ -7,16 +7,16 @@
 
 namespace placegraph::apps {
 
-/// Throws FileError if the file cannot be opened or is not valid JSON.
+/// Reads JSON. Throws FileError if the file cannot be opened or is not valid JSON.
 nlohmann::json read_json(const std::string& path);
 
 /// {"position_m": [x, y, z], "quaternion_xyzw": [x, y, z, w]}.
 nlohmann::json pose_json(const SE3& T);
-/// Its inverse. Throws nlohmann::json::exception where the form is another, ArgumentError where
-/// numbers are no pose.
+/// Inverse of pose_json.
+/// Throws nlohmann::json::exception for another form, ArgumentError if the numbers are no pose.
 SE3 pose_of(const nlohmann::json& pose);
 
-/// A matrix row by row, a vector from its first on.
+/// Elements of a matrix row by row, or of a vector.
 template <class Matrix>
 std::vector<double> numbers(const Eigen::MatrixBase<Matrix>& matrix) {
   std::vector<double> values;

@@ -15,16 +15,16 @@ namespace {
 namespace fs = std::filesystem;
 constexpr std::uint8_t kVoid = 255;
 
-std::vector<LabelledPicture> labelled_pictures_of(const fs::path& folder) {
-  std::vector<LabelledPicture> pictures;
+std::vector<LabelledImage> labelled_images_of(const fs::path& folder) {
+  std::vector<LabelledImage> images;
   for (const std::string& image : list_images((folder / "images").string())) {
     const std::string name = fs::path(image).stem().string();
     const fs::path labels = folder / "labels" / (name + ".png");
     if (!fs::is_regular_file(labels))
       throw FileError(labels.string(), "missing: the labels of " + image);
-    pictures.push_back({image, labels.string(), name.substr(0, name.find('_'))});
+    images.push_back({image, labels.string(), name.substr(0, name.find('_'))});
   }
-  return pictures;
+  return images;
 }
 
 }  // namespace
@@ -36,8 +36,8 @@ LabelledSet read_labelled_set(const std::string& folder) {
   if (!splits && !fs::exists(list)) list = root.parent_path() / "CLASSES.txt";
   LabelledSet set;
   set.classes = read_class_list(list.string());
-  set.train = labelled_pictures_of(splits ? root / "train" : root);
-  if (splits && fs::is_directory(root / "val")) set.val = labelled_pictures_of(root / "val");
+  set.train = labelled_images_of(splits ? root / "train" : root);
+  if (splits && fs::is_directory(root / "val")) set.val = labelled_images_of(root / "val");
   return set;
 }
 

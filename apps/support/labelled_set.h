@@ -7,30 +7,31 @@
 
 namespace placegraph::apps {
 
-/// A picture whose pixels people labelled.
-struct LabelledPicture {
+/// An image with labelled pixels.
+struct LabelledImage {
   std::string image, labels;  ///< paths
-  std::string sequence;       ///< of the drive it is from: its name up to the first '_'
+  std::string sequence;       ///< name of its sequence: the file name up to the first '_'
 };
 
-/// A folder DATA with images/ and labels/ (of the same names), or with them in train/, and in val/
-/// if there is one; and CLASSES.txt.
+/// Images and labels of a folder DATA with CLASSES.txt.
+/// DATA has images/ and labels/ (with the same names), or has them in train/ and optionally in
+/// val/.
 struct LabelledSet {
   std::vector<SceneClass> classes;
-  std::vector<LabelledPicture> train, val;
+  std::vector<LabelledImage> train, val;
 };
 
-/// Throws FileError: no CLASSES.txt, no images, an image without labels.
+/// Reads a labelled set. Throws FileError without CLASSES.txt, images, or labels of an image.
 LabelledSet read_labelled_set(const std::string& folder);
 
-/// Labels numbered by `classes` as numbers into `names`, 255 where they are void. `surfaces`: by
-/// what surface a class is, else by its name. Throws FileError of `origin` if they are no label
-/// image or hold a number that is no class.
+/// Converts labels numbered by `classes` to indices of `names`; void labels become 255.
+/// With `surfaces` a class is matched by its surface, else by its name. Throws FileError with the
+/// name `origin` if the labels are no label image or have a number without a class.
 Image class_image(const Image& labels, const std::string& origin,
                   const std::vector<SceneClass>& classes, const std::vector<std::string>& names,
                   bool surfaces);
 
-/// The same of a file.
+/// The same for a file.
 Image read_class_image(const std::string& path, const std::vector<SceneClass>& classes,
                        const std::vector<std::string>& names, bool surfaces);
 

@@ -2,7 +2,7 @@
 
 namespace placegraph::apps {
 
-// Flags that many commands share mean the same in all of them: one text each.
+// Descriptions of flags that several commands share.
 inline constexpr const char* kJsonText = "print the result as JSON";
 inline constexpr const char* kForceText = "overwrite existing outputs";
 inline constexpr const char* kSeedText = "seed of the random numbers";

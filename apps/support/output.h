@@ -5,7 +5,7 @@
 
 namespace placegraph::apps {
 
-/// The data allowed no answer: `main` prints the reason and ends with exit code 1.
+/// The data allow no result: `main` prints the reason and exits with code 1.
 class NoAnswer : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -17,16 +17,17 @@ class Interrupted : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Throws ArgumentError if a file stands at `path` already and `force` is not given, or if there is
-/// no folder for it, FileError if nothing can be written there. To be called before the work whose
-/// result goes there.
+/// Checks that a file can be written to `path`, before the work for its content.
+/// Throws ArgumentError if the file exists and `force` is not set, or if its folder does not exist,
+/// and FileError if nothing can be written there.
 void require_free(const std::string& path, bool force);
 
-/// The same for a folder of outputs: it may exist if it is empty.
+/// The same for an output folder, which may exist if it is empty.
 void require_free_folder(const std::string& path, bool force);
 
-/// A folder for results, made before the work they come from; where that ends without any, the
-/// folders that were made are removed again. Throws FileError if it cannot be made or written into.
+/// A folder for results, made before the work for them.
+/// If the work ends without results, the folders that were made are removed. Throws FileError if
+/// the folder cannot be made or written to.
 class OutputFolder {
  public:
   explicit OutputFolder(std::string path);
@@ -35,22 +36,22 @@ class OutputFolder {
   OutputFolder& operator=(const OutputFolder&) = delete;
 
  private:
-  std::vector<std::string> made_;  ///< from the innermost on
+  std::vector<std::string> made_;  ///< folders that were made, from the innermost on
 };
 
 /// Writes a whole file, atomically; bytes as they are. Throws FileError.
 void write_file(const std::string& path, const std::string& content);
 
-/// The text on stdout, as it is: what a command says of its result.
+/// Prints the result of a command on stdout.
 void print(const std::string& text);
 
-/// The text as one line on stderr: what happened, or which spelling is new.
+/// Prints a note as one line on stderr.
 void note(const std::string& message);
 
-/// "warning: ..." as one line on stderr.
+/// Prints "warning: ..." as one line on stderr.
 void warn(const std::string& message);
 
-/// The text in one line: what `main` does to foreign messages.
+/// The text in one line; `main` uses it for messages of other libraries.
 std::string one_line(const std::string& text);
 
 }  // namespace placegraph::apps

@@ -22,9 +22,10 @@ Camera read_calib(const std::string& path) {
     return read_camera_file(path);
   }
   if (raw.is_rational())
-    throw FileError(path, "a rational lens (k4, k5, k6) is not taken here: undistort the images");
+    throw FileError(path,
+                    "rational distortion (k4, k5, k6) is not supported here: undistort the images");
   const Camera& camera = raw.camera;
-  if (camera.width == 0 || camera.height == 0) throw FileError(path, "tells no size of the images");
+  if (camera.width == 0 || camera.height == 0) throw FileError(path, "has no image size");
   return camera;
 }
 

@@ -5,11 +5,11 @@
 
 namespace placegraph::apps {
 
-/// The camera of a calibration.yaml, or of one line `fx fy cx cy width height` in a file that ends
-/// otherwise. Throws FileError.
+/// Reads a camera: a calibration.yaml, or one line `fx fy cx cy width height` in other files.
+/// Throws FileError.
 Camera read_calib(const std::string& path);
 
-/// The same where what is measured must come from images without distortion: `what` needs that.
+/// The same for commands that need images without distortion; `what` begins the message.
 Camera read_calib_without_distortion(const std::string& path, const std::string& what);
 
 }  // namespace placegraph::apps

@@ -5,13 +5,13 @@
 
 namespace placegraph::apps {
 
-/// The file of a model: `given`, or where it is empty the one that came with the program: in
-/// $PLACEGRAPH_MODELS, in ../share/placegraph/models beside the program's folder, or in
-/// configs/models of the source. Throws FileError naming the command that makes it if it is in
-/// none.
+/// Path of a model: `given`, or if it is empty the installed model.
+/// That is in $PLACEGRAPH_MODELS, in ../share/placegraph/models beside the program's folder, or in
+/// configs/models of the source. Throws FileError with the command that makes the model if it is in
+/// none of them.
 std::string scene_model_path(SceneModel::Kind kind, const std::string& given);
 
-/// Reads it; throws FileError also where it is a model of the other kind.
+/// Reads a model. Throws FileError also for a model of the other kind.
 SceneModel load_scene_model(SceneModel::Kind kind, const std::string& given);
 
 /// "surfaces" or "urban".

@@ -4,7 +4,7 @@
 
 namespace placegraph::apps {
 
-/// Time since it was made: of the wall, and of the processor over all threads of the process.
+/// Time since construction: wall time, and CPU time over all threads of the process.
 class Stopwatch {
  public:
   Stopwatch() : wall_(Clock::now()), cpu_(std::clock()) {}

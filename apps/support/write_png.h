@@ -6,8 +6,8 @@
 
 namespace placegraph::apps {
 
-/// Writes a PNG file, whatever the extension of `path`, as a whole or not at all.
-/// The image is one that encode_png() takes. Throws FileError.
+/// Writes a PNG file atomically, for any extension of `path`.
+/// The image must be supported by encode_png(). Throws FileError.
 void write_png(const std::string& path, const Image& image, const PngCompression& compression = {});
 
 }  // namespace placegraph::apps

@@ -12,14 +12,17 @@ namespace placegraph::apps {
 void add_synth_sequence_command(CLI::App& synth_group) {
   auto arguments = std::make_shared<SynthArguments>();
   SynthArguments& a = *arguments;
-  CLI::App* command = synth_group.add_subcommand("sequence", "Render a sequence with exact ground truth");
+  CLI::App* command =
+      synth_group.add_subcommand("sequence", "Render a sequence with exact ground truth");
   command->footer("placegraph synth sequence town-loop --out out/town-loop --difficulty standard");
   command
       ->add_option(
           "WORLD", a.world.world,
           "town-loop, repeated-blocks, corridor-loop, warehouse, flight, or a KITTI pose file")
       ->required();
-  command->add_option("-o,--out", a.out, "folder for the sequence, in KITTI's layout; a flight in EuRoC's")
+  command
+      ->add_option("-o,--out", a.out,
+                   "folder for the sequence, in KITTI's layout; a flight in EuRoC's")
       ->required();
   command->add_option("--difficulty", a.difficulty, "difficulty: clean, standard or hard")
       ->capture_default_str();
@@ -27,15 +30,14 @@ void add_synth_sequence_command(CLI::App& synth_group) {
       ->capture_default_str();
   command->add_option("--duration", a.world.duration_s, "flight: duration [s]; 0 = 120")
       ->capture_default_str();
-  auto* stereo = command->add_flag("--stereo", a.stereo, "left and right camera (default outdoors)");
+  auto* stereo =
+      command->add_flag("--stereo", a.stereo, "left and right camera (default outdoors)");
   command->add_flag("--mono", a.mono, "left camera only")->excludes(stereo);
   command->add_flag("--depth", a.depth, "write depth images (always written indoors)");
   command->add_flag("--labels", a.labels, "write class and plane of every pixel");
   command->add_flag("--flow", a.flow, "write the exact optical flow to the next frame");
-  command->add_option("--seed", a.world.seed, kSeedText)
-      ->capture_default_str();
-  command->add_option("--threads", a.threads, kThreadsText)
-      ->capture_default_str();
+  command->add_option("--seed", a.world.seed, kSeedText)->capture_default_str();
+  command->add_option("--threads", a.threads, kThreadsText)->capture_default_str();
   command->add_option("--size", a.size, "image size, as in 1241x376");
   command->add_flag("--force", a.force, kForceText);
   command->callback([arguments] { print(to_text(synth(*arguments))); });

@@ -3,7 +3,8 @@
 
 namespace placegraph::apps {
 
-/// `placegraph synth WORLD|POSES.txt --out DIR`: renders a sequence with exact ground truth.
+/// Adds `placegraph synth sequence WORLD|POSES.txt --out DIR`.
+/// It renders a sequence with exact ground truth.
 void add_synth_sequence_command(CLI::App& synth_group);
 
 }  // namespace placegraph::apps

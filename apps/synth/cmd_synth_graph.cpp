@@ -12,8 +12,8 @@ namespace placegraph::apps {
 void add_synth_graph_command(CLI::App& synth_group) {
   auto arguments = std::make_shared<SynthGraphArguments>();
   SynthGraphArguments& a = *arguments;
-  CLI::App* command =
-      synth_group.add_subcommand("graph", "Make a pose graph whose initial poses are drifted odometry");
+  CLI::App* command = synth_group.add_subcommand(
+      "graph", "Make a pose graph whose initial poses are drifted odometry");
   command->footer("placegraph synth graph manhattan-walk --poses 20000 -o walk.g2o");
   command
       ->add_option(
@@ -31,7 +31,9 @@ void add_synth_graph_command(CLI::App& synth_group) {
       ->check(CLI::Range(1, 1000000));
   command->add_option("--laps", a.laps, "long-loop: number of laps")->check(CLI::Range(1e-6, 1e6));
   command->add_flag("--3d", a.spatial, "long-loop: three-dimensional");
-  command->add_option("--translation-noise", a.translation_noise_m, "standard deviation of a translation [m]")
+  command
+      ->add_option("--translation-noise", a.translation_noise_m,
+                   "standard deviation of a translation [m]")
       ->check(CLI::Range(1e-9, 1e9));
   command
       ->add_option("--rotation-noise", a.rotation_noise_rad,

@@ -3,7 +3,7 @@
 
 namespace placegraph::apps {
 
-/// `placegraph synth-graph WORLD -o OUT.g2o`: pose graphs to practise on.
+/// Adds `placegraph synth graph WORLD -o OUT.g2o`, which makes pose graphs for tests.
 void add_synth_graph_command(CLI::App& synth_group);
 
 }  // namespace placegraph::apps

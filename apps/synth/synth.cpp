@@ -35,7 +35,7 @@ SyntheticOptions world_options(const SynthArguments& arguments) {
 
 SequenceWriterOptions writer_options(const SynthArguments& arguments, const SyntheticWorld& world) {
   require(!world.flight_setting() || !(arguments.stereo || arguments.depth || arguments.labels),
-          "hover: has one eye, --stereo, --depth and --labels are for other worlds");
+          "flight: has one camera; --stereo, --depth and --labels are for other worlds");
   SequenceWriterOptions writer;
   writer.threads = arguments.threads > 0
                        ? arguments.threads

@@ -14,7 +14,7 @@
 namespace placegraph::apps {
 namespace {
 
-/// The options of all worlds have these in common.
+/// The options that all worlds share.
 template <class Options>
 Options common_options(const SynthGraphArguments& arguments) {
   Options options;
@@ -34,15 +34,15 @@ void refuse_foreign(const SynthGraphArguments& arguments, bool loop_share, bool 
 }
 
 PoseGraph disturbed_file(const SynthGraphArguments& arguments) {
-  require(std::filesystem::exists(arguments.world),
-          arguments.world +
-              ": neither manhattan-walk, grid-world nor long-loop, nor a file that is there");
+  require(
+      std::filesystem::exists(arguments.world),
+      arguments.world + ": neither manhattan-walk, grid-world nor long-loop, nor an existing file");
   refuse_foreign(arguments, false, false);
   require(!arguments.poses && !arguments.translation_noise_m,
           "--poses and --translation-noise are no options of a file");
   require(
       arguments.rotation_noise_rad || arguments.false_loops > 0 || arguments.shuffle,
-      arguments.world + ": what is to be done to it? --rotation-noise, --false-loops or --shuffle");
+      arguments.world + ": a graph file needs one of --rotation-noise, --false-loops or --shuffle");
   PoseGraph graph = read_pose_graph(arguments.world);
   if (arguments.rotation_noise_rad)
     synthetic::add_rotation_noise(graph, *arguments.rotation_noise_rad, arguments.seed);

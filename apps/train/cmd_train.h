@@ -3,7 +3,7 @@
 
 namespace placegraph::apps {
 
-/// `placegraph train WHAT DATA --out MODEL`: models learned from labelled data.
+/// Adds `placegraph train surfaces`, `urban`, `planarity` and `environment`.
 void add_train_commands(CLI::App& train);
 
 }  // namespace placegraph::apps

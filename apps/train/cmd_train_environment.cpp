@@ -15,9 +15,10 @@ void add_train_environment_command(CLI::App& train_command) {
   TrainEnvironmentArguments& a = *arguments;
   CLI::App* command = train_command.add_subcommand(
       "environment",
-      "What kind of surroundings a view shows: frontend/internal/scene/environment.txt");
+      "Train the classifier of environments: frontend/internal/scene/environment.txt");
   command->footer("placegraph train environment camvid --out environment.txt");
-  command->add_option("DATA", a.data, "labelled images of streets and roads, also used for training");
+  command->add_option("DATA", a.data,
+                      "labelled images of streets and roads, also used for training");
   command->add_option("-o,--out", a.out, "file for the model")->required();
   command->add_option("--seeds", a.seeds, "seeds of the rendered worlds of the training set")
       ->delimiter(',')

@@ -3,7 +3,7 @@
 
 namespace placegraph::apps {
 
-/// Registers `placegraph train environment`.
+/// Adds `placegraph train environment`.
 void add_train_environment_command(CLI::App& train_command);
 
 }  // namespace placegraph::apps

@@ -16,7 +16,8 @@ void add_train_planarity_command(CLI::App& train_command) {
   auto json = std::make_shared<bool>(false);
   TrainPlanarityArguments& a = *arguments;
   CLI::App* command = train_command.add_subcommand(
-      "planarity", "Which segments of a point cloud are planes: for `planes --model`");
+      "planarity",
+      "Train the classifier of planar segments of point clouds: for `image planes --model`");
   command->footer("placegraph train planarity --out planarity.txt --clouds 300");
   command->add_option("-o,--out", a.out, "file for the model")->required();
   command->add_option("--worlds", a.worlds, "rendered worlds of the training set")

@@ -3,8 +3,8 @@
 
 namespace placegraph::apps {
 
-/// `placegraph train planarity --out MODEL`: which segments of clouds are planes, learned from
-/// rendered worlds and generated clouds.
+/// Adds `placegraph train planarity --out MODEL`.
+/// It learns which segments of clouds are planes, from rendered worlds and generated clouds.
 void add_train_planarity_command(CLI::App& train);
 
 }  // namespace placegraph::apps

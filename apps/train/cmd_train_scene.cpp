@@ -12,18 +12,21 @@
 namespace placegraph::apps {
 namespace {
 
-/// How the forests are learned.
+/// Adds the options of the training of the forests.
 void add_forest_options(CLI::App& command, SceneTrainingOptions& training) {
-  command
-      .add_option("--variants", training.variants, "variants of each image in other light")
+  command.add_option("--variants", training.variants, "variants of each image in other light")
       ->capture_default_str();
-  command.add_option("--trees", training.forest.trees, "number of trees of each forest")->capture_default_str();
-  command.add_option("--min-leaf", training.forest.min_leaf, "smallest number of superpixels in a leaf")
+  command.add_option("--trees", training.forest.trees, "number of trees of each forest")
+      ->capture_default_str();
+  command
+      .add_option("--min-leaf", training.forest.min_leaf,
+                  "smallest number of superpixels in a leaf")
       ->capture_default_str();
   command.add_option("--tries", training.forest.tries, "number of features tried for a split")
       ->capture_default_str();
   command
-      .add_option("--share-rows", training.forest.share_rows, "share of the superpixels used for each tree")
+      .add_option("--share-rows", training.forest.share_rows,
+                  "share of the superpixels used for each tree")
       ->capture_default_str();
   command.add_option("--class-power", training.class_power, "classes are weighted by share^-power")
       ->capture_default_str();
@@ -40,31 +43,33 @@ void add_train_scene_command(CLI::App& train_command, SceneModel::Kind kind, con
   auto json = std::make_shared<bool>(false);
   TrainSceneArguments& a = *arguments;
   command
-      ->add_option(
-          "DATA", a.data,
-          "folder with CLASSES.txt and train/ of images/ and labels/, val/ beside it judges")
+      ->add_option("DATA", a.data,
+                   "folder with CLASSES.txt, train/images/ and train/labels/; val/ is the test set")
       ->required()
       ->check(CLI::ExistingDirectory);
-  command->add_option("-o,--out", a.out, "file for the model; its card is written beside it")->required();
+  command->add_option("-o,--out", a.out, "file for the model; its card is written beside it")
+      ->required();
   command->add_option("--holdout", a.holdout,
-                      "a sequence (names up to the first '_') that judges instead of teaching");
+                      "sequence of the test set (file names up to the first '_')");
   command->add_option("--update", a.update,
-                      "a model to add these data to, with classes it does not know yet");
+                      "model to extend by these data, which may have new classes");
   add_forest_options(*command, a.options.training);
   command
-      ->add_option("--rendered", a.options.rendered,
-                   "seeds of rendered towns to learn from too, joined by commas, whose classes are "
-                   "known exactly; those of even seeds have traffic and bad light")
+      ->add_option(
+          "--rendered", a.options.rendered,
+          "seeds of rendered towns for the training set, joined by commas; their classes are "
+          "exact, and those of even seeds have traffic and bad light")
       ->delimiter(',')
       ->allow_extra_args(false);
-  command->add_option("--rendered-frames", a.options.rendered_frames, "number of views of each rendered world")
+  command
+      ->add_option("--rendered-frames", a.options.rendered_frames,
+                   "number of views of each rendered world")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
   command->add_option("--every", a.options.every, "use every n-th image")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  command->add_option("--seed", a.options.training.forest.seed, kSeedText)
-      ->capture_default_str();
+  command->add_option("--seed", a.options.training.forest.seed, kSeedText)->capture_default_str();
   command->add_option("--threads", a.options.threads, kThreadsText)
       ->check(CLI::Range(1, 64))
       ->capture_default_str();

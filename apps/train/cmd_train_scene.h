@@ -5,7 +5,7 @@
 
 namespace placegraph::apps {
 
-/// Registers `placegraph train surfaces` or `train urban`.
+/// Adds `placegraph train surfaces` or `train urban`.
 void add_train_scene_command(CLI::App& train, SceneModel::Kind kind, const char* about);
 
 }  // namespace placegraph::apps

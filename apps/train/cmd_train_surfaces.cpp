@@ -7,7 +7,7 @@ namespace placegraph::apps {
 void add_train_surfaces_command(CLI::App& train) {
   add_train_scene_command(
       train, SceneModel::Kind::kSurfaces,
-      "Learn to tell sky, ground, verticals and objects, from labelled pictures");
+      "Train the model of surfaces (sky, ground, vertical, object) on labelled images");
 }
 
 }  // namespace placegraph::apps

@@ -3,7 +3,7 @@
 
 namespace placegraph::apps {
 
-/// `placegraph train surfaces DATA --out MODEL`: learns the model of `scene surfaces`.
+/// Adds `placegraph train surfaces DATA --out MODEL`, the model of `image surfaces`.
 void add_train_surfaces_command(CLI::App& train);
 
 }  // namespace placegraph::apps

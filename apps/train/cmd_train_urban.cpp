@@ -6,7 +6,7 @@ namespace placegraph::apps {
 
 void add_train_urban_command(CLI::App& train) {
   add_train_scene_command(train, SceneModel::Kind::kUrban,
-                          "Learn what is what in a street, from labelled pictures");
+                          "Train the model of street classes on labelled images");
 }
 
 }  // namespace placegraph::apps

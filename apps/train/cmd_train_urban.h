@@ -3,7 +3,7 @@
 
 namespace placegraph::apps {
 
-/// `placegraph train urban DATA --out MODEL`: learns the model of `scene label`.
+/// Adds `placegraph train urban DATA --out MODEL`, the model of `image labels`.
 void add_train_urban_command(CLI::App& train);
 
 }  // namespace placegraph::apps

@@ -20,7 +20,7 @@
 namespace placegraph::apps {
 namespace {
 
-/// Of a room by its name; nothing for shafts, which nobody enters.
+/// Kind of a room by its name; nothing for shafts, which cannot be entered.
 std::optional<Environment> kind_of_name(const std::string& name) {
   if (name.starts_with("shaft")) return std::nullopt;
   if (name.starts_with("corridor")) return Environment::kCorridor;
@@ -28,7 +28,7 @@ std::optional<Environment> kind_of_name(const std::string& name) {
   return Environment::kRoom;
 }
 
-/// Of the room that a point of the plan lies in; nothing outside and in rooms of other names.
+/// Kind of the room at a point of the plan; nothing outside and for rooms with other names.
 std::optional<Environment> kind_of_room(const nlohmann::json& plan, const Eigen::Vector3d& p) {
   for (const nlohmann::json& room : plan.at("rooms")) {
     const auto low = room.at("low").get<std::vector<double>>();
@@ -40,9 +40,9 @@ std::optional<Environment> kind_of_room(const nlohmann::json& plan, const Eigen:
   return std::nullopt;
 }
 
-/// Where corners of the picture are, in the camera's frame: points as a run would follow them.
+/// Positions of the corners of an image in the camera frame, like the points of a run.
 std::vector<Eigen::Vector3d> corner_points(const Frame& frame, const Camera& camera) {
-  constexpr float kFarthest_m = 150;  // beyond it no parallax shows them
+  constexpr float kFarthest_m = 150;  // largest depth with a measurable parallax
   PointTracker tracker{PointTrackerOptions{}};
   tracker.track(frame.image);
   tracker.detect();
@@ -59,17 +59,16 @@ std::vector<Eigen::Vector3d> corner_points(const Frame& frame, const Camera& cam
 }
 
 EnvironmentEvidence evidence_of(const Frame& frame, const Camera& camera,
-                                const SurfaceLabeller& eye, bool with_depth) {
+                                const SurfaceLabeller& labeller, bool with_depth) {
   EnvironmentEvidence evidence;
-  evidence.see(eye.look(frame, false).shares);
+  evidence.see(labeller.look(frame, false).shares);
   const auto [edges, of] = edges_of(frame.image, camera);
   evidence.see(edges, of);
   if (with_depth) evidence.see(corner_points(frame, camera), true);
   return evidence;
 }
 
-/// A view from anywhere in a room of the plan, as somebody holds a camera; nothing if it is
-/// blocked.
+/// A view from a random position in a room, as from a handheld camera; nothing if it is blocked.
 std::optional<Frame> handheld_view(const SyntheticWorld& world, const nlohmann::json& room,
                                    double floor_y, Random& random) {
   constexpr double kMargin_m = 0.7, kNearest_m = 0.5;
@@ -102,9 +101,9 @@ std::optional<Frame> handheld_view(const SyntheticWorld& world, const nlohmann::
   return frame;
 }
 
-/// `count` of such views, the kinds of rooms in turn.
+/// Adds `count` of such views, the kinds of rooms in turn.
 void add_handheld(const SyntheticWorld& world, const nlohmann::json& plan, int count,
-                  const SurfaceLabeller& eye, std::vector<EnvironmentSample>& samples) {
+                  const SurfaceLabeller& labeller, std::vector<EnvironmentSample>& samples) {
   std::vector<std::vector<const nlohmann::json*>> rooms(kEnvironmentCount);
   for (const nlohmann::json& room : plan.at("rooms"))
     if (const auto kind = kind_of_name(room.at("name").get<std::string>()))
@@ -117,7 +116,7 @@ void add_handheld(const SyntheticWorld& world, const nlohmann::json& plan, int c
     const nlohmann::json& room =
         *rooms[kind][static_cast<std::size_t>(random.index(static_cast<int>(rooms[kind].size())))];
     if (const auto frame = handheld_view(world, room, floor_y, random))
-      samples.push_back({evidence_of(*frame, world.calibration().camera, eye, true),
+      samples.push_back({evidence_of(*frame, world.calibration().camera, labeller, true),
                          static_cast<Environment>(kind)});
   }
 }
@@ -125,7 +124,7 @@ void add_handheld(const SyntheticWorld& world, const nlohmann::json& plan, int c
 }  // namespace
 
 std::vector<EnvironmentSample> samples_of_world(const std::string& name, std::uint64_t seed,
-                                                int frames, const SurfaceLabeller& eye) {
+                                                int frames, const SurfaceLabeller& labeller) {
   std::vector<EnvironmentSample> samples;
   SyntheticOptions options;
   options.world = name;
@@ -142,27 +141,27 @@ std::vector<EnvironmentSample> samples_of_world(const std::string& name, std::ui
     if (world.is_indoor()) kind = kind_of_room(plan, truth.poses[at].T_world_body->translation());
     if (!kind) continue;
     const SyntheticFrame seen = world.render(at, {.depth = true});
-    samples.push_back({evidence_of(seen.frame, camera, eye, true), *kind});
+    samples.push_back({evidence_of(seen.frame, camera, labeller, true), *kind});
   }
-  if (world.is_indoor()) add_handheld(world, plan, 2 * frames, eye, samples);
+  if (world.is_indoor()) add_handheld(world, plan, 2 * frames, labeller, samples);
   return samples;
 }
 
-std::vector<EnvironmentSample> samples_of_pictures(const std::string& data,
-                                                   const SurfaceLabeller& eye) {
+std::vector<EnvironmentSample> samples_of_images(const std::string& data,
+                                                 const SurfaceLabeller& labeller) {
   std::vector<EnvironmentSample> samples;
   constexpr double kStreetShare = 0.12, kRoadShare = 0.03;
   const LabelledSet set = read_labelled_set(data);
   const auto building = std::find_if(set.classes.begin(), set.classes.end(),
                                      [](const SceneClass& c) { return c.name == "Building"; });
   require(building != set.classes.end(), data + ": has no class Building");
-  constexpr std::size_t kStep = 3;  // neighbours of a drive look alike
+  constexpr std::size_t kStep = 3;  // consecutive images of a drive are similar
   for (std::size_t i = 0; i < set.train.size(); i += kStep) {
     Frame frame;
     const Image labels = read_image_as_stored(set.train[i].labels);
-    const GreyAndColour picture = read_image(set.train[i].image);
-    frame.image = picture.grey;
-    frame.colour = picture.colour;
+    const GreyAndColour image = read_image(set.train[i].image);
+    frame.image = image.grey;
+    frame.colour = image.colour;
     const double share = static_cast<double>(cv::countNonZero(labels == building->id)) /
                          static_cast<double>(labels.total());
     if (share > kRoadShare && share < kStreetShare) continue;
@@ -172,7 +171,7 @@ std::vector<EnvironmentSample> samples_of_pictures(const std::string& data,
     camera.fx = camera.fy = 0.9 * camera.width;
     camera.cx = 0.5 * (camera.width - 1);
     camera.cy = 0.5 * (camera.height - 1);
-    samples.push_back({evidence_of(frame, camera, eye, false),
+    samples.push_back({evidence_of(frame, camera, labeller, false),
                        share < kRoadShare ? Environment::kRoad : Environment::kStreet});
   }
   return samples;

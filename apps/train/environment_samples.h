@@ -8,15 +8,17 @@
 
 namespace placegraph::apps {
 
-/// Views of a rendered world with what kind of surroundings they show: `frames` along its way, and
-/// indoors twice as many from anywhere in its rooms, as somebody holds a camera.
+/// Views of a rendered world with the kind of their environment.
+/// `frames` views are on its path, and indoors twice as many are from random positions in its
+/// rooms, as from a handheld camera.
 std::vector<EnvironmentSample> samples_of_world(const std::string& name, std::uint64_t seed,
-                                                int frames, const SurfaceLabeller& eye);
+                                                int frames, const SurfaceLabeller& labeller);
 
-/// Pictures of a labelled set (read_labelled_set): a street where a tenth is buildings, a road
-/// where hardly any is; what lies between is neither. Depth is not known of them. Throws FileError,
-/// and ArgumentError where the set has no class Building.
-std::vector<EnvironmentSample> samples_of_pictures(const std::string& data,
-                                                   const SurfaceLabeller& eye);
+/// Images of a labelled set (read_labelled_set) with the kind of their environment.
+/// Images with more than a tenth of buildings are streets, those with hardly any are roads, and
+/// those between are left out. Their depth is unknown. Throws FileError, and ArgumentError if the
+/// set has no class Building.
+std::vector<EnvironmentSample> samples_of_images(const std::string& data,
+                                                 const SurfaceLabeller& labeller);
 
 }  // namespace placegraph::apps

@@ -8,14 +8,14 @@
 namespace placegraph::apps {
 
 /// A view of a rendered street with the class of every pixel (SyntheticWorld::scene_classes).
-struct RenderedPicture {
-  std::string sequence;  ///< the world it is of
+struct RenderedImage {
+  std::string sequence;  ///< name of the world
   Image image, labels;
 };
 
-/// `frames` views along the way through town-loop of each seed, those of even seeds of difficulty
-/// hard. Throws ArgumentError if a town has fewer views.
-std::vector<RenderedPicture> render_streets(const std::vector<std::uint64_t>& seeds, int frames,
-                                            int threads);
+/// Renders `frames` views on the path through town-loop for each seed.
+/// Even seeds have difficulty hard. Throws ArgumentError if a town has fewer views.
+std::vector<RenderedImage> render_streets(const std::vector<std::uint64_t>& seeds, int frames,
+                                          int threads);
 
 }  // namespace placegraph::apps

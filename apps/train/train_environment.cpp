@@ -45,7 +45,7 @@ std::string lines_of(const char* set, const EnvironmentScore& score) {
   std::string text;
   for (std::size_t k = 0; k < kEnvironmentCount; ++k)
     if (score.views[k] > 0)
-      text += fmt::format("{:9} {:9} {:4} of {:4} told right\n", set,
+      text += fmt::format("{:9} {:9} {:4} of {:4} correct\n", set,
                           environment_name(static_cast<Environment>(k)), score.right[k],
                           score.views[k]);
   return text;
@@ -55,9 +55,9 @@ std::string lines_of(const char* set, const EnvironmentScore& score) {
 
 TrainEnvironmentResult train_environment(const TrainEnvironmentArguments& arguments) {
   require_free(arguments.out, arguments.force);
-  const SurfaceLabeller eye(std::make_shared<const SceneModel>(
-                                load_scene_model(SceneModel::Kind::kSurfaces, arguments.model)),
-                            {});
+  const SurfaceLabeller labeller(std::make_shared<const SceneModel>(load_scene_model(
+                                     SceneModel::Kind::kSurfaces, arguments.model)),
+                                 {});
   const std::vector<std::string> worlds{"town-loop", "corridor-loop", "warehouse"};
   EnvironmentSamples training_set, test;
   Progress progress("rendering",
@@ -67,15 +67,15 @@ TrainEnvironmentResult train_environment(const TrainEnvironmentArguments& argume
   std::int64_t done = 0;
   for (const std::string& world : worlds) {
     for (const std::uint64_t seed : arguments.seeds) {
-      append(samples_of_world(world, seed, arguments.frames, eye), training_set);
+      append(samples_of_world(world, seed, arguments.frames, labeller), training_set);
       progress.update(++done);
     }
     for (const std::uint64_t seed : arguments.left_out) {
-      append(samples_of_world(world, seed, arguments.frames, eye), test);
+      append(samples_of_world(world, seed, arguments.frames, labeller), test);
       progress.update(++done);
     }
   }
-  if (!arguments.data.empty()) append(samples_of_pictures(arguments.data, eye), training_set);
+  if (!arguments.data.empty()) append(samples_of_images(arguments.data, labeller), training_set);
   const EnvironmentModel model = train_environments(training_set, arguments.penalty);
   write_file(arguments.out, to_text(model));
   return {arguments.out, score_of(model, training_set), score_of(model, test)};
@@ -89,7 +89,7 @@ std::string to_json(const TrainEnvironmentResult& result) {
 }
 
 std::string to_text(const TrainEnvironmentResult& result) {
-  return lines_of("lesson", result.training_set) + lines_of("left_out", result.left_out);
+  return lines_of("training", result.training_set) + lines_of("test", result.left_out);
 }
 
 }  // namespace placegraph::apps

@@ -9,17 +9,17 @@
 namespace placegraph::apps {
 
 struct TrainEnvironmentArguments {
-  std::string data;   ///< labelled pictures of streets and roads to learn from too; empty: none
-  std::string out;    ///< the model to write
-  std::string model;  ///< of surfaces; empty: the one that came with the program
-  std::vector<std::uint64_t> seeds{11, 12};  ///< of the rendered worlds to learn from
-  std::vector<std::uint64_t> left_out{14};   ///< of those that judge
-  int frames = 14;                           ///< of each world
-  double penalty = 3e-3;                     ///< on the weights
+  std::string data;   ///< labelled images of streets and roads, also used for training; empty: none
+  std::string out;    ///< file for the model
+  std::string model;  ///< model of surfaces; empty: the installed one
+  std::vector<std::uint64_t> seeds{11, 12};  ///< seeds of the rendered worlds of the training set
+  std::vector<std::uint64_t> left_out{14};   ///< seeds of the rendered worlds of the test set
+  int frames = 14;                           ///< number of frames of each world
+  double penalty = 3e-3;                     ///< penalty on the weights
   bool force = false;                        ///< overwrite `out`
 };
 
-/// By kind of surroundings: how many views there are, and how many are told rightly.
+/// Numbers of views and of correct predictions by kind of environment.
 struct EnvironmentScore {
   std::array<int, kEnvironmentCount> views{}, right{};
 };
@@ -29,11 +29,11 @@ struct TrainEnvironmentResult {
   EnvironmentScore training_set, left_out;
 };
 
-/// `placegraph train environment`: learns what kind of surroundings a view shows and writes the
-/// model. Progress goes to stderr. Throws ArgumentError, FileError.
+/// Trains the classifier of environments: `placegraph train environment`.
+/// It writes the model; progress goes to stderr. Throws ArgumentError, FileError.
 TrainEnvironmentResult train_environment(const TrainEnvironmentArguments& arguments);
 
-/// One line a kind, of the lesson and of what was left out.
+/// One line per kind, for the training set and for the test set.
 std::string to_text(const TrainEnvironmentResult& result);
 std::string to_json(const TrainEnvironmentResult& result);
 

@@ -26,7 +26,7 @@ struct CloudTrainingSet {
 };
 
 /// Segments whose points are nearly all of one plane, and those that are mostly something else;
-/// what is in between teaches nothing.
+/// mixed segments are left out.
 void add_samples(const LabelledCloud& labelled, const CloudPlanesOptions& options,
                  CloudTrainingSet& training_set) {
   constexpr double kPlane = 0.9, kNoPlane = 0.6;
@@ -46,7 +46,7 @@ void add_samples(const LabelledCloud& labelled, const CloudPlanesOptions& option
   }
 }
 
-/// Frames of a rendered world with the noise of a depth camera or of stereo.
+/// Adds frames of a rendered world with the noise of a depth camera or of a stereo camera.
 void add_clouds_of_world(const std::string& name, const TrainPlanarityArguments& arguments,
                          Random& random, CloudTrainingSet& training_set) {
   SyntheticOptions world_options;
@@ -92,7 +92,7 @@ double share(int part, int of) { return of > 0 ? 1.0 * part / of : 0.0; }
 TrainPlanarityResult train_planarity(const TrainPlanarityArguments& arguments) {
   require(arguments.clouds >= 10, "--clouds: fewer than 10");
   require_free(arguments.out, arguments.force);
-  // Every fourth cloud is left out of training and judged.
+  // Every fourth cloud is in the test set.
   constexpr int kFold = 4;
   CloudTrainingSet training_set, test;
   Progress progress("taking clouds", arguments.clouds, "clouds");
@@ -127,11 +127,11 @@ std::string to_json(const TrainPlanarityResult& result) {
 
 std::string to_text(const TrainPlanarityResult& result) {
   const PlanarityScore &seen = result.trained, &score = result.left_out;
-  return fmt::format("{} segments of {} clouds, {} of them planes, {:.1f} % told right\n",
+  return fmt::format("{} segments of {} clouds, {} of them planes, {:.1f} % correct\n",
                      seen.segments, seen.clouds, seen.planes,
                      100 * share(seen.right, seen.segments)) +
          fmt::format(
-             "left out: {} segments of {} clouds, {:.1f} % told right; kept: {:.1f} % of the "
+             "test: {} segments of {} clouds, {:.1f} % correct; kept: {:.1f} % of the "
              "planes, {:.1f} % of the others\n",
              score.segments, score.clouds, 100 * share(score.right, score.segments),
              100 * share(score.planes_kept, score.planes),

@@ -6,22 +6,22 @@
 namespace placegraph::apps {
 
 struct TrainPlanarityArguments {
-  std::string out;  ///< the model to write
-  /// Rendered worlds to learn from.
+  std::string out;  ///< file for the model
+  /// Rendered worlds of the training set.
   std::vector<std::string> worlds = {"corridor-loop", "warehouse", "town-loop"};
-  int frames = 12;         ///< of each world
-  int clouds = 300;        ///< generated ones; every fourth is left out and judged
-  int rounds = 60;         ///< stumps
-  std::uint64_t seed = 1;  ///< of clouds and worlds
+  int frames = 12;         ///< number of frames of each world
+  int clouds = 300;        ///< number of generated clouds; every fourth is in the test set
+  int rounds = 60;         ///< number of decision stumps
+  std::uint64_t seed = 1;  ///< seed of clouds and worlds
   bool force = false;      ///< overwrite `out`
 };
 
-/// How a model judges the segments of some clouds.
+/// Evaluation of a model on the segments of some clouds.
 struct PlanarityScore {
   int clouds = 0, segments = 0;
-  int right = 0;                    ///< segments told rightly
-  int planes = 0, planes_kept = 0;  ///< segments that are planes, and those taken for one
-  int others = 0, others_kept = 0;  ///< the same of those that are none
+  int right = 0;                    ///< correctly classified segments
+  int planes = 0, planes_kept = 0;  ///< planar segments, and those of them classified as planar
+  int others = 0, others_kept = 0;  ///< other segments, and those of them classified as planar
 };
 
 struct TrainPlanarityResult {
@@ -29,8 +29,8 @@ struct TrainPlanarityResult {
   PlanarityScore trained, left_out;
 };
 
-/// `placegraph train planarity`: learns which segments of a point cloud are planes and writes the
-/// model. Progress goes to stderr. Throws ArgumentError, FileError.
+/// Trains the classifier of planar segments of point clouds: `placegraph train planarity`.
+/// It writes the model; progress goes to stderr. Throws ArgumentError, FileError.
 TrainPlanarityResult train_planarity(const TrainPlanarityArguments& arguments);
 
 /// Two lines.

@@ -40,20 +40,20 @@ SceneModel blank_model(SceneModel::Kind kind, const std::vector<SceneClass>& cla
 }
 
 LabelCheck judge_scenes(const SceneModel& model, const LabelledSet& set,
-                        const std::vector<LabelledPicture>& pictures, int threads,
+                        const std::vector<LabelledImage>& images, int threads,
                         const LabellerOptions& options = {}) {
   const int classes = model.class_count();
-  std::vector<SceneLabels> found(pictures.size());
-  std::vector<Image> truth(pictures.size());
-  parallel_for(static_cast<int>(pictures.size()), threads, [&](int i) {
+  std::vector<SceneLabels> found(images.size());
+  std::vector<Image> truth(images.size());
+  parallel_for(static_cast<int>(images.size()), threads, [&](int i) {
     const auto at = static_cast<std::size_t>(i);
-    const SceneView view = view_scene(colour_of(pictures[at].image));
+    const SceneView view = view_scene(colour_of(images[at].image));
     found[at] = most_probable(classify_superpixels(model, view, options), classes, view);
-    truth[at] = read_class_image(pictures[at].labels, set.classes, model.classes,
+    truth[at] = read_class_image(images[at].labels, set.classes, model.classes,
                                  model.kind == SceneModel::Kind::kSurfaces);
   });
   LabelCheck check(classes);
-  for (std::size_t i = 0; i < pictures.size(); ++i)
+  for (std::size_t i = 0; i < images.size(); ++i)
     check.add(truth[i], found[i].labels, found[i].confidence);
   return check;
 }
@@ -75,9 +75,9 @@ nlohmann::json json_of(const LabelCheck& check, const std::vector<std::string>& 
   return report;
 }
 
-/// What each part brings, a part more each time.
+/// Evaluates the model with one more part each time.
 std::vector<SceneAblation> ablation(const SceneModel& model, const LabelledSet& set,
-                                    const std::vector<LabelledPicture>& pictures, int threads) {
+                                    const std::vector<LabelledImage>& images, int threads) {
   struct Step {
     const char* name;
     LabellerOptions options;
@@ -88,12 +88,12 @@ std::vector<SceneAblation> ablation(const SceneModel& model, const LabelledSet& 
                            Step{"with two rounds of it", {true, false, false, 2}},
                            Step{"with the random field", {true, true, false, 2}},
                            Step{"with its relations", {true, true, true, 2}}})
-    rows.push_back({step.name, judge_scenes(model, set, pictures, threads, step.options)});
+    rows.push_back({step.name, judge_scenes(model, set, images, threads, step.options)});
   return rows;
 }
 
-std::string origin_of(const TrainSceneArguments& a, std::size_t pictures, const SceneModel* base) {
-  std::string origin = fmt::format("{} pictures, {} variants, {} trees, seed {}", pictures,
+std::string origin_of(const TrainSceneArguments& a, std::size_t images, const SceneModel* base) {
+  std::string origin = fmt::format("{} pictures, {} variants, {} trees, seed {}", images,
                                    a.options.training.variants, a.options.training.forest.trees,
                                    a.options.training.forest.seed);
   if (!a.holdout.empty()) origin += ", without " + a.holdout;
@@ -105,7 +105,7 @@ std::string origin_of(const TrainSceneArguments& a, std::size_t pictures, const 
   return base ? base->origin + "; then " + origin : origin;
 }
 
-/// What the classes of an old model lose by new data, on the pictures held out.
+/// Changes of the classes of the old model on the test set.
 std::vector<SceneClassChange> changes_of(const LabelCheck& before, const LabelCheck& after,
                                          const SceneModel& base) {
   std::vector<SceneClassChange> changes;
@@ -117,7 +117,7 @@ std::vector<SceneClassChange> changes_of(const LabelCheck& before, const LabelCh
 }
 
 std::string headline(const SceneJudgement& held) {
-  return fmt::format("{} pictures of {}: {}", held.pictures, held.sequence, figures(held.check));
+  return fmt::format("{} images of {}: {}", held.images, held.sequence, figures(held.check));
 }
 
 void write_card(const TrainSceneArguments& a, const SceneModel& model, const std::string& result) {
@@ -138,13 +138,13 @@ void write_card(const TrainSceneArguments& a, const SceneModel& model, const std
                                          a.options.training.forest.trees)));
 }
 
-/// The pictures that teach and those that judge.
-struct SplitPictures {
-  std::vector<LabelledPicture> learned, held;
+/// The images of the training set and of the test set.
+struct SplitImages {
+  std::vector<LabelledImage> learned, held;
 };
 
-SplitPictures split(const LabelledSet& set, const TrainSceneArguments& a) {
-  SplitPictures split;
+SplitImages split(const LabelledSet& set, const TrainSceneArguments& a) {
+  SplitImages split;
   for (std::size_t i = 0; i < set.train.size(); ++i) {
     if (!a.holdout.empty() && set.train[i].sequence == a.holdout)
       split.held.push_back(set.train[i]);
@@ -152,15 +152,15 @@ SplitPictures split(const LabelledSet& set, const TrainSceneArguments& a) {
       split.learned.push_back(set.train[i]);
   }
   require(a.holdout.empty() || !split.held.empty(),
-          "--holdout: no picture is of the sequence " + a.holdout);
-  require(!split.learned.empty(), "--holdout: nothing is left to learn from");
+          "--holdout: no image is of the sequence " + a.holdout);
+  require(!split.learned.empty(), "--holdout: the training set is empty");
   if (a.holdout.empty()) split.held = set.val;
   return split;
 }
 
 SceneJudgement judgement_of(const TrainSceneArguments& a, const SceneModel& model,
                             const SceneModel* base, const LabelledSet& set,
-                            const std::vector<LabelledPicture>& held) {
+                            const std::vector<LabelledImage>& held) {
   const int threads = a.options.threads;
   SceneJudgement judged{held.size(),
                         a.holdout.empty() ? "val" : a.holdout,
@@ -180,15 +180,15 @@ TrainSceneResult train_scene(const TrainSceneArguments& a, SceneModel::Kind kind
   require_free(a.out, a.force);
   cv::setNumThreads(1);
   const LabelledSet set = read_labelled_set(a.data);
-  const SplitPictures pictures = split(set, a);
+  const SplitImages images = split(set, a);
   std::optional<SceneModel> base;
   if (!a.update.empty()) base = load_scene_model(kind, a.update);
   const SceneModel* const old = base ? &*base : nullptr;
   SceneModel model = blank_model(kind, set.classes, old);
-  model.origin = origin_of(a, pictures.learned.size(), old);
+  model.origin = origin_of(a, images.learned.size(), old);
   const Stopwatch watch;
-  const std::vector<TrainingPicture> training_set =
-      training_pictures(set, pictures.learned, model, a.options);
+  const std::vector<TrainingImage> training_set =
+      training_images(set, images.learned, model, a.options);
   std::vector<SceneExample> examples = make_examples(training_set, model, a.options);
   model = train_scene_model(
       std::move(model), std::move(examples), a.options.training, a.options.threads,
@@ -205,15 +205,15 @@ TrainSceneResult train_scene(const TrainSceneArguments& a, SceneModel::Kind kind
                           model.relation_weight,
                           model.sharpness,
                           {}};
-  if (!pictures.held.empty()) result.held_out = judgement_of(a, model, old, set, pictures.held);
+  if (!images.held.empty()) result.held_out = judgement_of(a, model, old, set, images.held);
   write_card(a, model, result.held_out ? headline(*result.held_out) : "nothing");
   return result;
 }
 
 std::string to_text(const TrainSceneResult& result) {
   std::string text = fmt::format(
-      "{}: learned from {} pictures in {:.0f} s; smoothness {}, relations {}, sharpness {}\n",
-      result.out, result.pictures, result.wall_s, result.smoothness, result.relation_weight,
+      "{}: learned from {} images in {:.0f} s; smoothness {}, relations {}, sharpness {}\n",
+      result.out, result.images, result.wall_s, result.smoothness, result.relation_weight,
       result.sharpness);
   if (!result.held_out) return text;
   text += headline(*result.held_out) + "\n";
@@ -227,7 +227,7 @@ std::string to_text(const TrainSceneResult& result) {
 
 std::string to_json(const TrainSceneResult& result) {
   nlohmann::json report = {
-      {"out", result.out}, {"pictures", result.pictures}, {"seconds", result.wall_s}};
+      {"out", result.out}, {"pictures", result.images}, {"seconds", result.wall_s}};
   if (result.held_out) {
     report["held_out"] = json_of(result.held_out->check, result.classes);
     for (const SceneAblation& step : result.held_out->ablation)

@@ -13,48 +13,48 @@
 namespace placegraph::apps {
 
 struct TrainSceneArguments {
-  std::string data;       ///< a labelled set (read_labelled_set); its val/ judges
-  std::string out;        ///< the model to write, and its card, OUT.md
-  std::string holdout;    ///< a sequence that judges instead of teaching; empty: none
-  std::string update;     ///< a model to add these data to; empty: none
-  bool ablation = false;  ///< each part of the model is judged too
-  bool force = false;     ///< overwrite files
-  TrainingPictureOptions options;
+  std::string data;       ///< labelled set (read_labelled_set); its val/ is the test set
+  std::string out;        ///< file for the model; its card is OUT.md
+  std::string holdout;    ///< sequence of the test set; empty: none
+  std::string update;     ///< model to extend by these data; empty: none
+  bool ablation = false;  ///< also evaluate each part of the model
+  bool force = false;     ///< overwrite existing files
+  TrainingImageOptions options;
 };
 
-/// A part more of the model than the one before, judged.
+/// Evaluation of the model up to one of its parts.
 struct SceneAblation {
   std::string parts;
   LabelCheck check;
 };
 
-/// What a class of an old model loses by new data: shares of its pixels that are found.
+/// Change of a class of the old model: shares of its pixels that are found.
 struct SceneClassChange {
   std::string name;
   double before = 0, now = 0;
 };
 
-/// The model on pictures that were held out.
+/// Evaluation of the model on the test set.
 struct SceneJudgement {
-  std::size_t pictures = 0;
-  std::string sequence;  ///< that they are of, or "val"
+  std::size_t images = 0;
+  std::string sequence;  ///< name of the sequence, or "val"
   LabelCheck check;
-  std::vector<SceneAblation> ablation;    ///< if asked for
-  std::vector<SceneClassChange> changes;  ///< where a model was updated
+  std::vector<SceneAblation> ablation;    ///< set if it was requested
+  std::vector<SceneClassChange> changes;  ///< set if a model was extended
 };
 
 struct TrainSceneResult {
   std::string out;
-  std::size_t pictures = 0;  ///< learned from
+  std::size_t images = 0;  ///< number of training images
   double wall_s = 0;
-  std::vector<std::string> classes;  ///< of the model
+  std::vector<std::string> classes;  ///< classes of the model
   float smoothness = 0, relation_weight = 0, sharpness = 0;
-  std::optional<SceneJudgement> held_out;  ///< where there are pictures to judge by
+  std::optional<SceneJudgement> held_out;  ///< set if there is a test set
 };
 
-/// `placegraph train surfaces` and `train urban`: learns a model from labelled pictures and writes
-/// it and its card. What is being done goes to `sink`, progress to stderr. Throws ArgumentError,
-/// FileError.
+/// Trains a model of surfaces or street classes: `placegraph train surfaces`, `train urban`.
+/// It writes the model and its card. The steps go to `sink`, progress to stderr. Throws
+/// ArgumentError, FileError.
 TrainSceneResult train_scene(const TrainSceneArguments& arguments, SceneModel::Kind kind,
                              const LogSink& sink = {});
 

@@ -13,10 +13,9 @@
 namespace placegraph::apps {
 namespace {
 
-/// Which of them are alike: so many of a drive one after the other (`block`), and never of two
-/// sequences.
-std::vector<int> blocks_of(const std::vector<TrainingPicture>& training_set,
-                           const TrainingPictureOptions& a) {
+/// Block of each image: up to `block` consecutive images of one sequence, which are similar.
+std::vector<int> blocks_of(const std::vector<TrainingImage>& training_set,
+                           const TrainingImageOptions& a) {
   std::vector<int> block;
   int in_block = 0;
   for (std::size_t i = 0; i < training_set.size(); ++i) {
@@ -35,42 +34,41 @@ Image colour_of(const std::string& path) {
   return read.colour.empty() ? read.grey : read.colour;
 }
 
-std::vector<TrainingPicture> training_pictures(const LabelledSet& set,
-                                               const std::vector<LabelledPicture>& pictures,
-                                               const SceneModel& model,
-                                               const TrainingPictureOptions& a) {
+std::vector<TrainingImage> training_images(const LabelledSet& set,
+                                           const std::vector<LabelledImage>& images,
+                                           const SceneModel& model, const TrainingImageOptions& a) {
   const bool surfaces = model.kind == SceneModel::Kind::kSurfaces;
   const auto& names = model.classes;
-  std::vector<TrainingPicture> training_set;
-  for (const LabelledPicture& picture : pictures)
-    training_set.push_back({picture.sequence, [&set, &names, picture, surfaces] {
+  std::vector<TrainingImage> training_set;
+  for (const LabelledImage& image : images)
+    training_set.push_back({image.sequence, [&set, &names, image, surfaces] {
                               return std::pair(
-                                  colour_of(picture.image),
-                                  read_class_image(picture.labels, set.classes, names, surfaces));
+                                  colour_of(image.image),
+                                  read_class_image(image.labels, set.classes, names, surfaces));
                             }});
-  for (const RenderedPicture& picture : render_streets(a.rendered, a.rendered_frames, a.threads))
-    training_set.push_back({picture.sequence, [&names, picture, surfaces] {
+  for (const RenderedImage& image : render_streets(a.rendered, a.rendered_frames, a.threads))
+    training_set.push_back({image.sequence, [&names, image, surfaces] {
                               return std::pair(
-                                  picture.image,
-                                  class_image(picture.labels, picture.sequence,
+                                  image.image,
+                                  class_image(image.labels, image.sequence,
                                               SyntheticWorld::scene_classes(), names, surfaces));
                             }});
   return training_set;
 }
 
-std::vector<SceneExample> make_examples(const std::vector<TrainingPicture>& training_set,
-                                        const SceneModel& model, const TrainingPictureOptions& a) {
+std::vector<SceneExample> make_examples(const std::vector<TrainingImage>& training_set,
+                                        const SceneModel& model, const TrainingImageOptions& a) {
   const int count = static_cast<int>(training_set.size()), variants = a.training.variants;
   const std::vector<int> block = blocks_of(training_set, a);
   std::vector<SceneExample> examples(static_cast<std::size_t>(count * variants));
-  Progress progress("looking", count * variants, "pictures");
-  constexpr int kPart = 16;  // between two lines of progress
+  Progress progress("describing", count * variants, "images");
+  constexpr int kPart = 16;  // images between two updates of the progress
   for (int begin = 0; begin < count * variants; begin += kPart) {
     parallel_for(std::min(kPart, count * variants - begin), a.threads, [&](int k) {
       const auto at = static_cast<std::size_t>(begin + k), which = at % training_set.size();
       const std::size_t variant = at / training_set.size();
-      const auto [picture, classes] = training_set[which].read();
-      Image bgr = scene_picture(picture);
+      const auto [image, classes] = training_set[which].read();
+      Image bgr = scene_picture(image);
       Image labels = fit_labels(classes, bgr);
       if (variant > 0) {
         Random random(a.training.forest.seed, at);

@@ -12,35 +12,35 @@
 
 namespace placegraph::apps {
 
-/// Which pictures a model of scenes is learned from, and how.
-struct TrainingPictureOptions {
-  std::vector<std::uint64_t> rendered;  ///< seeds of rendered towns; those even have bad light
-  int rendered_frames = 25;             ///< views of each
-  int every = 1;                        ///< every n-th photograph alone
-  int threads = 2;                      ///< do not change the result
+/// Images of the training set of a scene model, and their use.
+struct TrainingImageOptions {
+  std::vector<std::uint64_t> rendered;  ///< seeds of rendered towns; even ones have bad light
+  int rendered_frames = 25;             ///< number of views of each town
+  int every = 1;                        ///< use every n-th photograph
+  int threads = 2;                      ///< number of threads; the result does not depend on it
   SceneTrainingOptions training;
 };
 
-/// A picture to learn from: itself, and its labels as numbers of the model's classes. Photographs
-/// are read when they are asked for, rendered ones are kept.
-struct TrainingPicture {
+/// An image of the training set with its labels as numbers of the model's classes.
+/// Photographs are read on demand, rendered images are kept.
+struct TrainingImage {
   std::string sequence;
   std::function<std::pair<Image, Image>()> read;
 };
 
-/// A picture in colour where the file has it. Throws FileError.
+/// Reads an image in colour if the file has it. Throws FileError.
 Image colour_of(const std::string& path);
 
 /// Photographs of the set, then rendered streets. They refer to `set` and `model`.
-std::vector<TrainingPicture> training_pictures(const LabelledSet& set,
-                                               const std::vector<LabelledPicture>& pictures,
-                                               const SceneModel& model,
-                                               const TrainingPictureOptions& options);
+std::vector<TrainingImage> training_images(const LabelledSet& set,
+                                           const std::vector<LabelledImage>& images,
+                                           const SceneModel& model,
+                                           const TrainingImageOptions& options);
 
-/// Cuts up every picture as often as there are variants; those of one variant follow each other.
+/// Divides every image into superpixels, once per variant; variants are consecutive blocks.
 /// Progress goes to stderr. Throws FileError.
-std::vector<SceneExample> make_examples(const std::vector<TrainingPicture>& training_set,
+std::vector<SceneExample> make_examples(const std::vector<TrainingImage>& training_set,
                                         const SceneModel& model,
-                                        const TrainingPictureOptions& options);
+                                        const TrainingImageOptions& options);
 
 }  // namespace placegraph::apps

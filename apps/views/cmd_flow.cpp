@@ -30,7 +30,8 @@ void add_flow_command(CLI::App& image) {
   auto flow_command = std::make_shared<FlowCommand>();
   FlowArguments& a = flow_command->arguments;
   CLI::App* command = image.add_subcommand("flow", "Estimate the optical flow between two images");
-  command->footer("placegraph image flow a.png b.png --method horn-schunck --out f.flo --draw f.png");
+  command->footer(
+      "placegraph image flow a.png b.png --method horn-schunck --out f.flo --draw f.png");
   command->add_option("FROM", a.from, "first image")->required();
   command->add_option("TO", a.to, "second image")->required();
   command->add_option("--method", a.method, "algorithm")
@@ -39,9 +40,7 @@ void add_flow_command(CLI::App& image) {
   command->add_option("-o,--out", a.out, "file to write: .flo (Middlebury) or .png (KITTI)");
   command->add_option("--draw", a.drawing, "draw the input with the result");
   command->add_option("--truth", a.truth, "true flow to compare with: .flo or .png");
-  command->add_option("--set", a.settings, kSetText)
-      ->type_size(1)
-      ->allow_extra_args(false);
+  command->add_option("--set", a.settings, kSetText)->type_size(1)->allow_extra_args(false);
   auto* cues = command->add_flag("--flow-cues", a.cues,
                                  "also print divergence, speed over distance, time to contact "
                                  "and balance; see docs/flow.md");
@@ -54,7 +53,7 @@ void add_flow_command(CLI::App& image) {
   };
   auto* gyro = three("--gyro", a.gyro,
                      "angular velocity of the camera in its axes; its flow is subtracted [rad/s]");
-  three("--rotation", a.turn, "rotation vector of the camera between the images [rad]")
+  three("--rotation", a.rotation, "rotation vector of the camera between the images [rad]")
       ->excludes(gyro);
   command
       ->add_option("--rotation-sigma", a.rotation_sigma,

@@ -3,7 +3,7 @@
 
 namespace placegraph::apps {
 
-/// `placegraph flow A B --method M --out F.flo --draw F.png`: optical flow between two images.
+/// Adds `placegraph image flow FROM TO`, which estimates the optical flow.
 void add_flow_command(CLI::App& image);
 
 }  // namespace placegraph::apps

@@ -14,8 +14,8 @@ void add_markers_command(CLI::App& image) {
   auto arguments = std::make_shared<MarkersDetectArguments>();
   auto json = std::make_shared<bool>(false);
   MarkersDetectArguments& a = *arguments;
-  CLI::App* command = image.add_subcommand(
-      "markers", "Detect square markers and estimate their poses");
+  CLI::App* command =
+      image.add_subcommand("markers", "Detect square markers and estimate their poses");
   command->footer("placegraph image markers image.png --calib K.txt --side 0.2 --draw found.png");
   command->add_option("IMAGE", a.image, "image")->required();
   add_calib_option(*command, a.calib, kCalibFile)->required();
@@ -25,8 +25,9 @@ void add_markers_command(CLI::App& image) {
   auto* side = command->add_option("--side", a.side_m, "side of the black square [m]")
                    ->check(CLI::PositiveNumber);
   command
-      ->add_option("--layout", a.layout,
-                   "layout of markers and beacons (markers.yaml); gives the pose of the camera in it")
+      ->add_option(
+          "--layout", a.layout,
+          "layout of markers and beacons (markers.yaml); gives the pose of the camera in it")
       ->check(CLI::ExistingFile)
       ->excludes(dictionary)
       ->excludes(side);

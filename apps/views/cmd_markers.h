@@ -5,7 +5,7 @@ class App;
 
 namespace placegraph::apps {
 
-/// `placegraph markers`: square markers of an image, and where they are.
+/// Adds `placegraph image markers IMAGE`, which detects markers and estimates their poses.
 void add_markers_command(CLI::App& image);
 
 }  // namespace placegraph::apps

@@ -18,7 +18,7 @@ struct MotionCommand {
 
 void run_motion(const MotionCommand& command) {
   const MotionResult result = motion(command.arguments);
-  // The JSON has the evidence even if there is no answer.
+  // The JSON has the evidence even without a result.
   if (command.json) print(to_json(result));
   if (result.no_answer) throw NoAnswer(*result.no_answer);
   if (!command.json) print(to_text(result));
@@ -51,7 +51,9 @@ void add_motion_command(CLI::App& image) {
                       "gravity; levels the camera of a car");
   command->add_option("--threshold", a.options.threshold_px, "largest error of an inlier [px]");
   command->add_option("--min-inliers", a.options.min_inliers, "smallest number of inliers");
-  command->add_option("--point-noise", a.options.noise_m, "standard deviation of each coordinate of a point, for 3d3d [m]")
+  command
+      ->add_option("--point-noise", a.options.noise_m,
+                   "standard deviation of each coordinate of a point, for 3d3d [m]")
       ->capture_default_str();
   command->add_option("--seed", a.seed, kSeedText)->capture_default_str();
   command->add_option("-o,--out", a.out, "JSON file");

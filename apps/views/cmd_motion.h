@@ -3,7 +3,7 @@
 
 namespace placegraph::apps {
 
-/// `placegraph motion MATCHES.txt --calib K.txt`: the relative pose of two views.
+/// Adds `placegraph image motion MATCHES`, which estimates the motion between two views.
 void add_motion_command(CLI::App& image);
 
 }  // namespace placegraph::apps

@@ -8,7 +8,7 @@
 namespace placegraph::apps {
 namespace {
 
-/// The size that a tenth of the vectors exceed, and how many there are.
+/// The size that a tenth of the vectors exceed, and the number of vectors.
 struct Extent {
   double size_px = 1;
   std::size_t known = 0;
@@ -30,11 +30,11 @@ Extent extent_of(const Image& flow) {
 }
 
 cv::Vec3b colour_of(const cv::Vec2f& d, double full_px, double grey) {
-  const double turn = std::atan2(d[1], d[0]) / (2 * CV_PI) + 0.5;  // 0 to 1
+  const double hue = std::atan2(d[1], d[0]) / (2 * CV_PI) + 0.5;  // 0 to 1
   const double strength = std::min(1.0, std::hypot(d[0], d[1]) / full_px);
   cv::Vec3b colour;
-  for (int k = 0; k < 3; ++k) {  // blue, green, red: three waves a third of a turn apart
-    const double wave = 0.5 + 0.5 * std::cos(2 * CV_PI * (turn - (2 - k) / 3.0));
+  for (int k = 0; k < 3; ++k) {  // blue, green, red: three waves a third of a circle apart
+    const double wave = 0.5 + 0.5 * std::cos(2 * CV_PI * (hue - (2 - k) / 3.0));
     const double tone = 255 * (1 - strength * (1 - wave));
     colour[k] = cv::saturate_cast<unsigned char>(0.75 * tone + 0.25 * grey);
   }
@@ -44,8 +44,8 @@ cv::Vec3b colour_of(const cv::Vec2f& d, double full_px, double grey) {
 }  // namespace
 
 Image draw_flow(const Image& grey, const Image& flow) {
-  Image picture;
-  cv::cvtColor(grey, picture, cv::COLOR_GRAY2BGR);
+  Image drawing;
+  cv::cvtColor(grey, drawing, cv::COLOR_GRAY2BGR);
   const Extent extent = extent_of(flow);
   const bool dense = extent.known * 2 > flow.total();
   for (int v = 0; v < flow.rows; ++v) {
@@ -55,15 +55,15 @@ Image draw_flow(const Image& grey, const Image& flow) {
       const cv::Vec3b colour =
           colour_of(d, extent.size_px, dense ? grey.at<unsigned char>(v, u) : 0);
       if (dense) {
-        picture.at<cv::Vec3b>(v, u) = colour;
+        drawing.at<cv::Vec3b>(v, u) = colour;
       } else {
         const cv::Point end(cvRound(static_cast<float>(u) + d[0]),
                             cvRound(static_cast<float>(v) + d[1]));
-        cv::line(picture, {u, v}, end, cv::Scalar(colour), 1, cv::LINE_AA);
+        cv::line(drawing, {u, v}, end, cv::Scalar(colour), 1, cv::LINE_AA);
       }
     }
   }
-  return picture;
+  return drawing;
 }
 
 }  // namespace placegraph::apps

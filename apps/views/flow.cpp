@@ -26,7 +26,7 @@ Eigen::Vector3d vector_of(const char* option, const std::vector<double>& values)
   return vector;
 }
 
-/// What is known beside the images; throws ArgumentError for what does not fit together.
+/// Settings of the cues. Throws ArgumentError for contradictory arguments.
 CueSetting cue_setting(const FlowArguments& arguments) {
   require(!arguments.calib.empty(), "--flow-cues: need the camera, --calib");
   require(arguments.gyro.empty() || arguments.dt_s > 0, "--gyro: needs --dt");
@@ -41,12 +41,12 @@ CueSetting cue_setting(const FlowArguments& arguments) {
     require(normal.norm() > 1e-9, "--normal: a direction needs a length");
     setting.normal = normal.normalized();
   }
-  std::optional<Eigen::Vector3d> turn;
-  if (!arguments.gyro.empty()) turn = arguments.dt_s * vector_of("--gyro", arguments.gyro);
-  if (!arguments.turn.empty()) turn = vector_of("--rotation", arguments.turn);
-  if (turn)
-    setting.turn = {SO3::exp(*turn), arguments.rotation_sigma * arguments.rotation_sigma *
-                                         Eigen::Matrix3d::Identity()};
+  std::optional<Eigen::Vector3d> rotation;
+  if (!arguments.gyro.empty()) rotation = arguments.dt_s * vector_of("--gyro", arguments.gyro);
+  if (!arguments.rotation.empty()) rotation = vector_of("--rotation", arguments.rotation);
+  if (rotation)
+    setting.rotation = {SO3::exp(*rotation), arguments.rotation_sigma * arguments.rotation_sigma *
+                                                 Eigen::Matrix3d::Identity()};
   return setting;
 }
 
@@ -102,7 +102,8 @@ FlowResult flow(const FlowArguments& arguments) {
   if (truth) result.error = flow_error(found, *truth);
   if (cues) {
     result.cues = describe_cues(sampled_flow(from, found, arguments.cell_px), *cues);
-    if (!any_cue(result.cues)) result.no_answer = "--flow-cues: the flow tells none";
+    if (!any_cue(result.cues))
+      result.no_answer = "--flow-cues: no cue could be estimated from the flow";
   }
   return result;
 }

@@ -10,34 +10,38 @@
 namespace placegraph::apps {
 
 struct FlowArguments {
-  std::string from, to;               ///< the two images
+  std::string from, to;               ///< paths of the two images
   std::string method = "dis";         ///< one of flow_method_names()
-  std::vector<std::string> settings;  ///< "key=value", of the method
-  std::string out;                    ///< where the flow is written, .flo or .png; empty: nowhere
-  std::string drawing;                ///< PNG of the flow; empty: none
+  std::vector<std::string> settings;  ///< options of the method, "key=value"
+  std::string out;                    ///< file for the flow, .flo or .png; empty: none
+  std::string drawing;                ///< file for a drawing, PNG; empty: none
   std::string truth;                  ///< true flow to compare with, .flo or .png; empty: none
-  bool cues = false;  ///< also what the flow tells at once; all below but `force` is for that
-  std::string calib;  ///< of the camera; needed
-  double dt_s = 0;    ///< time between the images [s]; 0: times are counted in images
-  std::vector<double> gyro;  ///< three turn rates [rad/s] in the camera's axes; empty: not known
-  std::vector<double> turn;  ///< or the rotation vector from image to image [rad]; empty
-  double rotation_sigma = 1e-3;  ///< of either, from image to image, an axis [rad]
-  std::vector<double> normal;    ///< to the plane, in the first camera; empty: the optical axis
-  int cell_px = 16;              ///< one vector in a square of so many pixels a side
-  bool force = false;            ///< overwrite `out` and `drawing`
+  bool cues =
+      false;  ///< also estimate the cues of the flow, with the following members except `force`
+  std::string calib;         ///< calibration of the camera; required
+  double dt_s = 0;           ///< time between the images [s]; 0: unit of time is the image step
+  std::vector<double> gyro;  ///< angular velocity in the camera's axes [rad/s]; empty: unknown
+  std::vector<double>
+      rotation;  ///< or the rotation vector between the images [rad]; empty: unknown
+  double rotation_sigma =
+      1e-3;  ///< standard deviation of the rotation between the images, per axis [rad]
+  std::vector<double> normal;  ///< normal of the plane in the first camera; empty: the optical axis
+  int cell_px = 16;            ///< side of the square with one vector [px]
+  bool force = false;          ///< overwrite `out` and `drawing`
 };
 
 struct FlowResult {
   std::string method;
-  std::int64_t known = 0;                ///< pixels with a displacement
-  double cpu_ms = 0;                     ///< of the flow alone
-  std::optional<FlowError> error;        ///< where the truth is given
-  nlohmann::ordered_json cues;           ///< see describe_cues(); null where not asked for
-  std::optional<std::string> no_answer;  ///< cues were asked for, and the flow tells none: why
+  std::int64_t known = 0;                ///< number of pixels with a displacement
+  double cpu_ms = 0;                     ///< CPU time of the flow alone
+  std::optional<FlowError> error;        ///< set if the truth is given
+  nlohmann::ordered_json cues;           ///< see describe_cues(); null if not requested
+  std::optional<std::string> no_answer;  ///< reason if cues were requested and the flow allows none
 };
 
-/// `placegraph flow`: optical flow between two images, written, drawn and compared with the truth.
-/// Throws ArgumentError, FileError, and NoAnswer where no displacement was found.
+/// Estimates the optical flow between two images: `placegraph image flow`.
+/// It is written, drawn and compared with the truth on demand. Throws ArgumentError, FileError, and
+/// NoAnswer if no displacement was found.
 FlowResult flow(const FlowArguments& arguments);
 
 /// One line, and those of the cues.

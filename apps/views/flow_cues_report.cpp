@@ -67,25 +67,26 @@ double number(const ordered_json& cue, const char* key) {
 }  // namespace
 
 ordered_json describe_cues(const std::vector<FlowVector>& flow, const CueSetting& setting) {
-  const KnownRotation turn = setting.turn.value_or(KnownRotation{});
+  const KnownRotation known_rotation = setting.rotation.value_or(KnownRotation{});
   const double dt = setting.dt_s.value_or(1);
-  const std::vector<DerotatedFlow> derotated = derotate(setting.camera, flow, turn);
-  const VentralMotion motion = ventral_motion(derotated, setting.normal, turn.covariance);
+  const std::vector<DerotatedFlow> derotated = derotate(setting.camera, flow, known_rotation);
+  const VentralMotion motion = ventral_motion(derotated, setting.normal, known_rotation.covariance);
   ordered_json cues{{"vectors", derotated.size()},
                     {"time_unit", setting.dt_s ? "s" : "image"},
                     {"turn_rad", nullptr},
                     {"normal", list_of(setting.normal)}};
-  if (setting.turn) cues["turn_rad"] = list_of(setting.turn->R_1_2.log());
-  cues["affine"] = affine_json(affine_flow(derotated, turn.covariance));
+  if (setting.rotation) cues["turn_rad"] = list_of(setting.rotation->R_1_2.log());
+  cues["affine"] = affine_json(affine_flow(derotated, known_rotation.covariance));
   cues["ventral"] = ventral_json(motion, dt);
   cues["time_to_contact"] = contact_json(time_to_contact(motion, setting.normal, dt));
-  cues["balance"] = balance_json(lateral_balance(derotated, turn.covariance));
+  cues["balance"] = balance_json(lateral_balance(derotated, known_rotation.covariance));
   return cues;
 }
 
 bool any_cue(const ordered_json& cues) {
-  const auto told = [&](const char* cue) { return cues[cue]["outcome"] == "ok"; };
-  return told("affine") || told("ventral") || told("time_to_contact") || told("balance");
+  const auto estimated = [&](const char* cue) { return cues[cue]["outcome"] == "ok"; };
+  return estimated("affine") || estimated("ventral") || estimated("time_to_contact") ||
+         estimated("balance");
 }
 
 std::string cue_lines(const ordered_json& cues) {
@@ -100,8 +101,9 @@ std::string cue_lines(const ordered_json& cues) {
     for (std::size_t i = 0; i < 3; ++i)
       over += fmt::format("{:.5f} +- {:.5f} ", ventral["speed_over_distance"][i].get<double>(),
                           std::sqrt(ventral["covariance"][i][i].get<double>()));
-  return fmt::format("{} vectors, {}\n", cues["vectors"].get<std::size_t>(),
-                     cues["turn_rad"].is_null() ? "no turn taken out" : "without the turn") +
+  return fmt::format(
+             "{} vectors, {}\n", cues["vectors"].get<std::size_t>(),
+             cues["turn_rad"].is_null() ? "no rotation subtracted" : "rotation subtracted") +
          "divergence: " +
          or_why(affine, fmt::format("{:.5f} +- {:.5f} an image", number(affine, "divergence"),
                                     sigma(affine, "divergence_variance"))) +

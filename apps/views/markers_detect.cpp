@@ -25,7 +25,7 @@ using nlohmann::ordered_json;
 
 enum class PixelOrigin { kCentre, kCorner };
 
-/// The camera with its principal point counted from the first pixel's centre.
+/// The camera with its principal point relative to the first pixel's centre.
 Camera camera_of(const MarkersDetectArguments& arguments) {
   const auto origin = choice<PixelOrigin>("--pixel-origin", pixel_origin_names(), arguments.origin);
   Camera camera = read_calib(arguments.calib);
@@ -44,15 +44,15 @@ double side_of(const MarkersDetectArguments& arguments, const MarkerLayout& layo
   return arguments.side_m;
 }
 
-/// Where the camera is in the layout, by what is seen of it.
+/// Pose of the camera in the layout from the visible markers and beacons.
 MarkerPoseEstimate camera_in(const MarkerLayout& layout, const Camera& camera, const Image& grey,
                              MarkerView& view) {
   if (!layout.beacons_world.empty()) view.beacons = detect_beacons(grey);
   if (!layout.markers.empty() || !layout.beacons_world.empty())
     return MarkerFilter({}, layout, camera, SE3()).observe(view);
   MarkerPoseEstimate answer;
-  answer.outcome = Outcome::failure(Outcome::Code::kTooFewData,
-                                    "the layout gives no marker or beacon its place");
+  answer.outcome =
+      Outcome::failure(Outcome::Code::kTooFewData, "the layout has no pose of a marker or beacon");
   return answer;
 }
 

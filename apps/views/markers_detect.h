@@ -9,42 +9,42 @@
 
 namespace placegraph::apps {
 
-/// Where the origin of pixels is: "centre" of the first pixel, as in the library, or its "corner".
+/// Names of the pixel origin: "centre" of the first pixel, as in the library, or its "corner".
 const std::vector<std::string>& pixel_origin_names();
 
 struct MarkersDetectArguments {
   std::string image;
-  std::string calib;  ///< of the camera, its principal point counted from `origin`
+  std::string calib;  ///< calibration of the camera, with the principal point relative to `origin`
   std::string dictionary = MarkerLayout().dictionary;
-  double side_m = 0;              ///< of the black squares; 0: not known, there are no poses then
-  std::string layout;             ///< markers.yaml, in place of the two above; empty: none
-  std::string origin = "centre";  ///< one of pixel_origin_names(), also of the corners
+  double side_m = 0;              ///< side of the black squares; 0: unknown, no poses
+  std::string layout;             ///< markers.yaml instead of the two members above; empty: none
+  std::string origin = "centre";  ///< one of pixel_origin_names(); also the origin of the corners
   MarkerDetectorOptions options;
-  std::string out;      ///< where to_json() of the result is written; empty: nowhere
-  std::string drawing;  ///< PNG of the markers; empty: none
+  std::string out;      ///< file for to_json() of the result; empty: none
+  std::string drawing;  ///< file for a drawing of the markers, PNG; empty: none
   bool force = false;   ///< overwrite `out` and `drawing`
 };
 
-/// A marker and what it is known to be.
+/// A detected marker with its side and its poses.
 struct DetectedMarker {
-  MarkerObservation observation;  ///< its pixels counted from the first pixel's centre
-  double side_m = 0;              ///< 0: not known
-  MarkerPoses poses;              ///< both that explain it, where the side is known
+  MarkerObservation observation;  ///< pixel coordinates relative to the first pixel's centre
+  double side_m = 0;              ///< side [m]; 0: unknown
+  MarkerPoses poses;              ///< both poses that explain it, if the side is known
 };
 
 struct MarkersDetectResult {
   std::string image, dictionary, origin;
   std::vector<DetectedMarker> markers;
-  std::optional<MarkerPoseEstimate> camera;  ///< where it is in the layout, if there is one
+  std::optional<MarkerPoseEstimate> camera;  ///< pose in the layout, if there is one
   double cpu_ms = 0;
 
-  /// What `origin` adds to pixels that are counted from the first pixel's centre.
+  /// Offset of `origin` from the first pixel's centre.
   double shift_px() const { return origin == "corner" ? 0.5 : 0; }
 };
 
-/// `placegraph markers detect`: finds the markers of an image, their poses, and the camera in their
-/// layout. Throws ArgumentError, FileError, and NoAnswer where neither a marker nor the camera was
-/// found; then nothing is written.
+/// Detects markers, their poses, and the camera in their layout: `placegraph image markers`.
+/// Throws ArgumentError, FileError, and NoAnswer if neither a marker nor the camera was found; then
+/// nothing is written.
 MarkersDetectResult markers_detect(const MarkersDetectArguments& arguments);
 
 /// Some lines.

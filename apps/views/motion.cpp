@@ -19,7 +19,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// A match told often tells no more than once.
+/// Smallest number of distinct matches; repeated matches count once.
 constexpr int kFewestDistinct = 8;
 int distinct_matches(const MatchFile& file) {
   std::set<std::array<std::int64_t, 4>> seen;
@@ -30,7 +30,7 @@ int distinct_matches(const MatchFile& file) {
   return static_cast<int>(seen.size());
 }
 
-/// By matches of pixels, where enough of them differ.
+/// Estimates the motion from matches of pixels if enough of them are distinct.
 MotionEstimate motion_by_pixels(const MotionArguments& arguments, const Camera& camera,
                                 Random& random) {
   const MatchFile file = read_matches(arguments.in);
@@ -105,20 +105,21 @@ std::string to_text(const MotionResult& result) {
     const Eigen::Matrix3d of_rotation = answer.covariance.bottomRightCorner<3, 3>();
     const Eigen::Vector3d w = kDeg * answer.R_ref_cur->log();
     const Eigen::Vector3d s = kDeg * of_rotation.diagonal().cwiseMax(0).cwiseSqrt();
-    text += fmt::format("  R_ref_cur: turned by {:.4f} {:.4f} {:.4f} deg", w.x(), w.y(), w.z());
+    text +=
+        fmt::format("  R_ref_cur: rotation vector {:.4f} {:.4f} {:.4f} deg", w.x(), w.y(), w.z());
     if (answer.knows_covariance)
-      text += fmt::format(", known to {:.4f} {:.4f} {:.4f} deg", s.x(), s.y(), s.z());
+      text += fmt::format(", sigma {:.4f} {:.4f} {:.4f} deg", s.x(), s.y(), s.z());
     text += "\n";
   }
   if (answer.T_ref_cur) {
     const Eigen::Vector3d& t = answer.T_ref_cur->translation();
     const double sigma = std::sqrt(std::max(0.0, answer.covariance.topLeftCorner<3, 3>().trace()));
     text += fmt::format("  t_ref_cur: {:.5f} {:.5f} {:.5f}{}", t.x(), t.y(), t.z(),
-                        answer.metric ? " m" : " (its length is not seen)");
+                        answer.metric ? " m" : " (unknown length)");
     if (answer.knows_covariance && answer.metric)
-      text += fmt::format(", known to {:.5f} m", sigma);
+      text += fmt::format(", sigma {:.5f} m", sigma);
     else if (answer.knows_covariance)
-      text += fmt::format(", known to {:.3f} deg", kDeg * sigma);
+      text += fmt::format(", sigma {:.3f} deg", kDeg * sigma);
     text += "\n";
   }
   if (answer.R_ref_cur)

@@ -8,12 +8,12 @@
 namespace placegraph::apps {
 
 struct MotionArguments {
-  std::string in;              ///< file of matched points, of the form that the model needs
-  std::string calib;           ///< of the camera of both views; only 3d3d needs none
+  std::string in;              ///< file of matched points, in the form of the model
+  std::string calib;           ///< calibration of both views; only 3d3d needs none
   std::string model = "auto";  ///< one of motion_model_names()
   MotionModelOptions options;
-  std::uint64_t seed = 1;  ///< of the random samples
-  std::string out;         ///< where to_json() of the result is written; empty: nowhere
+  std::uint64_t seed = 1;  ///< seed of the random samples
+  std::string out;         ///< file for to_json() of the result; empty: none
   bool force = false;      ///< overwrite `out`
 };
 
@@ -21,11 +21,12 @@ struct MotionResult {
   std::string in;
   MotionEstimate answer;
   double cpu_ms = 0;
-  std::optional<std::string> no_answer;  ///< why there is no motion; `answer` is evidence then
+  std::optional<std::string>
+      no_answer;  ///< reason if there is no motion; `answer` then has the evidence
 };
 
-/// `placegraph motion`: how a camera moved between two views of matched points. Throws
-/// ArgumentError, FileError. `out` is written also where there is no motion.
+/// Estimates the motion of a camera between two views: `placegraph image motion`.
+/// `out` is written also without a result. Throws ArgumentError, FileError.
 MotionResult motion(const MotionArguments& arguments);
 
 /// Some lines.

@@ -15,16 +15,16 @@
 namespace placegraph::apps {
 namespace {
 
-/// Of the degrees of freedom that are told at all.
+/// Covariance of the observable degrees of freedom.
 Matrix6d covariance_of(const Matrix6d& information) {
   return information.completeOrthogonalDecomposition().pseudoInverse();
 }
 
 struct Verticals {
-  Eigen::Vector3d ref, cur;  ///< of unit length, downwards
+  Eigen::Vector3d ref, cur;  ///< unit vectors, downwards
 };
 
-/// "x,y,z", the same in both cameras, or "x,y,z,x,y,z".
+/// Parses "x,y,z", the same for both cameras, or "x,y,z,x,y,z".
 Verticals verticals_of(const std::string& text) {
   const std::string wanted =
       "--gravity: x,y,z or x,y,z,x,y,z expected: downwards in the first camera and in the second";
@@ -117,7 +117,7 @@ MotionEstimate motion_by_circle(const MotionModelOptions& asked, const Camera& c
     answer.T_ref_cur = found.T_ref_cur;
     answer.R_ref_cur = found.T_ref_cur.rotation();
   }
-  // As if the model were exact: a deviation of the yaw is not one of the pose.
+  // The deviation of the yaw assumes an exact circular motion; it is no covariance of the pose.
   answer.knows_covariance = false;
   answer.inliers = found.inliers;
   answer.evidence = {{"yaw_rad", found.yaw_rad},
@@ -148,7 +148,7 @@ MotionEstimate motion_by_seen_points(const MotionModelOptions& asked, const Came
 MotionEstimate motion_by_clouds(const MotionModelOptions& asked, const PointPairFile& file,
                                 Random& random) {
   require(asked.noise_m > 0, "--noise: must be positive");
-  require(!asked.threshold_px, "--threshold: is of pixels, and 3d3d has none");
+  require(!asked.threshold_px, "--threshold: is in pixels and does not apply to 3d3d");
   Pose3d3dOptions options;
   if (asked.min_inliers) options.ransac.min_inliers = *asked.min_inliers;
   const Eigen::Matrix3d covariance = asked.noise_m * asked.noise_m * Eigen::Matrix3d::Identity();

@@ -11,46 +11,48 @@
 
 namespace placegraph::apps {
 
-/// auto, essential, homography, rotation, gravity, circular, 3d2d, 3d3d.
+/// Names of the models: auto, essential, homography, rotation, gravity, circular, 3d2d, 3d3d.
 const std::vector<std::string>& motion_model_names();
 
 struct MotionModelOptions {
-  std::string gravity;                 ///< "x,y,z[,x,y,z]": downwards in the first camera [and in
-                                       ///< the second]; empty: not known
-  std::optional<double> threshold_px;  ///< of inliers; each model has its own otherwise
-  std::optional<int> min_inliers;      ///< fewer allow no answer; likewise
-  double noise_m = 0.01;               ///< of each coordinate, for two clouds of points
+  std::string gravity;  ///< downward direction in the first camera [and in the second],
+                        ///< "x,y,z[,x,y,z]"; empty: unknown
+  std::optional<double>
+      threshold_px;                ///< largest error of an inlier; each model has its own default
+  std::optional<int> min_inliers;  ///< smallest number of inliers; each model has its own default
+  double noise_m = 0.01;           ///< standard deviation of each coordinate, for two point clouds
 };
 
-/// What every model tells of the motion between two views.
+/// Result of every model: the motion between two views.
 struct MotionEstimate {
   Outcome outcome;
-  std::string model;  ///< that explains the views; empty: the one that was asked for
-  int matches = 0;    ///< that were read
+  std::string model;  ///< model that explains the views; empty: the requested one
+  int matches = 0;    ///< number of matches in the file
   std::optional<SE3> T_ref_cur;
-  std::optional<SO3> R_ref_cur;            ///< also where the translation is not seen
-  bool metric = false;                     ///< else the translation has length 1
+  std::optional<SO3> R_ref_cur;            ///< also set if the translation is unobservable
+  bool metric = false;                     ///< if false, the translation has length 1
   Matrix6d covariance = Matrix6d::Zero();  ///< right tangent
   bool knows_covariance = true;
   std::vector<int> inliers;  ///< indices of matches
-  std::vector<SE3> rivals;   ///< other motions that explain the matches as well
-  nlohmann::ordered_json evidence = nlohmann::ordered_json::object();  ///< figures of the model
+  std::vector<SE3> rivals;   ///< other motions that explain the matches equally well
+  nlohmann::ordered_json evidence = nlohmann::ordered_json::object();  ///< statistics of the model
 };
 
-/// The motion of a camera by the model `name`: auto, essential, homography or rotation. Throws
-/// ArgumentError for options out of range, as all of these do.
+/// Motion of a camera by the model `name`: auto, essential, homography or rotation.
+/// Throws ArgumentError for options out of range, as all of these functions do.
 MotionEstimate motion_by_two_views(const std::string& name, const MotionModelOptions& asked,
                                    const Camera& camera, const MatchFile& file, Random& random);
-/// By three points and both verticals. Throws ArgumentError if `gravity` is of another form.
+/// Motion from three points and both verticals.
+/// Throws ArgumentError if `gravity` has another form.
 MotionEstimate motion_by_gravity(const MotionModelOptions& asked, const Camera& camera,
                                  const MatchFile& file, Random& random);
-/// Of a car, on a circle, its camera levelled by `gravity` where that is given.
+/// Motion of a car on a circle; `gravity` levels its camera if it is given.
 MotionEstimate motion_by_circle(const MotionModelOptions& asked, const Camera& camera,
                                 const MatchFile& file);
-/// By points of known place [m]: the pose of the camera that sees them.
+/// Pose of a camera from points with known positions [m].
 MotionEstimate motion_by_seen_points(const MotionModelOptions& asked, const Camera& camera,
                                      const SeenPointFile& file, Random& random);
-/// By points of known place [m] in both views.
+/// Motion from points with known positions [m] in both views.
 MotionEstimate motion_by_clouds(const MotionModelOptions& asked, const PointPairFile& file,
                                 Random& random);
 

@@ -156,7 +156,7 @@ class OptionCollector : public OptionVisitor {
            std::vector<std::string> choices = {});
   void check_range(const char* key, double value, Range range) const;
   std::vector<std::string> prefix_, former_prefix_;
-  std::vector<OptionLevel> levels_ = {OptionLevel::kAdvanced};  // of the groups around
+  std::vector<OptionLevel> levels_ = {OptionLevel::kAdvanced};  // levels of the groups around
   bool check_;
 };
 }  // namespace internal

@@ -3,7 +3,8 @@
 namespace placegraph {
 
 void visit(OptionVisitor& field, KeyframeViewOptions& o) {
-  field.basic()("enabled", o.enabled, "store the appearance of keyframes, for placegraph localize");
+  field.basic()("enabled", o.enabled,
+                "store the appearance of keyframes, for `placegraph map localize`");
   field.internal().group("cues", o.cues, "descriptors of the stored appearance");
 }
 
@@ -28,7 +29,7 @@ void visit(OptionVisitor& field, SlamOptions& o) {
   field.group("loops", o.loops, "place recognition and loop closure");
   field.group("places", o.places, "topological places");
   field.group("pose_graph", o.pose_graph, "optimization of the place graph");
-  field.group("views", o.views, "stored appearance of keyframes, for placegraph localize");
+  field.group("views", o.views, "stored appearance of keyframes, for `placegraph map localize`");
   field.group("semantics", o.semantics, "surface labels for odometry and place recognition");
   field.group("context", o.context, "environment class and the assumptions that follow from it");
   field.basic()("max_lost_frames", o.max_lost_frames,

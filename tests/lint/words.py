@@ -3,7 +3,8 @@
 Reads words.txt beside it for the words that are refused and words_allowed.txt for the phrases in
 which they are allowed. Looks at identifiers of all C++ sources; at comments and texts in quotes of
 the sources outside tests; at the documents (README.md, docs/*.md but options.md and results). Also
-refuses a comment that begins with a bare "of". Prints `file:line: ...` for each fault and exits
+refuses a comment that begins with a bare "of". Not read: the table of old spellings of commands
+(apps/spellings.cpp) and the former keys of options (`formerly("...")`). Prints `file:line: ...` for each fault and exits
 with 1 if there is one, with 0 and a summary otherwise. With PATH, only files below it are read.
 """
 import os
@@ -12,7 +13,8 @@ import subprocess
 import sys
 
 CODE = ("apps", "backend", "eval", "examples", "frontend", "graph", "io", "pipeline", "tests")
-LEFT_OUT = re.compile(r"docs/(results|glossary|elements)\.md|docs/results/|tests/lint/|tests/mutations/")
+LEFT_OUT = re.compile(r"docs/(results|glossary|elements)\.md|tests/lint/|tests/mutations/|apps/spellings\.cpp")
+FORMER_KEY = re.compile(r"formerly\(\s*$")
 MOST_ALLOWED = 30
 TOKEN = re.compile(r'(?P<comment>//[^\n]*|/\*.*?\*/)|(?P<include>#[ \t]*include[^\n]*)'
                    r'|(?P<raw>R"(?P<mark>\w*)\(.*?\)(?P=mark)")|(?P<text>"(?:\\.|[^"\\\n])*")'
@@ -31,6 +33,7 @@ def read_rules(path):
     rules = []
     for line in lines_of(path):
         scope, pattern, term = line.split("\t")
+        pattern = pattern.replace(" ", r"\s+")
         rules.append((scope, re.compile(rf"\b(?:{pattern})\b", re.I),
                       re.compile(rf"(?:{pattern})", re.I), term))
     return rules
@@ -49,7 +52,7 @@ class Words:
         allowed = lines_of(os.path.join(folder, "words_allowed.txt"))
         if len(allowed) > MOST_ALLOWED:
             raise SystemExit(f"words_allowed.txt: {len(allowed)} phrases, {MOST_ALLOWED} are allowed")
-        self.phrases = [re.compile(r"\b" + re.escape(p).replace(r"\ ", r"\s+") + r"\b", re.I) for p in allowed]
+        self.phrases = [re.compile(r"(?<!\w)" + re.escape(p).replace(r"\ ", r"\s+") + r"(?!\w)", re.I) for p in allowed]
 
     def in_prose(self, text):
         """(offset, word, term) of each refused word. Quoted code (`...`) is left out."""
@@ -74,19 +77,20 @@ def line_at(text, offset):
 
 def code_faults(words, file, text):
     in_tests = file.startswith("tests/")
+    original, text = text, blanked(text, words.phrases)
     previous = None  # line on which the comment before ended
     for token in TOKEN.finditer(text):
         line = line_at(text, token.start())
         if token.group("name"):
             for word, term in words.in_name(token.group("name")):
                 yield line, f"{token.group('name')}: '{word}'; the term is {term}"
-        elif in_tests or token.group("include"):
+        elif in_tests or token.group("include") or FORMER_KEY.search(text[:token.start()][-40:]):
             continue
         else:
             for offset, word, term in words.in_prose(token.group(0)):
                 yield line + token.group(0).count("\n", 0, offset), f"'{word}'; the term is {term}"
             if token.group("comment"):
-                begins = token.group(0)
+                begins = original[token.start():token.end()]
                 alone = text[:token.start()].rsplit("\n", 1)[-1].strip() == ""
                 goes_on = previous == line - 1 and (alone or begins.startswith("///<")) and not (
                     begins.startswith("///<") and not alone)

@@ -328,7 +328,7 @@ class OptionAssignment::Setter : public AssigningVisitor {
   }
 
   std::string assignment_, key_;
-  std::vector<std::string> words_;  ///< of the key, between its dots
+  std::vector<std::string> words_;  ///< words of the key, between its dots
   YAML::Node value_;
   std::vector<std::string> prefix_, former_prefix_;
   bool assigned_ = false, group_ = false;

@@ -105,7 +105,7 @@ std::string to_json(const IndoorMap& plan) {
 }
 
 IndoorMap read_indoor_map(const std::string& path) {
-  return read_as(path, "a floor plan of placegraph run", [](const json& document) {
+  return read_as(path, "a floor plan of `placegraph run`", [](const json& document) {
     IndoorMap plan;
     Eigen::Matrix3d R;
     for (int i = 0; i < 3; ++i)
@@ -152,7 +152,7 @@ IndoorMap read_indoor_map(const std::string& path) {
 }
 
 BuildingPlan read_building_plan(const std::string& path) {
-  return read_as(path, "a true plan of placegraph synth", [](const json& document) {
+  return read_as(path, "a true plan of `placegraph synth sequence`", [](const json& document) {
     BuildingPlan plan;
     for (const json& room : document.at("rooms"))
       plan.rooms.push_back({room.at("name").get<std::string>(), point_of(room.at("low")),

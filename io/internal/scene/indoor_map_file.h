@@ -12,8 +12,8 @@ std::string to_json(const IndoorMap& plan);
 /// Reads the output of `to_json`. Throws FileError for any other file.
 IndoorMap read_indoor_map(const std::string& path);
 
-/// Reads the true plan of a rendered building, as written by `placegraph synth` (floorplan.json).
-/// Throws FileError for a file that is missing or in another format.
+/// Reads the true plan of a rendered building, as written by `placegraph synth sequence`
+/// (floorplan.json). Throws FileError for a file that is missing or in another format.
 BuildingPlan read_building_plan(const std::string& path);
 
 }  // namespace placegraph

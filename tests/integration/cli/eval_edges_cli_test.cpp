@@ -51,7 +51,8 @@ TEST_F(EvalEdges, NamesWhatIsWrongWithItsInput) {
   write_places(2);
   expect_usage_error("eval edges poses.txt run", "frame 2, and the truth has 2");
   write_file(dir / "run/places.json", "{}");
-  expect_usage_error("eval edges poses.txt run", "places.json: is not what placegraph run writes");
+  expect_usage_error("eval edges poses.txt run",
+                     "places.json: was not written by `placegraph run`");
   write_file(dir / "run/places.json", "{");
   expect_usage_error("eval edges poses.txt run", "places.json: is not valid JSON, at byte");
   std::filesystem::remove(dir / "run/places.json");

@@ -122,7 +122,7 @@ TEST_F(FlightCli, MapsMarkersWhosePlaceIsNotKnown) {
   ASSERT_EQ(run("flight run " + flight() + " --out again --markers out/markers.yaml").code, 0);
   EXPECT_LT(result("again")["error"]["position_rmse_m"].get<double>(), 0.02);
   expect_usage_error("flight run " + flight() + " --out x --map-markers",
-                     "gives every marker its place");
+                     "has the pose of every marker");
   expect_usage_error(command + "--out x --predict-ahead-ms 50", "--map-markers");
 }
 
@@ -170,7 +170,7 @@ TEST_F(FlightCli, RefusesOptionsThatMakeNoSense) {
 
 TEST_F(FlightCli, WorldsOfOtherKindsHaveNoFlight) {
   expect_usage_error("synth sequence town-loop --out town --duration 5", "duration_s");
-  expect_usage_error("synth sequence flight --out town --stereo", "has one eye");
+  expect_usage_error("synth sequence flight --out town --stereo", "has one camera");
 }
 
 }  // namespace

@@ -159,7 +159,7 @@ TEST_F(GeoreferenceCli, TakesTheFolderOfARun) {
   EXPECT_THAT(read_file(dir / "out2/graph_enu.g2o"), StartsWith("VERTEX_SE3:QUAT 0 "));
 
   write_file(dir / "run/places.json", R"({"places": [{"id": 0, "members": [{"keyframe": 0}]}]})");
-  EXPECT_THAT(run("run --gps . --out out3").err, HasSubstr("places.json: is not what"));
+  EXPECT_THAT(run("run --gps . --out out3").err, HasSubstr("places.json: was not written by"));
 }
 
 TEST_F(GeoreferenceCli, EstimatesLeverArmAndClockWhenAsked) {

@@ -73,7 +73,7 @@ TEST_F(Match, SaysThatGreyImagesHaveNoColour) {
   test::write_picture(dir / "images/000010.png", cv::Mat(120, 160, CV_8UC1, cv::Scalar(90)));
   const auto matched = run("match . --out found.txt");
   ASSERT_EQ(matched.code, 0) << matched.err;
-  EXPECT_THAT(matched.err, HasSubstr("without the colour cue"));
+  EXPECT_THAT(matched.err, HasSubstr("the colour cue is not used"));
 }
 
 TEST_F(Match, LearnsLabelsOfTheTrainingHalfOnly) {

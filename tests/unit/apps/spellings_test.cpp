@@ -47,7 +47,7 @@ TEST(PresentSpelling, ReplacesOldFlagsOfTheirCommandAlone) {
   EXPECT_THAT(present_spelling({"run", "--gt"}).words, ElementsAre("run", "--gt"));
 }
 
-TEST(PresentSpelling, TurnsHelpAndVersionIntoFlags) {
+TEST(PresentSpelling, MakesFlagsOfHelpAndVersion) {
   EXPECT_THAT(present_spelling({"help"}).words, ElementsAre("--help"));
   EXPECT_THAT(present_spelling({"help", "map", "info"}).words, ElementsAre("map", "info", "--help"));
   EXPECT_THAT(present_spelling({"help", "optimize"}).words,

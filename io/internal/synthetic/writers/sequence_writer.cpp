@@ -62,7 +62,8 @@ std::string class_list() {
 
 std::string readme(const SyntheticWorld& world, const SyntheticContents& contents) {
   std::string text =
-      "Rendered by placegraph synth. KITTI odometry layout, poses.txt = T_world_cam0, exact.\n"
+      "Rendered by `placegraph synth sequence`. KITTI odometry layout, poses.txt = T_world_cam0, "
+      "exact.\n"
       "The camera is camera_height_m (world.yaml) above the rendered ground, measured vertically.\n"
       "image_0, image_1: left and right camera, 8-bit grey, rectified, without distortion.\n";
   if (contents.depth)

@@ -78,7 +78,7 @@ TEST_F(EvalEdgesCommand, NamesTheFrameThatTheTruthLacks) {
 TEST_F(EvalEdgesCommand, NamesTheFileThatIsNoRuns) {
   folder.write("run/places.json", "{}");
   EXPECT_THAT(message_of([&] { eval_edges(arguments); }),
-              HasSubstr("places.json: is not what placegraph run writes"));
+              HasSubstr("places.json: was not written by `placegraph run`"));
 }
 
 TEST(EvalEdgesText, HasARowForEverySource) {

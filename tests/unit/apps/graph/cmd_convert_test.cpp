@@ -51,7 +51,7 @@ TEST(ConvertCommandLine, GoesByContentInAndByNameOrFlagOut) {
   EXPECT_THAT(message_of<ArgumentError>([&] {
                 convert({tum, folder / "other.dat"});
               }),
-              HasSubstr("other.dat: the extension says no form"));
+              HasSubstr("other.dat: the extension is not that of a known form"));
   EXPECT_THAT(message_of<ArgumentError>([&] {
                 convert({tum, folder / "out.g2o"});
               }),

@@ -119,7 +119,7 @@ TEST_F(ConvertCommand, RefusesWhatTheFormCannotHold) {
   expect_refused(from_to("poses.txt", "out.g2o"), "which does not become a pose graph");
   expect_refused(from_to("poses.txt", "out.tum"), "has no times, which ");
   expect_refused(from_to("graph.g2o", "out.tum"), "is a pose graph; its poses have no times");
-  expect_refused(from_to("poses.txt", "out.xyz"), "the extension says no form");
+  expect_refused(from_to("poses.txt", "out.xyz"), "the extension is not that of a known form");
   ConvertArguments rigid = from_to("poses.txt", "out.txt");
   rigid.rigid = true;
   expect_refused(rigid, "--rigid: ");

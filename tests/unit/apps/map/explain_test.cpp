@@ -109,7 +109,7 @@ TEST_F(ExplainTwoPlaces, ALostFrameHasNoPlace) {
 
 TEST_F(ExplainTwoPlaces, SaysWhatThePictureShowsWhereThatIsStillThere) {
   EXPECT_EQ(explained(1)["sees"],
-            json({{"unknown", "the pictures are not where they were: /nowhere/street"}}));
+            json({{"unknown", "the images are no longer at /nowhere/street"}}));
   test::StreetFiles(folder, 2).write_kitti(false);
   stored.origin.sequence = folder / "s";
   const json sees = explained(1)["sees"];
@@ -153,7 +153,7 @@ TEST(ExplainText, SaysWhatIsKnownLineByLine) {
                         {"refused", json::array()}};
   EXPECT_EQ(to_text(result),
             "frame      7, 1.500 s\n"
-            "where      not posed: tracking was lost or waited here\n"
+            "where      not posed: tracking was lost or not yet initialized\n"
             "known by   3 landmarks; keyframe with 20 features, 5 placed; constraints "
             "{\"odometry\":1}\n"
             "sees       unknown: no model\n"

@@ -108,7 +108,7 @@ TEST_F(GeoreferenceCommand, FixesThatAreFarOffAreRejected) {
   const GeoreferenceReport report = georeference(arguments);
   EXPECT_EQ(report.result.fixes_rejected, 5);
   EXPECT_EQ(report.result.fixes_used, kNodes - 5);
-  EXPECT_THAT(to_text(report), HasSubstr("fixes        95 used, 5 rejected, 0 beside the map's"));
+  EXPECT_THAT(to_text(report), HasSubstr("fixes        95 used, 5 rejected, 0 outside the map's"));
   EXPECT_THAT(to_text(report), HasSubstr("origin       49.000000000, 8.400000000, 115.000 m"));
 }
 

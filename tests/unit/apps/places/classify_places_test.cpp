@@ -131,7 +131,7 @@ TEST(ClassifyPlacesText, SaysWhatWasLearnedAndHowWell) {
   EXPECT_EQ(to_text(result),
             "20 training views, 5 predictions, 2 rejected; weights of colours 0.5, quarters 1, "
             "edges 0, tiny "
-            "0.25, gabor 1; on left out parts accuracy 0.900, log loss 0.123; written to "
+            "0.25, gabor 1; cross-validated accuracy 0.900, log loss 0.123; written to "
             "predictions.txt\n");
 }
 

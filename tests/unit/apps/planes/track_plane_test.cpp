@@ -105,7 +105,7 @@ TEST_F(TrackPlaneCommand, WritesNothingWhereTheTemplateIsBlankOrInNoImage) {
   EXPECT_THAT(message_of<NoAnswer>([&] { track_plane(arguments); }), HasSubstr("--template: "));
   arguments.image = folder / "images/00.png";
   EXPECT_THAT(message_of<NoAnswer>([&] { track_plane(arguments); }),
-              HasSubstr("blank: the template is in none of 1 frames: "));
+              HasSubstr("blank: the template was found in none of 1 frames: "));
   EXPECT_FALSE(std::filesystem::exists(arguments.out));
 }
 

@@ -40,7 +40,7 @@ TEST(RunReportText, SaysWhyFramesHaveNoPoseAndHowFarTheyAreOff) {
       "0 loops\n"
       "             no pose: 8 points, 12 needed (1 frame)\n"
       "             no pose: too dark (2 frames)\n"
-      "             motion by other sensors: 3 constraints, 0.75 times as far off as claimed\n"
+      "             motion by other sensors: 3 constraints, deviation 0.75 times the stated one\n"
       "             ATE 0.1250 m (se3), path 12.5 m\n"
       "             floor plan: 4 walls, 1 doors, 2 rooms\n"
       "             semantic map: 100 cells of 2 keyframes\n"

@@ -64,8 +64,7 @@ TEST_F(MapLabelCommand, NamesTheFileAndThePlaceOfWhatIsWrong) {
   EXPECT_THAT(message_of<ArgumentError>([&] { map_label(arguments); }),
               HasSubstr("--names: 1 names for 2 labels"));
   folder.write("names.txt", "kitchen\n\nhall\n");
-  EXPECT_THAT(message_of([&] { map_label(arguments); }),
-              HasSubstr("names.txt:2: an empty line names nothing"));
+  EXPECT_THAT(message_of([&] { map_label(arguments); }), HasSubstr("names.txt:2: an empty name"));
   folder.write("rooms/labels.txt", "99 0\n");
   EXPECT_THAT(message_of([&] { map_label(arguments); }),
               HasSubstr("labels.txt: labels none of the images"));
@@ -78,14 +77,15 @@ TEST_F(MapLabelCommand, RefusesAMapThatIsNotFinishedAndOneWhoseImagesAreGone) {
   StoredMap stored = read_map(arguments.map);
   stored.finished = false;
   write_map(arguments.map, stored);
-  EXPECT_THAT(message_of<NoAnswer>([&] { map_label(arguments); }),
-              HasSubstr("walk.db: its run was broken off; run --resume goes on with it first"));
+  EXPECT_THAT(
+      message_of<NoAnswer>([&] { map_label(arguments); }),
+      HasSubstr("walk.db: its run was broken off; finish it with `placegraph run --resume` first"));
 }
 
 TEST(MapLabelText, IsOneLine) {
   const MapLabelResult result{"m.db", 3, 4, 50, 0.9, json::array()};
   EXPECT_EQ(to_text(result),
-            "m.db: 3 of 4 places labelled (50 views; accuracy on left out parts 0.900)\n");
+            "m.db: 3 of 4 places labelled (50 views; cross-validated accuracy 0.900)\n");
 }
 
 }  // namespace

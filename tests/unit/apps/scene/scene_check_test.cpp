@@ -37,7 +37,7 @@ class SceneCheckCommand : public testing::Test {
 
 TEST_F(SceneCheckCommand, CountsByHand) {
   const SceneCheckResult result = scene_check(arguments);
-  EXPECT_EQ(result.pictures, 2u);
+  EXPECT_EQ(result.images, 2u);
   EXPECT_EQ(result.names, (std::vector<std::string>{"Sky", "Road", "Wall"}));
   EXPECT_EQ(result.check.pixels(), 30);
   EXPECT_DOUBLE_EQ(result.check.pixel_accuracy(), 14.0 / 15);
@@ -77,7 +77,7 @@ TEST_F(SceneCheckCommand, SaysItClassByClass) {
   arguments.confusion = true;
   const SceneCheckResult result = scene_check(arguments);
   EXPECT_EQ(to_text(result),
-            "2 pictures: pixel accuracy 0.9333, class accuracy 0.9722, mean IoU 0.8056\n"
+            "2 images: pixel accuracy 0.9333, class accuracy 0.9722, mean IoU 0.8056\n"
             "Sky          IoU 1.000         4         0         0         0\n"
             "Road         IoU 0.917         0        22         2         0\n"
             "Wall         IoU 0.500         0         0         2         0\n");

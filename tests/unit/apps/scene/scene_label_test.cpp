@@ -30,12 +30,12 @@ class SceneLabelCommand : public testing::Test {
   static test::DrawnModels* models;
   test::TemporaryFolder folder;
   test::DrawnStreet street = test::draw_street(77);
-  ScenePictureArguments arguments;
+  SceneImageArguments arguments;
 };
 test::DrawnModels* SceneLabelCommand::models = nullptr;
 
 TEST_F(SceneLabelCommand, TellsTheClassesOfAStreet) {
-  const ScenePictureResult result = scene_label(arguments);
+  const SceneImageResult result = scene_label(arguments);
   EXPECT_EQ(result.classes, (std::vector<std::string>{"Sky", "Road", "Wall", "Car"}));
   EXPECT_EQ(result.pixels.back(), 0);
   EXPECT_GT(test::agreement(labels(), street.labels), 0.9);
@@ -43,7 +43,7 @@ TEST_F(SceneLabelCommand, TellsTheClassesOfAStreet) {
 
 TEST_F(SceneLabelCommand, TellsTheSurfacesOfAStreet) {
   arguments.model = models->folder / "surfaces.pgscene";
-  const ScenePictureResult result = scene_surfaces(arguments);
+  const SceneImageResult result = scene_surfaces(arguments);
   EXPECT_EQ(result.classes, (std::vector<std::string>{"sky", "ground", "vertical", "object"}));
   EXPECT_GT(test::agreement(labels(), street.labels), 0.9);
 }

@@ -35,14 +35,14 @@ class LabelPictures : public testing::Test {
     arguments.input = folder / "street";
     arguments.out = folder / "out";
   }
-  ScenePictureResult label() { return label_pictures(arguments, {"Sky", "Road"}, by_columns); }
+  SceneImageResult label() { return label_images(arguments, {"Sky", "Road"}, by_columns); }
   test::TemporaryFolder folder;
-  ScenePictureArguments arguments;
+  SceneImageArguments arguments;
 };
 
 TEST_F(LabelPictures, CountsThePixelsOfEveryClassOverAllPictures) {
-  const ScenePictureResult result = label();
-  EXPECT_EQ(result.pictures, 2u);
+  const SceneImageResult result = label();
+  EXPECT_EQ(result.images, 2u);
   EXPECT_EQ(result.pixels, (std::vector<std::int64_t>{2 * 32 * 48, 2 * 24 * 48, 2 * 8 * 48}));
   const auto json = nlohmann::json::parse(to_json(result));
   EXPECT_EQ(json["shares"], nlohmann::json({{"Sky", 0.5}, {"Road", 0.375}, {"unknown", 0.125}}));
@@ -71,7 +71,7 @@ TEST_F(LabelPictures, WritesTheLabelsAndWhatElseIsAskedFor) {
 
 TEST_F(LabelPictures, TakesOnePicture) {
   arguments.input = folder / "street/images/a.png";
-  EXPECT_EQ(label().pictures, 1u);
+  EXPECT_EQ(label().images, 1u);
   EXPECT_FALSE(fs::exists(folder / "out/b.png"));
 }
 
@@ -90,9 +90,8 @@ TEST_F(LabelPictures, NamesThePictureThatCannotBeLabelled) {
 }
 
 TEST(ScenePictureText, LeavesOutClassesThatAreNowhere) {
-  const ScenePictureResult result{"out", {"Sky", "Road"}, {30, 0, 10}, 4, 12.4};
-  EXPECT_EQ(to_text(result),
-            "4 pictures, 12 ms of the processor each: Sky 0.750 unknown 0.250, written to out\n");
+  const SceneImageResult result{"out", {"Sky", "Road"}, {30, 0, 10}, 4, 12.4};
+  EXPECT_EQ(to_text(result), "4 images, 12 ms CPU each: Sky 0.750 unknown 0.250, written to out\n");
 }
 
 }  // namespace

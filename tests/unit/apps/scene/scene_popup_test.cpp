@@ -91,13 +91,13 @@ TEST_F(ScenePopupCommand, APictureWithoutEdgesSaysNothingOfTheHorizon) {
   const ScenePopupResult result = scene_popup(arguments);
   EXPECT_FALSE(result.horizon_from_lines);
   EXPECT_NEAR(result.horizon_row, 39.5, 1e-6);
-  EXPECT_THAT(to_text(result), HasSubstr("column (level: no edges say more), written to "));
+  EXPECT_THAT(to_text(result), HasSubstr("column (level camera assumed), written to "));
 }
 
 TEST_F(ScenePopupCommand, NamesWhatDoesNotFit) {
   arguments.draw = folder / "drawn.png";
   EXPECT_THAT(message_of<ArgumentError>([&] { scene_popup(arguments); }),
-              HasSubstr("--box: says what --draw puts into the picture; give both or neither"));
+              HasSubstr("--box: needs --draw, and --draw needs --box"));
   arguments.draw.clear();
   arguments.surfaces = test::write_image(folder, "small.png", Image(8, 8, CV_8UC1, cv::Scalar(0)));
   EXPECT_THAT(message_of([&] { scene_popup(arguments); }), HasSubstr("small.png"));

@@ -127,11 +127,11 @@ TEST_F(SynthGraphCommand, NamesWhatDoesNotBelongTogetherAndWritesNothing) {
   arguments.laps.reset();
   arguments.world = "castle";
   EXPECT_EQ(refusal(),
-            "castle: neither manhattan-walk, grid-world nor long-loop, nor a file that is there");
+            "castle: neither manhattan-walk, grid-world nor long-loop, nor an existing file");
   arguments.world = folder.write("in.g2o", "VERTEX_SE2 0 0 0 0\n");
   EXPECT_EQ(refusal(), "--poses and --translation-noise are no options of a file");
   arguments.poses.reset();
-  EXPECT_THAT(refusal(), HasSubstr("in.g2o: what is to be done to it? "));
+  EXPECT_THAT(refusal(), HasSubstr("in.g2o: a graph file needs one of "));
   arguments.shuffle = true;
   arguments.world = folder.write("broken.g2o", "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 0 x 0\n");
   EXPECT_THAT(message_of([&] { synth_graph(arguments); }), HasSubstr("broken.g2o:2: "));

@@ -88,7 +88,7 @@ TEST_F(SynthCommand, NamesWhatItCannotUseAndWritesNothing) {
   arguments.world.world = "flight";
   arguments.labels = true;
   EXPECT_EQ(message_of<ArgumentError>([&] { synth(arguments); }),
-            "hover: has one eye, --stereo, --depth and --labels are for other worlds");
+            "flight: has one camera; --stereo, --depth and --labels are for other worlds");
   arguments.world.world = folder.write("broken.txt", "1 0 0 0 0 1 0 0 0 0 1\n");
   EXPECT_THAT(message_of([&] { synth(arguments); }), HasSubstr("broken.txt:1: "));
   EXPECT_FALSE(fs::exists(arguments.out));

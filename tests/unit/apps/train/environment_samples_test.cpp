@@ -45,7 +45,7 @@ TEST_F(EnvironmentSamples, APictureIsAStreetOrARoadByItsBuildings) {
   // Every third picture counts: 0, 3, 6, 9. What is neither is left out.
   const double shares[] = {0.5, 0, 0, 0, 0.5, 0.5, 0.07, 0, 0, 0.2};
   for (int i = 0; i < 10; ++i) write_picture(i, shares[i]);
-  const auto samples = samples_of_pictures(folder / "set", *labeller);
+  const auto samples = samples_of_images(folder / "set", *labeller);
   ASSERT_EQ(samples.size(), 3u);
   EXPECT_EQ(samples[0].kind, Environment::kStreet);
   EXPECT_EQ(samples[1].kind, Environment::kRoad);
@@ -55,7 +55,7 @@ TEST_F(EnvironmentSamples, APictureIsAStreetOrARoadByItsBuildings) {
 TEST_F(EnvironmentSamples, NothingIsKnownOfTheDepthOfPictures) {
   folder.write("set/CLASSES.txt", "0 Road ground\n1 Building vertical\n");
   write_picture(0, 0.5);
-  const auto samples = samples_of_pictures(folder / "set", *labeller);
+  const auto samples = samples_of_images(folder / "set", *labeller);
   ASSERT_EQ(samples.size(), 1u);
   const auto& values = samples[0].evidence.values;
   for (std::size_t i = 0; i < values.size(); ++i) {  // the last five are of points
@@ -68,7 +68,7 @@ TEST_F(EnvironmentSamples, NothingIsKnownOfTheDepthOfPictures) {
 TEST_F(EnvironmentSamples, ASetWithoutBuildingsIsRefused) {
   folder.write("set/CLASSES.txt", "0 Road ground\n1 House vertical\n");
   write_picture(0, 0.5);
-  EXPECT_THAT(message_of<ArgumentError>([&] { samples_of_pictures(folder / "set", *labeller); }),
+  EXPECT_THAT(message_of<ArgumentError>([&] { samples_of_images(folder / "set", *labeller); }),
               HasSubstr("set: has no class Building"));
 }
 

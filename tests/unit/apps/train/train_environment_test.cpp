@@ -74,9 +74,9 @@ TEST(TrainEnvironmentText, HasALineForEveryKindThatOccurs) {
   result.left_out.views = {0, 0, 0, 7, 0};
   result.left_out.right = {0, 0, 0, 5, 0};
   EXPECT_EQ(to_text(result),
-            "lesson    street      29 of   30 told right\n"
-            "lesson    corridor    12 of   12 told right\n"
-            "left_out  room         5 of    7 told right\n");
+            "training  street      29 of   30 correct\n"
+            "training  corridor    12 of   12 correct\n"
+            "test      room         5 of    7 correct\n");
   const auto json = nlohmann::json::parse(to_json(result));
   EXPECT_EQ(json["lesson"]["street"], nlohmann::json({{"views", 30}, {"right", 29}}));
   EXPECT_EQ(json["left_out"].size(), 1u);

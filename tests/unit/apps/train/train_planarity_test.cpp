@@ -76,11 +76,10 @@ TEST_F(TrainPlanarityCommand, RefusesTooFewCloudsAndAFileThatIsThere) {
 TEST(TrainPlanarityText, CountsTheRightPredictions) {
   const TrainPlanarityResult result{
       "p.txt", {12, 200, 190, 150, 145, 50, 5}, {4, 0, 0, 0, 0, 0, 0}};
-  EXPECT_EQ(
-      to_text(result),
-      "200 segments of 12 clouds, 150 of them planes, 95.0 % told right\n"
-      "left out: 0 segments of 4 clouds, 0.0 % told right; kept: 0.0 % of the planes, 0.0 % of "
-      "the others\n");
+  EXPECT_EQ(to_text(result),
+            "200 segments of 12 clouds, 150 of them planes, 95.0 % correct\n"
+            "test: 0 segments of 4 clouds, 0.0 % correct; kept: 0.0 % of the planes, 0.0 % of "
+            "the others\n");
   TrainPlanarityResult swapped{"p.txt", result.left_out, result.trained};
   const auto json = nlohmann::json::parse(to_json(swapped));
   EXPECT_EQ(json["clouds"], 4);

@@ -32,10 +32,10 @@ TEST_F(TrainSceneCommand, LearnsTheClassesAndJudgesThemByPicturesItHasNotSeen) {
   std::vector<std::string> said;
   const TrainSceneResult result =
       train_scene(arguments, kUrban, [&](LogLevel, const std::string& m) { said.push_back(m); });
-  EXPECT_EQ(result.pictures, 5u);
+  EXPECT_EQ(result.images, 5u);
   EXPECT_EQ(result.classes, (std::vector<std::string>{"Sky", "Road", "Wall", "Car"}));
   ASSERT_TRUE(result.held_out);
-  EXPECT_EQ(result.held_out->pictures, 1u);
+  EXPECT_EQ(result.held_out->images, 1u);
   EXPECT_EQ(result.held_out->sequence, "val");
   EXPECT_EQ(result.held_out->check.pixels(), 240 * 180);
   EXPECT_GT(result.held_out->check.pixel_accuracy(), 0.9);
@@ -46,21 +46,21 @@ TEST_F(TrainSceneCommand, LearnsTheClassesAndJudgesThemByPicturesItHasNotSeen) {
   EXPECT_EQ(written.kind, kUrban);
   EXPECT_EQ(written.classes, result.classes);
   EXPECT_EQ(written.origin, "5 pictures, 2 variants, 3 trees, seed 1");
-  EXPECT_THAT(test::read_file(arguments.out + ".md"), HasSubstr("Held out: 1 pictures of val: "));
+  EXPECT_THAT(test::read_file(arguments.out + ".md"), HasSubstr("Held out: 1 images of val: "));
 }
 
 TEST_F(TrainSceneCommand, ASequenceThatIsHeldOutJudges) {
   arguments.holdout = "two";
   const TrainSceneResult result = train_scene(arguments, kSurfaces);
-  EXPECT_EQ(result.pictures, 3u);
+  EXPECT_EQ(result.images, 3u);
   EXPECT_EQ(result.classes, (std::vector<std::string>{"sky", "ground", "vertical", "object"}));
-  EXPECT_EQ(result.held_out->pictures, 2u);
+  EXPECT_EQ(result.held_out->images, 2u);
   EXPECT_EQ(result.held_out->sequence, "two");
   EXPECT_THAT(read_scene_model(arguments.out).origin, HasSubstr(", without two"));
 
   arguments.force = true;
   arguments.options.every = 3;  // pictures 0 and 3, of which the second is held out
-  EXPECT_EQ(train_scene(arguments, kSurfaces).pictures, 1u);
+  EXPECT_EQ(train_scene(arguments, kSurfaces).images, 1u);
 }
 
 TEST_F(TrainSceneCommand, JudgesEachPartOfTheModelIfAsked) {
@@ -100,7 +100,7 @@ TEST_F(TrainSceneCommand, SaysWhatAnOldModelLosesByNewData) {
 TEST_F(TrainSceneCommand, NamesWhatItCannotLearnFrom) {
   arguments.holdout = "three";
   EXPECT_THAT(message_of<ArgumentError>([&] { train_scene(arguments, kUrban); }),
-              HasSubstr("--holdout: no picture is of the sequence three"));
+              HasSubstr("--holdout: no image is of the sequence three"));
   arguments.holdout.clear();
   std::filesystem::remove(folder / "set/train/labels/one_2.png");
   EXPECT_THAT(message_of([&] { train_scene(arguments, kUrban); }),
@@ -117,14 +117,14 @@ TEST(TrainSceneText, SaysWhatWasLearnedAndHowWell) {
             Image(1, 4, CV_32FC1, cv::Scalar(1)));
   TrainSceneResult result{"m.pgscene", 5, 2.4, {"Sky", "Road"}, 0.5f, 0, 2, {}};
   const std::string first =
-      "m.pgscene: learned from 5 pictures in 2 s; smoothness 0.5, relations 0, sharpness 2\n";
+      "m.pgscene: learned from 5 images in 2 s; smoothness 0.5, relations 0, sharpness 2\n";
   EXPECT_EQ(to_text(result), first);
   EXPECT_FALSE(nlohmann::json::parse(to_json(result)).contains("held_out"));
   result.held_out =
       SceneJudgement{3, "val", check, {{"superpixels alone", check}}, {{"Sky", 0.75, 1}}};
   const std::string figures =
       "pixel accuracy 0.7500, class accuracy 0.7500, mean IoU 0.5833, calibration error 0.2500\n";
-  EXPECT_EQ(to_text(result), first + "3 pictures of val: " + figures +
+  EXPECT_EQ(to_text(result), first + "3 images of val:  " + figures +
                                  "  superpixels alone: " + figures +
                                  "  Sky: 0.7500 of its pixels found before, 1.0000 now\n");
   const auto json = nlohmann::json::parse(to_json(result));

@@ -26,18 +26,18 @@ class SceneTrainingSet : public testing::Test {
   std::vector<int> blocks() const {
     std::vector<int> blocks;
     for (const SceneExample& example :
-         make_examples(training_pictures(set, set.train, model, options), model, options))
+         make_examples(training_images(set, set.train, model, options), model, options))
       blocks.push_back(example.block);
     return blocks;
   }
   test::TemporaryFolder folder;
   LabelledSet set;
   SceneModel model;
-  TrainingPictureOptions options;
+  TrainingImageOptions options;
 };
 
 TEST_F(SceneTrainingSet, NumbersTheLabelsByTheClassesOfTheModel) {
-  const auto training_set = training_pictures(set, set.train, model, options);
+  const auto training_set = training_images(set, set.train, model, options);
   ASSERT_EQ(training_set.size(), 5u);
   EXPECT_EQ(training_set[0].sequence, "one");
   const auto [picture, labels] = training_set[0].read();
@@ -53,7 +53,7 @@ TEST_F(SceneTrainingSet, NumbersTheLabelsByTheClassesOfTheModel) {
 TEST_F(SceneTrainingSet, RenderedStreetsFollowThePhotographs) {
   options.rendered = {3};
   options.rendered_frames = 2;
-  const auto training_set = training_pictures(set, {set.train[0]}, model, options);
+  const auto training_set = training_images(set, {set.train[0]}, model, options);
   ASSERT_EQ(training_set.size(), 3u);
   EXPECT_EQ(training_set[1].sequence, "town-loop 3");
   const auto [picture, labels] = training_set[2].read();
@@ -76,7 +76,7 @@ TEST_F(SceneTrainingSet, ABlockIsSoManyPicturesOfOneDrive) {
 
 TEST_F(SceneTrainingSet, NamesTheFileThatCannotBeRead) {
   folder.write("set/train/images/one_2.png", "no image");
-  const auto training_set = training_pictures(set, set.train, model, options);
+  const auto training_set = training_images(set, set.train, model, options);
   EXPECT_THAT(message_of([&] { make_examples(training_set, model, options); }),
               HasSubstr("one_2.png"));
 }

@@ -99,7 +99,7 @@ TEST_F(FlowCommand, SaysWhereTheFlowTellsNoCue) {
   arguments.cell_px = 512;  // one vector
   const FlowResult result = flow(arguments);
   EXPECT_GT(result.known, 0);
-  EXPECT_EQ(result.no_answer, "--flow-cues: the flow tells none");
+  EXPECT_EQ(result.no_answer, "--flow-cues: no cue could be estimated from the flow");
 }
 
 TEST_F(FlowCommand, HasNoAnswerOfBlankImagesAndWritesNothing) {

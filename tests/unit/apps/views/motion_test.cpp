@@ -129,7 +129,7 @@ TEST_F(MotionCommand, TellsMetresByPointsOfKnownPlace) {
     const MotionResult result = motion(arguments);
     expect_true_motion(result);
     EXPECT_TRUE(result.answer.metric);
-    EXPECT_THAT(to_text(result), HasSubstr(" m, known to "));
+    EXPECT_THAT(to_text(result), HasSubstr(" m, sigma "));
   }
   arguments.calib.clear();  // the last needs none
   EXPECT_TRUE(motion(arguments).answer.outcome);
