@@ -7,7 +7,7 @@ namespace placegraph::apps {
 
 /// A manual page in roff.
 struct ManPage {
-  std::string name;  ///< of the file: "placegraph-map-export.1"
+  std::string name;  ///< file name, as "placegraph-map-export.1"
   std::string text;
 };
 

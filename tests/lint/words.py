@@ -4,7 +4,7 @@ Reads words.txt beside it for the words that are refused and words_allowed.txt f
 which they are allowed. Looks at identifiers of all C++ sources; at comments and texts in quotes of
 the sources outside tests; at the documents (README.md, docs/*.md but options.md and results). Also
 refuses a comment that begins with a bare "of". Not read: the table of old spellings of commands
-(apps/spellings.cpp) and the former keys of options (`formerly("...")`). Prints `file:line: ...` for each fault and exits
+(apps/spellings.cpp), the former keys of options (`formerly("...")`) and keys of JSON. Prints `file:line: ...` for each fault and exits
 with 1 if there is one, with 0 and a summary otherwise. With PATH, only files below it are read.
 """
 import os
@@ -75,6 +75,14 @@ def line_at(text, offset):
     return text.count("\n", 0, offset) + 1
 
 
+def is_name_of_data(token, text):
+    """A key of JSON, or the former key of an option: files have it, whatever the term is now."""
+    if not token.group("text") or not re.fullmatch(r'"\w+"', token.group("text")):
+        return False
+    before = text[max(0, token.start() - 40):token.start()]
+    return before.endswith(("{", "[")) or bool(FORMER_KEY.search(before))
+
+
 def code_faults(words, file, text):
     in_tests = file.startswith("tests/")
     original, text = text, blanked(text, words.phrases)
@@ -84,7 +92,7 @@ def code_faults(words, file, text):
         if token.group("name"):
             for word, term in words.in_name(token.group("name")):
                 yield line, f"{token.group('name')}: '{word}'; the term is {term}"
-        elif in_tests or token.group("include") or FORMER_KEY.search(text[:token.start()][-40:]):
+        elif in_tests or token.group("include") or is_name_of_data(token, text):
             continue
         else:
             for offset, word, term in words.in_prose(token.group(0)):

@@ -15,6 +15,7 @@ PLANTED = [  # file, text, the line of the fault or None
     ("graph/a.h", "int a = 0;  ///< of either [m]\n", 1),
     ("graph/a.cpp", 'void f() { fail("no sight of it"); }\n', 1),
     ("graph/a.cpp", 'field.formerly("sight")("observation", o.x, "view");\n', None),
+    ("graph/a.cpp", 'json["sights"] = 1; json = {{"sights", 1}};\n', None),
     ("graph/a.cpp", "const cv::Mat m = cv::Mat::eye(3, 3, CV_64F);\n", None),
     ("graph/a.cpp", "double log_odds = 0;  // log odds of a label\n", None),
     ("graph/a.cpp", "int turn_rate = 0;\n", 1),
