@@ -127,13 +127,13 @@ std::string remarks_text(const std::vector<LoopJudgement>& judgements) {
   }
   for (const LoopJudgement& judgement : judgements) {
     if (!judgement.reliability) continue;
-    text += fmt::format("{}: probabilities of {} candidates are off by {:.3f}; right of those in\n",
+    text += fmt::format("{}: calibration error of the probabilities of {} candidates: {:.3f}\n",
                         judgement.name, judgement.benchmark.candidates.size(),
                         judgement.reliability->calibration_error);
     for (const ReliabilityBin& bin : judgement.reliability->bins)
       if (bin.answers > 0)
-        text += fmt::format("  mean {:.3f}: {:.3f} ({} candidates)\n", bin.mean_probability,
-                            bin.share_right, bin.answers);
+        text += fmt::format("  mean probability {:.3f}: share correct {:.3f} ({} candidates)\n",
+                            bin.mean_probability, bin.share_right, bin.answers);
   }
   return text;
 }

@@ -108,7 +108,9 @@ json json_of(const LocalizeCounts& counts, const std::vector<std::string>& notes
 
 /// The results as text, one line per image, or as JSON.
 std::string answers_text(const LocalizeResult& result) {
-  std::string text;
+  std::string text =
+      "# image (number in natural order of the names, from 0), place and frame of the map (-1: "
+      "none), probability, stage, pose T_map_cam: tx ty tz qx qy qz qw\n";
   for (std::size_t i = 0; i < result.answers.size(); ++i)
     text += line_of(result.first + static_cast<std::int64_t>(i), result.answers[i]);
   return text;

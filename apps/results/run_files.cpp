@@ -149,6 +149,7 @@ json describe_run(const RunResult& run, const Trajectory& optimized) {
 std::string run_plot(const RunResult& run, const Trajectory& optimized,
                      const Trajectory* ground_truth, const std::string& title) {
   Plot plot;
+  std::string aligned;
   if (ground_truth) {
     EvaluationOptions options;
     options.association = Association::kIndex;
@@ -162,6 +163,7 @@ std::string run_plot(const RunResult& run, const Trajectory& optimized,
     }
     if (!results.empty()) {
       plot = plot_of(results);
+      aligned = std::string(", align ") + (run.map.metric ? "origin" : "sim3");
       plot.places_m = place_positions(run.map, results.back().alignment);
     }
   }
@@ -179,7 +181,7 @@ std::string run_plot(const RunResult& run, const Trajectory& optimized,
       if (ends[0] && ends[1]) plot.links_m.emplace_back(*ends[0], *ends[1]);
     }
   }
-  plot.title = title;
+  plot.title = title + aligned;
   return to_png(plot);
 }
 

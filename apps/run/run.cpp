@@ -21,8 +21,8 @@
 #include "apps/results/run_judgement.h"
 #include "apps/results/semantic_map_files.h"
 #include "apps/run/draw_frame.h"
-#include "apps/run/run_notes.h"
 #include "apps/run/run_messages.h"
+#include "apps/run/run_notes.h"
 #include "apps/support/interruption.h"
 #include "apps/support/output.h"
 #include "apps/support/progress.h"
@@ -141,6 +141,7 @@ PreparedRun prepare(RunArguments arguments) {
   }
   prepared.dataset = open_dataset(arguments.sequence);
   prepared.notes = notes_of(*prepared.dataset, options);
+  if (const auto note = note_of_unused_imu(arguments.sequence)) prepared.notes.push_back(*note);
   for (const DataNote& note : prepared.notes) warn(prepared.dataset->name() + ": " + note.text);
   prepared.surfaces = surfaces_of(options.slam);
   prepared.arguments = std::move(arguments);
@@ -252,9 +253,9 @@ RunReport run(const RunArguments& asked) {
     report.broken_off = *run.broken_off + " (results of the " + std::to_string(optimized.size()) +
                         " frames before it are in " + arguments.out + ")";
   else if (run.stopped)
-    report.interrupted = fmt::format(
-        "interrupted after {} of {} frames; continue with: placegraph run --resume {}",
-        optimized.size(), frames_to_run(dataset, options), arguments.out);
+    report.interrupted =
+        fmt::format("interrupted after {} of {} frames; continue with: placegraph run --resume {}",
+                    optimized.size(), frames_to_run(dataset, options), arguments.out);
   else if (optimized.posed() == 0)
     report.no_answer = arguments.sequence + ": no frame could be posed" + why_unposed(run);
   return report;

@@ -2,6 +2,7 @@
 #include <placegraph/pipeline/run.h>
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,9 @@ namespace placegraph::apps {
 
 /// Notes on the data of the sequence, on its images and on the options.
 std::vector<DataNote> notes_of(const Dataset& dataset, const RunOptions& options);
+
+/// Names inertial measurements of a folder in EuRoC's layout, which a run does not use.
+std::optional<DataNote> note_of_unused_imu(const std::string& sequence);
 
 /// Notes on doubts about the scale of the estimated motion.
 std::vector<DataNote> notes_of_motion(const RunResult& run, const Trajectory& optimized);

@@ -37,9 +37,15 @@ std::string motion_text(const json& summary) {
                                  "the stated one",
                                  summary["motion"]["constraints"].get<int>(),
                                  summary["motion"]["median_deviation"].get<double>()));
+  const bool scaled = !summary.contains("metric") || summary["metric"].get<bool>();
+  if (!scaled)
+    text += line("",
+                 "scale unknown: lengths are not metres, and errors are those of sim3; "
+                 "--camera-height gives the scale");
   if (!summary.contains("evaluation")) return text;
   for (const auto& [name, figures] : summary["evaluation"].items())
-    if (figures.contains("ate_rmse_m") && figures["ate_rmse_m"].is_number())
+    if ((scaled || name == "sim3") && figures.contains("ate_rmse_m") &&
+        figures["ate_rmse_m"].is_number())
       text += line(
           "", fmt::format("ATE {:.4f} m ({}), path {:.1f} m", figures["ate_rmse_m"].get<double>(),
                           name, summary["path_m"].get<double>()));

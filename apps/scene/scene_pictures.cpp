@@ -123,7 +123,8 @@ std::string to_text(const SceneImageResult& result) {
       fmt::format("{} images, {:.0f} ms CPU each:", result.images, result.cpu_ms_an_image);
   for (const auto& [name, share] : shares_of(result))
     if (share > 0) text += fmt::format(" {} {:.3f}", name, share);
-  return fmt::format("{}, written to {}\n", text, result.out);
+  return fmt::format("{}, written to {} as class numbers (dark images; --draw: in colours)\n", text,
+                     result.out);
 }
 
 std::string to_json(const SceneImageResult& result) {

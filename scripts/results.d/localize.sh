@@ -19,14 +19,14 @@ placed_row() {
 }
 # by_list NAME GT: an answer is right if its view is among the matches listed
 by_list() {
-  awk 'NR == FNR { for (i = 4; i <= NF; i++) match_of[$1, $i] = 1; next }
+  awk '/^#/ { next } NR == FNR { for (i = 4; i <= NF; i++) match_of[$1, $i] = 1; next }
     $2 < 0 { print "refused"; next } { print match_of[$1, $3] ? "right" : "wrong" }' "$2" "$out/$1.txt" > "$out/$1.judged"
 }
 # by_pose NAME POSES_OF_MAP POSES_OF_IMAGES: right within 5 m and 30 deg of where the image was taken
 by_pose() {
   awk 'FILENAME == ARGV[1] { for (i = 1; i <= 12; i++) a[FNR - 1, i] = $i; next }
     FILENAME == ARGV[2] { for (i = 1; i <= 12; i++) b[FNR - 1, i] = $i; next }
-    $2 < 0 { print "refused"; next }
+    /^#/ { next } $2 < 0 { print "refused"; next }
     { d = 0; for (i = 4; i <= 12; i += 4) d += (a[$3, i] - b[$1, i]) ^ 2
       t = 0; for (i = 1; i <= 11; i++) if (i % 4) t += a[$3, i] * b[$1, i]
       c = (t - 1) / 2; print (d <= 25 && c >= 0.8660254 ? "right" : "wrong") }' "$2" "$3" "$out/$1.txt" > "$out/$1.judged"

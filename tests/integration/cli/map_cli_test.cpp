@@ -182,6 +182,7 @@ TEST_F(MapCli, FramesOfTheDriveStandWhereTheyWere) {
   std::string line;
   int posed = 0;
   while (std::getline(lines, line)) {
+    if (line.starts_with("#")) continue;
     std::istringstream fields(line);
     int image, place, view;
     double probability, x, y, z;
@@ -252,6 +253,7 @@ TEST_P(LocalizeByAnotherCamera, StandsWhereTheDriveWas) {
   std::string line;
   int posed = 0;
   while (std::getline(lines, line)) {
+    if (line.starts_with("#")) continue;
     std::istringstream fields(line);
     std::size_t image;
     std::string place, view, probability, stage;

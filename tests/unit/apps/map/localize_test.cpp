@@ -63,7 +63,8 @@ TEST_F(LocalizeCommand, PlacesImagesWhereTheMapLooksLikeThem) {
                 frame_of(i) + 0.5, 2)
         << i;
   }
-  EXPECT_THAT(test::read_file(arguments.out), testing::StartsWith("0 0 "));
+  EXPECT_THAT(test::read_file(arguments.out),
+              testing::AllOf(testing::StartsWith("# image "), HasSubstr("\n0 0 ")));
 }
 
 TEST_F(LocalizeCommand, RefusesAnImageOfARoomThatTheMapDoesNotKnow) {
@@ -84,7 +85,7 @@ TEST_F(LocalizeCommand, KeepsTheNumbersOfARange) {
   const LocalizeResult result = localize(arguments);
   EXPECT_EQ(result.first, 2);
   EXPECT_EQ(result.counts.images, 3u);
-  EXPECT_THAT(test::read_file(arguments.out), testing::StartsWith("2 "));
+  EXPECT_THAT(test::read_file(arguments.out), HasSubstr("T_map_cam: tx ty tz qx qy qz qw\n2 "));
   arguments.range = {2, 6};
   arguments.force = true;
   EXPECT_THAT(message_of<ArgumentError>([&] { localize(arguments); }),
