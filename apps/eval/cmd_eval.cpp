@@ -12,9 +12,10 @@ namespace {
 
 void run(const EvalArguments& arguments, bool json) {
   const EvalResult result = eval(arguments);
-  print(json ? to_json(result) : to_text(result));
-  if (const EvaluationResult* refused = result.refused())
-    throw NoAnswer(refused->name + ": " + refused->outcome.reason);
+  const EvaluationResult* refused = result.refused();
+  // A single estimate that cannot be evaluated is reported once, by the error.
+  if (json || !refused || !result.single()) print(json ? to_json(result) : to_text(result));
+  if (refused) throw NoAnswer(refused->name + ": " + refused->outcome.reason);
 }
 
 }  // namespace
@@ -35,7 +36,8 @@ void add_eval_trajectory_command(CLI::App& eval_group) {
   command
       ->add_option(
           "ESTIMATE", a.estimates,
-          "estimated trajectories, or one folder whose files are paired with TRUTH's by name")
+          "estimated trajectories or output folders of `run`, or one folder whose files are "
+          "paired with TRUTH's by name")
       ->required()
       ->check(CLI::ExistingPath);
   command->add_option("--align", a.align, "transformation fitted before the errors are computed")

@@ -2,6 +2,7 @@
 
 #include <placegraph/eval/trajectory/report.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/io/datasets/open_dataset.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 
 #include <algorithm>
@@ -72,25 +73,46 @@ std::string short_name(const std::string& estimate, const std::vector<std::strin
   return estimate;
 }
 
+bool is_run(const std::string& folder) {
+  return fs::exists(fs::path(folder) / "trajectory_optimized.kitti");
+}
+
+/// The trajectory of a run for a truth: with times where the truth has them.
+std::string trajectory_of_run(const std::string& folder, const std::string& truth) {
+  const std::string extension = fs::path(truth).extension().string();
+  const bool timed = fs::is_directory(truth) || extension == ".tum" || extension == ".csv";
+  return (fs::path(folder) / (timed ? "trajectory_optimized.tum" : "trajectory_optimized.kitti"))
+      .string();
+}
+
 std::vector<Job> jobs_of(const EvalArguments& arguments) {
   std::string truth = arguments.truth;
+  const std::vector<std::string>& estimates = arguments.estimates;
   const bool one_folder =
-      arguments.estimates.size() == 1 && fs::is_directory(arguments.estimates.front());
+      estimates.size() == 1 && fs::is_directory(estimates.front()) && !is_run(estimates.front());
   if (fs::is_directory(truth)) {
-    if (one_folder) return folder_jobs(truth, arguments.estimates.front());
+    if (one_folder) return folder_jobs(truth, estimates.front());
     const std::string poses = (fs::path(truth) / "poses.txt").string();
-    require(fs::exists(poses), truth +
-                                   ": is a folder without poses.txt, and the estimate is a "
-                                   "file");
-    truth = poses;
+    if (fs::exists(poses)) truth = poses;  // otherwise a sequence of another kind
   }
   std::vector<Job> jobs;
-  for (const std::string& estimate : arguments.estimates) {
-    require(!fs::is_directory(estimate),
-            estimate + ": is a folder, and the ground truth is a file");
-    jobs.push_back({truth, estimate, short_name(estimate, arguments.estimates)});
+  for (const std::string& estimate : estimates) {
+    const bool folder = fs::is_directory(estimate);
+    require(!folder || is_run(estimate),
+            estimate +
+                ": is a folder without trajectory_optimized.kitti, and the ground truth is "
+                "one trajectory");
+    jobs.push_back({truth, folder ? trajectory_of_run(estimate, truth) : estimate,
+                    short_name(estimate, estimates)});
   }
   return jobs;
+}
+
+/// The ground truth of a sequence, as `run` reads it.
+Trajectory truth_of_sequence(const std::string& folder) {
+  const auto dataset = open_dataset(folder);
+  if (!dataset->ground_truth()) throw FileError(folder, "the sequence has no ground truth");
+  return *dataset->ground_truth();
 }
 
 /// `times` are those of a file without times of its own; others keep theirs.
@@ -106,7 +128,8 @@ PairingResult pair(const Job& job, const EvalArguments& arguments,
   const std::string truth_times = arguments.times.empty() ? "" : arguments.times.front();
   const std::string estimate_times = arguments.times.empty() ? "" : arguments.times.back();
   const Trajectory estimate = read(job.estimate, estimate_times);
-  Trajectory truth = read(job.truth, truth_times);
+  Trajectory truth =
+      fs::is_directory(job.truth) ? truth_of_sequence(job.truth) : read(job.truth, truth_times);
   // A KITTI sequence stores its times beside its poses; they are needed if the estimate has times.
   const fs::path beside = fs::path(job.truth).parent_path() / "times.txt";
   if (!truth.has_times && estimate.has_times && fs::path(job.truth).filename() == "poses.txt" &&

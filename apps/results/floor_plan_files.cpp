@@ -1,5 +1,6 @@
 #include "apps/results/floor_plan_files.h"
 
+#include <fmt/format.h>
 #include <placegraph/eval/internal/plots/floor_plan_plot.h>
 #include <placegraph/eval/internal/scene/floor_plan_check.h>
 #include <placegraph/io/datasets/dataset.h>
@@ -85,6 +86,32 @@ void write_floor_plan(const std::string& folder, const IndoorMap& plan, const Ma
   write_file(path("floor_plan.png"), floor_plan_png(plan, picture));
 }
 
+double walled_share(const IndoorMap& plan) {
+  const auto length_of = [](const std::vector<Eigen::Vector2d>& polygon) {
+    double length = 0;
+    for (std::size_t i = 0; i < polygon.size(); ++i)
+      length += (polygon[(i + 1) % polygon.size()] - polygon[i]).norm();
+    return length;
+  };
+  double walls = 0, outlines = 0;
+  for (const IndoorWall& wall : plan.walls) walls += wall.length();
+  for (const IndoorRoom& room : plan.rooms) {
+    outlines += length_of(room.outline);
+    for (const auto& hole : room.holes) outlines += length_of(hole);
+  }
+  return outlines > 0 ? std::min(1.0, walls / outlines) : 0;
+}
+
+std::optional<std::string> doubt_of(const IndoorMap& plan) {
+  constexpr double kLeast = 0.5;
+  const double share = walled_share(plan);
+  if (share >= kLeast) return std::nullopt;
+  return fmt::format(
+      "the floor plan is uncertain: walls were observed along {:.0f} % of the outlines of its "
+      "rooms",
+      100 * share);
+}
+
 json describe_floor_plan(const IndoorMap& plan, const Map& map, const Dataset& dataset,
                          const std::string& sequence) {
   json summary = {{"outcome", to_string(plan.outcome.code)}};
@@ -98,6 +125,7 @@ json describe_floor_plan(const IndoorMap& plan, const Map& map, const Dataset& d
   summary["walls_m"] = length;
   summary["doors"] = plan.doors.size();
   summary["rooms"] = plan.rooms.size();
+  summary["walled_share"] = walled_share(plan);
   const fs::path truth_path = fs::path(sequence) / "floorplan.json";
   const auto& truth = dataset.ground_truth();
   if (!fs::exists(truth_path) || !truth || truth->size() != dataset.size()) return summary;

@@ -4,6 +4,7 @@
 #include <placegraph/pipeline/internal/scene/indoor_mapper.h>
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 
 namespace placegraph {
@@ -19,6 +20,12 @@ IndoorMap plan_of_map(const Map& map, const Calibration& calibration, const Data
 /// Writes floor_plan.json, floor_plan.svg and floor_plan.png into a folder.
 void write_floor_plan(const std::string& folder, const IndoorMap& plan, const Map& map,
                       const std::string& title);
+
+/// Length of the observed walls over that of the outlines of all rooms, at most 1; 0 without rooms.
+double walled_share(const IndoorMap& plan);
+
+/// A warning if most of the outlines of the rooms are not walls that were observed.
+std::optional<std::string> doubt_of(const IndoorMap& plan);
 
 /// Members of result.json for a floor plan.
 /// These are counts and, if the sequence's folder has the true plan (floorplan.json) and true

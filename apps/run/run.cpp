@@ -98,6 +98,7 @@ json map_scene(const RunArguments& arguments, const RunOptions& options, const D
     label_places(plan, run.map.place_graph);
     save_labels(run_map_path(arguments.out), run.map.place_graph);
     write_floor_plan(arguments.out, plan, run.map, dataset.name());
+    if (const auto doubt = doubt_of(plan)) warn(*doubt);
   } else {
     warn("no floor plan: " + plan.outcome.reason);
   }

@@ -25,6 +25,7 @@ MapPlanResult map_plan(const MapPlanArguments& arguments) {
   if (!plan.outcome) throw NoAnswer(arguments.map + ": no floor plan: " + plan.outcome.reason);
   const OutputFolder folder(arguments.out);
   write_floor_plan(arguments.out, plan, stored.map, dataset->name());
+  if (const auto doubt = doubt_of(plan)) warn(arguments.map + ": " + *doubt);
   return {
       arguments.map,     arguments.out,
       plan.walls.size(), plan.doors.size(),

@@ -44,6 +44,18 @@ TEST_F(EvalCommand, MeasuresHowFarAnEstimateIsOff) {
   EXPECT_LT(eval(arguments).results[0].ape.error_m.rmse, 1e-6);
 }
 
+TEST_F(EvalCommand, TakesTheOutputFolderOfARun) {
+  arguments.truth = write_drive("truth.txt");
+  write_drive("run/trajectory_optimized.kitti", 0.3);
+  write_drive("run/trajectory_online.kitti", 0.9);
+  arguments.estimates = {folder / "run"};
+  arguments.align = "none";
+  const EvalResult result = eval(arguments);
+  ASSERT_TRUE(result.single());
+  EXPECT_EQ(result.results[0].name, "run");
+  EXPECT_NEAR(result.results[0].ape.error_m.rmse, 0.3, 1e-6);
+}
+
 TEST_F(EvalCommand, PairsTheFilesOfTwoFoldersByName) {
   arguments.truth = folder / "truth";
   arguments.estimates = {folder / "estimates"};
@@ -133,10 +145,11 @@ TEST_F(EvalCommand, RefusesArgumentsThatMeanNothing) {
   expect_refused("--times: one file for all, or two");
   arguments = asked;
   arguments.estimates = {folder.path()};
-  expect_refused(folder.path() + ": is a folder, and the ground truth is a file");
+  expect_refused(folder.path() + ": is a folder without trajectory_optimized.kitti");
   arguments = asked;
   arguments.truth = folder.path();
-  expect_refused(folder.path() + ": is a folder without poses.txt");
+  EXPECT_THAT(message_of<FileError>([&] { eval(arguments); }),
+              HasSubstr("no sequence is recognized"));
   arguments = asked;
   arguments.csv = folder.write("mine.csv", "mine");
   expect_refused("mine.csv: exists already; --force overwrites it");
