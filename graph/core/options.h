@@ -43,7 +43,8 @@ class OptionVisitor {
   OptionVisitor& basic() { return mark(OptionLevel::kBasic); }
   /// Marks the next field, or all fields of the next group, as OptionLevel::kInternal.
   OptionVisitor& internal() { return mark(OptionLevel::kInternal); }
-  /// Names the key that the next field or group had in earlier versions; files may still use it.
+  /// Names the key that the next field or group had in earlier versions.
+  /// Files and `--set` may still use it.
   OptionVisitor& formerly(const char* key) {
     marks_.former_key = key;
     return *this;

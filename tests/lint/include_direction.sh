@@ -6,7 +6,7 @@
 #   OpenCV in headers only through graph/image and graph/internal/image, in the rest of graph and in backend not at all
 #   GeographicLib only in graph/internal/geometry/geodesy.cpp
 #   libraries neither print nor end the process
-#   in apps only the command line (cmd_*, main.cpp, help.*) includes CLI11 and prints: include_directions.py
+#   in apps only the command line (cmd_*, main.cpp, help.*, command_line.*, shell/*) includes CLI11 and prints: include_directions.py
 set -eu
 lint=$(cd "$(dirname "$0")" && pwd)
 cd "$1"

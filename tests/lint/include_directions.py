@@ -8,7 +8,7 @@ ROOT/tests/lint/include_directions.txt, see include_table.py. Refused are
   a folder of more than 30 sources,
   a table with an arrow that points up,
   a source of apps that includes the option parser or prints and is no part of the command line
-  (cmd_*, main.cpp, help.*): a command is a function, arguments in and result out.
+  (cmd_*, main.cpp, help.*, command_line.*, shell/*): a command is a function, arguments in and result out.
 """
 import collections
 import os
@@ -19,7 +19,7 @@ from include_table import TABLE, read_table
 from source_includes import folder_of, includes_of, layer_of, source_files, without_comments
 
 MOST_FILES = 30
-COMMAND_LINE = re.compile(r"apps/(.*/)?cmd_[^/]*|apps/(main\.cpp|help\.(h|cpp))")
+COMMAND_LINE = re.compile(r"apps/(.*/)?cmd_[^/]*|apps/(main\.cpp|(help|command_line)\.(h|cpp)|shell/[^/]*)")
 PARSES = {"apps/support/calib_option.h", "apps/support/calib_option.cpp"}  # an option of many commands
 PRINTS = {"apps/support/output.cpp", "apps/support/progress.cpp"}  # what the others print through
 STRING = re.compile(r'"(?:\\.|[^"\\\n])*"')

@@ -1,0 +1,77 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <placegraph/io/config/yaml_config.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace placegraph {
+
+namespace {
+
+constexpr const char* kLevelNames[] = {"basic", "advanced", "internal"};
+
+std::string describe_domain(const OptionEntry& entry) {
+  if (!entry.choices.empty()) return fmt::format("{}", fmt::join(entry.choices, " | "));
+  const bool below = std::isfinite(entry.range.min), above = std::isfinite(entry.range.max);
+  if (below && above) return fmt::format("{} to {}", entry.range.min, entry.range.max);
+  if (below) return fmt::format(">= {}", entry.range.min);
+  if (above) return fmt::format("<= {}", entry.range.max);
+  return {};
+}
+
+std::string escaped_for_table(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '|') out += '\\';
+    out += c;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string dump_options(const std::vector<OptionEntry>& entries) {
+  std::string text;
+  for (const OptionEntry& entry : entries) {
+    const auto depth = static_cast<std::size_t>(std::ranges::count(entry.path, '.'));
+    const std::string indent(2 * depth, ' ');
+    const std::string key = entry.path.substr(entry.path.rfind('.') + 1);
+    const std::string domain = describe_domain(entry);
+    text += fmt::format("{}# {}{}\n", indent, entry.doc,
+                        domain.empty() ? "" : fmt::format(" ({})", domain));
+    text += entry.type == "group" ? fmt::format("{}{}:\n", indent, key)
+                                  : fmt::format("{}{}: {}\n", indent, key, entry.value);
+  }
+  return text;
+}
+
+std::string options_markdown(const std::vector<OptionEntry>& entries) {
+  std::string text;
+  bool table = false;
+  std::string group;
+  for (const OptionEntry& entry : entries) {
+    if (entry.type == "group") {
+      text += fmt::format("\n## `{}`\n\n{}\n", entry.path, entry.doc);
+      group = entry.path + ".";
+      table = false;
+      continue;
+    }
+    const std::string parent = entry.path.substr(0, entry.path.rfind('.') + 1);
+    if (parent != group) {  // back from a nested group
+      text += parent.empty()
+                  ? std::string("\n## Further options\n")
+                  : fmt::format("\n## `{}`, continued\n", parent.substr(0, parent.size() - 1));
+      group = parent;
+      table = false;
+    }
+    if (!table) text += "\n| key | default | range | level | meaning |\n|---|---|---|---|---|\n";
+    table = true;
+    text += fmt::format("| `{}` | `{}` | {} | {} | {} |\n", entry.path,
+                        escaped_for_table(entry.value), escaped_for_table(describe_domain(entry)),
+                        kLevelNames[static_cast<int>(entry.level)], escaped_for_table(entry.doc));
+  }
+  return text;
+}
+
+}  // namespace placegraph
