@@ -33,6 +33,7 @@
 #include "apps/scene/cmd_scene.h"
 #include "apps/scene/cmd_scene_check.h"
 #include "apps/shell/cmd_shell.h"
+#include "apps/support/cmd_tree.h"
 #include "apps/synth/cmd_synth.h"
 #include "apps/synth/cmd_synth_graph.h"
 #include "apps/train/cmd_train.h"
@@ -157,21 +158,6 @@ std::unique_ptr<CLI::App> make_command_line() {
   add_train_group(*app);
   add_shell_commands(*app);
   return app;
-}
-
-std::vector<const CLI::App*> commands_of(const CLI::App& command) {
-  return command.get_subcommands([](const CLI::App* sub) { return !sub->get_group().empty(); });
-}
-
-const CLI::App& parsed_command(const CLI::App& app) {
-  const CLI::App* command = &app;
-  while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
-  return *command;
-}
-
-std::string full_name(const CLI::App& command) {
-  const CLI::App* parent = command.get_parent();
-  return parent == nullptr ? command.get_name() : full_name(*parent) + " " + command.get_name();
 }
 
 std::string unknown_words(const CLI::App& app) {

@@ -11,6 +11,7 @@
 
 #include "apps/command_line.h"
 #include "apps/spellings.h"
+#include "apps/support/cmd_tree.h"
 #include "apps/support/output.h"
 
 namespace {

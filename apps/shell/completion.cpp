@@ -6,7 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "apps/command_line.h"
+#include "apps/support/cmd_tree.h"
 
 namespace placegraph::apps {
 namespace {

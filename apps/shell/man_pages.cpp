@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "apps/command_line.h"
+#include "apps/support/cmd_tree.h"
 
 namespace placegraph::apps {
 namespace {
