@@ -8,6 +8,7 @@
 #include "apps/eval/cmd_eval.h"
 #include "apps/eval/cmd_eval_edges.h"
 #include "apps/eval/cmd_loops.h"
+#include "apps/flight/cmd_flight.h"
 #include "apps/graph/cmd_bundle.h"
 #include "apps/graph/cmd_convert.h"
 #include "apps/graph/cmd_optimize.h"
@@ -26,14 +27,13 @@
 #include "apps/planes/cmd_planes_cloud.h"
 #include "apps/planes/cmd_track_plane.h"
 #include "apps/run/cmd_config.h"
-#include "apps/run/cmd_flight.h"
 #include "apps/run/cmd_inspect.h"
 #include "apps/run/cmd_run.h"
 #include "apps/saved_map/cmd_map.h"
 #include "apps/scene/cmd_scene.h"
 #include "apps/scene/cmd_scene_check.h"
 #include "apps/shell/cmd_shell.h"
-#include "apps/support/cmd_tree.h"
+#include "apps/shell/cmd_tree.h"
 #include "apps/synth/cmd_synth.h"
 #include "apps/synth/cmd_synth_graph.h"
 #include "apps/train/cmd_train.h"
@@ -151,8 +151,8 @@ std::unique_ptr<CLI::App> make_command_line() {
   add_places_group(*app);
   add_image_group(*app);
   add_track_group(*app);
-  CLI::App& flight =
-      add_group(*app, "flight", "State estimation of flying robots", "run out/flight --out out/states");
+  CLI::App& flight = add_group(*app, "flight", "State estimation of flying robots",
+                               "run out/flight --out out/states");
   add_flight_command(flight);
   add_synth_group(*app);
   add_train_group(*app);

@@ -10,8 +10,8 @@
 #endif
 
 #include "apps/command_line.h"
+#include "apps/shell/cmd_tree.h"
 #include "apps/spellings.h"
-#include "apps/support/cmd_tree.h"
 #include "apps/support/output.h"
 
 namespace {

@@ -26,19 +26,16 @@ void add_georeference_command(CLI::App& map) {
                    "OXTS: folder of KITTI raw, or oxts.txt beside its times_oxts.txt")
       ->required();
   command->add_option("-o,--out", a.out, "folder for the results")->required();
-  command->add_option("--times", a.times,
-                      kTimesText);
+  command->add_option("--times", a.times, kTimesText);
   command->add_option("--lever-arm", a.lever_arm,
                       "antenna in the nodes' frame, x,y,z [m] (camera: right, down, forward), or "
                       "estimate; default 0,0,0");
-  command->add_option(
-      "--origin", a.origin,
-      "origin of the east-north-up frame: latitude,longitude,height [deg, m]; "
-      "default: the median of the fixes");
+  command->add_option("--origin", a.origin,
+                      "origin of the east-north-up frame: latitude,longitude,height [deg, m]; "
+                      "default: the median of the fixes");
   command->add_option("--clock-offset", a.clock_offset,
                       "time added to the stamps of the fixes [s], or `estimate`; default 0");
-  command->add_option("--set", a.settings, kSetText)
-      ->allow_extra_args(false);
+  command->add_option("--set", a.settings, kSetText)->allow_extra_args(false);
   command->add_flag("--json", *json, kJsonText);
   command->add_flag("--force", a.force, kForceText);
   command->callback([arguments, json] {

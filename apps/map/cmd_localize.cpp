@@ -23,11 +23,8 @@ void add_localize_command(CLI::App& map) {
                    "file for `image place view probability stage [pose]`, one line per image")
       ->required();
   command->add_option("--range", a.range, kRangeText)->expected(2);
-  command->add_flag("--sequence", a.sequence,
-                    kSequenceText);
-  command->add_option("--set", a.settings, kSetText)
-      ->type_size(1)
-      ->allow_extra_args(false);
+  command->add_flag("--sequence", a.sequence, kSequenceText);
+  command->add_option("--set", a.settings, kSetText)->type_size(1)->allow_extra_args(false);
   command->add_flag("--json", a.as_json, kJsonText);
   command->add_flag("--force", a.force, kForceText);
   command->callback([arguments] {

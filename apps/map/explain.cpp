@@ -15,8 +15,8 @@
 #include <filesystem>
 
 #include "apps/results/map_file.h"
+#include "apps/shipped/scene_models.h"
 #include "apps/support/output.h"
-#include "apps/support/scene_models.h"
 
 namespace placegraph::apps {
 namespace {

@@ -43,9 +43,7 @@ void add_match_command(CLI::App& places) {
       ->add_option("--vocabulary", a.vocabulary,
                    "vocabulary made by `train vocabulary`; bow learns its own without one")
       ->check(CLI::ExistingFile);
-  command->add_option("--set", a.settings, kSetText)
-      ->type_size(1)
-      ->allow_extra_args(false);
+  command->add_option("--set", a.settings, kSetText)->type_size(1)->allow_extra_args(false);
   command->add_flag("--force", a.force, kForceText);
   command->callback([arguments] { print(to_text(match(*arguments))); });
 }

@@ -16,10 +16,10 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/results/run_judgement.h"
+#include "apps/shipped/scene_models.h"
 #include "apps/support/json_file.h"
 #include "apps/support/output.h"
 #include "apps/support/progress.h"
-#include "apps/support/scene_models.h"
 
 namespace placegraph::apps {
 namespace {

@@ -28,10 +28,12 @@ void run_and_print(const RunCommand& command) {
 
 void add_verbosity(CLI::App& command, Verbosity& verbosity) {
   const auto add = [&](const char* name, Verbosity value, const char* what) {
-    return command.add_flag_callback(name, [&verbosity, value] { verbosity = value; }, what);
+    return command.add_flag_callback(
+        name, [&verbosity, value] { verbosity = value; }, what);
   };
   auto* quiet = add("--quiet", Verbosity::kQuiet, "print warnings and errors only");
-  auto* verbose = add("--verbose", Verbosity::kVerbose, "print all events and informative messages");
+  auto* verbose =
+      add("--verbose", Verbosity::kVerbose, "print all events and informative messages");
   auto* debug = add("--debug", Verbosity::kDebug, "print every message with its time and level");
   verbose->excludes(quiet);
   debug->excludes(quiet)->excludes(verbose);

@@ -8,8 +8,8 @@
 
 #include <algorithm>
 
+#include "apps/shipped/shipped_files.h"
 #include "apps/support/output.h"
-#include "apps/support/shipped_files.h"
 
 namespace placegraph::apps {
 namespace {

@@ -17,7 +17,7 @@ std::string directions(const FrameView& view) {
   if (view.directed.empty()) return "";
   std::optional<ManhattanFrameId> manhattan_frame;
   for (const FrameView::DirectedLine& line : view.directed)
-    manhattan_frame = std::max(manhattan_frame, line.world);
+    manhattan_frame = std::max(manhattan_frame, line.manhattan_frame);
   return manhattan_frame ? ", Manhattan frame " + to_string(*manhattan_frame)
                          : ", no Manhattan frame";
 }

@@ -23,10 +23,10 @@
 #include "apps/run/draw_frame.h"
 #include "apps/run/run_messages.h"
 #include "apps/run/run_notes.h"
+#include "apps/shipped/scene_models.h"
 #include "apps/support/interruption.h"
 #include "apps/support/output.h"
 #include "apps/support/progress.h"
-#include "apps/support/scene_models.h"
 #include "apps/support/usage.h"
 
 namespace placegraph::apps {

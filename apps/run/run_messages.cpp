@@ -76,8 +76,7 @@ void RunMessages::component_joined(const ComponentJoined& component) {
 }
 
 void RunMessages::map_moved(const MapMoved& move) {
-  if (move.scale != 1)
-    print(Verbosity::kNormal, "event", "the metric scale of the map is known");
+  if (move.scale != 1) print(Verbosity::kNormal, "event", "the metric scale of the map is known");
   print(Verbosity::kDebug, "event",
         fmt::format("{} places moved by up to {:.3g}", move.places, move.translation));
 }

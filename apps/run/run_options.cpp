@@ -8,8 +8,8 @@
 
 #include <filesystem>
 
+#include "apps/shipped/shipped_files.h"
 #include "apps/support/output.h"
-#include "apps/support/shipped_files.h"
 
 namespace placegraph::apps {
 namespace {
@@ -98,8 +98,7 @@ RunOptions prepare_run(RunArguments& arguments) {
           "SEQUENCE and --out are needed, or --resume");
   const RunOptions options = run_options(arguments);
   require(arguments.force || !is_unfinished_map(run_map_path(arguments.out)),
-          arguments.out +
-              ": holds an unfinished run; --resume continues it, --force begins again");
+          arguments.out + ": holds an unfinished run; --resume continues it, --force begins again");
   require_free_folder(arguments.out, arguments.force);
   return options;
 }

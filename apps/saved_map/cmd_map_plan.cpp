@@ -17,8 +17,7 @@ void add_map_plan_command(CLI::App& map) {
   command->footer("placegraph map plan out/office --out out/office-plan");
   command->add_option("MAP", a.map, kMapText)->required();
   command->add_option("-o,--out", a.out, "folder for floor_plan.json, .svg and .png")->required();
-  command->add_option("--set", a.settings, kSetText)
-      ->allow_extra_args(false);
+  command->add_option("--set", a.settings, kSetText)->allow_extra_args(false);
   command->add_flag("--json", *json, kJsonText);
   command->add_flag("--force", a.force, kForceText);
   command->callback([arguments, json] {

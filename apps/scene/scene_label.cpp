@@ -2,7 +2,7 @@
 
 #include <placegraph/frontend/internal/labels/urban_labels.h>
 
-#include "apps/support/scene_models.h"
+#include "apps/shipped/scene_models.h"
 
 namespace placegraph::apps {
 

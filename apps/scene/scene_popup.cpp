@@ -14,9 +14,9 @@
 #include <opencv2/imgproc.hpp>
 
 #include "apps/scene/scene_pictures.h"
+#include "apps/shipped/scene_models.h"
 #include "apps/support/output.h"
 #include "apps/support/read_calib.h"
-#include "apps/support/scene_models.h"
 #include "apps/support/write_png.h"
 
 namespace placegraph::apps {

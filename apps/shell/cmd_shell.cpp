@@ -21,9 +21,9 @@ void write_man_pages(const CLI::App& app, const std::string& folder) {
 
 void add_shell_commands(CLI::App& app) {
   auto shell = std::make_shared<std::string>();
-  CLI::App* completion =
-      app.add_subcommand("completion", "Print the completion script of a shell");
-  completion->footer("placegraph completion bash > ~/.local/share/bash-completion/completions/placegraph");
+  CLI::App* completion = app.add_subcommand("completion", "Print the completion script of a shell");
+  completion->footer(
+      "placegraph completion bash > ~/.local/share/bash-completion/completions/placegraph");
   completion->add_option("SHELL", *shell, "shell")
       ->required()
       ->check(CLI::IsMember(completion_shells()));

@@ -6,7 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "apps/support/cmd_tree.h"
+#include "apps/shell/cmd_tree.h"
 
 namespace placegraph::apps {
 namespace {

@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "apps/support/cmd_tree.h"
+#include "apps/shell/cmd_tree.h"
 
 namespace placegraph::apps {
 namespace {
@@ -49,7 +49,8 @@ std::string options_text(const CLI::App& command) {
 std::string commands_text(const CLI::App& command) {
   std::string text;
   for (const CLI::App* sub : commands_of(command))
-    text += ".TP\n.BR " + escaped(page_name(*sub)) + " (1)\n" + escaped(sub->get_description()) + "\n";
+    text +=
+        ".TP\n.BR " + escaped(page_name(*sub)) + " (1)\n" + escaped(sub->get_description()) + "\n";
   return text.empty() ? text : ".SH COMMANDS\n" + text;
 }
 
@@ -65,7 +66,9 @@ void list_pages(const CLI::App& command, std::vector<ManPage>& pages) {
           (is_group ? "\n.I COMMAND\n" : "\n[\\fIOPTIONS\\fR]\n");
   text += commands_text(command) + options_text(command);
   text += ".SH EXAMPLE\n.EX\n" + escaped(command.get_footer()) + "\n.EE\n";
-  text += ".SH EXIT STATUS\n0 success, 1 the data allow no result, 2 usage, configuration or file error.\n";
+  text +=
+      ".SH EXIT STATUS\n0 success, 1 the data allow no result, 2 usage, configuration or file "
+      "error.\n";
   pages.push_back({name + ".1", text});
   for (const CLI::App* sub : commands_of(command)) list_pages(*sub, pages);
 }

@@ -47,9 +47,7 @@ void write_file(const std::string& path, const std::string& content) {
 
 void print(const std::string& text) { std::fwrite(text.data(), 1, text.size(), stdout); }
 
-void note(const std::string& message) {
-  std::fprintf(stderr, "%s\n", one_line(message).c_str());
-}
+void note(const std::string& message) { std::fprintf(stderr, "%s\n", one_line(message).c_str()); }
 
 void warn(const std::string& message) {
   std::fprintf(stderr, "warning: %s\n", one_line(message).c_str());

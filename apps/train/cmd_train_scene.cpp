@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <memory>
 
+#include "apps/shipped/scene_models.h"
 #include "apps/support/option_texts.h"
 #include "apps/support/output.h"
-#include "apps/support/scene_models.h"
 #include "apps/train/train_scene.h"
 
 namespace placegraph::apps {

@@ -7,9 +7,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "apps/shipped/scene_models.h"
 #include "apps/support/output.h"
 #include "apps/support/progress.h"
-#include "apps/support/scene_models.h"
 #include "apps/train/environment_samples.h"
 
 namespace placegraph::apps {

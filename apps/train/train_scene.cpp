@@ -12,8 +12,8 @@
 #include <opencv2/core/utility.hpp>
 #include <utility>
 
+#include "apps/shipped/scene_models.h"
 #include "apps/support/output.h"
-#include "apps/support/scene_models.h"
 #include "apps/support/usage.h"
 
 namespace placegraph::apps {

@@ -36,7 +36,7 @@ struct FrameView {
   /// An edge that was examined for the directions of Manhattan frames.
   struct DirectedLine {
     LineSegment segment;                    ///< segment in the image [px]
-    std::optional<ManhattanFrameId> world;  ///< Manhattan frame to which the edge belongs, if any
+    std::optional<ManhattanFrameId> manhattan_frame;  ///< Manhattan frame to which the edge belongs, if any
     std::optional<int> axis;  ///< 0, 1 or 2: axis of that frame to which the edge is parallel
   };
   /// Edges of a keyframe; empty for other frames and where Manhattan frames are not among the cues.

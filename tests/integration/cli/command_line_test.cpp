@@ -14,7 +14,7 @@
 
 #include "apps/shell/completion.h"
 #include "apps/shell/man_pages.h"
-#include "apps/support/cmd_tree.h"
+#include "apps/shell/cmd_tree.h"
 #include "tests/support/cli_test.h"
 
 namespace placegraph {

@@ -1,4 +1,4 @@
-#include "apps/support/shipped_files.h"
+#include "apps/shipped/shipped_files.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

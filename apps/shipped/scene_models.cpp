@@ -1,4 +1,4 @@
-#include "apps/support/scene_models.h"
+#include "apps/shipped/scene_models.h"
 
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/models/scene_model_file.h>
@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "apps/support/shipped_files.h"
+#include "apps/shipped/shipped_files.h"
 
 namespace placegraph::apps {
 namespace fs = std::filesystem;

@@ -1,4 +1,4 @@
-#include "apps/run/flight.h"
+#include "apps/flight/flight.h"
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>

@@ -1,4 +1,4 @@
-#include "apps/run/fly.h"
+#include "apps/flight/fly.h"
 
 #include <fmt/format.h>
 #include <placegraph/io/internal/measurements/marker_layout_file.h>
@@ -8,8 +8,8 @@
 
 #include <filesystem>
 
-#include "apps/run/flight_map_report.h"
-#include "apps/run/flight_report.h"
+#include "apps/flight/flight_map_report.h"
+#include "apps/flight/flight_report.h"
 #include "apps/support/output.h"
 #include "apps/support/progress.h"
 #include "apps/support/usage.h"

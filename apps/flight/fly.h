@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "apps/run/flight.h"
+#include "apps/flight/flight.h"
 
 namespace placegraph::apps {
 

@@ -1,4 +1,4 @@
-#include "apps/run/flight.h"
+#include "apps/flight/flight.h"
 
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>

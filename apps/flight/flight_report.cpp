@@ -1,4 +1,4 @@
-#include "apps/run/flight_report.h"
+#include "apps/flight/flight_report.h"
 
 #include <fmt/format.h>
 #include <placegraph/eval/internal/trajectory/body_state_error.h>

@@ -1,9 +1,9 @@
-#include "apps/run/cmd_flight.h"
+#include "apps/flight/cmd_flight.h"
 
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "apps/run/fly.h"
+#include "apps/flight/fly.h"
 #include "apps/support/option_texts.h"
 #include "apps/support/output.h"
 

@@ -1,4 +1,4 @@
-#include "apps/support/cmd_tree.h"
+#include "apps/shell/cmd_tree.h"
 
 #include <CLI/CLI.hpp>
 

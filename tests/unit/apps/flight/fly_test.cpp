@@ -1,4 +1,4 @@
-#include "apps/run/fly.h"
+#include "apps/flight/fly.h"
 
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>

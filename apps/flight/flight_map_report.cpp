@@ -1,4 +1,4 @@
-#include "apps/run/flight_map_report.h"
+#include "apps/flight/flight_map_report.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "apps/run/flight_report.h"
+#include "apps/flight/flight_report.h"
 
 #include <gtest/gtest.h>
 
