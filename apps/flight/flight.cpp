@@ -8,6 +8,9 @@
 
 #include <filesystem>
 
+#include "apps/shipped/shipped_files.h"
+#include "apps/support/output.h"
+
 namespace placegraph::apps {
 namespace {
 
