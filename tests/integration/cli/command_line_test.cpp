@@ -12,9 +12,9 @@
 #include <regex>
 #include <set>
 
+#include "apps/shell/cmd_tree.h"
 #include "apps/shell/completion.h"
 #include "apps/shell/man_pages.h"
-#include "apps/shell/cmd_tree.h"
 #include "tests/support/cli_test.h"
 
 namespace placegraph {
@@ -90,8 +90,8 @@ TEST_F(CommandLine, AFlagHasOneUnitAndTakesAValueOrNotWhereverItIs) {
 }
 
 TEST_F(CommandLine, WordsThatManyCommandsShareHaveOneDescription) {
-  const std::set<std::string> shared = {"config", "csv",     "force", "json",     "plot",
-                                        "profile", "range",  "seed",  "sensor",   "sequence",
+  const std::set<std::string> shared = {"config",  "csv",     "force", "json",         "plot",
+                                        "profile", "range",   "seed",  "sensor",       "sequence",
                                         "set",     "threads", "times", "camera-height"};
   std::map<std::string, std::set<std::string>> meanings;
   for_each_command(*app, [&](const CLI::App& command) {
@@ -140,10 +140,12 @@ class Misspelled : public test::CliTest {};
 
 TEST_F(Misspelled, CommandsFlagsAndKeysGetSuggestions) {
   expect_usage_error("rnu", "no command 'rnu'; did you mean run? (see placegraph --help)");
-  expect_usage_error("map inof x", "no command 'inof'; did you mean info? (see placegraph map --help)");
-  expect_usage_error("run s --out o --camera_height 1.65",
-                     "no option '--camera_height'; did you mean --camera-height? (see placegraph run "
-                     "--help)");
+  expect_usage_error("map inof x",
+                     "no command 'inof'; did you mean info? (see placegraph map --help)");
+  expect_usage_error(
+      "run s --out o --camera_height 1.65",
+      "no option '--camera_height'; did you mean --camera-height? (see placegraph run "
+      "--help)");
   expect_usage_error("run s --max-frames 20 --out o", "no option '--max-frames'");
   expect_usage_error("map export m --ply a.ply", "(see placegraph map export --help)");
   test::write_file(dir / "c.yaml", "loops:\n  enabeld: true\n");
@@ -154,8 +156,9 @@ TEST_F(Misspelled, CommandsFlagsAndKeysGetSuggestions) {
 
 TEST_F(Misspelled, BashCompletesByTheScript) {
   const auto completed = [&](const std::string& words, int at) {
-    test::write_file(dir / "c.sh", "source script\nCOMP_WORDS=(" + words + ")\nCOMP_CWORD=" +
-                                       std::to_string(at) + "\n_placegraph\necho \"${COMPREPLY[*]}\"\n");
+    test::write_file(dir / "c.sh", "source script\nCOMP_WORDS=(" + words +
+                                       ")\nCOMP_CWORD=" + std::to_string(at) +
+                                       "\n_placegraph\necho \"${COMPREPLY[*]}\"\n");
     const std::string command = "cd '" + dir.path() + "' && bash c.sh > completed";
     EXPECT_EQ(std::system(command.c_str()), 0);
     return test::read_file(dir / "completed");

@@ -142,8 +142,8 @@ std::string square_with_tail(const std::string& information) {
 
 TEST_F(FieldGraphs, AMinimumThatIsNotUniqueIsReportedFromEveryStart) {
   PLACEGRAPH_CASE_OR_SKIP("graph_lower_triangle_information");
-  for (const char* options :
-       {"--initialization file", "--initialization certified", "--engine ceres", "--incremental", "--robust huber"}) {
+  for (const char* options : {"--initialization file", "--initialization certified",
+                              "--engine ceres", "--incremental", "--robust huber"}) {
     const json report = optimize(file("graph_lower_triangle_information/lower.g2o"), options);
     EXPECT_EQ(report["free_directions"], 57 - 42) << options;
     EXPECT_EQ(report["free_vertices"].size(), 19u) << options;

@@ -51,7 +51,8 @@ TEST_F(FlowCli, RefusesWithOneLineAndWritesNothing) {
   expect_usage_error("image flow a.png b.png --method guess", "--method");
   expect_usage_error("image flow a.png b.png -o f.txt", "f.txt");
   expect_usage_error("image flow a.png b.png --set lucas_kanade.window=3", "lucas_kanade.window");
-  expect_usage_error("image flow a.png b.png --truth a.png", "a.png: flow must have three channels");
+  expect_usage_error("image flow a.png b.png --truth a.png",
+                     "a.png: flow must have three channels");
   EXPECT_FALSE(std::filesystem::exists(dir / "f.flo"));
   dir.write("f.flo", "mine");
   expect_usage_error("image flow a.png b.png -o f.flo", "f.flo");

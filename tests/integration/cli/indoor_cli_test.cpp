@@ -17,7 +17,8 @@ class IndoorCli : public test::CliTest {
   static void SetUpTestSuite() {
     made = new test::TemporaryFolder;
     const CommandResult result = test::run_placegraph(
-        "synth sequence corridor-loop --frames 60 --size 320x240 --difficulty clean --labels --mono --out "
+        "synth sequence corridor-loop --frames 60 --size 320x240 --difficulty clean --labels "
+        "--mono --out "
         "walk",
         made->path());
     ASSERT_EQ(result.code, 0) << result.err;
@@ -68,8 +69,8 @@ TEST_F(IndoorCli, DrawsTheFloorPlanOfARun) {
 }
 
 TEST_F(IndoorCli, MonocularHasItsMetreFromTheFloorBetweenWalls) {
-  const CommandResult result =
-      run("run " + walk() + " --sensor mono --camera-height 1.4 --config floor_plan --out out --json");
+  const CommandResult result = run(
+      "run " + walk() + " --sensor mono --camera-height 1.4 --config floor_plan --out out --json");
   ASSERT_EQ(result.code, 0) << result.err;
   const json summary = json::parse(result.out);
   EXPECT_EQ(summary["floor_plan"]["outcome"], "ok");

@@ -268,7 +268,8 @@ TEST_F(LandmarkGraphs, SayWhatIsWrongAndWhere) {
 
 TEST_F(LandmarkGraphs, AreRefusedWhereOnlyPosesAreTaken) {
   dir.write("rig.g2o", RigOfThree().text(true, true));
-  for (const char* option : {"--robust auto", "--incremental", "--initialization chordal", "--certify"})
+  for (const char* option :
+       {"--robust auto", "--incremental", "--initialization chordal", "--certify"})
     expect_usage_error(std::string("optimize rig.g2o -o no.g2o ") + option,
                        "rig.g2o: has priors or point landmarks");
   expect_usage_error("synth graph rig.g2o -o no.g2o --shuffle", "priors or point landmarks");

@@ -84,7 +84,8 @@ TEST_F(LinesCli, SaysWhatIsWrong) {
   expect_usage_error("image match-lines --segments a.txt b.txt -o m.txt",
                      "--segments: needs the two images as well");
   dir.write("bad.txt", "1 2 3\n");
-  expect_usage_error("image match-lines a.png b.png --segments a.txt bad.txt -o m.txt", "bad.txt:1:");
+  expect_usage_error("image match-lines a.png b.png --segments a.txt bad.txt -o m.txt",
+                     "bad.txt:1:");
   expect_usage_error("image match-lines a.png b.png -o a.txt", "--force");
   expect_usage_error(
       "image match-lines a.png b.png --segments a.txt b.txt --write-segments c.txt d.txt -o m.txt",

@@ -33,10 +33,10 @@ TEST_F(Loops, GivesTheFiguresOfOneSystemAsJson) {
 }
 
 TEST_F(Loops, ComparesSystemsInATableALogAndAPlot) {
-  const auto result =
-      run("loops --predictions ours.txt theirs.txt --names ours theirs --truth gt.txt --csv log.csv "
-          "--plot "
-          "pr.svg");
+  const auto result = run(
+      "loops --predictions ours.txt theirs.txt --names ours theirs --truth gt.txt --csv log.csv "
+      "--plot "
+      "pr.svg");
   ASSERT_EQ(result.code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("theirs"));
   EXPECT_THAT(result.out, HasSubstr("1.0000"));
@@ -83,8 +83,8 @@ TEST_F(Loops, RefusesBrokenInputWithItsLine) {
 TEST_F(Loops, ScoresAPublishedDetectorAsPublished) {
   PLACEGRAPH_DATA_OR_SKIP(folder, "golden/loops");
   const auto result =
-      run("loops --predictions " + folder + "/ibow_KITTI06_loops.txt --format ibow --truth " + folder +
-          "/KITTI_06_loops_10m.txt --json");
+      run("loops --predictions " + folder + "/ibow_KITTI06_loops.txt --format ibow --truth " +
+          folder + "/KITTI_06_loops_10m.txt --json");
   ASSERT_EQ(result.code, 0) << result.err;
   const auto json = nlohmann::json::parse(result.out);
   EXPECT_NEAR(json.at("recall_at_100p").get<double>(), 0.814, 0.002);

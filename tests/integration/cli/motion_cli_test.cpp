@@ -110,14 +110,17 @@ TEST_F(MotionCli, ReportsARotationWithoutATranslation) {
 TEST_F(MotionCli, SaysWhatIsWrong) {
   expect_usage_error("image motion matches.txt", "--calib is required");
   expect_usage_error("image motion none.txt --calib K.txt", "none.txt");
-  expect_usage_error("image motion matches.txt --calib K.txt --method gravity", "--gravity is required");
+  expect_usage_error("image motion matches.txt --calib K.txt --method gravity",
+                     "--gravity is required");
   expect_usage_error("image motion matches.txt --calib K.txt --method gravity --gravity 0,1",
                      "--gravity: x,y,z");
-  expect_usage_error("image motion matches.txt --calib K.txt --method gravity --gravity 0,0,0", "length");
+  expect_usage_error("image motion matches.txt --calib K.txt --method gravity --gravity 0,0,0",
+                     "length");
   expect_usage_error("image motion matches.txt --calib K.txt --gravity 0,1,0", "takes none");
   expect_usage_error("image motion matches.txt --calib K.txt --method cubic", "cubic");
   expect_usage_error("image motion matches.txt --calib K.txt --threshold -1", "threshold_px");
-  expect_usage_error("image motion matches.txt --method 3d3d", "matches.txt:1: 5 columns, at least 6");
+  expect_usage_error("image motion matches.txt --method 3d3d",
+                     "matches.txt:1: 5 columns, at least 6");
   expect_usage_error("image motion pairs.txt --method 3d3d --point-noise 0", "--point-noise");
   dir.write("few.txt", "1 2 3 4\n5 6 7 8\n");
   expect_failure("motion few.txt --calib K.txt", 1, "few.txt: 2 distinct matches, 8 needed");

@@ -100,8 +100,7 @@ TEST_F(OldFiles, OldCommandsWorkAndNameTheNewOnes) {
   ASSERT_EQ(run("synth-graph manhattan-walk --poses 30 -o walk.g2o").code, 0);
   const CommandResult optimized = run("optimize walk.g2o -o o.g2o --start file --quiet");
   EXPECT_EQ(optimized.code, 0);
-  EXPECT_THAT(optimized.err,
-              StartsWith("'--start' is an old spelling of '--initialization'\n"));
+  EXPECT_THAT(optimized.err, StartsWith("'--start' is an old spelling of '--initialization'\n"));
 }
 
 TEST_F(OldFiles, ShortFormsStayWithoutANote) {

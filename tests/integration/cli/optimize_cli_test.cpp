@@ -138,7 +138,8 @@ TEST_F(OptimizeCli, ReportsEveryIterationOnStandardErrorUnlessQuiet) {
   const int lines = static_cast<int>(std::count(loud.err.begin(), loud.err.end(), '\n'));
   EXPECT_GE(lines, json::parse(loud.out).at("iterations").get<int>()) << loud.err;
   EXPECT_THAT(loud.err, HasSubstr("cost"));
-  const CommandResult quiet = run("optimize ring.g2o -o b.g2o --initialization file --json --quiet");
+  const CommandResult quiet =
+      run("optimize ring.g2o -o b.g2o --initialization file --json --quiet");
   EXPECT_THAT(quiet.err, IsEmpty());
   EXPECT_EQ(read_file(dir / "a.g2o"), read_file(dir / "b.g2o"));
 }

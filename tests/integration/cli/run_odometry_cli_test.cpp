@@ -27,7 +27,8 @@ class RunOdometryCli : public test::CliTest {
   static void SetUpTestSuite() {
     sequence = new test::TemporaryFolder;
     const CommandResult result = test::run_placegraph(
-        "synth sequence town-loop --frames 24 --stereo --size 448x280 --difficulty clean --out drive",
+        "synth sequence town-loop --frames 24 --stereo --size 448x280 --difficulty clean --out "
+        "drive",
         sequence->path());
     ASSERT_EQ(result.code, 0) << result.err;
     // It tells the height of the camera, which gives one eye its unit already.

@@ -17,7 +17,8 @@ class UrbanMapCli : public test::CliTest {
   static void SetUpTestSuite() {
     made = new test::TemporaryFolder;
     CommandResult result = test::run_placegraph(
-        "synth sequence town-loop --frames 30 --size 620x188 --difficulty clean --labels --stereo --out "
+        "synth sequence town-loop --frames 30 --size 620x188 --difficulty clean --labels --stereo "
+        "--out "
         "town",
         made->path());
     ASSERT_EQ(result.code, 0) << result.err;

@@ -1,0 +1,58 @@
+// `placegraph run` that is interrupted by a signal, and resumed.
+#include <placegraph/io/trajectories/trajectory_file.h>
+
+#include "tests/support/cli_test.h"
+
+namespace placegraph {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+class InterruptedRun : public test::CliTest {
+ protected:
+  void SetUp() override {
+    const auto made =
+        run("synth sequence corridor-loop --frames 240 --size 320x240 --stereo --out w");
+    ASSERT_EQ(made.code, 0) << made.err;
+  }
+  /// Starts the run, sends the signal when its first place is saved, and waits for its end.
+  int run_and_send(const std::string& signal) {
+    test::write_file(dir / "interrupt.sh",
+                     "'" + test::program() + "' run w --out out > stdout 2> stderr &\n" +
+                         "pid=$!\n"
+                         "for i in $(seq 600); do [ -e out/map.db ] && break; sleep 0.1; done\n"
+                         "kill -" +
+                         signal +
+                         " $pid\n"
+                         "wait $pid\n");
+    return WEXITSTATUS(std::system(("cd '" + dir.path() + "' && sh interrupt.sh").c_str()));
+  }
+};
+
+TEST_F(InterruptedRun, WritesItsResultsAndSaysHowToContinue) {
+  EXPECT_EQ(run_and_send("INT"), 130);
+  const std::string said = test::read_file(dir / "stderr");
+  EXPECT_THAT(said, HasSubstr("placegraph: interrupted after "));
+  EXPECT_THAT(said, HasSubstr(" of 240 frames; continue with: placegraph run --resume out\n"));
+  const std::string path = dir / "out/trajectory_optimized.kitti";
+  const std::size_t frames = read_trajectory(path).size();
+  EXPECT_GT(frames, 0u);
+  EXPECT_LT(frames, 240u);
+  EXPECT_TRUE(fs::exists(dir / "out/result.json"));
+
+  const auto resumed = run("run --resume out/map.db");
+  EXPECT_EQ(resumed.code, 0) << resumed.err;
+  EXPECT_EQ(read_trajectory(path).size(), 240u);
+}
+
+TEST_F(InterruptedRun, EndsByTerminationAndByHangUpToo) {
+  for (const char* signal : {"TERM", "HUP"}) {
+    fs::remove_all(dir / "out");
+    EXPECT_EQ(run_and_send(signal), 130) << signal;
+    EXPECT_TRUE(fs::exists(dir / "out/result.json")) << signal;
+  }
+}
+
+}  // namespace
+}  // namespace placegraph
