@@ -263,11 +263,11 @@ TEST_F(Cli, BundleAdjustsAProblemAndReportsItsCost) {
 }
 
 TEST_F(Cli, ConfigDumpsWhatItTakesBack) {
-  const CommandResult dump = run("config --dump --set seed=42");
+  const CommandResult dump = run("config --all --set seed=42");
   ASSERT_EQ(dump.code, 0) << dump.err;
   write_file(dir / "mine.yaml", dump.out);
-  EXPECT_EQ(run("config --dump --config mine.yaml").out, dump.out);
-  EXPECT_NE(run("config --dump").out, dump.out);
+  EXPECT_EQ(run("config --all --config mine.yaml").out, dump.out);
+  EXPECT_NE(run("config --all").out, dump.out);
   EXPECT_THAT(run("config").out, HasSubstr("seed"));
 }
 
@@ -277,9 +277,9 @@ TEST_F(Cli, ConfigNamesUnknownKeysAndWrongValues) {
   write_file(dir / "type.yaml", "seed: many\n");
   expect_usage_error("config --config type.yaml", "type.yaml:1: seed");
   expect_usage_error("config --set no.such.option=1", "no.such.option");
-  expect_usage_error("config --dump --markdown", "");
+  expect_usage_error("config --all --markdown", "");
   write_file(dir / "kept.yaml", "mine");
-  expect_usage_error("config --dump --out kept.yaml", "--force");
+  expect_usage_error("config --all --out kept.yaml", "--force");
   EXPECT_EQ(read_file(dir / "kept.yaml"), "mine");
 }
 

@@ -18,7 +18,7 @@ using testing::MatchesRegex;
 TEST(ConfigCommand, WritesYamlThatReadsBackAsTheOptionsItStandsFor) {
   const test::TemporaryFolder folder;
   ConfigArguments arguments;
-  arguments.form = ConfigForm::kYaml;
+  arguments.level = OptionLevel::kInternal;
   arguments.settings = {"seed=11", "max_frames=13"};
   arguments.out = folder / "my.yaml";
   const std::string text = config(arguments);
@@ -29,13 +29,36 @@ TEST(ConfigCommand, WritesYamlThatReadsBackAsTheOptionsItStandsFor) {
   EXPECT_EQ(options.max_frames, 13);
 
   ConfigArguments again;
-  again.form = ConfigForm::kYaml;
+  again.level = OptionLevel::kInternal;
   again.config = arguments.out;
   EXPECT_EQ(config(again), text);
 }
 
+TEST(ConfigCommand, PrintsTheBasicOptionsUnlessMoreIsAskedFor) {
+  ConfigArguments arguments;
+  const auto lines = [&](OptionLevel level) {
+    arguments.level = level;
+    const std::string text = config(arguments);
+    return std::count(text.begin(), text.end(), '\n');
+  };
+  const auto basic = lines(OptionLevel::kBasic), advanced = lines(OptionLevel::kAdvanced);
+  EXPECT_LT(basic, 110);  // two lines an option or group
+  EXPECT_LT(2 * basic, advanced);
+  EXPECT_LT(advanced, lines(OptionLevel::kInternal));
+  arguments.form = ConfigForm::kList;
+  arguments.level = OptionLevel::kBasic;
+  const std::string list = config(arguments);
+  const auto options = std::count(list.begin(), list.end(), '\n');
+  EXPECT_GE(options, 25);
+  EXPECT_LE(options, 40);
+  EXPECT_THAT(list, HasSubstr("camera_height_m"));
+  EXPECT_THAT(list, testing::Not(HasSubstr("ransac")));
+}
+
 TEST(ConfigCommand, ListsEveryOptionOnALine) {
   ConfigArguments arguments;
+  arguments.form = ConfigForm::kList;
+  arguments.level = OptionLevel::kInternal;
   arguments.settings = {"seed=11"};
   const std::string text = config(arguments);
   EXPECT_THAT("\n" + text, testing::ContainsRegex("\nseed +11 "));

@@ -129,5 +129,36 @@ TEST(CheckRanges, RefusesAnEnumeratorThatHasNoName) {
               testing::StartsWith("inner.metric: 2"));
 }
 
+struct MarkedInner {
+  int a = 1, b = 2;
+};
+
+void visit(OptionVisitor& field, MarkedInner& o) {
+  field("a", o.a, "no mark: the level of the group");
+  field.basic()("b", o.b, "a mark of its own");
+}
+
+struct MarkedOptions {
+  int first = 1, second = 2;
+  MarkedInner inner, plain;
+};
+
+void visit(OptionVisitor& field, MarkedOptions& o) {
+  field.basic().formerly("one")("first", o.first, "basic, and had another key");
+  field("second", o.second, "the marks of the field before are gone");
+  field.internal().formerly("inside").group("inner", o.inner, "an internal group");
+  field.group("plain", o.plain, "a group without marks");
+}
+
+TEST(ListOptions, KnowsLevelsAndFormerPaths) {
+  std::vector<std::string> found;
+  for (const OptionEntry& entry : list_options(MarkedOptions()))
+    found.push_back(entry.path + " " + std::to_string(static_cast<int>(entry.level)) + " " +
+                    entry.former_path);
+  EXPECT_THAT(found, testing::ElementsAre("first 0 one", "second 1 ", "inner 2 inside",
+                                          "inner.a 2 inside.a", "inner.b 0 inside.b", "plain 1 ",
+                                          "plain.a 1 ", "plain.b 0 "));
+}
+
 }  // namespace
 }  // namespace placegraph

@@ -190,9 +190,78 @@ TEST(DumpOptions, IsReadBackAsTheSameOptions) {
 TEST(OptionsMarkdown, HasOneTableAGroup) {
   const std::string text = options_markdown(SystemOptions{});
   EXPECT_THAT(text, HasSubstr("## `frontend.flow`\n\noptical flow\n\n| key | default | range |"));
-  EXPECT_THAT(text, HasSubstr("| `frontend.flow.levels` | `3` | 1 to 8 | pyramid levels |\n"));
-  EXPECT_THAT(text, HasSubstr("| `frontend.flow.metric` | `ssd` | ssd \\| zncc | similarity |\n"));
+  EXPECT_THAT(text, HasSubstr("| `frontend.flow.levels` | `3` | 1 to 8 | advanced | pyramid levels |\n"));
+  EXPECT_THAT(text, HasSubstr("| `frontend.flow.metric` | `ssd` | ssd \\| zncc | advanced | similarity |\n"));
   EXPECT_THAT(text, HasSubstr("## `frontend`, continued\n\n| key |"));
+}
+
+struct RenamedGroup {
+  int levels = 3;
+};
+void visit(OptionVisitor& field, RenamedGroup& o) {
+  field.formerly("depth")("levels", o.levels, "pyramid levels", {1, 8});
+}
+
+struct RenamedOptions {
+  double sigma_px = 1;
+  RenamedGroup direct;
+};
+void visit(OptionVisitor& field, RenamedOptions& o) {
+  field.formerly("sigma")("sigma_px", o.sigma_px, "noise [px]", {0, 10});
+  field.formerly("surfaces").group("direct", o.direct, "direct alignment");
+}
+
+class FormerKeys : public testing::Test {
+ protected:
+  RenamedOptions options;
+  std::vector<std::string> notes;
+  LogSink log = [this](LogLevel, const std::string& note) { notes.push_back(note); };
+};
+
+TEST_F(FormerKeys, AreReadFromFilesWithANoteEach) {
+  const TemporaryFolder folder;
+  const std::string path = folder.write("old.yaml", "sigma: 2\nsurfaces:\n  depth: 5\n");
+  read_options(path, options, log);
+  EXPECT_EQ(options.sigma_px, 2);
+  EXPECT_EQ(options.direct.levels, 5);
+  EXPECT_THAT(notes,
+              ElementsAre(path + ":1: 'sigma' is an old spelling of 'sigma_px'",
+                          path + ":3: 'surfaces' is an old spelling of 'direct'",
+                          path + ":3: 'direct.depth' is an old spelling of 'direct.levels'"));
+}
+
+TEST_F(FormerKeys, MayBeMixedWithPresentOnes) {
+  const TemporaryFolder folder;
+  read_options(folder.write("mixed.yaml", "direct: {depth: 4}\nsigma_px: 3\n"), options, log);
+  EXPECT_EQ(options.direct.levels, 4);
+  EXPECT_EQ(options.sigma_px, 3);
+  EXPECT_EQ(notes.size(), 1u);
+}
+
+TEST_F(FormerKeys, AreRefusedBesideThePresentOne) {
+  const TemporaryFolder folder;
+  const std::string path = folder.write("both.yaml", "sigma_px: 3\nsigma: 2\n");
+  EXPECT_THAT(message_of<FileError>([&] { read_options(path, options); }),
+              HasSubstr("both.yaml:2: sigma: is an old spelling of sigma_px, which is also there"));
+  EXPECT_EQ(options.sigma_px, 1);
+}
+
+TEST_F(FormerKeys, ArePartsOfASetting) {
+  set_option(options, "surfaces.depth=6", log);
+  EXPECT_EQ(options.direct.levels, 6);
+  set_option(options, "direct.depth=7", log);
+  EXPECT_EQ(options.direct.levels, 7);
+  set_option(options, "direct.levels=8", log);
+  EXPECT_THAT(notes,
+              ElementsAre("--set 'surfaces.depth' is an old spelling of 'direct.levels'",
+                          "--set 'direct.depth' is an old spelling of 'direct.levels'"));
+}
+
+TEST_F(FormerKeys, AreNotSuggestedForUnknownOnes) {
+  const TemporaryFolder folder;
+  const std::string path = folder.write("unknown.yaml", "direct: {levles: 5}\n");
+  EXPECT_THAT(message_of<FileError>([&] { read_options(path, options); }),
+              HasSubstr("direct.levles: unknown key; did you mean levels?"));
 }
 
 }  // namespace
