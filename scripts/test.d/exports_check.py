@@ -48,7 +48,7 @@ class Program:
 
 def write_runs(placegraph):
     """A drive by two eyes, and by one eye that knows no scale."""
-    placegraph("synth", "town-loop", "--frames", FRAMES, "--stereo", "--size", "448x280", "--difficulty", "clean", "--out", "drive")
+    placegraph("synth", "sequence", "town-loop", "--frames", FRAMES, "--stereo", "--size", "448x280", "--difficulty", "clean", "--out", "drive")
     placegraph("run", "drive", "--out", "stereo")
     os.remove(placegraph.at("drive/world.yaml"))  # it tells the camera's height
     placegraph("run", "drive", "--sensor", "mono", "--out", "mono")
@@ -61,7 +61,7 @@ def check_trajectories(placegraph):
     check("evo reads every pose of TUM's form", tum.num_poses == FRAMES, tum.num_poses)
     check("the two are the same positions", numpy.allclose(kitti.positions_xyz, tum.positions_xyz, atol=1e-6))
     check("rotations are rotations to evo", kitti.check()[0], kitti.check()[1])
-    placegraph("convert", "stereo/trajectory_optimized.tum", "euroc.csv")
+    placegraph("graph", "convert", "stereo/trajectory_optimized.tum", "euroc.csv")
     euroc = file_interface.read_euroc_csv_trajectory(placegraph.at("euroc.csv"))
     check("evo reads EuRoC's form", numpy.allclose(euroc.positions_xyz, tum.positions_xyz, atol=1e-6) and numpy.allclose(euroc.timestamps, tum.timestamps, atol=1e-6))
     truth = file_interface.read_kitti_poses_file(placegraph.at("drive/poses.txt"))
@@ -76,8 +76,8 @@ def check_lost_frames(placegraph):
     for lost in (3, 4, 20):
         lines[lost] = " ".join(["nan"] * 12) + "\n"
     pathlib.Path(placegraph.at("lost.kitti")).write_text("".join(lines))
-    placegraph("convert", "lost.kitti", "posed.kitti", "--posed-only")
-    placegraph("convert", "drive/poses.txt", "truth.kitti", "--posed-in", "lost.kitti")
+    placegraph("graph", "convert", "lost.kitti", "posed.kitti", "--posed-only")
+    placegraph("graph", "convert", "drive/poses.txt", "truth.kitti", "--posed-in", "lost.kitti")
     posed = file_interface.read_kitti_poses_file(placegraph.at("posed.kitti"))
     truth = file_interface.read_kitti_poses_file(placegraph.at("truth.kitti"))
     check("evo reads what has no lost frames", posed.num_poses == truth.num_poses == FRAMES - 3 and posed.check()[0])
@@ -97,7 +97,7 @@ def positions(graph_file):
 
 def check_map_exports(placegraph):
     placegraph("map", "export", "mono", "--g2o-se3", "map_se3.g2o", "--tum", "map.tum", "--kitti", "map.kitti", "--graphml", "map.graphml")
-    placegraph("convert", "mono/graph.g2o", "rigid.g2o", "--rigid")
+    placegraph("graph", "convert", "mono/graph.g2o", "rigid.g2o", "--rigid")
     se3 = positions(placegraph.at("mono/graph_se3.g2o"))
     check("map export --g2o-se3 is that graph, too", numpy.allclose(positions(placegraph.at("map_se3.g2o")), se3, atol=1e-9))
     check("and convert --rigid", numpy.allclose(positions(placegraph.at("rigid.g2o")), se3, atol=1e-9))
