@@ -55,9 +55,9 @@ std::string text_of(const ConfigArguments& arguments) {
   if (arguments.form == ConfigForm::kMarkdown)
     return "# Options of `placegraph " + arguments.of +
            "`\n\nWritten by `placegraph config --markdown`. Set them in a file (`--config`) or by "
-           "`--set "
-           "key=value`. Levels: basic (what most runs set), advanced (to adapt the system to other "
-           "data), internal (constants of an algorithm).\n\n" +
+           "`--set\n"
+           "group.key=value`. Levels: basic (what most runs set), advanced (to adapt the system to "
+           "other\ndata), internal (constants of an algorithm).\n" +
            options_markdown(list_options(options));
   return plain_list(entries);
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace placegraph {
 
@@ -20,13 +21,28 @@ std::string describe_domain(const OptionEntry& entry) {
   return {};
 }
 
-std::string escaped_for_table(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '|') out += '\\';
-    out += c;
+/// The words of a text in lines of at most 118 characters; all but the first are indented by two.
+std::string wrapped(const std::string& text) {
+  constexpr std::size_t kWidth = 118;
+  std::istringstream words(text);
+  std::string out, line, word;
+  while (words >> word) {
+    if (!line.empty() && line.size() + 1 + word.size() > kWidth) {
+      out += line + "\n";
+      line = " ";
+    }
+    line += (line.empty() ? "" : " ") + word;
   }
-  return out;
+  return out + line + "\n";
+}
+
+/// "- `key` = `value` (range; level): meaning".
+std::string list_item(const OptionEntry& entry) {
+  const std::string key = entry.path.substr(entry.path.rfind('.') + 1);
+  const std::string domain = describe_domain(entry);
+  return wrapped(fmt::format("- `{}` = `{}` ({}{}): {}", key, entry.value,
+                             domain.empty() ? "" : domain + "; ",
+                             kLevelNames[static_cast<int>(entry.level)], entry.doc));
 }
 
 }  // namespace
@@ -47,14 +63,13 @@ std::string dump_options(const std::vector<OptionEntry>& entries) {
 }
 
 std::string options_markdown(const std::vector<OptionEntry>& entries) {
-  std::string text;
-  bool table = false;
-  std::string group;
+  std::string text, group;
+  bool begins = true;  // the next item is the first of its list
   for (const OptionEntry& entry : entries) {
     if (entry.type == "group") {
       text += fmt::format("\n## `{}`\n\n{}\n", entry.path, entry.doc);
       group = entry.path + ".";
-      table = false;
+      begins = true;
       continue;
     }
     const std::string parent = entry.path.substr(0, entry.path.rfind('.') + 1);
@@ -63,13 +78,10 @@ std::string options_markdown(const std::vector<OptionEntry>& entries) {
                   ? std::string("\n## Further options\n")
                   : fmt::format("\n## `{}`, continued\n", parent.substr(0, parent.size() - 1));
       group = parent;
-      table = false;
+      begins = true;
     }
-    if (!table) text += "\n| key | default | range | level | meaning |\n|---|---|---|---|---|\n";
-    table = true;
-    text += fmt::format("| `{}` | `{}` | {} | {} | {} |\n", entry.path,
-                        escaped_for_table(entry.value), escaped_for_table(describe_domain(entry)),
-                        kLevelNames[static_cast<int>(entry.level)], escaped_for_table(entry.doc));
+    text += (begins ? "\n" : "") + list_item(entry);
+    begins = false;
   }
   return text;
 }

@@ -1,5 +1,7 @@
 #include <placegraph/io/config/yaml_config.h>
 
+#include <sstream>
+
 #include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
 
@@ -187,12 +189,23 @@ TEST(DumpOptions, IsReadBackAsTheSameOptions) {
   EXPECT_THAT(dumped, HasSubstr("  # optical flow\n  flow:\n"));
 }
 
-TEST(OptionsMarkdown, HasOneTableAGroup) {
+TEST(OptionsMarkdown, HasOneListAGroup) {
   const std::string text = options_markdown(SystemOptions{});
-  EXPECT_THAT(text, HasSubstr("## `frontend.flow`\n\noptical flow\n\n| key | default | range |"));
-  EXPECT_THAT(text, HasSubstr("| `frontend.flow.levels` | `3` | 1 to 8 | advanced | pyramid levels |\n"));
-  EXPECT_THAT(text, HasSubstr("| `frontend.flow.metric` | `ssd` | ssd \\| zncc | advanced | similarity |\n"));
-  EXPECT_THAT(text, HasSubstr("## `frontend`, continued\n\n| key |"));
+  EXPECT_THAT(text, HasSubstr("## `frontend.flow`\n\noptical flow\n\n- `levels` = `3` "
+                              "(1 to 8; advanced): pyramid levels\n- `epsilon`"));
+  EXPECT_THAT(text, HasSubstr("- `metric` = `ssd` (ssd | zncc; advanced): similarity\n"));
+  EXPECT_THAT(text, HasSubstr("## `frontend`, continued\n\n- `weights`"));
+}
+
+TEST(OptionsMarkdown, WrapsLongLines) {
+  std::vector<OptionEntry> entries(1);
+  entries[0].path = "key";
+  entries[0].value = "1";
+  for (int i = 0; i < 60; ++i) entries[0].doc += "word ";
+  std::istringstream lines(options_markdown(entries));
+  int count = 0;
+  for (std::string line; std::getline(lines, line); ++count) EXPECT_LE(line.size(), 118u);
+  EXPECT_EQ(count, 4);  // an empty one before the list
 }
 
 struct RenamedGroup {
@@ -252,9 +265,8 @@ TEST_F(FormerKeys, ArePartsOfASetting) {
   set_option(options, "direct.depth=7", log);
   EXPECT_EQ(options.direct.levels, 7);
   set_option(options, "direct.levels=8", log);
-  EXPECT_THAT(notes,
-              ElementsAre("--set 'surfaces.depth' is an old spelling of 'direct.levels'",
-                          "--set 'direct.depth' is an old spelling of 'direct.levels'"));
+  EXPECT_THAT(notes, ElementsAre("--set 'surfaces.depth' is an old spelling of 'direct.levels'",
+                                 "--set 'direct.depth' is an old spelling of 'direct.levels'"));
 }
 
 TEST_F(FormerKeys, AreNotSuggestedForUnknownOnes) {
