@@ -139,7 +139,7 @@ TEST(MarginalPriorFactor, HasTheJacobiansOfFiniteDifferencesForPlanesAndWorldsTo
   prior.T_map_cam_lin = {random_element<SE3>(random, 2, 1)};
   prior.planes = {PlaneId(0)};
   prior.plane_lin = {Plane3(Eigen::Vector3d(0.1, -0.9, 0.2), 1.6)};
-  prior.worlds = {ManhattanFrameId(3)};
+  prior.manhattan_frames = {ManhattanFrameId(3)};
   prior.R_map_manhattan_lin = {SO3::exp({0.3, -1, 0.2})};
   prior.J = Eigen::MatrixXd::Zero(7, 12);
   for (Eigen::Index i = 0; i < prior.J.size(); ++i) prior.J.data()[i] = random.normal();

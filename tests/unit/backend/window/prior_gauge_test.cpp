@@ -24,7 +24,7 @@ MarginalPrior full_prior() {
                          SE3(SO3::exp({0.2, 0.1, 0.1}), Eigen::Vector3d(1, 2, 5))};
   prior.planes = {PlaneId(7)};
   prior.plane_lin = {Plane3({0, 1, 0.2}, 1.5)};
-  prior.worlds = {ManhattanFrameId(9)};
+  prior.manhattan_frames = {ManhattanFrameId(9)};
   prior.R_map_manhattan_lin = {SO3::exp({-0.2, 0.1, 0})};
   prior.J = random_matrix(random, 18, 18);
   prior.e = random_matrix(random, 18, 1);
@@ -35,7 +35,7 @@ MarginalPrior full_prior() {
 MarginalPrior floating_prior() {
   MarginalPrior prior = full_prior();
   prior.planes.clear(), prior.plane_lin.clear();
-  prior.worlds.clear(), prior.R_map_manhattan_lin.clear();
+  prior.manhattan_frames.clear(), prior.R_map_manhattan_lin.clear();
   const SE3 T_from_to = prior.T_map_cam_lin[0].inverse() * prior.T_map_cam_lin[1];
   prior.J.resize(6, 12);
   prior.J << -T_from_to.inverse().adjoint(), Matrix6d::Identity();

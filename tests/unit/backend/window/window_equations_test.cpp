@@ -18,8 +18,8 @@ void move(WindowState& state, const WindowVariable& variable, const Eigen::Vecto
       state.planes.at(PlaneId(variable.id)) = state.planes.at(PlaneId(variable.id)).plus(xi);
       break;
     case WindowVariable::Kind::kManhattanFrame:
-      state.worlds.at(ManhattanFrameId(variable.id)) =
-          state.worlds.at(ManhattanFrameId(variable.id)).plus(xi);
+      state.manhattan_frames.at(ManhattanFrameId(variable.id)) =
+          state.manhattan_frames.at(ManhattanFrameId(variable.id)).plus(xi);
       break;
     default:
       state.keyframes.at(KeyframeId(variable.id)) =

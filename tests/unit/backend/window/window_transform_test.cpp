@@ -103,9 +103,10 @@ TEST(WindowTransform, RotationsAboutTheOldestKeyframeSoThatTheWorldLiesAsAsked) 
   state.keyframes.erase(KeyframeId(0));  // so that the oldest is not the origin
   const SO3 R_map_manhattan = SO3::exp({0.1, 0.2, 0.3});
   rotate_window(state, FactorScene::kManhattanFrame, R_map_manhattan);
-  EXPECT_LT(
-      (state.worlds.at(FactorScene::kManhattanFrame).inverse() * R_map_manhattan).log().norm(),
-      1e-12);
+  EXPECT_LT((state.manhattan_frames.at(FactorScene::kManhattanFrame).inverse() * R_map_manhattan)
+                .log()
+                .norm(),
+            1e-12);
   EXPECT_LT(test::distance_m(state.keyframes.at(KeyframeId(1)), scene.T_map_cam[1]), 1e-12);
   const SE3 motion =
       state.keyframes.at(KeyframeId(1)).inverse() * state.keyframes.at(KeyframeId(3));
