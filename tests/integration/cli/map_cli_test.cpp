@@ -57,7 +57,7 @@ class MapCli : public test::CliTest {
     std::erase_if(map.loops, [&](const LoopRecord& l) { return l.query_frame > frame; });
     PlaceHistory& history = stored.history;
     std::erase_if(history.keyframes, [&](const auto& k) { return k.id > last; });
-    std::erase_if(history.parts, [&](const auto& p) { return p.anchor > last; });
+    std::erase_if(history.segments, [&](const auto& p) { return p.anchor > last; });
     history.places.resize(places);
     history.places.back().last_keyframe = last;
     history.merged.clear();

@@ -31,7 +31,7 @@ TEST(MapDatabaseProperty, ReadAfterWriteIsIdentity) {
       EXPECT_EQ(read.map.keyframes[i].view.colour.energy,
                 stored.map.keyframes[i].view.colour.energy);
     }
-    EXPECT_EQ(read.history.parts.back().covariance, stored.history.parts.back().covariance);
+    EXPECT_EQ(read.history.segments.back().covariance, stored.history.segments.back().covariance);
     EXPECT_EQ(read.history.loops.front().information, stored.history.loops.front().information);
   }
 }

@@ -138,19 +138,19 @@ TEST(PlaceGraphLaw, SeparatingUndoesMerging) {
             << trial;
     };
     partition.merge(PlaceId(3), PlaceId(5), random.uniform(0, 1) * Matrix7d::Identity());
-    const Matrix7d covariance = partition.parts().at(KeyframeId(5)).covariance;
+    const Matrix7d covariance = partition.segments().at(KeyframeId(5)).covariance;
     partition.merge(PlaceId(1), PlaceId(3), random.uniform(0, 1) * Matrix7d::Identity());
     unmoved();
     EXPECT_EQ(partition.place_of(KeyframeId(5)), PlaceId(1));
     partition.separate(1);
     unmoved();
     EXPECT_EQ(partition.place_of(KeyframeId(5)), partition.place_of(KeyframeId(3)));
-    EXPECT_EQ(partition.parts().at(KeyframeId(5)).covariance, covariance);
+    EXPECT_EQ(partition.segments().at(KeyframeId(5)).covariance, covariance);
     partition.separate(0);
     unmoved();
     EXPECT_EQ(partition.places().size(), 6u);
-    for (const auto& [anchor, part] : partition.parts()) {
-      EXPECT_LT(difference(part.S_place_part, Sim3()), 1e-9);
+    for (const auto& [anchor, segment] : partition.segments()) {
+      EXPECT_LT(difference(segment.S_place_segment, Sim3()), 1e-9);
       EXPECT_EQ(part.covariance.norm(), 0);
     }
   }

@@ -74,7 +74,7 @@ TEST_F(MapHistory, KeyframesComeBackWithTheirLinks) {
     SCOPED_TRACE(i);
     EXPECT_EQ(a.id, b.id);
     EXPECT_EQ(a.segment, b.segment);
-    EXPECT_EQ(a.run, b.run);
+    EXPECT_EQ(a.track_segment, b.track_segment);
     ASSERT_EQ(a.link.has_value(), b.link.has_value());
     if (!a.link) continue;
     EXPECT_EQ(a.link->from, b.link->from);

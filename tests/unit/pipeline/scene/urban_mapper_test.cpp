@@ -23,7 +23,7 @@ SceneModel model_of(SceneModel::Kind kind, std::vector<std::string> classes) {
 
 UrbanMapper mapper_of(double baseline_m = 0.5) {
   UrbanMapperOptions options;
-  options.observation.moving = "";  // no class of these models moves
+  options.labelling.moving = "";  // no class of these models moves
   options.grid.min_weight = 1;
   options.grid.min_observations = 1;
   return {options,
@@ -118,9 +118,9 @@ TEST(UrbanMapper, RefusesModelsAndClassesThatItCannotUse) {
   const SceneModel surfaces =
       model_of(SceneModel::Kind::kSurfaces, {"sky", "ground", "vertical", "object"});
   UrbanMapperOptions options;
-  options.observation.moving = "Car,Tram";
+  options.labelling.moving = "Car,Tram";
   EXPECT_THROW(UrbanMapper(options, calibration, urban, surfaces), ArgumentError);
-  options.observation.moving = "Car";
+  options.labelling.moving = "Car";
   EXPECT_NO_THROW(UrbanMapper(options, calibration, urban, surfaces));
   EXPECT_THROW(UrbanMapper(options, calibration, surfaces, urban), ArgumentError);
 }
