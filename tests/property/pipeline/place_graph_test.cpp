@@ -151,7 +151,7 @@ TEST(PlaceGraphLaw, SeparatingUndoesMerging) {
     EXPECT_EQ(partition.places().size(), 6u);
     for (const auto& [anchor, segment] : partition.segments()) {
       EXPECT_LT(difference(segment.S_place_segment, Sim3()), 1e-9);
-      EXPECT_EQ(part.covariance.norm(), 0);
+      EXPECT_EQ(segment.covariance.norm(), 0);
     }
   }
 }
