@@ -1,6 +1,7 @@
 #include "apps/command_line.h"
 
 #include <placegraph/graph/internal/core/spelling.h>
+#include <placegraph/pipeline/run.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -53,7 +54,7 @@ CLI::App& add_group(CLI::App& app, const std::string& name, const std::string& w
 }
 
 void add_map_group(CLI::App& app) {
-  CLI::App& map = add_group(app, "map", "Saved maps", "info out/town");
+  CLI::App& map = add_group(app, "map", "Saved maps", "info out/town-run");
   add_map_commands(map);
   add_localize_command(map);
   add_explain_command(map);
@@ -120,9 +121,22 @@ void add_train_group(CLI::App& app) {
   add_train_vocabulary_command(train);
 }
 
+bool is_flag(const std::string& word) { return word.starts_with("-"); }
+
+/// "; --set KEY=VALUE sets it" if a flag has the name of an option of a run.
+std::string setting_of(const std::string& flag) {
+  std::string key = flag.substr(flag.find_first_not_of('-'));
+  std::ranges::replace(key, '-', '_');
+  for (const OptionEntry& entry : list_options(RunOptions()))
+    if (entry.type != "group" && entry.path.substr(entry.path.rfind('.') + 1) == key)
+      return "; `--set " + entry.path + "=...` sets it";
+  return "";
+}
+
 std::vector<std::string> option_names(const CLI::App& command) {
   std::vector<std::string> names;
-  for (const CLI::Option* option : command.get_options())
+  for (const CLI::Option* option :
+       command.get_options([](const CLI::Option* option) { return !option->get_group().empty(); }))
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   return names;
 }
@@ -160,18 +174,24 @@ std::unique_ptr<CLI::App> make_command_line() {
   return app;
 }
 
+std::string unknown_command(const CLI::App& app) {
+  const CLI::App& command = parsed_command(app);
+  const std::vector<std::string> words = app.remaining(true);
+  if (words.empty() || is_flag(words.front()) || commands_of(command).empty()) return {};
+  return "no command '" + words.front() + "'" + did_you_mean(words.front(), command_names(command));
+}
+
 std::string unknown_words(const CLI::App& app) {
   const CLI::App& command = parsed_command(app);
   const std::vector<std::string> words = app.remaining(true);
   if (words.empty()) return {};
-  const auto is_flag = [](const std::string& word) { return word.starts_with("-"); };
-  if (!commands_of(command).empty() && !is_flag(words.front()))
-    return "no command '" + words.front() + "'" +
-           did_you_mean(words.front(), command_names(command));
+  if (const std::string unknown = unknown_command(app); !unknown.empty()) return unknown;
   const auto flag = std::ranges::find_if(words, is_flag);
   if (flag != words.end()) {
     const std::string name = flag->substr(0, flag->find('='));
-    return "no option '" + name + "'" + did_you_mean(name, option_names(command));
+    const std::string similar = did_you_mean(name, option_names(command));
+    const bool is_run = similar.empty() && command.get_name() == "run" && name.starts_with("--");
+    return "no option '" + name + "'" + (is_run ? setting_of(name) : similar);
   }
   return "unexpected '" + words.front() + "'";
 }

@@ -44,7 +44,8 @@ int parse_and_run(CLI::App& app, placegraph::apps::CommandWords line) {
     app.parse(line.words);
     return 0;
   } catch (const CLI::Success& asked) {  // --help, --version
-    return app.exit(asked);
+    const std::string unknown = placegraph::apps::unknown_command(app);
+    return unknown.empty() ? app.exit(asked) : complain(kUsage, unknown + see_help(app));
   } catch (const CLI::ParseError& error) {
     const std::string unknown = placegraph::apps::unknown_words(app);
     return complain(kUsage, (unknown.empty() ? error.what() : unknown) + see_help(app));

@@ -25,7 +25,7 @@ void add_eval_trajectory_command(CLI::App& eval_group) {
   auto json = std::make_shared<bool>(false);
   EvalArguments& a = *arguments;
   CLI::App* command = eval_group.add_subcommand(
-      "trajectory", "Evaluate trajectories against ground truth (KITTI, TUM or EuRoC format)");
+      "trajectory", "Evaluate trajectories against ground truth (short: eval)");
   command->footer(
       "placegraph eval trajectory poses.txt trajectory_optimized.kitti --align se3 --plot e.png");
   command

@@ -15,7 +15,7 @@ void add_eval_edges_command(CLI::App& eval_group) {
   EvalEdgesArguments& a = *arguments;
   CLI::App* command = eval_group.add_subcommand(
       "edges", "Compare the errors of a place graph's edges with their stated covariances");
-  command->footer("placegraph eval edges town/poses.txt out/town");
+  command->footer("placegraph eval edges town/poses.txt out/town-run");
   command
       ->add_option("TRUTH", a.truth,
                    "true poses of every frame of the sequence (or its folder with poses.txt)")

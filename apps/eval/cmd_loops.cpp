@@ -22,7 +22,7 @@ void add_eval_loops_command(CLI::App& eval_group) {
   auto json = std::make_shared<bool>(false);
   LoopsArguments& a = *arguments;
   CLI::App* command = eval_group.add_subcommand(
-      "loops", "Evaluate loop closures: precision, recall and the curve of both");
+      "loops", "Evaluate loop closures by precision and recall (short: loops)");
   command->footer(
       "placegraph eval loops --predictions found.txt --format scores --truth gt.txt --json");
   command

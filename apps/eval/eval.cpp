@@ -80,7 +80,8 @@ bool is_run(const std::string& folder) {
 /// The trajectory of a run for a truth: with times where the truth has them.
 std::string trajectory_of_run(const std::string& folder, const std::string& truth) {
   const std::string extension = fs::path(truth).extension().string();
-  const bool timed = fs::is_directory(truth) || extension == ".tum" || extension == ".csv";
+  const bool timed = fs::is_directory(truth) || extension == ".tum" || extension == ".csv" ||
+                     fs::exists(fs::path(truth).parent_path() / "times.txt");
   return (fs::path(folder) / (timed ? "trajectory_optimized.tum" : "trajectory_optimized.kitti"))
       .string();
 }
@@ -91,8 +92,10 @@ std::vector<Job> jobs_of(const EvalArguments& arguments) {
   const bool one_folder =
       estimates.size() == 1 && fs::is_directory(estimates.front()) && !is_run(estimates.front());
   if (fs::is_directory(truth)) {
-    if (one_folder) return folder_jobs(truth, estimates.front());
     const std::string poses = (fs::path(truth) / "poses.txt").string();
+    require(!one_folder || !fs::exists(poses),
+            estimates.front() + ": is not an output folder of `placegraph run`");
+    if (one_folder) return folder_jobs(truth, estimates.front());
     if (fs::exists(poses)) truth = poses;  // otherwise a sequence of another kind
   }
   std::vector<Job> jobs;
@@ -179,7 +182,8 @@ EvalResult eval(const EvalArguments& arguments) {
   require(!arguments.estimates.empty(), "EST: no estimate is given");
   check_outputs(arguments);
   EvalResult result;
-  result.folders = fs::is_directory(arguments.estimates.front());
+  const std::string& first = arguments.estimates.front();
+  result.folders = fs::is_directory(first) && !is_run(first);
   for (const Job& job : jobs_of(arguments)) {
     result.results.push_back(evaluate(pair(job, arguments, options), options, job.name));
     for (const std::string& warning : result.results.back().warnings)

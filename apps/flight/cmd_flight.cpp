@@ -28,7 +28,7 @@ void add_flight_command(CLI::App& flight) {
   auto flight_command = std::make_shared<FlightCommand>();
   FlightArguments& a = flight_command->arguments;
   CLI::App* command = flight.add_subcommand(
-      "run", "Estimate the states of a flying robot from flow, an IMU and markers.");
+      "run", "Estimate the states of a flying robot from flow, an IMU and markers");
   command->footer("placegraph flight run out/flight --out out/states");
   command->add_option("FLIGHT", a.flight, "folder in EuRoC's layout with imu0; see docs/flight.md")
       ->required();

@@ -14,7 +14,7 @@ void add_bundle_command(CLI::App& graph) {
   auto json = std::make_shared<bool>(false);
   BundleArguments& a = *arguments;
   CLI::App* command =
-      graph.add_subcommand("bundle", "Bundle adjustment of a problem in BAL format");
+      graph.add_subcommand("bundle", "Adjust a bundle of cameras and points in BAL format");
   command->footer("placegraph graph bundle problem-49-7776-pre.txt -o adjusted.txt --json");
   command->add_option("IN", a.in, "problem to read")->required()->check(CLI::ExistingFile);
   command->add_option("-o,--out", a.out, "file for the adjusted problem");

@@ -31,8 +31,8 @@ void run(const OptimizeCommand& command) {
 void add_optimize_command(CLI::App& graph) {
   auto optimize_command = std::make_shared<OptimizeCommand>();
   OptimizeArguments& a = optimize_command->arguments;
-  CLI::App* command =
-      graph.add_subcommand("optimize", "Optimize a pose graph in g2o, TORO or iSAM format");
+  CLI::App* command = graph.add_subcommand(
+      "optimize", "Optimize a pose graph in g2o, TORO or iSAM format (short: optimize)");
   command->footer(
       "placegraph graph optimize sphere.g2o -o optimized.g2o --cost g2o --plot sphere.png");
   command->add_option("IN", a.in, "graph to read: 2D, 3D or similarities")

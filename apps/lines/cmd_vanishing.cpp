@@ -15,7 +15,7 @@ void add_vanishing_command(CLI::App& image) {
   auto json = std::make_shared<bool>(false);
   VanishingArguments& a = *arguments;
   CLI::App* command = image.add_subcommand(
-      "vanishing", "Find the vanishing points of the straight edges of an image");
+      "vanishing", "Find the vanishing points of the edges of an image (short: vanishing)");
   command->footer("placegraph image vanishing segments.txt --calib K.txt --json");
   command->add_option("LINES", a.in, "lines of u1 v1 u2 v2 [px]; further columns are not read")
       ->required()

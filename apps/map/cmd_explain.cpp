@@ -14,7 +14,7 @@ void add_explain_command(CLI::App& map) {
   auto json = std::make_shared<bool>(false);
   ExplainArguments& a = *arguments;
   CLI::App* command = map.add_subcommand(
-      "explain", "Explain one frame of a map: its pose, the evidence for it, rejected loops.");
+      "explain", "Explain one frame of a map: its pose, the evidence for it, rejected loops");
   command->footer("placegraph map explain out/drive 250 --json");
   command->add_option("MAP", a.map, kMapText)->required();
   command

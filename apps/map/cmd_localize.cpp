@@ -12,8 +12,8 @@ namespace placegraph::apps {
 void add_localize_command(CLI::App& map) {
   auto arguments = std::make_shared<LocalizeArguments>();
   LocalizeArguments& a = *arguments;
-  CLI::App* command = map.add_subcommand("localize", "Localize new images in a saved map.");
-  command->footer("placegraph map localize out/town images --out placed.txt --sequence");
+  CLI::App* command = map.add_subcommand("localize", "Localize new images in a saved map");
+  command->footer("placegraph map localize out/town-run images --out placed.txt --sequence");
   command->add_option("MAP", a.map, kMapText)->required();
   command->add_option("IMAGES", a.images, "a folder of images, or a sequence")
       ->required()

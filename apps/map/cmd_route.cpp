@@ -13,9 +13,10 @@ void add_route_command(CLI::App& map) {
   auto arguments = std::make_shared<RouteArguments>();
   RouteArguments& a = *arguments;
   CLI::App* command = map.add_subcommand(
-      "route", "Find the shortest path between two places of a map, and the path back.");
+      "route", "Find the shortest path between two places of a map, and the path back");
   command->footer(
-      "placegraph map route out/town --from 0 --to 40 --backtrack --out path.json --plot path.png");
+      "placegraph map route out/town-run --from 0 --to 40 --backtrack --out path.json --plot "
+      "path.png");
   command->add_option("MAP", a.map, kMapText)->required()->check(CLI::ExistingPath);
   const auto place_option = [&](const char* name, PlaceId& place, const char* what) {
     command

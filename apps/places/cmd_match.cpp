@@ -12,8 +12,8 @@ namespace placegraph::apps {
 void add_match_command(CLI::App& places) {
   auto arguments = std::make_shared<MatchArguments>();
   MatchArguments& a = *arguments;
-  CLI::App* command =
-      places.add_subcommand("match", "Find for each image an older image of the same place");
+  CLI::App* command = places.add_subcommand(
+      "match", "Find for each image an older one of the same place (short: match)");
   command->footer("placegraph places match places/corridor --out found.txt --sequence");
   command
       ->add_option(

@@ -11,7 +11,8 @@
 namespace placegraph::apps {
 
 void add_planes_command(CLI::App& image) {
-  CLI::App& planes = *image.add_subcommand("planes", "Find planes in a point cloud or depth image");
+  CLI::App& planes = *image.add_subcommand(
+      "planes", "Find planes in a point cloud or depth image (short: planes)");
   planes.footer(
       "placegraph image planes depth.png --calib K.txt --depth-scale 0.001 --out planes.png");
   auto arguments = std::make_shared<PlanesCloudArguments>();

@@ -74,7 +74,7 @@ void add_track_plane_command(CLI::App& track) {
   command->add_option("--normal", a.normal, "normal of the plane in the first camera, x,y,z");
   command->add_option("--trajectory", a.trajectory,
                       "poses of the camera in units of the plane's distance; .tum or KITTI's form");
-  command->add_option("--draw", a.draw, "draw the input with the result");
+  command->add_option("--draw", a.draw, "folder for the images, drawn with the region");
   command->add_option("--seed", a.options.align.swarm.seed, kSeedText)->capture_default_str();
   command->add_flag("--json", track_command->json, kJsonText);
   command->add_flag("--force", a.force, kForceText);

@@ -1,6 +1,7 @@
 #include "apps/run/cmd_config.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 
 #include "apps/run/config.h"
@@ -10,17 +11,18 @@
 namespace placegraph::apps {
 namespace {
 
-const std::map<std::string, OptionLevel> kLevels = {{"basic", OptionLevel::kBasic},
-                                                    {"advanced", OptionLevel::kAdvanced},
-                                                    {"internal", OptionLevel::kInternal}};
+const std::vector<std::string> kLevels = {"basic", "advanced", "internal"};  // as OptionLevel
 
 struct ConfigCommand {
   ConfigArguments arguments;
+  std::string level = "basic";
   bool all = false, list = false, markdown = false;
 };
 
 void print_config(ConfigCommand& command) {
   ConfigArguments& a = command.arguments;
+  const auto level = std::find(kLevels.begin(), kLevels.end(), command.level) - kLevels.begin();
+  a.level = static_cast<OptionLevel>(level);
   if (command.all) a.level = OptionLevel::kInternal;
   if (command.list) a.form = ConfigForm::kList;
   if (command.markdown) a.form = ConfigForm::kMarkdown;
@@ -38,9 +40,9 @@ void add_config_command(CLI::App& app) {
   command->add_option("--config", a.config, kConfigText);
   command->add_option("--set", a.settings, kSetText)->allow_extra_args(false);
   auto* all = command->add_flag("--all", config_command->all, "options of all levels");
-  command->add_option("--level", a.level, "last level: basic, advanced or internal")
-      ->transform(CLI::CheckedTransformer(kLevels))
-      ->default_str("basic")
+  command->add_option("--level", config_command->level, "last level that is printed")
+      ->check(CLI::IsMember(kLevels))
+      ->capture_default_str()
       ->excludes(all);
   auto* list = command->add_flag("--list", config_command->list, "one option per line");
   command->add_flag("--markdown", config_command->markdown, "all options as docs/options.md")

@@ -26,8 +26,8 @@ void inspect_and_print(const InspectArguments& arguments, bool json) {
 void add_inspect_command(CLI::App& app) {
   auto arguments = std::make_shared<InspectArguments>();
   auto json = std::make_shared<bool>(false);
-  CLI::App* command = app.add_subcommand(
-      "inspect", "Show how a folder or video is read, and what `run` would use.");
+  CLI::App* command =
+      app.add_subcommand("inspect", "Show how a folder or video is read, and what `run` would use");
   command->footer("placegraph inspect kitti/sequences/00");
   command->add_option("PATH", arguments->path, "folder or video; see docs/datasets.md")->required();
   command->add_flag("--read", arguments->read_all,

@@ -58,7 +58,7 @@ void add_run_command(CLI::App& app) {
   auto run_command = std::make_shared<RunCommand>();
   RunArguments& a = run_command->arguments;
   CLI::App* command =
-      app.add_subcommand("run", "Estimate the trajectory and the place graph of a sequence.");
+      app.add_subcommand("run", "Estimate the trajectory and the place graph of a sequence");
   command->footer("placegraph run kitti/sequences/00 --out out/kitti00");
   command->add_option("SEQUENCE", a.sequence, "folder or video; see docs/datasets.md");
   command->add_option("-o,--out", a.out, "folder for the results");
@@ -82,7 +82,7 @@ void add_run_command(CLI::App& app) {
   command->add_option("--threads", a.threads, kThreadsText);
   command->add_flag("--json", run_command->json, kJsonText);
   command->add_flag("--force", a.force, kForceText);
-  command->add_option("--draw", a.draw, "draw the input with the result");
+  command->add_option("--draw", a.draw, "folder for the images, drawn with tracks and residuals");
   command->add_flag("--profile", run_command->profile, kProfileText);
   add_verbosity(*command, a.verbosity);
   command->callback([run_command] { run_and_print(*run_command); });

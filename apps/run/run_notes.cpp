@@ -51,7 +51,7 @@ void add_notes(const std::vector<DataNote>& notes, json& summary) {
   summary["notes"] = json::array();
   for (const DataNote& note : notes) {
     summary["notes"].push_back(note.text);
-    if (note.doubts_scale) summary["metric"] = false;
+    if (note.doubts_scale) summary["metric"] = false, summary["scale_doubted"] = true;
   }
 }
 

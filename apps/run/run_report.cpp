@@ -38,10 +38,10 @@ std::string motion_text(const json& summary) {
                                  summary["motion"]["constraints"].get<int>(),
                                  summary["motion"]["median_deviation"].get<double>()));
   const bool scaled = !summary.contains("metric") || summary["metric"].get<bool>();
-  if (!scaled)
-    text += line("",
-                 "scale unknown: lengths are not metres, and errors are those of sim3; "
-                 "--camera-height gives the scale");
+  if (!scaled && summary.contains("scale_doubted"))
+    text += line("", "scale in doubt: the warnings say why");
+  else if (!scaled)
+    text += line("", "scale unknown: lengths are not in metres; --camera-height gives the scale");
   if (!summary.contains("evaluation")) return text;
   for (const auto& [name, figures] : summary["evaluation"].items())
     if ((scaled || name == "sim3") && figures.contains("ate_rmse_m") &&

@@ -23,7 +23,7 @@ void add_report(CLI::App& map, const std::string& name, const char* what,
   auto arguments = std::make_shared<Arguments>();
   auto json = std::make_shared<bool>(false);
   CLI::App* command = map.add_subcommand(name, what);
-  command->footer("placegraph map " + name + " out/town");
+  command->footer("placegraph map " + name + " out/town-run");
   command->add_option("MAP", arguments->map, kMapText)->required();
   command->add_flag("--json", *json, kJsonText);
   command->callback([arguments, json, run] {
@@ -34,8 +34,8 @@ void add_report(CLI::App& map, const std::string& name, const char* what,
 
 void add_export_command(CLI::App& map) {
   auto arguments = std::make_shared<MapExportArguments>();
-  CLI::App* command = map.add_subcommand("export", "Export parts of a saved map.");
-  command->footer("placegraph map export out/town --g2o graph.g2o --tum trajectory.tum");
+  CLI::App* command = map.add_subcommand("export", "Export parts of a saved map");
+  command->footer("placegraph map export out/town-run --g2o graph.g2o --tum trajectory.tum");
   command->add_option("MAP", arguments->map, kMapText)->required();
   const std::vector<MapExportForm> forms = map_export_forms();
   arguments->paths.resize(forms.size());
@@ -48,8 +48,8 @@ void add_export_command(CLI::App& map) {
 }  // namespace
 
 void add_map_commands(CLI::App& map) {
-  add_report(map, "info", "Summarize a saved map.", map_info);
-  add_report(map, "validate", "Check a saved map: every row, reference and number.", map_validate);
+  add_report(map, "info", "Summarize a saved map", map_info);
+  add_report(map, "validate", "Check a saved map: every row, reference and number", map_validate);
   add_export_command(map);
   add_map_learn_command(map);
   add_map_label_command(map);

@@ -14,7 +14,7 @@ void add_map_label_command(CLI::App& map) {
   auto json = std::make_shared<bool>(false);
   MapLabelArguments& a = *arguments;
   CLI::App* command = map.add_subcommand(
-      "label", "Label the places of a saved map by a classifier trained on labelled images.");
+      "label", "Label the places of a saved map by a classifier trained on labelled images");
   command->footer("placegraph map label out/office rooms --names rooms/names.txt");
   command->add_option("MAP", a.map, kMapText)->required();
   command

@@ -13,7 +13,7 @@ void add_map_learn_command(CLI::App& map) {
   auto arguments = std::make_shared<MapLearnArguments>();
   MapLearnArguments& a = *arguments;
   CLI::App* command = map.add_subcommand(
-      "learn", "Make a map for recognition alone, from images without a calibration.");
+      "learn", "Make a map for recognition alone, from images without a calibration");
   command->footer("placegraph map learn places/corridor --range 0 110 --out corridor.db");
   command->add_option("IMAGES", a.images, "a folder of images in the order they were taken")
       ->required()

@@ -13,7 +13,7 @@ void add_map_plan_command(CLI::App& map) {
   auto arguments = std::make_shared<MapPlanArguments>();
   auto json = std::make_shared<bool>(false);
   MapPlanArguments& a = *arguments;
-  CLI::App* command = map.add_subcommand("plan", "Draw the floor plan of an indoor map.");
+  CLI::App* command = map.add_subcommand("plan", "Draw the floor plan of an indoor map");
   command->footer("placegraph map plan out/office --out out/office-plan");
   command->add_option("MAP", a.map, kMapText)->required();
   command->add_option("-o,--out", a.out, "folder for floor_plan.json, .svg and .png")->required();

@@ -13,9 +13,8 @@ void add_map_street_command(CLI::App& map) {
   auto arguments = std::make_shared<MapSemanticArguments>();
   auto json = std::make_shared<bool>(false);
   MapSemanticArguments& a = *arguments;
-  CLI::App* command =
-      map.add_subcommand("street", "Make the semantic map of the streets of a map.");
-  command->footer("placegraph map street out/town --out out/town-street");
+  CLI::App* command = map.add_subcommand("street", "Make the semantic map of the streets of a map");
+  command->footer("placegraph map street out/town-run --out out/town-street");
   command->add_option("MAP", a.map, kMapText)->required();
   command->add_option("-o,--out", a.out, "folder for semantic_map.ply, .json and .png")->required();
   command->add_option("--georeference", a.georeference,

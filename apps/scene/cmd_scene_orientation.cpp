@@ -24,7 +24,8 @@ void add_image_orientation_command(CLI::App& image) {
   add_calib_option(*command, a.camera, kCalibFile);
   command->add_option("-o,--out", a.out,
                       "8-bit PNG: 0 none, else 1 + axis of the surface's normal");
-  command->add_option("--draw", a.drawing, "draw the input with the result");
+  command->add_option("--draw", a.drawing,
+                      "PNG file, or folder for a sequence: the input, drawn with its surfaces");
   command->add_option("--every", a.every, "use every n-th image")->capture_default_str();
   command
       ->add_option("--min-confidence", a.options.min_confidence,

@@ -29,6 +29,10 @@ void add_shell_commands(CLI::App& app) {
       ->check(CLI::IsMember(completion_shells()));
   completion->callback([&app, shell] { print(completion_script(app, *shell)); });
 
+  // The spellings of the command line replace these words by flags; here they are for the help.
+  app.add_subcommand("help", "Print the help of a command")->footer("placegraph help map export");
+  app.add_subcommand("version", "Print the version")->footer("placegraph version");
+
   auto folder = std::make_shared<std::string>();
   CLI::App* man = app.add_subcommand("man", "Write the manual pages");
   man->footer("placegraph man share/man/man1");

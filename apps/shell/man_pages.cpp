@@ -39,11 +39,23 @@ std::string option_text(const CLI::Option& option) {
   return text + "\n";
 }
 
+bool is_argument(const CLI::Option& option) { return !option.nonpositional(); }
+
+/// The arguments and flags of a command, in sections of their own.
 std::string options_text(const CLI::App& command) {
+  std::string arguments, flags;
+  for (const CLI::Option* option : command.get_options())
+    if (!option->get_group().empty())
+      (is_argument(*option) ? arguments : flags) += option_text(*option);
+  return (arguments.empty() ? "" : ".SH ARGUMENTS\n" + arguments) +
+         (flags.empty() ? "" : ".SH OPTIONS\n" + flags);
+}
+
+std::string arguments_text(const CLI::App& command) {
   std::string text;
   for (const CLI::Option* option : command.get_options())
-    if (!option->get_group().empty()) text += option_text(*option);
-  return text.empty() ? text : ".SH OPTIONS\n" + text;
+    if (is_argument(*option)) text += " \\fI" + escaped(option->get_name(true)) + "\\fR";
+  return text;
 }
 
 std::string commands_text(const CLI::App& command) {
@@ -63,7 +75,7 @@ void list_pages(const CLI::App& command, std::vector<ManPage>& pages) {
                                  PLACEGRAPH_VERSION);
   text += ".SH NAME\n" + escaped(name) + " \\- " + escaped(command.get_description()) + "\n";
   text += ".SH SYNOPSIS\n.B " + escaped(full_name(command)) +
-          (is_group ? "\n.I COMMAND\n" : "\n[\\fIOPTIONS\\fR]\n");
+          (is_group ? "\n.I COMMAND\n" : "\n[\\fIOPTIONS\\fR]" + arguments_text(command) + "\n");
   text += commands_text(command) + options_text(command);
   text += ".SH EXAMPLE\n.EX\n" + escaped(command.get_footer()) + "\n.EE\n";
   text +=

@@ -38,7 +38,7 @@ void add_flow_command(CLI::App& image) {
       ->check(CLI::IsMember(flow_method_names()))
       ->capture_default_str();
   command->add_option("-o,--out", a.out, "file to write: .flo (Middlebury) or .png (KITTI)");
-  command->add_option("--draw", a.drawing, "draw the input with the result");
+  command->add_option("--draw", a.drawing, "PNG file for the flow, drawn in colours");
   command->add_option("--truth", a.truth, "true flow to compare with: .flo or .png");
   command->add_option("--set", a.settings, kSetText)->type_size(1)->allow_extra_args(false);
   auto* cues = command->add_flag("--flow-cues", a.cues,

@@ -37,7 +37,7 @@ void add_markers_command(CLI::App& image) {
       ->check(CLI::IsMember(pixel_origin_names()))
       ->capture_default_str();
   command->add_option("-o,--out", a.out, "JSON file");
-  command->add_option("--draw", a.drawing, "draw the input with the result");
+  command->add_option("--draw", a.drawing, "PNG file for the image, drawn with its markers");
   command->add_flag("--json", *json, kJsonText);
   command->add_flag("--force", a.force, kForceText);
   command->callback([arguments, json] {

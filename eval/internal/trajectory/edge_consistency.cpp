@@ -14,7 +14,7 @@ EdgeConsistency edge_consistency(const std::vector<RelativePoseConstraint>& edge
   int beyond = 0;
   for (const RelativePoseConstraint& edge : edges) {
     require(std::holds_alternative<SE3>(edge.T_from_to) && edge.information.rows() == kDof,
-            "edge_consistency: edges over SE(3) needed");
+            "the graph has no metric scale (its edges are similarities)");
     const auto from = T_world_node.find(edge.from), to = T_world_node.find(edge.to);
     if (from == T_world_node.end() || to == T_world_node.end()) {
       ++result.unknown;

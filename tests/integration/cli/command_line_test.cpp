@@ -50,7 +50,8 @@ TEST_F(CommandLine, HasTenGroupsAndASmallNumberOfCommandsBesideThem) {
     (commands_of(*command).empty() ? others : groups).push_back(command->get_name());
   EXPECT_THAT(groups, ElementsAre("map", "eval", "graph", "places", "image", "track", "flight",
                                   "synth", "train"));
-  EXPECT_THAT(others, ElementsAre("run", "inspect", "config", "completion", "man"));
+  EXPECT_THAT(others,
+              ElementsAre("run", "inspect", "config", "completion", "help", "version", "man"));
 }
 
 TEST_F(CommandLine, EveryCommandHasADescriptionAndAnExampleOfItself) {
@@ -146,7 +147,8 @@ TEST_F(Misspelled, CommandsFlagsAndKeysGetSuggestions) {
       "run s --out o --camera_height 1.65",
       "no option '--camera_height'; did you mean --camera-height? (see placegraph run "
       "--help)");
-  expect_usage_error("run s --max-frames 20 --out o", "no option '--max-frames'");
+  expect_usage_error("run s --max-frames 20 --out o",
+                     "no option '--max-frames'; `--set max_frames=...` sets it");
   expect_usage_error("map export m --ply a.ply", "(see placegraph map export --help)");
   test::write_file(dir / "c.yaml", "loops:\n  enabeld: true\n");
   expect_usage_error("config --config c.yaml",

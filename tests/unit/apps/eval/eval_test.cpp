@@ -51,7 +51,7 @@ TEST_F(EvalCommand, TakesTheOutputFolderOfARun) {
   arguments.estimates = {folder / "run"};
   arguments.align = "none";
   const EvalResult result = eval(arguments);
-  ASSERT_TRUE(result.single());
+  ASSERT_EQ(result.results.size(), 1u);
   EXPECT_EQ(result.results[0].name, "run");
   EXPECT_NEAR(result.results[0].ape.error_m.rmse, 0.3, 1e-6);
 }

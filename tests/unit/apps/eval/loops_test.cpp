@@ -100,7 +100,8 @@ TEST_F(LoopsCommand, TellsWhetherProbabilitiesHold) {
   const LoopsResult result = loops(arguments);
   ASSERT_TRUE(result.systems[0].reliability);
   EXPECT_NEAR(result.systems[0].reliability->calibration_error, 0.25, 1e-9);  // half were right
-  EXPECT_THAT(to_text(result), HasSubstr("probabilities of 2 candidates are off by 0.250"));
+  EXPECT_THAT(to_text(result),
+              HasSubstr("calibration error of the probabilities of 2 candidates: 0.250"));
 }
 
 TEST_F(LoopsCommand, RefusesArgumentsThatMeanNothing) {

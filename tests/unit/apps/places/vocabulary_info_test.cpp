@@ -46,7 +46,7 @@ TEST(VocabularyInfoCommand, CountsTheWordsAndNodesOfBothKinds) {
 TEST(VocabularyInfoCommand, RefusesAFileThatIsNoVocabulary) {
   const test::TemporaryFolder folder;
   EXPECT_THAT(message_of([&] { vocabulary_info({folder.write("gt.txt", "6 0 5 0\n")}); }),
-              HasSubstr("gt.txt: byte 0: no vocabulary"));
+              HasSubstr("gt.txt: byte 0: not a vocabulary"));
   EXPECT_THAT(message_of([&] { vocabulary_info({folder / "none.pgw"}); }), HasSubstr("none.pgw"));
 }
 

@@ -83,8 +83,7 @@ TEST_F(Messages, HoldTheLogAccordingToItsLevel) {
   verbose.log()(LogLevel::kInfo, "something");
   verbose.log()(LogLevel::kDebug, "a detail");
   verbose.frame_lost(lost(0));
-  EXPECT_THAT(lines,
-              ElementsAre("something", "frame 0: no pose yet: 8 points, 12 needed"));
+  EXPECT_THAT(lines, ElementsAre("something", "frame 0: no pose yet: 8 points, 12 needed"));
 }
 
 TEST_F(Messages, HaveTimeAndLevelForDebugging) {

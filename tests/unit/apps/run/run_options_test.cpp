@@ -104,7 +104,7 @@ TEST(PrepareRun, SaysThatNothingWasSavedToGoOnWith) {
               HasSubstr("map.db: is not there: nothing was saved"));
   arguments.out = folder / "elsewhere";
   EXPECT_THAT(message_of<ArgumentError>([&] { prepare_run(arguments); }),
-              HasSubstr("--out: a run that goes on writes into the folder it is resumed from"));
+              HasSubstr("--out: a resumed run writes into its own folder"));
 }
 
 }  // namespace

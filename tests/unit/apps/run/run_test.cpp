@@ -62,7 +62,7 @@ TEST_F(RunCommandFunction, KeepsTheResultsBeforeAFrameThatCannotBeRead) {
   EXPECT_EQ(report.summary["frames"], 3);
 
   EXPECT_THAT(message_of<ArgumentError>([&] { run(arguments); }),
-              HasSubstr("holds a run that was broken off; --resume goes on with it"));
+              HasSubstr("holds an unfinished run; --resume continues it"));
 }
 
 TEST_F(RunCommandFunction, SaysWhyNoFrameCouldBePosed) {

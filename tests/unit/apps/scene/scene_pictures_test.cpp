@@ -91,7 +91,9 @@ TEST_F(LabelPictures, NamesThePictureThatCannotBeLabelled) {
 
 TEST(ScenePictureText, LeavesOutClassesThatAreNowhere) {
   const SceneImageResult result{"out", {"Sky", "Road"}, {30, 0, 10}, 4, 12.4};
-  EXPECT_EQ(to_text(result), "4 images, 12 ms CPU each: Sky 0.750 unknown 0.250, written to out\n");
+  EXPECT_EQ(to_text(result),
+            "4 images, 12 ms CPU each: Sky 0.750 unknown 0.250, written to out as class numbers "
+            "(dark images; --draw: in colours)\n");
 }
 
 }  // namespace

@@ -124,7 +124,7 @@ TEST(TrainSceneText, SaysWhatWasLearnedAndHowWell) {
       SceneJudgement{3, "val", check, {{"superpixels alone", check}}, {{"Sky", 0.75, 1}}};
   const std::string figures =
       "pixel accuracy 0.7500, class accuracy 0.7500, mean IoU 0.5833, calibration error 0.2500\n";
-  EXPECT_EQ(to_text(result), first + "3 images of val:  " + figures +
+  EXPECT_EQ(to_text(result), first + "3 images of val: " + figures +
                                  "  superpixels alone: " + figures +
                                  "  Sky: 0.7500 of its pixels found before, 1.0000 now\n");
   const auto json = nlohmann::json::parse(to_json(result));
