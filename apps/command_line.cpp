@@ -35,6 +35,7 @@
 #include "apps/scene/cmd_scene_check.h"
 #include "apps/shell/cmd_shell.h"
 #include "apps/shell/cmd_tree.h"
+#include "apps/shell/spellings.h"
 #include "apps/synth/cmd_synth.h"
 #include "apps/synth/cmd_synth_graph.h"
 #include "apps/train/cmd_train.h"
@@ -144,6 +145,9 @@ std::vector<std::string> option_names(const CLI::App& command) {
 std::vector<std::string> command_names(const CLI::App& command) {
   std::vector<std::string> names;
   for (const CLI::App* sub : commands_of(command)) names.push_back(sub->get_name());
+  if (command.get_parent() == nullptr)
+    for (const std::string& word : first_words())
+      if (std::ranges::count(names, word) == 0) names.push_back(word);
   return names;
 }
 

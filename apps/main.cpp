@@ -11,7 +11,7 @@
 
 #include "apps/command_line.h"
 #include "apps/shell/cmd_tree.h"
-#include "apps/spellings.h"
+#include "apps/shell/spellings.h"
 #include "apps/support/output.h"
 
 namespace {

@@ -14,6 +14,7 @@ namespace {
 const std::map<std::string, LoopFileFormat> kFormats = {{"scores", LoopFileFormat::kScores},
                                                         {"ibow", LoopFileFormat::kIbow},
                                                         {"run", LoopFileFormat::kRun}};
+const std::vector<std::string> kFormatNames = {"scores", "ibow", "run"};
 
 }  // namespace
 
@@ -30,28 +31,33 @@ void add_eval_loops_command(CLI::App& eval_group) {
       ->required()
       ->check(CLI::ExistingFile);
   command
-      ->add_option("--format", a.formats,
-                   "scores (query candidate score [stage] a line), ibow (iBoW-LCD's output, "
-                   "inliers as score) or run (loops.csv of a run, its probabilities); one for all "
-                   "or one each")
-      ->transform(CLI::CheckedTransformer(kFormats))
+      ->add_option_function<std::vector<std::string>>(
+          "--format",
+          [&a](const std::vector<std::string>& names) {
+            a.formats.clear();
+            for (const std::string& name : names) a.formats.push_back(kFormats.at(name));
+          },
+          "scores (query candidate score [stage] a line), ibow (iBoW-LCD's output, "
+          "inliers as score) or run (loops.csv of a run, its probabilities); one for all "
+          "or one each")
+      ->check(CLI::IsMember(kFormatNames))
       ->default_str("scores");
-  command->add_option("--names", a.names,
+  command->add_option("--systems", a.names,
                       "names of the systems; default: the names of their files");
   command
       ->add_option("--truth", a.truth,
                    "true matches: lines `q first last matches...`, lines `q matches...`, or a "
                    "matrix of 0 and 1")
       ->check(CLI::ExistingFile);
-  command->add_option("--poses", a.poses, "ground truth: one true pose per image")
+  command->add_option("--true-poses", a.poses, "ground truth: one true pose per image")
       ->check(CLI::ExistingFile);
   command
       ->add_option("--radius", a.revisit.same.radius_m,
-                   "with --poses: largest distance of the same place [m]")
+                   "with --true-poses: largest distance of the same place [m]")
       ->capture_default_str();
   command
       ->add_option("--heading", a.revisit.same.heading_deg,
-                   "with --poses: largest angle between views of the same place [deg]")
+                   "with --true-poses: largest angle between views of the same place [deg]")
       ->capture_default_str();
   command
       ->add_option("--min-age", a.min_age,

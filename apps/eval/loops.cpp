@@ -171,11 +171,11 @@ void check(const LoopsArguments& arguments) {
   const std::size_t systems = arguments.predictions.size();
   require(systems > 0, "--predictions: none are given");
   require(arguments.truth.empty() != arguments.poses.empty(),
-          "one of --truth and --poses is needed");
+          "one of --truth and --true-poses is needed");
   require(arguments.formats.size() == 1 || arguments.formats.size() == systems,
           "--format: one for all, or one for each of --predictions");
   require(arguments.names.empty() || arguments.names.size() == systems,
-          "--names: one for each of --predictions");
+          "--systems: one for each of --predictions");
   arguments.revisit.check();
 }
 

@@ -50,7 +50,7 @@ FlightRunOptions flight_options(const FlightArguments& arguments, const ImuNoise
   filter.accel_noise = noise.accel;
   filter.gyro_bias_walk = noise.gyro_bias_walk;
   filter.accel_bias_walk = noise.accel_bias_walk;
-  const LogSink notes = [](LogLevel, const std::string& message) { note(message); };
+  const LogSink notes = option_notes();
   if (!arguments.config.empty()) read_options(config_path(arguments.config), options.flight, notes);
   for (const std::string& setting : arguments.settings) set_option(options.flight, setting, notes);
   options.flight.check();

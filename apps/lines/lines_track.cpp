@@ -27,7 +27,8 @@ using LineTracks = std::map<LineId, std::vector<TrackedLine>>;
 
 RunOptions run_options(const LinesTrackArguments& arguments) {
   RunOptions options;
-  for (const std::string& setting : arguments.settings) set_option(options, setting);
+  for (const std::string& setting : arguments.settings)
+    set_option(options, setting, option_notes());
   set_option(options, "sensor=" + arguments.sensor);
   options.slam.odometry.cues = arguments.cues;
   options.slam.loops.enabled = false;

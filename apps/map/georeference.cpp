@@ -39,7 +39,8 @@ Eigen::Vector3d three_numbers(const std::string& flag, const std::string& text) 
 
 GeoreferenceOptions options_of(const GeoreferenceArguments& arguments) {
   GeoreferenceOptions options;
-  for (const std::string& setting : arguments.settings) set_option(options, setting);
+  for (const std::string& setting : arguments.settings)
+    set_option(options, setting, option_notes());
   if (arguments.lever_arm == "estimate") options.estimate_lever_arm = true;
   if (arguments.clock_offset == "estimate") options.estimate_clock_offset = true;
   options.check();

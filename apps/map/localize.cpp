@@ -32,7 +32,8 @@ LocalizerOptions options_of(const LocalizeArguments& arguments, const StoredMap&
     read_options_text(path, stored.origin.options, run);
     options.loops = run.slam.loops;
   }
-  for (const std::string& setting : arguments.settings) set_option(options, setting);
+  for (const std::string& setting : arguments.settings)
+    set_option(options, setting, option_notes());
   options.check();
   return options;
 }

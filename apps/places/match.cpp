@@ -189,7 +189,8 @@ PlaceRecognizerOptions with_cues(PlaceRecognizerOptions options,
 MatchResult match(const MatchArguments& asked) {
   MatchArguments arguments = asked;
   require_free(arguments.out, arguments.force);
-  for (const std::string& setting : arguments.settings) set_option(arguments.options, setting);
+  for (const std::string& setting : arguments.settings)
+    set_option(arguments.options, setting, option_notes());
   arguments.options.check();
   const PlaceRecognizerOptions recognizer = with_cues(arguments.options.recognizer, arguments.cues);
   const int code = choice<int>("--codes", match_codes(), arguments.codes);

@@ -49,6 +49,7 @@ void add_config_command(CLI::App& app) {
       ->excludes(list)
       ->excludes(all);
   command->add_option("--of", a.of, "command whose options are printed")
+      ->transform(CLI::Transformer(std::map<std::string, std::string>{{"hover", "flight"}}))
       ->check(CLI::IsMember({"run", "flight"}))
       ->capture_default_str();
   command->add_option("-o,--out", a.out, "file to write instead of standard output");

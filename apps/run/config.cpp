@@ -46,7 +46,7 @@ std::vector<OptionEntry> up_to(OptionLevel level, const std::vector<OptionEntry>
 template <class Options>
 std::string text_of(const ConfigArguments& arguments) {
   Options options;
-  const LogSink notes = [](LogLevel, const std::string& message) { note(message); };
+  const LogSink notes = option_notes();
   if (!arguments.config.empty()) read_options(config_path(arguments.config), options, notes);
   for (const std::string& setting : arguments.settings) set_option(options, setting, notes);
   options.check();

@@ -151,7 +151,7 @@ PreparedRun prepare(RunArguments arguments) {
 }
 
 /// Runs the sequence with progress and messages on stderr.
-RunResult run_prepared(const PreparedRun& prepared) {
+RunResult run_prepared(const PreparedRun& prepared, const Interruption& interruption) {
   const RunArguments& arguments = prepared.arguments;
   const Dataset& dataset = *prepared.dataset;
   RunInputs inputs;
@@ -168,7 +168,6 @@ RunResult run_prepared(const PreparedRun& prepared) {
   RunMessages messages(verbosity, [&](const std::string& line) { progress.print(line); });
   inputs.log = messages.log();
   if (verbosity != Verbosity::kQuiet) inputs.events = &messages;
-  const Interruption interruption;
   inputs.stop = [&] { return interruption.requested(); };
   inputs.map_file = {run_map_path(arguments.out), fs::absolute(arguments.sequence).string(),
                      !arguments.resume.empty()};
@@ -232,10 +231,15 @@ RunReport run(const RunArguments& asked) {
   cv::setNumThreads(options.threads);
 
   RunClock clock;
-  RunResult run = run_prepared(prepared);
+  const Interruption interruption;  // until the results are written
+  RunResult run = run_prepared(prepared, interruption);
+  if (run.stopped && run.map.frames.empty())
+    throw Interrupted("interrupted before the first frame; nothing was written");
   json floor_plan, semantic_map;
-  if (options.scene.geometry) floor_plan = map_scene(arguments, options, dataset, run);
-  if (options.scene.semantics) semantic_map = map_street(arguments, options, dataset, run);
+  if (options.scene.geometry && !run.stopped)
+    floor_plan = map_scene(arguments, options, dataset, run);
+  if (options.scene.semantics && !run.stopped)
+    semantic_map = map_street(arguments, options, dataset, run);
   clock.stop();
 
   const Trajectory optimized = run.map.trajectory_optimized();
@@ -248,6 +252,7 @@ RunReport run(const RunArguments& asked) {
     write_file((fs::path(arguments.out) / "environment.csv").string(),
                environment_csv(run.environments));
   const Trajectory* truth = truth_of(dataset);
+  if (run.stopped) summary["interrupted"] = true;
   if (truth) summary.update(judge_run(*truth, run, optimized));
   write_results(arguments.out, run, optimized, truth, dataset.name(), summary);
   if (run.broken_off)

@@ -27,7 +27,6 @@ void RunMessages::run_began() {
   if (has_begun_)
     print(Verbosity::kNormal, "event", "the run begins again with undistorted images");
   has_begun_ = true;
-  has_pose_ = false;
   lost_ = 0;
 }
 
@@ -36,12 +35,11 @@ void RunMessages::frame_posed(const FrameResult& frame) {
     print(Verbosity::kNormal, "event",
           fmt::format("frame {}: tracking recovered after {} {} without a pose", frame.frame, lost_,
                       lost_ == 1 ? "frame" : "frames"));
-  has_pose_ = true;
   lost_ = 0;
 }
 
 void RunMessages::frame_lost(const FrameResult& frame) {
-  if (!has_pose_)
+  if (frame.state == TrackingState::kInitializing)
     return print(Verbosity::kVerbose, "event",
                  fmt::format("frame {}: no pose yet: {}", frame.frame, frame.outcome.reason));
   print(lost_ == 0 ? Verbosity::kNormal : Verbosity::kVerbose, "event",
@@ -76,7 +74,7 @@ void RunMessages::component_joined(const ComponentJoined& component) {
 }
 
 void RunMessages::map_moved(const MapMoved& move) {
-  if (move.scale != 1) print(Verbosity::kNormal, "event", "the metric scale of the map is known");
+  if (move.scale != 1) print(Verbosity::kNormal, "event", "the metric scale is known");
   print(Verbosity::kDebug, "event",
         fmt::format("{} places moved by up to {:.3g}", move.places, move.translation));
 }

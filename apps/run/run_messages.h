@@ -43,8 +43,7 @@ class RunMessages : public SlamEvents {
   Print print_;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   bool has_begun_ = false;
-  bool has_pose_ = false;  ///< a frame of this run has been posed
-  int lost_ = 0;           ///< consecutive frames without a pose since the last posed one
+  int lost_ = 0;  ///< consecutive frames without a pose since the last posed one
 };
 
 }  // namespace placegraph::apps

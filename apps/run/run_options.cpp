@@ -70,7 +70,7 @@ RunOptions run_options(const RunArguments& arguments, RunOptions options) {
   // What a plan asks of the motion gives way to all that is said of it.
   const bool begins = arguments.resume.empty();
   if (arguments.scene && options.scene.geometry && begins) enable_manhattan_and_planes(options);
-  const LogSink notes = [](LogLevel, const std::string& message) { note(message); };
+  const LogSink notes = option_notes();
   if (!arguments.config.empty()) read_options(config_path(arguments.config), options, notes);
   for (const std::string& setting : arguments.settings) set_option(options, setting, notes);
   if (arguments.sensor) set_option(options, "sensor=" + *arguments.sensor);

@@ -18,7 +18,8 @@ namespace fs = std::filesystem;
 MapLearnResult map_learn(const MapLearnArguments& arguments) {
   MapLearnerOptions options = arguments.options;
   require_free(arguments.out, arguments.force);
-  for (const std::string& setting : arguments.settings) set_option(options, setting);
+  for (const std::string& setting : arguments.settings)
+    set_option(options, setting, option_notes());
   options.check();
   const ImageRange images = images_of(arguments.images, arguments.range);
   const bool colour = !read_frame(images, 0).colour.empty();

@@ -13,7 +13,8 @@ namespace placegraph::apps {
 
 MapPlanResult map_plan(const MapPlanArguments& arguments) {
   IndoorMapperOptions options;
-  for (const std::string& setting : arguments.settings) set_option(options, setting);
+  for (const std::string& setting : arguments.settings)
+    set_option(options, setting, option_notes());
   options.check();
   require_free_folder(arguments.out, arguments.force);
   const StoredMap stored = read_stored_map(arguments.map);

@@ -15,7 +15,7 @@ namespace placegraph::apps {
 
 MapSemanticResult map_semantic(const MapSemanticArguments& a) {
   UrbanMapperOptions options;
-  for (const std::string& setting : a.settings) set_option(options, setting);
+  for (const std::string& setting : a.settings) set_option(options, setting, option_notes());
   options.check();
   require_free_folder(a.out, a.force);
   check_urban_models(options, a.models);

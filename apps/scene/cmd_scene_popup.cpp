@@ -34,7 +34,7 @@ void add_image_popup_command(CLI::App& image) {
   command->add_option("--model", a.model, "model of surfaces to use instead of the installed one");
   command->add_option("--surface-labels", a.surfaces,
                       "label image of `image surfaces` to use instead of the model");
-  command->add_flag("--level", a.level, "assume a level camera; ignore the edges");
+  command->add_flag("--level-camera", a.level, "assume a level camera; ignore the edges");
   command->add_option("--box", a.box, "right,forward,width,depth,height [m] of a box on the ground")
       ->delimiter(',')
       ->expected(5);

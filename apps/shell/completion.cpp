@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/shell/cmd_tree.h"
+#include "apps/shell/spellings.h"
 
 namespace placegraph::apps {
 namespace {
@@ -49,55 +50,73 @@ void list_nodes(const CLI::App& app, const std::string& path, std::vector<Node>&
 std::vector<Node> nodes_of(const CLI::App& app) {
   std::vector<Node> nodes;
   list_nodes(app, "", nodes);
+  for (const ShortForm& form : short_forms())
+    nodes.front().commands.emplace_back(form.name, form.command);
   return nodes;
 }
 
-std::string words_of(const Node& node) {
-  std::vector<std::string> words;
-  for (const auto& command : node.commands) words.push_back(command.first);
-  for (const Flag& flag : node.flags) words.push_back(flag.name);
-  return fmt::format("{}", fmt::join(words, " "));
+std::string commands_of_node(const Node& node) {
+  std::string words;
+  for (const auto& command : node.commands) words += (words.empty() ? "" : " ") + command.first;
+  return words;
 }
 
-std::string bash_script(const std::vector<Node>& nodes) {
-  std::string commands, words, values;
+std::string flags_of_node(const Node& node) {
+  std::string words;
+  for (const Flag& flag : node.flags) words += (words.empty() ? "" : " ") + flag.name;
+  return words;
+}
+
+/// The function of bash by which words are completed; flags only behind a dash, so that files are
+/// completed where a command takes them.
+std::string bash_function(const std::vector<Node>& nodes) {
+  std::string paths, commands, flags, values;
+  for (const ShortForm& form : short_forms())
+    paths += fmt::format("    '{}') command='{}' ;;\n", form.name, form.command);
   for (const Node& node : nodes) {
-    if (!node.path.empty()) commands += fmt::format("    '{}') path=$next ;;\n", node.path);
-    words += fmt::format("    '{}') words='{}' ;;\n", node.path, words_of(node));
+    if (!node.path.empty()) paths += fmt::format("    '{0}') command='{0}' ;;\n", node.path);
+    commands += fmt::format("    '{}') words='{}' ;;\n", node.path, commands_of_node(node));
+    flags += fmt::format("    '{}') words='{}' ;;\n", node.path, flags_of_node(node));
     for (const Flag& flag : node.flags)
       if (!flag.choices.empty())
         values += fmt::format("    '{} {}') words='{}' ;;\n", node.path, flag.name,
                               fmt::join(flag.choices, " "));
   }
-  return "# bash completion of placegraph, written by `placegraph completion bash`\n"
-         "_placegraph() {\n"
-         "  local path='' next words='' word i\n"
+  return "_placegraph_words() {\n"
+         "  local command='' words='' i\n"
          "  for ((i = 1; i < COMP_CWORD; ++i)); do\n"
-         "    word=${COMP_WORDS[i]}\n"
-         "    next=${path:+$path }$word\n"
-         "    case $next in\n" +
-         commands +
+         "    case \"${command:+$command }${COMP_WORDS[i]}\" in\n" +
+         paths +
          "    esac\n"
          "  done\n"
-         "  case \"$path ${COMP_WORDS[COMP_CWORD-1]}\" in\n" +
+         "  case \"$command ${COMP_WORDS[COMP_CWORD-1]}\" in\n" +
          values +
          "  esac\n"
-         "  if [[ -z $words ]]; then\n"
-         "    case $path in\n" +
-         words +
+         "  if [[ -z $words && ${COMP_WORDS[COMP_CWORD]} == -* ]]; then\n"
+         "    case $command in\n" +
+         flags +
+         "    esac\n"
+         "  elif [[ -z $words ]]; then\n"
+         "    case $command in\n" +
+         commands +
          "    esac\n"
          "  fi\n"
          "  COMPREPLY=($(compgen -W \"$words\" -- \"${COMP_WORDS[COMP_CWORD]}\"))\n"
-         "}\n"
-         "complete -o default -o bashdefault -F _placegraph placegraph\n";
+         "}\n";
 }
 
-/// The bash function serves zsh by its emulation of bash's completion.
+std::string bash_script(const std::vector<Node>& nodes) {
+  return "# bash completion of placegraph, written by `placegraph completion bash`\n" +
+         bash_function(nodes) +
+         "complete -o default -o bashdefault -F _placegraph_words placegraph\n";
+}
+
+/// zsh runs the function of bash by its emulation of bash's completion.
 std::string zsh_script(const std::vector<Node>& nodes) {
   return "#compdef placegraph\n"
          "# zsh completion of placegraph, written by `placegraph completion zsh`\n"
          "autoload -Uz bashcompinit && bashcompinit\n" +
-         bash_script(nodes);
+         bash_function(nodes) + "_bash_complete -o default -F _placegraph_words\n";
 }
 
 std::string fish_quoted(const std::string& text) {

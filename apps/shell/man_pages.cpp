@@ -80,7 +80,7 @@ void list_pages(const CLI::App& command, std::vector<ManPage>& pages) {
   text += ".SH EXAMPLE\n.EX\n" + escaped(command.get_footer()) + "\n.EE\n";
   text +=
       ".SH EXIT STATUS\n0 success, 1 the data allow no result, 2 usage, configuration or file "
-      "error.\n";
+      "error, 130 a signal ended a run.\n";
   pages.push_back({name + ".1", text});
   for (const CLI::App* sub : commands_of(command)) list_pages(*sub, pages);
 }

@@ -39,7 +39,7 @@ std::vector<std::string> shipped_folders(const std::string& kind) {
 }
 
 std::string config_path(const std::string& given) {
-  if (fs::exists(given) || given.find_first_of("./") != std::string::npos) return given;
+  if (fs::is_regular_file(given) || given.find_first_of("./") != std::string::npos) return given;
   for (const std::string& folder : shipped_folders("configs"))
     if (const fs::path path = fs::path(folder) / (given + ".yaml"); fs::exists(path))
       return path.string();

@@ -4,7 +4,8 @@
 namespace placegraph::apps {
 
 /// Notices the signals by which a user ends a program (SIGINT, SIGTERM, SIGHUP), while it exists.
-/// The first signal is only noted; a second one ends the process. One object at a time.
+/// The first signal is only noted; a second one, of any of them, ends the process. A signal that
+/// the process ignores, as SIGHUP under nohup, stays ignored. One object at a time.
 class Interruption {
  public:
   Interruption();

@@ -49,6 +49,10 @@ void print(const std::string& text) { std::fwrite(text.data(), 1, text.size(), s
 
 void note(const std::string& message) { std::fprintf(stderr, "%s\n", one_line(message).c_str()); }
 
+LogSink option_notes() {
+  return [](LogLevel, const std::string& message) { note(message); };
+}
+
 void warn(const std::string& message) {
   std::fprintf(stderr, "warning: %s\n", one_line(message).c_str());
 }

@@ -1,4 +1,6 @@
 #pragma once
+#include <placegraph/graph/core/log.h>
+
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -47,6 +49,9 @@ void print(const std::string& text);
 
 /// Prints a note as one line on stderr.
 void note(const std::string& message);
+
+/// Prints notes on old spellings of options, as a sink of read_options and set_option.
+LogSink option_notes();
 
 /// Prints "warning: ..." as one line on stderr.
 void warn(const std::string& message);

@@ -52,7 +52,8 @@ CueSetting cue_setting(const FlowArguments& arguments) {
 
 FlowOptions flow_options(const FlowArguments& arguments) {
   FlowOptions options;
-  for (const std::string& setting : arguments.settings) set_option(options, setting);
+  for (const std::string& setting : arguments.settings)
+    set_option(options, setting, option_notes());
   set_option(options, "method=" + arguments.method);
   options.check();
   return options;

@@ -101,7 +101,7 @@ struct ManhattanFrameOptions {
   double sigma_drift_deg = 1;
   int persistence = 3;  ///< keyframes of the window that must observe a new Manhattan frame
   /// Maximum number of stored frames; the one unobserved for longest is removed.
-  int max_frames = 4;
+  int max_count = 4;
   void check() const { check_ranges(*this); }
 };
 void visit(OptionVisitor& field, ManhattanFrameOptions& options);

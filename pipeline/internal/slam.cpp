@@ -201,7 +201,7 @@ void Slam::Impl::rescale(double factor) {
   closer.rescale(factor, first);
   recorder.rescale(first, factor);
   recovery.rescale(factor);
-  feed.tell_again();
+  feed.report_again();
   events.places_changed(mapper, factor);
 }
 

@@ -5,7 +5,7 @@ title="Loop decisions"
 heading "$title"
 command_line "placegraph synth sequence corridor-loop --out WORLD --seed 1 --difficulty standard    # warehouse likewise"
 command_line "placegraph run WORLD --sensor rgbd|mono [--cues points,lines] --out OUT"
-command_line "placegraph loops --predictions OUT/loops.csv --format run --poses WORLD/poses.txt --radius 1 --heading 40 --min-age 40 --json"
+command_line "placegraph loops --predictions OUT/loops.csv --format run --true-poses WORLD/poses.txt --radius 1 --heading 40 --min-age 40 --json"
 
 render "loops-corridor" corridor-loop --seed 1 --difficulty standard --size 320x240
 render "loops-warehouse" warehouse --seed 1 --difficulty standard --size 320x240
@@ -15,7 +15,7 @@ columns sequence sensor cues accepted "of them by two views" "with lines" "false
 decisions() {
   name=loops-$1-$3-$(echo "$4" | tr , _)
   run "$name" "$2" --sensor "$3" --cues "$4"
-  $placegraph loops --predictions "$out/$name/loops.csv" --format run --poses "$2/poses.txt" --radius "$5" --heading 40 --min-age 40 --json > "$out/$name-loops.json"
+  $placegraph loops --predictions "$out/$name/loops.csv" --format run --true-poses "$2/poses.txt" --radius "$5" --heading 40 --min-age 40 --json > "$out/$name-loops.json"
   set -- "$1" "$3" "$4" "$out/$name/loops.csv" "$out/$name"
   accepted=$(awk -F, '$5 == "accepted" { n++ } END { print n + 0 }' "$4")
   views=$(awk -F, '$5 == "accepted" && $6 != "3d2d" { n++ } END { print n + 0 }' "$4")

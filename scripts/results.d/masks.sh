@@ -55,14 +55,14 @@ render masks-rounds "$out/masks-rounds.txt" --difficulty hard --mono --size 620x
 printf '\nPlaces recognized again: two rounds of a block of 316 m in hard traffic, half size, one eye. Revisits (within 5 m and 30 deg of a view 300 frames older) as the finished map tells them.\n' >> "$rows"
 command_line "placegraph synth sequence rounds.txt --out WORLD --difficulty hard --mono --size 620x188"
 command_line "placegraph run WORLD --sensor mono --camera-height 1.65 [--set semantics.enabled=true ...] --out OUT"
-command_line "placegraph map export OUT --revisits known.txt; placegraph loops --predictions known.txt --poses WORLD/poses.txt --min-age 300 --json"
+command_line "placegraph map export OUT --revisits known.txt; placegraph loops --predictions known.txt --true-poses WORLD/poses.txt --min-age 300 --json"
 columns run "loops, true" "loops, false" "loops looked at" "revisits, R@1" AP "recall at full precision" "ATE [m] origin"
 # places_row NAME TITLE ARGUMENTS...
 places_row() {
   n=masks-rounds-$1; what=$2; shift 2
   run "$n" "$out/masks-rounds-world" --sensor mono --camera-height 1.65 "$@"
   $placegraph map export "$out/$n" --revisits "$out/$n-known.txt" --force
-  $placegraph loops --predictions "$out/$n-known.txt" --poses "$out/masks-rounds-world/poses.txt" --min-age 300 --json > "$out/$n-known.json"
+  $placegraph loops --predictions "$out/$n-known.txt" --true-poses "$out/masks-rounds-world/poses.txt" --min-age 300 --json > "$out/$n-known.json"
   judge "$n" "$out/masks-rounds-world" "$out/$n/trajectory_optimized.kitti" --align origin
   f=$out/$n/result.json; j=$out/$n-known.json
   cells "$what" "$(number "$f" true_loops)" "$(number "$f" false_loops)" "$(awk 'END { print NR - 1 }' "$out/$n/loops.csv")" \

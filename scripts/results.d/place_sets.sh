@@ -8,7 +8,7 @@ found() {
   name=$1; set_name=$2; shift 2
   folder=$(folder_of "$set_name")
   case "$set_name" in
-    kitchen) age="--min-age 34"; truth="--poses $folder/poses.txt --radius 0.5 --heading 30 --min-age 34" ;;
+    kitchen) age="--min-age 34"; truth="--true-poses $folder/poses.txt --radius 0.5 --heading 30 --min-age 34" ;;
     *) age=""; truth="--truth $folder/gt.txt" ;;
   esac
   say "matching $name"

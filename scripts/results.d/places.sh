@@ -5,7 +5,7 @@ heading "$title"
 command_line "placegraph match FOLDER --out found.txt [--sequence] [--appearance CUES]    # kitchen: --min-age 34"
 command_line "placegraph loops --predictions found.txt --truth FOLDER/gt.txt --json"
 command_line "placegraph places classify \$DATA/places/vtm_virtual_house --out told.txt [--sequence]"
-command_line "placegraph loops --predictions found.txt --poses poses.txt --radius 0.5 --heading 30 --min-age 34 --json    # kitchen"
+command_line "placegraph loops --predictions found.txt --true-poses poses.txt --radius 0.5 --heading 30 --min-age 34 --json    # kitchen"
 . scripts/results.d/place_sets.sh
 # target NAME KEY LIMIT WHAT: a row
 target() {

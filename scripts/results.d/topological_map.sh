@@ -11,7 +11,7 @@ command_line "placegraph synth sequence repeated-blocks --out WORLD --difficulty
 command_line "placegraph run WORLD --sensor mono --camera-height 1.65 --out OUT    # place_check and loop_check of OUT/result.json"
 command_line "placegraph map export OUT --revisits known.txt"
 command_line "placegraph match WORLD --sequence --min-age 300 --out found.txt"
-command_line "placegraph loops --predictions known.txt (found.txt) --poses WORLD/poses.txt --min-age 300 --json"
+command_line "placegraph loops --predictions known.txt (found.txt) --true-poses WORLD/poses.txt --min-age 300 --json"
 
 # half NAME WORLD: renders it, maps it, and recognizes its views
 half() {
@@ -19,10 +19,10 @@ half() {
   run "half$1" "$out/half$1-world" --sensor mono --camera-height 1.65
   case $1 in 00|06)
     $placegraph map export "$out/half$1" --revisits "$out/half$1-known.txt" --force
-    $placegraph loops --predictions "$out/half$1-known.txt" --poses "$out/half$1-world/poses.txt" --min-age 300 --json > "$out/half$1-known.json"
+    $placegraph loops --predictions "$out/half$1-known.txt" --true-poses "$out/half$1-world/poses.txt" --min-age 300 --json > "$out/half$1-known.json"
     say "matching half$1"
     $placegraph match "$out/half$1-world" --sequence --min-age 300 --out "$out/half$1.txt" --force > "$out/half$1-match.log" 2>&1
-    $placegraph loops --predictions "$out/half$1.txt" --poses "$out/half$1-world/poses.txt" --min-age 300 --json > "$out/half$1-loops.json" ;;
+    $placegraph loops --predictions "$out/half$1.txt" --true-poses "$out/half$1-world/poses.txt" --min-age 300 --json > "$out/half$1-loops.json" ;;
   esac
 }
 

@@ -118,7 +118,7 @@ def check_graphs(placegraph):
         check(f"gtsam reads {name}", graph.size() == count(path, "EDGE_") > 0 and start.size() == count(path, "VERTEX_"), f"{graph.size()} factors, {start.size()} poses")
     check("the scales of one eye are in graph.g2o", count(placegraph.at("mono/graph.g2o"), "VERTEX_SIM3") > 0)
     for world, in_space in (("grid-world", True), ("manhattan-walk", False)):
-        placegraph("synth-graph", world, "--poses", 200, "-o", world + ".g2o")
+        placegraph("synth", "graph", world, "--poses", 200, "-o", world + ".g2o")
         told = json.loads(placegraph("optimize", world + ".g2o", "-o", world + "_optimized.g2o", "--json", "--quiet"))
         _, _, before = read_by_gtsam(placegraph.at(world + ".g2o"), in_space)
         _, _, after = read_by_gtsam(placegraph.at(world + "_optimized.g2o"), in_space)

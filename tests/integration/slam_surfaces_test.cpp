@@ -44,7 +44,7 @@ TEST(SlamBySurfaces, PosesEveryFrameByTheGroundWithStereo) {
     EXPECT_GT(c.information.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff(), 0);
 }
 
-TEST(SlamBySurfaces, PosesEveryFrameByTheGroundWithMonocularOfKnownHeight) {
+TEST(SlamBySurfaces, PosesEveryFrameByTheGroundWithOneCameraOfKnownHeight) {
   RunOptions options = run_by("plane", SensorChoice::kMono);
   options.camera_height_m = kStreetHeight_m;
   const RunResult run = run_sequence(drive(), options);

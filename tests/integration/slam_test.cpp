@@ -65,7 +65,7 @@ TEST(SlamOnAStreet, PosesEveryFrameWithStereo) {
     EXPECT_GT(c.information.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff(), 0);
 }
 
-TEST(SlamOnAStreet, PosesEveryFrameWithMonocularUpToScale) {
+TEST(SlamOnAStreet, PosesEveryFrameWithOneCameraUpToScale) {
   const RunResult run = run_sequence(drive(), run_as(SensorChoice::kMono));
   EXPECT_FALSE(run.map.metric);
   const Trajectory optimized = run.map.trajectory_optimized();
@@ -95,7 +95,7 @@ TEST(SlamOnAStreet, FillsInTheFramesBeforeItsSecondViewLater) {
   EXPECT_LT(optimized.poses[3].T_world_body->translation().norm(), 0.005 * length);
 }
 
-TEST(SlamOnAStreet, IsMetricWithMonocularOfKnownHeight) {
+TEST(SlamOnAStreet, IsMetricWithOneCameraOfKnownHeight) {
   RunOptions options = run_as(SensorChoice::kMono);
   options.camera_height_m = kStreetHeight_m;
   const RunResult run = run_sequence(drive(), options);
@@ -263,7 +263,7 @@ TEST(SlamOnAStreet, NeedsNoKeyframesToRotateWhereItsRotationIsRemoved) {
   EXPECT_EQ(keyframes(true), 1u);
 }
 
-TEST(SlamOnAStreet, GoesOnWithMonocularAfterAJumpToAKnownPlace) {
+TEST(SlamOnAStreet, GoesOnWithOneCameraAfterAJumpToAKnownPlace) {
   // Frames 0 to 23, then from 8 on again: the new run takes place and unit from the map.
   Slam slam(small_options(), drive().calibration(Sensor::kMono));
   std::vector<std::optional<SE3>> online;
@@ -342,7 +342,7 @@ TEST(SlamOnAStreet, TakesItsUnitFromMeasuredMotionAndDoesNotSlipWithIt) {
   EXPECT_LT(result.ape.error_m.rmse, 0.02 * result.path_m);
 }
 
-TEST(SlamOnAStreet, IsNotLedAstrayBySlipWithStereo) {
+TEST(SlamOnAStreet, IsNotLedAstrayBySlipWithAStereoPair) {
   Slam slam(small_options(), drive().calibration(Sensor::kStereo),
             {.motion = slipping_wheels(10, 13)});
   for (int i = 0; i < kFrames; ++i)

@@ -4,7 +4,7 @@ Reads words.txt beside it for the words that are refused and words_allowed.txt f
 which they are allowed. Looks at identifiers of all C++ sources; at comments and texts in quotes of
 the sources outside tests; at the documents (README.md, docs/*.md but options.md and results). Also
 refuses a comment that begins with a bare "of". Not read: the table of old spellings of commands
-(apps/spellings.cpp), the former keys of options (`formerly("...")`) and keys of JSON. Prints `file:line: ...` for each fault and exits
+(apps/shell/spellings.cpp), the former keys of options (`formerly("...")`) and keys of JSON. Prints `file:line: ...` for each fault and exits
 with 1 if there is one, with 0 and a summary otherwise. With PATH, only files below it are read.
 """
 import os
@@ -13,7 +13,7 @@ import subprocess
 import sys
 
 CODE = ("apps", "backend", "eval", "examples", "frontend", "graph", "io", "pipeline", "tests")
-LEFT_OUT = re.compile(r"docs/(results|glossary|elements)\.md|tests/lint/|tests/mutations/|apps/spellings\.cpp")
+LEFT_OUT = re.compile(r"docs/(results|glossary|elements)\.md|tests/lint/|tests/mutations/|apps/shell/spellings\.cpp")
 FORMER_KEY = re.compile(r"formerly\(\s*$")
 MOST_ALLOWED = 30
 TOKEN = re.compile(r'(?P<comment>//[^\n]*|/\*.*?\*/)|(?P<include>#[ \t]*include[^\n]*)'
@@ -80,7 +80,7 @@ def is_name_of_data(token, text):
     if not token.group("text") or not re.fullmatch(r'"\w+"', token.group("text")):
         return False
     before = text[max(0, token.start() - 40):token.start()]
-    return before.endswith(("{", "[")) or bool(FORMER_KEY.search(before))
+    return bool(re.search(r"(?<!IsMember\()(?<!\w\()[{\[]$", before) or FORMER_KEY.search(before))
 
 
 def code_faults(words, file, text):
@@ -95,6 +95,9 @@ def code_faults(words, file, text):
         elif in_tests or token.group("include") or is_name_of_data(token, text):
             continue
         else:
+            key = re.fullmatch(r'"(?:--)?([\w-]+)"', token.group(0))  # of an option, or a flag
+            for word, term in words.in_name(key.group(1).replace("-", "_")) if key else ():
+                yield line, f"{token.group(0)}: '{word}'; the term is {term}"
             for offset, word, term in words.in_prose(token.group(0)):
                 yield line + token.group(0).count("\n", 0, offset), f"'{word}'; the term is {term}"
             if token.group("comment"):

@@ -67,7 +67,7 @@ std::pair<int, int> AntennaTrack::neighbours(std::int64_t stamp_ns) const {
   return {std::max(next - 1, 0), std::min(next, last)};
 }
 
-std::vector<std::optional<InterpolatedFix>> AntennaTrack::carry(
+std::vector<std::optional<InterpolatedFix>> AntennaTrack::interpolate_fixes(
     const std::vector<std::int64_t>& stamps_ns, const Eigen::Vector3d& lever_arm,
     double max_gap_s) const {
   std::vector<std::optional<InterpolatedFix>> interpolated(stamps_ns.size());

@@ -38,9 +38,9 @@ class AntennaTrack {
   /// Between neighbours of the motion at most `max_gap_s` apart the translation is interpolated
   /// linearly and the rotation geodesically. Empty for a fix outside of the motion or in a longer
   /// gap. `lever_arm` is used for the velocity.
-  std::vector<std::optional<InterpolatedFix>> carry(const std::vector<std::int64_t>& stamps_ns,
-                                                    const Eigen::Vector3d& lever_arm,
-                                                    double max_gap_s) const;
+  std::vector<std::optional<InterpolatedFix>> interpolate_fixes(
+      const std::vector<std::int64_t>& stamps_ns, const Eigen::Vector3d& lever_arm,
+      double max_gap_s) const;
 
   /// T_map_body; the nodes at the times of their visits if no motion was given.
   const Trajectory& motion() const { return motion_; }

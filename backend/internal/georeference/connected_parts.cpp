@@ -17,7 +17,7 @@ Pose placed(const Sim3& T_enu_map, const Pose& T_map_node) {
   return T_enu_map * std::get<Sim3>(T_map_node);
 }
 
-PoseGraph kept_part(const PoseGraph& graph, const std::vector<char>& keep) {
+PoseGraph subgraph_of(const PoseGraph& graph, const std::vector<char>& keep) {
   PoseGraph part;
   for (std::size_t i = 0; i < graph.nodes.size(); ++i)
     if (keep[i]) part.nodes.push_back(graph.nodes[i]);

@@ -9,6 +9,6 @@ namespace placegraph {
 Pose placed(const Sim3& T_enu_map, const Pose& T_map_node);
 
 /// The subgraph of the kept nodes, without measured positions and edges to dropped nodes.
-PoseGraph kept_part(const PoseGraph& graph, const std::vector<char>& keep);
+PoseGraph subgraph_of(const PoseGraph& graph, const std::vector<char>& keep);
 
 }  // namespace placegraph

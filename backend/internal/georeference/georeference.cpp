@@ -58,8 +58,8 @@ class Georeferencer {
 
  private:
   void locate_fixes();
-  void carry(const AntennaTrack& track);
-  void carry_again();
+  void interpolate_fixes(const AntennaTrack& track);
+  void interpolate_fixes_again();
   Eigen::Matrix3d information(int fix) const {
     return fix_information(accuracy_m_[fix] * result_.accuracy_factor_horizontal,
                            accuracy_m_[fix] * result_.accuracy_factor_vertical);
@@ -114,11 +114,12 @@ void Georeferencer::locate_fixes() {
 }
 
 /// Transfers the fixes to the nodes with the current clock offset.
-void Georeferencer::carry(const AntennaTrack& track) {
+void Georeferencer::interpolate_fixes(const AntennaTrack& track) {
   std::vector<std::int64_t> stamps_ns = stamps_ns_;
   const auto offset_ns = static_cast<std::int64_t>(std::llround(1e9 * calibration_[3]));
   for (std::int64_t& stamp : stamps_ns) stamp += offset_ns;
-  const auto interpolated = track.carry(stamps_ns, calibration_.head<3>(), options_.max_gap_s);
+  const auto interpolated =
+      track.interpolate_fixes(stamps_ns, calibration_.head<3>(), options_.max_gap_s);
   fix_of_.clear();
   observations_.clear();
   for (std::size_t i = 0; i < interpolated.size(); ++i) {
@@ -133,16 +134,16 @@ void Georeferencer::carry(const AntennaTrack& track) {
   }
 }
 
-void Georeferencer::carry_again() {
+void Georeferencer::interpolate_fixes_again() {
   if (motion_.poses.empty())
-    carry(AntennaTrack(graph_, visits_, {}));
+    interpolate_fixes(AntennaTrack(graph_, visits_, {}));
   else
-    carry(*track_);
+    interpolate_fixes(*track_);
 }
 
 Outcome Georeferencer::align() {
   const AntennaTrack track(in_.graph, visits_, in_.motion);
-  carry(track);
+  interpolate_fixes(track);
   if (observations_.empty())
     return Outcome::failure(
         Outcome::Code::kTooFewData,
@@ -196,7 +197,7 @@ void Georeferencer::place(const std::vector<std::optional<Sim3>>& T_enu_map,
     keep[i] = T_enu_map[static_cast<std::size_t>(component[i])].has_value();
     if (!keep[i]) result_.unplaced_nodes.push_back(in_.graph.nodes[i].id);
   }
-  map_ = kept_part(in_.graph, keep);
+  map_ = subgraph_of(in_.graph, keep);
   graph_ = map_;
   std::size_t next = 0;
   for (std::size_t i = 0; i < keep.size(); ++i) {
@@ -209,7 +210,7 @@ void Georeferencer::place(const std::vector<std::optional<Sim3>>& T_enu_map,
   const auto index = graph_.index_by_id();
   std::erase_if(visits_, [&](const NodeVisit& visit) { return !index.contains(visit.node); });
   track_.emplace(map_, visits_, motion_);
-  carry_again();
+  interpolate_fixes_again();
 }
 
 /// Optimizes with Huber's kernel until the dispersion of the fixes is constant.
@@ -224,9 +225,9 @@ void Georeferencer::dispersion_of_fixes() {
       if (round == 0 || e.dot(observations_[i].information * e) <= kGrossChi2)
         residuals.push_back({stamps_ns_[fix_of_[i]], e, accuracy_m_[fix_of_[i]]});
     }
-    const auto scatter = dispersion_of(residuals, options_.max_gap_s);
-    if (!scatter) return;
-    const double h = scatter->horizontal, v = scatter->vertical;
+    const auto dispersion = dispersion_of(residuals, options_.max_gap_s);
+    if (!dispersion) return;
+    const double h = dispersion->horizontal, v = dispersion->vertical;
     const double change = std::max(std::abs(std::log(h / result_.accuracy_factor_horizontal)),
                                    std::abs(std::log(v / result_.accuracy_factor_vertical)));
     result_.accuracy_factor_horizontal = h;
@@ -318,7 +319,7 @@ void Georeferencer::take_further(double delay_s) {
   if (!motion_.poses.empty()) motion_ = without_delay(motion_, delay_s, options_.max_gap_s);
   move_nodes(map_, steps);
   track_.emplace(map_, visits_, motion_);
-  carry_again();
+  interpolate_fixes_again();
 }
 
 void Georeferencer::calibrate() {
@@ -334,7 +335,7 @@ void Georeferencer::calibrate() {
     result_.lever_arm_covariance = found.covariance.topLeftCorner<3, 3>();
     result_.clock_offset_sigma_s = std::sqrt(found.covariance(3, 3));
     graph_ = found.graph;
-    carry_again();
+    interpolate_fixes_again();
     if (round > 0 && step.head<3>().norm() < 1e-3 && std::abs(step[3]) < 1e-4) break;
     kernel = options_.kernel;
   }
@@ -359,7 +360,7 @@ void Georeferencer::solve(const RobustKernel& kernel) {
   for (std::size_t i = 0; i < graph_.nodes.size(); ++i)
     graph_.nodes[i].T_world_node = report.graph.nodes[i].T_world_node;
   result_.graph = report.graph;
-  carry_again();
+  interpolate_fixes_again();
 }
 
 void Georeferencer::finish() {

@@ -46,7 +46,7 @@ std::vector<int> judged(const PoseGraph& graph) {
 }
 
 template <class Group>
-VarianceComponents scatter(const PoseGraph& graph) {
+VarianceComponents estimate_components(const PoseGraph& graph) {
   constexpr int dim = Group::kDof == 3 ? 2 : 3, rotations = Group::kDof - dim;
   const PoseMarginals marginals(graph);
   VarianceComponents result;
@@ -103,13 +103,13 @@ ClaimedDrift drift(const PoseGraph& map) {
 VarianceComponents odometry_variance_components(const PoseGraph& solved) {
   switch (solved.kind()) {
     case PoseKind::kSE2:
-      return scatter<SE2>(solved);
+      return estimate_components<SE2>(solved);
     case PoseKind::kSE3:
-      return scatter<SE3>(solved);
+      return estimate_components<SE3>(solved);
     case PoseKind::kSim3:
       break;
   }
-  return scatter<Sim3>(solved);
+  return estimate_components<Sim3>(solved);
 }
 
 ClaimedDrift claimed_drift(const PoseGraph& map) {

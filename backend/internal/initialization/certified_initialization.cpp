@@ -170,9 +170,9 @@ bool proves_itself(const ChordalRelaxation<dim>& relaxation, int nodes, const Ei
 }  // namespace
 
 template <class Group>
-CertifiedInitializationReport certified_initialization_of(PackedGraph<Group>& graph,
-                                                          RotationError rotation_error,
-                                                          double max_effort) {
+CertifiedInitializationReport initialize_certified(PackedGraph<Group>& graph,
+                                                   RotationError rotation_error,
+                                                   double max_effort) {
   constexpr int dim = kSpaceDim<Group>;
   const ComponentAnchors anchors = find_anchors(graph);
   const IsotropicProblem<dim> problem = held_node_constraints(graph, anchors, rotation_error);
@@ -203,9 +203,9 @@ bool certified_as_they_are(const PackedGraph<Group>& graph, RotationError rotati
          points_agree<dim>(here, X) && proves_itself(relaxation, problem.nodes, X);
 }
 
-#define PLACEGRAPH_INSTANTIATE(Group)                                                        \
-  template CertifiedInitializationReport certified_initialization_of(PackedGraph<Group>&,    \
-                                                                     RotationError, double); \
+#define PLACEGRAPH_INSTANTIATE(Group)                                                             \
+  template CertifiedInitializationReport initialize_certified(PackedGraph<Group>&, RotationError, \
+                                                              double);                            \
   template bool certified_as_they_are(const PackedGraph<Group>&, RotationError);
 PLACEGRAPH_INSTANTIATE(SE2)
 PLACEGRAPH_INSTANTIATE(SE3)

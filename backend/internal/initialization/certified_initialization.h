@@ -27,14 +27,14 @@ struct CertifiedInitializationReport {
 /// operations), and after `max_effort` the relaxation is not lifted and no eigenvalue is searched:
 /// if the relaxation is not tight, the staircase takes many steps and gains little.
 template <class Group>
-CertifiedInitializationReport certified_initialization_of(
+CertifiedInitializationReport initialize_certified(
     PackedGraph<Group>& graph, RotationError rotation_error = RotationError::kLog,
     double max_effort = 3000);
 
 /// Whether the poses are at or near the global minimum of the isotropic chordal problem.
 /// The gap is at most 1e-5. The poses themselves are tested first, which costs one factorization
 /// and is sufficient for isotropic information, then the end of a short descent from them, if it
-/// rotates no pose by more than 0.3 rad. Far cheaper than certified_initialization_of; false means
+/// rotates no pose by more than 0.3 rad. Far cheaper than initialize_certified; false means
 /// only that this test found no proof.
 template <class Group>
 bool certified_as_they_are(const PackedGraph<Group>& graph,

@@ -15,7 +15,7 @@ constexpr std::size_t kParts = 100;
 
 /// The nodes in the order of the odometry, run by run; without odometry in their own order.
 template <class Group>
-std::vector<int> order_of_growth(const PackedGraph<Group>& graph) {
+std::vector<int> order_of_extension(const PackedGraph<Group>& graph) {
   const OdometryChain<Group> odometry(graph);
   std::vector<int> order(graph.poses.size());
   std::iota(order.begin(), order.end(), 0);
@@ -62,11 +62,11 @@ std::vector<std::vector<Constraint>> constraints_by_step(const PackedGraph<Group
 }  // namespace
 
 template <class Group>
-bool incremental_initialization_of(PackedGraph<Group>& graph, RotationError rotation_error,
-                                   double most_factorizations) {
+bool initialize_incrementally(PackedGraph<Group>& graph, RotationError rotation_error,
+                              double most_factorizations) {
   const std::size_t nodes = graph.poses.size();
   const std::size_t part = (nodes + kParts - 1) / kParts;
-  const std::vector<int> order = order_of_growth(graph);
+  const std::vector<int> order = order_of_extension(graph);
   auto constraints = constraints_by_step(graph, order);
   IncrementalOptimizer optimizer({.rotation_error = rotation_error});
   double eliminated = 0;
@@ -89,8 +89,8 @@ bool incremental_initialization_of(PackedGraph<Group>& graph, RotationError rota
   return true;
 }
 
-template bool incremental_initialization_of(PackedGraph<SE2>&, RotationError, double);
-template bool incremental_initialization_of(PackedGraph<SE3>&, RotationError, double);
-template bool incremental_initialization_of(PackedGraph<Sim3>&, RotationError, double);
+template bool initialize_incrementally(PackedGraph<SE2>&, RotationError, double);
+template bool initialize_incrementally(PackedGraph<SE3>&, RotationError, double);
+template bool initialize_incrementally(PackedGraph<Sim3>&, RotationError, double);
 
 }  // namespace placegraph

@@ -11,7 +11,7 @@ namespace placegraph {
 /// eliminate more than `most_factorizations` times the number of nodes, or if the minimum of some
 /// part cannot be computed.
 template <class Group>
-bool incremental_initialization_of(PackedGraph<Group>& graph, RotationError rotation_error,
-                                   double most_factorizations);
+bool initialize_incrementally(PackedGraph<Group>& graph, RotationError rotation_error,
+                              double most_factorizations);
 
 }  // namespace placegraph

@@ -224,8 +224,8 @@ InitializedSolution solve_automatically(PackedGraph<Group>& graph, RotationError
   if (chordal.empty()) make_chordal();
   const double descent = std::max(1, candidates.iterations());
   const bool tight =
-      certified_initialization_of(graph, rotation_error,
-                                  std::max(kCertifiedDescents * descent, kLeastCertifiedIterations))
+      initialize_certified(graph, rotation_error,
+                           std::max(kCertifiedDescents * descent, kLeastCertifiedIterations))
           .tight;
   if (tight && candidates.best().outcome && rotations_agree(graph.poses, candidates.poses()))
     return candidates.take();
@@ -235,7 +235,7 @@ InitializedSolution solve_automatically(PackedGraph<Group>& graph, RotationError
                                                              : PoseGraphInitialization::kFile);
   spanning_tree_initialization(graph);
   candidates.descend_if_new(std::vector<Group>(graph.poses), PoseGraphInitialization::kOdometry);
-  if (incremental_initialization_of(graph, rotation_error, kReplayDescents * descent))
+  if (initialize_incrementally(graph, rotation_error, kReplayDescents * descent))
     candidates.descend(std::vector<Group>(graph.poses), PoseGraphInitialization::kOdometry);
   return candidates.take();
 }
@@ -271,7 +271,7 @@ void set_initialization(PackedGraph<Group>& graph, PoseGraphInitialization start
       return chordal_initialization(graph, rotation_error);
     case PoseGraphInitialization::kCertified:
       chordal_initialization(graph, rotation_error);
-      (void)certified_initialization_of(graph, rotation_error);
+      (void)initialize_certified(graph, rotation_error);
       return;
   }
 }

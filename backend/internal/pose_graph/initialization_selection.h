@@ -24,7 +24,7 @@ struct InitializedSolution {
 ///   3. else the certified initialization: if its relaxation is tight and it is rotated from the
 ///      minimum by no more than 0.3 rad anywhere, the minimum is kept; else a descent from it as
 ///      well and, if the relaxation is not tight, from the costlier of the first two, from the
-///      odometry initialization and from the `incremental_initialization_of`; of the descents that
+///      odometry initialization and from the `initialize_incrementally`; of the descents that
 ///      converged the lowest minimum is kept.
 ///
 /// The certified initialization is aborted if its operations exceed five times those of the first

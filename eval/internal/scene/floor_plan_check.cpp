@@ -52,10 +52,10 @@ std::vector<Segment> solid_pieces(const BuildingPlan& truth, std::size_t wall, b
 }
 
 /// The surfaces that are visible from the poses, in the plane.
-class Observation {
+class Visibility {
  public:
-  Observation(const BuildingPlan& truth, const std::vector<SE3>& poses,
-              const FloorPlanCheckOptions& options)
+  Visibility(const BuildingPlan& truth, const std::vector<SE3>& poses,
+             const FloorPlanCheckOptions& options)
       : options_(options) {
     for (std::size_t i = 0; i < truth.walls.size(); ++i)
       for (const Segment& piece : solid_pieces(truth, i, true)) blocks_.push_back(piece);
@@ -313,7 +313,7 @@ class Checker {
   const SE3& T_;
   const std::vector<SE3>& poses_;
   const FloorPlanCheckOptions& options_;
-  Observation observation_;
+  Visibility observation_;
   FloorPlanCheck result_;
 };
 

@@ -140,7 +140,7 @@ double greatest_rotation(const std::vector<FramePair>& pairs, Poses pose_of) {
   return greatest;
 }
 
-std::string never_rotations(const std::vector<FramePair>& pairs) {
+std::string never_rotates(const std::vector<FramePair>& pairs) {
   const auto truth = [](const FramePair& pair) { return &pair.T_world_truth; };
   const auto estimate = [](const FramePair& pair) {
     return pair.T_world_estimate ? &*pair.T_world_estimate : nullptr;
@@ -228,7 +228,7 @@ double motion_misfit(const std::vector<FramePair>& pairs, int stride, int shift,
 }
 
 std::vector<std::string> convention_warnings(const std::vector<FramePair>& pairs) {
-  const std::string stands = never_rotations(pairs);
+  const std::string stands = never_rotates(pairs);
   if (!stands.empty()) return {stands};
   const int n = static_cast<int>(pairs.size());
   if (n < 4 * kMaxShift) return {};

@@ -20,7 +20,7 @@ class PlanarWarp {
  public:
   enum class Kind {
     kHomography,    ///< 8 degrees of freedom: H exp(sum x_k A_k), A_k a basis of sl(3)
-    kRigidMotion,   ///< 6: T_cur_ref exp(x) of a camera before a known plane (distance = scale)
+    kRigidMotion,   ///< 6: T_cur_ref exp(x) of a camera before a known plane (distance 1)
     kPlanarMotion,  ///< 3: the camera moves along a known plane, its height and tilt constant
   };
   static constexpr int kMaxDof = 8;

@@ -9,17 +9,16 @@
 
 namespace placegraph {
 
-struct MarkerDetector::DirectionCluster {
+struct MarkerDetector::TagFamily {
   cv::Ptr<cv::aruco::Dictionary> dictionary;
 };
 
 MarkerDetector::MarkerDetector(const MarkerDetectorOptions& options, const std::string& dictionary)
     : options_(options), dictionary_(dictionary) {
   options_.check();
-  const MarkerFamily cluster = marker_family(dictionary);
-  family_ =
-      std::make_shared<const DirectionCluster>(DirectionCluster{cv::makePtr<cv::aruco::Dictionary>(
-          cluster.codes, cluster.bits_per_side, cluster.correctable_bits)});
+  const MarkerFamily family = marker_family(dictionary);
+  family_ = std::make_shared<const TagFamily>(TagFamily{cv::makePtr<cv::aruco::Dictionary>(
+      family.codes, family.bits_per_side, family.correctable_bits)});
 }
 
 void MarkerDetector::detect_in(const Image& grey, int left, int top, int right, int bottom,

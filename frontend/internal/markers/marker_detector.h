@@ -57,13 +57,13 @@ class MarkerDetector {
   const std::string& dictionary() const { return dictionary_; }
 
  private:
-  struct DirectionCluster;
+  struct TagFamily;
   void detect_in(const Image& grey, int left, int top, int right, int bottom, const Camera* lens,
                  std::vector<MarkerObservation>& found) const;
 
   MarkerDetectorOptions options_;
   std::string dictionary_;
-  std::shared_ptr<const DirectionCluster> family_;
+  std::shared_ptr<const TagFamily> family_;
 };
 
 }  // namespace placegraph

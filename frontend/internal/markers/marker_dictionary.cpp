@@ -9,7 +9,7 @@ namespace {
 
 namespace aruco = cv::aruco;
 
-const std::vector<std::pair<const char*, aruco::PREDEFINED_DICTIONARY_NAME>>& clusters() {
+const std::vector<std::pair<const char*, aruco::PREDEFINED_DICTIONARY_NAME>>& families() {
   static const std::vector<std::pair<const char*, aruco::PREDEFINED_DICTIONARY_NAME>> all = {
       {"aruco_4x4_50", aruco::DICT_4X4_50},
       {"aruco_4x4_100", aruco::DICT_4X4_100},
@@ -39,15 +39,15 @@ const std::vector<std::pair<const char*, aruco::PREDEFINED_DICTIONARY_NAME>>& cl
 
 std::vector<std::string> marker_dictionaries() {
   std::vector<std::string> names;
-  for (const auto& cluster : clusters()) names.emplace_back(cluster.first);
+  for (const auto& family : families()) names.emplace_back(family.first);
   return names;
 }
 
 MarkerFamily marker_family(const std::string& dictionary) {
   std::string known;
-  for (const auto& [name, cluster] : clusters()) {
+  for (const auto& [name, family] : families()) {
     if (dictionary == name) {
-      const auto found = aruco::getPredefinedDictionary(cluster);
+      const auto found = aruco::getPredefinedDictionary(family);
       return {found->bytesList, found->markerSize, found->maxCorrectionBits};
     }
     known += (known.empty() ? "" : ", ") + std::string(name);

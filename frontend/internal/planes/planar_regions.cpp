@@ -22,7 +22,7 @@ constexpr int kMoreNeighbours = 2;
 constexpr int kFitIterations = 10;
 constexpr int kRounds = 12;  ///< rounds that estimate labels, models and noise in alternation
 
-struct StateEstimate {
+struct PlaneLabelling {
   std::vector<Matrix3d> models;
   std::vector<int> labels;  // 0: none, k: models[k - 1]
   double share_none = 1;    // share of label 0
@@ -45,29 +45,29 @@ class Search {
     find_neighbours();
   }
 
-  StateEstimate nothing(double noise_px) const;
+  PlaneLabelling nothing(double noise_px) const;
   /// Finds the best of many local samples and refines it; false if none reduces the cost.
-  bool propose(const StateEstimate& answer, Random& random, Matrix3d& H) const;
+  bool propose(const PlaneLabelling& answer, Random& random, Matrix3d& H) const;
   /// Estimates labels, models, noise and shares in alternation until the cost is stationary; weak
   /// planes are dropped.
-  StateEstimate settle(StateEstimate answer, int rounds) const;
-  StateEstimate merged(StateEstimate answer) const;
+  PlaneLabelling settle(PlaneLabelling answer, int rounds) const;
+  PlaneLabelling merged(PlaneLabelling answer) const;
   /// Adds planes one by one with fixed noise, then estimates all together with the noise.
-  StateEstimate search(double noise_px, Random& random) const;
-  std::vector<int> members(const StateEstimate& answer, int label) const;
+  PlaneLabelling search(double noise_px, Random& random) const;
+  std::vector<int> members(const PlaneLabelling& answer, int label) const;
 
  private:
   void find_neighbours();
   double on_plane_cost(const Matrix3d& H, double noise_px, int i) const;
-  double plane_cost(const StateEstimate& answer, int matches) const;
-  Eigen::MatrixXd costs(const StateEstimate& answer) const;
-  double total(const StateEstimate& answer) const;
-  void drop(StateEstimate& answer, int label) const;
-  bool relabel(StateEstimate& answer) const;
-  void refit(StateEstimate& answer) const;
+  double plane_cost(const PlaneLabelling& answer, int matches) const;
+  Eigen::MatrixXd costs(const PlaneLabelling& answer) const;
+  double total(const PlaneLabelling& answer) const;
+  void drop(PlaneLabelling& answer, int label) const;
+  bool relabel(PlaneLabelling& answer) const;
+  void refit(PlaneLabelling& answer) const;
   /// Whether some of the neighbours among which a sample was drawn are on its plane, too.
-  bool agrees(const Matrix3d& H, const StateEstimate& answer, const std::vector<int>& near) const;
-  double gain(const Matrix3d& H, const StateEstimate& answer, const std::vector<double>& now,
+  bool agrees(const Matrix3d& H, const PlaneLabelling& answer, const std::vector<int>& near) const;
+  double gain(const Matrix3d& H, const PlaneLabelling& answer, const std::vector<double>& now,
               std::vector<int>* inliers) const;
 
   const PointMatches& matches_;
@@ -111,12 +111,12 @@ double Search::on_plane_cost(const Matrix3d& H, double noise_px, int i) const {
 }
 
 /// Cost of four points of the current view, each with the precision that n matches determine.
-double Search::plane_cost(const StateEstimate& answer, int n) const {
+double Search::plane_cost(const PlaneLabelling& answer, int n) const {
   return 4 * (log_area_ - std::log(2 * std::numbers::pi * 2 * answer.noise_px * answer.noise_px) +
               std::log(std::max(n, 4) / 4.0));
 }
 
-Eigen::MatrixXd Search::costs(const StateEstimate& answer) const {
+Eigen::MatrixXd Search::costs(const PlaneLabelling& answer) const {
   const int n = matches_.size(), labels = static_cast<int>(answer.models.size()) + 1;
   Eigen::MatrixXd unary(n, labels);
   for (int l = 0; l < labels; ++l) {
@@ -129,21 +129,21 @@ Eigen::MatrixXd Search::costs(const StateEstimate& answer) const {
   return unary;
 }
 
-std::vector<int> Search::members(const StateEstimate& answer, int label) const {
+std::vector<int> Search::members(const PlaneLabelling& answer, int label) const {
   std::vector<int> which;
   for (int i = 0; i < matches_.size(); ++i)
     if (answer.labels[static_cast<std::size_t>(i)] == label) which.push_back(i);
   return which;
 }
 
-void set_share(StateEstimate& answer) {
+void set_share(PlaneLabelling& answer) {
   // One more of each than counted, so that no probability is zero.
   const auto none = std::count(answer.labels.begin(), answer.labels.end(), 0);
   answer.share_none =
       (1.0 + static_cast<double>(none)) / (2.0 + static_cast<double>(answer.labels.size()));
 }
 
-double Search::total(const StateEstimate& answer) const {
+double Search::total(const PlaneLabelling& answer) const {
   double cost = label_cost({costs(answer), neighbours_, options_.smoothness}, answer.labels);
   for (std::size_t k = 1; k <= answer.models.size(); ++k)
     cost += plane_cost(answer, static_cast<int>(members(answer, static_cast<int>(k)).size()));
@@ -152,8 +152,8 @@ double Search::total(const StateEstimate& answer) const {
   return cost + options_.noise_confidence * (ratio * ratio - 2 * std::log(ratio));
 }
 
-StateEstimate Search::nothing(double noise_px) const {
-  StateEstimate answer;
+PlaneLabelling Search::nothing(double noise_px) const {
+  PlaneLabelling answer;
   answer.labels.assign(static_cast<std::size_t>(matches_.size()), 0);
   answer.noise_px = noise_px;
   set_share(answer);
@@ -161,7 +161,7 @@ StateEstimate Search::nothing(double noise_px) const {
   return answer;
 }
 
-void Search::drop(StateEstimate& answer, int label) const {
+void Search::drop(PlaneLabelling& answer, int label) const {
   answer.models.erase(answer.models.begin() + label - 1);
   for (int& l : answer.labels) {
     if (l == label) l = 0;
@@ -170,7 +170,7 @@ void Search::drop(StateEstimate& answer, int label) const {
   set_share(answer);
 }
 
-double Search::gain(const Matrix3d& H, const StateEstimate& answer, const std::vector<double>& now,
+double Search::gain(const Matrix3d& H, const PlaneLabelling& answer, const std::vector<double>& now,
                     std::vector<int>* inliers) const {
   double sum = 0;
   if (inliers) inliers->clear();
@@ -185,7 +185,7 @@ double Search::gain(const Matrix3d& H, const StateEstimate& answer, const std::v
   return sum;
 }
 
-bool Search::agrees(const Matrix3d& H, const StateEstimate& answer,
+bool Search::agrees(const Matrix3d& H, const PlaneLabelling& answer,
                     const std::vector<int>& near) const {
   const double none = log_area_ - std::log(answer.share_none) + std::log(1 - answer.share_none);
   int count = 0;
@@ -193,7 +193,7 @@ bool Search::agrees(const Matrix3d& H, const StateEstimate& answer,
   return count >= 3 + kMoreNeighbours;
 }
 
-bool Search::propose(const StateEstimate& answer, Random& random, Matrix3d& H) const {
+bool Search::propose(const PlaneLabelling& answer, Random& random, Matrix3d& H) const {
   const int n = matches_.size();
   const Eigen::MatrixXd unary = costs(answer);
   std::vector<double> now(static_cast<std::size_t>(n));
@@ -245,7 +245,7 @@ bool Search::propose(const StateEstimate& answer, Random& random, Matrix3d& H) c
   return best > 0;
 }
 
-bool Search::relabel(StateEstimate& answer) const {
+bool Search::relabel(PlaneLabelling& answer) const {
   std::vector<int> labels = answer.labels;
   const LabelProblem problem{costs(answer), neighbours_, options_.smoothness};
   expand_labels(problem, labels);
@@ -257,7 +257,7 @@ bool Search::relabel(StateEstimate& answer) const {
   return changed;
 }
 
-void Search::refit(StateEstimate& answer) const {
+void Search::refit(PlaneLabelling& answer) const {
   const TransferNoise noise{answer.noise_px, options_.tail_freedom};
   double squared = 2 * options_.noise_confidence * options_.noise_px * options_.noise_px;
   double freedom = 2 * options_.noise_confidence;
@@ -280,9 +280,9 @@ void Search::refit(StateEstimate& answer) const {
   if (answer.noise_free) answer.noise_px = std::sqrt(squared / freedom);
 }
 
-StateEstimate Search::settle(StateEstimate answer, int rounds) const {
+PlaneLabelling Search::settle(PlaneLabelling answer, int rounds) const {
   set_share(answer);
-  StateEstimate best;
+  PlaneLabelling best;
   for (int round = 0; round < rounds; ++round) {
     const bool changed = relabel(answer);
     refit(answer);
@@ -293,14 +293,14 @@ StateEstimate Search::settle(StateEstimate answer, int rounds) const {
   return best;
 }
 
-StateEstimate Search::merged(StateEstimate answer) const {
+PlaneLabelling Search::merged(PlaneLabelling answer) const {
   for (bool lower = true; lower;) {
     lower = false;
     const int planes = static_cast<int>(answer.models.size());
     for (int a = 1; a <= planes && !lower; ++a)
       for (int b = 0; b <= planes && !lower; ++b) {
         if (b == a) continue;
-        StateEstimate trial = answer;
+        PlaneLabelling trial = answer;
         for (int& l : trial.labels)
           if (l == a) l = b;
         drop(trial, a);
@@ -313,10 +313,10 @@ StateEstimate Search::merged(StateEstimate answer) const {
   return answer;
 }
 
-StateEstimate Search::search(double noise_px, Random& random) const {
-  StateEstimate answer = nothing(noise_px);
+PlaneLabelling Search::search(double noise_px, Random& random) const {
+  PlaneLabelling answer = nothing(noise_px);
   while (static_cast<int>(answer.models.size()) < options_.max_planes) {
-    StateEstimate more = answer;
+    PlaneLabelling more = answer;
     Matrix3d H;
     if (!propose(answer, random, H)) break;
     more.models.push_back(H);
@@ -362,10 +362,10 @@ PlanarRegionsResult find_planar_regions(const PointMatches& matches,
     return result;
   }
   const Search search(matches, options);
-  StateEstimate answer = search.nothing(options.noise_px);
+  PlaneLabelling answer = search.nothing(options.noise_px);
   const double empty = answer.cost;
   for (const double factor : kNoiseStarts) {
-    StateEstimate other = search.search(factor * options.noise_px, random);
+    PlaneLabelling other = search.search(factor * options.noise_px, random);
     if (other.cost < answer.cost) answer = std::move(other);
   }
   result.noise = {answer.noise_px, options.tail_freedom};

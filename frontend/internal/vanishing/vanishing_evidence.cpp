@@ -96,7 +96,7 @@ void VanishingEvidence::set_noise(const VanishingNoise& noise) {
 }
 
 void VanishingEvidence::pack() {
-  for (auto* column : {&a_, &b_, &c_, &x_, &y_, &rotation_, &log_gain_, &weight_})
+  for (auto* column : {&a_, &b_, &c_, &x_, &y_, &rotation_variance_, &log_gain_, &weight_})
     column->resize(size());
   for (int i = 0; i < size(); ++i) {
     const Line& line = lines_[static_cast<std::size_t>(i)];
@@ -106,7 +106,7 @@ void VanishingEvidence::pack() {
     c_[i] = static_cast<float>(-line.across.dot(line.middle));
     x_[i] = static_cast<float>(line.middle.x());
     y_[i] = static_cast<float>(line.middle.y());
-    rotation_[i] = static_cast<float>(rotation_variance);
+    rotation_variance_[i] = static_cast<float>(rotation_variance);
     log_gain_[i] = static_cast<float>(std::log(std::numbers::pi) -
                                       0.5 * std::log(2 * std::numbers::pi * rotation_variance));
     weight_[i] = static_cast<float>(line.weight);
@@ -164,9 +164,9 @@ void VanishingEvidence::quick_gains(const Eigen::Vector3d& v, double cost,
   const float share = static_cast<float>(cost);
   const auto across = a_ * f.x() + b_ * f.y() + c_ * f.z();
   const auto squared_distance = (f.x() - f.z() * x_).square() + (f.y() - f.z() * y_).square();
-  gains = weight_ *
-          (log_gain_ - share - 0.5F * across.square() / (rotation_ * squared_distance + shift))
-              .max(0.0F);
+  gains = weight_ * (log_gain_ - share -
+                     0.5F * across.square() / (rotation_variance_ * squared_distance + shift))
+                        .max(0.0F);
 }
 
 void VanishingEvidence::fit_noise(const std::vector<Eigen::Vector3d>& directions,

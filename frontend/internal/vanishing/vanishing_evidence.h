@@ -82,7 +82,7 @@ class VanishingEvidence {
   double end_variance_ = 0, parallel_variance_ = 0;
   // For quick_gains, one entry per line: coefficients of the line, middle, rotation variance,
   // constants.
-  Eigen::ArrayXf a_, b_, c_, x_, y_, rotation_, log_gain_, weight_;
+  Eigen::ArrayXf a_, b_, c_, x_, y_, rotation_variance_, log_gain_, weight_;
 };
 
 /// Converts labels of lines of the evidence to labels of all given `segments`; -1 for those that

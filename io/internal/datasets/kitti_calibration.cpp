@@ -69,22 +69,21 @@ KittiCameras read_kitti_cameras(const std::string& path, int left, bool with_rig
   const std::string left_key = fmt::format("P{}", left), right_key = fmt::format("P{}", left + 1);
   const auto P_left = lines.find(left_key), P_right = lines.find(right_key);
   if (P_left == lines.end()) throw FileError(path, "has no line " + left_key + ":");
-  KittiCameras kitti_cameras;
-  kitti_cameras.camera = kitti_camera(path, left_key, P_left->second);
-  kitti_cameras.position_in_cam0 = kitti_position(P_left->second);
-  if (!with_right || P_right == lines.end()) return kitti_cameras;
+  KittiCameras cameras;
+  cameras.camera = kitti_camera(path, left_key, P_left->second);
+  cameras.position_in_cam0 = kitti_position(P_left->second);
+  if (!with_right || P_right == lines.end()) return cameras;
   const Camera right = kitti_camera(path, right_key, P_right->second);
-  if (right.fx != kitti_cameras.camera.fx || right.fy != kitti_cameras.camera.fy ||
-      right.cx != kitti_cameras.camera.cx || right.cy != kitti_cameras.camera.cy)
+  if (right.fx != cameras.camera.fx || right.fy != cameras.camera.fy ||
+      right.cx != cameras.camera.cx || right.cy != cameras.camera.cy)
     throw FileError(path, P_right->second.line,
                     right_key + ": has other intrinsics than " + left_key + ": not rectified");
-  kitti_cameras.baseline_m =
-      (P_left->second.numbers[3] - P_right->second.numbers[3]) / kitti_cameras.camera.fx;
-  if (!(kitti_cameras.baseline_m > 0))
+  cameras.baseline_m = (P_left->second.numbers[3] - P_right->second.numbers[3]) / cameras.camera.fx;
+  if (!(cameras.baseline_m > 0))
     throw FileError(
         path, P_right->second.line,
-        fmt::format("{}: baseline is {} m, not positive", right_key, kitti_cameras.baseline_m));
-  return kitti_cameras;
+        fmt::format("{}: baseline is {} m, not positive", right_key, cameras.baseline_m));
+  return cameras;
 }
 
 KittiCalibration read_kitti_calibration(const std::string& path) {

@@ -130,22 +130,22 @@ std::unique_ptr<Dataset> open_kitti_drive(const std::string& folder) {
   const fs::path drive(folder);
   const int left = fs::is_directory(camera_folder(drive, 0) / "data") ? 0 : 2;
   const std::string calibration = calibration_file(drive);
-  const KittiCameras kitti_cameras = read_kitti_cameras(
+  const KittiCameras cameras = read_kitti_cameras(
       calibration, left, fs::is_directory(camera_folder(drive, left + 1) / "data"));
   RecordedSequence sequence;
   sequence.name = folder_name(folder);
   sequence.format = "kitti_raw";
   std::vector<std::int64_t> numbers;
-  take_images(drive, left, kitti_cameras.baseline_m > 0, sequence, numbers);
+  take_images(drive, left, cameras.baseline_m > 0, sequence, numbers);
   take_times(drive, left, numbers, sequence);
   const Image first = read_image(sequence.left[0]).grey;
   require_rectified(calibration, left, sequence.left[0], first);
-  sequence.calibration.camera = kitti_cameras.camera;
+  sequence.calibration.camera = cameras.camera;
   set_size(sequence.left[0], first, sequence.calibration.camera);
   require_plausible_camera(calibration, sequence.calibration.camera);
   sequence.raw_camera = sequence.calibration.camera;
-  sequence.calibration.baseline_m = kitti_cameras.baseline_m;
-  take_truth(drive / "poses.txt", kitti_cameras.position_in_cam0, numbers, sequence);
+  sequence.calibration.baseline_m = cameras.baseline_m;
+  take_truth(drive / "poses.txt", cameras.position_in_cam0, numbers, sequence);
   return make_dataset(std::move(sequence));
 }
 

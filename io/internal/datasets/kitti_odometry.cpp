@@ -28,19 +28,19 @@ void require_count(const std::string& path, std::size_t found, std::size_t image
 Eigen::Vector3d read_cameras(const fs::path& folder, RecordedSequence& sequence) {
   const int left = fs::is_directory(folder / "image_0") ? 0 : 2;
   const fs::path right_folder = folder / fmt::format("image_{}", left + 1);
-  const KittiCameras kitti_cameras =
+  const KittiCameras cameras =
       read_kitti_cameras((folder / "calib.txt").string(), left, fs::is_directory(right_folder));
   sequence.left = list_numbered_images((folder / fmt::format("image_{}", left)).string());
-  sequence.calibration.camera = kitti_cameras.camera;
+  sequence.calibration.camera = cameras.camera;
   set_size(sequence.left[0], read_image(sequence.left[0]).grey, sequence.calibration.camera);
   require_plausible_camera((folder / "calib.txt").string(), sequence.calibration.camera);
   sequence.raw_camera = sequence.calibration.camera;
-  if (kitti_cameras.baseline_m > 0) {
+  if (cameras.baseline_m > 0) {
     sequence.right = list_numbered_images(right_folder.string());
     require_count(right_folder.string(), sequence.right.size(), sequence.left.size());
-    sequence.calibration.baseline_m = kitti_cameras.baseline_m;
+    sequence.calibration.baseline_m = cameras.baseline_m;
   }
-  return kitti_cameras.position_in_cam0;
+  return cameras.position_in_cam0;
 }
 
 /// Reads depth_0 with its own camera in calib_depth.txt; without that file it is registered to the

@@ -60,7 +60,7 @@ MapHeader read_header(const std::string& path, const std::string& bytes, Semanti
     throw FileError(path, "is not a semantic map: no PLY header");
   header.body = end + std::strlen("end_header\n");
   std::istringstream lines(bytes.substr(0, end));
-  bool binary = false, rotated = false;
+  bool binary = false, has_rotation = false;
   for (std::string line; std::getline(lines, line);) {
     std::istringstream stream(line);
     const std::vector<std::string> words{std::istream_iterator<std::string>(stream), {}};
@@ -79,11 +79,11 @@ MapHeader read_header(const std::string& path, const std::string& bytes, Semanti
       if (!(R * R.transpose()).isIdentity(1e-4))
         throw FileError(path, "R_plan_map: not a rotation");
       map.R_plan_map = SO3(Eigen::Quaterniond(R).normalized());
-      rotated = true;
+      has_rotation = true;
     }
   }
   if (!binary || properties != kProperties || header.cells < 0 || map.classes.size() < 2 ||
-      !rotated || !(map.cell_m > 0))
+      !has_rotation || !(map.cell_m > 0))
     throw FileError(path, "is not a semantic map of placegraph");
   return header;
 }
@@ -276,13 +276,13 @@ class Patches {
       all.push_back(std::move(ring));
     }
     const auto outer =
-        std::find_if(all.begin(), all.end(), [](const Ring& r) { return rotations(r); });
+        std::find_if(all.begin(), all.end(), [](const Ring& r) { return is_outer_ring(r); });
     if (outer != all.end()) std::iter_swap(all.begin(), outer);
     return all;
   }
 
   /// Whether a ring is counter-clockwise.
-  static bool rotations(const Ring& ring) {
+  static bool is_outer_ring(const Ring& ring) {
     std::int64_t area = 0;
     for (std::size_t i = 0; i < ring.size(); ++i) {
       const Eigen::Vector2i &a = ring[i], &b = ring[(i + 1) % ring.size()];

@@ -73,7 +73,7 @@ void visit(OptionVisitor& field, ManhattanFrameOptions& o) {
         "standard deviation in a new keyframe, beyond the window's covariance [deg]", {1e-3, 10});
   field("persistence", o.persistence,
         "keyframes of the window that must observe a new Manhattan frame", {1, 1000});
-  field.formerly("max_worlds")("max_frames", o.max_frames,
+  field.formerly("max_worlds")("max_count", o.max_count,
                                "maximum number; the one unobserved for longest is removed",
                                {1, 100});
 }

@@ -64,15 +64,15 @@ std::optional<ManhattanFrameId> ManhattanFrames::add(KeyframeId keyframe,
                                        manhattan_frame.covariance + honest(covariance));
     if (distance < least) best = manhattan_frame, least = distance;
   }
-  if (!best) return begin_frame({keyframe, R_cam_manhattan, covariance}, window);
+  if (!best) return begin_manhattan_frame({keyframe, R_cam_manhattan, covariance}, window);
   see({keyframe, nearest_axes(R_cam_manhattan, best->R_cam_frame), covariance},
       best->manhattan_frame, window);
   return best->manhattan_frame;
 }
 
 /// A candidate waits until enough others in the window agree with it.
-std::optional<ManhattanFrameId> ManhattanFrames::begin_frame(const Candidate& newest,
-                                                             SlidingWindow& window) {
+std::optional<ManhattanFrameId> ManhattanFrames::begin_manhattan_frame(const Candidate& newest,
+                                                                       SlidingWindow& window) {
   const KeyframeId oldest = window.keyframes().front();
   std::erase_if(candidates_, [&](const Candidate& c) { return c.keyframe < oldest; });
   const auto R_map = [&](const Candidate& c) {
@@ -106,7 +106,7 @@ std::optional<ManhattanFrameId> ManhattanFrames::begin_frame(const Candidate& ne
     window.keep(manhattan_variable(kMapAxes));
     window.hold_manhattan_frame(kMapAxes);
   }
-  const ManhattanFrameId manhattan_frame = next_frame_++;
+  const ManhattanFrameId manhattan_frame = next_id_++;
   window.add_manhattan_frame(manhattan_frame, R_map(newest));
   window.keep(manhattan_variable(manhattan_frame));
   for (const Candidate& observation : agreeing) see(observation, manhattan_frame, window);
@@ -115,7 +115,7 @@ std::optional<ManhattanFrameId> ManhattanFrames::begin_frame(const Candidate& ne
 }
 
 void ManhattanFrames::forget_one(SlidingWindow& window) {
-  if (static_cast<int>(last_seen_.size()) < options_.max_frames) return;
+  if (static_cast<int>(last_seen_.size()) < options_.max_count) return;
   const auto longest =
       std::min_element(last_seen_.begin(), last_seen_.end(),
                        [](const auto& a, const auto& b) { return a.second < b.second; });
@@ -136,7 +136,7 @@ void ManhattanFrames::reset() {
   candidates_.clear();
   last_seen_.clear();
   covariance_.clear();
-  next_frame_ = ++ManhattanFrameId(kMapAxes);
+  next_id_ = ++ManhattanFrameId(kMapAxes);
 }
 
 }  // namespace placegraph

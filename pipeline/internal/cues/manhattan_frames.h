@@ -55,11 +55,12 @@ class ManhattanFrames {
     Eigen::Matrix3d covariance;
   };
   void see(const Candidate& observation, ManhattanFrameId manhattan_frame, SlidingWindow& window);
-  std::optional<ManhattanFrameId> begin_frame(const Candidate& newest, SlidingWindow& window);
+  std::optional<ManhattanFrameId> begin_manhattan_frame(const Candidate& newest,
+                                                        SlidingWindow& window);
   void forget_one(SlidingWindow& window);
 
   ManhattanFrameOptions options_;
-  ManhattanFrameId next_frame_ = ++ManhattanFrameId(kMapAxes);
+  ManhattanFrameId next_id_ = ++ManhattanFrameId(kMapAxes);
   std::vector<Candidate> candidates_;  // observations in keyframes of the window, ascending
   std::map<ManhattanFrameId, KeyframeId> last_seen_;  // last observation of each Manhattan frame
   // Covariance of each Manhattan frame in the last keyframe.

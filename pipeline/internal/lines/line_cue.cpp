@@ -32,7 +32,7 @@ void LineCue::reset() {
   at_keyframe_.clear();
   covariances_.clear();
   calibrated_.clear();
-  if (compass_) use_compass();
+  if (compass_) use_vanishing_directions();
 }
 
 /// With its uncertainty taken into account, a line whose plane hardly rotated is useful if few
@@ -47,7 +47,7 @@ LineTriangulationOptions LineCue::triangulation(const SlidingWindow& window) con
   return options;
 }
 
-void LineCue::use_compass() { compass_.emplace(options_.start.directions); }
+void LineCue::use_vanishing_directions() { compass_.emplace(options_.start.directions); }
 
 /// Adds the rotation of a keyframe according to shared directions to the window.
 void LineCue::steer(KeyframeId keyframe, const LineView& seen, SlidingWindow& window) {
@@ -265,7 +265,8 @@ std::vector<SharedDirection> LineCue::shared_directions() const {
   return shared;
 }
 
-void LineCue::hold_course(KeyframeId keyframe, double depth, SlidingWindow& window) const {
+void LineCue::constrain_translation(KeyframeId keyframe, double depth,
+                                    SlidingWindow& window) const {
   if (!compass_) return;
   for (const MotionObservation& motion :
        course_along_lines(window, calibration_.camera, compass_->clusters(), observations_,

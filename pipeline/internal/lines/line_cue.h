@@ -40,7 +40,7 @@ class LineCue {
                double depth, SlidingWindow& window);
   /// Enables rotation measurements from directions that lines share, for a monocular camera without
   /// points, which has few triangulated lines during a rotation.
-  void use_compass();
+  void use_vanishing_directions();
   /// Starts with an image, or tracks into it the edges found so far, while there is no window yet
   /// and the motion is unknown. New edges are tracked from here on.
   void wait(const Frame& frame, const SE3& T_odom_start);
@@ -61,7 +61,7 @@ class LineCue {
   /// Constrains the direction of travel with lines along it at about `depth`, which are never
   /// triangulated. If the camera moves away from the direction of such a line, the line's plane
   /// rotates; a plane that has not rotated excludes positions of the newest keyframe.
-  void hold_course(KeyframeId keyframe, double depth, SlidingWindow& window) const;
+  void constrain_translation(KeyframeId keyframe, double depth, SlidingWindow& window) const;
   /// Disparities of lines of the window, with their predictions from the motion of the left camera;
   /// each line is used once.
   std::vector<DisparitySample> disparity_samples(const SlidingWindow& window,

@@ -143,7 +143,7 @@ bool LineViewInitializer::add_keyframes(const std::vector<std::size_t>& chosen,
   for (const std::size_t v : chosen) {
     const KeyframeId id = map.add_keyframe(T_odom_start_ * start.T_ref_view[v].scaled(scale));
     lines.observe_earlier(id, views_[v].lines, map.window());
-    lines.hold_course(id, median_depth, map.window());
+    lines.constrain_translation(id, median_depth, map.window());
   }
   const auto enough = [&] {
     return static_cast<int>(map.window().lines().size()) >= options_.ransac.min_inliers;

@@ -75,7 +75,7 @@ std::vector<PlaceEdge> link_edges(const KeyframeChain& chain, const PlacePartiti
 
 PlaceEdge loop_edge(const KeyframeChain& chain, const PlacePartition& partition, const Loop& loop,
                     std::size_t number) {
-  const Sim3 S_part_match(partition.T_segment_keyframe(chain, loop.match)),
+  const Sim3 S_segment_match(partition.T_segment_keyframe(chain, loop.match)),
       S_segment_query(partition.T_segment_keyframe(chain, loop.query));
   Matrix7d covariance = Matrix7d::Zero();
   if (loop.information(6, 6) > 0 && !chain.all_scales_known()) {
@@ -88,7 +88,7 @@ PlaceEdge loop_edge(const KeyframeChain& chain, const PlacePartition& partition,
   return {{PlaceConstraint::Kind::kLoop, static_cast<std::int64_t>(number)},
           partition.segment_of(loop.match),
           partition.segment_of(loop.query),
-          S_part_match * loop.S_match_query() * S_segment_query.inverse(),
+          S_segment_match * loop.S_match_query() * S_segment_query.inverse(),
           transported(S_segment_query.adjoint(), covariance),
           ConstraintSource::kLoop};
 }

@@ -49,9 +49,9 @@ std::vector<IndoorRoom> plan_rooms(const RoomPartition& rooms, const VoxelEviden
                                    const Map& map) {
   std::vector<IndoorRoom> result;
   const auto polygon = [&](const std::vector<Eigen::Vector2d>& points) {
-    std::vector<Eigen::Vector2d> rotated;
-    for (const Eigen::Vector2d& p : points) rotated.push_back(frame.plan_of(p));
-    return rotated;
+    std::vector<Eigen::Vector2d> in_plan;
+    for (const Eigen::Vector2d& p : points) in_plan.push_back(frame.plan_of(p));
+    return in_plan;
   };
   int corridors = 0, others = 0;
   for (const RoomPartition::Room& region : rooms.rooms) {

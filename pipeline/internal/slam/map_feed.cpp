@@ -10,7 +10,7 @@ void MapFeed::keep_view(KeyframeId keyframe, const Frame& frame) {
   views_[keyframe] = describe_place(*views_in_colour_ ? frame.colour : frame.image, cues_, false);
 }
 
-void MapFeed::tell_again() { first_view_ = first_landmark_ = 0; }
+void MapFeed::report_again() { first_view_ = first_landmark_ = 0; }
 
 /// A keyframe without its place.
 Keyframe MapFeed::keyframe_of(const LoopCloser::View& view,
@@ -90,7 +90,7 @@ MapChanges MapFeed::take_changes(const MapSources& sources) {
   reported_training_ = closer.trained_views();
   first_view_ = views.empty() ? 0 : views.size() - 1;  // the next view adds depth to its features
   first_landmark_ = earlier_landmarks_.size() + sources.odometry.map().settled_landmarks();
-  recorder.tell_all();
+  recorder.report_all();
   return changes;
 }
 

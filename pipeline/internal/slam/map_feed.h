@@ -34,7 +34,7 @@ class MapFeed {
   /// colour if the first one is, otherwise in grey.
   void keep_view(KeyframeId keyframe, const Frame& frame);
   /// Marks landmarks and views of keyframes to be reported again, because lengths have changed.
-  void tell_again();
+  void report_again();
   [[nodiscard]] Map snapshot(const MapSources& sources) const;
   [[nodiscard]] MapChanges take_changes(const MapSources& sources);
   /// Takes over a saved map; ids of new landmarks continue after the ids in it.

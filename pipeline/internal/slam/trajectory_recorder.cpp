@@ -81,7 +81,7 @@ void TrajectoryRecorder::take_up(const Map& map, FrameId last_frame) {
     records_.push_back(map.frames[i]);
     online_.poses.push_back(map.trajectory_online.poses.at(i));
   }
-  tell_all();
+  report_all();
 }
 
 }  // namespace placegraph

@@ -50,7 +50,7 @@ class TrajectoryRecorder {
 
   /// First record that has changed since the records were last reported.
   std::size_t first_changed() const { return first_changed_; }
-  void tell_all() { first_changed_ = records_.size(); }
+  void report_all() { first_changed_ = records_.size(); }
   /// Takes over the frames of a saved map up to `last_frame`.
   void take_up(const Map& map, FrameId last_frame);
 

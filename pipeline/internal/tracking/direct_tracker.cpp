@@ -53,13 +53,13 @@ DirectTracker::DirectTracker(const OdometryOptions& options, const Calibration& 
       max_interval_(options.keyframe.max_interval),
       log_(std::move(log)),
       times_(times),
-      surfaces_(options.direct, calibration, options.stereo, parse_cues(options.cues).direct) {
+      direct_(options.direct, calibration, options.stereo, parse_cues(options.cues).direct) {
   if (parse_cues(options.cues).manhattan)
     manhattan_.emplace(options.manhattan, calibration.camera, seed, log_);
 }
 
 void DirectTracker::reset() {
-  surfaces_.reset();
+  direct_.reset();
   seen_.reset();
   if (manhattan_) manhattan_->reset();
   newest_ = DirectMotion();
@@ -69,7 +69,7 @@ void DirectTracker::reset() {
 
 void DirectTracker::see(const Frame& frame) {
   if (seen_ == frame.id) return;
-  surfaces_.see(frame);
+  direct_.see(frame);
   seen_ = frame.id;
 }
 
@@ -85,7 +85,7 @@ DirectMotion DirectTracker::align(const LocalMap& map, const MotionModel& motion
   by_velocity.outcome = Outcome::failure(Outcome::Code::kNoConsensus, "no initial motion fits");
   if (motion.velocity_known()) {
     guess.information = motion.information(kUncertainty, map.median_depth());
-    by_velocity = surfaces_.align(guess);
+    by_velocity = direct_.align(guess);
     if (by_velocity.outcome) return by_velocity;
   }
   const double reach = kReach * map.median_depth();
@@ -97,9 +97,9 @@ DirectMotion DirectTracker::align(const LocalMap& map, const MotionModel& motion
   for (const double share : {0.0, 0.5, 1.0, 1.5}) {
     MotionGuess start = about;
     start.T_ref_cur = about.T_ref_cur * SE3(SO3(), Eigen::Vector3d(0, 0, share * reach));
-    alignment.consider(surfaces_.align(start));
+    alignment.consider(direct_.align(start));
   }
-  alignment.consider(surfaces_.search(about, sigmas));
+  alignment.consider(direct_.search(about, sigmas));
   return alignment.best();
 }
 
@@ -147,14 +147,14 @@ std::optional<SE3> DirectTracker::prepare_keyframe(const KeyframeImages& images,
   see(images.frame);
   from_before_.reset();
   if (map.empty()) {
-    if (!surfaces_.become_reference(SE3(), RectificationError(), {}, random)) return std::nullopt;
+    if (!direct_.become_reference(SE3(), RectificationError(), {}, random)) return std::nullopt;
     last_frame_ = images.frame;
     return T_odom_cam;
   }
-  surfaces_.learn(newest_);
-  if (!surfaces_.become_reference(newest_.T_ref_cur, RectificationError(), {}, random))
+  direct_.learn(newest_);
+  if (!direct_.become_reference(newest_.T_ref_cur, RectificationError(), {}, random))
     return std::nullopt;
-  from_before_ = surfaces_.confirm(newest_);
+  from_before_ = direct_.confirm(newest_);
   log(log_, LogLevel::kDebug, "surfaces {}: t {:f} agreement {:f} visible {:f} inliers {:f}{}",
       images.frame.id, from_before_->T_ref_cur.translation().norm(), newest_.agreement,
       newest_.visible_share, newest_.inlier_share,
@@ -172,7 +172,7 @@ void DirectTracker::observe(const KeyframeImages& images, const RectificationErr
   manhattan_->observe(map.newest(), images.frame.image, std::nullopt, map.window());
 }
 
-std::vector<double> DirectTracker::prune(LocalMap& /*map*/) { return {surfaces_.median_depth_m()}; }
+std::vector<double> DirectTracker::prune(LocalMap& /*map*/) { return {direct_.median_depth_m()}; }
 
 void DirectTracker::settle(const LocalMap& map) {
   if (manhattan_) manhattan_->settle(map.window());
@@ -186,7 +186,7 @@ std::vector<PosedFrame> DirectTracker::finish_keyframe(double /*scale*/, const L
 FrameView DirectTracker::view(const LocalMap& /*map*/, const SE3& /*T_odom_cam*/) const {
   FrameView view;
   if (manhattan_ && frames_since_keyframe_ == 0) view.directed = manhattan_->view();
-  view.surfaces = surfaces_.view(newest_);
+  view.surfaces = direct_.view(newest_);
   return view;
 }
 

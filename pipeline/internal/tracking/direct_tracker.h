@@ -41,7 +41,7 @@ class DirectTracker : public FrameTracker {
   int max_interval_;  // frames between keyframes
   LogSink log_;
   StageTimes& times_;
-  DirectCue surfaces_;
+  DirectCue direct_;
   std::optional<FrameId> seen_;  // last frame in which the surfaces were observed
   std::optional<ManhattanCue> manhattan_;
   DirectMotion newest_;  // motion of the last posed frame from the last keyframe

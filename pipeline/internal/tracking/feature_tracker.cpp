@@ -22,10 +22,10 @@ FeatureTracker::FeatureTracker(const OdometryOptions& options, const Calibration
       intermediate_(options.points.pose, calibration.camera) {
   const bool metric = metric_from_start(cues_, calibration);
   if (cues_.lines) lines_.emplace(options.lines, calibration, options.stereo);
-  if (lines_ && !cues_.points && !metric) lines_->use_compass();
+  if (lines_ && !cues_.points && !metric) lines_->use_vanishing_directions();
   if (cues_.manhattan) manhattan_.emplace(options.manhattan, calibration.camera, seed_, log_);
   if (options.planes.enabled && calibration.depth) planes_.emplace(options.planes, log_);
-  if (cues_.direct) surfaces_.emplace(options.direct, calibration, options.stereo);
+  if (cues_.direct) direct_.emplace(options.direct, calibration, options.stereo);
 }
 
 void FeatureTracker::reset() {
@@ -33,7 +33,7 @@ void FeatureTracker::reset() {
   if (lines_) lines_->reset();
   if (manhattan_) manhattan_->reset();
   if (planes_) planes_->reset();
-  if (surfaces_) surfaces_->reset();
+  if (direct_) direct_->reset();
   selector_.reset();
   intermediate_.clear();
 }
@@ -133,13 +133,13 @@ void FeatureTracker::observe(const KeyframeImages& images, const RectificationEr
   points_.observe(id, frame, rectification, map.window());
   if (lines_) {
     lines_->observe(id, frame, rectification, map.median_depth(), map.window());
-    if (!cues_.points) lines_->hold_course(id, map.median_depth(), map.window());
+    if (!cues_.points) lines_->constrain_translation(id, map.median_depth(), map.window());
   }
-  if (surfaces_) surfaces_->forget_newest();
-  if (surfaces_ && map.metric()) {
+  if (direct_) direct_->forget_newest();
+  if (direct_ && map.metric()) {
     const auto span = times_.measure("surfaces");
-    surfaces_->add({id, frame, images.ground(), points_.landmark_depths(map.window(), id)},
-                   map.before_newest(), rectification, map.window(), random);
+    direct_->add({id, frame, images.ground(), points_.landmark_depths(map.window(), id)},
+                 map.before_newest(), rectification, map.window(), random);
   }
   observe_directions(frame.image, map);
   if (planes_ && !frame.depth.empty()) observe_planes(frame, map);
@@ -238,7 +238,7 @@ FrameView FeatureTracker::view(const LocalMap& map, const SE3& T_odom_cam) const
   }
   if (lines_) view.lines = lines_->view(map.window(), T_odom_cam);
   if (manhattan_ && selector_.frames() == 0) view.directed = manhattan_->view();
-  if (surfaces_) view.surfaces = surfaces_->view();
+  if (direct_) view.surfaces = direct_->view();
   return view;
 }
 

@@ -69,7 +69,7 @@ class FeatureTracker : public FrameTracker {
   std::optional<ManhattanCue> manhattan_;
   bool manhattan_trusted_ = true;  // whether Manhattan frames are assumed to exist
   std::optional<PlaneCue> planes_;
-  std::optional<KeyframeAlignment> surfaces_;
+  std::optional<KeyframeAlignment> direct_;
   KeyframeSelector selector_;
   IntermediateFrames intermediate_;
 };

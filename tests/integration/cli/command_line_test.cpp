@@ -15,6 +15,7 @@
 #include "apps/shell/cmd_tree.h"
 #include "apps/shell/completion.h"
 #include "apps/shell/man_pages.h"
+#include "apps/shell/spellings.h"
 #include "tests/support/cli_test.h"
 
 namespace placegraph {
@@ -137,10 +138,25 @@ TEST_F(CommandLine, ThereIsAManualPageForEveryCommand) {
   });
 }
 
+TEST_F(CommandLine, ChoicesOfCompletionArePlainWords) {
+  for (const std::string& shell : apps::completion_shells())
+    EXPECT_THAT(apps::completion_script(*app, shell), testing::Not(HasSubstr("->"))) << shell;
+}
+
+TEST_F(CommandLine, CommandsOfTheGroupsThatWereCommandsAreKnownAsSuch) {
+  for (const std::string group : {"eval", "synth"})
+    for (const CLI::App* command : commands_of(*app->get_subcommand(group)))
+      EXPECT_THAT(apps::present_spelling({group, command->get_name(), "x"}).words,
+                  ElementsAre(group, command->get_name(), "x"));
+}
+
 class Misspelled : public test::CliTest {};
 
 TEST_F(Misspelled, CommandsFlagsAndKeysGetSuggestions) {
   expect_usage_error("rnu", "no command 'rnu'; did you mean run? (see placegraph --help)");
+  expect_usage_error("optimze g.g2o", "no command 'optimze'; did you mean optimize?");
+  expect_usage_error("help rnu", "no command 'rnu'; did you mean run?");
+  expect_usage_error("image cloud --help", "no command 'cloud'");
   expect_usage_error("map inof x",
                      "no command 'inof'; did you mean info? (see placegraph map --help)");
   expect_usage_error(
@@ -160,7 +176,7 @@ TEST_F(Misspelled, BashCompletesByTheScript) {
   const auto completed = [&](const std::string& words, int at) {
     test::write_file(dir / "c.sh", "source script\nCOMP_WORDS=(" + words +
                                        ")\nCOMP_CWORD=" + std::to_string(at) +
-                                       "\n_placegraph\necho \"${COMPREPLY[*]}\"\n");
+                                       "\n_placegraph_words\necho \"${COMPREPLY[*]}\"\n");
     const std::string command = "cd '" + dir.path() + "' && bash c.sh > completed";
     EXPECT_EQ(std::system(command.c_str()), 0);
     return test::read_file(dir / "completed");
@@ -170,6 +186,9 @@ TEST_F(Misspelled, BashCompletesByTheScript) {
   EXPECT_EQ(completed("placegraph map exp", 2), "explain export\n");
   EXPECT_EQ(completed("placegraph run --sensor st", 3), "stereo\n");
   EXPECT_EQ(completed("placegraph run s --camera", 3), "--camera-height\n");
+  EXPECT_EQ(completed("placegraph optimize --eng", 2), "--engine\n");
+  EXPECT_EQ(completed("placegraph eval loops --format i", 4), "ibow\n");
+  EXPECT_EQ(completed("placegraph run s", 2), "\n");  // bash completes a file
 }
 
 }  // namespace

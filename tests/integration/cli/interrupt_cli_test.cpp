@@ -18,15 +18,18 @@ class InterruptedRun : public test::CliTest {
   }
   /// Starts the run, sends the signal when its first place is saved, and waits for its end.
   int run_and_send(const std::string& signal) {
-    test::write_file(dir / "interrupt.sh",
-                     "'" + test::program() + "' run w --out out > stdout 2> stderr &\n" +
-                         "pid=$!\n"
-                         "for i in $(seq 600); do [ -e out/map.db ] && break; sleep 0.1; done\n"
-                         "kill -" +
-                         signal +
-                         " $pid\n"
-                         "wait $pid\n");
-    return WEXITSTATUS(std::system(("cd '" + dir.path() + "' && sh interrupt.sh").c_str()));
+    // A shell would start the run with SIGINT ignored.
+    test::write_file(dir / "interrupt.py",
+                     "import os, signal, subprocess, sys, time\n"
+                     "run = subprocess.Popen(sys.argv[2:], stdout=open('stdout', 'w'),\n"
+                     "                       stderr=open('stderr', 'w'))\n"
+                     "while not os.path.exists('out/map.db') and run.poll() is None:\n"
+                     "    time.sleep(0.05)\n"
+                     "run.send_signal(getattr(signal, 'SIG' + sys.argv[1]))\n"
+                     "sys.exit(run.wait() % 256)\n");
+    const std::string command = "cd '" + dir.path() + "' && python3 interrupt.py " + signal + " '" +
+                                test::program() + "' run w --out out";
+    return WEXITSTATUS(std::system(command.c_str()));
   }
 };
 

@@ -100,7 +100,7 @@ TEST_F(LinesCli, BlankImagesAllowNoAnswer) {
 
 class LinesAloneCli : public test::CliTest {};
 
-TEST_F(LinesAloneCli, AreEnoughForMonocularOfKnownHeightInACorridor) {
+TEST_F(LinesAloneCli, AreEnoughForOneCameraOfKnownHeightInACorridor) {
   ASSERT_EQ(run("synth sequence corridor-loop --frames 50 --out w").code, 0);
   ASSERT_EQ(run("run w --sensor mono --cues lines --no-loops --out o").code, 0);
   const CommandResult judged = run("eval w o/trajectory_optimized.kitti --align sim3 --json");

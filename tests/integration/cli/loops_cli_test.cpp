@@ -34,7 +34,7 @@ TEST_F(Loops, GivesTheFiguresOfOneSystemAsJson) {
 
 TEST_F(Loops, ComparesSystemsInATableALogAndAPlot) {
   const auto result = run(
-      "loops --predictions ours.txt theirs.txt --names ours theirs --truth gt.txt --csv log.csv "
+      "loops --predictions ours.txt theirs.txt --systems ours theirs --truth gt.txt --csv log.csv "
       "--plot "
       "pr.svg");
   ASSERT_EQ(result.code, 0) << result.err;
@@ -54,8 +54,9 @@ TEST_F(Loops, TakesTheTruthFromPosesAndSaysHow) {
     poses += "1 0 0 " + std::to_string(x) + " 0 1 0 0 0 0 1 0\n";
   write_file(dir / "poses.txt", poses);
   write_file(dir / "found.txt", "3 0 2\n4 0 1\n4 3 9\n");
-  const auto result = run(
-      "loops --predictions found.txt --poses poses.txt --radius 2 --heading 10 --min-age 2 --json");
+  const auto result =
+      run("loops --predictions found.txt --true-poses poses.txt --radius 2 --heading 10 --min-age "
+          "2 --json");
   ASSERT_EQ(result.code, 0) << result.err;
   const auto json = nlohmann::json::parse(result.out);
   EXPECT_EQ(json.at("positives"), 2);
@@ -63,7 +64,7 @@ TEST_F(Loops, TakesTheTruthFromPosesAndSaysHow) {
   EXPECT_EQ(json.at("r_at_1"), 0.5);
   EXPECT_EQ(json.at("protocol"), "poses within 2 m and 10 deg, candidates at least 2 images older");
   write_file(dir / "found.txt", "3 0 2\n5 0 1\n");
-  expect_usage_error("loops --predictions found.txt --poses poses.txt",
+  expect_usage_error("loops --predictions found.txt --true-poses poses.txt",
                      "found.txt:2: image 5, and the poses are of 5");
 }
 
@@ -72,12 +73,12 @@ TEST_F(Loops, RefusesBrokenInputWithItsLine) {
   expect_usage_error("loops --predictions ours.txt --truth gt.txt", "ours.txt:2: 2 columns");
   write_file(dir / "gt.txt", "10 0 5 1\n11 0 5 9\n");
   expect_usage_error("loops --predictions theirs.txt --truth gt.txt", "gt.txt:2: match 9");
-  expect_usage_error("loops --predictions theirs.txt", "one of --truth and --poses is needed");
+  expect_usage_error("loops --predictions theirs.txt", "one of --truth and --true-poses is needed");
   expect_usage_error("loops --predictions theirs.txt --truth gt.txt --format other", "other");
   expect_usage_error("loops --predictions none.txt --truth gt.txt", "none.txt");
   write_file(dir / "gt.txt", "10 0 5 1\n");
   expect_usage_error("loops --predictions theirs.txt --truth gt.txt --plot pr.pdf", "pr.pdf");
-  expect_usage_error("loops --predictions theirs.txt --truth gt.txt --names a b", "--names");
+  expect_usage_error("loops --predictions theirs.txt --truth gt.txt --systems a b", "--systems");
 }
 
 TEST_F(Loops, ScoresAPublishedDetectorAsPublished) {

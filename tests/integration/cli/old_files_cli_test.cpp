@@ -41,13 +41,6 @@ TEST_F(OldFiles, MapsOpen) {
   }
 }
 
-TEST_F(OldFiles, OptionsOfAMapAreReadWhenItsRunIsResumed) {
-  unpack("rgbd");
-  // The sequence is not there: that it is missed shows that the options with their old keys passed.
-  expect_usage_error("run --resume rgbd", "/tmp/old010/w");
-  expect_usage_error("run --resume rgbd/map.db", "/tmp/old010/w");
-}
-
 TEST_F(OldFiles, AllKeysOfOptionsAreUnderstood) {
   const CommandResult defaults = run("config --all");
   const CommandResult read = run("config --all --config " + of_0_1_0("run_all.yaml"));
@@ -67,7 +60,7 @@ TEST_F(OldFiles, OldKeysSetTheOptionsOfTheNewOnes) {
   for (const char* line :
        {"scene.indoor.min_rotation_deg +7 ", "scene.urban.labelling.step_px +5 ",
         "odometry.pure_rotation.min_inlier_share +0.8 ", "odometry.lines.similar_observations +17 ",
-        "odometry.lines.initialization.min_lines +13 ", "odometry.manhattan.frames.max_frames +3 ",
+        "odometry.lines.initialization.min_lines +13 ", "odometry.manhattan.frames.max_count +3 ",
         "odometry.direct.max_planes +4 "})
     EXPECT_THAT(read.out, ::testing::ContainsRegex(line));
   EXPECT_THAT(read.err, HasSubstr("old_keys.yaml:4: 'scene.indoor.min_turn_deg' is an old spelling "

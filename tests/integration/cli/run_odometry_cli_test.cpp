@@ -78,7 +78,7 @@ std::string wheels(const std::vector<Eigen::Isometry3d>& truth, int slip_begin, 
   return out.str();
 }
 
-TEST_F(RunOdometryCli, SlipAndDriftOfTheWheelsAreOutvotedByStereo) {
+TEST_F(RunOdometryCli, SlipAndDriftOfTheWheelsAreOutvotedByAStereoPair) {
   write_file(dir / "wheels.tum", wheels(truth(), 10, 13));
   ASSERT_GT(ate_m("wheels.tum"), 3);  // six metres too far from the middle on
   const CommandResult alone = run_with("--sensor stereo");
@@ -90,7 +90,7 @@ TEST_F(RunOdometryCli, SlipAndDriftOfTheWheelsAreOutvotedByStereo) {
   EXPECT_LT(ate_m("out/trajectory_optimized.tum"), seen_m + 0.005 * (kFrames - 1));
 }
 
-TEST_F(RunOdometryCli, GivesMonocularItsUnitAlthoughTheWheelsSlip) {
+TEST_F(RunOdometryCli, GivesAMonocularCameraItsScaleAlthoughTheWheelsSlip) {
   write_file(dir / "wheels.tum", wheels(truth(), 10, 12));
   const CommandResult alone = run_with("--sensor mono");
   ASSERT_EQ(alone.code, 0) << alone.err;

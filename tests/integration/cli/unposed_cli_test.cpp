@@ -72,7 +72,7 @@ TEST_F(Unposed, OneFrameWaitsForASecond) {
   EXPECT_THAT(result.err, HasSubstr(" (1 of 1 frame)"));
 }
 
-TEST_F(Unposed, StereoSayWhatTheyLack) {
+TEST_F(Unposed, StereoSaysWhatItLacks) {
   write_blank("baseline_m: 0.1\n", true);
   expect_reason("0 of 0 tracked points found in the right image");
 }

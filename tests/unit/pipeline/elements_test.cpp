@@ -27,7 +27,7 @@ TEST(Elements, RefuseUnknownOnesRepeatsAndListsWithoutMotion) {
   EXPECT_THROW(parse_elements(""), ArgumentError);
 }
 
-TEST(Elements, RotationOptionsOnAndOff) {
+TEST(Elements, SwitchOptionsOnAndOff) {
   RunOptions options;
   set_elements(parse_elements("motion"), options);
   EXPECT_FALSE(options.slam.loops.enabled || options.slam.context.enabled ||

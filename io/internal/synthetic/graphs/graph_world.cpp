@@ -100,7 +100,7 @@ PoseGraph long_loop(const LongLoopOptions& options) {
 }
 
 template <class Group>
-void rotation_odometry(PoseGraph& graph, double sigma_rad, Random& random) {
+void disturb_odometry_rotations(PoseGraph& graph, double sigma_rad, Random& random) {
   for (Constraint& constraint : graph.constraints) {
     auto* relative = std::get_if<RelativePoseConstraint>(&constraint);
     if (!relative || relative->source != ConstraintSource::kOdometry) continue;
@@ -220,13 +220,13 @@ void add_rotation_noise(PoseGraph& graph, double sigma_rad, std::uint64_t seed) 
   require(graph.kind() != PoseKind::kSim3, "graph", "must be SE2 or SE3");
   Random random(seed);
   if (graph.kind() == PoseKind::kSE2)
-    rotation_odometry<SE2>(graph, sigma_rad, random);
+    disturb_odometry_rotations<SE2>(graph, sigma_rad, random);
   else
-    rotation_odometry<SE3>(graph, sigma_rad, random);
+    disturb_odometry_rotations<SE3>(graph, sigma_rad, random);
   integrate_odometry(graph);
 }
 
-void scatter_poses(PoseGraph& graph, double extent_m, std::uint64_t seed) {
+void disturb_poses(PoseGraph& graph, double extent_m, std::uint64_t seed) {
   Random random(seed);
   for (PoseNode& node : graph.nodes) {
     Eigen::Vector3d position;

@@ -60,6 +60,6 @@ void add_rotation_noise(PoseGraph& graph, double sigma_rad, std::uint64_t seed);
 
 /// Sets every pose that is not fixed to a random one: position uniform in a cube (square) of the
 /// side `extent_m`, rotation uniform.
-void scatter_poses(PoseGraph& graph, double extent_m, std::uint64_t seed);
+void disturb_poses(PoseGraph& graph, double extent_m, std::uint64_t seed);
 
 }  // namespace placegraph::synthetic

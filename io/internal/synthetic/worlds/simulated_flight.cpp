@@ -81,9 +81,9 @@ std::vector<Leg> plan(double duration_s, Random& random) {
   };
   const auto go = [&](const Vector3d& to) {
     const double seconds = std::max(1.5, (to - here).norm() / kCruise_mps);
-    const double rotated = yaw + random.uniform(-1.2, 1.2);
-    legs.push_back({t, t + seconds, here, to, yaw, rotated});
-    here = to, yaw = rotated, t += seconds;
+    const double next_yaw = yaw + random.uniform(-1.2, 1.2);
+    legs.push_back({t, t + seconds, here, to, yaw, next_yaw});
+    here = to, yaw = next_yaw, t += seconds;
   };
   stay(3);
   while (t < duration_s) {

@@ -107,10 +107,10 @@ TEST_F(LoopsCommand, TellsWhetherProbabilitiesHold) {
 TEST_F(LoopsCommand, RefusesArgumentsThatMeanNothing) {
   const LoopsArguments asked = arguments;
   arguments.truth.clear();
-  expect_refused("one of --truth and --poses is needed");
+  expect_refused("one of --truth and --true-poses is needed");
   arguments = asked;
   arguments.names = {"one", "two"};
-  expect_refused("--names: one for each of --predictions");
+  expect_refused("--systems: one for each of --predictions");
   arguments = asked;
   arguments.formats = {LoopFileFormat::kScores, LoopFileFormat::kRun};
   expect_refused("--format: one for all, or one for each of --predictions");

@@ -11,8 +11,9 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::MatchesRegex;
 
-FrameResult lost(int frame) {
+FrameResult lost(int frame, TrackingState state = TrackingState::kLost) {
   FrameResult result;
+  result.state = state;
   result.frame = FrameId(frame);
   result.outcome = Outcome::failure(Outcome::Code::kTooFewData, "8 points, 12 needed");
   return result;
@@ -40,7 +41,7 @@ class Messages : public testing::Test {
 TEST_F(Messages, NameALossOnceAndTheRecovery) {
   RunMessages messages(Verbosity::kNormal, print);
   messages.run_began();
-  messages.frame_lost(lost(0));  // the map has not begun
+  messages.frame_lost(lost(0, TrackingState::kInitializing));  // the map has not begun
   messages.frame_posed(posed(1));
   messages.frame_lost(lost(2));
   messages.frame_lost(lost(3));
@@ -61,8 +62,7 @@ TEST_F(Messages, NameLoopsScaleComponentsAndARestart) {
   messages.map_moved(MapMoved());
   messages.component_joined({1, 0});
   messages.run_began();
-  EXPECT_THAT(lines, ElementsAre("frame 90: loop closed with frame 3",
-                                 "the metric scale of the map is known",
+  EXPECT_THAT(lines, ElementsAre("frame 90: loop closed with frame 3", "the metric scale is known",
                                  "component 1 joined to component 0",
                                  "the run begins again with undistorted images"));
 }
@@ -82,7 +82,7 @@ TEST_F(Messages, HoldTheLogAccordingToItsLevel) {
   RunMessages verbose(Verbosity::kVerbose, print);
   verbose.log()(LogLevel::kInfo, "something");
   verbose.log()(LogLevel::kDebug, "a detail");
-  verbose.frame_lost(lost(0));
+  verbose.frame_lost(lost(0, TrackingState::kInitializing));
   EXPECT_THAT(lines, ElementsAre("something", "frame 0: no pose yet: 8 points, 12 needed"));
 }
 

@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/io/config/yaml_config.h>
+#include <placegraph/io/map/map_database.h>
 
 #include "tests/support/message_of.h"
+#include "tests/support/paths.h"
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph::apps {
@@ -105,6 +108,23 @@ TEST(PrepareRun, SaysThatNothingWasSavedToGoOnWith) {
   arguments.out = folder / "elsewhere";
   EXPECT_THAT(message_of<ArgumentError>([&] { prepare_run(arguments); }),
               HasSubstr("--out: a resumed run writes into its own folder"));
+}
+
+TEST(RunOptionsOfASavedMap, OfVersion010AreRead) {
+  const test::TemporaryFolder folder;
+  for (const std::string name : {"rgbd", "stereo", "mono"}) {
+    const std::string packed =
+        test::source_dir() + "/tests/integration/cli/made_by_0.1.0/" + name + ".db.gz";
+    const std::string path = folder / (name + ".db");
+    ASSERT_EQ(std::system(("gzip -dc '" + packed + "' > '" + path + "'").c_str()), 0);
+    RunOptions options;
+    std::vector<std::string> notes;
+    read_options_text(path, read_map_origin(path).options, options,
+                      [&](LogLevel, const std::string& note) { notes.push_back(note); });
+    EXPECT_EQ(options.slam.odometry.lines.similar_observations, 17) << name;
+    EXPECT_FALSE(notes.empty()) << name;
+    EXPECT_EQ(options.slam.max_lost_frames, 12) << name;
+  }
 }
 
 }  // namespace

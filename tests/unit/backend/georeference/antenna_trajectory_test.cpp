@@ -14,8 +14,8 @@ TEST(AntennaTrack, SeesAFixBetweenTwoNodesFromTheNearerOne) {
   PoseGraph graph;
   graph.nodes = {{NodeId(0), SE3()}, {NodeId(1), SE3(SO3::exp({0, 0, 0.4}), {10, 0, 0})}};
   const AntennaTrack track(graph, {{0, NodeId(0)}, {1'000'000'000, NodeId(1)}}, {});
-  const auto interpolated =
-      track.carry({250'000'000, 750'000'000, 1'100'000'000}, Eigen::Vector3d::Zero(), 1.0);
+  const auto interpolated = track.interpolate_fixes({250'000'000, 750'000'000, 1'100'000'000},
+                                                    Eigen::Vector3d::Zero(), 1.0);
   ASSERT_TRUE(interpolated[0] && interpolated[1]);
   EXPECT_FALSE(interpolated[2]);
   EXPECT_EQ(interpolated[0]->node, 0);
@@ -25,7 +25,7 @@ TEST(AntennaTrack, SeesAFixBetweenTwoNodesFromTheNearerOne) {
   EXPECT_EQ(interpolated[1]->node, 1);
   EXPECT_TRUE(interpolated[1]->t.isApprox(SO3::exp({0, 0, -0.4}) * Eigen::Vector3d(-2.5, 0, 0)));
   // A gap that is longer than allowed is not bridged.
-  EXPECT_FALSE(track.carry({250'000'000}, Eigen::Vector3d::Zero(), 0.9)[0]);
+  EXPECT_FALSE(track.interpolate_fixes({250'000'000}, Eigen::Vector3d::Zero(), 0.9)[0]);
 }
 
 TEST(AntennaTrack, LetsTheMotionFollowItsNodes) {

@@ -113,7 +113,7 @@ TEST(Georeference, GivesAMapWithoutScaleItsScale) {
   EXPECT_LT(largest_error(result, truth), 1e-2);
 }
 
-TEST(Georeference, RotationsAPlanarMapAboutTheVertical) {
+TEST(Georeference, RotatesAPlanarMapAboutTheVertical) {
   GeoreferenceInput in;
   in.origin = kOrigin;
   const SE2 T_enu_map(50, -30, 2.0);

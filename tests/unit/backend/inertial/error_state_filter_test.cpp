@@ -51,7 +51,7 @@ TEST(PositionFilter, HoldsThePositionByFlowAndMarkersThroughAnOutage) {
   EXPECT_LT(flown.worst_m, 0.05);
 }
 
-TEST(PositionFilter, RotationsFromItsStartAsTheFirstSampleSays) {
+TEST(PositionFilter, RotatesFromItsStartAsTheFirstSampleSays) {
   PositionFilter filter({}, SE3());
   BodyState start;
   start.covariance = 1e-4 * Eigen::Matrix<double, 15, 15>::Identity();

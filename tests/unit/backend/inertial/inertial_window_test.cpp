@@ -44,7 +44,7 @@ TEST(InertialWindow, HoldsThePosition) {
   }
 }
 
-TEST(InertialWindow, RotationsFromItsStartAsTheFirstSampleSays) {
+TEST(InertialWindow, RotatesFromItsStartAsTheFirstSampleSays) {
   InertialWindow window({}, SE3());
   BodyState start;
   start.covariance = 1e-4 * Eigen::Matrix<double, 15, 15>::Identity();

@@ -131,7 +131,7 @@ TYPED_TEST(CertificateOf, TheCertifiedStartUnwindsARing) {
   for (const int n : {6, 30}) {
     PackedGraph<TypeParam> graph = pack<TypeParam>(ring<TypeParam>(n, true));
     const TypeParam first = graph.poses[0];
-    const CertifiedInitializationReport report = certified_initialization_of(graph);
+    const CertifiedInitializationReport report = initialize_certified(graph);
     EXPECT_TRUE(report.tight);
     EXPECT_GT(report.rank, kSpaceDim<TypeParam>);
     EXPECT_LT(robust_cost(graph, RotationError::kLog), 1e-6);
@@ -158,7 +158,7 @@ TYPED_TEST(CertificateOf, TheCertifiedStartKeepsHeldNodesAndComponentsWhereTheyA
   }
   PackedGraph<TypeParam> graph = pack<TypeParam>(both);
   chordal_initialization(graph);  // for the scales, which the certified start takes as they are
-  EXPECT_TRUE(certified_initialization_of(graph).tight);
+  EXPECT_TRUE(initialize_certified(graph).tight);
   for (std::size_t i = 0; i < walk.truth.size(); ++i)
     EXPECT_LT(test::difference(graph.poses[i], walk.truth[i]), 1e-5);
   EXPECT_EQ(graph.poses[16].matrix(), TypeParam().matrix());

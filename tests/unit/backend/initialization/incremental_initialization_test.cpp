@@ -22,7 +22,7 @@ TYPED_TEST_SUITE(ReplayedStartOf, Groups);
 TYPED_TEST(ReplayedStartOf, IsExactWhereTheMeasurementsAgree) {
   const GrowingWalk<TypeParam> walk(60, 0, 1);
   PackedGraph<TypeParam> graph = pack<TypeParam>(walk.graph);
-  ASSERT_TRUE(incremental_initialization_of(graph, RotationError::kLog, kUnlimited));
+  ASSERT_TRUE(initialize_incrementally(graph, RotationError::kLog, kUnlimited));
   for (std::size_t i = 0; i < walk.truth.size(); ++i)
     EXPECT_LT(test::difference(graph.poses[i], walk.truth[i]), 1e-6);
 }
@@ -36,7 +36,7 @@ TYPED_TEST(ReplayedStartOf, EndsByTheMinimumWithItsWeightsWhateverTheOrderOfTheN
   for (const PoseGraph& given : {walk.graph, shuffled}) {
     PackedGraph<TypeParam> graph = pack<TypeParam>(given);
     for (std::size_t i = 0; i < graph.edges.size(); i += 7) graph.edges[i].weight = 0.25;
-    ASSERT_TRUE(incremental_initialization_of(graph, RotationError::kLog, kUnlimited));
+    ASSERT_TRUE(initialize_incrementally(graph, RotationError::kLog, kUnlimited));
     const double replayed = robust_cost(graph, RotationError::kLog);
     LocalSolver<TypeParam> solver({});
     const LocalSolution solution = solver.solve(graph);
@@ -54,7 +54,7 @@ TYPED_TEST(ReplayedStartOf, LeavesHeldNodesWhereTheyAre) {
     held.nodes[i].T_world_node = walk.truth[i];
   }
   PackedGraph<TypeParam> graph = pack<TypeParam>(held);
-  ASSERT_TRUE(incremental_initialization_of(graph, RotationError::kLog, kUnlimited));
+  ASSERT_TRUE(initialize_incrementally(graph, RotationError::kLog, kUnlimited));
   for (const int i : {3, 30}) EXPECT_EQ(graph.poses[i].matrix(), walk.truth[i].matrix());
 }
 
@@ -62,7 +62,7 @@ TYPED_TEST(ReplayedStartOf, LeavesAllAsItWasWhereItCostsMoreThanGranted) {
   const GrowingWalk<TypeParam> walk(60, 0.03, 4);
   PackedGraph<TypeParam> graph = pack<TypeParam>(walk.graph);
   const auto before = graph.poses;
-  EXPECT_FALSE(incremental_initialization_of(graph, RotationError::kLog, 0.5));
+  EXPECT_FALSE(initialize_incrementally(graph, RotationError::kLog, 0.5));
   for (std::size_t i = 0; i < before.size(); ++i)
     EXPECT_EQ(graph.poses[i].matrix(), before[i].matrix());
 }
@@ -76,7 +76,7 @@ TYPED_TEST(ReplayedStartOf, LeavesAllAsItWasWhereNoCostCanBeComputed) {
   walk.graph.constraints.emplace_back(far);
   PackedGraph<TypeParam> graph = pack<TypeParam>(walk.graph);
   const auto before = graph.poses;
-  EXPECT_FALSE(incremental_initialization_of(graph, RotationError::kLog, kUnlimited));
+  EXPECT_FALSE(initialize_incrementally(graph, RotationError::kLog, kUnlimited));
   for (std::size_t i = 0; i < before.size(); ++i)
     EXPECT_EQ(graph.poses[i].matrix(), before[i].matrix());
 }

@@ -63,7 +63,7 @@ SlidingWindow stretched(const Drive& drive, double scale,
   return window;
 }
 
-TEST(SlidingWindowLines, OfStereoGiveTheScaleFromTwoKeyframes) {
+TEST(SlidingWindowLines, OfAStereoPairGiveTheScaleFromTwoKeyframes) {
   Random random = test::seeded_random(50);
   const Drive drive = make_drive(2, random);
   SlidingWindow window = stretched(drive, 1.15);
@@ -74,7 +74,7 @@ TEST(SlidingWindowLines, OfStereoGiveTheScaleFromTwoKeyframes) {
   EXPECT_THROW(window.rescale(2), ArgumentError) << "measured already";
 }
 
-TEST(SlidingWindowLines, OfMonocularSayNothingFromTwoKeyframes) {
+TEST(SlidingWindowLines, OfAMonocularCameraSayNothingFromTwoKeyframes) {
   Random random = test::seeded_random(51);
   Drive drive = make_drive(2, random);
   for (LineObservation& o : drive.observations) o.second.reset();
@@ -82,7 +82,7 @@ TEST(SlidingWindowLines, OfMonocularSayNothingFromTwoKeyframes) {
   EXPECT_FALSE(window.optimize().outcome) << "two views of lines";
 }
 
-TEST(SlidingWindowLines, OfStereoStayMetricWhenTheyAreMarginalized) {
+TEST(SlidingWindowLines, OfAStereoPairStayMetricWhenTheyAreMarginalized) {
   Random random = test::seeded_random(52);
   Drive drive = make_drive(6, random);
   // The last keyframe no longer sees half of the lines: they leave with the oldest.

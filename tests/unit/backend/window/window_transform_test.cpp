@@ -96,7 +96,7 @@ TEST(WindowTransform, LeavesTheResidualOfEveryKindOfMeasurement) {
   }
 }
 
-TEST(WindowTransform, RotationsAboutTheOldestKeyframeSoThatTheWorldLiesAsAsked) {
+TEST(WindowTransform, RotatesAboutTheOldestKeyframeSoThatTheWorldLiesAsAsked) {
   const FactorScene scene;
   SlidingWindow window = scene.window({});
   WindowState state = window.state();

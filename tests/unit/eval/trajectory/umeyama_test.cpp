@@ -46,7 +46,7 @@ TEST(Umeyama, GivesARotationAndNoReflectionForMirroredPoints) {
   EXPECT_GT(result.rmse_m, 0.1);
 }
 
-TEST(Umeyama, RotationsAPlaneTriangleOverInsteadOfMirroringIt) {
+TEST(Umeyama, RotatesAPlaneTriangleOverInsteadOfMirroringIt) {
   // The triangles of Umeyama 1991, section V: mirror images in the plane, congruent in space.
   const AlignmentResult result =
       umeyama({{0, 0, 0}, {1, 0, 0}, {0, 2, 0}}, {{0, 0, 0}, {-1, 0, 0}, {0, 2, 0}}, true);

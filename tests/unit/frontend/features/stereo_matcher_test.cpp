@@ -108,7 +108,7 @@ TEST(StereoMatcher, SaysNothingBeyondTheGreatestDisparity) {
   EXPECT_LT(found, 0.03 * disparities.size());  // what looks alike by chance
 }
 
-TEST(StereoMatcher, SaysNothingWhereOnlyMonocularSees) {
+TEST(StereoMatcher, SaysNothingWhereOnlyOneCameraSees) {
   // A near board hides, from the right eye, the strip of the wall on its left side.
   TexturedPlane board = wall(3);
   board.half_x_m = 0.4;

@@ -51,7 +51,7 @@ TEST(LineDepth, SaysNothingWhereThereIsNoDepth) {
   EXPECT_FALSE(lookup_depth_along(none, kCamera, depth_camera(), {{{80, 100}, {80, 20}}})[0]);
 }
 
-TEST(LineDepth, AMadeUpCameraSeesTheLineOfThoseDepths) {
+TEST(LineDepth, AVirtualCameraSeesTheLineOfThoseDepths) {
   const Line3 line = Line3::from_direction({0.2, -0.3, 3}, {0.5, 1, 0.4});
   const auto on_line = [&](double s) -> Eigen::Vector3d {
     return line.nearest_point() + s * line.direction();

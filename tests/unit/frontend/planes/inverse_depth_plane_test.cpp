@@ -71,7 +71,7 @@ TEST(InverseDepthPlane, RefusesTooFewPixelsAndCrowdsWithoutAPlane) {
   EXPECT_EQ(fit_inverse_depth_plane(pixels, {}, random).outcome.code, Code::kNoConsensus);
 }
 
-TEST(InverseDepthPlane, RotationsItsCovarianceIntoDegreesAndShares) {
+TEST(InverseDepthPlane, ConvertsItsCovarianceIntoDegreesAndShares) {
   // g along y of length 0.5: a deviation of 0.01 along it is 2 %, of 0.005 across it 0.01 rad.
   const Eigen::Matrix3d covariance = Eigen::Vector3d(2.5e-5, 1e-4, 1e-6).asDiagonal();
   EXPECT_NEAR(sigma_log_distance({0, 0.5, 0}, covariance), 0.02, 1e-12);

@@ -114,7 +114,7 @@ TEST(Euroc, WithoutListsTakesTheStampsFromTheNames) {
               HasSubstr("cam0/data.csv: is missing; there are 3 images in frames/"));
 }
 
-TEST(Euroc, WithMonocularIsUndistortedMono) {
+TEST(Euroc, WithOneCameraIsUndistortedMono) {
   const TemporaryFolder folder;
   write_sequence(folder);
   std::filesystem::remove_all(folder / "s/mav0/cam1");

@@ -215,7 +215,7 @@ TEST(ImageFolder, RectifiesAPairThatKalibrCalibrated) {
   EXPECT_THAT(message_of([&] { open_dataset(folder / "s"); }), HasSubstr("calibration.yaml"));
 }
 
-TEST(ImageFolder, RotationsTheTruthWithTheRectifiedCamera) {
+TEST(ImageFolder, RotatesTheTruthWithTheRectifiedCamera) {
   const TemporaryFolder folder;
   // Eyes that are rolled against each other by 0.05 rad: truth turns with the left one.
   for (const char* image_path : {"s/left/0.png", "s/right/0.png"})

@@ -37,7 +37,7 @@ TEST(Bal, ReadsCamerasPointsAndObservations) {
   EXPECT_EQ(bundle.points[0], Eigen::Vector3d(0.25, -0.5, -6));
 }
 
-TEST(Bal, RotationsTheCamerasSoThatTheProjectionOfTheFormatBecomesOurs) {
+TEST(Bal, RotatesTheCamerasSoThatTheProjectionOfTheFormatBecomesOurs) {
   const TemporaryFolder folder;
   const Bundle bundle = read_bal(folder.write("a.txt", kProblem));
   const Eigen::Vector3d& p_world = bundle.points[0];

@@ -136,7 +136,7 @@ TEST(ManhattanFrames, UnseenOnesAreRememberedUntilThereAreTooMany) {
   for (int k = 0; k < 8; ++k) (void)drive.see(std::nullopt);
   EXPECT_EQ(drive.see(SO3()), ManhattanFrameId(1));
   ManhattanFrameOptions options;
-  options.max_frames = 1;
+  options.max_count = 1;
   options.persistence = 2;
   Drive forgetful(options);
   for (int k = 0; k < 3; ++k) (void)forgetful.see(SO3());

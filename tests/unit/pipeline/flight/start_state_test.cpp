@@ -23,7 +23,7 @@ PoseMeasurement pose_by_markers() {
   return pose;
 }
 
-TEST(StartState, RotationsThePositionsCovarianceIntoTheAxesOfTheWorld) {
+TEST(StartState, RotatesThePositionsCovarianceIntoTheAxesOfTheWorld) {
   const PoseMeasurement pose = pose_by_markers();
   const BodyState state = start_state(pose, {});
   EXPECT_EQ(state.stamp_ns, 42);

@@ -69,13 +69,13 @@ TEST(LineCompass, WithoutOneDirectionsAreNotLearned) {
   Walk walk;
   for (int i = 0; i < 2; ++i) walk.keyframe(i, way(i));
   EXPECT_TRUE(walk.cue.shared_directions().empty());
-  walk.cue.hold_course(KeyframeId(1), kDepth_m, walk.window);
+  walk.cue.constrain_translation(KeyframeId(1), kDepth_m, walk.window);
   EXPECT_TRUE(walk.window.factors().empty());
 }
 
 TEST(LineCompass, LearnsTheDirectionsThatEdgesShareInTheWindowsFrame) {
   Walk walk;
-  walk.cue.use_compass();
+  walk.cue.use_vanishing_directions();
   walk.keyframe(0, way(0));
   const auto shared = walk.cue.shared_directions();
   ASSERT_GE(shared.size(), 2u);
@@ -86,7 +86,7 @@ TEST(LineCompass, LearnsTheDirectionsThatEdgesShareInTheWindowsFrame) {
   // Learned by the pose that the window has: in a turned window they are turned.
   Walk rotated;
   const SE3 T_map_world = test::pose({0.1, 0.5, 0}, {1, 2, 3});
-  rotated.cue.use_compass();
+  rotated.cue.use_vanishing_directions();
   rotated.keyframe(0, T_map_world);
   const auto others = rotated.cue.shared_directions();
   ASSERT_EQ(others.size(), shared.size());
@@ -96,7 +96,7 @@ TEST(LineCompass, LearnsTheDirectionsThatEdgesShareInTheWindowsFrame) {
 
 TEST(LineCompass, SteersAKeyframeThatTheWindowHasRotated) {
   Walk walk;
-  walk.cue.use_compass();
+  walk.cue.use_vanishing_directions();
   walk.keyframe(0, way(0));
   EXPECT_TRUE(walk.window.factors().empty());  // nothing was known of directions before
   const SE3 rotated = way(1) * test::pose({0.004, 0.01, -0.006}, {0, 0, 0});
@@ -113,7 +113,7 @@ TEST(LineCompass, SteersAKeyframeThatTheWindowHasRotated) {
 
 TEST(LineCompass, EarlierKeyframesAreSteeredInOrder) {
   Walk walk;
-  walk.cue.use_compass();
+  walk.cue.use_vanishing_directions();
   std::vector<LineView> seen;
   for (int i = 0; i < 3; ++i) {
     walk.cue.wait(frame(i), way(0));
@@ -130,13 +130,13 @@ TEST(LineCompass, EarlierKeyframesAreSteeredInOrder) {
 
 TEST(LineCompass, LinesAlongTheWayHoldTheCourse) {
   Walk walk;
-  walk.cue.use_compass();
+  walk.cue.use_vanishing_directions();
   const SE3 aside = way(2) * test::pose({0, 0, 0}, {0.05, 0, 0});
   walk.keyframe(0, way(0));
   walk.keyframe(1, way(1));
   walk.keyframe(2, aside);
   const std::size_t before = walk.window.factors().size();
-  walk.cue.hold_course(KeyframeId(2), kDepth_m, walk.window);
+  walk.cue.constrain_translation(KeyframeId(2), kDepth_m, walk.window);
   ASSERT_GT(walk.window.factors().size(), before);
   int from_first = 0;
   for (const WindowFactor& motion : walk.window.factors()) {
@@ -153,7 +153,7 @@ TEST(LineCompass, LinesAlongTheWayHoldTheCourse) {
 
 TEST(LineCompass, AResetForgetsTheDirectionsButGoesOnLearning) {
   Walk walk;
-  walk.cue.use_compass();
+  walk.cue.use_vanishing_directions();
   walk.keyframe(0, way(0));
   ASSERT_FALSE(walk.cue.shared_directions().empty());
   walk.cue.reset();
@@ -166,7 +166,7 @@ TEST(LineCompass, AResetForgetsTheDirectionsButGoesOnLearning) {
 
 TEST(LineCompass, FewLinesPoseAFrameWhoseRotationIsSeen) {
   Walk with(kBaseline_m), without(kBaseline_m);
-  with.cue.use_compass();
+  with.cue.use_vanishing_directions();
   for (Walk* walk : {&with, &without}) {
     walk->keyframe(0, way(0));
     // Of every direction one or two are left.

@@ -128,7 +128,7 @@ TEST(MapFeed, AChangeOfScaleTellsAllKeyframesAgain) {
   System run;
   for (int i = 0; i < 3; ++i) run.add();
   (void)run.feed.take_changes(run.sources());
-  run.feed.tell_again();
+  run.feed.report_again();
   const MapChanges again = run.feed.take_changes(run.sources());
   EXPECT_EQ(again.keyframes.size(), 3u);
   EXPECT_EQ(again.first_landmark, 0u);

@@ -29,7 +29,7 @@ struct Recorded {
       recorder.record(KeyframeId(i / 3), along(i % 3), 50);
       recorder.finish(along(i));
     }
-    recorder.tell_all();
+    recorder.report_all();
   }
 };
 

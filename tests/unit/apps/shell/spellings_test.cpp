@@ -1,4 +1,4 @@
-#include "apps/spellings.h"
+#include "apps/shell/spellings.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "apps/spellings.h"
+#include "apps/shell/spellings.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -83,6 +83,8 @@ const std::vector<FlagSpelling>& flag_spellings() {
       {{"config"}, "--dump", "--all"},
       {{"eval", "loops"}, "--gt", "--truth"},
       {{"eval", "loops"}, "--log", "--csv"},
+      {{"eval", "loops"}, "--names", "--systems"},
+      {{"eval", "loops"}, "--poses", "--true-poses"},
       {{"flight", "run"}, "--true-markers", "--truth-markers"},
       {{"graph", "optimize"}, "--start", "--initialization"},
       {{"image", "flow"}, "--cues", "--flow-cues"},
@@ -95,6 +97,7 @@ const std::vector<FlagSpelling>& flag_spellings() {
       {{"image", "planes"}, "--gt-min-points", "--truth-min-points"},
       {{"image", "planes"}, "--gt-none", "--truth-none"},
       {{"image", "planes"}, "--gt-same", "--truth-same"},
+      {{"image", "popup"}, "--level", "--level-camera"},
       {{"image", "popup"}, "--surfaces", "--surface-labels"},
       {{"image", "two-view-planes"}, "--calibration", "--calib"},
       {{"places", "classify"}, "--cues", "--appearance"},
@@ -124,7 +127,7 @@ void replace_head(Words& words, std::size_t length, const Words& head) {
 /// `help map info` -> `map info --help`; `version` -> `--version`.
 void replace_help(Words& words) {
   if (words.empty()) return;
-  if (words.front() == "version" && words.size() == 1) words.front() = "--version";
+  if (words.front() == "version") words.front() = "--version";
   if (words.front() != "help") return;
   words.erase(words.begin());
   words.emplace_back("--help");
@@ -159,6 +162,21 @@ void replace_flags(CommandWords& line) {
 }
 
 }  // namespace
+
+std::vector<ShortForm> short_forms() {
+  std::vector<ShortForm> forms;
+  for (const CommandSpelling& spelling : command_spellings())
+    if (spelling.short_form) forms.push_back({joined(spelling.given), joined(spelling.present)});
+  return forms;
+}
+
+std::vector<std::string> first_words() {
+  std::vector<std::string> words = {"help", "version"};
+  for (const CommandSpelling& spelling : command_spellings())
+    if (std::ranges::count(words, spelling.given.front()) == 0)
+      words.push_back(spelling.given.front());
+  return words;
+}
 
 CommandWords present_spelling(std::vector<std::string> words) {
   CommandWords line{std::move(words), {}};
