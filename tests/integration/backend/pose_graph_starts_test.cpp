@@ -57,7 +57,7 @@ TEST_P(ScatteredStart, EndsInTheSameOptimumAsTheFile) {
   PLACEGRAPH_DATA_OR_SKIP(path, std::string("posegraphs/") + GetParam() + ".g2o");
   PoseGraph graph = read_g2o(path);
   const double best = optimize_from(graph, PoseGraphInitialization::kAuto).chi2_final;
-  scatter_poses(graph, 100, 3);
+  disturb_poses(graph, 100, 3);
   const PoseGraphReport scattered = optimize_from(graph, PoseGraphInitialization::kAuto);
   EXPECT_TRUE(scattered.outcome) << scattered.outcome.reason;
   EXPECT_NEAR(scattered.chi2_final, best, 1e-6 * best);

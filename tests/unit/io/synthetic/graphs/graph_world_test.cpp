@@ -113,7 +113,7 @@ TEST(GraphWorld, FixedPosesAreNeitherIntegratedNorScattered) {
   PoseGraph graph = make_long_loop(options);
   graph.nodes[7].fixed = true;
   graph.nodes[7].T_world_node = SE2(100, 0, 0);
-  scatter_poses(graph, 10, 3);
+  disturb_poses(graph, 10, 3);
   EXPECT_EQ(pose<SE2>(graph, 7).translation()[0], 100);
   EXPECT_LE(pose<SE2>(graph, 8).translation().cwiseAbs().maxCoeff(), 5);
   integrate_odometry(graph);
