@@ -28,7 +28,7 @@ struct Node {
 /// "TEXT:{a,b}" names the choices a and b.
 std::vector<std::string> choices_of(const CLI::Option& option) {
   const std::string type = option.get_type_name();
-  const std::size_t begin = type.find('{'), end = type.find('}');
+  const std::size_t begin = type.rfind('{'), end = type.rfind('}');
   if (begin == std::string::npos || end == std::string::npos) return {};
   return CLI::detail::split(type.substr(begin + 1, end - begin - 1), ',');
 }

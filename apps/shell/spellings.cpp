@@ -111,8 +111,6 @@ bool begins_with(const Words& words, const Words& head) {
   return words.size() >= head.size() && std::equal(head.begin(), head.end(), words.begin());
 }
 
-bool is_help(const std::string& word) { return word == "--help" || word == "-h"; }
-
 std::string note(const std::string& given, const std::string& present) {
   return fmt::format("'{}' is an old spelling of '{}'", given, present);
 }
@@ -142,8 +140,9 @@ void replace_command(CommandWords& line) {
   }
   for (const GroupSpelling& spelling : group_spellings()) {
     if (line.words.size() < 2 || line.words.front() != spelling.group) continue;
-    const std::string& next = line.words[1];
-    if (is_help(next) || std::ranges::count(spelling.commands, next) > 0) return;
+    const auto is_argument = [](const std::string& word) { return !word.starts_with("-"); };
+    const bool has_argument = std::any_of(line.words.begin() + 1, line.words.end(), is_argument);
+    if (!has_argument || std::ranges::count(spelling.commands, line.words[1]) > 0) return;
     if (!spelling.short_form)
       line.notes.push_back(note(spelling.group, spelling.group + " " + spelling.command));
     return replace_head(line.words, 1, {spelling.group, spelling.command});

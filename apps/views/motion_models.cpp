@@ -147,7 +147,7 @@ MotionEstimate motion_by_seen_points(const MotionModelOptions& asked, const Came
 
 MotionEstimate motion_by_clouds(const MotionModelOptions& asked, const PointPairFile& file,
                                 Random& random) {
-  require(asked.noise_m > 0, "--noise: must be positive");
+  require(asked.noise_m > 0, "--point-noise: must be positive");
   require(!asked.threshold_px, "--threshold: is in pixels and does not apply to 3d3d");
   Pose3d3dOptions options;
   if (asked.min_inliers) options.ransac.min_inliers = *asked.min_inliers;

@@ -92,7 +92,7 @@ std::string dump_options(const Options& options) {
   return dump_options(list_options(options));
 }
 
-/// Writes options as Markdown: for each group a list of keys, defaults, ranges, levels, meanings.
+/// Writes options as Markdown: a list of keys, values, ranges, levels and meanings per group.
 std::string options_markdown(const std::vector<OptionEntry>& entries);
 /// Writes all fields of `options` as Markdown, with their present values as defaults.
 template <class Options>

@@ -65,7 +65,8 @@ std::vector<std::string> commands() {
     if (line == "Subcommands:") {
       listing = true;
     } else if (listing && line.size() > 3 && line[2] != ' ') {
-      names.push_back(line.substr(2, line.find(' ', 2) - 2));
+      const std::string name = line.substr(2, line.find(' ', 2) - 2);
+      if (name != "help" && name != "version") names.push_back(name);  // spellings of flags
     }
   }
   return names;
@@ -220,7 +221,7 @@ TEST_F(Cli, EvalNamesFileAndLineOfMalformedInput) {
 }
 
 TEST_F(Cli, EvalRefusesBadOptions) {
-  expect_usage_error("eval gt.txt", "EST is required");
+  expect_usage_error("eval gt.txt", "ESTIMATE is required");
   expect_usage_error("eval gt.txt absent.txt", "absent.txt");
   expect_usage_error("eval gt.txt est.txt --align affine", "affine");
   expect_usage_error("eval gt.txt est.txt --lengths 10,-5", "segments.lengths_m");

@@ -140,7 +140,7 @@ TEST_F(CloudPlanesCli, FindsNoPlaneWhereThereIsNone) {
 
 TEST_F(CloudPlanesCli, StandsBesideTheSubcommandAndReadsStrictly) {
   write_corner();
-  expect_usage_error("planes", "subcommand");
+  expect_usage_error("planes", "CLOUD");
   expect_usage_error("planes cloud.txt", "--out");
   expect_usage_error("planes none.txt --out l.txt", "none.txt");
   expect_usage_error("planes cloud.txt --out l.txt --method best", "--method");

@@ -81,6 +81,7 @@ TEST_F(CommandLine, AFlagHasOneUnitAndTakesAValueOrNotWhereverItIs) {
             apps::full_name(command);
       }
   });
+  units.erase("out");      // formats of files
   arities.erase("draw");   // a folder for a sequence, nothing where NAME.drawn.png is its name
   arities.erase("calib");  // of `track plane` the value may be left out
   for (const auto& [name, found] : units)
@@ -174,7 +175,7 @@ TEST_F(Misspelled, CommandsFlagsAndKeysGetSuggestions) {
 
 TEST_F(Misspelled, BashCompletesByTheScript) {
   const auto completed = [&](const std::string& words, int at) {
-    test::write_file(dir / "c.sh", "source script\nCOMP_WORDS=(" + words +
+    test::write_file(dir / "c.sh", "source ./script\nCOMP_WORDS=(" + words +
                                        ")\nCOMP_CWORD=" + std::to_string(at) +
                                        "\n_placegraph_words\necho \"${COMPREPLY[*]}\"\n");
     const std::string command = "cd '" + dir.path() + "' && bash c.sh > completed";

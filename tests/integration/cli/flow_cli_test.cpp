@@ -28,10 +28,10 @@ class FlowCli : public test::CliTest {
 
 TEST_F(FlowCli, WritesBothFormsAPictureAndItsErrors) {
   for (const char* method : {"interpolation", "lucas-kanade", "horn-schunck", "dis"}) {
-    const CommandResult result =
-        run(std::string("flow a.png b.png -o f.flo --draw f.png --truth truth.png --json --force "
-                        "--method ") +
-            method);
+    const CommandResult result = run(
+        std::string("image flow a.png b.png -o f.flo --draw f.png --truth truth.png --json --force "
+                    "--method ") +
+        method);
     ASSERT_EQ(result.code, 0) << result.err;
     EXPECT_THAT(result.out, HasSubstr("\"coverage\""));
     EXPECT_THAT(read_file(dir / "f.png"), StartsWith("\x89PNG"));
@@ -94,7 +94,7 @@ TEST_F(FlowCli, TellsWhatFlowTellsAtOnce) {
 
 TEST_F(FlowCli, HasNoAnswerOfBlankImages) {
   test::write_picture(dir / "blank.png", cv::Mat(100, 120, CV_8UC1, cv::Scalar(90)));
-  expect_failure("flow blank.png blank.png --method lucas-kanade", 1, "no displacement");
+  expect_failure("image flow blank.png blank.png --method lucas-kanade", 1, "no displacement");
 }
 
 TEST_F(FlowCli, RefusesWhatIsNoPicture) {

@@ -71,7 +71,7 @@ class GeoreferenceCli : public test::CliTest {
   }
   /// One line on stderr, nothing on stdout, no folder made.
   void expect_failure(const std::string& arguments, int code, const std::string& message) {
-    CliTest::expect_failure("georeference " + arguments, code, message);
+    CliTest::expect_failure("map georeference " + arguments, code, message);
     EXPECT_FALSE(fs::exists(dir / "out")) << arguments;
   }
 };

@@ -49,7 +49,7 @@ class LinesCli : public test::CliTest {
 TEST_F(LinesCli, MatchesGivenSegmentsWhereverTheirOptionStands) {
   for (const char* form :
        {"a.png b.png --segments a.txt b.txt", "--segments a.txt b.txt a.png b.png"}) {
-    const CommandResult result = run(std::string("lines match --force -o m.txt ") + form);
+    const CommandResult result = run(std::string("image match-lines --force -o m.txt ") + form);
     ASSERT_EQ(result.code, 0) << result.err;
     EXPECT_THAT(result.out, HasSubstr("80 and 80 segments"));
     const auto matches = rows(read_file(dir / "m.txt"));
@@ -94,8 +94,8 @@ TEST_F(LinesCli, SaysWhatIsWrong) {
 
 TEST_F(LinesCli, BlankImagesAllowNoAnswer) {
   test::write_picture(dir / "blank.png", Image(100, 100, CV_8UC1, cv::Scalar(90)));
-  expect_failure("lines detect blank.png -o d.txt", 1, "no straight edges");
-  expect_failure("lines match blank.png a.png -o m.txt", 1, "point matches agree");
+  expect_failure("image lines blank.png -o d.txt", 1, "no straight edges");
+  expect_failure("image match-lines blank.png a.png -o m.txt", 1, "point matches agree");
 }
 
 class LinesAloneCli : public test::CliTest {};

@@ -108,7 +108,7 @@ TEST_F(MapCli, TheWayOverItsPlacesIsThatOfTheRunsFiles) {
 TEST_F(MapCli, ARunThatWasBrokenOffGoesOn) {
   break_off(3);
   EXPECT_EQ(run("map validate broken").code, 0);
-  expect_usage_error("run " + drive() + " --out broken", "--resume goes on with it");
+  expect_usage_error("run " + drive() + " --out broken", "--resume continues it");
   expect_usage_error("run --resume broken --seed 5", "the run was begun with seed: 0, not 5");
   expect_usage_error("run " + dir.path() + " --resume broken", "the run was begun on");
   const CommandResult resumed = run("run --resume broken --json");
@@ -170,7 +170,7 @@ TEST_F(MapCli, ExplainsAFrame) {
   EXPECT_GT(explanation["sees"]["surfaces"]["ground"], 0.05);
   EXPECT_EQ(explanation["assumed"]["sensor"], "measured depth");
   EXPECT_THAT(run("map explain " + whole() + " 20").out, HasSubstr("known by"));
-  expect_failure("explain " + whole() + " 99", 1, "has no frame 99");
+  expect_failure("map explain " + whole() + " 99", 1, "has no frame 99");
   expect_usage_error("map explain " + whole() + " -1", "FRAME");
   expect_usage_error("map explain nowhere 1", "nowhere");
 }

@@ -81,7 +81,7 @@ TEST_F(MarkersCli, CountsPixelsFromTheCornerWhereAsked) {
 }
 
 TEST_F(MarkersCli, SaysWhatIsWrong) {
-  expect_failure("markers detect plain.png --calib K.txt", 1, "no marker of apriltag_36h11");
+  expect_failure("image markers plain.png --calib K.txt", 1, "no marker of apriltag_36h11");
   expect_usage_error("image markers two.png --calib K.txt --dictionary aruco_9x9",
                      "no marker dictionary 'aruco_9x9' (known: aruco_4x4_50,");
   expect_usage_error("image markers two.png", "--calib is required");

@@ -121,7 +121,7 @@ TEST_F(Match, RefusesVocabulariesThatDoNotServe) {
   write_file(dir / "cut.pgw", bytes.substr(0, bytes.size() - 1));
   expect_usage_error("match . --out no.txt --codes bow --vocabulary cut.pgw",
                      "cut.pgw: byte " + std::to_string(bytes.size() - 1) + ": truncated");
-  expect_usage_error("places vocabulary gt.txt", "gt.txt: byte 0: no vocabulary");
+  expect_usage_error("places vocabulary gt.txt", "gt.txt: byte 0: not a vocabulary");
 }
 
 TEST_F(Match, TellsLabelsByEveryClassifierAndRefusesTheUnsure) {

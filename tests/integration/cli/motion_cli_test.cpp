@@ -123,11 +123,11 @@ TEST_F(MotionCli, SaysWhatIsWrong) {
                      "matches.txt:1: 5 columns, at least 6");
   expect_usage_error("image motion pairs.txt --method 3d3d --point-noise 0", "--point-noise");
   dir.write("few.txt", "1 2 3 4\n5 6 7 8\n");
-  expect_failure("motion few.txt --calib K.txt", 1, "few.txt: 2 distinct matches, 8 needed");
+  expect_failure("image motion few.txt --calib K.txt", 1, "few.txt: 2 distinct matches, 8 needed");
   std::string repeated;
   for (int i = 0; i < 50; ++i) repeated += i % 2 ? "1 2 3 4\n" : "5 6 7 8\n";
   dir.write("repeated.txt", repeated);
-  expect_failure("motion repeated.txt --calib K.txt", 1, "2 distinct matches");
+  expect_failure("image motion repeated.txt --calib K.txt", 1, "2 distinct matches");
   // To those who read JSON the evidence is told all the same.
   const CommandResult result = run("image motion few.txt --calib K.txt --json");
   EXPECT_EQ(result.code, 1);

@@ -36,7 +36,8 @@ TEST_F(SynthCli, WritesBothCamerasOutdoorsAndDepthIndoors) {
 }
 
 TEST_F(SynthCli, OneAndTwoThreadsWriteTheSameBytes) {
-  const std::string what = "synth town-loop --frames 3 --size 96x48 --depth --labels --flow";
+  const std::string what =
+      "synth sequence town-loop --frames 3 --size 96x48 --depth --labels --flow";
   ASSERT_EQ(run(what + " --threads 1 --out one").code, 0);
   ASSERT_EQ(run(what + " --threads 2 --out two").code, 0);
   int files = 0;

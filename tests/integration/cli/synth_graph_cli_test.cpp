@@ -26,7 +26,7 @@ TEST_F(SynthGraphCli, MakesEveryWorldAndTheSameOneForTheSameSeed) {
         World{"long-loop --poses 60 --closures 3 --laps 1.5", "VERTEX_SE2 59 "},
         World{"long-loop --poses 60 --3d --closures 2 --translation-noise 0.1",
               "VERTEX_SE3:QUAT 59 "}}) {
-    const std::string command = std::string("synth-graph ") + world.arguments + " --force -o ";
+    const std::string command = std::string("synth graph ") + world.arguments + " --force -o ";
     const CommandResult result = run(command + "a.g2o");
     EXPECT_EQ(result.code, 0) << result.err;
     EXPECT_THAT(result.out, HasSubstr("60 poses"));

@@ -121,7 +121,7 @@ TEST_F(TrackPlaneCli, TellsEverythingAsJson) {
 
 TEST_F(TrackPlaneCli, RefusesWithOneLineAndLeavesNothingBehind) {
   make_sequence();
-  const std::string whole = "track-plane images " + corners + "--out t.txt ";
+  const std::string whole = "track plane images " + corners + "--out t.txt ";
   expect_usage_error("track plane images --out t.txt", "--template");
   expect_usage_error("track plane images " + corners, "--out");
   expect_usage_error("track plane none " + corners + "--out t.txt", "none");
@@ -156,9 +156,9 @@ TEST_F(TrackPlaneCli, RefusesWithOneLineAndLeavesNothingBehind) {
 TEST_F(TrackPlaneCli, SaysThatABlankOrAbsentTemplateAllowsNoAnswer) {
   fs::create_directory(dir / "blank");
   ASSERT_TRUE(test::write_picture(dir / "blank/0.png", Image(240, 320, CV_8UC1, cv::Scalar(90))));
-  expect_failure("track-plane blank " + corners + "--out t.txt", 1, "too little texture");
+  expect_failure("track plane blank " + corners + "--out t.txt", 1, "too little texture");
   ASSERT_TRUE(test::write_picture(dir / "template.png", board.picture(Matrix3d::Identity())));
-  expect_failure("track-plane blank " + corners + "--template-image template.png --out t.txt", 1,
+  expect_failure("track plane blank " + corners + "--template-image template.png --out t.txt", 1,
                  "none of 1 frames");
   EXPECT_FALSE(fs::exists(dir / "t.txt"));
 }

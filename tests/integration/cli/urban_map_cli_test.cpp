@@ -82,10 +82,9 @@ TEST_F(UrbanMapCli, SaysWhatIsMissing) {
       "none.pgscene: no such model; `placegraph train urban DATA");
   expect_usage_error("map street " + at("out") + " --model none.pgscene --out other",
                      "placegraph train urban");
-  expect_usage_error("run " + at("town") + " --scene semantic --out other", "--scene");
-  expect_usage_error(
-      "run " + at("town") + " --config street_map --set scene.urban.sight.moving=Tram --out other",
-      "Tram");
+  expect_usage_error("run " + at("town") +
+                         " --config street_map --set scene.urban.labelling.moving=Tram --out other",
+                     "Tram");
 }
 
 TEST_F(UrbanMapCli, NeedsStereo) {

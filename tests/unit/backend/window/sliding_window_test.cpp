@@ -330,7 +330,7 @@ TEST(SlidingWindow, TellsWhenTheDataAreTooFew) {
   window.add_observation({KeyframeId(1), LandmarkId(7), {600, 180}, 1, {}, 1});
   const WindowSummary summary = window.optimize();
   EXPECT_EQ(summary.outcome.code, Outcome::Code::kTooFewData);
-  EXPECT_NE(summary.outcome.reason.find("keyframe 1 sees 1"), std::string::npos);
+  EXPECT_NE(summary.outcome.reason.find("keyframe 1 observes 1"), std::string::npos);
   EXPECT_EQ(distance_m(window.pose(KeyframeId(1)), T_map_cam), 0);
   EXPECT_TRUE(relative_information(window, KeyframeId(0), KeyframeId(1)).allFinite());
 }

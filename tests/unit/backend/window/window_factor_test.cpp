@@ -295,7 +295,7 @@ TEST(WindowFactor, OfFullRankAloneDeterminesAKeyframeWithoutLandmarks) {
     const WindowSummary summary = window.optimize();
     EXPECT_EQ(summary.outcome.code == Outcome::Code::kOk, full) << summary.outcome.reason;
     if (!full) {
-      EXPECT_NE(summary.outcome.reason.find("keyframe 1 sees 0"), std::string::npos);
+      EXPECT_NE(summary.outcome.reason.find("keyframe 1 observes 0"), std::string::npos);
     }
   }
 }

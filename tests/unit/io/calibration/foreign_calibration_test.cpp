@@ -128,7 +128,7 @@ TEST(ForeignCalibration, NamesTheLineOfWhatIsNotKnown) {
     return message_of([&] { (void)read_foreign_calibration(path); });
   };
   EXPECT_THAT(refusal("c.yaml", "cam0:\n  camera_model: omni\n"),
-              HasSubstr("c.yaml:2: Kalibr's calibration: camera_model: 'omni' is not known"));
+              HasSubstr("c.yaml:2: Kalibr's calibration: camera_model: 'omni' is not supported"));
   EXPECT_THAT(refusal("c.yaml", "K: [1, 2]\n"), HasSubstr("c.yaml:1: OpenCV's calibration: "));
   EXPECT_THAT(refusal("c.yaml", "K: [9, 0, 4, 0, 9, 3, 0, 0, 1]\nD: [.1, 0, 0, 0, 0, .2]\n"),
               HasSubstr("c.yaml:2: OpenCV's calibration: a radial-tangential lens has 4, 5 or 8"));
@@ -137,7 +137,7 @@ TEST(ForeignCalibration, NamesTheLineOfWhatIsNotKnown) {
                       "D: [.1, 0, 0, 0, 0, 0, 0, 0, .01, 0, 0, 0]\n"),
               HasSubstr("not 12 (thin prism"));
   EXPECT_THAT(refusal("cameras.txt", "1 FOV 320 240 1 2 3 4 5\n"),
-              HasSubstr("cameras.txt:1: COLMAP's calibration: the model 'FOV' is not known"));
+              HasSubstr("cameras.txt:1: COLMAP's calibration: the model 'FOV' is unknown"));
 }
 
 const std::string kCam0 = "cam0:\n  camera_model: pinhole\n  intrinsics: [262, 263, 159, 119]\n";

@@ -79,7 +79,7 @@ TEST_F(KittiDrive, SaysWhatIsMissingOrOfAnotherKind) {
   folder.write("day/drive_sync/calib.txt", kCalibration);
   EXPECT_EQ(open()->size(), 4u);
   EXPECT_THAT(message_of([&] { open_dataset(folder / "day"); }),
-              HasSubstr("it holds the sequences drive_sync: name one of them"));
+              HasSubstr("it contains the sequences drive_sync: name one of them"));
   folder.write("day/drive_sync/image_00/timestamps.txt", "2011-09-26 13:02:25.500000000\n");
   EXPECT_THAT(message_of([&] { open(); }), HasSubstr("holds 1 times, but there is an image 1"));
   fs::remove(folder / "day/drive_sync/image_00/timestamps.txt");

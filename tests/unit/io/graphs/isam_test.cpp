@@ -79,7 +79,7 @@ INSTANTIATE_TEST_SUITE_P(
         std::pair{"EDGE2 0 1 1 0 0 0 0 0 0 0 0", "a.txt:2: the root of the information has a zero"},
         std::pair{"EDGE2 0 1 1 0 0 1e200 0 0 1 0 1", "a.txt:2: the information is not finite"},
         std::pair{"EDGE3 0 1 1 0 0 0 0 0", "a.txt:2: EDGE3: expected 29 numbers, found 8"},
-        std::pair{"LANDMARK 0 1 1 0 1 0 1", "a.txt:2: LANDMARK: landmarks are no part"},
+        std::pair{"LANDMARK 0 1 1 0 1 0 1", "a.txt:2: LANDMARK: a pose graph has no landmarks"},
         std::pair{"VERTEX2 0 0 0 0", "a.txt:2: 'VERTEX2': unknown tag"}));
 
 TEST(Isam, HasToHaveEdges) {

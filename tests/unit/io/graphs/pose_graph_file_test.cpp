@@ -31,9 +31,9 @@ TEST(PoseGraphFile, IsRecognizedByItsTags) {
 
 TEST(PoseGraphFile, IsRefusedWithoutTags) {
   EXPECT_THAT(message_of([] { format_of("EDGE2 0 1\n<xml>\n"); }),
-              HasSubstr("graph.txt:2: '<xml>': no tag"));
+              HasSubstr("graph.txt:2: '<xml>': not a tag"));
   EXPECT_THAT(message_of([] { format_of(std::string("\0\1\xff 1 2\n", 8)); }),
-              HasSubstr("graph.txt:1: '\?\?\?': no tag"));
+              HasSubstr("graph.txt:1: '\?\?\?': not a tag"));
   EXPECT_THAT(message_of([] { format_of("# nothing\n\n"); }),
               HasSubstr("graph.txt: holds no vertices"));
 }

@@ -136,7 +136,7 @@ TEST_F(PoseTableOf, RemarksAreNoHeaders) {
 
 TEST_F(PoseTableOf, UnknownNumbersOfFieldsAreCounted) {
   EXPECT_THAT(refusal("1 2 3 4 5\n"), HasSubstr("p:1: is no trajectory: 5 fields between blanks"));
-  EXPECT_THAT(refusal("1,2\n"), HasSubstr("2 fields between commas, '1,2'; read are"));
+  EXPECT_THAT(refusal("1,2\n"), HasSubstr("2 fields between commas, '1,2'; readable are"));
   EXPECT_THAT(refusal("# nothing\n"), HasSubstr("p: holds no poses"));
   EXPECT_THAT(refusal("t,x,y,z\n"), HasSubstr("p: holds no poses"));
 }
