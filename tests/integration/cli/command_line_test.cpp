@@ -183,8 +183,8 @@ TEST_F(Misspelled, BashCompletesByTheScript) {
     return test::read_file(dir / "completed");
   };
   test::write_file(dir / "script", run("completion bash").out);
-  EXPECT_EQ(completed("placegraph ma", 1), "map man\n");
-  EXPECT_EQ(completed("placegraph map exp", 2), "explain export\n");
+  EXPECT_EQ(completed("placegraph ma", 1), "map man match\n");
+  EXPECT_EQ(completed("placegraph map exp", 2), "export explain\n");
   EXPECT_EQ(completed("placegraph run --sensor st", 3), "stereo\n");
   EXPECT_EQ(completed("placegraph run s --camera", 3), "--camera-height\n");
   EXPECT_EQ(completed("placegraph optimize --eng", 2), "--engine\n");

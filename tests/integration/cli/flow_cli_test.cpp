@@ -87,7 +87,7 @@ TEST_F(FlowCli, TellsWhatFlowTellsAtOnce) {
   const CommandResult lines = run(command + "--rotation 0,0.002,0");
   EXPECT_THAT(lines.out, HasSubstr("time to contact: 19."));  // in images
   EXPECT_THAT(run(command + "--normal 0 0 -1").out, HasSubstr("time to contact: none: "));
-  expect_usage_error("image flow far.png near.png --cues", "--calib");
+  expect_usage_error("image flow far.png near.png --flow-cues", "--calib");
   expect_usage_error(command + "--gyro 0 0 0", "--dt");
   expect_usage_error("image flow a.png b.png --flow-cues --calib K.txt", "a.png");
 }

@@ -77,7 +77,7 @@ TEST_F(LinesCli, MatchesWhatItDetectsAndWritesIt) {
 }
 
 TEST_F(LinesCli, SaysWhatIsWrong) {
-  expect_usage_error("lines", "subcommand");
+  expect_usage_error("image lines", "IMAGE is required");
   expect_usage_error("image match-lines a.png -o m.txt", "IMAGES");
   expect_usage_error("image match-lines a.png absent.png -o m.txt", "absent.png: image is missing");
   expect_usage_error("image match-lines -o m.txt", "IMAGES is required");

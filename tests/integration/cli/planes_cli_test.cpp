@@ -107,7 +107,7 @@ TEST_F(PlanesCli, ReadsStrictlyAndNeverOverwritesUnasked) {
   expect_usage_error("image two-view-planes broken.txt --out l.txt", "broken.txt:2: ");
   EXPECT_FALSE(fs::exists(dir / "l.txt"));
   write_file(dir / "few.txt", "1 2 3 4\n");
-  expect_failure("planes two-view few.txt --out l.txt", 1, "8 needed");
+  expect_failure("image two-view-planes few.txt --out l.txt", 1, "8 needed");
   EXPECT_FALSE(fs::exists(dir / "l.txt"));
   write_file(dir / "labels.txt", "kept");
   expect_usage_error("image two-view-planes matches.txt --out labels.txt", "labels.txt");
