@@ -53,7 +53,7 @@ work_of() {
 walk_of() {
   row_name=$1 poses=$2 false_loops=$3; shift 3
   wanted "$row_name" || return 0
-  made synth graph manhattan-walk --true-poses "$poses" --false-loops "$false_loops" -o walk.g2o --force
+  made synth graph manhattan-walk --poses "$poses" --false-loops "$false_loops" -o walk.g2o --force
   work_of "$row_name" optimize walk.g2o -o out.g2o --quiet "$@"
 }
 # frames_of NAME ARGUMENTS...: a row of `run` on ten frames of a town
@@ -78,7 +78,7 @@ published() {
 }
 
 heading "$title"
-command_line "placegraph synth graph manhattan-walk --true-poses 3500|1000 [--false-loops 100] -o WALK.g2o"
+command_line "placegraph synth graph manhattan-walk --poses 3500|1000 [--false-loops 100] -o WALK.g2o"
 command_line "placegraph synth graph \$DATA/posegraphs/intel.g2o --false-loops 100 -o INTEL.g2o"
 command_line "placegraph synth sequence town-loop --frames 10 --stereo --depth --threads 1 --out TOWN"
 command_line "valgrind --tool=callgrind placegraph optimize GRAPH.g2o -o OUT.g2o --quiet [--incremental|--robust auto]"
