@@ -276,7 +276,7 @@ int main(int argc, char** argv) {
   report.markdown =
       "| world | true motion | method | mean error [px] | median [px] | covered [%] | CPU [ms] |\n"
       "|---|---|---|---|---|---|---|\n";
-  for (const char* world : {"town-loop", "corridor-loop", "flight"})
+  for (const char* world : {"town-loop", "corridor-loop", "hover"})
     study_world(world, frames, report);
   report.markdown +=
       "\n| method | RMS a coordinate [px] | answered [%] | CPU a patch [us] |\n|---|---|---|---|\n";

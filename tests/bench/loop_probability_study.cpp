@@ -1,6 +1,6 @@
 // Fits the coefficients of pipeline/internal/loops/loop_probability to candidates of runs whose
 // truth is known.
-//   bench_loop_odds_study MAP TRUTH RADIUS [MAP TRUTH RADIUS ...]
+//   bench_loop_probability_study MAP TRUTH RADIUS [MAP TRUTH RADIUS ...]
 // MAP: map.db of a run; TRUTH: a pose per frame of its sequence; two views show one place where
 // their true positions are within RADIUS [m] and their headings within 40 deg. Every run weighs
 // alike. Prints for each fate its candidates, how many are true, and its constant.
@@ -113,7 +113,7 @@ int main(int count, char** arguments) {
   try {
     placegraph::run(count, arguments);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "bench_loop_odds_study: {}\n", error.what());
+    fmt::print(stderr, "bench_loop_probability_study: {}\n", error.what());
     return 2;
   }
   return 0;

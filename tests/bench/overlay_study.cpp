@@ -41,8 +41,8 @@ struct Street {
 
 /// The road or pavement at (x, z) of the scene.
 std::optional<Street> street_at(const Scene& scene, const Vector2d& place) {
-  for (const synthetic::Segment& segment : scene.segments)
-    for (const Face& face : segment.faces) {
+  for (const synthetic::Part& part : scene.parts)
+    for (const Face& face : part.faces) {
       if (face.label != SurfaceClass::kRoad && face.label != SurfaceClass::kPavement) continue;
       bool left = true, right = true;
       for (int i = 0; i < face.count; ++i) {
