@@ -5,6 +5,7 @@
 #include <placegraph/graph/core/error.h>
 
 #include <CLI/CLI.hpp>
+#include <functional>
 
 #include "apps/shell/cmd_tree.h"
 #include "apps/shell/spellings.h"
@@ -55,15 +56,11 @@ std::vector<Node> nodes_of(const CLI::App& app) {
   return nodes;
 }
 
-std::string commands_of_node(const Node& node) {
+/// The names of commands or flags, separated by blanks.
+template <class Items, class Name>
+std::string names_of(const Items& items, Name name) {
   std::string words;
-  for (const auto& command : node.commands) words += (words.empty() ? "" : " ") + command.first;
-  return words;
-}
-
-std::string flags_of_node(const Node& node) {
-  std::string words;
-  for (const Flag& flag : node.flags) words += (words.empty() ? "" : " ") + flag.name;
+  for (const auto& item : items) words += (words.empty() ? "" : " ") + std::invoke(name, item);
   return words;
 }
 
@@ -75,8 +72,9 @@ std::string bash_function(const std::vector<Node>& nodes) {
     paths += fmt::format("    '{}') command='{}' ;;\n", form.name, form.command);
   for (const Node& node : nodes) {
     if (!node.path.empty()) paths += fmt::format("    '{0}') command='{0}' ;;\n", node.path);
-    commands += fmt::format("    '{}') words='{}' ;;\n", node.path, commands_of_node(node));
-    flags += fmt::format("    '{}') words='{}' ;;\n", node.path, flags_of_node(node));
+    commands += fmt::format("    '{}') words='{}' ;;\n", node.path,
+                            names_of(node.commands, &std::pair<std::string, std::string>::first));
+    flags += fmt::format("    '{}') words='{}' ;;\n", node.path, names_of(node.flags, &Flag::name));
     for (const Flag& flag : node.flags)
       if (!flag.choices.empty())
         values += fmt::format("    '{} {}') words='{}' ;;\n", node.path, flag.name,

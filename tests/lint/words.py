@@ -2,10 +2,10 @@
 
 Reads words.txt beside it for the words that are refused and words_allowed.txt for the phrases in
 which they are allowed. Looks at identifiers of all C++ sources; at comments and texts in quotes of
-the sources outside tests; at the documents (README.md, docs/*.md but options.md and results). Also
-refuses a comment that begins with a bare "of". Not read: the table of old spellings of commands
-(apps/shell/spellings.cpp), the former keys of options (`formerly("...")`) and keys of JSON. Prints `file:line: ...` for each fault and exits
-with 1 if there is one, with 0 and a summary otherwise. With PATH, only files below it are read.
+the sources outside tests; at the documents (README.md, docs/*.md but results.md, glossary.md and
+elements.md). Also refuses a comment that begins with a bare "of". Not read: the table of old
+spellings of commands (apps/shell/spellings.cpp), the former keys of options (`formerly("...")`) and
+keys of JSON. Prints `file:line: ...` for each fault and exits with 1 if there is one, with 0 and a summary otherwise. With PATH, only files below it are read.
 """
 import os
 import re
