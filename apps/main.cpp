@@ -16,7 +16,7 @@
 
 namespace {
 
-constexpr int kNoAnswer = 1, kUsage = 2, kInterrupted = 130;  // 130: as shells report SIGINT
+constexpr int kNoResult = 1, kUsage = 2, kInterrupted = 130;  // 130: as shells report SIGINT
 
 int complain(int code, const std::string& message) {
   std::fprintf(stderr, "placegraph: %s\n", placegraph::apps::one_line(message).c_str());
@@ -60,8 +60,8 @@ int main(int argc, char** argv) {
   try {
     const auto app = make_command_line();
     return parse_and_run(*app, present_spelling({argv + 1, argv + argc}));
-  } catch (const NoAnswer& reason) {
-    return complain(kNoAnswer, reason.what());
+  } catch (const NoResult& reason) {
+    return complain(kNoResult, reason.what());
   } catch (const Interrupted& reason) {
     return complain(kInterrupted, reason.what());
   } catch (const std::exception& error) {

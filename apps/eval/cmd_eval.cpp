@@ -15,7 +15,7 @@ void run(const EvalArguments& arguments, bool json) {
   const EvaluationResult* refused = result.refused();
   // A single estimate that cannot be evaluated is reported once, by the error.
   if (json || !refused || !result.single()) print(json ? to_json(result) : to_text(result));
-  if (refused) throw NoAnswer(refused->name + ": " + refused->outcome.reason);
+  if (refused) throw NoResult(refused->name + ": " + refused->outcome.reason);
 }
 
 }  // namespace

@@ -89,7 +89,7 @@ json json_of(const LoopJudgement& judgement) {
   json report = {{"name", judgement.name},
                  {"predictions_file", judgement.path},
                  {"positives", b.positives},
-                 {"answered", b.answered},
+                 {"answered", b.predicted_queries},
                  {"hits", hits},
                  {"misses", misses},
                  {"dropped", b.dropped},
@@ -104,7 +104,7 @@ json json_of(const LoopJudgement& judgement) {
   report["candidates"] = b.candidates.size();
   report["calibration_error"] = judgement.reliability->calibration_error;
   for (const ReliabilityBin& bin : judgement.reliability->bins)
-    report["reliability"].push_back({{"candidates", bin.answers},
+    report["reliability"].push_back({{"candidates", bin.predictions},
                                      {"mean_probability", bin.mean_probability},
                                      {"share_right", bin.share_right}});
   return report;
@@ -131,9 +131,9 @@ std::string remarks_text(const std::vector<LoopJudgement>& judgements) {
                         judgement.name, judgement.benchmark.candidates.size(),
                         judgement.reliability->calibration_error);
     for (const ReliabilityBin& bin : judgement.reliability->bins)
-      if (bin.answers > 0)
+      if (bin.predictions > 0)
         text += fmt::format("  mean probability {:.3f}: share correct {:.3f} ({} candidates)\n",
-                            bin.mean_probability, bin.share_right, bin.answers);
+                            bin.mean_probability, bin.share_right, bin.predictions);
   }
   return text;
 }
@@ -142,13 +142,13 @@ std::string to_log(const std::vector<LoopJudgement>& judgements) {
   std::string text = "system,query,has_match,verdict,candidate,score,rank,stage\n";
   for (const LoopJudgement& judgement : judgements)
     for (const JudgedQuery& query : judgement.benchmark.queries) {
-      const bool answered =
+      const bool predicted =
           query.verdict == LoopVerdict::kHit || query.verdict == LoopVerdict::kMiss;
       const LoopPrediction& best = query.best;
       text += fmt::format(
           "{},{},{},{},{},{},{},{}\n", judgement.name, query.query, query.has_match ? 1 : 0,
-          to_string(query.verdict), answered ? fmt::format("{}", best.candidate) : "",
-          answered ? fmt::format("{:.9g}", best.score) : "", query.rank, best.stage);
+          to_string(query.verdict), predicted ? fmt::format("{}", best.candidate) : "",
+          predicted ? fmt::format("{:.9g}", best.score) : "", query.rank, best.stage);
     }
   return text;
 }
@@ -217,7 +217,7 @@ std::string to_text(const LoopsResult& result) {
   for (const LoopJudgement& judgement : result.systems) {
     const LoopBenchmark& b = judgement.benchmark;
     text += fmt::format("{:<{}} {:>9} {:>8} {:>7} {:>7} {:>7} {:>7} {:>14} {:>7}\n", judgement.name,
-                        width, b.positives, b.answered, cell(b.recall_at[0]), cell(b.recall_at[1]),
+                        width, b.positives, b.predicted_queries, cell(b.recall_at[0]), cell(b.recall_at[1]),
                         cell(b.recall_at[2]), cell(b.curve.average_precision),
                         cell(b.curve.recall_at_full_precision), cell(b.curve.f1_max));
   }

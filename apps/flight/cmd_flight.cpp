@@ -19,7 +19,7 @@ void fly_and_print(const FlightCommand& command) {
   const FlightResult result = fly(command.arguments);
   print(command.json ? to_json(result) : to_text(result));
   if (command.profile && !command.json) print(stages_text(result));
-  if (result.no_answer) throw NoAnswer(*result.no_answer);
+  if (result.no_result) throw NoResult(*result.no_result);
 }
 
 }  // namespace

@@ -96,7 +96,7 @@ Flight open_flight(const FlightArguments& arguments) {
   if (fs::exists(truth)) flight.truth = read_body_states(truth);
   if (arguments.start_from_truth) {
     require(!flight.truth.empty(), "--start-from-truth: there is no " + truth);
-    flight.options.start = with_small_covariance(flight.truth.front());
+    flight.options.initial_state = with_small_covariance(flight.truth.front());
   }
   return flight;
 }

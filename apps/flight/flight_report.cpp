@@ -30,7 +30,7 @@ std::vector<double> outages_of(const FlightRun& run) {
 
 }  // namespace
 
-std::vector<BodyState> answers_of(const FlightRun& run) {
+std::vector<BodyState> estimated_states(const FlightRun& run) {
   std::vector<BodyState> states;
   for (const FlightFrame& frame : run.frames)
     if (frame.outcome) states.push_back(frame.state);
@@ -47,7 +47,7 @@ json describe_error(const std::vector<BodyState>& truth, const std::vector<BodyS
           {"velocity_rmse_mps", error.velocity_rmse_mps},
           {"attitude_rmse_deg", rad_to_deg(error.attitude_rmse_rad)},
           {"end_error_m", error.end_error_m},
-          {"way_m", error.way_m},
+          {"path_length_m", error.path_length_m},
           {"anees", number(error.anees)},
           {"anees_position", number(error.anees_position)},
           {"anees_velocity", number(error.anees_velocity)},
@@ -57,7 +57,7 @@ json describe_error(const std::vector<BodyState>& truth, const std::vector<BodyS
 json describe_smoother(const std::vector<BodyState>& truth, const FlightRun& run,
                        const std::vector<BodyState>& smoothed) {
   json smoother = describe_error(truth, smoothed);
-  std::vector<BodyState> filtered = answers_of(run);
+  std::vector<BodyState> filtered = estimated_states(run);
   std::erase_if(filtered, [&](const BodyState& state) {
     return smoothed.empty() || state.stamp_ns < smoothed.front().stamp_ns;
   });
@@ -77,9 +77,9 @@ json describe_drift(const std::vector<BodyState>& truth, const FlightRun& run) {
   const BodyStateError error = body_state_error(truth, since);
   if (error.compared < 2) return nullptr;
   return {{"seconds", 1e-9 * static_cast<double>(since.back().stamp_ns - since.front().stamp_ns)},
-          {"way_m", error.way_m},
+          {"path_length_m", error.path_length_m},
           {"end_error_m", error.end_error_m},
-          {"percent", 100 * error.end_error_m / error.way_m}};
+          {"percent", 100 * error.end_error_m / error.path_length_m}};
 }
 
 json describe_flight(const FlightRun& run, std::int64_t first_ns) {

@@ -9,7 +9,7 @@
 namespace placegraph::apps {
 
 /// States of all frames that have one.
-std::vector<BodyState> answers_of(const FlightRun& run);
+std::vector<BodyState> estimated_states(const FlightRun& run);
 
 /// Members of result.json for the frames of a flight.
 /// These are the numbers of frames by kind of measurement, the times between markers, and the

@@ -57,7 +57,7 @@ Flown fly(const FlightArguments& arguments, const Flight& flight) {
   summary["reading_ms_per_frame"] = reading_ms;
   summary["cpu_ms_per_frame"] = watch.cpu_ms() / frames - reading_ms;
   if (!flight.truth.empty()) {
-    summary["error"] = describe_error(flight.truth, answers_of(flown.run));
+    summary["error"] = describe_error(flight.truth, estimated_states(flown.run));
     summary["drift"] = describe_drift(flight.truth, flown.run);
   }
   if (arguments.smooth) {
@@ -81,7 +81,7 @@ void write_results(const std::string& folder, const Flown& flown, const MarkerLa
   for (const char* name : {"result.json", "smoothed.csv", "markers.yaml"})
     fs::remove(path(name));  // result.json is written last: its presence marks complete results
   write_trajectory(path("trajectory.tum"), trajectory_of(flown.run), TrajectoryFormat::kTum);
-  write_body_states(path("states.csv"), answers_of(flown.run));
+  write_body_states(path("states.csv"), estimated_states(flown.run));
   if (!flown.smoothed.empty()) write_body_states(path("smoothed.csv"), flown.smoothed);
   if (flown.map && flown.map->outcome)
     write_marker_layout(path("markers.yaml"), with_mapped(layout, *flown.map));
@@ -98,11 +98,11 @@ FlightResult fly(const FlightArguments& arguments) {
   const Flown flown = fly(arguments, flight);
   write_results(arguments.out, flown, flight.layout);
   FlightResult result{arguments.out, flown.summary, {}};
-  if (answers_of(flown.run).empty())
-    result.no_answer = arguments.flight + ": no image has a state (" +
+  if (estimated_states(flown.run).empty())
+    result.no_result = arguments.flight + ": no image has a state (" +
                        flown.run.frames.back().outcome.reason + ")";
   else if (flown.map && !flown.map->outcome)
-    result.no_answer =
+    result.no_result =
         arguments.flight + ": no marker was mapped (" + flown.map->outcome.reason + ")";
   return result;
 }
@@ -110,7 +110,7 @@ FlightResult fly(const FlightArguments& arguments) {
 std::string to_text(const FlightResult& result) {
   const json& summary = result.summary;
   std::string text =
-      fmt::format("{}: {} of {} frames answered, {} with flow, {} with markers\n",
+      fmt::format("{}: {} of {} frames with a state, {} with flow, {} with markers\n",
                   summary["sequence"].get<std::string>(), summary["answered"].get<int>(),
                   summary["frames"].get<int>(), summary["frames_with_flow"].get<int>(),
                   summary["frames_with_markers"].get<int>());
@@ -119,7 +119,7 @@ std::string to_text(const FlightResult& result) {
     text += fmt::format(
         "position RMSE {:.4f} m, velocity {:.4f} m/s, attitude {:.3f} deg over {:.1f} m\n",
         error["position_rmse_m"].get<double>(), error["velocity_rmse_mps"].get<double>(),
-        error["attitude_rmse_deg"].get<double>(), error["way_m"].get<double>());
+        error["attitude_rmse_deg"].get<double>(), error["path_length_m"].get<double>());
   }
   if (summary.contains("marker_map")) text += marker_map_line(summary["marker_map"]) + "\n";
   const double reading_ms = summary["reading_ms_per_frame"].get<double>();

@@ -10,7 +10,7 @@ namespace placegraph::apps {
 struct FlightResult {
   std::string out;                       ///< folder of the results
   nlohmann::json summary;                ///< content of result.json
-  std::optional<std::string> no_answer;  ///< reason if no image has a state or no marker a pose
+  std::optional<std::string> no_result;  ///< reason if no image has a state or no marker a pose
 };
 
 /// Estimates the states of a flying robot and writes the results: `placegraph flight run`.

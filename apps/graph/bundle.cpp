@@ -31,7 +31,7 @@ BundleResult bundle(const BundleArguments& arguments) {
   result.report = adjust_bundle(start, options);
   result.cpu_ms = stopwatch.cpu_ms();
   result.wall_ms = stopwatch.wall_ms();
-  if (!result.report.outcome) throw NoAnswer(arguments.in + ": " + result.report.outcome.reason);
+  if (!result.report.outcome) throw NoResult(arguments.in + ": " + result.report.outcome.reason);
   if (!arguments.out.empty()) write_bal(arguments.out, result.report.bundle);
   return result;
 }

@@ -21,7 +21,7 @@ struct BundleResult {
 };
 
 /// Reads a problem, adjusts it and writes it: `placegraph graph bundle`.
-/// Throws ArgumentError, FileError, and NoAnswer if the problem has no solution.
+/// Throws ArgumentError, FileError, and NoResult if the problem has no solution.
 BundleResult bundle(const BundleArguments& arguments);
 
 /// Three lines of text.

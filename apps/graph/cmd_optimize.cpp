@@ -48,7 +48,7 @@ void add_optimize_command(CLI::App& graph) {
       ->check(CLI::IsMember(pose_graph_option("engine").choices))
       ->capture_default_str();
   command
-      ->add_option("--initialization", a.start,
+      ->add_option("--initialization", a.initialization,
                    "initial poses; auto computes better ones if they are needed")
       ->check(CLI::IsMember(pose_graph_option("initialization").choices))
       ->capture_default_str();

@@ -43,9 +43,9 @@ PoseGraphReport optimize(PoseGraph graph, const GraphTask& task, const LogSink& 
   PoseGraphReport report = task.incremental
                                ? solve_incrementally(graph, task, log, solution.step_cpu_ms)
                                : optimize_pose_graph(std::move(graph), task.options, log);
-  if (!report.outcome) throw NoAnswer(report.outcome.reason);
+  if (!report.outcome) throw NoResult(report.outcome.reason);
   solution.iterations += report.iterations;
-  solution.start = to_string(report.initialization_used);
+  solution.initialization = to_string(report.initialization_used);
   solution.loops_judged = solution.loops_judged && report.loops_judged;
   solution.refined_from_certified = report.refined_from_certified;
   return report;
@@ -71,8 +71,8 @@ void solve_parts(PoseGraph graph, const GraphTask& task, const LogSink& log,
     PoseGraphReport report;
     try {
       report = optimize(std::move(part.graph), task, log, solution);
-    } catch (const NoAnswer& reason) {
-      throw NoAnswer(fmt::format("component of vertex {}: {}", first, reason.what()));
+    } catch (const NoResult& reason) {
+      throw NoResult(fmt::format("component of vertex {}: {}", first, reason.what()));
     }
     for (std::size_t i = 0; i < part.nodes.size(); ++i)
       solution.graph.nodes[part.nodes[i]].T_world_node = report.graph.nodes[i].T_world_node;

@@ -21,8 +21,8 @@ struct GraphSolution {
   PoseGraph graph;
   int components = 1;
   int iterations = 0;
-  std::string
-      start;  ///< initialization that was used; of several components the most expensive one
+  std::string initialization;  ///< initialization that was used; of several components the most
+                               ///< expensive one
   bool refined_from_certified = false;     ///< true if it holds for every component
   std::vector<RejectedEdge> rejected;      ///< in the order of graph.constraints
   std::vector<double> chi2_by_constraint;  ///< in the order of graph.constraints; incremental: none
@@ -37,7 +37,7 @@ struct GraphSolution {
 };
 
 /// Optimizes a pose graph.
-/// Throws NoAnswer if the graph or a component has no solution, and ArgumentError like
+/// Throws NoResult if the graph or a component has no solution, and ArgumentError like
 /// optimize_pose_graph.
 GraphSolution solve(PoseGraph graph, const GraphTask& task, const LogSink& log);
 

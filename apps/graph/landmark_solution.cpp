@@ -36,7 +36,7 @@ LandmarkSolution solve_landmarks(LandmarkGraph graph, const PoseGraphOptions& op
   LandmarkGraphReport solved = optimize_landmark_graph(
       std::move(graph),
       {options.rotation_error, options.engine, options.max_iterations, options.relative_decrease});
-  if (!solved.outcome) throw NoAnswer(solved.outcome.reason);
+  if (!solved.outcome) throw NoResult(solved.outcome.reason);
   solution.graph = std::move(solved.graph);
   solution.chi2_g2o = g2o_cost(solution.graph);
   solution.chi2_log = chi2(solution.graph, RotationError::kLog);
@@ -60,7 +60,7 @@ Json describe(const LandmarkSolution& solution) {
   Json report;
   report["kind"] = graph.poses.kind() == PoseKind::kSE2 ? "SE2" : "SE3";
   report["engine"] = solution.engine;
-  report["start"] = to_string(PoseGraphInitialization::kFile);
+  report["initialization"] = to_string(PoseGraphInitialization::kFile);
   report["robust"] = "none";
   report["nodes"] = graph.poses.nodes.size();
   report["constraints"] = graph.poses.constraints.size();

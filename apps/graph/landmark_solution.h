@@ -26,7 +26,7 @@ struct LandmarkSolution {
   std::vector<NodeId> held_vertices;  ///< one vertex of each component without a tie to the world
 };
 
-/// Optimizes a graph with priors and point landmarks. Throws NoAnswer if it has no solution.
+/// Optimizes a graph with priors and point landmarks. Throws NoResult if it has no solution.
 LandmarkSolution solve_landmarks(LandmarkGraph graph, const PoseGraphOptions& options);
 
 /// Members of the JSON report of `optimize` for this solution.

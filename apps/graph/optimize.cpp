@@ -98,14 +98,14 @@ void warn_of_free_directions(const std::string& in, int count,
                   some_ids(vertices)));
 }
 
-/// One line if components of a graph with priors or landmarks are not tied to the world.
+/// One line if components of a graph with priors or landmarks are not constrained to the world.
 void warn_of_parts(const std::string& in, const LandmarkSolution& solution) {
   const std::vector<NodeId>& held = solution.held_vertices;
   if (solution.components < 2 || held.empty()) return;
-  warn(
-      fmt::format("{}: the graph falls into {} components, of which {} are tied to the world by "
-                  "no prior and no FIX: each keeps a vertex where it is ({})",
-                  in, solution.components, held.size(), some_ids(held)));
+  warn(fmt::format(
+      "{}: the graph falls into {} components, of which {} are constrained to the world by "
+      "no prior and no FIX: each keeps a vertex where it is ({})",
+      in, solution.components, held.size(), some_ids(held)));
 }
 
 std::vector<NodeId> free_vertices(const GraphSolution& solution) {
@@ -169,14 +169,14 @@ PoseGraphOptions checked_options(const OptimizeArguments& arguments) {
   options.rotation_error = choice<RotationError>("--cost", optimize_costs(), arguments.cost);
   options.engine =
       choice<PoseGraphEngine>("--engine", pose_graph_option("engine").choices, arguments.engine);
-  options.start = choice<PoseGraphInitialization>(
-      "--initialization", pose_graph_option("initialization").choices, arguments.start);
+  options.initialization = choice<PoseGraphInitialization>(
+      "--initialization", pose_graph_option("initialization").choices, arguments.initialization);
   options.robust.method = choice<RobustMethod>(
       "--robust", pose_graph_option("robust.method").choices, arguments.robust);
   options.check();
   require(
-      !arguments.task.incremental ||
-          (arguments.robust == "none" && arguments.engine == "native" && arguments.start == "auto"),
+      !arguments.task.incremental || (arguments.robust == "none" && arguments.engine == "native" &&
+                                      arguments.initialization == "auto"),
       "--incremental goes with --engine native, --robust none and --initialization auto");
   require(!arguments.drop_rejected || arguments.robust != "none",
           "--drop-rejected goes with --robust, which rejects");
@@ -194,8 +194,8 @@ void require_for_landmarks(const OptimizeArguments& arguments, const GraphTask& 
   const PoseGraphOptions& options = task.options;
   require(options.robust.method == RobustMethod::kNone && !task.incremental && !task.split &&
               !task.certify &&
-              (options.start == PoseGraphInitialization::kAuto ||
-               options.start == PoseGraphInitialization::kFile) &&
+              (options.initialization == PoseGraphInitialization::kAuto ||
+               options.initialization == PoseGraphInitialization::kFile) &&
               arguments.plot.empty(),
           arguments.in +
               ": has priors or point landmarks, which --robust, --incremental, "
@@ -214,12 +214,12 @@ void optimize_landmarks(const OptimizeArguments& arguments, const GraphTask& tas
   require_for_landmarks(arguments, task, graph);
   try {
     result.landmarks = solve_landmarks(std::move(graph), task.options);
-  } catch (const NoAnswer& reason) {
-    throw NoAnswer(arguments.in + ": " + reason.what());
+  } catch (const NoResult& reason) {
+    throw NoResult(arguments.in + ": " + reason.what());
   }
   const LandmarkSolution& solution = *result.landmarks;
   if (!std::isfinite(solution.chi2_log))
-    throw NoAnswer(arguments.in + ": the cost of the solution is not finite");
+    throw NoResult(arguments.in + ": the cost of the solution is not finite");
   warn_of_free_directions(arguments.in, solution.free_directions, solution.free_vertices);
   warn_of_parts(arguments.in, solution);
   write_g2o(arguments.out, solution.graph);
@@ -234,13 +234,13 @@ void optimize_poses(const OptimizeArguments& arguments, const GraphTask& task, P
   GraphSolution& solution = result.solution;
   try {
     solution = solve(std::move(start), task, sink);
-  } catch (const NoAnswer& reason) {
-    throw NoAnswer(arguments.in + ": " + reason.what());
+  } catch (const NoResult& reason) {
+    throw NoResult(arguments.in + ": " + reason.what());
   }
   const PoseGraph kept = without(solution.graph, solution.rejected);
   result.after = costs_of(kept);
   if (!std::isfinite(result.after.g2o + result.after.log))
-    throw NoAnswer(arguments.in + ": the cost of the solution is not finite");
+    throw NoResult(arguments.in + ": the cost of the solution is not finite");
   if (!arguments.plot.empty()) draw(arguments.plot, drawn, solution, result.after);
   if (const auto misfit = misfit_of(result))
     log(sink, LogLevel::kWarning,
@@ -262,7 +262,7 @@ Json describe(const OptimizeResult& result) {
   report["out"] = result.out;
   report["cost"] = result.cost;
   report["engine"] = result.engine;
-  report["start"] = solution.start;
+  report["initialization"] = solution.initialization;
   report["robust"] = result.robust;
   report["kind"] = kinds[static_cast<int>(solution.graph.kind())];
   report["nodes"] = solution.graph.nodes.size();

@@ -23,7 +23,7 @@ struct OptimizeArguments {
   std::string plot;     ///< .png or .svg of the poses before and after; empty: none
   std::string cost = "log";
   std::string engine = pose_graph_option("engine").value;
-  std::string start = pose_graph_option("initialization").value;
+  std::string initialization = pose_graph_option("initialization").value;
   std::string robust = pose_graph_option("robust.method").value;
   GraphTask task;              ///< its options with a name above are set by that name
   bool drop_rejected = false;  ///< leave rejected constraints out of `out`
@@ -45,7 +45,7 @@ struct OptimizeResult {
 
 /// Reads a graph, optimizes it, and writes it and its plot: `placegraph graph optimize`.
 /// Progress goes to `sink`, with a warning if the cost looks like that of a wrong graph. Throws
-/// ArgumentError, FileError, and NoAnswer if there is no solution; then nothing is written.
+/// ArgumentError, FileError, and NoResult if there is no solution; then nothing is written.
 OptimizeResult optimize(const OptimizeArguments& arguments, const LogSink& sink = {});
 
 std::string to_text(const OptimizeResult& result);

@@ -13,7 +13,7 @@ LinesDetectResult lines_detect(const LinesDetectArguments& arguments) {
   LinesDetectResult result{arguments.image, arguments.out, {}};
   result.segments =
       segments_of(detect_segments(read_image(arguments.image).grey, arguments.options));
-  if (result.segments.empty()) throw NoAnswer(arguments.image + ": no straight edges");
+  if (result.segments.empty()) throw NoResult(arguments.image + ": no straight edges");
   write_segments(arguments.out, result.segments);
   return result;
 }

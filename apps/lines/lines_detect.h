@@ -19,7 +19,7 @@ struct LinesDetectResult {
 };
 
 /// Detects the straight edges of an image and writes them: `placegraph image lines`.
-/// Throws ArgumentError, FileError, and NoAnswer if there are none; then nothing is written.
+/// Throws ArgumentError, FileError, and NoResult if there are none; then nothing is written.
 LinesDetectResult lines_detect(const LinesDetectArguments& arguments);
 
 /// One line.

@@ -38,9 +38,9 @@ LinesMatchResult lines_match(const LinesMatchArguments& arguments) {
   result.b = segments_for(arguments, 1, image_b);
   const SegmentMatches found =
       match_segments(image_a, result.a, image_b, result.b, arguments.matcher);
-  if (!found.outcome) throw NoAnswer(result.pair + ": " + found.outcome.reason);
+  if (!found.outcome) throw NoResult(result.pair + ": " + found.outcome.reason);
   if (found.matches.empty())
-    throw NoAnswer(result.pair + ": no segment of one is found in the other");
+    throw NoResult(result.pair + ": no segment of one is found in the other");
   result.matches = found.matches;
   if (!arguments.segments_out.empty()) {
     write_segments(arguments.segments_out[0], result.a);

@@ -25,7 +25,7 @@ struct LinesMatchResult {
 };
 
 /// Matches the straight edges of two images and writes the matches: `image match-lines`.
-/// Throws ArgumentError, FileError, and NoAnswer if no edges match; then nothing is written.
+/// Throws ArgumentError, FileError, and NoResult if no edges match; then nothing is written.
 LinesMatchResult lines_match(const LinesMatchArguments& arguments);
 
 /// One line.

@@ -95,8 +95,8 @@ LinesTrackResult lines_track(const LinesTrackArguments& arguments) {
     for (const FrameView::Line& line : view.lines) tracks[line.id].push_back({frame.id, line});
   };
   const RunResult run = run_sequence(*dataset, options, inputs);
-  if (run.broken_off) throw NoAnswer(*run.broken_off);
-  if (tracks.empty()) throw NoAnswer(arguments.sequence + ": no line was followed");
+  if (run.broken_off) throw NoResult(*run.broken_off);
+  if (tracks.empty()) throw NoResult(arguments.sequence + ": no line was followed");
   if (!arguments.out.empty()) write_file(arguments.out, tracks_text(tracks));
   LinesTrackResult result;
   result.sequence = dataset->name();

@@ -33,7 +33,7 @@ struct LinesTrackResult {
 };
 
 /// Tracks straight edges through a sequence: `placegraph track lines`.
-/// With true poses, wrong observations are counted. Throws ArgumentError, FileError, and NoAnswer
+/// With true poses, wrong observations are counted. Throws ArgumentError, FileError, and NoResult
 /// if no line was tracked or the run was broken off; then nothing is written.
 LinesTrackResult lines_track(const LinesTrackArguments& arguments);
 

@@ -64,7 +64,7 @@ VanishingResult vanishing(const VanishingArguments& arguments) {
   result.cpu_ms = watch.cpu_ms();
   // Segments without a common direction are a valid result.
   if (result.scene.vanishing.outcome.code == Outcome::Code::kTooFewData)
-    throw NoAnswer(arguments.in + ": " + result.scene.vanishing.outcome.reason);
+    throw NoResult(arguments.in + ": " + result.scene.vanishing.outcome.reason);
   return result;
 }
 

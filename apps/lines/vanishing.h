@@ -21,8 +21,8 @@ struct VanishingResult {
 };
 
 /// Finds the vanishing points of an image's edges: `placegraph image vanishing`.
-/// Throws ArgumentError, FileError, and NoAnswer if there are too few segments. A result without a
-/// common direction is an answer.
+/// Throws ArgumentError, FileError, and NoResult if there are too few segments. A result without a
+/// common direction is a result.
 VanishingResult vanishing(const VanishingArguments& arguments);
 
 /// Some lines.

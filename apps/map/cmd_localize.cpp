@@ -30,7 +30,7 @@ void add_localize_command(CLI::App& map) {
   command->callback([arguments] {
     const LocalizeResult result = localize(*arguments);
     print(arguments->as_json ? to_json(result) : to_text(result));
-    if (result.no_answer) throw NoAnswer(*result.no_answer);
+    if (result.no_result) throw NoResult(*result.no_result);
   });
 }
 

@@ -45,7 +45,7 @@ json where(const Explanation& explanation, const Map& map) {
              {"place", *explanation.place},
              {"labels", explanation.labels},
              {"keyframe", *explanation.keyframe},
-             {"way_to_keyframe", explanation.way_to_keyframe},
+             {"distance_to_keyframe", explanation.distance_to_keyframe},
              {"component", explanation.component},
              {"unit", map.metric ? "m" : "arbitrary"},
              {"position", {t.x(), t.y(), t.z()}},
@@ -153,10 +153,11 @@ std::string where_text(const json& at) {
     return "where      not posed: tracking was lost or not yet initialized\n";
   }
   const auto unit = at["unit"].get<std::string>();
-  std::string text = fmt::format(
-      "where      place {}{}, {:.3g} {} from its keyframe {}, component {}\n",
-      at["place"].get<std::int64_t>(), labels_of(at["labels"]), at["way_to_keyframe"].get<double>(),
-      unit, at["keyframe"].get<std::int64_t>(), at["component"].get<int>());
+  std::string text =
+      fmt::format("where      place {}{}, {:.3g} {} from its keyframe {}, component {}\n",
+                  at["place"].get<std::int64_t>(), labels_of(at["labels"]),
+                  at["distance_to_keyframe"].get<double>(), unit,
+                  at["keyframe"].get<std::int64_t>(), at["component"].get<int>());
   text += fmt::format("           position {}, orientation {}(x y z w)\n", joined(at["position"]),
                       joined(at["quaternion_xyzw"]));
   if (at.contains("sigma_position"))
@@ -193,7 +194,7 @@ std::string sees_text(const json& sees) {
 ExplainResult explain(const ExplainArguments& arguments) {
   const StoredMap stored = read_stored_map(arguments.map);
   const auto explanation = explain_frame(stored.map, arguments.frame);
-  if (!explanation) throw NoAnswer(arguments.map + ": has no frame " + to_string(arguments.frame));
+  if (!explanation) throw NoResult(arguments.map + ": has no frame " + to_string(arguments.frame));
   RunOptions options;
   if (!stored.origin.options.empty())
     read_options_text(map_path_of(arguments.map), stored.origin.options, options);

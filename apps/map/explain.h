@@ -17,7 +17,7 @@ struct ExplainResult {
 };
 
 /// Explains one frame: its pose, the evidence, the scene, rejected loops (`map explain`).
-/// Throws ArgumentError, FileError, and NoAnswer if the map has no such frame.
+/// Throws ArgumentError, FileError, and NoResult if the map has no such frame.
 ExplainResult explain(const ExplainArguments& arguments);
 
 std::string to_text(const ExplainResult& result);

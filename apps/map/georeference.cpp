@@ -118,7 +118,7 @@ GeoreferenceReport georeference(const GeoreferenceArguments& arguments) {
     if (level == LogLevel::kWarning) warn(message);
   });
   const double cpu_ms = 1e3 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
-  if (!result.outcome) throw NoAnswer(arguments.graph + ": " + result.outcome.reason);
+  if (!result.outcome) throw NoResult(arguments.graph + ": " + result.outcome.reason);
   if (!result.unplaced_nodes.empty())
     warn(fmt::format("{} nodes are in components that the fixes do not place; they are left out",
                      result.unplaced_nodes.size()));

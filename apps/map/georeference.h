@@ -24,7 +24,7 @@ struct GeoreferenceReport {
 };
 
 /// Places a map on the earth and writes the results: `placegraph map georeference`.
-/// Throws ArgumentError, FileError, and NoAnswer if the fixes do not determine the position of the
+/// Throws ArgumentError, FileError, and NoResult if the fixes do not determine the position of the
 /// map.
 GeoreferenceReport georeference(const GeoreferenceArguments& arguments);
 

@@ -25,7 +25,7 @@ LocalizerOptions options_of(const LocalizeArguments& arguments, const StoredMap&
                             const std::string& path) {
   LocalizerOptions options;
   if (stored.origin.view_options.empty())
-    throw NoAnswer(path + ": holds no views of its keyframes (run with views.enabled)");
+    throw NoResult(path + ": holds no views of its keyframes (run with views.enabled)");
   read_options_text(path, stored.origin.view_options, options.recognizer.cues);
   if (!stored.origin.options.empty()) {
     RunOptions run;
@@ -44,7 +44,8 @@ std::int64_t number_of(const std::optional<Id>& id) {
   return id ? id->value() : -1;
 }
 
-std::string line_of(std::int64_t image, const Localization& at) {
+/// The file name is a comment at the end, so that the numbers keep their columns.
+std::string line_of(std::int64_t image, const std::string& name, const Localization& at) {
   const std::int64_t place = at.placed ? number_of(at.place) : -1;
   const std::int64_t frame = at.placed ? number_of(at.frame) : -1;
   std::string line = fmt::format("{} {} {} {:.6f} {}", image, place, frame, at.probability,
@@ -55,11 +56,12 @@ std::string line_of(std::int64_t image, const Localization& at) {
     line += fmt::format(" {:.6f} {:.6f} {:.6f} {:.9f} {:.9f} {:.9f} {:.9f}", t.x(), t.y(), t.z(),
                         q.x(), q.y(), q.z(), q.w());
   }
-  return line + "\n";
+  return line + (name.empty() ? "\n" : "  # " + name + "\n");
 }
 
-json json_of(std::int64_t image, const Localization& at) {
+json json_of(std::int64_t image, const std::string& name, const Localization& at) {
   json entry = {{"image", image},
+                {"file", name},
                 {"placed", at.placed},
                 {"place", number_of(at.place)},
                 {"view", number_of(at.frame)},
@@ -71,21 +73,21 @@ json json_of(std::int64_t image, const Localization& at) {
   return entry;
 }
 
-LocalizeCounts count(const std::vector<Localization>& answers) {
+LocalizeCounts count(const std::vector<Localization>& localizations) {
   LocalizeCounts counts;
-  counts.images = answers.size();
-  for (const Localization& answer : answers) {
-    counts.placed += answer.placed;
-    counts.posed += answer.T_map_cam.has_value();
-    if (!answer.placed) ++counts.refused[answer.stage];
-    if (!answer.without_pose.empty()) ++counts.without_pose[answer.without_pose];
+  counts.images = localizations.size();
+  for (const Localization& localization : localizations) {
+    counts.placed += localization.placed;
+    counts.posed += localization.T_map_cam.has_value();
+    if (!localization.placed) ++counts.refused[localization.stage];
+    if (!localization.without_pose.empty()) ++counts.without_pose[localization.without_pose];
   }
   return counts;
 }
 
 std::string text_of(const LocalizeCounts& counts) {
-  std::string text = fmt::format("{} images, {} placed ({} with a pose", counts.images,
-                                 counts.placed, counts.posed);
+  std::string text = fmt::format("{} image{}, {} placed ({} with a pose", counts.images,
+                                 counts.images == 1 ? "" : "s", counts.placed, counts.posed);
   for (const auto& [reason, images] : counts.without_pose)
     text += fmt::format("; {} without: {}", images, reason);
   text += fmt::format("), {} refused", counts.images - counts.placed);
@@ -108,19 +110,21 @@ json json_of(const LocalizeCounts& counts, const std::vector<std::string>& notes
 }
 
 /// The results as text, one line per image, or as JSON.
-std::string answers_text(const LocalizeResult& result) {
+std::string localizations_text(const LocalizeResult& result) {
   std::string text =
       "# image (number in natural order of the names, from 0), place and frame of the map (-1: "
-      "none), probability, stage, pose T_map_cam: tx ty tz qx qy qz qw\n";
-  for (std::size_t i = 0; i < result.answers.size(); ++i)
-    text += line_of(result.first + static_cast<std::int64_t>(i), result.answers[i]);
+      "none), probability, stage, pose T_map_cam: tx ty tz qx qy qz qw, # file name\n";
+  for (std::size_t i = 0; i < result.localizations.size(); ++i)
+    text += line_of(result.first + static_cast<std::int64_t>(i), result.names[i],
+                    result.localizations[i]);
   return text;
 }
 
-std::string answers_json(const LocalizeResult& result) {
+std::string localizations_json(const LocalizeResult& result) {
   json list = json::array();
-  for (std::size_t i = 0; i < result.answers.size(); ++i)
-    list.push_back(json_of(result.first + static_cast<std::int64_t>(i), result.answers[i]));
+  for (std::size_t i = 0; i < result.localizations.size(); ++i)
+    list.push_back(json_of(result.first + static_cast<std::int64_t>(i), result.names[i],
+                           result.localizations[i]));
   return json{{"images", list}}.dump(1) + "\n";
 }
 
@@ -137,19 +141,21 @@ LocalizeResult localize(const LocalizeArguments& arguments) {
   const MapLocalizer localizer(options, std::move(stored));
   const Stopwatch watch;
   Progress progress("placing", static_cast<std::int64_t>(images.count), "images");
-  LocalizeResult result{arguments.out, images.first, {}, {}, images.notes, 0, {}};
-  result.answers = localizer.localize(
+  LocalizeResult result{arguments.out, images.first, {}, {}, {}, images.notes, 0, {}};
+  for (std::size_t i = 0; i < images.count; ++i) result.names.push_back(images.name(i));
+  result.localizations = localizer.localize(
       images.count,
       [&](std::size_t i) {
         progress.update(static_cast<std::int64_t>(i) + 1);
         return images.frame(i);
       },
       arguments.sequence);
-  result.counts = count(result.answers);
-  write_file(arguments.out, arguments.as_json ? answers_json(result) : answers_text(result));
-  result.cpu_ms_an_image = watch.cpu_ms() / static_cast<double>(result.answers.size());
+  result.counts = count(result.localizations);
+  write_file(arguments.out,
+             arguments.as_json ? localizations_json(result) : localizations_text(result));
+  result.cpu_ms_an_image = watch.cpu_ms() / static_cast<double>(result.localizations.size());
   if (result.counts.placed == 0)
-    result.no_answer = arguments.images + ": none of the images could be placed";
+    result.no_result = arguments.images + ": none of the images could be placed";
   return result;
 }
 

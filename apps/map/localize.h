@@ -30,16 +30,17 @@ struct LocalizeCounts {
 
 struct LocalizeResult {
   std::string out;
-  std::int64_t first = 0;             ///< number of the first image
-  std::vector<Localization> answers;  ///< one result per image
+  std::int64_t first = 0;                   ///< number of the first image
+  std::vector<std::string> names;           ///< file names; empty where images are not files
+  std::vector<Localization> localizations;  ///< one result per image
   LocalizeCounts counts;
   std::vector<std::string> notes;  ///< remarks on the images
   double cpu_ms_an_image = 0;
-  std::optional<std::string> no_answer;  ///< reason if no image could be placed
+  std::optional<std::string> no_result;  ///< reason if no image could be placed
 };
 
 /// Localizes images in a saved map and writes the results: `placegraph map localize`.
-/// Progress goes to stderr. Throws ArgumentError, FileError, and NoAnswer if the map has no views
+/// Progress goes to stderr. Throws ArgumentError, FileError, and NoResult if the map has no views
 /// to compare with.
 LocalizeResult localize(const LocalizeArguments& arguments);
 

@@ -6,12 +6,17 @@
 #include <placegraph/io/internal/calibration/camera_change.h>
 #include <placegraph/pipeline/internal/lens_correction.h>
 
+#include <filesystem>
 #include <memory>
 
 #include "apps/support/image_range.h"
 
 namespace placegraph::apps {
 namespace {
+
+std::string file_name(const std::string& path) {
+  return std::filesystem::path(path).filename().string();
+}
 
 std::string camera_text(const Camera& camera) {
   return fmt::format("{} x {} px, fx {:.1f}, fy {:.1f}, cx {:.1f}, cy {:.1f}", camera.width,
@@ -23,6 +28,7 @@ QueryImages bare_images(const std::string& path, const std::vector<int>& range) 
   return {images.paths.size(),
           images.first,
           [images](std::size_t i) { return read_frame(images, i); },
+          [images](std::size_t i) { return file_name(images.paths[i]); },
           {}};
 }
 
@@ -87,6 +93,9 @@ QueryImages query_images(const std::string& path, const std::vector<int>& range,
     if (lens) lens->apply(frame);
     change->apply(frame);
     return frame;
+  };
+  images.name = [dataset, first = static_cast<std::size_t>(first)](std::size_t i) {
+    return file_name(dataset->image_path(first + i));
   };
   return images;
 }

@@ -13,6 +13,8 @@ struct QueryImages {
   std::size_t count = 0;
   std::int64_t first = 0;                   ///< number of the first image in its folder
   std::function<Frame(std::size_t)> frame;  ///< the image with an index from 0 to count - 1
+  /// File name of an image; empty where images are not single files.
+  std::function<std::string(std::size_t)> name;
   /// Remarks on the images and on their conversion to the map's camera.
   std::vector<std::string> notes;
 };

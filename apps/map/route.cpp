@@ -66,7 +66,7 @@ RouteResult route(const RouteArguments& arguments) {
   require_plot_name(arguments.plot);
   RouteResult result{{}, read_run_map(arguments.map)};
   result.route = shortest_route(result.map.graph, arguments.from, arguments.to);
-  if (!result.route.outcome) throw NoAnswer(result.route.outcome.reason);
+  if (!result.route.outcome) throw NoResult(result.route.outcome.reason);
   if (arguments.backtrack) result.route = backtracked(result.route);
   if (!arguments.out.empty()) write_file(arguments.out, to_json(result));
   if (!arguments.plot.empty()) write_plot(arguments.plot, route_plot(result.route, result.map));

@@ -23,7 +23,7 @@ struct RouteResult {
 };
 
 /// Finds the shortest path over the places of a map: `placegraph map route`.
-/// Throws ArgumentError, FileError, and NoAnswer if there is no path; then nothing is written.
+/// Throws ArgumentError, FileError, and NoResult if there is no path; then nothing is written.
 RouteResult route(const RouteArguments& arguments);
 
 /// A table with one row per place of the path.

@@ -89,10 +89,10 @@ Image compared_view(const std::string& path, bool colour) {
 
 /// Returns the stored views that resemble an image (among the views `among`, if given), and stores
 /// it.
-using LookUp = std::function<std::vector<PlaceSimilarity>(const Image&,
-                                                          const std::optional<ViewRange>& among)>;
+using Query = std::function<std::vector<PlaceSimilarity>(const Image&,
+                                                         const std::optional<ViewRange>& among)>;
 
-LookUp by_cues(const PlaceRecognizerOptions& options) {
+Query by_cues(const PlaceRecognizerOptions& options) {
   auto recognizer = std::make_shared<PlaceRecognizer>(options);
   return [recognizer](const Image& image, const std::optional<ViewRange>& among) {
     PlaceView view = describe_place(image, recognizer->options().cues, among.has_value());
@@ -103,7 +103,7 @@ LookUp by_cues(const PlaceRecognizerOptions& options) {
   };
 }
 
-LookUp by_words(const MatchArguments& arguments, PlaceCode code) {
+Query by_words(const MatchArguments& arguments, PlaceCode code) {
   std::optional<WordTree> words;
   if (!arguments.vocabulary.empty()) words = read_vocabulary(arguments.vocabulary);
   require(words || code == PlaceCode::kBow,
@@ -116,7 +116,7 @@ LookUp by_words(const MatchArguments& arguments, PlaceCode code) {
   const std::shared_ptr<CodeDatabase> memory =
       make_code_database(code, arguments.options.codes, std::move(words), kSeed);
   return [memory](const Image& image, const std::optional<ViewRange>& among) {
-    return memory->look_up_and_add(image, among);
+    return memory->find_and_add(image, among);
   };
 }
 
@@ -128,17 +128,17 @@ class BestMatch {
 
   std::optional<PlaceSimilarity> of(const MatchQuery& query,
                                     const std::vector<PlaceSimilarity>& list) {
-    std::optional<PlaceSimilarity> answer;
-    if (!list.empty()) answer = list.front();
-    if (!sequence_) return answer;
+    std::optional<PlaceSimilarity> prediction;
+    if (!list.empty()) prediction = list.front();
+    if (!sequence_) return prediction;
     if (query.image != before_ + 1) filter_.restart();
     const auto paths = filter_.update(list, query.first, std::min(query.last, query.image - 1));
-    if (answer) {
-      answer = paths.front();
-      answer->score = filter_.confidence(*answer, list);
+    if (prediction) {
+      prediction = paths.front();
+      prediction->score = filter_.confidence(*prediction, list);
     }
     before_ = query.image;
-    return answer;
+    return prediction;
   }
 
  private:
@@ -150,7 +150,7 @@ class BestMatch {
 std::vector<LoopPrediction> matches_of(const MatchArguments& arguments,
                                        const std::vector<std::string>& images,
                                        const std::vector<MatchQuery>& queries, bool colour,
-                                       const LookUp& look_up) {
+                                       const Query& find_and_add) {
   BestMatch best(arguments.options.sequence, arguments.sequence);
   std::vector<LoopPrediction> found;
   Progress progress("matching", static_cast<std::int64_t>(images.size()), "images");
@@ -159,10 +159,10 @@ std::vector<LoopPrediction> matches_of(const MatchArguments& arguments,
     std::optional<ViewRange> among;
     if (query != queries.end() && query->image == i) among = {query->first, query->last};
     const std::vector<PlaceSimilarity> list =
-        look_up(compared_view(images[static_cast<std::size_t>(i)], colour), among);
+        find_and_add(compared_view(images[static_cast<std::size_t>(i)], colour), among);
     if (among) {
-      if (const auto answer = best.of(*query, list))
-        found.push_back({FrameId(i), FrameId(answer->view), answer->score, {}, 0});
+      if (const auto prediction = best.of(*query, list))
+        found.push_back({FrameId(i), FrameId(prediction->view), prediction->score, {}, 0});
       ++query;
     }
     progress.update(i + 1);
@@ -199,19 +199,19 @@ MatchResult match(const MatchArguments& asked) {
   const std::vector<std::string> images = list_images(image_folder_of(arguments.folder));
   const std::vector<MatchQuery> queries = queries_of(arguments, static_cast<int>(images.size()));
   const bool colour = !words && !read_image(images.front()).colour.empty();
-  const LookUp look_up =
+  const Query find_and_add =
       words ? by_words(arguments, static_cast<PlaceCode>(code - 1)) : by_cues(recognizer);
   if (!colour && !words) warn(arguments.folder + ": grey images; the colour cue is not used");
   const Stopwatch watch;
   MatchResult result{arguments.out, images.size(), queries.size(),
-                     matches_of(arguments, images, queries, colour, look_up)};
+                     matches_of(arguments, images, queries, colour, find_and_add)};
   const std::size_t found = result.found.size();
   if (found == 0)
-    throw NoAnswer(arguments.folder + (words ? ": no image has a word in common with an older one"
+    throw NoResult(arguments.folder + (words ? ": no image has a word in common with an older one"
                                              : ": no image has an older one to compare with"));
   write_loop_predictions(arguments.out, result.found);
   if (found < queries.size())
-    warn(fmt::format("{}: {} of {} queries have no answer, and no line", arguments.folder,
+    warn(fmt::format("{}: {} of {} queries have no match, and no line", arguments.folder,
                      queries.size() - found, queries.size()));
   result.cpu_ms_an_image = watch.cpu_ms() / static_cast<double>(images.size());
   return result;

@@ -41,13 +41,13 @@ struct MatchArguments {
 struct MatchResult {
   std::string out;
   std::size_t images = 0, queries = 0;
-  std::vector<LoopPrediction> found;  ///< one match per query with an answer
+  std::vector<LoopPrediction> found;  ///< one per query with a match
   double cpu_ms_an_image = 0;
 };
 
 /// Finds an older image of the same place for each image: `placegraph places match`.
 /// The matches are written to a file, progress and warnings go to stderr. Throws ArgumentError,
-/// FileError, and NoAnswer if no query has a match; then nothing is written.
+/// FileError, and NoResult if no query has a match; then nothing is written.
 MatchResult match(const MatchArguments& arguments);
 
 /// One line.

@@ -89,7 +89,7 @@ WordTree train_binary(const TrainVocabularyArguments& arguments,
     training_set.end.push_back(static_cast<int>(training_set.descriptors.size()));
     progress.update(static_cast<std::int64_t>(i) + 1);
   }
-  if (training_set.descriptors.empty()) throw NoAnswer("no image has a corner to learn words from");
+  if (training_set.descriptors.empty()) throw NoResult("no image has a corner to learn words from");
   Random random(arguments.seed);
   Vocabulary vocabulary =
       Vocabulary::train(training_set.descriptors, tree_of(arguments.words), random);
@@ -127,7 +127,7 @@ WordTree train_float(const TrainVocabularyArguments& arguments,
     training_set.descriptors.middleRows(row, part.rows()) = part;
     row += part.rows();
   }
-  if (rows == 0) throw NoAnswer("no image has anything to learn words from");
+  if (rows == 0) throw NoResult("no image has anything to learn words from");
   Random random(arguments.seed);
   FloatVocabulary vocabulary =
       FloatVocabulary::train(training_set.descriptors, tree_of(arguments.words), random);

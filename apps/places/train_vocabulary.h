@@ -26,7 +26,7 @@ struct TrainVocabularyResult {
 };
 
 /// Learns visual words from the images of some folders: `placegraph train vocabulary`.
-/// Progress and warnings go to stderr. Throws ArgumentError, FileError, and NoAnswer if no image
+/// Progress and warnings go to stderr. Throws ArgumentError, FileError, and NoResult if no image
 /// has a feature; then nothing is written.
 TrainVocabularyResult train_vocabulary(const TrainVocabularyArguments& arguments);
 

@@ -201,11 +201,15 @@ std::string to_text(const PlanesCloudResult& result) {
   const std::vector<CloudPlane>& planes = result.found.planes;
   std::string text = fmt::format("{}: {} points, {} planes, {} points on none\n", result.in,
                                  result.points, planes.size(), result.points - result.on_planes);
-  for (std::size_t k = 0; k < planes.size(); ++k) {
+  constexpr std::size_t kListed = 10;  // a room has some ten; --out and --json have all
+  for (std::size_t k = 0; k < std::min(planes.size(), kListed); ++k) {
     const Eigen::Vector3d& n = planes[k].plane.normal;
     text += fmt::format("  plane {}: {} points, normal ({:.3f}, {:.3f}, {:.3f}), offset {:.4g} m\n",
                         k + 1, planes[k].points, n[0], n[1], n[2], planes[k].plane.distance_m);
   }
+  if (planes.size() > kListed)
+    text += fmt::format("  {} more, of at most {} points (--json lists all)\n",
+                        planes.size() - kListed, planes[kListed].points);
   if (const auto& check = result.check)
     text += fmt::format("  of {} true planes: {} found, {} in pieces, {} missed; {} false\n",
                         check->truth, check->correct, check->over_segmented, check->missed,

@@ -84,7 +84,7 @@ PlanesTwoViewResult planes_two_view(const PlanesTwoViewArguments& arguments) {
 
   // A result without planes is valid if there were enough matches: all labels are 0.
   if (result.planes.outcome.code == Outcome::Code::kTooFewData)
-    throw NoAnswer(arguments.in + ": " + result.planes.outcome.reason);
+    throw NoResult(arguments.in + ": " + result.planes.outcome.reason);
   if (!arguments.motion.empty() && !result.motion) {
     result.motion.emplace();
     result.motion->outcome = Outcome::failure(Outcome::Code::kNoConsensus, "");

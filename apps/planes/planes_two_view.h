@@ -31,7 +31,7 @@ struct PlanesTwoViewResult {
 
 /// Labels the matches of two views by their planes: `placegraph image two-view-planes`.
 /// With a camera, estimates the motion from the planes. Throws ArgumentError, FileError, and
-/// NoAnswer if there are too few matches; then nothing is written. A result without planes is
+/// NoResult if there are too few matches; then nothing is written. A result without planes is
 /// valid.
 PlanesTwoViewResult planes_two_view(const PlanesTwoViewArguments& arguments);
 

@@ -148,7 +148,7 @@ TrackPlaneResult track_plane(const TrackPlaneArguments& arguments) {
   const auto camera = camera_of(arguments, source, first);
   const Stopwatch watch;
   PlaneTracker tracker(image_ref, corners, arguments.options, camera, normal);
-  if (!tracker.outcome()) throw NoAnswer("--template: " + tracker.outcome().reason);
+  if (!tracker.outcome()) throw NoResult("--template: " + tracker.outcome().reason);
   TrackPlaneResult result;
   result.in = arguments.in;
   result.tracks = track_all(tracker, source);
@@ -156,7 +156,7 @@ TrackPlaneResult track_plane(const TrackPlaneArguments& arguments) {
   result.least_similarity = tracker.least_similarity();
   result.least_similarity_found = tracker.least_similarity_found();
   if (result.tracked() == 0)
-    throw NoAnswer(fmt::format("{}: the template was found in none of {} frames: {}", arguments.in,
+    throw NoResult(fmt::format("{}: the template was found in none of {} frames: {}", arguments.in,
                                result.tracks.size(), result.tracks.front().outcome.reason));
   if (!arguments.draw.empty()) write_drawings(arguments.draw, source, result.tracks);
   write_file(arguments.out, track_lines(result.tracks));

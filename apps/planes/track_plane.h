@@ -33,7 +33,7 @@ struct TrackPlaneResult {
 };
 
 /// Tracks a planar region through a sequence: `placegraph track plane`.
-/// Progress goes to stderr. Throws ArgumentError, FileError, and NoAnswer if the template has too
+/// Progress goes to stderr. Throws ArgumentError, FileError, and NoResult if the template has too
 /// little texture or is in no frame; then nothing is written.
 TrackPlaneResult track_plane(const TrackPlaneArguments& arguments);
 

@@ -23,7 +23,7 @@ void run_and_print(const RunCommand& command) {
   if (command.profile && !command.json) print(stages_text(report));
   if (report.broken_off) throw Error(*report.broken_off);
   if (report.interrupted) throw Interrupted(*report.interrupted);
-  if (report.no_answer) throw NoAnswer(*report.no_answer);
+  if (report.no_result) throw NoResult(*report.no_result);
 }
 
 void add_verbosity(CLI::App& command, Verbosity& verbosity) {

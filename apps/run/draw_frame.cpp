@@ -38,7 +38,7 @@ cv::Scalar colour_of(const FrameView::DirectedLine& line) {
 std::string caption(const FrameResult& result, const FrameView& view) {
   const char* state = result.state == TrackingState::kTracking ? "tracking"
                       : result.state == TrackingState::kLost   ? "lost"
-                                                               : "waiting";
+                                                               : "initializing";
   const auto mapped = std::count_if(view.tracks.begin(), view.tracks.end(),
                                     [](const auto& track) { return track.px_projected; });
   return to_string(result.frame) + " " + state + (result.keyframe ? ", keyframe" : "") + ", " +

@@ -263,7 +263,7 @@ RunReport run(const RunArguments& asked) {
         fmt::format("interrupted after {} of {} frames; continue with: placegraph run --resume {}",
                     optimized.size(), frames_to_run(dataset, options), arguments.out);
   else if (optimized.posed() == 0)
-    report.no_answer = arguments.sequence + ": no frame could be posed" + why_unposed(run);
+    report.no_result = arguments.sequence + ": no frame could be posed" + why_unposed(run);
   return report;
 }
 

@@ -13,7 +13,7 @@ struct RunReport {
   std::optional<std::string> broken_off;
   /// A signal ended the run: how to continue it. The results are those of the frames before it.
   std::optional<std::string> interrupted;
-  std::optional<std::string> no_answer;  ///< reason if no frame has a pose
+  std::optional<std::string> no_result;  ///< reason if no frame has a pose
 };
 
 /// Summary in a few lines.

@@ -90,7 +90,7 @@ MapExportResult map_export(const MapExportArguments& arguments) {
   for (std::size_t i = 0; i < forms.size(); ++i) {
     if (arguments.paths[i].empty()) continue;
     if (forms[i].needs_poses && !stored.origin.calibration)
-      throw NoAnswer(arguments.map +
+      throw NoResult(arguments.map +
                      ": a map of images without a camera has no poses to write to " +
                      arguments.paths[i]);
     forms[i].write(arguments.paths[i], stored);

@@ -26,7 +26,7 @@ struct MapExportResult {
 
 /// Writes parts of a saved map as separate files: `placegraph map export`.
 /// Warns on stderr of a map whose run was broken off. Throws ArgumentError if nothing is to be
-/// written or a file exists, FileError, and NoAnswer if a form needs poses and the map has none.
+/// written or a file exists, FileError, and NoResult if a form needs poses and the map has none.
 MapExportResult map_export(const MapExportArguments& arguments);
 
 }  // namespace placegraph::apps

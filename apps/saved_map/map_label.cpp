@@ -126,9 +126,9 @@ MapLabelResult map_label(const MapLabelArguments& arguments) {
   StoredMap stored = read_map(map_path_of(arguments.map));
   Map& map = stored.map;
   if (!stored.finished)
-    throw NoAnswer(arguments.map +
+    throw NoResult(arguments.map +
                    ": its run was broken off; finish it with `placegraph run --resume` first");
-  if (map.keyframes.empty()) throw NoAnswer(arguments.map + ": has no keyframes");
+  if (map.keyframes.empty()) throw NoResult(arguments.map + ": has no keyframes");
   const auto frame_of = frames_of(stored);
   const bool colour = !frame_of(map.keyframes.front()).colour.empty();
   int places = 0;

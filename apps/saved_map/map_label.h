@@ -25,7 +25,7 @@ struct MapLabelResult {
 };
 
 /// Labels the places of a saved map by a trained classifier: `placegraph map label`.
-/// It is trained on labelled images. Throws ArgumentError, FileError, and NoAnswer if the map is
+/// It is trained on labelled images. Throws ArgumentError, FileError, and NoResult if the map is
 /// not finished or empty.
 MapLabelResult map_label(const MapLabelArguments& arguments);
 

@@ -19,11 +19,11 @@ MapPlanResult map_plan(const MapPlanArguments& arguments) {
   require_free_folder(arguments.out, arguments.force);
   const StoredMap stored = read_stored_map(arguments.map);
   if (!stored.origin.calibration || stored.map.keyframes.empty())
-    throw NoAnswer(arguments.map + ": nothing in it has a pose");
+    throw NoResult(arguments.map + ": nothing in it has a pose");
   const auto dataset = open_dataset(stored.origin.sequence);
   const IndoorMap plan = plan_of_map(stored.map, *stored.origin.calibration, *dataset,
                                      stored.origin.sensor, stored.origin.lens_k1, options);
-  if (!plan.outcome) throw NoAnswer(arguments.map + ": no floor plan: " + plan.outcome.reason);
+  if (!plan.outcome) throw NoResult(arguments.map + ": no floor plan: " + plan.outcome.reason);
   const OutputFolder folder(arguments.out);
   write_floor_plan(arguments.out, plan, stored.map, dataset->name());
   if (const auto doubt = doubt_of(plan)) warn(arguments.map + ": " + *doubt);

@@ -19,7 +19,7 @@ struct MapPlanResult {
 };
 
 /// Draws the floor plan of an indoor map: `placegraph map plan`.
-/// Throws ArgumentError, FileError, and NoAnswer if there is no plan; then nothing is written.
+/// Throws ArgumentError, FileError, and NoResult if there is no plan; then nothing is written.
 MapPlanResult map_plan(const MapPlanArguments& arguments);
 
 /// One line.

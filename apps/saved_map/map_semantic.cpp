@@ -21,7 +21,7 @@ MapSemanticResult map_semantic(const MapSemanticArguments& a) {
   check_urban_models(options, a.models);
   const StoredMap stored = read_stored_map(a.map);
   if (!stored.origin.calibration || stored.map.keyframes.empty())
-    throw NoAnswer(a.map + ": nothing in it has a pose");
+    throw NoResult(a.map + ": nothing in it has a pose");
   std::optional<Georeference> earth;
   if (!a.georeference.empty()) earth = read_georeference(a.georeference, stored.map);
   const auto dataset = open_dataset(stored.origin.sequence);
@@ -31,7 +31,7 @@ MapSemanticResult map_semantic(const MapSemanticArguments& a) {
   const KeyframePoses poses = earth ? earth->T_enu_keyframe : poses_of(stored.map);
   const SemanticMap semantic =
       earth ? mapper.fuse(poses, -Eigen::Vector3d::UnitZ()) : mapper.fuse(stored.map);
-  if (!semantic.outcome) throw NoAnswer(a.map + ": no semantic map: " + semantic.outcome.reason);
+  if (!semantic.outcome) throw NoResult(a.map + ": no semantic map: " + semantic.outcome.reason);
   const OutputFolder folder(a.out);
   write_semantic_map(a.out, semantic, mapper, stored.map, poses, dataset->name(),
                      earth ? std::optional(earth->origin) : std::nullopt);

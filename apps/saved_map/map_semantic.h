@@ -21,7 +21,7 @@ struct MapSemanticResult {
 };
 
 /// Makes the semantic map of the streets of a saved map: `placegraph map street`.
-/// Throws ArgumentError, FileError, and NoAnswer if there is none; then nothing is written.
+/// Throws ArgumentError, FileError, and NoResult if there is none; then nothing is written.
 MapSemanticResult map_semantic(const MapSemanticArguments& arguments);
 
 /// One line.

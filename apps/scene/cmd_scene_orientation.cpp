@@ -41,7 +41,7 @@ void add_image_orientation_command(CLI::App& image) {
   command->callback([arguments, json] {
     const SceneOrientationResult result = scene_orientation(*arguments);
     print(*json ? to_json(result) : to_text(result));
-    if (result.no_answer) throw NoAnswer(*result.no_answer);
+    if (result.no_result) throw NoResult(*result.no_result);
   });
 }
 

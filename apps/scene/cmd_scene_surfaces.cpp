@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "apps/scene/cmd_scene_pictures.h"
+#include "apps/scene/cmd_scene_images.h"
 #include "apps/scene/scene_surfaces.h"
 #include "apps/support/output.h"
 

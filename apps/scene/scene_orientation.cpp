@@ -84,7 +84,7 @@ SceneOrientationResult orientation_of_image(const SceneOrientationArguments& arg
   const Stopwatch watch;
   const SeenOrientation seen = see(image, camera, arguments);
   const double cpu_ms = watch.cpu_ms();
-  if (!seen.map.outcome) throw NoAnswer(arguments.in + ": " + seen.map.outcome.reason);
+  if (!seen.map.outcome) throw NoResult(arguments.in + ": " + seen.map.outcome.reason);
   const Image surfaces = indoor_surfaces(seen.map, camera, seen.R_cam_manhattan);
   if (!arguments.out.empty()) write_image(arguments.out, seen.map.labels);
   if (!arguments.drawing.empty()) write_image(arguments.drawing, draw(seen, camera));
@@ -161,7 +161,7 @@ SceneOrientationResult orientation_of_sequence(const SceneOrientationArguments& 
   found.coverage /= std::max(1, found.images);
   if (truth.known()) found.check = check;
   SceneOrientationResult result{arguments.in, found, cpu_ms / std::max(1, found.images), {}};
-  if (found.labelled == 0) result.no_answer = arguments.in + ": no image shows a Manhattan frame";
+  if (found.labelled == 0) result.no_result = arguments.in + ": no image shows a Manhattan frame";
   return result;
 }
 

@@ -39,11 +39,11 @@ struct SceneOrientationResult {
   std::string in;
   std::variant<ImageOrientation, SequenceOrientation> found;
   double cpu_ms = 0;                     ///< CPU time per image
-  std::optional<std::string> no_answer;  ///< reason if no image has a Manhattan frame
+  std::optional<std::string> no_result;  ///< reason if no image has a Manhattan frame
 };
 
 /// Estimates the orientation of surfaces from straight edges: `image orientation`.
-/// Writes maps and drawings. Throws ArgumentError, FileError, and NoAnswer if a single image has no
+/// Writes maps and drawings. Throws ArgumentError, FileError, and NoResult if a single image has no
 /// Manhattan frame.
 SceneOrientationResult scene_orientation(const SceneOrientationArguments& arguments);
 

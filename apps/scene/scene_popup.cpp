@@ -13,7 +13,7 @@
 #include <opencv2/core/utility.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "apps/scene/scene_pictures.h"
+#include "apps/scene/scene_images.h"
 #include "apps/shipped/scene_models.h"
 #include "apps/support/output.h"
 #include "apps/support/read_calib.h"

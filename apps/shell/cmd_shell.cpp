@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "apps/shell/command_reference.h"
 #include "apps/shell/completion.h"
 #include "apps/shell/man_pages.h"
 #include "apps/support/output.h"
@@ -11,8 +12,12 @@
 namespace placegraph::apps {
 namespace {
 
-void write_man_pages(const CLI::App& app, const std::string& folder) {
+void write_man_pages(const CLI::App& app, const std::string& folder, bool markdown) {
   const OutputFolder made(folder);
+  if (markdown) {
+    write_file((std::filesystem::path(folder) / "commands.md").string(), command_reference(app));
+    return;
+  }
   for (const ManPage& page : man_pages(app))
     write_file((std::filesystem::path(folder) / page.name).string(), page.text);
 }
@@ -37,7 +42,9 @@ void add_shell_commands(CLI::App& app) {
   CLI::App* man = app.add_subcommand("man", "Write the manual pages");
   man->footer("placegraph man share/man/man1");
   man->add_option("FOLDER", *folder, "folder for one page per command")->required();
-  man->callback([&app, folder] { write_man_pages(app, *folder); });
+  auto markdown = std::make_shared<bool>(false);
+  man->add_flag("--markdown", *markdown, "one page in Markdown, commands.md, in place of them");
+  man->callback([&app, folder, markdown] { write_man_pages(app, *folder, *markdown); });
 }
 
 }  // namespace placegraph::apps

@@ -8,7 +8,7 @@
 namespace placegraph::apps {
 
 /// The data allow no result: `main` prints the reason and exits with code 1.
-class NoAnswer : public std::runtime_error {
+class NoResult : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };

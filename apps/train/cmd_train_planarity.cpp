@@ -21,6 +21,7 @@ void add_train_planarity_command(CLI::App& train_command) {
   command->footer("placegraph train planarity --out planarity.txt --clouds 300");
   command->add_option("-o,--out", a.out, "file for the model")->required();
   command->add_option("--worlds", a.worlds, "rendered worlds of the training set")
+      ->transform(CLI::Transformer(std::map<std::string, std::string>{{"hover", "flight"}}))
       ->check(CLI::IsMember(SyntheticWorld::worlds()))
       ->capture_default_str();
   command->add_option("--frames", a.frames, "number of frames rendered of each world")

@@ -61,7 +61,7 @@ std::vector<Eigen::Vector3d> corner_points(const Frame& frame, const Camera& cam
 EnvironmentEvidence evidence_of(const Frame& frame, const Camera& camera,
                                 const SurfaceLabeller& labeller, bool with_depth) {
   EnvironmentEvidence evidence;
-  evidence.see(labeller.look(frame, false).shares);
+  evidence.see(labeller.label(frame, false).shares);
   const auto [edges, of] = edges_of(frame.image, camera);
   evidence.see(edges, of);
   if (with_depth) evidence.see(corner_points(frame, camera), true);

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/train/training_pictures.h"
+#include "apps/train/training_images.h"
 
 namespace placegraph::apps {
 

@@ -21,7 +21,7 @@ struct FlowCommand {
 void run_flow(const FlowCommand& command) {
   const FlowResult result = flow(command.arguments);
   print(command.json ? to_json(result) : to_text(result));
-  if (result.no_answer) throw NoAnswer(*result.no_answer);
+  if (result.no_result) throw NoResult(*result.no_result);
 }
 
 }  // namespace

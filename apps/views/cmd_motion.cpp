@@ -20,7 +20,7 @@ void run_motion(const MotionCommand& command) {
   const MotionResult result = motion(command.arguments);
   // The JSON has the evidence even without a result.
   if (command.json) print(to_json(result));
-  if (result.no_answer) throw NoAnswer(*result.no_answer);
+  if (result.no_result) throw NoResult(*result.no_result);
   if (!command.json) print(to_text(result));
 }
 

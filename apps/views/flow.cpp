@@ -98,13 +98,13 @@ FlowResult flow(const FlowArguments& arguments) {
   const Image found = optical_flow(from, to, options);
   result.cpu_ms = watch.cpu_ms();
   result.known = known_pixels(found);
-  if (result.known == 0) throw NoAnswer("no displacement was found");
+  if (result.known == 0) throw NoResult("no displacement was found");
   write_flow_files(arguments, from, found);
   if (truth) result.error = flow_error(found, *truth);
   if (cues) {
     result.cues = describe_cues(sampled_flow(from, found, arguments.cell_px), *cues);
     if (!any_cue(result.cues))
-      result.no_answer = "--flow-cues: no cue could be estimated from the flow";
+      result.no_result = "--flow-cues: no cue could be estimated from the flow";
   }
   return result;
 }

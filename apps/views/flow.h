@@ -36,12 +36,12 @@ struct FlowResult {
   double cpu_ms = 0;                     ///< CPU time of the flow alone
   std::optional<FlowError> error;        ///< set if the truth is given
   nlohmann::ordered_json cues;           ///< see describe_cues(); null if not requested
-  std::optional<std::string> no_answer;  ///< reason if cues were requested and the flow allows none
+  std::optional<std::string> no_result;  ///< reason if cues were requested and the flow allows none
 };
 
 /// Estimates the optical flow between two images: `placegraph image flow`.
 /// It is written, drawn and compared with the truth on demand. Throws ArgumentError, FileError, and
-/// NoAnswer if no displacement was found.
+/// NoResult if no displacement was found.
 FlowResult flow(const FlowArguments& arguments);
 
 /// One line, and those of the cues.

@@ -50,10 +50,10 @@ MarkerPoseEstimate camera_in(const MarkerLayout& layout, const Camera& camera, c
   if (!layout.beacons_world.empty()) view.beacons = detect_beacons(grey);
   if (!layout.markers.empty() || !layout.beacons_world.empty())
     return MarkerFilter({}, layout, camera, SE3()).observe(view);
-  MarkerPoseEstimate answer;
-  answer.outcome =
+  MarkerPoseEstimate estimate;
+  estimate.outcome =
       Outcome::failure(Outcome::Code::kTooFewData, "the layout has no pose of a marker or beacon");
-  return answer;
+  return estimate;
 }
 
 ordered_json marker_json(const DetectedMarker& marker, double shift_px) {
@@ -139,7 +139,7 @@ MarkersDetectResult markers_detect(const MarkersDetectArguments& arguments) {
   if (!arguments.layout.empty()) result.camera = camera_in(layout, camera, grey, view);
   result.cpu_ms = watch.cpu_ms();
   if (result.markers.empty() && !(result.camera && result.camera->outcome))
-    throw NoAnswer(arguments.image + ": no marker of " + layout.dictionary);
+    throw NoResult(arguments.image + ": no marker of " + layout.dictionary);
   if (!arguments.out.empty()) write_file(arguments.out, to_json(result));
   if (!arguments.drawing.empty()) write_drawing(arguments.drawing, grey, result.markers, camera);
   return result;

@@ -43,7 +43,7 @@ struct MarkersDetectResult {
 };
 
 /// Detects markers, their poses, and the camera in their layout: `placegraph image markers`.
-/// Throws ArgumentError, FileError, and NoAnswer if neither a marker nor the camera was found; then
+/// Throws ArgumentError, FileError, and NoResult if neither a marker nor the camera was found; then
 /// nothing is written.
 MarkersDetectResult markers_detect(const MarkersDetectArguments& arguments);
 

@@ -35,34 +35,34 @@ MotionEstimate motion_by_pixels(const MotionArguments& arguments, const Camera& 
                                 Random& random) {
   const MatchFile file = read_matches(arguments.in);
   const int distinct = distinct_matches(file);
-  MotionEstimate answer;
+  MotionEstimate estimate;
   if (distinct < kFewestDistinct)
-    answer.outcome =
+    estimate.outcome =
         Outcome::failure(Outcome::Code::kTooFewData,
                          fmt::format("{} distinct matches, {} needed", distinct, kFewestDistinct));
   else if (arguments.model == "gravity")
-    answer = motion_by_gravity(arguments.options, camera, file, random);
+    estimate = motion_by_gravity(arguments.options, camera, file, random);
   else if (arguments.model == "circular")
-    answer = motion_by_circle(arguments.options, camera, file);
+    estimate = motion_by_circle(arguments.options, camera, file);
   else
-    answer = motion_by_two_views(arguments.model, arguments.options, camera, file, random);
-  answer.matches = static_cast<int>(file.px_a.size());
-  return answer;
+    estimate = motion_by_two_views(arguments.model, arguments.options, camera, file, random);
+  estimate.matches = static_cast<int>(file.px_a.size());
+  return estimate;
 }
 
-MotionEstimate answer_of(const MotionArguments& arguments, const std::optional<Camera>& camera,
-                         Random& random) {
+MotionEstimate estimate_of(const MotionArguments& arguments, const std::optional<Camera>& camera,
+                           Random& random) {
   if (arguments.model == "3d3d") {
     const PointPairFile file = read_point_pairs(arguments.in);
-    MotionEstimate answer = motion_by_clouds(arguments.options, file, random);
-    answer.matches = static_cast<int>(file.points_a.size());
-    return answer;
+    MotionEstimate estimate = motion_by_clouds(arguments.options, file, random);
+    estimate.matches = static_cast<int>(file.points_a.size());
+    return estimate;
   }
   if (arguments.model == "3d2d") {
     const SeenPointFile file = read_seen_points(arguments.in);
-    MotionEstimate answer = motion_by_seen_points(arguments.options, *camera, file, random);
-    answer.matches = static_cast<int>(file.px.size());
-    return answer;
+    MotionEstimate estimate = motion_by_seen_points(arguments.options, *camera, file, random);
+    estimate.matches = static_cast<int>(file.px.size());
+    return estimate;
   }
   return motion_by_pixels(arguments, *camera, random);
 }
@@ -87,74 +87,75 @@ MotionResult motion(const MotionArguments& arguments) {
     camera = read_calib_without_distortion(arguments.calib, "a motion needs matches and");
   Random random(arguments.seed);
   const Stopwatch watch;
-  MotionResult result{arguments.in, answer_of(arguments, camera, random), 0, {}};
+  MotionResult result{arguments.in, estimate_of(arguments, camera, random), 0, {}};
   result.cpu_ms = watch.cpu_ms();
-  MotionEstimate& answer = result.answer;
-  if (answer.model.empty()) answer.model = arguments.model;
-  if (!answer.outcome) result.no_answer = arguments.in + ": " + answer.outcome.reason;
+  MotionEstimate& estimate = result.estimate;
+  if (estimate.model.empty()) estimate.model = arguments.model;
+  if (!estimate.outcome) result.no_result = arguments.in + ": " + estimate.outcome.reason;
   if (!arguments.out.empty()) write_file(arguments.out, to_json(result));
   return result;
 }
 
 std::string to_text(const MotionResult& result) {
   constexpr double kDeg = 180 / std::numbers::pi;
-  const MotionEstimate& answer = result.answer;
-  std::string text = fmt::format("{}: {}, {} of {} matches\n", result.in, answer.model,
-                                 answer.inliers.size(), answer.matches);
-  if (answer.R_ref_cur) {
-    const Eigen::Matrix3d of_rotation = answer.covariance.bottomRightCorner<3, 3>();
-    const Eigen::Vector3d w = kDeg * answer.R_ref_cur->log();
+  const MotionEstimate& estimate = result.estimate;
+  std::string text = fmt::format("{}: {}, {} of {} matches\n", result.in, estimate.model,
+                                 estimate.inliers.size(), estimate.matches);
+  if (estimate.R_ref_cur) {
+    const Eigen::Matrix3d of_rotation = estimate.covariance.bottomRightCorner<3, 3>();
+    const Eigen::Vector3d w = kDeg * estimate.R_ref_cur->log();
     const Eigen::Vector3d s = kDeg * of_rotation.diagonal().cwiseMax(0).cwiseSqrt();
     text +=
         fmt::format("  R_ref_cur: rotation vector {:.4f} {:.4f} {:.4f} deg", w.x(), w.y(), w.z());
-    if (answer.knows_covariance)
+    if (estimate.knows_covariance)
       text += fmt::format(", sigma {:.4f} {:.4f} {:.4f} deg", s.x(), s.y(), s.z());
     text += "\n";
   }
-  if (answer.T_ref_cur) {
-    const Eigen::Vector3d& t = answer.T_ref_cur->translation();
-    const double sigma = std::sqrt(std::max(0.0, answer.covariance.topLeftCorner<3, 3>().trace()));
+  if (estimate.T_ref_cur) {
+    const Eigen::Vector3d& t = estimate.T_ref_cur->translation();
+    const double sigma =
+        std::sqrt(std::max(0.0, estimate.covariance.topLeftCorner<3, 3>().trace()));
     text += fmt::format("  t_ref_cur: {:.5f} {:.5f} {:.5f}{}", t.x(), t.y(), t.z(),
-                        answer.metric ? " m" : " (unknown length)");
-    if (answer.knows_covariance && answer.metric)
+                        estimate.metric ? " m" : " (unknown length)");
+    if (estimate.knows_covariance && estimate.metric)
       text += fmt::format(", sigma {:.5f} m", sigma);
-    else if (answer.knows_covariance)
+    else if (estimate.knows_covariance)
       text += fmt::format(", sigma {:.3f} deg", kDeg * sigma);
     text += "\n";
   }
-  if (answer.R_ref_cur)
-    for (const auto& [key, value] : answer.evidence.items())
+  if (estimate.R_ref_cur)
+    for (const auto& [key, value] : estimate.evidence.items())
       text += fmt::format("  {} {:.4g}\n", key, value.get<double>());
   return text + fmt::format("  {:.1f} ms CPU\n", result.cpu_ms);
 }
 
 std::string to_json(const MotionResult& result) {
-  const MotionEstimate& answer = result.answer;
+  const MotionEstimate& estimate = result.estimate;
   ordered_json json;
   json["in"] = result.in;
-  json["matches"] = answer.matches;
-  json["model"] = answer.model;
-  json["outcome"] = to_string(answer.outcome.code);
-  if (!answer.outcome) json["reason"] = answer.outcome.reason;
+  json["matches"] = estimate.matches;
+  json["model"] = estimate.model;
+  json["outcome"] = to_string(estimate.outcome.code);
+  if (!estimate.outcome) json["reason"] = estimate.outcome.reason;
   for (const char* key : {"T_ref_cur", "R_ref_cur", "t_ref_cur", "covariance"}) json[key] = nullptr;
-  json["metric"] = answer.metric;
-  if (answer.R_ref_cur) json["R_ref_cur"] = rows_json(answer.R_ref_cur->matrix());
-  if (answer.T_ref_cur) {
-    const Eigen::Vector3d& t = answer.T_ref_cur->translation();
-    json["T_ref_cur"] = rows_json(answer.T_ref_cur->matrix());
+  json["metric"] = estimate.metric;
+  if (estimate.R_ref_cur) json["R_ref_cur"] = rows_json(estimate.R_ref_cur->matrix());
+  if (estimate.T_ref_cur) {
+    const Eigen::Vector3d& t = estimate.T_ref_cur->translation();
+    json["T_ref_cur"] = rows_json(estimate.T_ref_cur->matrix());
     json["t_ref_cur"] = {t.x(), t.y(), t.z()};
   }
-  if (answer.knows_covariance && answer.T_ref_cur)
-    json["covariance"] = rows_json(answer.covariance);
-  else if (answer.knows_covariance && answer.R_ref_cur)
-    json["covariance"] = rows_json(Eigen::Matrix3d(answer.covariance.bottomRightCorner<3, 3>()));
-  json["inliers"] = answer.inliers.size();
-  json["inlier_matches"] = answer.inliers;
-  for (const auto& [key, value] : answer.evidence.items())
-    json[key] = answer.R_ref_cur ? value : ordered_json(nullptr);
-  if (!answer.rivals.empty()) {
+  if (estimate.knows_covariance && estimate.T_ref_cur)
+    json["covariance"] = rows_json(estimate.covariance);
+  else if (estimate.knows_covariance && estimate.R_ref_cur)
+    json["covariance"] = rows_json(Eigen::Matrix3d(estimate.covariance.bottomRightCorner<3, 3>()));
+  json["inliers"] = estimate.inliers.size();
+  json["inlier_matches"] = estimate.inliers;
+  for (const auto& [key, value] : estimate.evidence.items())
+    json[key] = estimate.R_ref_cur ? value : ordered_json(nullptr);
+  if (!estimate.rivals.empty()) {
     json["rivals"] = ordered_json::array();
-    for (const SE3& rival : answer.rivals) json["rivals"].push_back(rows_json(rival.matrix()));
+    for (const SE3& rival : estimate.rivals) json["rivals"].push_back(rows_json(rival.matrix()));
   }
   json["cpu_ms"] = result.cpu_ms;
   return json.dump(2) + "\n";

@@ -19,10 +19,10 @@ struct MotionArguments {
 
 struct MotionResult {
   std::string in;
-  MotionEstimate answer;
+  MotionEstimate estimate;
   double cpu_ms = 0;
   std::optional<std::string>
-      no_answer;  ///< reason if there is no motion; `answer` then has the evidence
+      no_result;  ///< reason if there is no motion; `estimate` then has the evidence
 };
 
 /// Estimates the motion of a camera between two views: `placegraph image motion`.

@@ -67,18 +67,18 @@ MotionEstimate motion_by_two_views(const std::string& name, const MotionModelOpt
   adopt(asked, options.two_view);
   adopt(asked, options.rotation);
   const RelativePose found = estimate_relative_pose(camera, file.px_a, file.px_b, options, random);
-  MotionEstimate answer;
-  answer.outcome = found.outcome;
-  answer.model = names[static_cast<std::size_t>(found.model)];
-  answer.T_ref_cur = found.T_ref_cur;
-  answer.R_ref_cur = found.R_ref_cur;
-  answer.covariance = found.covariance;
-  answer.inliers = found.inliers;
-  answer.rivals = found.rivals;
-  answer.evidence = {{"rmse_px", found.rmse_px},
-                     {"parallax_px", found.parallax_px},
-                     {"homography_share", found.homography_share}};
-  return answer;
+  MotionEstimate estimate;
+  estimate.outcome = found.outcome;
+  estimate.model = names[static_cast<std::size_t>(found.model)];
+  estimate.T_ref_cur = found.T_ref_cur;
+  estimate.R_ref_cur = found.R_ref_cur;
+  estimate.covariance = found.covariance;
+  estimate.inliers = found.inliers;
+  estimate.rivals = found.rivals;
+  estimate.evidence = {{"rmse_px", found.rmse_px},
+                       {"parallax_px", found.parallax_px},
+                       {"homography_share", found.homography_share}};
+  return estimate;
 }
 
 MotionEstimate motion_by_gravity(const MotionModelOptions& asked, const Camera& camera,
@@ -88,15 +88,15 @@ MotionEstimate motion_by_gravity(const MotionModelOptions& asked, const Camera& 
   adopt(asked, options);
   const GravityPoseResult found =
       estimate_pose_with_gravity(camera, file.px_a, file.px_b, down.ref, down.cur, options, random);
-  MotionEstimate answer;
-  answer.outcome = found.outcome;
-  if (found.outcome) answer.T_ref_cur = found.T_ref_cur;
+  MotionEstimate estimate;
+  estimate.outcome = found.outcome;
+  if (found.outcome) estimate.T_ref_cur = found.T_ref_cur;
   if (found.outcome || found.outcome.code == Outcome::Code::kDegenerate)
-    answer.R_ref_cur = found.T_ref_cur.rotation();
-  answer.covariance = covariance_of(found.information);
-  answer.inliers = found.inliers;
-  answer.evidence = {{"rmse_px", found.rmse_px}, {"parallax_px", found.parallax_px}};
-  return answer;
+    estimate.R_ref_cur = found.T_ref_cur.rotation();
+  estimate.covariance = covariance_of(found.information);
+  estimate.inliers = found.inliers;
+  estimate.evidence = {{"rmse_px", found.rmse_px}, {"parallax_px", found.parallax_px}};
+  return estimate;
 }
 
 MotionEstimate motion_by_circle(const MotionModelOptions& asked, const Camera& camera,
@@ -111,20 +111,20 @@ MotionEstimate motion_by_circle(const MotionModelOptions& asked, const Camera& c
                                        .toRotationMatrix());
   const CircularMotionResult found =
       estimate_circular_motion(camera, file.px_a, file.px_b, R_level_cam, options);
-  MotionEstimate answer;
-  answer.outcome = found.outcome;
+  MotionEstimate estimate;
+  estimate.outcome = found.outcome;
   if (found.outcome) {
-    answer.T_ref_cur = found.T_ref_cur;
-    answer.R_ref_cur = found.T_ref_cur.rotation();
+    estimate.T_ref_cur = found.T_ref_cur;
+    estimate.R_ref_cur = found.T_ref_cur.rotation();
   }
   // The deviation of the yaw assumes an exact circular motion; it is no covariance of the pose.
-  answer.knows_covariance = false;
-  answer.inliers = found.inliers;
-  answer.evidence = {{"yaw_rad", found.yaw_rad},
-                     {"sigma_yaw_rad", found.sigma_yaw_rad},
-                     {"rmse_px", found.rmse_px},
-                     {"parallax_px", found.parallax_px}};
-  return answer;
+  estimate.knows_covariance = false;
+  estimate.inliers = found.inliers;
+  estimate.evidence = {{"yaw_rad", found.yaw_rad},
+                       {"sigma_yaw_rad", found.sigma_yaw_rad},
+                       {"rmse_px", found.rmse_px},
+                       {"parallax_px", found.parallax_px}};
+  return estimate;
 }
 
 MotionEstimate motion_by_seen_points(const MotionModelOptions& asked, const Camera& camera,
@@ -132,17 +132,17 @@ MotionEstimate motion_by_seen_points(const MotionModelOptions& asked, const Came
   Pose3d2dOptions options;
   adopt(asked, options);
   const Pose3d2dResult found = estimate_pose_3d2d(camera, file.points, file.px, options, random);
-  MotionEstimate answer;
-  answer.outcome = found.outcome;
+  MotionEstimate estimate;
+  estimate.outcome = found.outcome;
   if (found.outcome) {
-    answer.T_ref_cur = found.T_ref_cam;
-    answer.R_ref_cur = found.T_ref_cam.rotation();
-    answer.covariance = found.information.ldlt().solve(Matrix6d::Identity());
+    estimate.T_ref_cur = found.T_ref_cam;
+    estimate.R_ref_cur = found.T_ref_cam.rotation();
+    estimate.covariance = found.information.ldlt().solve(Matrix6d::Identity());
   }
-  answer.metric = true;
-  answer.inliers = found.inliers;
-  answer.evidence = {{"rmse_px", found.rmse_px}};
-  return answer;
+  estimate.metric = true;
+  estimate.inliers = found.inliers;
+  estimate.evidence = {{"rmse_px", found.rmse_px}};
+  return estimate;
 }
 
 MotionEstimate motion_by_clouds(const MotionModelOptions& asked, const PointPairFile& file,
@@ -159,17 +159,17 @@ MotionEstimate motion_by_clouds(const MotionModelOptions& asked, const PointPair
   };
   const Pose3d3dResult found =
       estimate_pose_3d3d(cloud(file.points_a), cloud(file.points_b), options, random);
-  MotionEstimate answer;
-  answer.outcome = found.outcome;
+  MotionEstimate estimate;
+  estimate.outcome = found.outcome;
   if (found.outcome) {
-    answer.T_ref_cur = found.T_ref_cur;
-    answer.R_ref_cur = found.T_ref_cur.rotation();
-    answer.covariance = found.information.ldlt().solve(Matrix6d::Identity());
+    estimate.T_ref_cur = found.T_ref_cur;
+    estimate.R_ref_cur = found.T_ref_cur.rotation();
+    estimate.covariance = found.information.ldlt().solve(Matrix6d::Identity());
   }
-  answer.metric = true;
-  answer.inliers = found.inliers;
-  answer.evidence = {{"chi2_per_dof", found.chi2_per_dof}};
-  return answer;
+  estimate.metric = true;
+  estimate.inliers = found.inliers;
+  estimate.evidence = {{"chi2_per_dof", found.chi2_per_dof}};
+  return estimate;
 }
 
 }  // namespace placegraph::apps

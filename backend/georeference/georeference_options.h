@@ -34,8 +34,9 @@ struct GeoreferenceOptions {
   bool estimate_clock_offset = false;  ///< estimate it instead of a delay, with a prior
   double clock_offset_sigma_s = 0.2;   ///< sigma of that prior and of that of the map's delay [s]
   GpsAlignmentOptions alignment;       ///< alignment of each component before optimization
-  PoseGraphOptions solver;  ///< its `start` is ignored: the alignment is the initialization
-  std::uint64_t seed = 1;   ///< seed of the random search for the alignment
+  PoseGraphOptions
+      solver;              ///< its `initialization` is ignored: the alignment is the initialization
+  std::uint64_t seed = 1;  ///< seed of the random search for the alignment
   void check() const;
 };
 void visit(OptionVisitor& field, GeoreferenceOptions& options);

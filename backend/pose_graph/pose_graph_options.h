@@ -21,7 +21,7 @@ enum class PoseGraphInitialization {
 
 /// Name of an initialization as in the options.
 /// "auto", "file", "odometry", "chordal" or "certified".
-const char* to_string(PoseGraphInitialization start);
+const char* to_string(PoseGraphInitialization initialization);
 
 /// The robust cost that graduated non-convexity approaches.
 enum class GncSurrogate { kTruncated, kGemanMcClure };
@@ -95,7 +95,7 @@ struct PoseGraphOptions {
   StepRule step_rule = StepRule::kDogleg;              ///< step rule of the native engine
   /// Initialization. With a robust method kAuto selects the poses of the input (with kGnc those of
   /// the odometry), because false loops corrupt the other initializations.
-  PoseGraphInitialization start = PoseGraphInitialization::kAuto;
+  PoseGraphInitialization initialization = PoseGraphInitialization::kAuto;
   int max_iterations = 200;         ///< maximum steps of one descent; kAuto may run several
   double relative_decrease = 1e-9;  ///< stop when the cost falls by less than this share
   RobustOptions robust = {};        ///< robust method against false loops

@@ -10,7 +10,7 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// The verdict on a place recognizer's answer to one image.
+/// The verdict on a place recognizer's prediction to one image.
 enum class LoopVerdict {
   kHit,         ///< its best candidate shows the same place
   kMiss,        ///< its best candidate does not show the same place
@@ -32,10 +32,10 @@ struct JudgedQuery {
 
 /// Figures of a place recognizer over a set of images.
 struct LoopBenchmark {
-  int positives = 0;  ///< queries that have a true match
-  int answered = 0;   ///< queries with a valid candidate
-  int dropped = 0;    ///< predictions that are neither hit nor miss: too young or out of range
-  int unjudged = 0;   ///< predictions for images without ground truth
+  int positives = 0;          ///< queries that have a true match
+  int predicted_queries = 0;  ///< queries with a valid candidate
+  int dropped = 0;   ///< predictions that are neither hit nor miss: too young or out of range
+  int unjudged = 0;  ///< predictions for images without ground truth
   /// Share of the positives with a true candidate among the kRanks best; nothing without positives.
   std::array<std::optional<double>, 3> recall_at;
   static constexpr std::array<int, 3> kRanks = {1, 5, 10};  ///< the ranks of `recall_at`
@@ -47,12 +47,12 @@ struct LoopBenchmark {
 
 /// Judges the loop closures that a place recognizer proposed for a set of images.
 ///
-/// A query's answer is its best candidate; it is a hit if it is within `tolerance` images of a true
-/// match. Candidates that the truth excludes (younger than its min_age, outside a query's range)
-/// are left out, right or wrong. Of candidates with equal scores the false ones come first, so that
-/// the order of the predictions has no influence. Precision = hits / (hits + misses) and recall =
-/// hits / positives over the threshold on the score. Throws ArgumentError for a negative tolerance
-/// or a score that is not finite.
+/// A query's prediction is its best candidate; it is a hit if it is within `tolerance` images of a
+/// true match. Candidates that the truth excludes (younger than its min_age, outside a query's
+/// range) are left out, right or wrong. Of candidates with equal scores the false ones come first,
+/// so that the order of the predictions has no influence. Precision = hits / (hits + misses) and
+/// recall = hits / positives over the threshold on the score. Throws ArgumentError for a negative
+/// tolerance or a score that is not finite.
 LoopBenchmark judge_loops(const LoopTruth& truth, const std::vector<LoopPrediction>& predictions,
                           int tolerance = 0);
 

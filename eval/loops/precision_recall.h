@@ -12,8 +12,8 @@ struct ScoredPrediction {
 
 /// Precision and recall at one threshold of the score.
 struct PrecisionRecallPoint {
-  double threshold = 0;              ///< answers of at least this score are accepted
-  int hits = 0, misses = 0;          ///< right and wrong answers among these
+  double threshold = 0;              ///< predictions of at least this score are accepted
+  int hits = 0, misses = 0;          ///< right and wrong predictions among these
   double precision = 0, recall = 0;  ///< hits / (hits + misses), hits / positives; 0 to 1
 };
 
@@ -22,16 +22,16 @@ struct PrecisionRecall {
   std::vector<PrecisionRecallPoint> curve;  ///< threshold descending, recall not descending
   /// Sum over the curve of precision times the recall gained, without interpolation.
   std::optional<double> average_precision;
-  /// The largest recall at which no answer is false; 0 if the most certain answer is false.
+  /// The largest recall at which no prediction is false; 0 if the most certain prediction is false.
   std::optional<double> recall_at_full_precision;
   std::optional<double> f1_max;  ///< largest harmonic mean of precision and recall on the curve
 };
 
-/// Computes the precision-recall curve over the threshold on the answers' scores.
+/// Computes the precision-recall curve over the threshold on the predictions' scores.
 ///
 /// Answers of equal score are added together, so that their order has no influence. `positives` is
-/// the number of right answers that exist. Throws ArgumentError if more answers than that are
-/// correct, or a score is not finite. The curve is empty without answers.
-PrecisionRecall precision_recall(std::vector<ScoredPrediction> answers, int positives);
+/// the number of right predictions that exist. Throws ArgumentError if more predictions than that
+/// are correct, or a score is not finite. The curve is empty without predictions.
+PrecisionRecall precision_recall(std::vector<ScoredPrediction> predictions, int positives);
 
 }  // namespace placegraph

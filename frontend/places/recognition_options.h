@@ -11,8 +11,8 @@ struct SequenceFilterOptions {
   double memory = 0.9;  ///< factor on the score of the past, per image
   /// Loss of score per squared difference [views] between step and pace.
   double pace_penalty = 0.4;
-  int max_step = 3;      ///< maximum distance [views] between the answers to two consecutive images
-  double present = 0.5;  ///< weight of the present image alone in an answer's confidence
+  int max_step = 3;  ///< maximum distance [views] between the predictions to two consecutive images
+  double present = 0.5;  ///< weight of the present image alone in a prediction's confidence
   void check() const;
 };
 void visit(OptionVisitor& field, SequenceFilterOptions& options);

@@ -26,12 +26,14 @@ class SequenceFilter {
   /// list ends the sequence, and the result is empty.
   std::vector<PlaceSimilarity> update(const std::vector<PlaceSimilarity>& list, int first,
                                       int last);
-  /// Returns the confidence of an answer of `update`, comparable over images.
+  /// Returns the confidence of a prediction of `update`, comparable over images.
   ///
-  /// The confidence is the weighted mean of the answer's score and of the similarity of its view in
-  /// `list`, the list that `update` received, sorted best first. The reason: a path continues for
-  /// some images after the camera has left its street. The choice of the best view does not change.
-  double confidence(const PlaceSimilarity& answer, const std::vector<PlaceSimilarity>& list) const;
+  /// The confidence is the weighted mean of the prediction's score and of the similarity of its
+  /// view in `list`, the list that `update` received, sorted best first. The reason: a path
+  /// continues for some images after the camera has left its street. The choice of the best view
+  /// does not change.
+  double confidence(const PlaceSimilarity& prediction,
+                    const std::vector<PlaceSimilarity>& list) const;
   /// Discards the past; the next image begins a new sequence.
   void restart() { states_.clear(); }
 

@@ -32,6 +32,8 @@ class Dataset {
   virtual Calibration calibration(Sensor sensor) const = 0;
   /// Time of a frame [ns], without reading it. Throws ArgumentError for an index beyond size().
   virtual std::int64_t stamp_ns(std::size_t index) const = 0;
+  /// Path of the (left) image of a frame; empty where frames are not single files (videos).
+  virtual std::string image_path(std::size_t /*index*/) const { return ""; }
   /// Reads one frame with the images that `sensor` needs.
   ///
   /// Throws FileError that names the image if it is missing, unreadable or of another size than the

@@ -52,7 +52,7 @@ struct LineCueOptions {
   LineStereoOptions stereo;                ///< matching of edges in the right image
   LineTriangulationOptions triangulation;  ///< conditions for the triangulation of a line
   PoseFromLinesOptions pose;               ///< pose of a frame from known lines
-  LineInitializerOptions start;            ///< first keyframes of a monocular camera without points
+  LineInitializerOptions initializer;      ///< first keyframes of a monocular camera without points
   FloorLineScaleOptions floor;             ///< metric scale where points are not among the cues
   /// Minimum standard deviation across a line: lens, rolling shutter, blur.
   double sigma_floor_px = 0.15;

@@ -177,13 +177,14 @@ void Slam::Impl::place(const Frame& frame, const std::optional<LocatedFrame>& lo
     // The pose is recovered once the scale of the map is known; until then it would be misleading.
     result.T_map_cam.reset();
     result.state = TrackingState::kInitializing;
-    result.outcome = Outcome::failure(Outcome::Code::kDegenerate, "waits for the scale of the map");
+    result.outcome =
+        Outcome::failure(Outcome::Code::kDegenerate, "the scale of the map is not known yet");
     return;
   }
   if (result.T_map_cam && recorder.newest_has_keyframe())
     result.outcome = Outcome::ok();
   else if (update.outcome.reason.empty())
-    result.outcome = Outcome::failure(Outcome::Code::kTooFewData, "waits for a second view");
+    result.outcome = Outcome::failure(Outcome::Code::kTooFewData, "a second view is needed");
   else
     result.outcome = update.outcome;
 }

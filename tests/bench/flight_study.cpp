@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kDuration_s = 120, kMarkersUntil_s = 3;
 
-std::vector<BodyState> answers(const std::vector<FlightFrame>& frames) {
+std::vector<BodyState> predictions(const std::vector<FlightFrame>& frames) {
   std::vector<BodyState> states;
   for (const FlightFrame& frame : frames)
     if (frame.outcome) states.push_back(frame.state);
@@ -37,8 +37,8 @@ void study(int flights) {
     const auto& truth = tour.flight_setting->flight.truth;
     const auto fly = [&](double until_s) {
       return body_state_error(
-          truth, answers(test::fly_without_images(tour, {}, {}, request.seed,
-                                                  [until_s](double t) { return t < until_s; })));
+          truth, predictions(test::fly_without_images(
+                     tour, {}, {}, request.seed, [until_s](double t) { return t < until_s; })));
     };
     const BodyStateError error = fly(kDuration_s + 1), blind = fly(kMarkersUntil_s);
     all.push_back(error.anees);
@@ -47,7 +47,7 @@ void study(int flights) {
     attitude.push_back(error.anees_attitude);
     position_m.push_back(error.position_rmse_m);
     velocity_mps.push_back(error.velocity_rmse_mps);
-    drift.push_back(100 * blind.end_error_m / blind.way_m);
+    drift.push_back(100 * blind.end_error_m / blind.path_length_m);
   }
   const auto tell = [](const char* what, const std::vector<double>& values) {
     double sum = 0;

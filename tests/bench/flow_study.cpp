@@ -114,7 +114,7 @@ void study_patches(Report& report) {
   constexpr int kSide = 320, kPairs = 12;
   std::map<std::string, std::vector<double>> squares;
   std::map<std::string, double> cost_s;
-  std::map<std::string, int> answers;
+  std::map<std::string, int> predictions;
   Random random(7);
   int patches = 0;
   for (int pair = 0; pair < kPairs; ++pair) {
@@ -136,17 +136,17 @@ void study_patches(Report& report) {
       cost_s[name] += seconds;
       for (const FlowVector& vector : vectors) {
         if (vector.kind != FlowVector::Kind::kFull) continue;
-        ++answers[name];
+        ++predictions[name];
         squares[name].push_back((vector.flow - flow).squaredNorm() / 2);
       }
     };
     double before = cpu_s();
     auto vectors = interpolation_flow(from, to, points, {});
     count("interpolation", cpu_s() - before, vectors);
-    LucasKanadeOptions one_way;
-    one_way.max_return_error_px = 0;
+    LucasKanadeOptions forward_only;
+    forward_only.max_return_error_px = 0;
     before = cpu_s();
-    vectors = lucas_kanade(from, to, points, one_way);
+    vectors = lucas_kanade(from, to, points, forward_only);
     count("lucas-kanade", cpu_s() - before, vectors);
     std::vector<cv::Point2f> start, end;
     for (const Vector2d& px : points)
@@ -168,7 +168,7 @@ void study_patches(Report& report) {
   for (const char* name : {"interpolation", "lucas-kanade", "opencv-lucas-kanade"}) {
     const double rms = std::sqrt(mean(squares[name])), us = 1e6 * cost_s[name] / patches;
     report.markdown += fmt::format("| {} | {:.4f} | {:.1f} | {:.1f} |\n", name, rms,
-                                   100.0 * answers[name] / patches, us);
+                                   100.0 * predictions[name] / patches, us);
     report.target(fmt::format("patches, RMS [px], {}", name), rms);
     report.target(fmt::format("patches, us, {}", name), us);
   }
@@ -246,17 +246,17 @@ void study_ventral(Report& report) {
   for (const double height : {0.5, 1.0, 2.0, 3.0})
     for (const double speed_over_height : {0.1, 0.4, 1.0}) {
       constexpr double kPeriod_s = 0.05;
-      const Vector3d way(speed_over_height * height * kPeriod_s,
-                         0.3 * speed_over_height * height * kPeriod_s, 0);
+      const Vector3d path(speed_over_height * height * kPeriod_s,
+                          0.3 * speed_over_height * height * kPeriod_s, 0);
       const SE3 T_floor_1(SO3::exp({0.05, -0.03, 0}), Vector3d(0, 0, -height));
-      const SE3 T_floor_2(SO3::exp({0.04, -0.01, 0.02}), T_floor_1.translation() + way);
+      const SE3 T_floor_2(SO3::exp({0.04, -0.01, 0.02}), T_floor_1.translation() + path);
       const Image from = test::render(kCamera, T_floor_1, {floor}).grey;
       const Image to = test::render(kCamera, T_floor_2, {floor}).grey;
       const auto flow = lucas_kanade(from, to, flow_grid(kCamera.width, kCamera.height, 24), {});
       const KnownRotation camera_rotation{T_floor_1.rotation().inverse() * T_floor_2.rotation()};
       const Vector3d normal = T_floor_1.rotation().inverse() * Vector3d::UnitZ();
       const VentralMotion motion = ventral_motion(derotate(kCamera, flow, camera_rotation), normal);
-      const Vector3d truth = T_floor_1.rotation().inverse() * way / height;
+      const Vector3d truth = T_floor_1.rotation().inverse() * path / height;
       errors.push_back(motion.outcome ? (motion.over_distance - truth).norm() / truth.norm() : 1);
     }
   report.target("speed over height, worst error [%]",

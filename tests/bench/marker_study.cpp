@@ -37,7 +37,7 @@ struct Report {
 void study_apriltag_sim(const std::string& folder, Report& report) {
   const SimulatedTags truth = read_apriltag_sim(folder);
   const auto found = MarkerDetector({}, "apriltag_36h11").detect(truth.image);
-  double corner_px = 0, way_percent = 0, rotation_deg = 0;
+  double corner_px = 0, path_percent = 0, rotation_deg = 0;
   report.markdown +=
       "| tag | corners, worst [px] | position [% of range] | attitude [deg] | its rival's chi2 "
       "|\n|---|---|---|---|---|\n";
@@ -48,17 +48,17 @@ void study_apriltag_sim(const std::string& folder, Report& report) {
     if (!poses.outcome) continue;
     const SE3& T = poses.poses[0].T_cam_marker;
     const double range = tag.T_cam_marker.translation().norm();
-    const double way = 100 * (T.translation() - tag.T_cam_marker.translation()).norm() / range;
+    const double path = 100 * (T.translation() - tag.T_cam_marker.translation()).norm() / range;
     const double angle_error_deg = angle_deg(T, tag.T_cam_marker);
     corner_px = std::max(corner_px, px);
-    way_percent = std::max(way_percent, way);
+    path_percent = std::max(path_percent, path);
     rotation_deg = std::max(rotation_deg, angle_error_deg);
     report.markdown += fmt::format("| {} | {:.3f} | {:.2f} | {:.2f} | {:.0f} |\n", observation.id,
-                                   px, way, angle_error_deg, poses.margin());
+                                   px, path, angle_error_deg, poses.margin());
   }
   report.target("apriltag_sim, tags found", static_cast<double>(found.size()));
   report.target("apriltag_sim, corners [px]", corner_px);
-  report.target("apriltag_sim, position [%]", way_percent);
+  report.target("apriltag_sim, position [%]", path_percent);
   report.target("apriltag_sim, attitude [deg]", rotation_deg);
   const MarkerDetector detector({}, "apriltag_36h11");
   std::vector<ExpectedSquare> near;
@@ -76,7 +76,7 @@ void study_apriltag_sim(const std::string& folder, Report& report) {
 
 /// What became of the views of one kind.
 struct Tally {
-  int views = 0, seen = 0, undecided = 0, wrong = 0, corners = 0, answers = 0;
+  int views = 0, seen = 0, undecided = 0, wrong = 0, corners = 0, predictions = 0;
   double squared_px = 0, worst_px = 0, corner_nees = 0, pose_nees = 0;
   std::vector<double> corner_px;
 
@@ -124,17 +124,17 @@ void judge(const MarkerScene& scene, const SE3& T_world_cam, const Image& image,
     tally.corner_px.push_back(px);
   }
   tally.corner_nees += error.dot(observation.covariance.ldlt().solve(error)) / 8;
-  const MarkerPoseEstimate answer = filter.observe(view);
-  if (!answer.outcome) {
+  const MarkerPoseEstimate estimate = filter.observe(view);
+  if (!estimate.outcome) {
     ++tally.undecided;
     return;
   }
-  ++tally.answers;
-  const Vector6d d = (answer.observation.T_world_body.inverse() * T_world_cam).log();
-  tally.pose_nees += d.dot(answer.observation.covariance.ldlt().solve(d)) / 6;
+  ++tally.predictions;
+  const Vector6d d = (estimate.observation.T_world_body.inverse() * T_world_cam).log();
+  tally.pose_nees += d.dot(estimate.observation.covariance.ldlt().solve(d)) / 6;
   const auto other = rival(scene, T_world_cam);
-  if (other && angle_deg(answer.observation.T_world_body, *other) <
-                   angle_deg(answer.observation.T_world_body, T_world_cam)) {
+  if (other && angle_deg(estimate.observation.T_world_body, *other) <
+                   angle_deg(estimate.observation.T_world_body, T_world_cam)) {
     ++tally.wrong;
   }
 }
@@ -144,7 +144,7 @@ std::string row(const std::string& name, Tally& tally) {
                      name, tally.views, tally.seen, tally.undecided, tally.wrong,
                      tally.corner_at(0.5), tally.corner_at(0.99), tally.worst_px,
                      tally.corner_nees / std::max(1, tally.seen),
-                     tally.pose_nees / std::max(1, tally.answers));
+                     tally.pose_nees / std::max(1, tally.predictions));
 }
 const char* const kHead =
     "| {} | views | seen | undecided | wrong pose | corners, median [px] | 99 % [px] | worst [px] "

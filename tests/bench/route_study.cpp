@@ -19,18 +19,18 @@ namespace placegraph {
 namespace {
 
 using test::Recognition;
-using test::ViewOnTheWay;
-using test::WayBack;
+using test::ReturnPath;
+using test::ViewOnThePath;
 
 void tell(const std::string& figure, double value) { fmt::print("{}\t{:.5g}\n", figure, value); }
 
 /// Places by what became of them on the way back; a step of a way is one of them.
 struct Replay {
-  std::map<PlaceId, ViewOnTheWay> views;
+  std::map<PlaceId, ViewOnThePath> views;
   std::map<PlaceId, Recognition> recognitions;
 };
 
-Replay replay_places(const Map& map, const WayBack& back) {
+Replay replay_places(const Map& map, const ReturnPath& back) {
   Replay replay;
   for (const auto& [place, frame] : test::frames_of_places(map)) {
     replay.views[place] = back.view_at(frame.value());
@@ -67,14 +67,14 @@ void tell_ways(const Map& map, const Replay& replay) {
   constexpr std::size_t kEnds = 12;
   const auto& places = map.place_graph.places;
   const std::size_t step = std::max<std::size_t>(1, places.size() / kEnds);
-  int ways = 0, whole = 0, steps = 0, right = 0;
+  int paths = 0, whole = 0, steps = 0, right = 0;
   for (std::size_t i = 0; i < places.size(); i += step)
     for (std::size_t j = i + step; j < places.size(); j += step) {
-      const Route way = shortest_route(map.place_graph, places[i].id, places[j].id);
-      if (!way.outcome) continue;
-      ++ways;
+      const Route path = shortest_route(map.place_graph, places[i].id, places[j].id);
+      if (!path.outcome) continue;
+      ++paths;
       bool all = true;
-      for (const RouteStep& at : backtracked(way).steps) {
+      for (const RouteStep& at : backtracked(path).steps) {
         const bool known = replay.recognitions.at(at.place).result == Recognition::Result::kRight;
         ++steps;
         right += known;
@@ -82,7 +82,7 @@ void tell_ways(const Map& map, const Replay& replay) {
       }
       whole += all;
     }
-  tell("ways back", ways);
+  tell("ways back", paths);
   tell("ways back recognized at every step", whole);
   tell("steps back", steps);
   tell("steps back recognized", right);
@@ -113,7 +113,8 @@ void study(const std::string& sequence, int map_frames, double camera_height_m) 
   tell("length error, worst [%]", 100 * check.worst_length_error);
 
   const LoopCloser memory(options.slam.loops, run.calibration, options.slam.seed, map);
-  const Replay replay = replay_places(map, WayBack(map, memory, *dataset, run.sensor, map_frames));
+  const Replay replay =
+      replay_places(map, ReturnPath(map, memory, *dataset, run.sensor, map_frames));
   tell_places(replay, true);
   tell_places(replay, false);
   tell_ways(map, replay);

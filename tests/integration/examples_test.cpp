@@ -80,11 +80,11 @@ TEST(Examples, JudgeRecognizerFindsTheSecondRound) {
   const StreetFiles street(folder, 8);
   std::ostringstream poses;
   for (int i = 0; i < 2 * kRound; ++i) {
-    const int way = i % kRound, shown = way < 8 ? way : way < 16 ? 7 : 23 - way;
+    const int path = i % kRound, shown = path < 8 ? path : path < 16 ? 7 : 23 - path;
     std::ostringstream name;
     name << "s/image_0/" << std::setw(6) << std::setfill('0') << i << ".png";
     write_image(folder, name.str(), street.left(shown));
-    poses << "1 0 0 0 0 1 0 0 0 0 1 " << 10 * way << "\n";
+    poses << "1 0 0 0 0 1 0 0 0 0 1 " << 10 * path << "\n";
   }
   street.write_kitti(false);
   folder.write("s/poses.txt", poses.str());
@@ -141,11 +141,11 @@ TEST(Examples, OptimizeG2oNamesAFalseLoop) {
   ASSERT_EQ(run_example("optimize_g2o", folder / "in.g2o " + (folder / "out.g2o"), folder / "out"),
             0)
       << read_file(folder / "out");
-  const std::string said = read_file(folder / "out");
+  const std::string message = read_file(folder / "out");
   for (std::size_t i = good; i < graph.constraints.size(); ++i) {
     const auto& loop = std::get<RelativePoseConstraint>(graph.constraints[i]);
-    EXPECT_THAT(said, testing::HasSubstr("false loop from " + to_string(loop.from) + " to " +
-                                         to_string(loop.to)));
+    EXPECT_THAT(message, testing::HasSubstr("false loop from " + to_string(loop.from) + " to " +
+                                            to_string(loop.to)));
   }
 }
 

@@ -30,9 +30,9 @@ SO3 true_rotation(std::size_t index) {
 TEST(DirectionsOfARenderedCorridor, AreKnownAsWellAsTheyClaim) {
   // The corridor lies along the axes of its first camera.
   double nees = 0, squared = 0;
-  int found = 0, looked = 0;
+  int found = 0, observed = 0;
   for (std::size_t i = 0; i < corridor().size(); i += 40) {
-    ++looked;
+    ++observed;
     const Image image = corridor().render(i, {}).frame.image;
     SegmentDetectorOptions detector;
     detector.min_length_px = 20;
@@ -52,9 +52,9 @@ TEST(DirectionsOfARenderedCorridor, AreKnownAsWellAsTheyClaim) {
     squared += e.squaredNorm();
     ++found;
   }
-  ASSERT_GT(found, 0.8 * looked);
+  ASSERT_GT(found, 0.8 * observed);
   const double anees = nees / (3 * found), rms_deg = std::sqrt(squared / found) / kRadPerDeg;
-  std::cout << found << " of " << looked << " views, error " << rms_deg
+  std::cout << found << " of " << observed << " views, error " << rms_deg
             << " deg, ANEES per degree of freedom " << anees << "\n";
   EXPECT_LT(anees, 2);
   EXPECT_GT(anees, 0.1);

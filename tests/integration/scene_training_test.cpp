@@ -7,7 +7,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "tests/support/scenes/scene_pictures.h"
+#include "tests/support/scenes/scene_images.h"
 
 namespace placegraph {
 namespace {

@@ -97,10 +97,10 @@ TEST(WayBackThroughARenderedTown, IsTheShortestAndEveryPlaceOnItIsRecognized) {
 
   // Recognition: every step from where the camera was at other times, one of them a metre aside.
   const LoopCloser memory(options.slam.loops, run.calibration, options.slam.seed, run.map);
-  const test::WayBack replay(run.map, memory, dataset, run.sensor, kMapFrames);
+  const test::ReturnPath replay(run.map, memory, dataset, run.sensor, kMapFrames);
   int other_passes = 0;
   for (const auto& [place, frame] : frames) {
-    const test::ViewOnTheWay view = replay.view_at(frame.value());
+    const test::ViewOnThePath view = replay.view_at(frame.value());
     EXPECT_NE(FrameId(view.frame), frame);
     other_passes += view.another_pass;
     const Recognition seen = replay.recognize(view);

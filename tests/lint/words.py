@@ -58,16 +58,16 @@ class Words:
         """(offset, word, term) of each refused word. Quoted code (`...`) is left out."""
         text = re.sub(r"`[^`\n]*`", lambda m: " " * len(m.group(0)), blanked(text, self.phrases))
         for scope, whole, _, term in self.rules:
-            if scope != "name":
+            if scope in ("any", "prose"):
                 for match in whole.finditer(text):
                     yield match.start(), match.group(0), term
 
-    def in_name(self, name):
+    def in_name(self, name, scopes=("any", "name")):
         plain = name.replace("_", " ").strip()
         words = WORD_OF_NAME.findall(blanked(plain, self.phrases))
         for word in words:
             for scope, _, exact, term in self.rules:
-                if scope != "prose" and exact.fullmatch(word):
+                if scope in scopes and exact.fullmatch(word):
                     yield word, term
 
 
@@ -90,7 +90,8 @@ def code_faults(words, file, text):
     for token in TOKEN.finditer(text):
         line = line_at(text, token.start())
         if token.group("name"):
-            for word, term in words.in_name(token.group("name")):
+            scopes = ("any", "name") if in_tests else ("any", "name", "library")
+            for word, term in words.in_name(token.group("name"), scopes):
                 yield line, f"{token.group('name')}: '{word}'; the term is {term}"
         elif in_tests or token.group("include") or is_name_of_data(token, text):
             continue

@@ -23,6 +23,8 @@ PLANTED = [  # file, text, the line of the fault or None
     ("graph/a.cpp", "double log_odds = 0;  // log odds of a label\n", None),
     ("graph/a.cpp", "int turn_rate = 0;\n", 1),
     ("tests/a.cpp", "int eye = 0;\n", 1),
+    ("graph/a.h", "int the_answer = 0;\n", 1),
+    ("tests/a.cpp", "int the_answer = 0;\n", None),
     ("tests/a.cpp", "// what the eye sees\nint a = 0;\n", None),
     ("docs/a.md", "The camera.\n\nTwo eyes see\nmore.\n", 3),
     ("docs/a.md", "`eye` and\n\n```\ntwo eyes\n```\n", None),

@@ -74,13 +74,13 @@ Elimination eliminate(int variables, const VariableSets& sets, std::vector<int> 
   std::vector<int> step(variables), mark(variables, -1);
   for (int i = 0; i < variables; ++i) step[order[i]] = i;
   // Sets, and then the unions, are in lists of the first step that eliminates one of their members.
-  std::vector<int> waiting(variables, -1), next(sets.size() + variables, -1);
-  const auto wait = [&](int s, const int* members, const int* end) {
+  std::vector<int> sets_at(variables, -1), next(sets.size() + variables, -1);
+  const auto add_set = [&](int s, const int* members, const int* end) {
     if (members == end) return;
     int first = variables;
     for (; members != end; ++members) first = std::min(first, step[*members]);
-    next[s] = waiting[first];
-    waiting[first] = s;
+    next[s] = sets_at[first];
+    sets_at[first] = s;
   };
   const auto span = [&](int s) {
     const VariableSets& of = s < sets.size() ? sets : met;
@@ -88,10 +88,10 @@ Elimination eliminate(int variables, const VariableSets& sets, std::vector<int> 
     return std::pair{of.begin[k], of.begin[k + 1]};
   };
   for (int s = 0; s < sets.size(); ++s)
-    wait(s, sets.members.data() + sets.begin[s], sets.members.data() + sets.begin[s + 1]);
+    add_set(s, sets.members.data() + sets.begin[s], sets.members.data() + sets.begin[s + 1]);
   for (int i = 0; i < variables; ++i) {
     mark[order[i]] = i;
-    for (int s = waiting[i]; s >= 0; s = next[s]) {
+    for (int s = sets_at[i]; s >= 0; s = next[s]) {
       const auto [begin, end] = span(s);
       for (int j = begin; j < end; ++j) {
         const int u = s < sets.size() ? sets.members[j] : met.members[j];
@@ -101,7 +101,8 @@ Elimination eliminate(int variables, const VariableSets& sets, std::vector<int> 
       }
     }
     met.close();
-    wait(sets.size() + i, met.members.data() + met.begin[i], met.members.data() + met.begin[i + 1]);
+    add_set(sets.size() + i, met.members.data() + met.begin[i],
+            met.members.data() + met.begin[i + 1]);
   }
   result.order = std::move(order);
   return result;

@@ -42,21 +42,23 @@ DisjointSets connected(const LandmarkGraph& graph, const VariableIndex& index) {
 std::vector<char> held_variables(const LandmarkGraph& graph, const VariableIndex& index) {
   const std::size_t count = graph.poses.nodes.size() + graph.points.size();
   DisjointSets sets = connected(graph, index);
-  std::vector<char> held(count), tied(count);
-  const auto tie = [&](int variable) { tied[static_cast<std::size_t>(sets.root(variable))] = 1; };
+  std::vector<char> held(count), constrained(count);
+  const auto constrain = [&](int variable) {
+    constrained[static_cast<std::size_t>(sets.root(variable))] = 1;
+  };
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t nodes = graph.poses.nodes.size();
     held[i] = i < nodes ? graph.poses.nodes[i].fixed : graph.points[i - nodes].fixed;
-    if (held[i]) tie(static_cast<int>(i));
+    if (held[i]) constrain(static_cast<int>(i));
   }
   for (const Constraint& constraint : graph.poses.constraints)
     if (const auto* position = std::get_if<PositionConstraint>(&constraint))
-      tie(index.node(position->node));
-  for (const PosePriorConstraint& prior : graph.priors) tie(index.node(prior.node));
+      constrain(index.node(position->node));
+  for (const PosePriorConstraint& prior : graph.priors) constrain(index.node(prior.node));
   for (std::size_t i = 0; i < graph.poses.nodes.size(); ++i)
-    if (!tied[static_cast<std::size_t>(sets.root(static_cast<int>(i)))]) {
+    if (!constrained[static_cast<std::size_t>(sets.root(static_cast<int>(i)))]) {
       held[i] = 1;
-      tie(static_cast<int>(i));
+      constrain(static_cast<int>(i));
     }
   return held;
 }

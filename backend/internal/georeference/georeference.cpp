@@ -352,7 +352,7 @@ void Georeferencer::solve(const RobustKernel& kernel) {
         graph_.nodes[seen.fix.node].id, seen.position_world,
         seen.fix.antenna(calibration_.head<3>(), calibration_[3]), seen.information, kernel});
   PoseGraphOptions options = options_.solver;
-  options.start =
+  options.initialization =
       PoseGraphInitialization::kFile;  // the alignment; other initializations do not use the fixes
   const PoseGraphReport report = optimize_pose_graph(graph, options, log_);
   result_.outcome = report.outcome;

@@ -65,17 +65,18 @@ double angle_sigma_deg(const std::vector<PositionPair>& pairs, const std::vector
   }
   const double n = static_cast<double>(inliers.size());
   mean /= n;
-  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d dispersion = Eigen::Matrix3d::Zero();
   for (const int i : inliers) {
     const Eigen::Vector3d d = pairs[i].map - mean;
-    scatter += d * d.transpose();
+    dispersion += d * d.transpose();
   }
   if (group == AlignmentGroup::kPlanar) {
-    scatter.row(2).setZero();
-    scatter.col(2).setZero();
+    dispersion.row(2).setZero();
+    dispersion.col(2).setZero();
   }
   const Eigen::Vector3d spread =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter, Eigen::EigenvaluesOnly).eigenvalues();
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(dispersion, Eigen::EigenvaluesOnly)
+          .eigenvalues();
   // The lever arm about axis k is the spread along the two other axes.
   const double across =
       scale * scale *

@@ -30,8 +30,10 @@ void IncrementalComponents::settle(Component& component) {
 std::vector<int> IncrementalComponents::join(int a, int b) {
   int stays = nodes_[a].component, moves = nodes_[b].component;
   const auto before = [&](int x, int y) {
-    const bool x_tied = components_[x].anchors > 0, y_tied = components_[y].anchors > 0;
-    return x_tied != y_tied ? x_tied : components_[x].first < components_[y].first;
+    const bool x_constrained = components_[x].anchors > 0,
+               y_constrained = components_[y].anchors > 0;
+    return x_constrained != y_constrained ? x_constrained
+                                          : components_[x].first < components_[y].first;
   };
   if (before(moves, stays)) std::swap(stays, moves);
   std::vector<int> moved;

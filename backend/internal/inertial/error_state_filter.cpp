@@ -283,7 +283,8 @@ std::optional<double> PositionFilter::deviation2(const PoseMeasurement& observat
 
 BodyExpectation PositionFilter::expectation(std::int64_t stamp_ns) const {
   BodyExpectation expected;
-  if (const StateEstimate answer = at(stamp_ns); answer.outcome) expected.state = answer.state;
+  if (const StateEstimate estimate = at(stamp_ns); estimate.outcome)
+    expected.state = estimate.state;
   expected.deviation2 = [this](const PoseMeasurement& observation) {
     return deviation2(observation);
   };
@@ -291,20 +292,20 @@ BodyExpectation PositionFilter::expectation(std::int64_t stamp_ns) const {
 }
 
 PositionFilter::StateEstimate PositionFilter::at(std::int64_t stamp_ns) const {
-  StateEstimate answer;
+  StateEstimate estimate;
   if (events_.empty()) {
-    answer.outcome = not_started();
-    return answer;
+    estimate.outcome = not_started();
+    return estimate;
   }
   const auto after = std::upper_bound(
       events_.begin(), events_.end(), stamp_ns,
       [](std::int64_t stamp, const Event& event) { return stamp < event.stamp_ns; });
   if (after == events_.begin()) {
-    answer.outcome = Outcome::failure(Code::kTooFewData, "the time is before the history");
-    return answer;
+    estimate.outcome = Outcome::failure(Code::kTooFewData, "the time is before the history");
+    return estimate;
   }
   const Event& last = *(after - 1);
-  answer.state = predict(last, stamp_ns, last.imu);
+  estimate.state = predict(last, stamp_ns, last.imu);
   // The last sample is extrapolated as constant; its unknown change is the same over the whole
   // time.
   const double ahead = std::max(0.0, seconds(last.imu.stamp_ns, stamp_ns));
@@ -319,21 +320,21 @@ PositionFilter::StateEstimate PositionFilter::at(std::int64_t stamp_ns) const {
   unknown_push.block<3, 3>(kPosition, 0)
       .diagonal()
       .setConstant(ahead * ahead * ahead / 6 * options_.ahead_push_m_s3);
-  answer.state.covariance +=
+  estimate.state.covariance +=
       unknown_rotation * unknown_rotation.transpose() + unknown_push * unknown_push.transpose();
   if (seconds(last.imu.stamp_ns, stamp_ns) > options_.max_prediction_s) {
-    answer.outcome = Outcome::failure(
+    estimate.outcome = Outcome::failure(
         Code::kTooFewData, "the last inertial sample is " +
                                std::to_string(seconds(last.imu.stamp_ns, stamp_ns)) + " s old");
-    return answer;
+    return estimate;
   }
-  const double variance = answer.state.covariance.topLeftCorner<3, 3>().diagonal().maxCoeff();
-  answer.outcome =
+  const double variance = estimate.state.covariance.topLeftCorner<3, 3>().diagonal().maxCoeff();
+  estimate.outcome =
       std::sqrt(variance) > options_.max_position_sigma_m
           ? Outcome::failure(Code::kDegenerate, "the standard deviation of the position is " +
                                                     std::to_string(std::sqrt(variance)) + " m")
           : Outcome::ok();
-  return answer;
+  return estimate;
 }
 
 }  // namespace placegraph

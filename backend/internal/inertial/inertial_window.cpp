@@ -296,10 +296,10 @@ void InertialWindow::improve(int iterations) {
 }
 
 InertialWindow::StateEstimate InertialWindow::solve() {
-  StateEstimate answer;
+  StateEstimate estimate;
   if (states_.empty()) {
-    answer.outcome = window_not_started();
-    return answer;
+    estimate.outcome = window_not_started();
+    return estimate;
   }
   improve(options_.max_iterations);
   const Chain chain = linearize(0, states_.size());
@@ -310,10 +310,10 @@ InertialWindow::StateEstimate InertialWindow::solve() {
   for (std::size_t k = 0; k < states_.size(); ++k) {
     // Both eliminations contain the state's own terms, which are subtracted once.
     states_[k].value.covariance = symmetric_inverse(forwards[k] + backwards[k] - chain.diagonal[k]);
-    answer.states.push_back(states_[k].value);
+    estimate.states.push_back(states_[k].value);
   }
-  answer.outcome = Outcome::ok();
-  return answer;
+  estimate.outcome = Outcome::ok();
+  return estimate;
 }
 
 }  // namespace placegraph

@@ -6,7 +6,7 @@ namespace placegraph {
 /// The certificate of an estimate.
 /// Only the isotropic chordal problem is certified: its global minimum is near. The graph's own
 /// cost, which also has the directions of the information, kernels and measured positions, may have
-/// a lower minimum. Fixed nodes are tied to each other (held_node_constraints).
+/// a lower minimum. Fixed nodes are connected to each other (held_node_constraints).
 struct ChordalIsotropicCertificate {
   static constexpr const char* kProblem = "chordal_isotropic";
   /// relative_gap is at most CertificateOptions::max_relative_gap, and no pose is rotated by more

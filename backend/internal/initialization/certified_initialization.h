@@ -19,8 +19,8 @@ struct CertifiedInitializationReport {
 /// Rosen et al. 2019, algorithm 2): while the certificate matrix has a negative eigenvalue, the
 /// dimension is increased by one and a descent starts along the eigenvector. The critical point of
 /// the last rank is rounded to rotations, from which a further descent starts; the lower of the two
-/// minima is used. Held nodes keep their poses; several held nodes of a component are tied to each
-/// other by stiff edges, and one of them fixes the component. Measured positions only place
+/// minima is used. Held nodes keep their poses; several held nodes of a component are connected to
+/// each other by stiff edges, and one of them fixes the component. Measured positions only place
 /// components without held nodes. Sim(3): the scales in `graph` are kept.
 ///
 /// A descent takes no more than 0.4 of `max_effort` (in Gauss-Newton iterations on the graph, by

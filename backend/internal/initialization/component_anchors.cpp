@@ -15,16 +15,16 @@ ComponentAnchors find_anchors(const PackedGraph<Group>& graph) {
   for (int i = 0; i < nodes; ++i)
     if (sets.root(i) == i) anchors.roots.push_back(i);
   anchors.components = static_cast<int>(anchors.roots.size());
-  std::vector<char> tied(anchors.roots.size(), false);
+  std::vector<char> constrained(anchors.roots.size(), false);
   for (int i = 0; i < nodes; ++i)
-    if (graph.held[i]) tied[anchors.component[i]] = true;
+    if (graph.held[i]) constrained[anchors.component[i]] = true;
   anchors.floating.assign(anchors.components, false);
   for (const auto& position : graph.positions) {
     const int component = anchors.component[position.node];
-    if (position.weight > 0 && !tied[component]) anchors.floating[component] = true;
+    if (position.weight > 0 && !constrained[component]) anchors.floating[component] = true;
   }
   for (const int i : anchors.roots)
-    if (!tied[anchors.component[i]]) anchors.anchor[i] = true;
+    if (!constrained[anchors.component[i]]) anchors.anchor[i] = true;
   return anchors;
 }
 

@@ -5,7 +5,7 @@
 namespace placegraph {
 
 /// The isotropic problem of the graph at the scales of its poses, with ties between held nodes.
-/// The held nodes of a component are tied to each other, at their current poses, by edges a
+/// The held nodes of a component are connected to each other, at their current poses, by edges a
 /// thousand times as stiff as the heaviest edge. With all held nodes in place the ties have zero
 /// cost, so a bound of this problem is also one of the problem with its nodes held.
 template <class Group>

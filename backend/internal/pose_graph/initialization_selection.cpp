@@ -53,18 +53,18 @@ std::vector<Residual> rotation_residuals(const PackedGraph<Group>& graph) {
 
 /// Edges by node, without those that do not measure rotation.
 struct Adjacency {
-  std::vector<int> start, edge;
+  std::vector<int> initialization, edge;
   template <class Edges>
   Adjacency(std::size_t nodes, const Edges& edges, const std::vector<Residual>& residuals)
-      : start(nodes + 1, 0) {
+      : initialization(nodes + 1, 0) {
     for (std::size_t k = 0; k < edges.size(); ++k) {
       if (residuals[k].variance == 0) continue;
-      ++start[edges[k].from + 1];
-      ++start[edges[k].to + 1];
+      ++initialization[edges[k].from + 1];
+      ++initialization[edges[k].to + 1];
     }
-    for (std::size_t i = 0; i < nodes; ++i) start[i + 1] += start[i];
-    edge.resize(start.back());
-    std::vector<int> next(start.begin(), start.end() - 1);
+    for (std::size_t i = 0; i < nodes; ++i) initialization[i + 1] += initialization[i];
+    edge.resize(initialization.back());
+    std::vector<int> next(initialization.begin(), initialization.end() - 1);
     for (std::size_t k = 0; k < edges.size(); ++k) {
       if (residuals[k].variance == 0) continue;
       edge[next[edges[k].from]++] = static_cast<int>(k);
@@ -98,7 +98,7 @@ struct Tree {
       queue.push_back(static_cast<int>(root));
       for (std::size_t next = queue.size() - 1; next < queue.size(); ++next) {
         const int i = queue[next];
-        for (int k = adjacency.start[i]; k < adjacency.start[i + 1]; ++k) {
+        for (int k = adjacency.initialization[i]; k < adjacency.initialization[i + 1]; ++k) {
           const int e = adjacency.edge[k];
           const bool forward = graph.edges[e].from == i;
           const int j = forward ? graph.edges[e].to : graph.edges[e].from;
@@ -147,7 +147,7 @@ class Candidates {
   Candidates(PackedGraph<Group>& graph, LocalSolver<Group>& solver)
       : graph_(graph), solver_(solver) {}
 
-  void descend(std::vector<Group> poses, PoseGraphInitialization start) {
+  void descend(std::vector<Group> poses, PoseGraphInitialization initialization) {
     starts_.push_back(poses);
     graph_.poses = std::move(poses);
     LocalSolution solution =
@@ -157,14 +157,14 @@ class Candidates {
     iterations_ += solution.iterations;
     if (!poses_.empty() && !better(solution, best_.solution)) return;
     best_.solution = std::move(solution);
-    best_.used = start;
+    best_.used = initialization;
     poses_ = graph_.poses;
   }
   /// Descends unless there was a descent from nearby poses.
-  void descend_if_new(const std::vector<Group>& poses, PoseGraphInitialization start) {
+  void descend_if_new(const std::vector<Group>& poses, PoseGraphInitialization initialization) {
     for (const std::vector<Group>& earlier : starts_)
       if (rotations_agree(earlier, poses)) return;
-    descend(poses, start);
+    descend(poses, initialization);
   }
   int iterations() const { return iterations_; }
   const LocalSolution& best() const { return best_.solution; }
@@ -242,8 +242,8 @@ InitializedSolution solve_automatically(PackedGraph<Group>& graph, RotationError
 
 }  // namespace
 
-const char* to_string(PoseGraphInitialization start) {
-  switch (start) {
+const char* to_string(PoseGraphInitialization initialization) {
+  switch (initialization) {
     case PoseGraphInitialization::kAuto:
       return "auto";
     case PoseGraphInitialization::kFile:
@@ -259,9 +259,9 @@ const char* to_string(PoseGraphInitialization start) {
 }
 
 template <class Group>
-void set_initialization(PackedGraph<Group>& graph, PoseGraphInitialization start,
+void set_initialization(PackedGraph<Group>& graph, PoseGraphInitialization initialization,
                         RotationError rotation_error) {
-  switch (start) {
+  switch (initialization) {
     case PoseGraphInitialization::kAuto:
     case PoseGraphInitialization::kFile:
       return;
@@ -311,14 +311,15 @@ bool windings_are_settled(const PackedGraph<Group>& graph) {
 
 template <class Group>
 InitializedSolution solve_from_initialization(PackedGraph<Group>& graph,
-                                              PoseGraphInitialization start,
+                                              PoseGraphInitialization initialization,
                                               RotationError rotation_error,
                                               LocalSolver<Group>& solver) {
-  if (start == PoseGraphInitialization::kAuto)
+  if (initialization == PoseGraphInitialization::kAuto)
     return solve_automatically(graph, rotation_error, solver);
-  set_initialization(graph, start, rotation_error);
-  const bool certified = start == PoseGraphInitialization::kCertified;
-  return {certified ? descend_to_the_end(graph, solver) : solver.solve(graph), start, certified};
+  set_initialization(graph, initialization, rotation_error);
+  const bool certified = initialization == PoseGraphInitialization::kCertified;
+  return {certified ? descend_to_the_end(graph, solver) : solver.solve(graph), initialization,
+          certified};
 }
 
 #define PLACEGRAPH_INSTANTIATE(Group)                                                            \

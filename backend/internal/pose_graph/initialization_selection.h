@@ -6,7 +6,7 @@ namespace placegraph {
 
 /// Sets the poses to an initialization; kAuto and kFile leave them unchanged.
 template <class Group>
-void set_initialization(PackedGraph<Group>& graph, PoseGraphInitialization start,
+void set_initialization(PackedGraph<Group>& graph, PoseGraphInitialization initialization,
                         RotationError rotation_error);
 
 struct InitializedSolution {
@@ -33,7 +33,7 @@ struct InitializedSolution {
 /// up to four times, if its cost is below twice the lowest minimum.
 template <class Group>
 InitializedSolution solve_from_initialization(PackedGraph<Group>& graph,
-                                              PoseGraphInitialization start,
+                                              PoseGraphInitialization initialization,
                                               RotationError rotation_error,
                                               LocalSolver<Group>& solver);
 

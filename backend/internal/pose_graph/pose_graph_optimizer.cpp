@@ -32,7 +32,7 @@ double sum(const std::vector<double>& values) {
 /// False loops corrupt initializations that use loops. Graduated non-convexity uses the odometry,
 /// because it needs a good initialization even if the given poses are not.
 PoseGraphInitialization robust_initialization(const PoseGraphOptions& options) {
-  if (options.start != PoseGraphInitialization::kAuto) return options.start;
+  if (options.initialization != PoseGraphInitialization::kAuto) return options.initialization;
   return options.robust.method == RobustMethod::kGnc ? PoseGraphInitialization::kOdometry
                                                      : PoseGraphInitialization::kFile;
 }
@@ -44,12 +44,13 @@ void minimize(PackedGraph<Group>& graph, const LocalSolverOptions& local,
   InitializedSolution found;
   if (options.robust.method == RobustMethod::kNone) {
     LocalSolver<Group> solver(local);
-    found = solve_from_initialization(graph, options.start, options.rotation_error, solver);
+    found =
+        solve_from_initialization(graph, options.initialization, options.rotation_error, solver);
   } else {
     found.used = robust_initialization(options);
     set_initialization(graph, found.used, options.rotation_error);
-    RobustSolution robust = solve_robustly(graph, local, options.robust,
-                                           options.start == PoseGraphInitialization::kAuto);
+    RobustSolution robust = solve_robustly(
+        graph, local, options.robust, options.initialization == PoseGraphInitialization::kAuto);
     found.solution = std::move(robust.local);
     found.refined_from_certified = found.used == PoseGraphInitialization::kCertified;
     report.rejected = std::move(robust.rejected);
@@ -80,9 +81,9 @@ PoseGraphReport optimize(PoseGraph graph, const PoseGraphOptions& options,
   report.graph = std::move(graph);
   report.chi2_by_constraint = chi2_by_constraint(packed, options.rotation_error);
   report.chi2_final = sum(report.chi2_by_constraint);
-  log(log_sink, LogLevel::kInfo, "pose graph: chi2 {:f} -> {:f} in {} iterations, start {}",
-      report.chi2_initial, report.chi2_final, report.iterations,
-      to_string(report.initialization_used));
+  log(log_sink, LogLevel::kInfo,
+      "pose graph: chi2 {:f} -> {:f} in {} iterations, initialization {}", report.chi2_initial,
+      report.chi2_final, report.iterations, to_string(report.initialization_used));
   return report;
 }
 

@@ -66,7 +66,7 @@ void visit(OptionVisitor& field, PoseGraphOptions& o) {
   field.choice("step_rule", o.step_rule, {"dogleg", "gauss_newton", "levenberg_marquardt"},
                "step rule of the native engine");
   field.formerly("start").choice(
-      "initialization", o.start, {"auto", "file", "odometry", "chordal", "certified"},
+      "initialization", o.initialization, {"auto", "file", "odometry", "chordal", "certified"},
       "initial poses; auto: the cheapest initialization whose minimum can be trusted");
   field("max_iterations", o.max_iterations, "maximum number of steps of one descent", {1, 100000});
   field("relative_decrease", o.relative_decrease,

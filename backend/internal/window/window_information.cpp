@@ -117,7 +117,7 @@ std::optional<Matrix6d> relative_covariance(const SlidingWindow& window, Keyfram
 
 std::optional<Matrix6d> keyframe_covariance(const SlidingWindow& window, KeyframeId keyframe) {
   require_variable(window.state(), keyframe_variable(keyframe));
-  if (!window.state().tied_to_map) return std::nullopt;
+  if (!window.state().constrained_to_map) return std::nullopt;
   if (window.state().fixed == keyframe) return Matrix6d(Matrix6d::Zero());
   return inverse_if_full(absolute_information(window, keyframe));
 }

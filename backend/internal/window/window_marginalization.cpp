@@ -193,7 +193,7 @@ std::vector<KeyframeId> marginalize_window(WindowState& state) {
     left.push_back(oldest->first);
     const auto held_before = state.fixed;
     marginalize_keyframe(state, left.back());
-    if (state.fixed && state.fixed != held_before) state.tied_to_map = false;
+    if (state.fixed && state.fixed != held_before) state.constrained_to_map = false;
   }
   return left;
 }

@@ -47,7 +47,7 @@ struct WindowState {
   std::optional<KeyframeId> fixed;
   /// Whether the prior still relates the window to the keyframe that defined the map's frame. False
   /// once another keyframe is held instead; covariances are then relative to that one.
-  bool tied_to_map = true;
+  bool constrained_to_map = true;
 };
 
 /// Throws ArgumentError ("sliding window: keyframe 3 is not in the window") unless it is.

@@ -110,7 +110,7 @@ LoopBenchmark judge_loops(const LoopTruth& truth, const std::vector<LoopPredicti
     else
       ++result.dropped;
   }
-  std::vector<ScoredPrediction> answers;
+  std::vector<ScoredPrediction> scored;
   std::array<int, LoopBenchmark::kRanks.size()> found = {};
   for (auto& [id, of_query] : gathered) {
     const JudgedQuery judged = judge(id, of_query);
@@ -118,15 +118,15 @@ LoopBenchmark judge_loops(const LoopTruth& truth, const std::vector<LoopPredicti
     for (const Candidate& candidate : of_query.candidates)
       result.candidates.push_back({candidate.prediction.score, candidate.correct});
     if (!of_query.candidates.empty())
-      answers.push_back({judged.best.score, judged.verdict == LoopVerdict::kHit});
+      scored.push_back({judged.best.score, judged.verdict == LoopVerdict::kHit});
     for (std::size_t i = 0; i < found.size(); ++i)
       found[i] += judged.rank > 0 && judged.rank <= LoopBenchmark::kRanks[i];
     result.queries.push_back(judged);
   }
-  result.answered = static_cast<int>(answers.size());
+  result.predicted_queries = static_cast<int>(scored.size());
   for (std::size_t i = 0; i < found.size() && result.positives > 0; ++i)
     result.recall_at[i] = static_cast<double>(found[i]) / result.positives;
-  result.curve = precision_recall(std::move(answers), result.positives);
+  result.curve = precision_recall(std::move(scored), result.positives);
   return result;
 }
 

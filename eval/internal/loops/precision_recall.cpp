@@ -7,29 +7,29 @@
 namespace placegraph {
 namespace {
 
-void check(const std::vector<ScoredPrediction>& answers, int positives) {
+void check(const std::vector<ScoredPrediction>& predictions, int positives) {
   int correct = 0;
-  for (const ScoredPrediction& answer : answers) {
-    require(std::isfinite(answer.score), "precision_recall: a score is not finite");
-    correct += answer.correct;
+  for (const ScoredPrediction& prediction : predictions) {
+    require(std::isfinite(prediction.score), "precision_recall: a score is not finite");
+    correct += prediction.correct;
   }
   require(correct <= positives, "precision_recall: " + std::to_string(correct) +
-                                    " correct answers, but only " + std::to_string(positives) +
+                                    " correct predictions, but only " + std::to_string(positives) +
                                     " positives");
 }
 
 }  // namespace
 
-PrecisionRecall precision_recall(std::vector<ScoredPrediction> answers, int positives) {
-  check(answers, positives);
-  std::sort(answers.begin(), answers.end(),
+PrecisionRecall precision_recall(std::vector<ScoredPrediction> predictions, int positives) {
+  check(predictions, positives);
+  std::sort(predictions.begin(), predictions.end(),
             [](const ScoredPrediction& a, const ScoredPrediction& b) { return a.score > b.score; });
   PrecisionRecall result;
   PrecisionRecallPoint point;
   double area = 0, full = 0, f1 = 0, recall_before = 0;
-  for (auto first = answers.begin(); first != answers.end();) {
+  for (auto first = predictions.begin(); first != predictions.end();) {
     auto last = first;
-    for (; last != answers.end() && last->score == first->score; ++last)
+    for (; last != predictions.end() && last->score == first->score; ++last)
       ++(last->correct ? point.hits : point.misses);
     point.threshold = first->score;
     point.precision = static_cast<double>(point.hits) / (point.hits + point.misses);

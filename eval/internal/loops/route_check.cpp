@@ -109,8 +109,8 @@ RouteCheck check_routes(const PlaceGraph& graph, const std::map<PlaceId, FrameId
   std::vector<double> excesses, detours, length_errors;
   for (const auto& [i, j] : pairs_of(graph.places.size(), options.max_pairs)) {
     const PlaceId from = graph.places[i].id, to = graph.places[j].id;
-    const Route way = shortest_route(graph, from, to);
-    if (!way.outcome) {
+    const Route computed = shortest_route(graph, from, to);
+    if (!computed.outcome) {
       ++result.apart;
       continue;
     }
@@ -118,14 +118,14 @@ RouteCheck check_routes(const PlaceGraph& graph, const std::map<PlaceId, FrameId
     const Route best = shortest_route(true_graph, from, to);
     const Route driven = shortest_route(roads, PlaceId(frame_of_place.at(from).value()),
                                         PlaceId(frame_of_place.at(to).value()));
-    const double length = true_length(way, true_graph);
-    if (same_places(way, best)) ++result.same_places;
+    const double length = true_length(computed, true_graph);
+    if (same_places(computed, best)) ++result.same_places;
     if (!(best.length_m() > 0 && driven.length_m() > 0)) continue;
     excesses.push_back(length / best.length_m() - 1);
     detours.push_back(length / driven.length_m() - 1);
     if (detours.back() <= 0.05) ++result.within_5_percent;
     result.worst_detour_m = std::max(result.worst_detour_m, length - driven.length_m());
-    length_errors.push_back(std::abs(way.length_m() / length - 1));
+    length_errors.push_back(std::abs(computed.length_m() / length - 1));
   }
   if (length_errors.empty()) return result;
   result.worst_excess = statistics_of(excesses).max;

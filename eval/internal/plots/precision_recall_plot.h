@@ -12,7 +12,7 @@ struct PrecisionRecallCurve {
 };
 
 /// Precision over recall, both from 0 to 1: a curve per system, a disc at the last threshold
-/// without a false answer. Recall increases in steps, one per threshold.
+/// without a false prediction. Recall increases in steps, one per threshold.
 struct PrecisionRecallPlot {
   std::string title;
   std::vector<PrecisionRecallCurve> curves;

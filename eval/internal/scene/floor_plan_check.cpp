@@ -73,10 +73,11 @@ class Visibility {
     const double least_view = std::cos(deg_to_rad(options_.half_view_deg));
     const double least_incidence = std::sin(deg_to_rad(options_.min_incidence_deg));
     return std::any_of(views_.begin(), views_.end(), [&](const View& view) {
-      const Vector2d way = at - view.at;
-      const double range = way.norm();
+      const Vector2d offset = at - view.at;
+      const double range = offset.norm();
       if (range > options_.range_m || range < 0.1) return false;
-      if (view.axis.dot(way) < least_view * range || -normal.dot(way) < least_incidence * range)
+      if (view.axis.dot(offset) < least_view * range ||
+          -normal.dot(offset) < least_incidence * range)
         return false;
       const Vector2d near = at + 0.02 * normal;
       return std::none_of(blocks_.begin(), blocks_.end(),
@@ -103,9 +104,9 @@ std::vector<Sample> samples_of(const Segment& segment, const Vector2d& normal) {
 }
 
 double distance_to(const Vector2d& p, const Segment& s) {
-  const Vector2d way = s.b - s.a;
-  const double share = std::clamp(way.dot(p - s.a) / way.squaredNorm(), 0.0, 1.0);
-  return (s.a + share * way - p).norm();
+  const Vector2d offset = s.b - s.a;
+  const double share = std::clamp(offset.dot(p - s.a) / offset.squaredNorm(), 0.0, 1.0);
+  return (s.a + share * offset - p).norm();
 }
 
 struct Surface {

@@ -25,9 +25,9 @@ void check_orientation(const Image& labels, const Eigen::Matrix3d& R_cam_manhatt
       require(plane < truth.size(), "orientation check: a plane without normal");
       if (plane == 0) continue;
       ++check.judged;
-      const int said = labels.at<std::uint8_t>(v, u);
-      check.oriented += said != 0;
-      check.right += said != 0 && said == truth[plane];
+      const int message = labels.at<std::uint8_t>(v, u);
+      check.oriented += message != 0;
+      check.right += message != 0 && message == truth[plane];
     }
 }
 

@@ -94,7 +94,7 @@ BodyStateError body_state_error(const std::vector<BodyState>& truth,
     *mean = judged > 0 ? *mean / judged : std::nan("");
   for (std::size_t i = 1; i < truth.size(); ++i)
     if (truth[i - 1].stamp_ns >= first_ns && truth[i].stamp_ns <= last_ns)
-      result.way_m +=
+      result.path_length_m +=
           (truth[i].T_world_body.translation() - truth[i - 1].T_world_body.translation()).norm();
   result.outcome =
       judged == result.compared

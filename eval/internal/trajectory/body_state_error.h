@@ -20,8 +20,8 @@ struct BodyStateError {
   double position_rmse_m = 0, position_max_m = 0;
   double velocity_rmse_mps = 0;
   double attitude_rmse_rad = 0;
-  double end_error_m = 0;  ///< position error at the last compared state
-  double way_m = 0;        ///< true path length from the first to the last compared state
+  double end_error_m = 0;    ///< position error at the last compared state
+  double path_length_m = 0;  ///< true path length from the first to the last compared state
   /// Mean normalized squared error over its degrees of freedom (Bar-Shalom et al. 2001, 5.4.2):
   /// for the whole state, and for its parts by their marginal covariances. It is 1 if the errors
   /// agree with the covariances.

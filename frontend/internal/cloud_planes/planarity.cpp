@@ -33,7 +33,7 @@ double residual(const FittedPlane& fit, const FitPoint& point, const FitModel& m
 }
 
 struct Shape {
-  double linearity = 0, scatter = 0;  ///< from the eigenvalues of the points' covariance
+  double linearity = 0, dispersion = 0;  ///< from the eigenvalues of the points' covariance
   double near = 0, far = 0;     ///< share of residuals below one, above two standard deviations
   double curved = 0, bend = 0;  ///< share of the residuals that a quadric explains; its size
 };
@@ -57,7 +57,7 @@ Shape shape_of(const PlanarSegment& segment, const CloudPoints& points, const Su
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(xyz * xyz.transpose());
   const Eigen::Vector3d values = eigen.eigenvalues().cwiseMax(1e-30);
   shape.linearity = 1 - values[1] / values[2];
-  shape.scatter = std::sqrt(values[0] / values[2]);
+  shape.dispersion = std::sqrt(values[0] / values[2]);
   if (n < 12) return shape;
   Eigen::MatrixXd A(n, 6);
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -138,7 +138,7 @@ PlanarityFeatures planarity_features(const PlanarSegment& segment, const CloudPo
   const Border border = border_of(segment, cloud, contacts, points.model);
   return {std::log(misfit + 1e-3),
           shape.linearity,
-          shape.scatter,
+          shape.dispersion,
           shape.near,
           shape.far,
           shape.curved,

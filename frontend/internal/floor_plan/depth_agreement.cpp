@@ -43,12 +43,12 @@ SweptDepth agreed_depth(const std::vector<PixelDepth>& found, const SweepGeometr
   const auto inside = [&](const cv::Point& p) {
     return p.x >= 0 && p.y >= 0 && p.x < camera.width && p.y < camera.height;
   };
-  const auto each = [&](const auto& look) {
+  const auto each = [&](const auto& visit_samples) {
     for (int v = 0; v < camera.height; ++v)
       for (int u = 0; u < camera.width; ++u)
         if (const PixelDepth& level = found[static_cast<std::size_t>(v) * camera.width + u];
             level.inverse_depth > 0)
-          look(u, v, level);
+          visit_samples(u, v, level);
   };
   for (std::size_t i = 0; i < geometry.views.size(); ++i) {
     shown[i] = Image(size, CV_32FC2, cv::Scalar(0, 1e9));

@@ -31,7 +31,7 @@ class FloorViewer {
     if (down_[1] < 0) down_ = -down_;
   }
 
-  std::vector<SurfacePoint> look() {
+  std::vector<SurfacePoint> find() {
     for (int u = options_.step_px / 2; u < camera_.width; u += options_.step_px) {
       add_floor(u);
       if (const FloorEnd end = floor_end(u); end.axis >= 0) add_wall(u, end);
@@ -149,7 +149,7 @@ std::vector<SurfacePoint> surface_points_on_floor(const OrientationMap& map,
   require(height_m > 0, "surface points: the camera's height must be positive");
   require(segments.size() == axis.size(), "surface points: needs an axis for every segment");
   if (!map.outcome) return {};
-  return FloorViewer(map, segments, axis, camera, R_cam_manhattan, height_m, options).look();
+  return FloorViewer(map, segments, axis, camera, R_cam_manhattan, height_m, options).find();
 }
 
 }  // namespace placegraph

@@ -130,8 +130,8 @@ void PointTracker::anchor() {
 void PointTracker::take_template(PointTrack& track) const {
   track.A.setIdentity();
   track.anchor.reset();
-  if (const auto look = AnchoredPatch::take(image_, track.px))
-    track.anchor = std::make_shared<const AnchoredPatch>(*look);
+  if (const auto patch = AnchoredPatch::take(image_, track.px))
+    track.anchor = std::make_shared<const AnchoredPatch>(*patch);
 }
 
 void PointTracker::detect(const Image& mask) {

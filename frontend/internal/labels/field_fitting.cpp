@@ -22,7 +22,7 @@ class FieldTrial {
 
   /// Pixel accuracy plus mean intersection over union.
   double score(double smoothness, double relation) const {
-    std::vector<double> truth(n_, 0), answer(n_, 0), both(n_, 0);
+    std::vector<double> truth(n_, 0), prediction(n_, 0), both(n_, 0);
     for (std::size_t e = 0; e < examples_.size(); ++e) {
       if (!judges_field(e, examples_.size())) continue;
       const std::vector<float> q = marginals_of(e, smoothness, relation);
@@ -33,14 +33,14 @@ class FieldTrial {
                               q.begin()) -
                           i;
         for (std::size_t c = 0; c < n_; ++c)
-          truth[c] += examples_[e].pixels[i + c], answer[best] += examples_[e].pixels[i + c];
+          truth[c] += examples_[e].pixels[i + c], prediction[best] += examples_[e].pixels[i + c];
         both[best] += examples_[e].pixels[i + best];
       }
     }
     double right = 0, all = 1e-9, overlap = 0, present = 1e-9;
     for (std::size_t c = 0; c < n_; ++c) {
       right += both[c], all += truth[c];
-      if (truth[c] > 0) overlap += both[c] / (truth[c] + answer[c] - both[c]), present += 1;
+      if (truth[c] > 0) overlap += both[c] / (truth[c] + prediction[c] - both[c]), present += 1;
     }
     return right / all + overlap / present;
   }

@@ -16,7 +16,7 @@ constexpr double kLeastShare = 0.5;                 // least share of columns wi
 /// Inverse depth at both ends by a plane through samples beside the segment.
 struct Side {
   Eigen::Vector2d ends = Eigen::Vector2d::Zero();
-  double scatter = 0;
+  double dispersion = 0;
 };
 
 /// Fits a plane to samples: position along the segment (0 to 1), distance across, inverse depth.
@@ -25,7 +25,7 @@ std::optional<Side> fit_plane(const std::vector<Eigen::Vector3d>& samples, doubl
   constexpr double kGate = 3;
   std::vector<Eigen::Vector3d> kept = samples;
   Eigen::Vector3d plane = Eigen::Vector3d::Zero();
-  double scatter = 0;
+  double dispersion = 0;
   for (int round = 0; round < kRounds; ++round) {
     if (static_cast<double>(kept.size()) < std::max(6.0, kLeastShare * kColumns * kRows_px.size()))
       return std::nullopt;
@@ -43,15 +43,15 @@ std::optional<Side> fit_plane(const std::vector<Eigen::Vector3d>& samples, doubl
     std::vector<double> misses;
     for (const Eigen::Vector3d& s : kept) misses.push_back(miss(s));
     std::nth_element(misses.begin(), misses.begin() + misses.size() / 2, misses.end());
-    scatter = std::max(0.3 * sigma, 1.4826 * misses[misses.size() / 2]);
+    dispersion = std::max(0.3 * sigma, 1.4826 * misses[misses.size() / 2]);
     if (round + 1 == kRounds) break;
     kept.clear();
     for (const Eigen::Vector3d& s : samples)
-      if (miss(s) < kGate * scatter) kept.push_back(s);
+      if (miss(s) < kGate * dispersion) kept.push_back(s);
   }
-  if (!plane.allFinite() || scatter > 6 * sigma || plane[0] <= 0 || plane[1] <= 0)
+  if (!plane.allFinite() || dispersion > 6 * sigma || plane[0] <= 0 || plane[1] <= 0)
     return std::nullopt;
-  return Side{plane.head<2>(), scatter};
+  return Side{plane.head<2>(), dispersion};
 }
 
 }  // namespace

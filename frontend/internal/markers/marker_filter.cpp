@@ -79,7 +79,7 @@ std::vector<SeenSquare> MarkerFilter::known_squares(const MarkerView& view) cons
 }
 
 std::vector<MarkerHypothesis> MarkerFilter::explain(const MarkerView& view,
-                                                    MarkerPoseEstimate& answer,
+                                                    MarkerPoseEstimate& estimate,
                                                     const BodyExpectation* expected) const {
   const SE3 T_cam_body = T_body_cam_.inverse();
   std::optional<KnownCamera> known;
@@ -95,7 +95,7 @@ std::vector<MarkerHypothesis> MarkerFilter::explain(const MarkerView& view,
   const MarkerExplanations explanations =
       explain_markers(camera_, known_squares(view), view.beacons, layout_.beacons_world,
                       chi_squared_quantile(options_.gate, 8), options_.beacons, known);
-  answer.outcome = explanations.outcome;
+  estimate.outcome = explanations.outcome;
   std::vector<MarkerHypothesis> hypotheses;
   for (const MarkerExplanation& explanation : explanations.found) {
     MarkerHypothesis hypothesis;
@@ -105,8 +105,8 @@ std::vector<MarkerHypothesis> MarkerFilter::explain(const MarkerView& view,
     hypothesis.chi2 = explanation.pose.chi2;
     hypothesis.followed = explanation.log_likelihood_sum;
     hypotheses.push_back(hypothesis);
-    answer.markers = std::max(answer.markers, static_cast<int>(explanation.squares.size()));
-    answer.beacons = std::max(answer.beacons, static_cast<int>(explanation.beacons.size()));
+    estimate.markers = std::max(estimate.markers, static_cast<int>(explanation.squares.size()));
+    estimate.beacons = std::max(estimate.beacons, static_cast<int>(explanation.beacons.size()));
   }
   return hypotheses;
 }
@@ -170,12 +170,12 @@ void MarkerFilter::weigh(const MarkerView& view, const BodyExpectation* expected
 }
 
 MarkerPoseEstimate MarkerFilter::observe(const MarkerView& view, const BodyExpectation* expected) {
-  MarkerPoseEstimate answer;
+  MarkerPoseEstimate estimate;
   if (view.stamp_ns <= last_ns_ ||
       1e-9 * static_cast<double>(view.stamp_ns - last_ns_) > options_.memory_s)
     hypotheses_.clear();
-  std::vector<MarkerHypothesis> hypotheses = explain(view, answer, expected);
-  if (hypotheses.empty()) return answer;
+  std::vector<MarkerHypothesis> hypotheses = explain(view, estimate, expected);
+  if (hypotheses.empty()) return estimate;
   weigh(view, expected, hypotheses);
   const auto by_log_likelihood = [](const MarkerHypothesis& a, const MarkerHypothesis& b) {
     return a.log_likelihood_sum > b.log_likelihood_sum;
@@ -190,21 +190,22 @@ MarkerPoseEstimate MarkerFilter::observe(const MarkerView& view, const BodyExpec
     hypothesis.log_likelihood_sum -= best;
     hypothesis.followed -= best_followed;
   }
-  hypotheses_ = answer.hypotheses = hypotheses;
+  hypotheses_ = estimate.hypotheses = hypotheses;
   last_ns_ = view.stamp_ns;
 
   MarkerHypothesis joined = hypotheses.front();
   for (std::size_t i = 1; i < hypotheses.size(); ++i) {
     if (!indistinct(hypotheses.front(), hypotheses[i], expected != nullptr)) {
-      answer.outcome = Outcome::failure(Code::kInconsistent, std::to_string(hypotheses.size()) +
-                                                                 " poses explain the observations");
-      return answer;
+      estimate.outcome =
+          Outcome::failure(Code::kInconsistent,
+                           std::to_string(hypotheses.size()) + " poses explain the observations");
+      return estimate;
     }
     joined = mixture(joined, hypotheses[i]);
   }
-  answer.outcome = Outcome::ok();
-  answer.observation = {view.stamp_ns, joined.T_world_body, joined.covariance};
-  return answer;
+  estimate.outcome = Outcome::ok();
+  estimate.observation = {view.stamp_ns, joined.T_world_body, joined.covariance};
+  return estimate;
 }
 
 std::vector<ExpectedSquare> MarkerFilter::expected_squares(const SE3& T_world_body,

@@ -72,7 +72,7 @@ class MarkerFilter {
 
  private:
   std::vector<SeenSquare> known_squares(const MarkerView& view) const;
-  std::vector<MarkerHypothesis> explain(const MarkerView& view, MarkerPoseEstimate& answer,
+  std::vector<MarkerHypothesis> explain(const MarkerView& view, MarkerPoseEstimate& estimate,
                                         const BodyExpectation* expected) const;
   void weigh(const MarkerView& view, const BodyExpectation* expected,
              std::vector<MarkerHypothesis>& hypotheses) const;

@@ -238,10 +238,10 @@ bool fit_side(const std::vector<SidePixel>& pixels, const Band& band, double min
 
 std::optional<Vector2d> intersection(const Vector2d& a, const Vector2d& b, const Vector2d& c,
                                      const Vector2d& d) {
-  Matrix2d ways;
-  ways << b - a, c - d;
-  if (std::abs(ways.determinant()) < 1e-9) return std::nullopt;
-  const Vector2d share = ways.inverse() * (c - a);
+  Matrix2d directions;
+  directions << b - a, c - d;
+  if (std::abs(directions.determinant()) < 1e-9) return std::nullopt;
+  const Vector2d share = directions.inverse() * (c - a);
   return Vector2d(a + share[0] * (b - a));
 }
 

@@ -15,8 +15,8 @@ class OnlineBow final : public CodeDatabase {
   OnlineBow(const PlaceCodeOptions& options, std::uint64_t seed)
       : options_(options), database_(options.online, seed) {}
 
-  std::vector<PlaceSimilarity> look_up_and_add(const Image& grey,
-                                               std::optional<ViewRange> among) override {
+  std::vector<PlaceSimilarity> find_and_add(const Image& grey,
+                                            std::optional<ViewRange> among) override {
     const std::vector<Feature> features = corners_of_view(grey, options_.corners);
     std::vector<PlaceSimilarity> list;
     if (among)
@@ -40,8 +40,8 @@ class Bow : public CodeDatabase {
   Bow(const PlaceCodeOptions& options, std::vector<float> idf)
       : options_(options), index_(std::move(idf)) {}
 
-  std::vector<PlaceSimilarity> look_up_and_add(const Image& grey,
-                                               std::optional<ViewRange> among) override {
+  std::vector<PlaceSimilarity> find_and_add(const Image& grey,
+                                            std::optional<ViewRange> among) override {
     const std::vector<std::uint32_t> words = words_of(grey);
     std::vector<PlaceSimilarity> list;
     if (among) list = index_.query(words, options_.listed, among->first, among->last);
@@ -100,8 +100,8 @@ class LlcDatabase final : public CodeDatabase {
         index_(static_cast<int>(words_.rows()) *
                (1 + options.llc.pyramid_rows * options.llc.pyramid_rows)) {}
 
-  std::vector<PlaceSimilarity> look_up_and_add(const Image& grey,
-                                               std::optional<ViewRange> among) override {
+  std::vector<PlaceSimilarity> find_and_add(const Image& grey,
+                                            std::optional<ViewRange> among) override {
     const FloatFeatures features = dense_float_features(grey);
     const int rows = options_.llc.pyramid_rows;
     const Eigen::VectorXf code =
@@ -127,8 +127,8 @@ class LandmarkDatabase final : public CodeDatabase {
         words_(vocabulary.centres(options.llc.most_words)),
         index_(static_cast<int>(words_.rows())) {}
 
-  std::vector<PlaceSimilarity> look_up_and_add(const Image& grey,
-                                               std::optional<ViewRange> among) override {
+  std::vector<PlaceSimilarity> find_and_add(const Image& grey,
+                                            std::optional<ViewRange> among) override {
     const FloatFeatures features = float_features(grey, options_.features);
     const auto words = static_cast<int>(words_.rows());
     std::vector<ImageLandmark> landmarks = find_landmarks(
@@ -167,7 +167,7 @@ void visit(OptionVisitor& field, PlaceCodeOptions& o) {
   field.group("llc", o.llc, "codes of descriptors as sums of a few words");
   field.group("landmarks", o.landmarks, "regions of key-points");
   field.group("online", o.online, "binary words without a vocabulary file");
-  field("listed", o.listed, "number of views in an answer", {1, 1e6});
+  field("listed", o.listed, "number of views in a prediction", {1, 1e6});
 }
 
 std::unique_ptr<CodeDatabase> make_code_database(PlaceCode code, const PlaceCodeOptions& options,

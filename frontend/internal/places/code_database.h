@@ -26,7 +26,7 @@ struct PlaceCodeOptions {
   LlcOptions llc;
   LandmarkOptions landmarks;
   PlaceDatabaseOptions online;  ///< binary words without a vocabulary file
-  int listed = 60;              ///< number of views in an answer
+  int listed = 60;              ///< number of views in a prediction
   void check() const;
 };
 void visit(OptionVisitor& field, PlaceCodeOptions& options);
@@ -42,8 +42,8 @@ class CodeDatabase {
   virtual ~CodeDatabase() = default;
   /// Returns the views in `among` that are most similar to a grey image, best first, with scores in
   /// [0, 1] (none without `among`). The image is then stored as the next view.
-  virtual std::vector<PlaceSimilarity> look_up_and_add(const Image& grey,
-                                                       std::optional<ViewRange> among) = 0;
+  virtual std::vector<PlaceSimilarity> find_and_add(const Image& grey,
+                                                    std::optional<ViewRange> among) = 0;
 };
 
 /// Creates a database. `vocabulary`: of binary words for kBow, where it is optional (without one,

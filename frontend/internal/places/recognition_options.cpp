@@ -101,9 +101,9 @@ void visit(OptionVisitor& field, SequenceFilterOptions& o) {
   field("memory", o.memory, "factor on the score of the past, per image", {0, 0.999});
   field("pace_penalty", o.pace_penalty,
         "loss of score per squared difference [views] between step and pace", {0, 1e3});
-  field("max_step", o.max_step, "maximum distance [views] between the answers to two images",
+  field("max_step", o.max_step, "maximum distance [views] between the predictions to two images",
         {1, 100});
-  field("present", o.present, "weight of the present image alone in an answer's confidence",
+  field("present", o.present, "weight of the present image alone in a prediction's confidence",
         {0, 1e3});
 }
 

@@ -7,11 +7,11 @@
 namespace placegraph {
 namespace {
 
-double share_agreed(const std::vector<ViewEstimate>& answers) {
-  const auto agreed = std::count_if(answers.begin(), answers.end(),
-                                    [](const ViewEstimate& answer) { return answer.agreed; });
-  // Laplace's rule: a few answers without agreement do not give a probability of zero.
-  return (static_cast<double>(agreed) + 1) / (static_cast<double>(answers.size()) + 2);
+double share_agreed(const std::vector<ViewEstimate>& estimates) {
+  const auto agreed = std::count_if(estimates.begin(), estimates.end(),
+                                    [](const ViewEstimate& estimate) { return estimate.agreed; });
+  // Laplace's rule: a few predictions without agreement do not give a probability of zero.
+  return (static_cast<double>(agreed) + 1) / (static_cast<double>(estimates.size()) + 2);
 }
 
 }  // namespace
@@ -48,14 +48,14 @@ std::vector<ViewEvidence> sequence_evidence(const std::vector<std::vector<PlaceS
   return result;
 }
 
-ViewEstimate answer_of(const ViewEvidence& evidence, const NearViews& near,
-                       const std::function<bool(int)>& allowed) {
+ViewEstimate view_estimate(const ViewEvidence& evidence, const NearViews& near,
+                           const std::function<bool(int)>& allowed) {
   const auto& [forwards, backwards] = evidence;
   std::vector<int> views;
   for (int view = 0; view < static_cast<int>(forwards.size()); ++view)
     if (allowed(view)) views.push_back(view);
-  ViewEstimate answer;
-  if (views.empty()) return answer;
+  ViewEstimate estimate;
+  if (views.empty()) return estimate;
   const auto ahead = [&](int view) { return forwards[static_cast<std::size_t>(view)]; };
   const auto behind = [&](int view) { return backwards[static_cast<std::size_t>(view)]; };
   const auto both = [&](int view) { return 0.5 * (ahead(view) + behind(view)); };
@@ -63,29 +63,30 @@ ViewEstimate answer_of(const ViewEvidence& evidence, const NearViews& near,
     return *std::max_element(views.begin(), views.end(),
                              [&](int a, int b) { return score(a) < score(b); });
   };
-  answer.view = best_by(both);
-  double second = both(answer.view), least = second;
+  estimate.view = best_by(both);
+  double second = both(estimate.view), least = second;
   bool alone = true;
   for (const int view : views) {
     least = std::min(least, both(view));
-    if (near(answer.view, view)) continue;
+    if (near(estimate.view, view)) continue;
     second = alone ? both(view) : std::max(second, both(view));
     alone = false;
   }
-  answer.margin = both(answer.view) - (alone ? least : second);
-  answer.agreed = near(answer.view, best_by(ahead)) && near(answer.view, best_by(behind));
-  return answer;
+  estimate.margin = both(estimate.view) - (alone ? least : second);
+  estimate.agreed = near(estimate.view, best_by(ahead)) && near(estimate.view, best_by(behind));
+  return estimate;
 }
 
 RecognitionProbability::RecognitionProbability(const std::vector<ViewEstimate>& wrong,
                                                const std::vector<ViewEstimate>& right) {
-  require(!wrong.empty() && !right.empty(), "RecognitionProbability: no answers to calibrate with");
+  require(!wrong.empty() && !right.empty(),
+          "RecognitionProbability: no predictions to calibrate with");
   constexpr double kLeast = 1e-6;
-  for (const ViewEstimate& answer : wrong)
-    mean_wrong_ += answer.margin / static_cast<double>(wrong.size());
+  for (const ViewEstimate& estimate : wrong)
+    mean_wrong_ += estimate.margin / static_cast<double>(wrong.size());
   mean_wrong_ = std::max(kLeast, mean_wrong_);
   std::vector<double> margins;
-  for (const ViewEstimate& answer : right) margins.push_back(answer.margin);
+  for (const ViewEstimate& estimate : right) margins.push_back(estimate.margin);
   const auto nine_tenths = margins.begin() + static_cast<std::ptrdiff_t>(margins.size() * 9 / 10);
   std::nth_element(margins.begin(), nine_tenths, margins.end());
   largest_right_ = std::max(*nine_tenths, mean_wrong_);
@@ -93,16 +94,17 @@ RecognitionProbability::RecognitionProbability(const std::vector<ViewEstimate>& 
   agreed_right_ = share_agreed(right);
 }
 
-double RecognitionProbability::log_odds(const ViewEstimate& answer) const {
+double RecognitionProbability::log_odds(const ViewEstimate& estimate) const {
   const double agreement =
-      answer.agreed ? agreed_right_ / agreed_wrong_ : (1 - agreed_right_) / (1 - agreed_wrong_);
-  return std::log(agreement) + answer.margin / mean_wrong_ - std::log(largest_right_ / mean_wrong_);
+      estimate.agreed ? agreed_right_ / agreed_wrong_ : (1 - agreed_right_) / (1 - agreed_wrong_);
+  return std::log(agreement) + estimate.margin / mean_wrong_ -
+         std::log(largest_right_ / mean_wrong_);
 }
 
-std::vector<double> RecognitionProbability::probabilities(const std::vector<ViewEstimate>& answers,
-                                                          const NearViews& near, int reach) const {
-  const int count = static_cast<int>(answers.size());
-  const auto view = [&](int i) { return answers[static_cast<std::size_t>(i)].view; };
+std::vector<double> RecognitionProbability::probabilities(
+    const std::vector<ViewEstimate>& estimates, const NearViews& near, int reach) const {
+  const int count = static_cast<int>(estimates.size());
+  const auto view = [&](int i) { return estimates[static_cast<std::size_t>(i)].view; };
   const auto follows = [&](int a, int b) {
     return view(a) >= 0 && view(b) >= 0 && near(view(a), view(b));
   };
@@ -112,7 +114,7 @@ std::vector<double> RecognitionProbability::probabilities(const std::vector<View
     while (first > 0 && i - first < reach && follows(first - 1, first)) --first;
     while (last + 1 < count && last - i < reach && follows(last, last + 1)) ++last;
     double sum = 0;
-    for (int k = first; k <= last; ++k) sum += log_odds(answers[static_cast<std::size_t>(k)]);
+    for (int k = first; k <= last; ++k) sum += log_odds(estimates[static_cast<std::size_t>(k)]);
     result.push_back(view(i) < 0 ? 0 : 1 / (1 + std::exp(-sum / (last - first + 1))));
   }
   return result;

@@ -31,35 +31,36 @@ struct ViewEstimate {
   bool agreed = false;  ///< whether the best view of each direction alone is near it
 };
 /// Finds the best view among those that `allowed` admits.
-ViewEstimate answer_of(const ViewEvidence& evidence, const NearViews& near,
-                       const std::function<bool(int)>& allowed);
+ViewEstimate view_estimate(const ViewEvidence& evidence, const NearViews& near,
+                           const std::function<bool(int)>& allowed);
 
-/// Probability that an answer is right.
+/// Probability that a prediction is right.
 ///
-/// A map calibrates it with answers for its own views: wrong answers, when all views near the
-/// correct one are excluded; right answers, when only the view itself is excluded. By Bayes' rule,
-/// with equal prior probabilities:
+/// A map calibrates it with predictions for its own views: wrong predictions, when all views near
+/// the correct one are excluded; right predictions, when only the view itself is excluded. By
+/// Bayes' rule, with equal prior probabilities:
 ///
-/// - Margins of wrong answers are exponential with their mean, like the distance between the first
+/// - Margins of wrong predictions are exponential with their mean, like the distance between the
+/// first
 ///   and the second of many independent scores (Renyi 1953). The similarity of a place to itself in
-///   another light is unknown: margins of right answers are uniform up to the largest (all but a
-///   tenth).
-/// - Both directions agree on right and on wrong answers as often as in the calibration.
+///   another light is unknown: margins of right predictions are uniform up to the largest (all but
+///   a tenth).
+/// - Both directions agree on right and on wrong predictions as often as in the calibration.
 /// - Answers of consecutive images that are near each other are right together or wrong together:
 ///   they share the mean of their log odds over `reach` images to either side.
 class RecognitionProbability {
  public:
-  /// Calibrates the model. Throws ArgumentError without right or without wrong answers.
+  /// Calibrates the model. Throws ArgumentError without right or without wrong predictions.
   RecognitionProbability(const std::vector<ViewEstimate>& wrong,
                          const std::vector<ViewEstimate>& right);
-  double log_odds(const ViewEstimate& answer) const;
-  /// Probability that each answer is right; 0 for an image without an answer.
-  std::vector<double> probabilities(const std::vector<ViewEstimate>& answers, const NearViews& near,
-                                    int reach) const;
+  double log_odds(const ViewEstimate& estimate) const;
+  /// Probability that each prediction is right; 0 for an image without a prediction.
+  std::vector<double> probabilities(const std::vector<ViewEstimate>& estimates,
+                                    const NearViews& near, int reach) const;
 
  private:
   double mean_wrong_ = 0, largest_right_ = 0;
-  /// Shares of answers on which both directions agree.
+  /// Shares of predictions on which both directions agree.
   double agreed_wrong_ = 0, agreed_right_ = 0;
 };
 

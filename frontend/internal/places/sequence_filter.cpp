@@ -101,16 +101,16 @@ std::vector<PlaceSimilarity> SequenceFilter::update(const std::vector<PlaceSimil
   return result;
 }
 
-double SequenceFilter::confidence(const PlaceSimilarity& answer,
+double SequenceFilter::confidence(const PlaceSimilarity& prediction,
                                   const std::vector<PlaceSimilarity>& list) const {
   double present = std::numeric_limits<double>::infinity();
   for (const PlaceSimilarity& similarity : list) {
     present =
-        similarity.view == answer.view ? similarity.score : std::min(present, similarity.score);
-    if (similarity.view == answer.view) break;
+        similarity.view == prediction.view ? similarity.score : std::min(present, similarity.score);
+    if (similarity.view == prediction.view) break;
   }
-  if (list.empty()) return answer.score;
-  return (answer.score + options_.present * present) / (1 + options_.present);
+  if (list.empty()) return prediction.score;
+  return (prediction.score + options_.present * present) / (1 + options_.present);
 }
 
 }  // namespace placegraph

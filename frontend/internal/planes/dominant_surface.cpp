@@ -104,38 +104,38 @@ std::vector<Vector2f> DominantSurface::pixels_of(SurfaceRegion region, const Ima
 
 InverseDepthPlane DominantSurface::measure(SurfaceRegion region, const SurfaceDepths& depths,
                                            const Image& mask, Random& random,
-                                           SurfaceAppearance& look) const {
+                                           SurfaceAppearance& appearance) const {
   const std::vector<Vector2f> px = pixels_of(region, mask);
   std::vector<double> expected;
   for (const Vector2f& p : px)
     expected.push_back(g_cam_.dot(camera_.unproject(p.cast<double>()).value_or(Vector3d::UnitZ())));
-  const auto answers = depths(px, expected);
-  require(answers.size() == px.size(), "DominantSurface: needs as many depths as pixels");
+  const auto found = depths(px, expected);
+  require(found.size() == px.size(), "DominantSurface: needs as many depths as pixels");
   std::vector<InverseDepth> known;
   std::vector<Vector2f> known_px;
   for (std::size_t i = 0; i < px.size(); ++i)
-    if (answers[i]) {
-      known.push_back(*answers[i]);
+    if (found[i]) {
+      known.push_back(*found[i]);
       known_px.push_back(px[i]);
     }
   InverseDepthPlane plane = fit_inverse_depth_plane(known, options_.fit, random);
-  look.region = region;
-  look.share = known.empty()
-                   ? 0
-                   : static_cast<double>(plane.inliers.size()) / static_cast<double>(known.size());
-  look.on_px.clear();
-  look.off_px.clear();
+  appearance.region = region;
+  appearance.share =
+      known.empty() ? 0
+                    : static_cast<double>(plane.inliers.size()) / static_cast<double>(known.size());
+  appearance.on_px.clear();
+  appearance.off_px.clear();
   std::size_t next = 0;
   for (std::size_t i = 0; i < known_px.size(); ++i) {
     const bool on = next < plane.inliers.size() && plane.inliers[next] == static_cast<int>(i);
     next += on;
-    (on ? look.on_px : look.off_px).push_back(known_px[i]);
+    (on ? appearance.on_px : appearance.off_px).push_back(known_px[i]);
   }
   return plane;
 }
 
-SurfaceAppearance DominantSurface::look(const SurfaceDepths& depths, const SE3& T_cur_last,
-                                        const Image& mask, Random& random) {
+SurfaceAppearance DominantSurface::update(const SurfaceDepths& depths, const SE3& T_cur_last,
+                                          const Image& mask, Random& random) {
   require(mask.empty() ||
               (mask.type() == CV_8UC1 && mask.cols == camera_.width && mask.rows == camera_.height),
           "DominantSurface: needs a mask of the camera's size");
@@ -147,27 +147,27 @@ SurfaceAppearance DominantSurface::look(const SurfaceDepths& depths, const SE3& 
   SurfaceAppearance best;
   best.outcome = Outcome::failure(Outcome::Code::kTooFewData, "no depths below the horizon");
   for (const SurfaceRegion region : order) {
-    SurfaceAppearance look;
-    const InverseDepthPlane measured = measure(region, depths, mask, random, look);
-    if (measured.outcome && look.share >= options_.min_share) {
+    SurfaceAppearance appearance;
+    const InverseDepthPlane measured = measure(region, depths, mask, random, appearance);
+    if (measured.outcome && appearance.share >= options_.min_share) {
       const Vector3d innovation = measured.g_cam - g_cam_;
       const Matrix3d S = covariance_ + measured.covariance;
-      look.chi2 = innovation.dot(S.ldlt().solve(innovation));
-      if (look.chi2 < kChi2) {
+      appearance.chi2 = innovation.dot(S.ldlt().solve(innovation));
+      if (appearance.chi2 < kChi2) {
         const Matrix3d gain = S.ldlt().solve(covariance_).transpose();
         g_cam_ += gain * innovation;
         const Matrix3d rest = Matrix3d::Identity() - gain;
         covariance_ =
             rest * covariance_ * rest.transpose() + gain * measured.covariance * gain.transpose();
-        look.outcome = Outcome::ok();
+        appearance.outcome = Outcome::ok();
         last_region_ = region;
-        best = std::move(look);
+        best = std::move(appearance);
         break;
       }
-      look.outcome = Outcome::failure(Outcome::Code::kInconsistent,
-                                      std::string("another plane ") + to_string(region));
+      appearance.outcome = Outcome::failure(Outcome::Code::kInconsistent,
+                                            std::string("another plane ") + to_string(region));
     } else {
-      look.outcome =
+      appearance.outcome =
           measured.outcome
               ? Outcome::failure(Outcome::Code::kNoConsensus,
                                  "too small a share on a plane " + std::string(to_string(region)))
@@ -179,7 +179,7 @@ SurfaceAppearance DominantSurface::look(const SurfaceDepths& depths, const SE3& 
              : o.code == Outcome::Code::kTooFewData ? 0
                                                     : 1;
     };
-    if (rank(look.outcome) > rank(best.outcome)) best = std::move(look);
+    if (rank(appearance.outcome) > rank(best.outcome)) best = std::move(appearance);
   }
   if (best.outcome.code == Outcome::Code::kInconsistent)
     widen(deg_to_rad(options_.slope_sigma_deg), options_.distance_drift);

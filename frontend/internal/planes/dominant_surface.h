@@ -50,8 +50,8 @@ class DominantSurface {
   /// Measures the surface and updates the filter. `T_cur_last`: motion since the last call,
   /// identity if it is unknown or there was none. `mask`: 0 = not the surface (e.g. from a label
   /// image), CV_8UC1 of the camera's size or empty.
-  [[nodiscard]] SurfaceAppearance look(const SurfaceDepths& depths, const SE3& T_cur_last,
-                                       const Image& mask, Random& random);
+  [[nodiscard]] SurfaceAppearance update(const SurfaceDepths& depths, const SE3& T_cur_last,
+                                         const Image& mask, Random& random);
 
   Plane plane_cam() const;
   /// Pixels of a region, by the current estimate of the surface, on a regular grid of the image.
@@ -61,7 +61,7 @@ class DominantSurface {
   void predict(const SE3& T_cur_last);
   void widen(double sigma_rad, double sigma_log_distance);
   InverseDepthPlane measure(SurfaceRegion region, const SurfaceDepths& depths, const Image& mask,
-                            Random& random, SurfaceAppearance& look) const;
+                            Random& random, SurfaceAppearance& appearance) const;
 
   DominantSurfaceOptions options_;
   Camera camera_;

@@ -306,9 +306,10 @@ MotionFromPlanesResult motion_from_planes(const Camera& camera, const PointMatch
   Readings found = readings_of(views, regions, options);
   result.readings = std::move(found.readings);
   // One motion has five parameters and three per plane; independent planes have eight each.
-  const double tied = 5.0 * (static_cast<double>(regions.regions.size()) - 1);
-  if (!result.readings.empty() &&
-      result.readings.front().cost > result.homographies_cost + tied * per_parameter + 1e-6 * count)
+  const double constraints = 5.0 * (static_cast<double>(regions.regions.size()) - 1);
+  if (!result.readings.empty() && result.readings.front().cost > result.homographies_cost +
+                                                                     constraints * per_parameter +
+                                                                     1e-6 * count)
     result.outcome = Outcome::failure(Outcome::Code::kInconsistent,
                                       "the planes do not share one motion and this camera");
   else if (!result.readings.empty())

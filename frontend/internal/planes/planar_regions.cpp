@@ -47,27 +47,28 @@ class Search {
 
   PlaneLabelling nothing(double noise_px) const;
   /// Finds the best of many local samples and refines it; false if none reduces the cost.
-  bool propose(const PlaneLabelling& answer, Random& random, Matrix3d& H) const;
+  bool propose(const PlaneLabelling& labelling, Random& random, Matrix3d& H) const;
   /// Estimates labels, models, noise and shares in alternation until the cost is stationary; weak
   /// planes are dropped.
-  PlaneLabelling settle(PlaneLabelling answer, int rounds) const;
-  PlaneLabelling merged(PlaneLabelling answer) const;
+  PlaneLabelling settle(PlaneLabelling labelling, int rounds) const;
+  PlaneLabelling merged(PlaneLabelling labelling) const;
   /// Adds planes one by one with fixed noise, then estimates all together with the noise.
   PlaneLabelling search(double noise_px, Random& random) const;
-  std::vector<int> members(const PlaneLabelling& answer, int label) const;
+  std::vector<int> members(const PlaneLabelling& labelling, int label) const;
 
  private:
   void find_neighbours();
   double on_plane_cost(const Matrix3d& H, double noise_px, int i) const;
-  double plane_cost(const PlaneLabelling& answer, int matches) const;
-  Eigen::MatrixXd costs(const PlaneLabelling& answer) const;
-  double total(const PlaneLabelling& answer) const;
-  void drop(PlaneLabelling& answer, int label) const;
-  bool relabel(PlaneLabelling& answer) const;
-  void refit(PlaneLabelling& answer) const;
+  double plane_cost(const PlaneLabelling& labelling, int matches) const;
+  Eigen::MatrixXd costs(const PlaneLabelling& labelling) const;
+  double total(const PlaneLabelling& labelling) const;
+  void drop(PlaneLabelling& labelling, int label) const;
+  bool relabel(PlaneLabelling& labelling) const;
+  void refit(PlaneLabelling& labelling) const;
   /// Whether some of the neighbours among which a sample was drawn are on its plane, too.
-  bool agrees(const Matrix3d& H, const PlaneLabelling& answer, const std::vector<int>& near) const;
-  double gain(const Matrix3d& H, const PlaneLabelling& answer, const std::vector<double>& now,
+  bool agrees(const Matrix3d& H, const PlaneLabelling& labelling,
+              const std::vector<int>& near) const;
+  double gain(const Matrix3d& H, const PlaneLabelling& labelling, const std::vector<double>& now,
               std::vector<int>* inliers) const;
 
   const PointMatches& matches_;
@@ -111,73 +112,75 @@ double Search::on_plane_cost(const Matrix3d& H, double noise_px, int i) const {
 }
 
 /// Cost of four points of the current view, each with the precision that n matches determine.
-double Search::plane_cost(const PlaneLabelling& answer, int n) const {
-  return 4 * (log_area_ - std::log(2 * std::numbers::pi * 2 * answer.noise_px * answer.noise_px) +
-              std::log(std::max(n, 4) / 4.0));
+double Search::plane_cost(const PlaneLabelling& labelling, int n) const {
+  return 4 *
+         (log_area_ - std::log(2 * std::numbers::pi * 2 * labelling.noise_px * labelling.noise_px) +
+          std::log(std::max(n, 4) / 4.0));
 }
 
-Eigen::MatrixXd Search::costs(const PlaneLabelling& answer) const {
-  const int n = matches_.size(), labels = static_cast<int>(answer.models.size()) + 1;
+Eigen::MatrixXd Search::costs(const PlaneLabelling& labelling) const {
+  const int n = matches_.size(), labels = static_cast<int>(labelling.models.size()) + 1;
   Eigen::MatrixXd unary(n, labels);
   for (int l = 0; l < labels; ++l) {
-    const double share = -std::log(l == 0 ? answer.share_none : 1 - answer.share_none);
+    const double share = -std::log(l == 0 ? labelling.share_none : 1 - labelling.share_none);
     for (int i = 0; i < n; ++i)
-      unary(i, l) = share + (l == 0 ? log_area_
-                                    : on_plane_cost(answer.models[static_cast<std::size_t>(l - 1)],
-                                                    answer.noise_px, i));
+      unary(i, l) =
+          share + (l == 0 ? log_area_
+                          : on_plane_cost(labelling.models[static_cast<std::size_t>(l - 1)],
+                                          labelling.noise_px, i));
   }
   return unary;
 }
 
-std::vector<int> Search::members(const PlaneLabelling& answer, int label) const {
+std::vector<int> Search::members(const PlaneLabelling& labelling, int label) const {
   std::vector<int> which;
   for (int i = 0; i < matches_.size(); ++i)
-    if (answer.labels[static_cast<std::size_t>(i)] == label) which.push_back(i);
+    if (labelling.labels[static_cast<std::size_t>(i)] == label) which.push_back(i);
   return which;
 }
 
-void set_share(PlaneLabelling& answer) {
+void set_share(PlaneLabelling& labelling) {
   // One more of each than counted, so that no probability is zero.
-  const auto none = std::count(answer.labels.begin(), answer.labels.end(), 0);
-  answer.share_none =
-      (1.0 + static_cast<double>(none)) / (2.0 + static_cast<double>(answer.labels.size()));
+  const auto none = std::count(labelling.labels.begin(), labelling.labels.end(), 0);
+  labelling.share_none =
+      (1.0 + static_cast<double>(none)) / (2.0 + static_cast<double>(labelling.labels.size()));
 }
 
-double Search::total(const PlaneLabelling& answer) const {
-  double cost = label_cost({costs(answer), neighbours_, options_.smoothness}, answer.labels);
-  for (std::size_t k = 1; k <= answer.models.size(); ++k)
-    cost += plane_cost(answer, static_cast<int>(members(answer, static_cast<int>(k)).size()));
+double Search::total(const PlaneLabelling& labelling) const {
+  double cost = label_cost({costs(labelling), neighbours_, options_.smoothness}, labelling.labels);
+  for (std::size_t k = 1; k <= labelling.models.size(); ++k)
+    cost += plane_cost(labelling, static_cast<int>(members(labelling, static_cast<int>(k)).size()));
   // Inverse gamma prior of the noise, consistent with the estimate in refit.
-  const double ratio = options_.noise_px / answer.noise_px;
+  const double ratio = options_.noise_px / labelling.noise_px;
   return cost + options_.noise_confidence * (ratio * ratio - 2 * std::log(ratio));
 }
 
 PlaneLabelling Search::nothing(double noise_px) const {
-  PlaneLabelling answer;
-  answer.labels.assign(static_cast<std::size_t>(matches_.size()), 0);
-  answer.noise_px = noise_px;
-  set_share(answer);
-  answer.cost = total(answer);
-  return answer;
+  PlaneLabelling labelling;
+  labelling.labels.assign(static_cast<std::size_t>(matches_.size()), 0);
+  labelling.noise_px = noise_px;
+  set_share(labelling);
+  labelling.cost = total(labelling);
+  return labelling;
 }
 
-void Search::drop(PlaneLabelling& answer, int label) const {
-  answer.models.erase(answer.models.begin() + label - 1);
-  for (int& l : answer.labels) {
+void Search::drop(PlaneLabelling& labelling, int label) const {
+  labelling.models.erase(labelling.models.begin() + label - 1);
+  for (int& l : labelling.labels) {
     if (l == label) l = 0;
     if (l > label) --l;
   }
-  set_share(answer);
+  set_share(labelling);
 }
 
-double Search::gain(const Matrix3d& H, const PlaneLabelling& answer, const std::vector<double>& now,
-                    std::vector<int>* inliers) const {
+double Search::gain(const Matrix3d& H, const PlaneLabelling& labelling,
+                    const std::vector<double>& now, std::vector<int>* inliers) const {
   double sum = 0;
   if (inliers) inliers->clear();
-  const double share = -std::log(1 - answer.share_none);
+  const double share = -std::log(1 - labelling.share_none);
   for (int i = 0; i < matches_.size(); ++i) {
     const double less =
-        now[static_cast<std::size_t>(i)] - on_plane_cost(H, answer.noise_px, i) - share;
+        now[static_cast<std::size_t>(i)] - on_plane_cost(H, labelling.noise_px, i) - share;
     if (!(less > 0)) continue;
     sum += less;
     if (inliers) inliers->push_back(i);
@@ -185,23 +188,24 @@ double Search::gain(const Matrix3d& H, const PlaneLabelling& answer, const std::
   return sum;
 }
 
-bool Search::agrees(const Matrix3d& H, const PlaneLabelling& answer,
+bool Search::agrees(const Matrix3d& H, const PlaneLabelling& labelling,
                     const std::vector<int>& near) const {
-  const double none = log_area_ - std::log(answer.share_none) + std::log(1 - answer.share_none);
+  const double none =
+      log_area_ - std::log(labelling.share_none) + std::log(1 - labelling.share_none);
   int count = 0;
-  for (const int i : near) count += on_plane_cost(H, answer.noise_px, i) < none;
+  for (const int i : near) count += on_plane_cost(H, labelling.noise_px, i) < none;
   return count >= 3 + kMoreNeighbours;
 }
 
-bool Search::propose(const PlaneLabelling& answer, Random& random, Matrix3d& H) const {
+bool Search::propose(const PlaneLabelling& labelling, Random& random, Matrix3d& H) const {
   const int n = matches_.size();
-  const Eigen::MatrixXd unary = costs(answer);
+  const Eigen::MatrixXd unary = costs(labelling);
   std::vector<double> now(static_cast<std::size_t>(n));
   std::vector<int> seeds;
   for (int i = 0; i < n; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    now[k] = unary(i, answer.labels[k]);
-    if (answer.labels[k] == 0) seeds.push_back(i);
+    now[k] = unary(i, labelling.labels[k]);
+    if (labelling.labels[k] == 0) seeds.push_back(i);
   }
   double best = 0;
   std::vector<int> three, inliers;
@@ -222,16 +226,16 @@ bool Search::propose(const PlaneLabelling& answer, Random& random, Matrix3d& H) 
                                       near[static_cast<std::size_t>(three[2])]});
     if (!hypothesis) continue;
     Matrix3d model = *hypothesis;
-    if (!agrees(model, answer, near)) continue;
-    double score = gain(model, answer, now, &inliers);
+    if (!agrees(model, labelling, near)) continue;
+    double score = gain(model, labelling, now, &inliers);
     // Four neighbours determine a plane poorly farther away: refined with its inliers as long as
     // that reduces the cost.
     for (int round = 0; round < 6 && score > 0.4 * best && inliers.size() > 5; ++round) {
-      const HomographyFit fit =
-          refine_homography(model, matches_, inliers, {answer.noise_px, options_.tail_freedom}, 3);
+      const HomographyFit fit = refine_homography(model, matches_, inliers,
+                                                  {labelling.noise_px, options_.tail_freedom}, 3);
       if (!fit.outcome) break;
       std::vector<int> agree;
-      const double refined = gain(fit.H_cur_ref, answer, now, &agree);
+      const double refined = gain(fit.H_cur_ref, labelling, now, &agree);
       if (!(refined > score)) break;
       score = refined;
       model = fit.H_cur_ref;
@@ -245,28 +249,28 @@ bool Search::propose(const PlaneLabelling& answer, Random& random, Matrix3d& H) 
   return best > 0;
 }
 
-bool Search::relabel(PlaneLabelling& answer) const {
-  std::vector<int> labels = answer.labels;
-  const LabelProblem problem{costs(answer), neighbours_, options_.smoothness};
+bool Search::relabel(PlaneLabelling& labelling) const {
+  std::vector<int> labels = labelling.labels;
+  const LabelProblem problem{costs(labelling), neighbours_, options_.smoothness};
   expand_labels(problem, labels);
-  const bool changed = labels != answer.labels;
-  answer.labels = labels;
-  for (int k = static_cast<int>(answer.models.size()); k >= 1; --k)
-    if (static_cast<int>(members(answer, k).size()) < options_.min_matches) drop(answer, k);
-  set_share(answer);
+  const bool changed = labels != labelling.labels;
+  labelling.labels = labels;
+  for (int k = static_cast<int>(labelling.models.size()); k >= 1; --k)
+    if (static_cast<int>(members(labelling, k).size()) < options_.min_matches) drop(labelling, k);
+  set_share(labelling);
   return changed;
 }
 
-void Search::refit(PlaneLabelling& answer) const {
-  const TransferNoise noise{answer.noise_px, options_.tail_freedom};
+void Search::refit(PlaneLabelling& labelling) const {
+  const TransferNoise noise{labelling.noise_px, options_.tail_freedom};
   double squared = 2 * options_.noise_confidence * options_.noise_px * options_.noise_px;
   double freedom = 2 * options_.noise_confidence;
-  for (int k = static_cast<int>(answer.models.size()); k >= 1; --k) {
-    Matrix3d& model = answer.models[static_cast<std::size_t>(k - 1)];
-    const std::vector<int> which = members(answer, k);
+  for (int k = static_cast<int>(labelling.models.size()); k >= 1; --k) {
+    Matrix3d& model = labelling.models[static_cast<std::size_t>(k - 1)];
+    const std::vector<int> which = members(labelling, k);
     const HomographyFit fit = refine_homography(model, matches_, which, noise, kFitIterations);
     if (!fit.outcome) {
-      drop(answer, k);
+      drop(labelling, k);
       continue;
     }
     model = fit.H_cur_ref;
@@ -277,55 +281,55 @@ void Search::refit(PlaneLabelling& answer) const {
     }
     freedom += 2.0 * static_cast<double>(which.size());
   }
-  if (answer.noise_free) answer.noise_px = std::sqrt(squared / freedom);
+  if (labelling.noise_free) labelling.noise_px = std::sqrt(squared / freedom);
 }
 
-PlaneLabelling Search::settle(PlaneLabelling answer, int rounds) const {
-  set_share(answer);
+PlaneLabelling Search::settle(PlaneLabelling labelling, int rounds) const {
+  set_share(labelling);
   PlaneLabelling best;
   for (int round = 0; round < rounds; ++round) {
-    const bool changed = relabel(answer);
-    refit(answer);
-    answer.cost = total(answer);
-    if (round == 0 || answer.cost < best.cost) best = answer;
+    const bool changed = relabel(labelling);
+    refit(labelling);
+    labelling.cost = total(labelling);
+    if (round == 0 || labelling.cost < best.cost) best = labelling;
     if (!changed) break;
   }
   return best;
 }
 
-PlaneLabelling Search::merged(PlaneLabelling answer) const {
+PlaneLabelling Search::merged(PlaneLabelling labelling) const {
   for (bool lower = true; lower;) {
     lower = false;
-    const int planes = static_cast<int>(answer.models.size());
+    const int planes = static_cast<int>(labelling.models.size());
     for (int a = 1; a <= planes && !lower; ++a)
       for (int b = 0; b <= planes && !lower; ++b) {
         if (b == a) continue;
-        PlaneLabelling trial = answer;
+        PlaneLabelling trial = labelling;
         for (int& l : trial.labels)
           if (l == a) l = b;
         drop(trial, a);
         trial = settle(trial, 2);
-        if (!(trial.cost < answer.cost - 1e-6)) continue;
-        answer = settle(trial, kRounds);
+        if (!(trial.cost < labelling.cost - 1e-6)) continue;
+        labelling = settle(trial, kRounds);
         lower = true;
       }
   }
-  return answer;
+  return labelling;
 }
 
 PlaneLabelling Search::search(double noise_px, Random& random) const {
-  PlaneLabelling answer = nothing(noise_px);
-  while (static_cast<int>(answer.models.size()) < options_.max_planes) {
-    PlaneLabelling more = answer;
+  PlaneLabelling labelling = nothing(noise_px);
+  while (static_cast<int>(labelling.models.size()) < options_.max_planes) {
+    PlaneLabelling more = labelling;
     Matrix3d H;
-    if (!propose(answer, random, H)) break;
+    if (!propose(labelling, random, H)) break;
     more.models.push_back(H);
     more = settle(more, kRounds);
-    if (!(more.cost < answer.cost - 1e-6)) break;
-    answer = std::move(more);
+    if (!(more.cost < labelling.cost - 1e-6)) break;
+    labelling = std::move(more);
   }
-  answer.noise_free = true;
-  return merged(settle(answer, kRounds));
+  labelling.noise_free = true;
+  return merged(settle(labelling, kRounds));
 }
 
 }  // namespace
@@ -362,25 +366,25 @@ PlanarRegionsResult find_planar_regions(const PointMatches& matches,
     return result;
   }
   const Search search(matches, options);
-  PlaneLabelling answer = search.nothing(options.noise_px);
-  const double empty = answer.cost;
+  PlaneLabelling labelling = search.nothing(options.noise_px);
+  const double empty = labelling.cost;
   for (const double factor : kNoiseStarts) {
     PlaneLabelling other = search.search(factor * options.noise_px, random);
-    if (other.cost < answer.cost) answer = std::move(other);
+    if (other.cost < labelling.cost) labelling = std::move(other);
   }
-  result.noise = {answer.noise_px, options.tail_freedom};
-  result.description_length = answer.cost - empty;
-  if (answer.models.empty()) {
+  result.noise = {labelling.noise_px, options.tail_freedom};
+  result.description_length = labelling.cost - empty;
+  if (labelling.models.empty()) {
     result.outcome = Outcome::failure(Outcome::Code::kNoConsensus, "no plane reduces the cost");
     return result;
   }
   std::vector<std::pair<int, int>> order;
-  for (int k = 1; k <= static_cast<int>(answer.models.size()); ++k)
-    order.emplace_back(-static_cast<int>(search.members(answer, k).size()), k);
+  for (int k = 1; k <= static_cast<int>(labelling.models.size()); ++k)
+    order.emplace_back(-static_cast<int>(search.members(labelling, k).size()), k);
   std::sort(order.begin(), order.end());
   for (const auto& [minus_size, k] : order) {
-    const std::vector<int> which = search.members(answer, k);
-    const HomographyFit fit = refine_homography(answer.models[static_cast<std::size_t>(k - 1)],
+    const std::vector<int> which = search.members(labelling, k);
+    const HomographyFit fit = refine_homography(labelling.models[static_cast<std::size_t>(k - 1)],
                                                 matches, which, result.noise, kFitIterations);
     result.regions.push_back(
         {fit.H_cur_ref, fit.covariance, static_cast<int>(which.size()), fit.cost});

@@ -79,14 +79,14 @@ class Sweeper {
 
 /// Support of the three orientations at a cell: the number of the four sweeps of each that support
 /// it, with more weight for nearer edges; 0 without a sweep of each of its two axes.
-std::array<double, 3> support_of(const Sweeper& sweeper, int u, int v, double half_way) {
+std::array<double, 3> support_of(const Sweeper& sweeper, int u, int v, double halfway) {
   // for_[c][b]: support of normal c by sweeps along b.
   double for_[3][3] = {};
   for (int b = 0; b < 3; ++b)
     for (const int sign : {-1, 1}) {
       const Sweeper::Hit hit = sweeper.walk(u, v, b, sign);
       if (hit.axis < 0) continue;
-      for_[3 - b - hit.axis][b] += 0.5 * half_way / (half_way + hit.distance);
+      for_[3 - b - hit.axis][b] += 0.5 * halfway / (halfway + hit.distance);
     }
   std::array<double, 3> support{};
   for (int c = 0; c < 3; ++c) {
@@ -148,10 +148,10 @@ OrientationMap compute_orientation_map(const std::vector<LineSegment>& segments,
   }
   const Sweeper sweeper(segments, axis, camera, R_cam_manhattan, options);
   cv::Mat3f support(sweeper.rows(), sweeper.cols(), cv::Vec3f(0, 0, 0));
-  const double half_way = 0.15 * camera.width / options.cell_px;
+  const double halfway = 0.15 * camera.width / options.cell_px;
   for (int v = 0; v < sweeper.rows(); ++v)
     for (int u = 0; u < sweeper.cols(); ++u) {
-      const auto s = support_of(sweeper, u, v, half_way);
+      const auto s = support_of(sweeper, u, v, halfway);
       for (int c = 0; c < 3; ++c) support(v, u)[c] = static_cast<float>(s[c]);
     }
   support = smoothed(support, options.smoothing_cells);

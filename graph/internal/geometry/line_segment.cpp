@@ -62,15 +62,15 @@ std::optional<ImageLine> fit_line(const std::vector<Eigen::Vector2d>& points_px,
     mean += w * points_px[i];
   }
   mean /= weight;
-  Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();
+  Eigen::Matrix2d dispersion = Eigen::Matrix2d::Zero();
   for (std::size_t i = 0; i < points_px.size(); ++i) {
     const Eigen::Vector2d d = points_px[i] - mean;
-    scatter += d * d.transpose() / (sigmas_px[i] * sigmas_px[i]);
+    dispersion += d * d.transpose() / (sigmas_px[i] * sigmas_px[i]);
   }
   // The direction of largest scatter, in closed form.
-  const double along = 0.5 * std::atan2(2 * scatter(0, 1), scatter(0, 0) - scatter(1, 1));
+  const double along = 0.5 * std::atan2(2 * dispersion(0, 1), dispersion(0, 0) - dispersion(1, 1));
   const Eigen::Vector2d direction(std::cos(along), std::sin(along));
-  const double spread = direction.dot(scatter * direction);
+  const double spread = direction.dot(dispersion * direction);
   if (!(spread > 1e-12 * weight)) return std::nullopt;
   ImageLine line;
   line.angle_rad = along + std::numbers::pi / 2;

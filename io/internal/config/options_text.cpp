@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <placegraph/graph/internal/core/wrapped_text.h>
 #include <placegraph/io/config/yaml_config.h>
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace placegraph {
 
@@ -21,28 +21,14 @@ std::string describe_domain(const OptionEntry& entry) {
   return {};
 }
 
-/// The words of a text in lines of at most 118 characters; all but the first are indented by two.
-std::string wrapped(const std::string& text) {
-  constexpr std::size_t kWidth = 118;
-  std::istringstream words(text);
-  std::string out, line, word;
-  while (words >> word) {
-    if (!line.empty() && line.size() + 1 + word.size() > kWidth) {
-      out += line + "\n";
-      line = " ";
-    }
-    line += (line.empty() ? "" : " ") + word;
-  }
-  return out + line + "\n";
-}
-
 /// "- `key` = `value` (range; level): meaning".
 std::string list_item(const OptionEntry& entry) {
   const std::string key = entry.path.substr(entry.path.rfind('.') + 1);
   const std::string domain = describe_domain(entry);
-  return wrapped(fmt::format("- `{}` = `{}` ({}{}): {}", key, entry.value,
-                             domain.empty() ? "" : domain + "; ",
-                             kLevelNames[static_cast<int>(entry.level)], entry.doc));
+  return wrapped_text(
+      fmt::format("- `{}` = `{}` ({}{}): {}", key, entry.value, domain.empty() ? "" : domain + "; ",
+                  kLevelNames[static_cast<int>(entry.level)], entry.doc),
+      "  ");
 }
 
 }  // namespace

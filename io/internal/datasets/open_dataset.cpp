@@ -61,7 +61,7 @@ std::string what_is_missing(const fs::path& folder) {
     if (holds_images((folder / camera).string()))
       return fmt::format("calib.txt is missing (KITTI: a line P{}: with twelve numbers)",
                          camera + 6);
-  for (const char* images : {"left", "images", "image", "rgb"})
+  for (const char* images : {".", "left", "images", "image", "rgb"})
     if (holds_images((folder / images).string()))
       return "calibration.yaml is missing (docs/datasets.md describes its keys)";
   return "";

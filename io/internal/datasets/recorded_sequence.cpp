@@ -41,6 +41,10 @@ class RecordedDataset : public Dataset {
   Calibration calibration(Sensor sensor) const override {
     return calibration_for(sensor, s_.calibration, s_.name);
   }
+  std::string image_path(std::size_t index) const override {
+    require(index < size(), "image_path: no such frame");
+    return s_.left[index];
+  }
   std::int64_t stamp_ns(std::size_t index) const override {
     check_index(index);
     return s_.stamps_ns[index];

@@ -8,7 +8,7 @@
 namespace placegraph {
 namespace {
 
-constexpr int kWaitMs = 200;  // for another program that has the file
+constexpr int kBusyTimeoutMs = 200;  // for another program that has the file
 
 }  // namespace
 
@@ -29,7 +29,7 @@ SqliteDatabase::SqliteDatabase(const std::string& path, Access access) : path_(p
     sqlite3_close(handle_);
     throw FileError(path, "cannot be opened: " + message);
   }
-  sqlite3_busy_timeout(handle_, kWaitMs);
+  sqlite3_busy_timeout(handle_, kBusyTimeoutMs);
 }
 
 SqliteDatabase::~SqliteDatabase() { sqlite3_close(handle_); }

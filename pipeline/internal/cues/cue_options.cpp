@@ -47,7 +47,7 @@ void visit(OptionVisitor& field, LineCueOptions& o) {
   field.internal().group("triangulation", o.triangulation,
                          "conditions for the triangulation of a line");
   field.internal().group("pose", o.pose, "pose of a frame from lines");
-  field.internal().formerly("start").group("initialization", o.start,
+  field.internal().formerly("start").group("initialization", o.initializer,
                                            "first keyframes of a monocular camera without points");
   field.group("floor", o.floor, "metric scale from lines on the floor, without points");
   field.internal()("sigma_floor_px", o.sigma_floor_px,

@@ -160,7 +160,7 @@ std::vector<SurfacePatch> DirectCue::ground(const SE3& T_last_cur,
     const double reach = 0.5 * step_of(px);
     return {patch(g, covariance_of(g, sigma_rad, options_.sigma_height), std::move(px), reach)};
   }
-  SurfaceAppearance appearance = ground_->look(
+  SurfaceAppearance appearance = ground_->update(
       [&](const std::vector<Vector2f>& px, const std::vector<double>& expected) {
         return depth_.measure(frame_, rectification, px,
                               depth_.disparities_px(px, expected, rectification));

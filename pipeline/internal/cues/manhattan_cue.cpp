@@ -82,10 +82,9 @@ ManhattanFrame ManhattanCue::track(const std::vector<LineSegment>& segments,
                                options_.directions.points.noise, options_.directions.manhattan);
 }
 
-std::optional<ManhattanCue::RotationEstimate> ManhattanCue::heading(const Image& image,
-                                                                    const SO3& R_odom_cam,
-                                                                    const SlidingWindow& window,
-                                                                    KeyframeId keyframe) const {
+std::optional<ManhattanCue::RotationEstimate> ManhattanCue::manhattan_rotation(
+    const Image& image, const SO3& R_odom_cam, const SlidingWindow& window,
+    KeyframeId keyframe) const {
   const auto expected = manhattan_frames_.expected(window, keyframe);
   if (expected.empty()) return std::nullopt;
   const std::vector<LineSegment> segments = detect(image);
@@ -174,16 +173,17 @@ GroundMask ManhattanCue::ground(const std::vector<Eigen::Vector2d>& outline_px) 
           std::sqrt(tilts.maxCoeff())};
 }
 
-SE3 with_heading(const SE3& T_odom_cam, const Matrix6d& information,
-                 const std::optional<ManhattanCue::RotationEstimate>& heading,
-                 const SlidingWindow& window) {
-  const auto R_odom_manhattan =
-      heading ? window.manhattan_frame(heading->manhattan_frame) : std::nullopt;
+SE3 with_manhattan_rotation(const SE3& T_odom_cam, const Matrix6d& information,
+                            const std::optional<ManhattanCue::RotationEstimate>& manhattan_rotation,
+                            const SlidingWindow& window) {
+  const auto R_odom_manhattan = manhattan_rotation
+                                    ? window.manhattan_frame(manhattan_rotation->manhattan_frame)
+                                    : std::nullopt;
   if (!R_odom_manhattan) return T_odom_cam;
-  const SO3 R_odom_cam = *R_odom_manhattan * heading->R_cam_frame.inverse();
+  const SO3 R_odom_cam = *R_odom_manhattan * manhattan_rotation->R_cam_frame.inverse();
   // The heading's covariance is in R_cam_frame's right tangent; that of R_odom_cam is rotated.
-  const Eigen::Matrix3d R = heading->R_cam_frame.matrix();
-  const Eigen::Matrix3d weight = R * heading->information * R.transpose();
+  const Eigen::Matrix3d R = manhattan_rotation->R_cam_frame.matrix();
+  const Eigen::Matrix3d weight = R * manhattan_rotation->information * R.transpose();
   Matrix6d H = information;
   H.bottomRightCorner<3, 3>() += weight;
   Vector6d g = Vector6d::Zero();

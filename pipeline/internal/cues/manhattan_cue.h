@@ -34,8 +34,9 @@ class ManhattanCue {
     SO3 R_cam_frame;
     Eigen::Matrix3d information;  ///< right tangent [1/rad^2]
   };
-  std::optional<RotationEstimate> heading(const Image& image, const SO3& R_odom_cam,
-                                          const SlidingWindow& window, KeyframeId keyframe) const;
+  std::optional<RotationEstimate> manhattan_rotation(const Image& image, const SO3& R_odom_cam,
+                                                     const SlidingWindow& window,
+                                                     KeyframeId keyframe) const;
   /// Edges of the last keyframe's image that were examined, with their Manhattan frame and axis.
   const std::vector<FrameView::DirectedLine>& view() const { return view_; }
   /// Ground mask from the edges of the last keyframe, if walls cover part of the assumed ground
@@ -71,8 +72,8 @@ class ManhattanCue {
 /// Pose with covariance `information`^-1 (right tangent) that agrees best with a heading: the
 /// position follows the rotation according to the information. Returns the pose unchanged without a
 /// heading, or if the window does not contain its Manhattan frame.
-SE3 with_heading(const SE3& T_odom_cam, const Matrix6d& information,
-                 const std::optional<ManhattanCue::RotationEstimate>& heading,
-                 const SlidingWindow& window);
+SE3 with_manhattan_rotation(const SE3& T_odom_cam, const Matrix6d& information,
+                            const std::optional<ManhattanCue::RotationEstimate>& manhattan_rotation,
+                            const SlidingWindow& window);
 
 }  // namespace placegraph

@@ -129,12 +129,12 @@ std::optional<std::size_t> PlaneCue::partner(KeyframeId keyframe, const DepthPla
   double least = plane_gate();
   std::optional<std::size_t> best;
   const Eigen::Vector3d n = toward(plane.plane_cam, Eigen::Vector3d::Zero());
-  for (std::size_t k = 0; k < waiting_.size(); ++k) {
-    const DepthPlane& before = waiting_[k].plane;
-    if (waiting_[k].keyframe == keyframe) continue;
-    const auto motion = relative_covariance(window, waiting_[k].keyframe, keyframe);
+  for (std::size_t k = 0; k < candidates_.size(); ++k) {
+    const DepthPlane& before = candidates_[k].plane;
+    if (candidates_[k].keyframe == keyframe) continue;
+    const auto motion = relative_covariance(window, candidates_[k].keyframe, keyframe);
     if (!motion) continue;
-    const SE3 T_before_now = window.pose(waiting_[k].keyframe).inverse() * window.pose(keyframe);
+    const SE3 T_before_now = window.pose(candidates_[k].keyframe).inverse() * window.pose(keyframe);
     Eigen::Matrix<double, 3, 6> J_pose;
     Eigen::Matrix3d J_plane;
     const Plane3 expected = transform_to(T_before_now, before.plane_cam, &J_pose, &J_plane);
@@ -153,7 +153,7 @@ std::optional<std::size_t> PlaneCue::partner(KeyframeId keyframe, const DepthPla
 }
 
 /// Makes a landmark of two planes that agree.
-PlaneId PlaneCue::begin(const Waiting& before, const Waiting& now, SlidingWindow& window) {
+PlaneId PlaneCue::begin(const Candidate& before, const Candidate& now, SlidingWindow& window) {
   const PlaneId id = next_++;
   window.add_plane(id, transform_to(window.pose(now.keyframe).inverse(), now.plane.plane_cam));
   window.keep(plane_variable(id));
@@ -210,7 +210,7 @@ std::vector<std::optional<PlaneId>> PlaneCue::add(KeyframeId keyframe,
                                                   const std::vector<DepthPlane>& seen,
                                                   SlidingWindow& window) {
   const KeyframeId oldest = window.keyframes().front();
-  std::erase_if(waiting_, [&](const Waiting& w) { return w.keyframe < oldest; });
+  std::erase_if(candidates_, [&](const Candidate& w) { return w.keyframe < oldest; });
   // All queries to the window precede all changes of it.
   const std::vector<Match> all = matches(keyframe, seen, window);
   std::vector<std::optional<PlaneId>> result = assign(all, seen.size());
@@ -219,22 +219,22 @@ std::vector<std::optional<PlaneId>> PlaneCue::add(KeyframeId keyframe,
   std::vector<std::optional<std::size_t>> partners(seen.size());
   for (std::size_t k = 0; k < seen.size(); ++k)
     if (!known[k]) partners[k] = partner(keyframe, seen[k], window);
-  std::vector<Waiting> still;
+  std::vector<Candidate> still;
   std::set<std::size_t> begun;
   for (std::size_t k = 0; k < seen.size(); ++k) {
     if (result[k]) {
       see(keyframe, seen[k], *result[k], window);
     } else if (partners[k] && begun.insert(*partners[k]).second) {
-      result[k] = begin(waiting_[*partners[k]], {keyframe, seen[k]}, window);
+      result[k] = begin(candidates_[*partners[k]], {keyframe, seen[k]}, window);
     } else if (!known[k]) {
       still.push_back({keyframe, seen[k]});
     }
   }
-  std::vector<Waiting> before;
-  for (std::size_t k = 0; k < waiting_.size(); ++k)
-    if (!begun.contains(k)) before.push_back(std::move(waiting_[k]));
-  waiting_ = std::move(before);
-  waiting_.insert(waiting_.end(), still.begin(), still.end());
+  std::vector<Candidate> before;
+  for (std::size_t k = 0; k < candidates_.size(); ++k)
+    if (!begun.contains(k)) before.push_back(std::move(candidates_[k]));
+  candidates_ = std::move(before);
+  candidates_.insert(candidates_.end(), still.begin(), still.end());
   forget(keyframe, window);
   if (log_) {
     std::ostringstream text;
@@ -280,7 +280,7 @@ std::vector<PlaneId> PlaneCue::landmarks() const {
 
 void PlaneCue::reset() {
   landmarks_.clear();
-  waiting_.clear();
+  candidates_.clear();
   next_ = PlaneId(1);
 }
 

@@ -46,7 +46,7 @@ class PlaneCue {
     Eigen::Vector3d toward_map = Eigen::Vector3d::Zero();
     std::vector<Eigen::Vector3d> points_map;  ///< points of earlier observations
   };
-  struct Waiting {
+  struct Candidate {
     KeyframeId keyframe;
     DepthPlane plane;
   };
@@ -63,14 +63,14 @@ class PlaneCue {
                                                     std::size_t count);
   std::optional<std::size_t> partner(KeyframeId keyframe, const DepthPlane& plane,
                                      const SlidingWindow& window) const;
-  PlaneId begin(const Waiting& before, const Waiting& now, SlidingWindow& window);
+  PlaneId begin(const Candidate& before, const Candidate& now, SlidingWindow& window);
   void forget(KeyframeId keyframe, SlidingWindow& window);
 
   PlaneLandmarkOptions options_;
   LogSink log_;
   PlaneId next_{1};
   std::map<PlaneId, Landmark> landmarks_;
-  std::vector<Waiting> waiting_;  ///< planes in keyframes of the window, ascending
+  std::vector<Candidate> candidates_;  ///< planes in keyframes of the window, ascending
 };
 
 }  // namespace placegraph

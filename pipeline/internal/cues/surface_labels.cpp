@@ -15,7 +15,7 @@ SurfaceLabeller::SurfaceLabeller(std::shared_ptr<const SceneModel> surfaces,
           "SurfaceLabeller: a model of surfaces is required");
 }
 
-SurfaceLabels SurfaceLabeller::look(const Frame& frame, bool masks) const {
+SurfaceLabels SurfaceLabeller::label(const Frame& frame, bool masks) const {
   const SceneView view = view_scene(frame.colour.empty() ? frame.image : frame.colour);
   const std::vector<float> surfaces = classify_superpixels(*surfaces_, view);
   SurfaceLabels observation;

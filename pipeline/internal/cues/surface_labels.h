@@ -22,7 +22,7 @@ class SurfaceLabeller {
   /// `surfaces`: a model of kind kSurfaces (ArgumentError otherwise), which must not be null.
   SurfaceLabeller(std::shared_ptr<const SceneModel> surfaces, const SceneMaskOptions& options);
   /// Labels a frame, in colour if it has it. `masks`: whether masks are requested.
-  SurfaceLabels look(const Frame& frame, bool masks) const;
+  SurfaceLabels label(const Frame& frame, bool masks) const;
 
  private:
   std::shared_ptr<const SceneModel> surfaces_;

@@ -19,28 +19,28 @@ class DelayLine {
     require(delay_s >= 0, "DelayLine: the delay is negative");
   }
 
-  /// Adds a measurement. Throws ArgumentError if it is older than the newest waiting one.
+  /// Adds a measurement. Throws ArgumentError if it is older than the newest pending one.
   void push(Measurement measurement) {
-    require(waiting_.empty() || measurement.stamp_ns >= waiting_.back().stamp_ns,
+    require(pending_.empty() || measurement.stamp_ns >= pending_.back().stamp_ns,
             "DelayLine: the measurement is older than the last one");
-    waiting_.push_back(std::move(measurement));
+    pending_.push_back(std::move(measurement));
   }
 
   /// Removes the measurements whose delay has passed at `now_ns` and returns them, oldest first.
   std::vector<Measurement> take(std::int64_t now_ns) {
     std::vector<Measurement> due;
-    while (!waiting_.empty() && seconds(waiting_.front().stamp_ns, now_ns) >= delay_s_) {
-      due.push_back(std::move(waiting_.front()));
-      waiting_.pop_front();
+    while (!pending_.empty() && seconds(pending_.front().stamp_ns, now_ns) >= delay_s_) {
+      due.push_back(std::move(pending_.front()));
+      pending_.pop_front();
     }
     return due;
   }
 
-  void clear() { waiting_.clear(); }
+  void clear() { pending_.clear(); }
 
  private:
   double delay_s_;
-  std::deque<Measurement> waiting_;  // in the order of their stamps
+  std::deque<Measurement> pending_;  // in the order of their stamps
 };
 
 }  // namespace placegraph

@@ -76,10 +76,10 @@ FlightFrame FlightEstimator::add(const FlightMeasurements& observations) {
   if (markers_) markers_->report(result.markers, !observations.markers.empty());
 
   // 3. The state with all measurements available until now.
-  const PositionFilter::StateEstimate answer = filter_.at(now_ns);
-  result.outcome = answer.outcome;
-  result.state = answer.state;
-  last_ = LastImage{now_ns, answer.outcome ? std::optional(answer.state) : std::nullopt};
+  const PositionFilter::StateEstimate estimate = filter_.at(now_ns);
+  result.outcome = estimate.outcome;
+  result.state = estimate.state;
+  last_ = LastImage{now_ns, estimate.outcome ? std::optional(estimate.state) : std::nullopt};
   imu_.forget_before(now_ns);
   return result;
 }
@@ -109,23 +109,23 @@ void FlightEstimator::use_markers(const FlightMeasurements& observations,
     view.rotation_body = R_body_cam_ * rotation.R_1_2 * R_body_cam_.inverse();
   const BodyExpectation expectation = filter_.expectation(observations.stamp_ns);
   const bool restarts = !markers_->relies_on(expectation);
-  const MarkerPoseEstimate answer = markers_->estimate(view, expectation);
-  result.markers = answer.outcome;
-  if (!answer.outcome) return;
-  result.markers_seen = answer.markers;
-  result.beacons_seen = answer.beacons;
-  result.pose_measurement = answer.observation;
+  const MarkerPoseEstimate estimate = markers_->estimate(view, expectation);
+  result.markers = estimate.outcome;
+  if (!estimate.outcome) return;
+  result.markers_seen = estimate.markers;
+  result.beacons_seen = estimate.beacons;
+  result.pose_measurement = estimate.observation;
   if (restarts)
-    result.markers = start_by(answer.observation);
+    result.markers = start_by(estimate.observation);
   else
-    delayed_poses_.push(answer.observation);
+    delayed_poses_.push(estimate.observation);
 }
 
 /// Starts, or restarts, at the pose from markers; the biases that the filter knows are kept.
 Outcome FlightEstimator::start_by(const PoseMeasurement& pose) {
   if (!imu_.reaches(pose.stamp_ns, options_.filter.max_prediction_s))
     return Outcome::failure(Code::kTooFewData, "no inertial samples to begin with");
-  start(start_state(pose, options_.start, filter_.expectation(pose.stamp_ns).state));
+  start(start_state(pose, options_.initialization, filter_.expectation(pose.stamp_ns).state));
   return Outcome::ok();
 }
 

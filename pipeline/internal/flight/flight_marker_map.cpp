@@ -69,11 +69,11 @@ MarkerMap map_flight_markers(const Dataset& images, const FlightRun& run, const 
     before = &frame.state;
     const double waited_s = 1e-9 * static_cast<double>(frame.stamp_ns - last_ns);
     if (!frames.empty() && waited_s < options.map_interval_s) continue;
-    MarkerFrame looked;
-    looked.T_odom_cam = frame.state.T_world_body * T_body_cam;
-    looked.step_covariance = J_cam_body * since * J_cam_body.transpose();
-    looked.markers = detector.detect(images.frame(i, Sensor::kMono).image);
-    frames.push_back(std::move(looked));
+    MarkerFrame observed;
+    observed.T_odom_cam = frame.state.T_world_body * T_body_cam;
+    observed.step_covariance = J_cam_body * since * J_cam_body.transpose();
+    observed.markers = detector.detect(images.frame(i, Sensor::kMono).image);
+    frames.push_back(std::move(observed));
     since.setZero();
     last_ns = frame.stamp_ns;
   }

@@ -10,7 +10,8 @@ void visit(OptionVisitor& field, FlightOptions& o) {
                 {0, 60});
   visit(field, o.marker_sensor);
   field.group("tracker", o.flow.tracker, "tracking of corners on the floor");
-  field.formerly("start").group("initialization", o.start, "uncertainty of the initial state");
+  field.formerly("start").group("initialization", o.initialization,
+                                "uncertainty of the initial state");
   field.basic().group("filter", o.filter, "sensor noise and gates of the position filter");
   field.basic()("map_interval_s", o.map_interval_s,
                 "time between images that are searched completely for markers to map [s]", {0, 60});

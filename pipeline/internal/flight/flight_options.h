@@ -52,15 +52,15 @@ struct MarkerMapOptions {
 };
 void visit(OptionVisitor& field, MarkerMapOptions& options);
 
-/// Options of `placegraph flight run`: those of FlightEstimator and of `map_flight_markers`. The keys of
-/// `flow` and `marker_sensor` are not in groups of their own.
+/// Options of `placegraph flight run`: those of FlightEstimator and of `map_flight_markers`. The
+/// keys of `flow` and `marker_sensor` are not in groups of their own.
 struct FlightOptions {
   double floor_z_m = 0;  ///< height of the level floor in the world
   FloorFlowOptions flow;
   /// Delay of a marker pose after its image, if it is computed on another computer [s].
   double marker_delay_s = 0;
   MarkerSensorOptions marker_sensor;
-  FlightInitializationOptions start;
+  FlightInitializationOptions initialization;
   PositionFilterOptions filter;
   /// Time between images that `map_flight_markers` searches completely.
   double map_interval_s = 0.2;

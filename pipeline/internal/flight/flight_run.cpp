@@ -13,7 +13,7 @@ FlightRun run_flight(const Dataset& images, const ImuRecording& imu, const SE3& 
   FlightEstimator estimator(options.flight, images.calibration(Sensor::kMono).camera, T_body_cam,
                             layout);
   const auto ahead_ns = static_cast<std::int64_t>(std::llround(1e9 * options.predict_ahead_s));
-  std::optional<BodyState> start = options.start;
+  std::optional<BodyState> start = options.initial_state;
   auto sample = imu.samples.begin();
   for (std::size_t i = 0; i < images.size(); ++i) {
     Frame frame;

@@ -20,7 +20,8 @@ struct FlightRunOptions {
   std::vector<TimeSpan> blind;  ///< intervals whose images are not searched for markers
   /// Time by which states are predicted beyond their image, from data up to the image [s].
   double predict_ahead_s = 0;
-  std::optional<BodyState> start;  ///< initial state; the run starts at the first image after it
+  std::optional<BodyState>
+      initial_state;  ///< initial state; the run starts at the first image after it
 };
 
 struct FlightRun {

@@ -219,7 +219,7 @@ MarkerMap map_markers(const std::vector<MarkerFrame>& frames, const MarkerLayout
   // The initialization is accurate, and a fixed marker late in the list must not be outweighed by
   // another one.
   PoseGraphOptions solver;
-  solver.start = PoseGraphInitialization::kFile;
+  solver.initialization = PoseGraphInitialization::kFile;
   const PoseGraphReport solved = optimize_pose_graph(std::move(map.graph), solver);
   map.graph = solved.graph;
   map.outcome = solved.outcome;

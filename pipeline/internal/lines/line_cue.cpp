@@ -1,9 +1,9 @@
 #include <placegraph/frontend/internal/lines/floor_from_lines.h>
 #include <placegraph/graph/internal/core/angle.h>
-#include <placegraph/pipeline/internal/lines/line_course.h>
 #include <placegraph/pipeline/internal/lines/line_cue.h>
 #include <placegraph/pipeline/internal/lines/line_prediction.h>
 #include <placegraph/pipeline/internal/lines/line_second_camera.h>
+#include <placegraph/pipeline/internal/lines/line_translation.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -32,7 +32,7 @@ void LineCue::reset() {
   at_keyframe_.clear();
   covariances_.clear();
   calibrated_.clear();
-  if (compass_) use_vanishing_directions();
+  if (vanishing_tracker_) use_vanishing_directions();
 }
 
 /// With its uncertainty taken into account, a line whose plane hardly rotated is useful if few
@@ -41,29 +41,31 @@ LineTriangulationOptions LineCue::triangulation(const SlidingWindow& window) con
   constexpr int kFew = 15;
   constexpr std::size_t kFewestSteered = 7;  // number of keyframes; not used during initialization
   LineTriangulationOptions options = options_.triangulation;
-  if (compass_ && window.keyframes().size() > kFewestSteered && followed(window) < kFew)
+  if (vanishing_tracker_ && window.keyframes().size() > kFewestSteered && followed(window) < kFew)
     options.min_rotation_deg =
         std::min(options.min_rotation_deg, options_.min_rotation_steered_deg);
   return options;
 }
 
-void LineCue::use_vanishing_directions() { compass_.emplace(options_.start.directions); }
+void LineCue::use_vanishing_directions() {
+  vanishing_tracker_.emplace(options_.initializer.directions);
+}
 
 /// Adds the rotation of a keyframe according to shared directions to the window.
 void LineCue::steer(KeyframeId keyframe, const LineView& seen, SlidingWindow& window) {
-  if (!compass_) return;
+  if (!vanishing_tracker_) return;
   constexpr double kSigmaRad = 0.02;
   const SE3 T_odom_cam = window.pose(keyframe);
   SO3 R_odom_cam = T_odom_cam.rotation();
-  const auto heading = compass_->read(calibration_.camera, seen, R_odom_cam, kSigmaRad);
-  if (heading.outcome) {
-    R_odom_cam = heading.R_ref_cam;
+  const auto measured = vanishing_tracker_->read(calibration_.camera, seen, R_odom_cam, kSigmaRad);
+  if (measured.outcome) {
+    R_odom_cam = measured.R_ref_cam;
     PosePrior prior{keyframe, SE3(R_odom_cam, T_odom_cam.translation()), Matrix6d::Zero()};
-    prior.information.bottomRightCorner<3, 3>() = heading.information;
+    prior.information.bottomRightCorner<3, 3>() = measured.information;
     add_pose_prior(window, prior);
   }
   Random random(0, static_cast<std::uint64_t>(keyframe.value()));
-  compass_->learn(calibration_.camera, seen, R_odom_cam, random);
+  vanishing_tracker_->learn(calibration_.camera, seen, R_odom_cam, random);
 }
 
 void LineCue::track(const Image& image, const SlidingWindow& window, const SE3& T_odom_cam,
@@ -96,20 +98,20 @@ void LineCue::follow_mergers() {
 
 /// The guess combined with the rotation from shared directions; nothing if they leave it
 /// underdetermined.
-std::optional<PoseGuess> LineCue::with_heading(const PoseGuess& guess) const {
+std::optional<PoseGuess> LineCue::with_line_rotation(const PoseGuess& guess) const {
   const Eigen::Matrix3d known = guess.information.bottomRightCorner<3, 3>();
   const double weakest = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(known).eigenvalues()[0];
   const double sigma_rad = weakest > 0 ? std::min(0.1, 1 / std::sqrt(weakest)) : 0.1;
-  const auto heading =
-      compass_->read(calibration_.camera, seen(), guess.T_ref_cam.rotation(), sigma_rad);
+  const auto measured =
+      vanishing_tracker_->read(calibration_.camera, seen(), guess.T_ref_cam.rotation(), sigma_rad);
   constexpr double kKnownRad = 0.01;
-  if (!heading.outcome ||
-      !(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(heading.information).eigenvalues()[0] >
+  if (!measured.outcome ||
+      !(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(measured.information).eigenvalues()[0] >
         1 / (kKnownRad * kKnownRad)))
     return std::nullopt;
-  const Eigen::Matrix3d both = known + heading.information;
+  const Eigen::Matrix3d both = known + measured.information;
   const Eigen::Vector3d correction = both.ldlt().solve(
-      heading.information * (guess.T_ref_cam.rotation().inverse() * heading.R_ref_cam).log());
+      measured.information * (guess.T_ref_cam.rotation().inverse() * measured.R_ref_cam).log());
   PoseGuess result{SE3(guess.T_ref_cam.rotation().plus(correction), guess.T_ref_cam.translation()),
                    guess.information};
   result.information.bottomRightCorner<3, 3>() = both;
@@ -134,7 +136,7 @@ PoseFromLines LineCue::pose(const SlidingWindow& window, const PoseGuess& guess,
           std::sqrt(std::max(0.0, 0.5 * (J * covariance->second * J.transpose()).trace())));
     lines.push_back(seen);
   }
-  const auto steered = compass_ ? with_heading(guess) : std::nullopt;
+  const auto steered = vanishing_tracker_ ? with_line_rotation(guess) : std::nullopt;
   PoseFromLinesOptions pose = options_.pose;
   // With a known rotation, three lines constrain the pose as well as six without.
   if (steered) pose.ransac.min_inliers = std::min(pose.ransac.min_inliers, 3);
@@ -250,7 +252,7 @@ void LineCue::observe_earlier(KeyframeId keyframe, const LineView& seen, Sliding
   add_observations(keyframe, now, window);
 }
 
-void LineCue::wait(const Frame& frame, const SE3& T_odom_start) {
+void LineCue::track_uninitialized(const Frame& frame, const SE3& T_odom_start) {
   T_odom_last_ = T_odom_start;
   constexpr double kAnyDepth = 1;
   track(frame.image, SlidingWindow({}, calibration_.camera), T_odom_start, kAnyDepth);
@@ -259,18 +261,18 @@ void LineCue::wait(const Frame& frame, const SE3& T_odom_start) {
 
 std::vector<SharedDirection> LineCue::shared_directions() const {
   std::vector<SharedDirection> shared;
-  if (!compass_) return shared;
-  for (const auto& cluster : compass_->clusters())
+  if (!vanishing_tracker_) return shared;
+  for (const auto& cluster : vanishing_tracker_->clusters())
     shared.push_back({cluster.d_ref, cluster.sigma_rad});
   return shared;
 }
 
 void LineCue::constrain_translation(KeyframeId keyframe, double depth,
                                     SlidingWindow& window) const {
-  if (!compass_) return;
-  for (const MotionObservation& motion :
-       course_along_lines(window, calibration_.camera, compass_->clusters(), observations_,
-                          keyframe, depth, deg_to_rad(options_.triangulation.min_rotation_deg)))
+  if (!vanishing_tracker_) return;
+  for (const MotionObservation& motion : translation_along_lines(
+           window, calibration_.camera, vanishing_tracker_->clusters(), observations_, keyframe,
+           depth, deg_to_rad(options_.triangulation.min_rotation_deg)))
     add_motion(window, motion);
 }
 

@@ -43,7 +43,7 @@ class LineCue {
   void use_vanishing_directions();
   /// Starts with an image, or tracks into it the edges found so far, while there is no window yet
   /// and the motion is unknown. New edges are tracked from here on.
-  void wait(const Frame& frame, const SE3& T_odom_start);
+  void track_uninitialized(const Frame& frame, const SE3& T_odom_start);
   /// Tracks in the newest image.
   LineView seen() const { return line_view(tracker_.tracks(), options_.sigma_floor_px); }
   /// Adds observations of an earlier keyframe to the window, for the initialization, in order of
@@ -88,7 +88,7 @@ class LineCue {
   void add_observations(KeyframeId keyframe, const std::map<LineId, LineInKeyframe>& now,
                         SlidingWindow& window);
   LineTriangulationOptions triangulation(const SlidingWindow& window) const;
-  std::optional<PoseGuess> with_heading(const PoseGuess& guess) const;
+  std::optional<PoseGuess> with_line_rotation(const PoseGuess& guess) const;
   void add_to_window(LineId id, const LineInKeyframe& line_in_keyframe,
                      SlidingWindow& window) const;
   void follow_mergers();
@@ -98,7 +98,7 @@ class LineCue {
   StereoMatcherOptions stereo_;
   Calibration calibration_;
   LineTracker tracker_;
-  std::optional<VanishingDirectionTracker> compass_;
+  std::optional<VanishingDirectionTracker> vanishing_tracker_;
   SE3 T_odom_last_;                // pose of the newest image, once accepted
   SE3 T_odom_before_;              // pose of the previous image
   LineObservations observations_;  // observations of current tracks

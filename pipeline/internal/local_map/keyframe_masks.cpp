@@ -14,7 +14,7 @@ KeyframeImages KeyframeMasks::apply(const Frame& frame) {
   if (!labeller_) return images;
   if (!labels_ || labels_->frame != frame.id) {
     const auto span = times_.measure("scene labels");
-    labels_ = std::make_shared<const SurfaceLabels>(labeller_->look(frame, masks_ && trusted_));
+    labels_ = std::make_shared<const SurfaceLabels>(labeller_->label(frame, masks_ && trusted_));
   }
   images.labels = labels_;
   const Image& use = labels_->masks.use;

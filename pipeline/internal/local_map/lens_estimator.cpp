@@ -29,18 +29,18 @@ double LensEstimator::k1() const {
 double LensEstimator::sigma_k1() const {
   constexpr double kWindows = 4;
   const double mean = k1();
-  double information = 0, squares = 0, scatter = 0;
+  double information = 0, squares = 0, dispersion = 0;
   for (const DistortionEvidence& window : windows_) {
     const double off = -window.gradient / window.information - mean;
     information += window.information;
     squares += window.information * window.information;
-    scatter += window.information * off * off;
+    dispersion += window.information * off * off;
   }
   // A few windows with much information, such as curves between straight roads, do not count as
   // many.
   const double windows = windows_.empty() ? 0 : information * information / squares;
   if (windows < kWindows) return std::numeric_limits<double>::infinity();
-  return std::sqrt(std::max(1.0, scatter / (windows - 1)) / information);
+  return std::sqrt(std::max(1.0, dispersion / (windows - 1)) / information);
 }
 
 double LensEstimator::effect() const {

@@ -31,7 +31,7 @@ void place_frame(const Map& map, const FrameRecord& record, Explanation& explana
       map.place_graph
           .joined_components()[static_cast<std::size_t>(position - map.place_graph.places.begin())];
   explanation.T_map_cam = SE3(S_map_cam.rotation(), S_map_cam.translation());
-  explanation.way_to_keyframe =
+  explanation.distance_to_keyframe =
       S_map_keyframe.scale() * record.T_keyframe_frame->translation().norm();
   if (const auto of_place = covariance_of(map.place_graph, place.id)) {
     const Matrix6d to_cam = (explanation.T_map_cam.inverse() * place.T_map_place).adjoint();

@@ -24,7 +24,7 @@ struct MapLocalizer::Impl {
   std::optional<RecognitionProbability> odds(bool sequence) const;
   std::vector<ViewEvidence> evidence(const std::vector<std::vector<PlaceSimilarity>>& lists,
                                      bool sequence) const;
-  Localization described(const ViewEstimate& answer, double probability) const;
+  Localization described(const ViewEstimate& estimate, double probability) const;
   std::optional<LocatedFrame> verify(const Frame& frame,
                                      const std::vector<PlaceSimilarity>& list) const;
   void take_geometry(const LocatedFrame& located, Localization& result) const;
@@ -169,10 +169,10 @@ std::optional<RecognitionProbability> MapLocalizer::Impl::odds(bool sequence) co
       const int view = begin + i;
       const auto index = static_cast<std::size_t>(i);
       const ViewEstimate not_near =
-          answer_of(of_far[index], near, [&](int other) { return !near(other, view); });
+          view_estimate(of_far[index], near, [&](int other) { return !near(other, view); });
       if (not_near.view >= 0) wrong.push_back(not_near);
       const ViewEstimate other =
-          answer_of(of_others[index], near, [&](int candidate) { return candidate != view; });
+          view_estimate(of_others[index], near, [&](int candidate) { return candidate != view; });
       if (other.view >= 0) right.push_back(other);
     }
   }
@@ -180,11 +180,11 @@ std::optional<RecognitionProbability> MapLocalizer::Impl::odds(bool sequence) co
   return RecognitionProbability(wrong, right);
 }
 
-Localization MapLocalizer::Impl::described(const ViewEstimate& answer, double probability) const {
+Localization MapLocalizer::Impl::described(const ViewEstimate& estimate, double probability) const {
   Localization result;
   result.stage = "blank";
-  if (answer.view < 0) return result;
-  const Keyframe& keyframe = keyframe_of(answer.view);
+  if (estimate.view < 0) return result;
+  const Keyframe& keyframe = keyframe_of(estimate.view);
   result.place = keyframe.place;
   result.keyframe = keyframe.id;
   result.frame = keyframe.frame;
@@ -209,20 +209,20 @@ std::vector<Localization> MapLocalizer::Impl::localize(std::size_t count, const 
     verified.push_back(hindrances.back().empty() ? verify(frame, lists.back()) : std::nullopt);
   }
   const NearViews near = [this](int a, int b) { return this->near(a, b); };
-  std::vector<ViewEstimate> answers;
+  std::vector<ViewEstimate> estimates;
   for (const ViewEvidence& of_image : evidence(lists, sequence))
-    answers.push_back(answer_of(of_image, near, [](int) { return true; }));
+    estimates.push_back(view_estimate(of_image, near, [](int) { return true; }));
   // The range of the filter.
   const int reach =
       sequence ? static_cast<int>(std::lround(1 / (1 - options_.sequence.memory))) : 0;
   const auto calibration = odds(sequence);
   const std::vector<double> probabilities = calibration
-                                                ? calibration->probabilities(answers, near, reach)
+                                                ? calibration->probabilities(estimates, near, reach)
                                                 : std::vector<double>(count, 0.5);
   std::vector<Localization> result;
   for (std::size_t i = 0; i < count; ++i) {
-    result.push_back(described(answers[i], probabilities[i]));
-    if (!calibration && answers[i].view >= 0) result.back().stage = "calibration";
+    result.push_back(described(estimates[i], probabilities[i]));
+    if (!calibration && estimates[i].view >= 0) result.back().stage = "calibration";
     if (verified[i]) take_geometry(*verified[i], result.back());
     if (result.back().placed && !result.back().T_map_cam)
       result.back().without_pose =

@@ -16,7 +16,7 @@ Initialization FirstFrameInitializer::add(const Frame& frame, const std::optiona
     // Neither the keyframe nor its few landmarks belong to the map.
     map.discard(median_depth);
     tracker_.reset();
-    return Initialization::waiting(outcome);
+    return Initialization::pending(outcome);
   }
   Initialization begun;
   begun.state = TrackingState::kTracking;

@@ -22,7 +22,7 @@ struct Initialization {
   /// Converts the result to an update of the odometry; the pose of a map that has begun is still
   /// missing.
   OdometryUpdate update() const;
-  static Initialization waiting(Outcome outcome) {
+  static Initialization pending(Outcome outcome) {
     Initialization result;
     result.outcome = std::move(outcome);
     return result;

@@ -26,7 +26,7 @@ KeyframeId nth_keyframe(const LocalMap& map, std::size_t n) {
 LineViewInitializer::LineViewInitializer(const OdometryOptions& options,
                                          const Calibration& calibration, std::uint64_t seed,
                                          FeatureTracker& tracker, LogSink log)
-    : options_(options.lines.start),
+    : options_(options.lines.initializer),
       camera_(calibration.camera),
       seed_(seed),
       tracker_(tracker),
@@ -40,11 +40,11 @@ void LineViewInitializer::restart(const SE3& T_odom_cam) {
 /// Takes the frame as the first view.
 Initialization LineViewInitializer::begin(const Frame& frame) {
   LineCue& lines = *tracker_.lines();
-  lines.wait(frame, T_odom_start_);
+  lines.track_uninitialized(frame, T_odom_start_);
   LineView seen = lines.seen();
   if (static_cast<int>(seen.size()) < options_.min_lines) {
     lines.reset();  // a dark or empty frame cannot be the first view
-    return Initialization::waiting(Outcome::failure(
+    return Initialization::pending(Outcome::failure(
         Outcome::Code::kTooFewData,
         fmt::format("{} lines to follow, {} needed to begin", seen.size(), options_.min_lines)));
   }
@@ -61,7 +61,7 @@ Initialization LineViewInitializer::add(const Frame& frame, const std::optional<
   if (!started()) return begin(frame);
   LineCue& lines = *tracker_.lines();
   const LineCue before = lines;
-  lines.wait(frame, T_odom_start_);
+  lines.track_uninitialized(frame, T_odom_start_);
   views_.push_back({frame, lines.seen()});
   if (!enough_in_common()) {
     Initialization result = replace_reference(frame, T_known, map);
@@ -70,25 +70,25 @@ Initialization LineViewInitializer::add(const Frame& frame, const std::optional<
   }
   // While the camera stands still, additional views provide no information.
   if (views_.size() > kMostViews) views_.erase(views_.begin() + 1);
-  const Initialization waits = Initialization::waiting(
-      Outcome::failure(Outcome::Code::kTooFewData, "waits for more views of the lines"));
-  if (views_.size() < kLeastViews) return waits;
+  const Initialization pending = Initialization::pending(
+      Outcome::failure(Outcome::Code::kTooFewData, "more views of the lines are needed"));
+  if (views_.size() < kLeastViews) return pending;
   const LineInitialization start = motion_of_views(static_cast<std::uint64_t>(frame.id.value()));
   const std::vector<double> depths = depths_of(start);
   if (!start.outcome || depths.empty()) {
-    log(log_, LogLevel::kDebug, "initialization waits: {}", start.outcome.reason);
-    return start.outcome ? waits : Initialization::waiting(start.outcome);
+    log(log_, LogLevel::kDebug, "initialization pending: {}", start.outcome.reason);
+    return start.outcome ? pending : Initialization::pending(start.outcome);
   }
   const auto scale = scale_of(median_of(depths), T_known, map, mapping);
   if (!scale) {
     const Outcome no_scale = no_scale_of_map();
-    log(log_, LogLevel::kDebug, "initialization waits: {}", no_scale.reason);
-    return Initialization::waiting(no_scale);
+    log(log_, LogLevel::kDebug, "initialization pending: {}", no_scale.reason);
+    return Initialization::pending(no_scale);
   }
   const std::vector<std::size_t> chosen = spread(views_.size(), kKeyframes);
   if (!(*scale > 0) ||
       !add_keyframes(chosen, start, *scale, *scale * median_of(depths), map, mapping))
-    return waits;
+    return pending;
   return accept(chosen, start, map, mapping);
 }
 
@@ -225,7 +225,7 @@ Initialization LineViewInitializer::replace_reference(const Frame& frame,
   tracker_.lines()->reset();
   views_.clear();
   if (map.scale() == Scale::kFromMap && !T_known) {
-    Initialization lost = Initialization::waiting(outcome);
+    Initialization lost = Initialization::pending(outcome);
     lost.state = TrackingState::kLost;
     return lost;
   }

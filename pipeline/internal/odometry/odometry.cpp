@@ -94,7 +94,7 @@ void Odometry::set_motion(std::shared_ptr<const MeasuredMotion> motion_cam) {
 
 void Odometry::set_scene(std::shared_ptr<const SurfaceLabeller> labeller, bool masks) {
   // Surfaces that are tracked by their intensities alone are not masked.
-  if (!parse_cues(options_.cues).surfaces_alone())
+  if (!parse_cues(options_.cues).without_features())
     mapping_.masks().set_model(std::move(labeller), masks);
 }
 

@@ -32,12 +32,12 @@ TrackerAndInitializer make_tracker(const OdometryOptions& options, const Calibra
   const bool metric = metric_from_start(cues, calibration);
   require(calibration.camera.distortion == Distortion::kNone,
           "calibration.camera: undistorted images needed (rectify them first)");
-  require(!cues.surfaces_alone() || metric,
+  require(!cues.without_features() || metric,
           "cues: surfaces without points require a right camera, depth or the camera's height");
   require(!cues.direct || metric || calibration.camera_height_m,
           "cues: direct requires a right camera, depth or the camera's height");
   TrackerAndInitializer parts;
-  if (cues.surfaces_alone()) {
+  if (cues.without_features()) {
     parts.tracker = std::make_unique<DirectTracker>(options, calibration, seed, log, times);
     parts.initializer = std::make_unique<FirstFrameInitializer>(*parts.tracker, log);
     return parts;

@@ -62,7 +62,7 @@ Initialization TwoViewInitializer::begin(const Frame& frame, LocalMapping& mappi
   const int tracks = static_cast<int>(points.tracks().size());
   if (tracks < 2 * options_.initializer.min_points) {
     points.drop_tracks();  // a dark or empty frame cannot be the first view
-    return Initialization::waiting(Outcome::failure(
+    return Initialization::pending(Outcome::failure(
         Outcome::Code::kTooFewData, fmt::format("{} points to track, {} needed to begin", tracks,
                                                 2 * options_.initializer.min_points)));
   }
@@ -86,21 +86,21 @@ Initialization TwoViewInitializer::try_second_view(const Frame& frame,
   if (start.outcome && rotation())
     start.outcome = Outcome::failure(Outcome::Code::kDegenerate, "a rotation explains the views");
   if (!start.outcome) {
-    log(log_, LogLevel::kDebug, "initialization waits: {}", start.outcome.reason);
-    return wait(frame, start.outcome, random);
+    log(log_, LogLevel::kDebug, "initialization pending: {}", start.outcome.reason);
+    return add_pending(frame, start.outcome, random);
   }
   const auto scale = scale_of(start, T_known, map, mapping);
   if (!scale) {
     const Outcome no_scale = no_scale_of_map();
-    log(log_, LogLevel::kDebug, "initialization waits: {}", no_scale.reason);
-    return Initialization::waiting(no_scale);
+    log(log_, LogLevel::kDebug, "initialization pending: {}", no_scale.reason);
+    return Initialization::pending(no_scale);
   }
   if (!(*scale > 0)) return {};
   return accept(frame, start, *scale, random, map, mapping);
 }
 
 /// Some views between the first and the newest one, used to test the motion, with tracks of the
-/// newest; a few are sufficient for any waiting time.
+/// newest; a few are sufficient for any time until then.
 std::vector<PartialView> TwoViewInitializer::views_between() const {
   constexpr std::size_t kJudges = 16;
   std::map<LandmarkId, int> index;
@@ -209,8 +209,9 @@ std::vector<PosedFrame> TwoViewInitializer::pose_views_between(const LocalMap& m
 }
 
 /// Handles a frame before the second view is found: its pose is that of its rotation.
-Initialization TwoViewInitializer::wait(const Frame& frame, Outcome outcome, Random& random) {
-  Initialization result = Initialization::waiting(std::move(outcome));
+Initialization TwoViewInitializer::add_pending(const Frame& frame, Outcome outcome,
+                                               Random& random) {
+  Initialization result = Initialization::pending(std::move(outcome));
   result.rotation = tracker_.rotation_since(views_.front().px, random);
   if (!result.rotation) return result;
   rotated_.emplace_back(frame.id, T_odom_start_ * SE3(result.rotation->R_before_cam, {0, 0, 0}));
@@ -236,7 +237,7 @@ Initialization TwoViewInitializer::replace_reference(const Frame& frame,
   views_.clear();
   tracker_.points().drop_tracks();
   if (map.scale() == Scale::kFromMap && !T_known && !rotation) {
-    Initialization lost = Initialization::waiting(outcome);
+    Initialization lost = Initialization::pending(outcome);
     lost.state = TrackingState::kLost;
     return lost;
   }

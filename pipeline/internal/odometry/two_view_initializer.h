@@ -35,7 +35,7 @@ class TwoViewInitializer : public Initializer {
   Initialization accept(const Frame& frame, const MonoInitialization& start, double scale,
                         Random& random, LocalMap& map, LocalMapping& mapping);
   std::vector<PosedFrame> pose_views_between(const LocalMap& map, Random& random) const;
-  Initialization wait(const Frame& frame, Outcome outcome, Random& random);
+  Initialization add_pending(const Frame& frame, Outcome outcome, Random& random);
   Initialization replace_reference(const Frame& frame, const std::optional<SE3>& T_known,
                                    const std::optional<PureRotation>& rotation, LocalMap& map,
                                    LocalMapping& mapping);

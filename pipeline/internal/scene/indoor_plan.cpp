@@ -94,8 +94,8 @@ std::vector<IndoorDoor> plan_doors(const std::vector<DoorPiece>& doors, const Ro
     door.height_m = piece.head_m, door.closed = piece.closed;
     const double middle = 0.5 * (piece.from_m + piece.to_m);
     for (int side = 0; side < 2; ++side)
-      for (const double way : {0.1, 0.2, 0.35, 0.5}) {
-        const double at = piece.offset_m + piece.sign * (side ? -way - 0.1 : way);
+      for (const double distance : {0.1, 0.2, 0.35, 0.5}) {
+        const double at = piece.offset_m + piece.sign * (side ? -distance - 0.1 : distance);
         if (!door.rooms[side])
           door.rooms[side] = room_at(rooms, voxels, on(piece.axis, at, middle));
       }

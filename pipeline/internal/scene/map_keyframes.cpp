@@ -5,7 +5,7 @@
 namespace placegraph {
 namespace {
 
-KeyframePoses looked_up(std::map<KeyframeId, SE3> poses) {
+KeyframePoses fetched(std::map<KeyframeId, SE3> poses) {
   return [poses = std::move(poses)](KeyframeId keyframe) -> std::optional<SE3> {
     const auto found = poses.find(keyframe);
     if (found == poses.end()) return std::nullopt;
@@ -35,7 +35,7 @@ KeyframePoses poses_of(const Map& map) {
   std::map<KeyframeId, SE3> poses;
   for (const KeyframeId keyframe : connected_keyframes(map))
     poses.emplace(keyframe, camera_pose(map, keyframe));
-  return looked_up(std::move(poses));
+  return fetched(std::move(poses));
 }
 
 KeyframePoses online_poses_of(const Map& map) {
@@ -46,7 +46,7 @@ KeyframePoses online_poses_of(const Map& map) {
   for (const Keyframe& keyframe : map.keyframes)
     if (const auto found = by_stamp.find(keyframe.stamp_ns); found != by_stamp.end())
       poses.emplace(keyframe.id, found->second);
-  return looked_up(std::move(poses));
+  return fetched(std::move(poses));
 }
 
 std::vector<const Keyframe*> keyframes_apart(const Map& map, double step_m, double rotation_rad) {

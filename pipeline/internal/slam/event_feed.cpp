@@ -58,16 +58,16 @@ void EventFeed::places_changed(const PlaceMapper& mapper, double scale) {
 
 void EventFeed::loops_decided(const std::vector<LoopRecord>& records) {
   if (!events_) return;
-  constexpr std::size_t kMostWaiting = 1000;  // support arrives within some keyframes or never
-  while (waiting_.size() > kMostWaiting) waiting_.erase(waiting_.begin());
-  for (auto record = waiting_.begin(); record != waiting_.end();) {
+  constexpr std::size_t kMostPending = 1000;  // support arrives within some keyframes or never
+  while (pending_.size() > kMostPending) pending_.erase(pending_.begin());
+  for (auto record = pending_.begin(); record != pending_.end();) {
     const bool accepted = records[*record].accepted();
     if (accepted) events_->loop_accepted(records[*record]);
-    record = accepted ? waiting_.erase(record) : std::next(record);
+    record = accepted ? pending_.erase(record) : std::next(record);
   }
   for (; records_ < records.size(); ++records_) {
     const LoopRecord& record = records[records_];
-    if (record.stage == LoopStage::kSupport) waiting_.insert(records_);
+    if (record.stage == LoopStage::kSupport) pending_.insert(records_);
     record.accepted() ? events_->loop_accepted(record) : events_->loop_refused(record);
   }
 }

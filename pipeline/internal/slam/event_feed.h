@@ -44,7 +44,7 @@ class EventFeed {
   SlamEvents* events_;
   Places places_;                  // places as last reported
   std::size_t records_ = 0;        // number of loops that were reported
-  std::set<std::size_t> waiting_;  // newest records that were reported as waiting for a second loop
+  std::set<std::size_t> pending_;  // newest records that were reported as waiting for a second loop
 };
 
 }  // namespace placegraph

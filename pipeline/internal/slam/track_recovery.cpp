@@ -122,8 +122,9 @@ OdometryUpdate TrackRecovery::restart(const Frame& frame, std::optional<LocatedF
 std::optional<LocatedFrame> TrackRecovery::pose_without_tracking(
     const Frame& frame, const std::optional<LocatedFrame>& located, const OdometryUpdate& update,
     const KnownMap& known, const Odometry& odometry) {
-  const bool waits = update.state == TrackingState::kInitializing;
-  if (!anchor_ || !waits || (!located && lost_in_a_row_ == 0)) return by_motion(frame, known);
+  const bool initializing = update.state == TrackingState::kInitializing;
+  if (!anchor_ || !initializing || (!located && lost_in_a_row_ == 0))
+    return by_motion(frame, known);
   const LocatedFrame at = located ? *located : *anchor_;
   if (motion_ && !odometry.started()) anchor_.reset();
   if (located || update.reference) return at;

@@ -40,14 +40,14 @@ Cues parse_cues(const std::string& names) {
     require(seen.insert(name).second, "cues: '" + name + "' is named twice");
     cues.*known->cue = true;
   }
-  require(cues.points || cues.lines || cues.surfaces_alone(),
+  require(cues.points || cues.lines || cues.without_features(),
           "cues: one of points, lines, plane, direct is needed, got '" + names + "'");
   return cues;
 }
 
 bool metric_from_start(const Cues& cues, const Calibration& calibration) {
   return calibration.baseline_m > 0 || calibration.depth ||
-         (cues.surfaces_alone() && calibration.camera_height_m);
+         (cues.without_features() && calibration.camera_height_m);
 }
 
 }  // namespace placegraph

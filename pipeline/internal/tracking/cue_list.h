@@ -16,7 +16,7 @@ struct Cues {
   bool direct = false;     ///< intensities of several planes, aligned jointly
 
   /// Whether intensities of surfaces are the only cue.
-  bool surfaces_alone() const { return !points && !lines && (plane || direct); }
+  bool without_features() const { return !points && !lines && (plane || direct); }
 };
 
 /// Parses names joined by commas, as in "points,plane". Throws ArgumentError for an unknown name,

@@ -73,14 +73,16 @@ TrackedFrame FeatureTracker::track(const Frame& frame, const LocalMap& map,
     return tracked;
   }
   points_.keep(keep);
-  const auto heading = rotation_from_manhattan(frame, tracked.T_odom_cam, tracked.inliers, map);
-  tracked.T_odom_cam = with_heading(tracked.T_odom_cam, information, heading, window);
+  const auto manhattan_rotation =
+      rotation_from_manhattan(frame, tracked.T_odom_cam, tracked.inliers, map);
+  tracked.T_odom_cam =
+      with_manhattan_rotation(tracked.T_odom_cam, information, manhattan_rotation, window);
   selector_.count_frame();
   tracked.keyframe_due = keyframe_due(tracked.T_odom_cam, tracked.inliers, map);
   if (!tracked.keyframe_due)
     intermediate_.remember({frame.id,
                             map.window().pose(map.newest()).inverse() * tracked.T_odom_cam,
-                            points_.landmark_pixels(window), heading});
+                            points_.landmark_pixels(window), manhattan_rotation});
   return tracked;
 }
 
@@ -88,7 +90,8 @@ TrackedFrame FeatureTracker::track(const Frame& frame, const LocalMap& map,
 std::optional<ManhattanCue::RotationEstimate> FeatureTracker::rotation_from_manhattan(
     const Frame& frame, const SE3& T_odom_cam, int inliers, const LocalMap& map) const {
   if (!manhattan() || inliers >= options_.manhattan.few_points) return std::nullopt;
-  return manhattan_->heading(frame.image, T_odom_cam.rotation(), map.window(), map.newest());
+  return manhattan_->manhattan_rotation(frame.image, T_odom_cam.rotation(), map.window(),
+                                        map.newest());
 }
 
 bool FeatureTracker::keyframe_due(const SE3& T_odom_cam, int inliers, const LocalMap& map) const {

@@ -33,8 +33,8 @@ std::vector<std::pair<FrameId, SE3>> IntermediateFrames::repose(const LocalMap& 
     Matrix6d normal;
     const SE3 by_points = refine_pose_3d2d(camera_, points, px, all, T_odom_before,
                                            options_.threshold_px, kIterations, &normal);
-    const SE3 T_odom_cam =
-        with_heading(by_points, normal / (kSigmaPx * kSigmaPx), frame.heading, window);
+    const SE3 T_odom_cam = with_manhattan_rotation(by_points, normal / (kSigmaPx * kSigmaPx),
+                                                   frame.manhattan_rotation, window);
     if (T_odom_cam.matrix().allFinite()) posed.emplace_back(frame.frame, T_odom_cam);
   }
   frames_.clear();

@@ -23,7 +23,8 @@ class IntermediateFrames {
     FrameId frame;
     SE3 T_keyframe_cam;  ///< relative to the last keyframe
     std::vector<std::pair<LandmarkId, Eigen::Vector2d>> landmark_px;
-    std::optional<ManhattanCue::RotationEstimate> heading;  ///< observation of a Manhattan frame
+    std::optional<ManhattanCue::RotationEstimate>
+        manhattan_rotation;  ///< observation of a Manhattan frame
   };
   void remember(Tracked frame) { frames_.push_back(std::move(frame)); }
   /// Corrects the drift of tracks, which reference patches reveal at the next keyframe, by an equal

@@ -17,7 +17,7 @@ void expect_near_the_batch(const PoseGraph& graph) {
       optimize_incrementally(graph, {}, [&](int steps, const IncrementalOptimizer& optimizer) {
         if (steps % 100 != 0) return;
         PoseGraphOptions options;
-        options.start = PoseGraphInitialization::kFile;
+        options.initialization = PoseGraphInitialization::kFile;
         const PoseGraphReport batch = optimize_pose_graph(optimizer.graph(), options);
         EXPECT_TRUE(batch.outcome) << batch.outcome.reason;
         // A walk without a loop yet costs nothing but rounding.

@@ -16,7 +16,7 @@ using namespace synthetic;
 
 PoseGraphReport optimize_from(const PoseGraph& graph, PoseGraphInitialization start) {
   PoseGraphOptions options;
-  options.start = start;
+  options.initialization = start;
   return optimize_pose_graph(graph, options);
 }
 

@@ -13,6 +13,7 @@
 #include <set>
 
 #include "apps/shell/cmd_tree.h"
+#include "apps/shell/command_reference.h"
 #include "apps/shell/completion.h"
 #include "apps/shell/man_pages.h"
 #include "apps/shell/spellings.h"
@@ -137,6 +138,12 @@ TEST_F(CommandLine, ThereIsAManualPageForEveryCommand) {
     std::replace(name.begin(), name.end(), ' ', '-');
     EXPECT_TRUE(names.contains(name + ".1")) << name;
   });
+}
+
+TEST_F(CommandLine, TheReferenceOfCommandsIsTheOneThatTheProgramWrites) {
+  EXPECT_EQ(test::read_file(test::source_dir() + "/docs/commands.md"),
+            apps::command_reference(*app))
+      << "run `placegraph man docs --markdown`";
 }
 
 TEST_F(CommandLine, ChoicesOfCompletionArePlainWords) {

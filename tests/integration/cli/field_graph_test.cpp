@@ -24,7 +24,7 @@ class FieldGraphs : public test::CliTest {
     const CommandResult result =
         run("optimize " + path + " -o out.g2o --force --quiet --json " + options);
     EXPECT_EQ(result.code, 0) << result.err;
-    said = result.err;
+    printed = result.err;
     return result.code == 0 ? json::parse(result.out) : json();
   }
   std::vector<std::pair<int, int>> rejected(const json& report) const {
@@ -33,7 +33,7 @@ class FieldGraphs : public test::CliTest {
     std::ranges::sort(edges);
     return edges;
   }
-  std::string said;
+  std::string printed;
 };
 
 /// A walk of 40 steps round a square, with noise of `factor` times what the information promises as
@@ -122,12 +122,12 @@ TEST_F(FieldGraphs, TooFewLoopsAreNotJudgedAndThatIsSaid) {
     const json report = optimize("square.g2o", "--robust auto");
     EXPECT_THAT(rejected(report), IsEmpty());
     EXPECT_FALSE(report["loops_judged"].get<bool>());
-    EXPECT_THAT(said, HasSubstr("too few loops agree to know the noise's scale"));
+    EXPECT_THAT(printed, HasSubstr("too few loops agree to know the noise's scale"));
   }
   // Without any there is nothing to judge.
   test::write_file(dir / "chain.g2o", noisy_square(1, {}, {}));
   EXPECT_TRUE(optimize("chain.g2o", "--robust auto")["loops_judged"].get<bool>());
-  EXPECT_THAT(said, IsEmpty());
+  EXPECT_THAT(printed, IsEmpty());
 }
 
 /// A square of four poses and a fifth that hangs on the last by one edge with this information.
@@ -147,7 +147,7 @@ TEST_F(FieldGraphs, AMinimumThatIsNotUniqueIsReportedFromEveryStart) {
     const json report = optimize(file("graph_lower_triangle_information/lower.g2o"), options);
     EXPECT_EQ(report["free_directions"], 57 - 42) << options;
     EXPECT_EQ(report["free_vertices"].size(), 19u) << options;
-    EXPECT_THAT(said, HasSubstr("the minimum is not unique")) << options;
+    EXPECT_THAT(printed, HasSubstr("the minimum is not unique")) << options;
   }
 }
 
@@ -157,14 +157,14 @@ TEST_F(FieldGraphs, FreeDirectionsAreReportedWithTheirVertices) {
   json report = optimize("tail.g2o");
   EXPECT_EQ(report["free_directions"], 1);
   EXPECT_EQ(report["free_vertices"], json({7}));
-  EXPECT_THAT(said, HasSubstr("1 directions free, at 1 vertices (7)"));
+  EXPECT_THAT(printed, HasSubstr("1 directions free, at 1 vertices (7)"));
   // Nor its direction.
   test::write_file(dir / "tail.g2o", square_with_tail("100 0 0 0 0 0"));
   EXPECT_EQ(optimize("tail.g2o")["free_directions"], 2);
   test::write_file(dir / "tail.g2o", square_with_tail("100 0 0 1e-3 0 400"));
   report = optimize("tail.g2o");
   EXPECT_EQ(report["free_directions"], 0);
-  EXPECT_THAT(said, IsEmpty());
+  EXPECT_THAT(printed, IsEmpty());
 }
 
 TEST_F(FieldGraphs, InformationIsSemiDefiniteWithinItsPrintedDigits) {
@@ -193,16 +193,16 @@ TEST_F(FieldGraphs, WordsBehindTheNumbersAreNoPartOfThem) {
   const std::string folder = "graph_words_behind_the_numbers/";
   EXPECT_NEAR(optimize(file(folder + "comment.g2o"))["chi2_log"].get<double>(), 4.446071, 1e-5);
   EXPECT_NEAR(optimize(file(folder + "stamps.g2o"))["chi2_log"].get<double>(), 4.446071, 1e-5);
-  EXPECT_THAT(said, HasSubstr("20 vertices have one more number after the pose"));
+  EXPECT_THAT(printed, HasSubstr("20 vertices have one more number after the pose"));
 }
 
 TEST_F(FieldGraphs, TimeStampsBehindVerticesArePassedOverAndThatIsSaid) {
   test::write_file(dir / "stamps.g2o", three_poses({" 1403.5", " 1403.6", " 1403.7"}));
   optimize("stamps.g2o");
-  EXPECT_THAT(said, HasSubstr("3 vertices have one more number"));
+  EXPECT_THAT(printed, HasSubstr("3 vertices have one more number"));
   EXPECT_THAT(run("graph convert stamps.g2o plain.g2o").err, HasSubstr("was skipped"));
   optimize("plain.g2o");
-  EXPECT_THAT(said, IsEmpty());
+  EXPECT_THAT(printed, IsEmpty());
   // Where it may be a part of the pose it is refused, and where nobody would say so.
   const auto refuses = [&](const std::string& text, const char* message) {
     test::write_file(dir / "odd.g2o", text);

@@ -35,9 +35,9 @@ class InterruptedRun : public test::CliTest {
 
 TEST_F(InterruptedRun, WritesItsResultsAndSaysHowToContinue) {
   EXPECT_EQ(run_and_send("INT"), 130);
-  const std::string said = test::read_file(dir / "stderr");
-  EXPECT_THAT(said, HasSubstr("placegraph: interrupted after "));
-  EXPECT_THAT(said, HasSubstr(" of 240 frames; continue with: placegraph run --resume out\n"));
+  const std::string printed = test::read_file(dir / "stderr");
+  EXPECT_THAT(printed, HasSubstr("placegraph: interrupted after "));
+  EXPECT_THAT(printed, HasSubstr(" of 240 frames; continue with: placegraph run --resume out\n"));
   const std::string path = dir / "out/trajectory_optimized.kitti";
   const std::size_t frames = read_trajectory(path).size();
   EXPECT_GT(frames, 0u);

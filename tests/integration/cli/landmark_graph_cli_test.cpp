@@ -20,7 +20,7 @@ class LandmarkGraphs : public test::CliTest {
     const CommandResult result =
         run("optimize " + path + " -o out.g2o --force --quiet --json " + options);
     EXPECT_EQ(result.code, 0) << result.err;
-    said = result.err;
+    printed = result.err;
     return result.code == 0 ? json::parse(result.out) : json();
   }
   /// The numbers behind a tag and an id of the written graph.
@@ -38,7 +38,7 @@ class LandmarkGraphs : public test::CliTest {
     ADD_FAILURE() << "no " << tag << " " << id;
     return {};
   }
-  std::string said;
+  std::string printed;
 };
 
 std::string numbers_of(const SE3& T) {
@@ -188,12 +188,12 @@ TEST_F(LandmarkGraphs, TellDirectionsThatNothingHolds) {
   json report = optimize("ray.g2o");
   EXPECT_EQ(report["free_directions"], 1);
   EXPECT_EQ(report["free_vertices"], json({20}));
-  EXPECT_THAT(said, HasSubstr("1 directions free, at 1 vertices (20)"));
+  EXPECT_THAT(printed, HasSubstr("1 directions free, at 1 vertices (20)"));
   // A second one from elsewhere places it.
   dir.write("rays.g2o", square_with_points("EDGE_SE2_XY 1 20 3 4 16 -12 9\n"
                                            "EDGE_SE2_XY 2 20 3 4 16 -12 9\n"));
   EXPECT_EQ(optimize("rays.g2o")["free_directions"], 0);
-  EXPECT_EQ(said, "");
+  EXPECT_EQ(printed, "");
   // One measured position leaves the heading of all.
   dir.write("position.g2o", square_with_points("EDGE_PRIOR_SE2_XY 3 7 7 4 0 4\n"));
   report = optimize("position.g2o", "--engine ceres");
@@ -232,12 +232,12 @@ TEST_F(LandmarkGraphs, SayWhichPartsNothingTiesToTheWorld) {
   const json report = optimize("parts.g2o");
   EXPECT_EQ(report["components"], 2);
   EXPECT_EQ(report["held_vertices"], json::array({30}));
-  EXPECT_THAT(said, HasSubstr("falls into 2 components"));
+  EXPECT_THAT(printed, HasSubstr("falls into 2 components"));
   dir.write("parts.g2o", square_with_points(apart + "FIX 31\n"));
   EXPECT_EQ(optimize("parts.g2o")["held_vertices"], json::array({0}));
   dir.write("whole.g2o", square_with_points("VERTEX_XY 40 1 1\n"));  // that nobody sees
   EXPECT_EQ(optimize("whole.g2o")["components"], 1);
-  EXPECT_EQ(said, "");
+  EXPECT_EQ(printed, "");
 }
 
 TEST_F(LandmarkGraphs, SayWhatIsWrongAndWhere) {

@@ -36,7 +36,7 @@ class MotionCli : public test::CliTest {
     dir.write("seen.txt", seen.str());
     dir.write("pairs.txt", pairs.str());
   }
-  json answer(const std::string& arguments) {
+  json estimate(const std::string& arguments) {
     const CommandResult result = run("image motion " + arguments + " --json");
     EXPECT_EQ(result.code, 0) << result.err;
     return json::parse(result.out);
@@ -69,21 +69,21 @@ TEST_F(MotionCli, TellsTheMotionByEveryModelThatFits) {
   for (const char* model :
        {"auto", "essential", "gravity --gravity 0,1,0", "gravity --gravity 0,1,0,0,2,0"}) {
     SCOPED_TRACE(model);
-    const json report = answer(std::string("matches.txt --calib K.txt --method ") + model);
+    const json report = estimate(std::string("matches.txt --calib K.txt --method ") + model);
     expect_truth(report);
     EXPECT_EQ(report["covariance"].size(), 6u);
   }
-  const json circle = answer("matches.txt --calib K.txt --method circular");
+  const json circle = estimate("matches.txt --calib K.txt --method circular");
   expect_truth(circle);
   EXPECT_NEAR(circle["yaw_rad"], 0.1, 1e-5);
   EXPECT_TRUE(circle["covariance"].is_null());
-  EXPECT_EQ(answer("matches.txt --calib K.txt")["model"], "essential");
+  EXPECT_EQ(estimate("matches.txt --calib K.txt")["model"], "essential");
 }
 
 TEST_F(MotionCli, TellsMetresByPointsOfKnownPlace) {
   for (const char* form : {"seen.txt --calib K.txt --method 3d2d", "pairs.txt --method 3d3d"}) {
     SCOPED_TRACE(form);
-    const json report = answer(form);
+    const json report = estimate(form);
     EXPECT_TRUE(report["metric"].get<bool>());
     expect_truth(report);
   }
@@ -99,7 +99,7 @@ TEST_F(MotionCli, ReportsARotationWithoutATranslation) {
     if (const auto px = camera_.project(pure_rotation.inverse() * p))
       text << camera_.project(p)->transpose() << ' ' << px->transpose() << '\n';
   dir.write("turn.txt", text.str());
-  const json report = answer("turn.txt --calib K.txt");
+  const json report = estimate("turn.txt --calib K.txt");
   EXPECT_EQ(report["model"], "rotation");
   EXPECT_TRUE(report["T_ref_cur"].is_null());
   EXPECT_TRUE(report["t_ref_cur"].is_null());

@@ -4,7 +4,7 @@
 #include "tests/support/cli_test.h"
 #include "tests/support/data.h"
 #include "tests/support/pictures.h"
-#include "tests/support/scenes/scene_pictures.h"
+#include "tests/support/scenes/scene_images.h"
 
 namespace placegraph {
 namespace {

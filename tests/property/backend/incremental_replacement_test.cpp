@@ -5,13 +5,13 @@
 
 #include <algorithm>
 
-#include "tests/support/scenes/growing_walk.h"
+#include "tests/support/scenes/incremental_walk.h"
 
 /// Constraints that are replaced and removed all the time, against the batch optimum.
 namespace placegraph {
 namespace {
 
-using test::GrowingWalk;
+using test::IncrementalWalk;
 
 constexpr double kNoise = 0.03;
 
@@ -35,7 +35,7 @@ TYPED_TEST(IncrementalReplacement, HundredsOfReplacedConstraintsEndAtTheBatchOpt
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     Random random(seed);
-    GrowingWalk<TypeParam> walk(60, kNoise, seed);
+    IncrementalWalk<TypeParam> walk(60, kNoise, seed);
     IncrementalOptimizer optimizer;
     std::vector<int> alive, dead;
     const auto add = [&](const std::vector<PoseNode>& nodes,
@@ -76,7 +76,7 @@ TYPED_TEST(IncrementalReplacement, HundredsOfReplacedConstraintsEndAtTheBatchOpt
 }
 
 TYPED_TEST(IncrementalReplacement, DeadConstraintsMakeNoStepDearer) {
-  GrowingWalk<TypeParam> walk(60, kNoise, 4);
+  IncrementalWalk<TypeParam> walk(60, kNoise, 4);
   IncrementalOptimizer optimizer;
   optimizer.add(walk.graph.nodes, walk.graph.constraints);
   int current = optimizer.add({}, {walk.measure(5, 55, kNoise)}).first_constraint;
@@ -93,7 +93,7 @@ TYPED_TEST(IncrementalReplacement, DeadConstraintsMakeNoStepDearer) {
 }
 
 TYPED_TEST(IncrementalReplacement, ANodeWithoutConstraintsStaysWhereItIs) {
-  GrowingWalk<TypeParam> walk(40, kNoise, 5);
+  IncrementalWalk<TypeParam> walk(40, kNoise, 5);
   IncrementalOptimizer optimizer;
   optimizer.add(walk.graph.nodes, walk.graph.constraints);
   optimizer.finish();

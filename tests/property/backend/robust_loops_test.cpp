@@ -13,7 +13,8 @@ using test::LoopedWalkOptions;
 
 PoseGraphReport optimize(const PoseGraph& graph, RobustMethod method) {
   PoseGraphOptions options;
-  options.start = PoseGraphInitialization::kFile;  // the same for all methods: bits are compared
+  options.initialization =
+      PoseGraphInitialization::kFile;  // the same for all methods: bits are compared
   options.robust.method = method;
   return optimize_pose_graph(graph, options);
 }

@@ -22,7 +22,7 @@ struct Case {
   const char* name;
   WindowWorldOptions world;
   std::optional<KeyframeId> kept = {};
-  bool tied_to_map = true;  ///< the prior leads back to the first keyframe
+  bool constrained_to_map = true;  ///< the prior leads back to the first keyframe
 };
 
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
@@ -110,7 +110,7 @@ TEST_P(WindowConsistency, TheErrorsAreAsLargeAsTheCovariancesSay) {
     const auto in_map = keyframe_covariance(window, newest);
     const auto to_reference = relative_covariance(window, reference, newest);
     ASSERT_TRUE(to_reference) << "seed " << seed;
-    ASSERT_EQ(in_map.has_value(), GetParam().tied_to_map) << "seed " << seed;
+    ASSERT_EQ(in_map.has_value(), GetParam().constrained_to_map) << "seed " << seed;
     const SE3& truth = world.T_map_cam[static_cast<std::size_t>(newest.value())];
     if (in_map) absolute.add(nees(window.pose(newest), truth, *in_map));
     relative.add(
@@ -118,7 +118,7 @@ TEST_P(WindowConsistency, TheErrorsAreAsLargeAsTheCovariancesSay) {
              world.T_map_cam[static_cast<std::size_t>(reference.value())].inverse() * truth,
              *to_reference));
   }
-  if (GetParam().tied_to_map) absolute.judge("newest keyframe in the map");
+  if (GetParam().constrained_to_map) absolute.judge("newest keyframe in the map");
   relative.judge("newest keyframe from the reference");
 }
 

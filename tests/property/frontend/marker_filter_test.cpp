@@ -49,14 +49,14 @@ TEST(MarkerFilterProperty, ChoosesTheMirroredPoseInNoViewAndDecidesMostNearOnes)
     MarkerView seen;
     seen.stamp_ns = 1;
     seen.markers = {observation_of(layout.markers[0], truth, sigma_px, random)};
-    const MarkerPoseEstimate answer = MarkerFilter(options, layout, camera, SE3()).observe(seen);
+    const MarkerPoseEstimate estimate = MarkerFilter(options, layout, camera, SE3()).observe(seen);
     near += range < 1.2 && sigma_px < 0.1;
-    if (!answer.outcome) continue;
+    if (!estimate.outcome) continue;
     near_decided += range < 1.2 && sigma_px < 0.1;
     ++decided;
-    const SE3& found = answer.observation.T_world_body;
+    const SE3& found = estimate.observation.T_world_body;
     const Vector6d error = (found.inverse() * truth).log();
-    nees += error.dot(answer.observation.covariance.ldlt().solve(error)) / 6;
+    nees += error.dot(estimate.observation.covariance.ldlt().solve(error)) / 6;
     const MarkerPoses both =
         estimate_marker_poses(observation_of(layout.markers[0], truth, 1e-3, random), 0.2, camera);
     if (both.poses.size() < 2) continue;
@@ -64,7 +64,7 @@ TEST(MarkerFilterProperty, ChoosesTheMirroredPoseInNoViewAndDecidesMostNearOnes)
     // From right above both are one within the noise: an answer between them chooses neither.
     constexpr double kRefuted = 22.5;  // 99.9 % of chi^2 with six degrees of freedom
     const bool truth_refuted =
-        error.dot(answer.observation.covariance.ldlt().solve(error)) > kRefuted;
+        error.dot(estimate.observation.covariance.ldlt().solve(error)) > kRefuted;
     wrong += truth_refuted && angle_rad(found, rival) < angle_rad(found, truth);
   }
   std::cout << "decided " << decided << " of " << kViews << ", near ones " << near_decided << " of "

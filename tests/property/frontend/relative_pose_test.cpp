@@ -72,9 +72,9 @@ TEST(RelativePose, OfAnyRotationOfACarIsRecoveredBySinglePoints) {
   Random random = seeded_random(73);
   for (int run = 0; run < 60; ++run) {
     const double yaw = random.uniform(-0.3, 0.3);
-    const double way = (run % 2 ? 1 : -1) * random.uniform(0.5, 2);
+    const double path = (run % 2 ? 1 : -1) * random.uniform(0.5, 2);
     const SE3 level =
-        pose({0, yaw, 0}, way * Eigen::Vector3d(std::sin(yaw / 2), 0, std::cos(yaw / 2)));
+        pose({0, yaw, 0}, path * Eigen::Vector3d(std::sin(yaw / 2), 0, std::cos(yaw / 2)));
     const SE3 T_level_cam = pose(random_vector(0.2, random), {0, 0, 0});
     const SE3 truth = T_level_cam.inverse() * level * T_level_cam;
     const PointScene scene = make_scene(kCamera, {SE3(), truth}, 50, random);

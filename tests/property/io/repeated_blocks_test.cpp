@@ -19,7 +19,7 @@ SyntheticWorld world() {
 }
 
 /// What a camera 20 m into a block sees, `shift_m` further down the street.
-Image look(const SyntheticWorld& street, double shift_m) {
+Image render_view(const SyntheticWorld& street, double shift_m) {
   const synthetic::Tour& tour = street.tour();
   const SE3& T = tour.T_scene_cam.front();
   const synthetic::View view{
@@ -33,13 +33,14 @@ double mean_difference(const Image& a, const Image& b) {
 
 TEST(RepeatedBlocks, LookTheSameFromBlockToBlockAndNowhereWithinOne) {
   const SyntheticWorld street = world();
-  const Image here = look(street, 0);
+  const Image here = render_view(street, 0);
   const double contrast =
       mean_difference(here, Image(cv::Mat(here.size(), here.type(), cv::mean(here))));
   for (int block = 1; block < 5; ++block) {
     // The end of the street, a few pixels high, is another.
-    EXPECT_LT(mean_difference(here, look(street, block * kBlock_m)), 0.02 * contrast) << block;
-    EXPECT_GT(mean_difference(here, look(street, (block - 0.5) * kBlock_m)), 0.2 * contrast);
+    EXPECT_LT(mean_difference(here, render_view(street, block * kBlock_m)), 0.02 * contrast)
+        << block;
+    EXPECT_GT(mean_difference(here, render_view(street, (block - 0.5) * kBlock_m)), 0.2 * contrast);
   }
 }
 

@@ -15,7 +15,7 @@ synthetic::Tour tour_of(std::uint64_t seed, double duration_s) {
   return synthetic::make_flight_world(request);
 }
 
-std::vector<BodyState> answers(const std::vector<FlightFrame>& frames) {
+std::vector<BodyState> estimates(const std::vector<FlightFrame>& frames) {
   std::vector<BodyState> states;
   for (const FlightFrame& frame : frames)
     if (frame.outcome) states.push_back(frame.state);
@@ -30,7 +30,7 @@ TEST(FlightConsistency, ErrsAsItsCovarianceSaysThroughOutages) {
     const synthetic::Tour tour = tour_of(200 + seed, 15);
     const auto frames = fly_without_images(tour, {}, {}, seed, [](double) { return true; });
     const BodyStateError error =
-        body_state_error(tour.flight_setting->flight.truth, answers(frames));
+        body_state_error(tour.flight_setting->flight.truth, estimates(frames));
     ASSERT_TRUE(error.outcome) << error.outcome.reason;
     EXPECT_LT(error.position_rmse_m, 0.02) << "seed " << seed;
     EXPECT_LT(error.velocity_rmse_mps, 0.03) << "seed " << seed;
@@ -48,10 +48,11 @@ TEST(FlightConsistency, ErrsAsItsCovarianceSaysThroughOutages) {
 TEST(FlightConsistency, GoesOnByFlowAloneAfterItsLastMarker) {
   const synthetic::Tour tour = tour_of(31, 20);
   const auto frames = fly_without_images(tour, {}, {}, 5, [](double t) { return t < 2; });
-  const BodyStateError error = body_state_error(tour.flight_setting->flight.truth, answers(frames));
+  const BodyStateError error =
+      body_state_error(tour.flight_setting->flight.truth, estimates(frames));
   ASSERT_TRUE(error.outcome);
   EXPECT_EQ(error.compared, 401);
-  EXPECT_LT(error.end_error_m, 0.02 * error.way_m);
+  EXPECT_LT(error.end_error_m, 0.02 * error.path_length_m);
 }
 
 TEST(FlightConsistency, MarkersThatComeLateAreWorthAlmostAsMuch) {
@@ -59,7 +60,8 @@ TEST(FlightConsistency, MarkersThatComeLateAreWorthAlmostAsMuch) {
   FlightOptions late;
   late.marker_delay_s = 0.2;
   const auto frames = fly_without_images(tour, late, {}, 6, [](double) { return true; });
-  const BodyStateError error = body_state_error(tour.flight_setting->flight.truth, answers(frames));
+  const BodyStateError error =
+      body_state_error(tour.flight_setting->flight.truth, estimates(frames));
   ASSERT_TRUE(error.outcome);
   EXPECT_LT(error.position_rmse_m, 0.03);
   EXPECT_LT(error.velocity_rmse_mps, 0.1);
@@ -101,7 +103,7 @@ TEST(FlightConsistency, ErrsAsItsCovarianceSaysWhereImagesAreDropped) {
     const auto frames = fly_without_images(
         tour, {}, {}, seed, [](double) { return true; }, [&](std::size_t i) { return dropped[i]; });
     const BodyStateError error =
-        body_state_error(tour.flight_setting->flight.truth, answers(frames));
+        body_state_error(tour.flight_setting->flight.truth, estimates(frames));
     ASSERT_TRUE(error.outcome) << error.outcome.reason;
     EXPECT_GT(error.compared, 0.95 * static_cast<double>(frames.size()));
     EXPECT_LT(error.position_rmse_m, 0.02) << "seed " << seed;
@@ -126,19 +128,19 @@ TEST(FlightLaw, RotatingTheWorldAboutTheVerticalRotatesTheStates) {
       there({}, tour.camera, setting.T_body_cam, other);
   test::FlightMeasurementsSource source(tour, {}, 3);
   std::size_t sample = 0;
-  int answered = 0;
+  int frames_with_state = 0;
   for (std::size_t i = 0; i < setting.flight.images.size(); ++i) {
     for (; sample <= setting.flight.images[i]; ++sample) {
       (void)here.add(setting.flight.imu.samples[sample]);
       (void)there.add(setting.flight.imu.samples[sample]);
     }
-    const FlightMeasurements observations = source.look(i, i % 60 < 30);
+    const FlightMeasurements observations = source.observe(i, i % 60 < 30);
     const FlightFrame a = here.add(observations), b = there.add(observations);
     ASSERT_EQ(a.outcome.code, b.outcome.code) << i;
     ASSERT_EQ(a.flow.code, b.flow.code) << i;
     ASSERT_EQ(a.markers.code, b.markers.code) << i;
     if (!a.outcome) continue;
-    ++answered;
+    ++frames_with_state;
     const SE3 T_expected = T_other_world * a.state.T_world_body;
     // Rounding, through the descents that pose the markers.
     EXPECT_LT((T_expected.inverse() * b.state.T_world_body).log().norm(), 1e-5) << i;
@@ -146,7 +148,7 @@ TEST(FlightLaw, RotatingTheWorldAboutTheVerticalRotatesTheStates) {
               1e-5)
         << i;
   }
-  EXPECT_GT(answered, 100);
+  EXPECT_GT(frames_with_state, 100);
 }
 
 }  // namespace

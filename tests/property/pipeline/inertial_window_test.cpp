@@ -64,9 +64,9 @@ TEST(InertialWindowConsistency, IsAsGoodAsTheFilterAtOnceAndBetterASecondLater) 
       }
       if (i % 100 != 0 || t < 2) continue;
       filtered.judge(flight, filter.at(SwayingBody::stamp(t)).state);
-      const auto answer = window.solve();
-      newest.judge(flight, answer.states.back());
-      oldest.judge(flight, answer.states.front());
+      const auto estimate = window.solve();
+      newest.judge(flight, estimate.states.back());
+      oldest.judge(flight, estimate.states.front());
     }
   }
   std::cout << "position RMSE: filter " << filtered.rmse_m() << " m, window at once "

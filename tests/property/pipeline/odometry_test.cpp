@@ -14,9 +14,9 @@ using namespace test;
 constexpr int kFrames = 6;
 
 /// A way along the street, drawn at random: 0.25 to 0.4 m a frame, with a bend.
-struct Way {
+struct Path {
   double start_m, step_m, yaw_rad, side_m;
-  explicit Way(Random& random)
+  explicit Path(Random& random)
       : start_m(random.uniform(0, 5)),
         step_m(random.uniform(0.25, 0.4)),
         yaw_rad(random.uniform(-0.006, 0.006)),
@@ -33,12 +33,12 @@ struct Sequence {
   std::vector<SE3> T_world_cam;
 };
 
-Sequence drive(const Way& way, Sensor sensor) {
-  const StreetDataset dataset(kFrames, 0, 0, sensor == Sensor::kRgbd, way);
+Sequence drive(const Path& path, Sensor sensor) {
+  const StreetDataset dataset(kFrames, 0, 0, sensor == Sensor::kRgbd, path);
   Sequence sequence{dataset.calibration(sensor), {}, {}};
   for (int i = 0; i < kFrames; ++i) {
     sequence.frames.push_back(dataset.frame(static_cast<std::size_t>(i), sensor));
-    sequence.T_world_cam.push_back(way(i));
+    sequence.T_world_cam.push_back(path(i));
   }
   return sequence;
 }
@@ -77,15 +77,15 @@ constexpr double kTrackRad = 0.25 / 330, kDepthM = 10, kWayM = 1.5;
 constexpr double kTracks = 100;
 /// Other images: tracks of one texture may all err alike, then both ends of both motions are off by
 /// as much as a track: 3 mrad, and 2 percent of the way.
-constexpr double kAngleRad = 4 * kTrackRad, kShareOfWay = kAngleRad * kDepthM / kWayM;
+constexpr double kAngleRad = 4 * kTrackRad, kShareOfPath = kAngleRad * kDepthM / kWayM;
 /// The same images: tracks are the same, and descents end within the deviation of the motion that
 /// is estimated from them: 0.08 mrad, and 0.05 percent of the way.
 const double kSameAngleRad = kTrackRad / std::sqrt(kTracks),
-             kSameShareOfWay = kSameAngleRad * kDepthM / kWayM;
+             kSameShareOfPath = kSameAngleRad * kDepthM / kWayM;
 
 void expect_same_motion(const SE3& a, const SE3& b) {
   EXPECT_LT(angle_rad(a, b), kAngleRad);
-  EXPECT_LT(distance_m(a, b), kShareOfWay * (a.translation().norm() + b.translation().norm()) / 2);
+  EXPECT_LT(distance_m(a, b), kShareOfPath * (a.translation().norm() + b.translation().norm()) / 2);
 }
 
 /// The same images of a world s times larger, by what tells its size: baseline and depths.
@@ -102,14 +102,14 @@ Sequence enlarged(Sequence sequence, double s) {
 TEST(OdometryLaws, ALargerWorldSeenByAWiderPairIsALongerWay) {
   Random random = seeded_random(1);
   for (int trial = 0; trial < 2; ++trial) {
-    const Sequence sequence = drive(Way(random), Sensor::kStereo);
+    const Sequence sequence = drive(Path(random), Sensor::kStereo);
     const SE3 as_it_is = motion(track(sequence, "points"));
     for (const double s : {0.3, random.uniform(2, 5)}) {
       const SE3 longer = motion(track(enlarged(sequence, s), "points"));
       SCOPED_TRACE(s);
       EXPECT_LT(angle_rad(as_it_is, longer), kSameAngleRad);
       EXPECT_LT(distance_m(as_it_is.scaled(s), longer),
-                kSameShareOfWay * longer.translation().norm());
+                kSameShareOfPath * longer.translation().norm());
     }
   }
 }
@@ -117,7 +117,7 @@ TEST(OdometryLaws, ALargerWorldSeenByAWiderPairIsALongerWay) {
 TEST(OdometryLaws, ExchangedAndMirroredCamerasSeeTheMirroredWay) {
   Random random = seeded_random(3);
   for (int trial = 0; trial < 3; ++trial) {
-    const Sequence sequence = drive(Way(random), Sensor::kStereo);
+    const Sequence sequence = drive(Path(random), Sensor::kStereo);
     Sequence mirrored = sequence;
     mirrored.calibration.camera.cx =
         sequence.calibration.camera.width - 1 - sequence.calibration.camera.cx;
@@ -137,7 +137,7 @@ TEST(OdometryLaws, ExchangedAndMirroredCamerasSeeTheMirroredWay) {
 TEST(OdometryLaws, BackwardsTheMotionIsTheInverse) {
   Random random = seeded_random(4);
   for (int trial = 0; trial < 3; ++trial) {
-    const Sequence sequence = drive(Way(random), Sensor::kStereo);
+    const Sequence sequence = drive(Path(random), Sensor::kStereo);
     Sequence backwards = sequence;
     std::reverse(backwards.frames.begin(), backwards.frames.end());
     for (std::size_t i = 0; i < backwards.frames.size(); ++i) {
@@ -152,23 +152,24 @@ TEST(OdometryLaws, BackwardsTheMotionIsTheInverse) {
 TEST(OdometryLaws, TheFrameOfTheOdometryIsArbitrary) {
   Random random = seeded_random(5);
   for (int trial = 0; trial < 2; ++trial) {
-    const Sequence sequence = drive(Way(random), Sensor::kStereo);
+    const Sequence sequence = drive(Path(random), Sensor::kStereo);
     const SE3 here = motion(track(sequence, "points"));
     const SE3 T_other = SE3::exp(Vector6d::NullaryExpr([&] { return random.uniform(-2, 2); }));
     const SE3 there = motion(track(sequence, "points", T_other));
     EXPECT_LT(angle_rad(here, there), kSameAngleRad);
-    EXPECT_LT(distance_m(here, there), kSameShareOfWay * here.translation().norm());
+    EXPECT_LT(distance_m(here, there), kSameShareOfPath * here.translation().norm());
   }
 }
 
 TEST(OdometryLaws, DepthsGiveTheUnit) {
   Random random = seeded_random(6);
-  const Sequence sequence = drive(Way(random), Sensor::kRgbd);
+  const Sequence sequence = drive(Path(random), Sensor::kRgbd);
   const SE3 as_it_is = motion(track(sequence, "points"));
   for (const double s : {0.5, 2.0}) {
     const SE3 longer = motion(track(enlarged(sequence, s), "points"));
     EXPECT_LT(angle_rad(as_it_is, longer), kSameAngleRad) << s;
-    EXPECT_LT(distance_m(as_it_is.scaled(s), longer), kSameShareOfWay * longer.translation().norm())
+    EXPECT_LT(distance_m(as_it_is.scaled(s), longer),
+              kSameShareOfPath * longer.translation().norm())
         << s;
   }
 }
@@ -179,7 +180,7 @@ constexpr double kShareOfRoad = 0.25 / (330 * kStreetHeight_m * 0.25 / (5 * 5));
 
 TEST(OdometryLaws, TheHeightOfASingleCameraGivesTheUnit) {
   Random random = seeded_random(7);
-  Sequence sequence = drive(Way(random), Sensor::kMono);
+  Sequence sequence = drive(Path(random), Sensor::kMono);
   sequence.calibration.camera_height_m = kStreetHeight_m;
   const SE3 truth = sequence.T_world_cam.front().inverse() * sequence.T_world_cam.back();
   const SE3 as_it_is = motion(track(sequence, "points,plane"));
@@ -187,14 +188,14 @@ TEST(OdometryLaws, TheHeightOfASingleCameraGivesTheUnit) {
   for (const double s : {0.2, 3.0}) {
     const SE3 longer = motion(track(enlarged(sequence, s), "points,plane"));
     EXPECT_LT(angle_rad(as_it_is, longer), kAngleRad) << s;
-    EXPECT_NEAR(longer.translation().norm() / as_it_is.translation().norm() / s, 1, kShareOfWay)
+    EXPECT_NEAR(longer.translation().norm() / as_it_is.translation().norm() / s, 1, kShareOfPath)
         << s;
   }
 }
 
 TEST(OdometryLaws, SurfacesOfALargerWorldAreALongerWay) {
   Random random = seeded_random(8);
-  Sequence sequence = drive(Way(random), Sensor::kStereo);
+  Sequence sequence = drive(Path(random), Sensor::kStereo);
   sequence.calibration.camera_height_m = kStreetHeight_m;
   const SE3 truth = sequence.T_world_cam.front().inverse() * sequence.T_world_cam.back();
   const SE3 as_it_is = motion(track(sequence, "plane"));
@@ -202,7 +203,7 @@ TEST(OdometryLaws, SurfacesOfALargerWorldAreALongerWay) {
   for (const double s : {0.4, 2.5}) {
     const SE3 longer = motion(track(enlarged(sequence, s), "plane"));
     EXPECT_LT(angle_rad(as_it_is, longer), kAngleRad) << s;
-    EXPECT_LT(distance_m(as_it_is.scaled(s), longer), kShareOfWay * longer.translation().norm())
+    EXPECT_LT(distance_m(as_it_is.scaled(s), longer), kShareOfPath * longer.translation().norm())
         << s;
   }
 }

@@ -25,7 +25,7 @@ class FlightMeasurementsSource {
         random_(seed, 71) {}
 
   /// Flow is that since the image that was looked at before.
-  FlightMeasurements look(std::size_t image, bool markers_visible = true) {
+  FlightMeasurements observe(std::size_t image, bool markers_visible = true) {
     FlightMeasurements observations;
     observations.stamp_ns = setting_.flight.at_image(image).stamp_ns;
     const SE3 T_world_cam = pose(image);
@@ -117,7 +117,7 @@ std::vector<FlightFrame> fly_without_images(const synthetic::Tour& tour, FlightO
       (void)estimator.add(setting.flight.imu.samples[sample]);
     if (dropped && dropped(i)) continue;
     const double t = tour.time_s[i] - tour.time_s[0];
-    frames.push_back(estimator.add(source.look(i, visible(t))));
+    frames.push_back(estimator.add(source.observe(i, visible(t))));
   }
   return frames;
 }

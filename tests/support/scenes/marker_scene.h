@@ -95,10 +95,10 @@ struct MarkerScene {
       for (int i = 0; i < samples; ++i) {
         const auto ray =
             camera.unproject({u + (i + 0.5) / samples - 0.5, v + (j + 0.5) / samples - 0.5});
-        const Eigen::Vector3d way =
+        const Eigen::Vector3d path =
             T_marker_cam.rotation() * ray.value_or(Eigen::Vector3d::UnitZ());
-        const Eigen::Vector3d hit = camera_position - camera_position.z() / way.z() * way;
-        const bool sheet = way.z() < 0 && std::max(std::abs(hit.x()), std::abs(hit.y())) <= reach;
+        const Eigen::Vector3d hit = camera_position - camera_position.z() / path.z() * path;
+        const bool sheet = path.z() < 0 && std::max(std::abs(hit.x()), std::abs(hit.y())) <= reach;
         if (!sheet) {
           sum += behind;
           continue;

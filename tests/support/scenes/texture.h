@@ -98,7 +98,7 @@ inline Picture render(const Camera& camera, const SE3& T_world_cam,
   struct Hit {
     double depth = 0, grey = 0;
   };
-  const auto look = [&](double u, double v) {
+  const auto sample_at = [&](double u, double v) {
     const Eigen::Vector3d ray((u - camera.cx) / camera.fx, (v - camera.cy) / camera.fy, 1);
     double nearest = 1e9;
     int hit = -1;
@@ -120,9 +120,9 @@ inline Picture render(const Camera& camera, const SE3& T_world_cam,
     for (int u = 0; u < camera.width; ++u) {
       double grey = 0;
       for (int k = 0; k < rows_per_pixel; ++k)
-        grey += look(u, v + (k + 0.5) / rows_per_pixel - 0.5).grey / rows_per_pixel;
+        grey += sample_at(u, v + (k + 0.5) / rows_per_pixel - 0.5).grey / rows_per_pixel;
       picture.grey.at<std::uint8_t>(v, u) = to_grey(grey);
-      picture.depth.at<float>(v, u) = static_cast<float>(look(u, v).depth);
+      picture.depth.at<float>(v, u) = static_cast<float>(sample_at(u, v).depth);
     }
   return picture;
 }

@@ -19,7 +19,7 @@ inline std::map<PlaceId, FrameId> frames_of_places(const Map& map) {
 }
 
 /// What a robot sees where it comes by a place once more.
-struct ViewOnTheWay {
+struct ViewOnThePath {
   std::int64_t frame = 0;     ///< its position in the sequence
   bool another_pass = false;  ///< else a neighbour of the frame that the map keeps
 };
@@ -31,14 +31,14 @@ struct Recognition {
 };
 
 /// Replays what was seen at places, by frames of the sequence that the map does not keep.
-class WayBack {
+class ReturnPath {
  public:
   static constexpr SameView kSame{};
   static constexpr std::int64_t kOtherPass = 40;  // frames apart at least
 
   /// Frames of another pass are taken from `other_from` on: the number of frames in the map, or 0.
-  WayBack(const Map& map, const LoopCloser& memory, const Dataset& dataset, Sensor sensor,
-          std::int64_t other_from)
+  ReturnPath(const Map& map, const LoopCloser& memory, const Dataset& dataset, Sensor sensor,
+             std::int64_t other_from)
       : map_(map),
         memory_(memory),
         dataset_(dataset),
@@ -50,15 +50,15 @@ class WayBack {
 
   /// The frame of another pass that is nearest to where the place was seen; without one, the
   /// nearest neighbour that is not kept.
-  ViewOnTheWay view_at(std::int64_t place_frame) const {
-    ViewOnTheWay best{place_frame, false};
+  ViewOnThePath view_at(std::int64_t place_frame) const {
+    ViewOnThePath best{place_frame, false};
     double distance = kSame.radius_m;
     for (std::int64_t i = other_from_; i < size(); ++i) {
-      const auto [way, angle] = apart(place_frame, i);
-      if (std::abs(i - place_frame) < kOtherPass || kept_.count(i) || way > distance ||
+      const auto [path, angle] = apart(place_frame, i);
+      if (std::abs(i - place_frame) < kOtherPass || kept_.count(i) || path > distance ||
           angle > kSame.heading_deg)
         continue;
-      distance = way;
+      distance = path;
       best = {i, true};
     }
     for (std::int64_t off = 1; !best.another_pass && off < kOtherPass; ++off)
@@ -68,14 +68,14 @@ class WayBack {
   }
 
   /// Right if the frame is recognized at a keyframe that it truly was near to.
-  Recognition recognize(const ViewOnTheWay& view) const {
+  Recognition recognize(const ViewOnThePath& view) const {
     Recognition recognition;
     const Frame frame = dataset_.frame(static_cast<std::size_t>(view.frame), sensor_);
     const auto found = memory_.relocalize(frame, 0);
     if (!found) return recognition;
     const Keyframe& keyframe = *map_.find_keyframe(found->match);
-    const auto [way, angle] = apart(keyframe.frame.value(), view.frame);
-    const bool right = way <= kSame.radius_m && angle <= kSame.heading_deg;
+    const auto [path, angle] = apart(keyframe.frame.value(), view.frame);
+    const bool right = path <= kSame.radius_m && angle <= kSame.heading_deg;
     recognition.result = right ? Recognition::Result::kRight : Recognition::Result::kWrong;
     const SE3 error = (T_world(keyframe.frame.value()).inverse() * T_world(view.frame)).inverse() *
                       found->T_match_query;

@@ -19,10 +19,10 @@ class CueOpinions {
       alone[m] = 1;
       const Eigen::MatrixXd kernel = kernel_of(training_set, alone);
       cues_.push_back({m, alone, solve_kernel(kernel, targets, options.ridge)});
-      const Eigen::MatrixXd said = left_out_outputs(training_set, kernel, options);
+      const Eigen::MatrixXd message = left_out_outputs(training_set, kernel, options);
       const Eigen::Index column = left_out_.cols();
       left_out_.conservativeResize(targets.rows(), column + places_);
-      left_out_.rightCols(places_) = said;
+      left_out_.rightCols(places_) = message;
     }
   }
   /// Outputs for the views by machines trained without their fold.
@@ -66,14 +66,14 @@ using Ensemble = std::vector<Stump>;
 Ensemble boost(const Eigen::MatrixXd& opinions, const std::vector<Eigen::Index>& views,
                const PlaceTrainingSet& training_set, int place, int rounds) {
   cv::Mat samples(static_cast<int>(views.size()), static_cast<int>(opinions.cols()), CV_32F);
-  cv::Mat answers(samples.rows, 1, CV_32S);
+  cv::Mat responses(samples.rows, 1, CV_32S);
   int positives = 0;
   for (int i = 0; i < samples.rows; ++i) {
     const Eigen::Index view = views[static_cast<std::size_t>(i)];
     for (int k = 0; k < samples.cols; ++k)
       samples.at<float>(i, k) = static_cast<float>(opinions(view, k));
     const bool here = training_set.labels[static_cast<std::size_t>(view)] == place;
-    answers.at<int>(i) = here;
+    responses.at<int>(i) = here;
     positives += here;
   }
   if (positives == 0 || positives == samples.rows) {
@@ -86,7 +86,7 @@ Ensemble boost(const Eigen::MatrixXd& opinions, const std::vector<Eigen::Index>&
   machine->setWeightTrimRate(0);
   machine->setMaxDepth(1);
   machine->setUseSurrogates(false);
-  machine->train(cv::ml::TrainData::create(samples, cv::ml::ROW_SAMPLE, answers));
+  machine->train(cv::ml::TrainData::create(samples, cv::ml::ROW_SAMPLE, responses));
   Ensemble ensemble;
   const auto& nodes = machine->getNodes();
   const auto& splits = machine->getSplits();
@@ -164,18 +164,18 @@ PerCue weights_of(const std::vector<Ensemble>& ensembles, const CueOpinions& opi
 TrainedPlaceMachine train_boosted_machine(const PlaceTrainingSet& training_set,
                                           const PlaceClassifierOptions& options) {
   CueOpinions opinions(training_set, options);
-  const Eigen::MatrixXd& said = opinions.left_out();
+  const Eigen::MatrixXd& message = opinions.left_out();
   TrainedPlaceMachine result;
-  result.left_out = Eigen::MatrixXd::Zero(said.rows(), training_set.places);
+  result.left_out = Eigen::MatrixXd::Zero(message.rows(), training_set.places);
   for (int fold = 0; fold < options.folds; ++fold) {
     const auto [in, out] = split_fold(training_set, fold);
     if (in.empty() || out.empty()) continue;
-    const std::vector<Ensemble> ensembles = boost_all(said, in, training_set, options.rounds);
+    const std::vector<Ensemble> ensembles = boost_all(message, in, training_set, options.rounds);
     for (const Eigen::Index i : out)
-      result.left_out.row(i) = votes(ensembles, said.row(i).transpose());
+      result.left_out.row(i) = votes(ensembles, message.row(i).transpose());
   }
   std::vector<Ensemble> ensembles =
-      boost_all(said, split_fold(training_set, -1).in, training_set, options.rounds);
+      boost_all(message, split_fold(training_set, -1).in, training_set, options.rounds);
   result.weights = weights_of(ensembles, opinions);
   result.machine = std::make_shared<BoostedMachine>(std::move(opinions), std::move(ensembles));
   return result;

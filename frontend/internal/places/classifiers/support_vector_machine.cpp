@@ -31,13 +31,13 @@ struct Decision {
 
 Decision train_one(const Eigen::MatrixXd& kernel, const std::vector<Eigen::Index>& views,
                    const PlaceTrainingSet& training_set, int place, double cost) {
-  cv::Mat samples(static_cast<int>(views.size()), 1, CV_32F), answers(samples.size(), CV_32S);
+  cv::Mat samples(static_cast<int>(views.size()), 1, CV_32F), responses(samples.size(), CV_32S);
   bool some = false, others = false;
   for (int i = 0; i < samples.rows; ++i) {
     const Eigen::Index view = views[static_cast<std::size_t>(i)];
     const bool here = training_set.labels[static_cast<std::size_t>(view)] == place;
     samples.at<float>(i) = static_cast<float>(view);
-    answers.at<int>(i) = here ? 1 : -1;
+    responses.at<int>(i) = here ? 1 : -1;
     (here ? some : others) = true;
   }
   Decision decision{Eigen::VectorXd::Zero(kernel.rows()), 0};
@@ -53,11 +53,11 @@ Decision train_one(const Eigen::MatrixXd& kernel, const std::vector<Eigen::Index
   constexpr double kAccuracy = 1e-6;
   machine->setTermCriteria(
       {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, kIterations, kAccuracy});
-  machine->train(samples, cv::ml::ROW_SAMPLE, answers);
+  machine->train(samples, cv::ml::ROW_SAMPLE, responses);
   cv::Mat alpha, index;
   const double rho = machine->getDecisionFunction(0, alpha, index);
   const cv::Mat vectors = machine->getSupportVectors();
-  // OpenCV's sum is positive for the smaller answer, -1.
+  // OpenCV's sum is positive for the smaller label, -1.
   for (int i = 0; i < static_cast<int>(alpha.total()); ++i)
     decision.coefficients[static_cast<Eigen::Index>(vectors.at<float>(index.at<int>(i), 0))] -=
         alpha.at<double>(i);

@@ -65,7 +65,7 @@ PoseGraph finish(const Truth<Group>& truth, const GraphNoise& noise, Random& ran
 /// A pose of the closed course of length `length_m` at the polar angle `angle_rad`: an ellipse with
 /// three dents; in space it also goes up and down.
 template <class Group>
-Group course_pose(double angle_rad, double length_m) {
+Group pose_on_route(double angle_rad, double length_m) {
   const double r = length_m / (2 * std::numbers::pi);
   const auto point = [&](double a) {
     const double s = r * (1 + 0.15 * std::cos(3 * a));
@@ -89,7 +89,7 @@ PoseGraph long_loop(const LongLoopOptions& options) {
   Truth<Group> truth;
   const double lap = options.poses / options.laps;
   for (int i = 0; i < options.poses; ++i)
-    truth.T_world_node.push_back(course_pose<Group>(2 * std::numbers::pi * i / lap, lap));
+    truth.T_world_node.push_back(pose_on_route<Group>(2 * std::numbers::pi * i / lap, lap));
   const int before = static_cast<int>(std::ceil(lap));
   for (int k = 0; k < options.closures; ++k) {
     const int share = static_cast<int>((k + 0.5) * (options.poses - before) / options.closures);

@@ -4,17 +4,18 @@ namespace placegraph::synthetic {
 namespace {
 
 /// Plain wall of a house: plaster, brick, boards or stone blocks by seed.
-float wall_surface(const Face& face, const Spot& spot, std::uint32_t look, float contrast) {
-  const float tone = 0.30F + 0.55F * hash_unit(look, 1);
+float wall_surface(const Face& face, const Spot& spot, std::uint32_t wall_seed, float contrast) {
+  const float tone = 0.30F + 0.55F * hash_unit(wall_seed, 1);
   const float stains = fractal(spot, 2.8F, 0.02F, 0.88F, face.seed);
   float value = tone + contrast * 0.055F * stains;
-  const float kind = hash_unit(look, 2);
+  const float kind = hash_unit(wall_seed, 2);
   if (kind < 0.3F) {  // bricks in running bond
     const float course = 0.075F;
     const int row = floor_int(spot.t / course);
     const float joint = periodic_pulse(spot.t, course, 0, 0.012F, spot.wt);
     const float head = periodic_pulse(spot.s + (row & 1) * 0.125, 0.25F, 0, 0.012F, spot.ws);
-    const float own = hash_unit(hash_cell(floor_int((spot.s + (row & 1) * 0.125) * 4), row, look));
+    const float own =
+        hash_unit(hash_cell(floor_int((spot.s + (row & 1) * 0.125) * 4), row, wall_seed));
     const float fade = clamp01(1.6F - 25.0F * spot.wt);
     value = tone * 0.75F + contrast * (0.055F * stains + 0.16F * fade * (own - 0.5F)) +
             0.14F * clamp01(joint + head);
@@ -26,7 +27,7 @@ float wall_surface(const Face& face, const Spot& spot, std::uint32_t look, float
     const double s = spot.s + (row & 1) * 0.45;
     const float joints = clamp01(periodic_pulse(spot.t, h, 0, 0.03F, spot.wt) +
                                  periodic_pulse(s, w, 0, 0.03F, spot.ws));
-    const float own = hash_unit(hash_cell(floor_int(s / w), row, look));
+    const float own = hash_unit(hash_cell(floor_int(s / w), row, wall_seed));
     value += contrast * (0.12F * clamp01(1.6F - 4.0F * spot.wt) * (own - 0.5F) - 0.15F * joints);
   }
   return value;
@@ -37,15 +38,15 @@ struct WindowGrid {
   int columns, rows;
 };
 
-WindowGrid window_grid(const Face& face, std::uint32_t look) {
+WindowGrid window_grid(const Face& face, std::uint32_t wall_seed) {
   WindowGrid g;
-  g.spacing = 2.0F + 1.8F * hash_unit(look, 3);
-  g.storey = 2.7F + 0.5F * hash_unit(look, 4);
-  const float width = g.spacing * (0.35F + 0.22F * hash_unit(look, 5));
+  g.spacing = 2.0F + 1.8F * hash_unit(wall_seed, 3);
+  g.storey = 2.7F + 0.5F * hash_unit(wall_seed, 4);
+  const float width = g.spacing * (0.35F + 0.22F * hash_unit(wall_seed, 5));
   g.left = 0.5F * (g.spacing - width);
   g.right = g.left + width;
-  g.sill = 0.85F + 0.2F * hash_unit(look, 6);
-  g.head = g.sill + 1.1F + 0.4F * hash_unit(look, 7);
+  g.sill = 0.85F + 0.2F * hash_unit(wall_seed, 6);
+  g.head = g.sill + 1.1F + 0.4F * hash_unit(wall_seed, 7);
   g.columns = static_cast<int>((face.width - 0.6F) / g.spacing);
   g.rows = static_cast<int>((face.height - 0.3F) / g.storey);
   g.margin = 0.5F * (face.width - static_cast<float>(g.columns) * g.spacing);
@@ -89,15 +90,16 @@ float shade_pane(const WindowGrid& g, const Spot& spot, const Bay& bay, float fr
 }  // namespace
 
 float shade_facade(const Face& face, const Spot& spot, float contrast) {
-  const auto look = static_cast<std::uint32_t>(face.style * 1048576.0F);  // one for all four walls
-  float value = wall_surface(face, spot, look, contrast);
+  const auto wall_seed =
+      static_cast<std::uint32_t>(face.style * 1048576.0F);  // one for all four walls
+  float value = wall_surface(face, spot, wall_seed, contrast);
   const float t = static_cast<float>(spot.t);
   const float ws = spot.ws, wt = spot.wt;
   // Plinth and a ledge at each storey, a gutter below the roof.
-  const WindowGrid g = window_grid(face, look);
+  const WindowGrid g = window_grid(face, wall_seed);
   value = mix(value, 0.5F * value, pulse(t, -3.0F, 0.45F, wt));
   const float ledge = periodic_pulse(t - 0.1, g.storey, 0, 0.10F, wt) * pulse(t, 1.5F, 99.0F, wt);
-  value += contrast * 0.16F * ledge * (hash_unit(look, 8) < 0.6F ? 1.0F : -1.0F);
+  value += contrast * 0.16F * ledge * (hash_unit(wall_seed, 8) < 0.6F ? 1.0F : -1.0F);
   value = mix(value, 0.20F, pulse(t, face.height - 0.16F, face.height, wt));
   if (g.columns < 1 || g.rows < 1) return value;
 
@@ -119,14 +121,14 @@ float shade_facade(const Face& face, const Spot& spot, float contrast) {
   const Bay bay{x, y, field, near, h};
   const bool door = row == 0 && hash_unit(h, 9) < 0.22F;
   if (door) return shade_door(g, spot, bay, value);
-  const float frame_tone = hash_unit(look, 11) < 0.7F ? 0.80F : 0.16F;
+  const float frame_tone = hash_unit(wall_seed, 11) < 0.7F ? 0.80F : 0.16F;
   value = mix(value, frame_tone, opening(0.09F));
   value = mix(value, shade_pane(g, spot, bay, frame_tone, contrast), opening(0.0F));
   // Shutters beside, or a balcony's railing below.
-  if (hash_unit(look, 16) < 0.4F) {
+  if (hash_unit(wall_seed, 16) < 0.4F) {
     const float shutters =
         pulse(x, g.left - 0.42F, g.left - 0.1F, ws) + pulse(x, g.right + 0.1F, g.right + 0.42F, ws);
-    value = mix(value, 0.15F + 0.35F * hash_unit(look, 17),
+    value = mix(value, 0.15F + 0.35F * hash_unit(wall_seed, 17),
                 near * field * clamp01(shutters) * pulse(y, g.sill, g.head, wt));
   } else if (row > 0 && hash_unit(h, 18) < 0.3F) {
     const float rail = pulse(x, g.left - 0.3F, g.right + 0.3F, ws) * pulse(y, 0.1F, 0.95F, wt);

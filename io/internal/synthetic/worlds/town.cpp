@@ -46,10 +46,10 @@ void add_crossing_traffic(Tour& tour, const GroundMesh& ground, std::uint32_t se
         if (distance > 26 || std::hypot(q[0] - x, q[2] - z) <= 26) continue;
         const Eigen::Vector2d ahead(p[0] - q[0], p[2] - q[2]);
         const bool north_south = std::abs(ahead[1]) > std::abs(ahead[0]);
-        const double way =
+        const double along =
             hash_cell(static_cast<int>(x), static_cast<int>(z), seed + times) & 1U ? 1 : -1;
         const Eigen::Vector2d direction =
-            north_south ? Eigen::Vector2d(way, 0) : Eigen::Vector2d(0, way);
+            north_south ? Eigen::Vector2d(along, 0) : Eigen::Vector2d(0, along);
         const Eigen::Vector2d lane = kLane_m * Eigen::Vector2d(direction[1], -direction[0]);
         add_crossing_car(tour.scene, ground, tour.time_s, tour.T_scene_cam,
                          Eigen::Vector2d(x, z) + lane, direction, tour.time_s[i] + 0.6, 9,

@@ -36,7 +36,7 @@ TEST_F(LoopsCommand, CountsHitsAndMisses) {
   ASSERT_EQ(result.systems.size(), 1u);
   const LoopBenchmark& found = result.systems[0].benchmark;
   EXPECT_EQ(found.positives, 3);
-  EXPECT_EQ(found.answered, 2);
+  EXPECT_EQ(found.predicted_queries, 2);
   EXPECT_NEAR(found.recall_at[0].value(), 1.0 / 3, 1e-12);
   EXPECT_EQ(result.systems[0].name, "found.txt");
   EXPECT_EQ(result.protocol, "matches and candidates listed per query");
@@ -57,7 +57,7 @@ TEST_F(LoopsCommand, ForgivesImagesWithinTheTolerance) {
 TEST_F(LoopsCommand, LeavesOutCandidatesThatAreTooYoung) {
   arguments.min_age = 7;  // 11 - 5 is younger
   const LoopsResult result = loops(arguments);
-  EXPECT_EQ(result.systems[0].benchmark.answered, 1);
+  EXPECT_EQ(result.systems[0].benchmark.predicted_queries, 1);
   EXPECT_EQ(result.systems[0].benchmark.dropped, 1);
   EXPECT_THAT(result.protocol, HasSubstr(", candidates at least 7 images older"));
   EXPECT_THAT(to_text(result), HasSubstr("found.txt: left out: 0 predictions for images"));

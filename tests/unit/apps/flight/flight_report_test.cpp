@@ -69,7 +69,7 @@ TEST(DescribeFlight, MeasuresTheTimesBetweenMarkers) {
 TEST(DescribeDrift, IsTheErrorSinceTheLastMarker) {
   const json drift = describe_drift(truth(), drifting_flight());
   EXPECT_NEAR(drift["seconds"].get<double>(), 3, 1e-9);
-  EXPECT_NEAR(drift["way_m"].get<double>(), 3, 1e-9);
+  EXPECT_NEAR(drift["path_length_m"].get<double>(), 3, 1e-9);
   EXPECT_NEAR(drift["end_error_m"].get<double>(), 0.3, 1e-9);
   EXPECT_NEAR(drift["percent"].get<double>(), 10, 1e-9);
 }

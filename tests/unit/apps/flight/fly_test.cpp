@@ -42,7 +42,7 @@ test::TemporaryFolder* FlightCommand::made = nullptr;
 
 TEST_F(FlightCommand, KnowsWhereItIsToCentimetresAndWritesIt) {
   const FlightResult result = fly(arguments);
-  EXPECT_FALSE(result.no_answer);
+  EXPECT_FALSE(result.no_result);
   EXPECT_EQ(result.summary["frames"], 21);
   EXPECT_EQ(result.summary["answered"], 21);
   EXPECT_LT(result.summary["error"]["position_rmse_m"].get<double>(), 0.03);
@@ -68,8 +68,8 @@ TEST_F(FlightCommand, SmoothsIfAskedAndIsAsSureThen) {
 TEST_F(FlightCommand, HasNoAnswerWithoutMarkersToBeginWith) {
   arguments.no_markers = true;
   const FlightResult result = fly(arguments);
-  ASSERT_TRUE(result.no_answer);
-  EXPECT_THAT(*result.no_answer, HasSubstr("flight: no image has a state ("));
+  ASSERT_TRUE(result.no_result);
+  EXPECT_THAT(*result.no_result, HasSubstr("flight: no image has a state ("));
   EXPECT_EQ(result.summary["answered"], 0);
   EXPECT_THAT(message_of([&] { read_trajectory(folder / "out/trajectory.tum"); }),
               HasSubstr("holds no poses"));
@@ -104,7 +104,7 @@ TEST(FlightText, SaysHowWellItIsKnown) {
   result.summary["error"] = {{"position_rmse_m", 0.0123},
                              {"velocity_rmse_mps", 0.02},
                              {"attitude_rmse_deg", 0.3},
-                             {"way_m", 4.56}};
+                             {"path_length_m", 4.56}};
   EXPECT_EQ(to_text(result), first +
                                  "position RMSE 0.0123 m, velocity 0.0200 m/s, attitude 0.300 deg "
                                  "over 4.6 m\n" +

@@ -74,20 +74,21 @@ TEST_F(OptimizeCommand, ReportsTheSameNumbersAsJson) {
 
 TEST_F(OptimizeCommand, SaysWhereTheCostLooksLikeThatOfAWrongGraph) {
   write_g2o(arguments.in, torn_pair());
-  std::string said;
+  std::string printed;
   optimize(arguments, [&](LogLevel level, const std::string& message) {
-    if (level == LogLevel::kWarning) said += message;
+    if (level == LogLevel::kWarning) printed += message;
   });
-  EXPECT_THAT(said, HasSubstr("in.g2o: chi2 is 44 times what"));  // 400 / 9: three edges too many
+  EXPECT_THAT(printed,
+              HasSubstr("in.g2o: chi2 is 44 times what"));  // 400 / 9: three edges too many
 }
 
 TEST_F(OptimizeCommand, SaysNothingOfAGraphThatFits) {
   write_g2o(arguments.in, test::ring<SE3>(12, false));
-  std::string said;
+  std::string printed;
   const OptimizeResult result = optimize(arguments, [&](LogLevel level, const std::string& text) {
-    if (level == LogLevel::kWarning) said += text;
+    if (level == LogLevel::kWarning) printed += text;
   });
-  EXPECT_EQ(said, "");
+  EXPECT_EQ(printed, "");
   EXPECT_LT(result.after.log, 1e-12);
 }
 

@@ -55,7 +55,7 @@ TEST_F(LinesDetectCommand, LeavesOutWhatIsShorterThanAsked) {
 TEST_F(LinesDetectCommand, WritesNothingOfABlankImage) {
   arguments.image =
       test::write_image(folder, "blank.png", Image(100, 100, CV_8UC1, cv::Scalar(90)));
-  EXPECT_EQ(message_of<NoAnswer>([&] { lines_detect(arguments); }),
+  EXPECT_EQ(message_of<NoResult>([&] { lines_detect(arguments); }),
             arguments.image + ": no straight edges");
   EXPECT_FALSE(std::filesystem::exists(arguments.out));
 }

@@ -73,7 +73,7 @@ TEST_F(LinesMatchCommand, WritesNothingWhereNothingJoinsTheImages) {
   give_segments();
   arguments.images[1] =
       test::write_image(folder, "blank.png", Image(260, 320, CV_8UC1, cv::Scalar(90)));
-  EXPECT_THAT(message_of<NoAnswer>([&] { lines_match(arguments); }),
+  EXPECT_THAT(message_of<NoResult>([&] { lines_match(arguments); }),
               HasSubstr(arguments.images[0] + ", " + arguments.images[1] + ": "));
   EXPECT_FALSE(std::filesystem::exists(arguments.out));
 }

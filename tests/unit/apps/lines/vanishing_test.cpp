@@ -74,7 +74,7 @@ TEST_F(VanishingCommand, AnswersThatNoWorldIsSupported) {
 
 TEST_F(VanishingCommand, HasNoAnswerOfTooFewSegments) {
   folder.write("lines.txt", "10 10 60 12\n");
-  EXPECT_EQ(message_of<NoAnswer>([&] { vanishing(arguments); }),
+  EXPECT_EQ(message_of<NoResult>([&] { vanishing(arguments); }),
             arguments.in + ": 1 segments, 4 needed");
 }
 

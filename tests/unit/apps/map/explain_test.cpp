@@ -80,7 +80,7 @@ TEST_F(ExplainTwoPlaces, SaysWhereAFrameIsAndHowThatIsKnown) {
   EXPECT_EQ(where["place"], 1);
   EXPECT_EQ(where["unit"], "m");
   EXPECT_NEAR(where["position"][2].get<double>(), 1.5, 1e-12);
-  EXPECT_NEAR(where["way_to_keyframe"].get<double>(), 0.5, 1e-12);
+  EXPECT_NEAR(where["distance_to_keyframe"].get<double>(), 0.5, 1e-12);
   // An edge of 0.1 in every direction; half a metre ahead its turn moves the frame sideways too:
   // 0.01 each, and twice 0.5^2 0.01.
   EXPECT_NEAR(where["sigma_position"].get<double>(), std::sqrt(0.03 + 0.005), 1e-9);
@@ -129,7 +129,7 @@ TEST(ExplainCommand, RefusesAFrameThatTheMapDoesNotHave) {
   ExplainArguments arguments;
   arguments.map = folder / "map.db";
   arguments.frame = FrameId(1'000'000);
-  EXPECT_THAT(message_of<NoAnswer>([&] { explain(arguments); }),
+  EXPECT_THAT(message_of<NoResult>([&] { explain(arguments); }),
               HasSubstr("map.db: has no frame 1000000"));
 }
 

@@ -95,7 +95,7 @@ TEST_F(GeoreferenceCommand, PutsTheMapOntoTheEarth) {
 
 TEST_F(GeoreferenceCommand, AnAntennaBesideTheCameraIsHeeded) {
   write_fixes(kRadius_m - 5);  // to the left of the drive, towards the circle's middle
-  expect_nothing_written<NoAnswer>("fixes agree on an alignment of the map");
+  expect_nothing_written<NoResult>("fixes agree on an alignment of the map");
   arguments.lever_arm = "0,5,0";
   const GeoreferenceReport report = georeference(arguments);
   EXPECT_LT(report.result.residual_rms_m, 0.01);
@@ -139,7 +139,7 @@ TEST_F(GeoreferenceCommand, WritesNothingWhereTheFixesAreOfAnotherTime) {
   std::ostringstream times;
   for (int i = 0; i < kNodes; ++i) times << 1000 + 0.1 * i << '\n';
   folder.write("times_oxts.txt", times.str());
-  expect_nothing_written<NoAnswer>("no time in common");
+  expect_nothing_written<NoResult>("no time in common");
 }
 
 }  // namespace

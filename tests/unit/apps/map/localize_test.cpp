@@ -52,15 +52,16 @@ test::TemporaryFolder* LocalizeCommand::made = nullptr;
 
 TEST_F(LocalizeCommand, PlacesImagesWhereTheMapLooksLikeThem) {
   const LocalizeResult result = localize(arguments);
-  ASSERT_EQ(result.answers.size(), 6u);
+  ASSERT_EQ(result.localizations.size(), 6u);
   EXPECT_EQ(result.counts.images, 6u);
   EXPECT_EQ(result.counts.placed, 6u);
   EXPECT_EQ(result.counts.posed, 0u);
-  EXPECT_FALSE(result.no_answer);
+  EXPECT_FALSE(result.no_result);
   for (int i = 0; i < 6; ++i) {
-    EXPECT_EQ(result.answers[static_cast<std::size_t>(i)].stage, "appearance");
-    EXPECT_NEAR(static_cast<double>(result.answers[static_cast<std::size_t>(i)].frame->value()),
-                frame_of(i) + 0.5, 2)
+    EXPECT_EQ(result.localizations[static_cast<std::size_t>(i)].stage, "appearance");
+    EXPECT_NEAR(
+        static_cast<double>(result.localizations[static_cast<std::size_t>(i)].frame->value()),
+        frame_of(i) + 0.5, 2)
         << i;
   }
   EXPECT_THAT(test::read_file(arguments.out),
@@ -96,14 +97,14 @@ TEST_F(LocalizeCommand, SaysWhyNothingCanBePlaced) {
   for (int i = 0; i < 6; ++i)
     test::write_image(folder, "new/00000" + std::to_string(i) + ".png",
                       Image(120, 160, CV_8UC3, cv::Scalar(90, 90, 90)));
-  EXPECT_EQ(localize(arguments).no_answer,
+  EXPECT_EQ(localize(arguments).no_result,
             arguments.images + ": none of the images could be placed");
   StoredMap stored = read_map(arguments.map);
   stored.origin.view_options.clear();
   write_map(folder / "blind.db", stored);
   arguments.map = folder / "blind.db";
   arguments.force = true;
-  EXPECT_THAT(message_of<NoAnswer>([&] { localize(arguments); }),
+  EXPECT_THAT(message_of<NoResult>([&] { localize(arguments); }),
               HasSubstr("blind.db: holds no views of its keyframes"));
 }
 

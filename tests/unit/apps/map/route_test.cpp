@@ -72,14 +72,14 @@ TEST_F(RouteCommand, LeadsOverThePlacesBetween) {
 
 TEST_F(RouteCommand, WritesTheViewToExpectAtEveryPlace) {
   route(arguments);
-  const json way = json::parse(test::read_file(arguments.out));
-  EXPECT_EQ(way["from"], 0);
-  EXPECT_EQ(way["to"], 2);
-  EXPECT_NEAR(way["length_m"].get<double>(), 3, 1e-9);
-  EXPECT_EQ(way["steps"][2]["view"]["frame"], 20);
+  const json path = json::parse(test::read_file(arguments.out));
+  EXPECT_EQ(path["from"], 0);
+  EXPECT_EQ(path["to"], 2);
+  EXPECT_NEAR(path["length_m"].get<double>(), 3, 1e-9);
+  EXPECT_EQ(path["steps"][2]["view"]["frame"], 20);
   // The way goes on where the view looks; at the last place it does not go on.
-  EXPECT_NEAR(way["steps"][1]["view_off_travel_deg"].get<double>(), 0, 1e-6);
-  EXPECT_FALSE(way["steps"][2].contains("view_off_travel_deg"));
+  EXPECT_NEAR(path["steps"][1]["view_off_travel_deg"].get<double>(), 0, 1e-6);
+  EXPECT_FALSE(path["steps"][2].contains("view_off_travel_deg"));
 }
 
 TEST_F(RouteCommand, LeadsBackIfAsked) {
@@ -87,13 +87,13 @@ TEST_F(RouteCommand, LeadsBackIfAsked) {
   const RouteResult result = route(arguments);
   EXPECT_EQ(result.route.steps.front().place, PlaceId(2));
   EXPECT_EQ(result.route.steps.back().place, PlaceId(0));
-  const json way = json::parse(to_json(result));
-  EXPECT_NEAR(way["steps"][0]["view_off_travel_deg"].get<double>(), 180, 1e-6);
+  const json path = json::parse(to_json(result));
+  EXPECT_NEAR(path["steps"][0]["view_off_travel_deg"].get<double>(), 180, 1e-6);
 }
 
 TEST_F(RouteCommand, WritesNothingWhereThereIsNoWay) {
   arguments.to = PlaceId(3);
-  EXPECT_THROW(route(arguments), NoAnswer);
+  EXPECT_THROW(route(arguments), NoResult);
   EXPECT_FALSE(std::filesystem::exists(arguments.out));
 }
 

@@ -117,7 +117,7 @@ TEST_F(MatchCommand, AnImageWithoutWordsHasNoAnswer) {
   for (int i = 0; i < 12; ++i)
     test::write_image(folder, test::view_name(i), Image(120, 160, CV_8UC3, cv::Scalar(90, 90, 90)));
   arguments.codes = "bow";
-  EXPECT_THAT(message_of<NoAnswer>([&] { match(arguments); }),
+  EXPECT_THAT(message_of<NoResult>([&] { match(arguments); }),
               HasSubstr(": no image has a word in common with an older one"));
   EXPECT_FALSE(fs::exists(arguments.out));
 }

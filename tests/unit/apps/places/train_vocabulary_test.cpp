@@ -64,7 +64,7 @@ TEST_F(TrainVocabularyCommand, RefusesWhatItCannotLearnFrom) {
   arguments.kind = "binary";
   for (int i = 0; i < 12; ++i)
     test::write_image(folder, test::view_name(i), Image(120, 160, CV_8UC1, cv::Scalar(90)));
-  EXPECT_THAT(message_of<NoAnswer>([&] { train_vocabulary(arguments); }),
+  EXPECT_THAT(message_of<NoResult>([&] { train_vocabulary(arguments); }),
               HasSubstr("no image has a corner to learn words from"));
   EXPECT_FALSE(std::filesystem::exists(arguments.out));
 }

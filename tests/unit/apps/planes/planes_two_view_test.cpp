@@ -99,7 +99,7 @@ TEST_F(PlanesTwoViewCommand, AnswersThatThereIsNoPlane) {
 
 TEST_F(PlanesTwoViewCommand, WritesNothingWhereMatchesAreTooFewOrBroken) {
   folder.write("matches.txt", "1 2 3 4\n");
-  EXPECT_THAT(message_of<NoAnswer>([&] { planes_two_view(arguments); }),
+  EXPECT_THAT(message_of<NoResult>([&] { planes_two_view(arguments); }),
               HasSubstr("matches.txt: 1 matches, 8 needed"));
   folder.write("matches.txt", "1 2 3 4\n1 2 3\n");
   EXPECT_THAT(message_of([&] { planes_two_view(arguments); }), HasSubstr("matches.txt:2: "));

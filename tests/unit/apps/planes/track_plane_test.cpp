@@ -102,9 +102,9 @@ TEST_F(TrackPlaneCommand, CutsTheTemplateFromAnotherImage) {
 TEST_F(TrackPlaneCommand, WritesNothingWhereTheTemplateIsBlankOrInNoImage) {
   test::write_image(folder, "blank/0.png", Image(240, 320, CV_8UC1, cv::Scalar(90)));
   arguments.in = folder / "blank";
-  EXPECT_THAT(message_of<NoAnswer>([&] { track_plane(arguments); }), HasSubstr("--template: "));
+  EXPECT_THAT(message_of<NoResult>([&] { track_plane(arguments); }), HasSubstr("--template: "));
   arguments.image = folder / "images/00.png";
-  EXPECT_THAT(message_of<NoAnswer>([&] { track_plane(arguments); }),
+  EXPECT_THAT(message_of<NoResult>([&] { track_plane(arguments); }),
               HasSubstr("blank: the template was found in none of 1 frames: "));
   EXPECT_FALSE(std::filesystem::exists(arguments.out));
 }

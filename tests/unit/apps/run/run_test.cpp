@@ -30,7 +30,7 @@ TEST_F(RunCommandFunction, WritesTheResultsItReports) {
   test::StreetFiles(folder, 4).write_kitti(true);
   const RunReport report = run(arguments);
   EXPECT_FALSE(report.broken_off);
-  EXPECT_FALSE(report.no_answer);
+  EXPECT_FALSE(report.no_result);
   EXPECT_EQ(report.summary["sequence"], "s");
   EXPECT_EQ(report.summary["frames"], 4);
   EXPECT_EQ(report.summary["posed"], 4);
@@ -72,8 +72,8 @@ TEST_F(RunCommandFunction, SaysWhyNoFrameCouldBePosed) {
         folder, "s/image_0/" + test::StreetFiles::name(i),
         Image(test::street_camera().height, test::street_camera().width, CV_8UC1, cv::Scalar(90)));
   const RunReport report = run(arguments);
-  ASSERT_TRUE(report.no_answer);
-  EXPECT_THAT(*report.no_answer, HasSubstr("s: no frame could be posed: "));
+  ASSERT_TRUE(report.no_result);
+  EXPECT_THAT(*report.no_result, HasSubstr("s: no frame could be posed: "));
   EXPECT_EQ(report.summary["posed"], 0);
 }
 

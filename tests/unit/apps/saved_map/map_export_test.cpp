@@ -79,7 +79,7 @@ TEST_F(MapExportCommand, AMapOfImagesHasNoPosesToWrite) {
   stored.origin.calibration.reset();
   write_map(folder / "map.db", stored);
   path("--tum") = folder / "t.tum";
-  EXPECT_THAT(message_of<NoAnswer>([&] { map_export(arguments); }),
+  EXPECT_THAT(message_of<NoResult>([&] { map_export(arguments); }),
               HasSubstr(": a map of images without a camera has no poses to write to "));
   EXPECT_FALSE(std::filesystem::exists(folder / "t.tum"));
   path("--tum").clear();

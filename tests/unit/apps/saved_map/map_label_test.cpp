@@ -78,7 +78,7 @@ TEST_F(MapLabelCommand, RefusesAMapThatIsNotFinishedAndOneWhoseImagesAreGone) {
   stored.finished = false;
   write_map(arguments.map, stored);
   EXPECT_THAT(
-      message_of<NoAnswer>([&] { map_label(arguments); }),
+      message_of<NoResult>([&] { map_label(arguments); }),
       HasSubstr("walk.db: its run was broken off; finish it with `placegraph run --resume` first"));
 }
 

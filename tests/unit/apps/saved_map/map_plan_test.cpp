@@ -61,7 +61,7 @@ TEST_F(MapPlanCommand, WritesNothingWhereNothingHasAPose) {
   stored.origin.calibration.reset();
   write_map(folder / "images.db", stored);
   arguments.map = folder / "images.db";
-  EXPECT_THAT(message_of<NoAnswer>([&] { map_plan(arguments); }),
+  EXPECT_THAT(message_of<NoResult>([&] { map_plan(arguments); }),
               HasSubstr("images.db: nothing in it has a pose"));
   EXPECT_FALSE(fs::exists(arguments.out));
 }

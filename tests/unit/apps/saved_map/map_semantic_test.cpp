@@ -63,7 +63,7 @@ TEST_F(MapSemanticCommand, WritesNothingWhereNothingHasAPose) {
   stored.origin.calibration.reset();
   write_map(folder / "images.db", stored);
   arguments.map = folder / "images.db";
-  EXPECT_THAT(message_of<NoAnswer>([&] { map_semantic(arguments); }),
+  EXPECT_THAT(message_of<NoResult>([&] { map_semantic(arguments); }),
               HasSubstr("images.db: nothing in it has a pose"));
   EXPECT_FALSE(fs::exists(arguments.out));
 }

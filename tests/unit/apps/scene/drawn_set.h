@@ -2,7 +2,7 @@
 #include <string>
 
 #include "apps/train/train_scene.h"
-#include "tests/support/scenes/scene_pictures.h"
+#include "tests/support/scenes/scene_images.h"
 #include "tests/unit/io/datasets/tiny_images.h"
 
 namespace placegraph::test {

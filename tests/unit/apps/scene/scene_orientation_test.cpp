@@ -71,7 +71,7 @@ TEST_F(SceneOrientationCommand, HoldsASequenceAgainstItsSurfaces) {
   const auto& found = std::get<SequenceOrientation>(result.found);
   EXPECT_EQ(found.images, 2);
   EXPECT_EQ(found.labelled, 2);
-  EXPECT_FALSE(result.no_answer);
+  EXPECT_FALSE(result.no_result);
   ASSERT_TRUE(found.check);
   EXPECT_GT(found.check->judged, 100'000u);  // of 2 x 76800 pixels
   EXPECT_NEAR(found.check->coverage(), found.coverage, 0.05);
@@ -83,7 +83,7 @@ TEST_F(SceneOrientationCommand, HoldsASequenceAgainstItsSurfaces) {
 TEST_F(SceneOrientationCommand, SaysWhyThereIsNoOrientation) {
   arguments.in = test::write_image(folder, "blank.png", Image(240, 320, CV_8UC1, cv::Scalar(90)));
   arguments.out = folder / "map.png";
-  EXPECT_THAT(message_of<NoAnswer>([&] { scene_orientation(arguments); }),
+  EXPECT_THAT(message_of<NoResult>([&] { scene_orientation(arguments); }),
               HasSubstr("blank.png: "));
   EXPECT_FALSE(std::filesystem::exists(arguments.out));
 
@@ -98,7 +98,7 @@ TEST_F(SceneOrientationCommand, SaysWhyThereIsNoOrientation) {
   const SceneOrientationResult result = scene_orientation(arguments);
   EXPECT_EQ(std::get<SequenceOrientation>(result.found).labelled, 0);
   EXPECT_FALSE(std::get<SequenceOrientation>(result.found).check);
-  EXPECT_EQ(result.no_answer, arguments.in + ": no image shows a Manhattan frame");
+  EXPECT_EQ(result.no_result, arguments.in + ": no image shows a Manhattan frame");
 }
 
 TEST_F(SceneOrientationCommand, NamesWhatIsMissingOrDoesNotFit) {

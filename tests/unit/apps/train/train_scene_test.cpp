@@ -29,9 +29,9 @@ class TrainSceneCommand : public testing::Test {
 
 TEST_F(TrainSceneCommand, LearnsTheClassesAndJudgesThemByPicturesItHasNotSeen) {
   arguments.options.training.variants = 2;
-  std::vector<std::string> said;
+  std::vector<std::string> printed;
   const TrainSceneResult result =
-      train_scene(arguments, kUrban, [&](LogLevel, const std::string& m) { said.push_back(m); });
+      train_scene(arguments, kUrban, [&](LogLevel, const std::string& m) { printed.push_back(m); });
   EXPECT_EQ(result.images, 5u);
   EXPECT_EQ(result.classes, (std::vector<std::string>{"Sky", "Road", "Wall", "Car"}));
   ASSERT_TRUE(result.held_out);
@@ -41,7 +41,7 @@ TEST_F(TrainSceneCommand, LearnsTheClassesAndJudgesThemByPicturesItHasNotSeen) {
   EXPECT_GT(result.held_out->check.pixel_accuracy(), 0.9);
   EXPECT_TRUE(result.held_out->ablation.empty());
   EXPECT_TRUE(result.held_out->changes.empty());
-  EXPECT_FALSE(said.empty());
+  EXPECT_FALSE(printed.empty());
   const SceneModel written = read_scene_model(arguments.out);
   EXPECT_EQ(written.kind, kUrban);
   EXPECT_EQ(written.classes, result.classes);

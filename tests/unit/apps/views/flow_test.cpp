@@ -73,7 +73,7 @@ TEST_F(FlowCommand, ComputesTheTimeToContactWithoutTheRotation) {
   arguments.dt_s = 0.1;
   arguments.gyro = {0, 0.2, 0};
   const FlowResult result = flow(arguments);
-  EXPECT_FALSE(result.no_answer);
+  EXPECT_FALSE(result.no_result);
   // 1.9 m are left at 1 m/s; the flow is known to some per cent.
   EXPECT_NEAR(result.cues["time_to_contact"]["time"].get<double>(), 1.9, 0.1);
   const auto& speed = result.cues["ventral"]["speed_over_distance"];
@@ -99,7 +99,7 @@ TEST_F(FlowCommand, SaysWhereTheFlowTellsNoCue) {
   arguments.cell_px = 512;  // one vector
   const FlowResult result = flow(arguments);
   EXPECT_GT(result.known, 0);
-  EXPECT_EQ(result.no_answer, "--flow-cues: no cue could be estimated from the flow");
+  EXPECT_EQ(result.no_result, "--flow-cues: no cue could be estimated from the flow");
 }
 
 TEST_F(FlowCommand, HasNoAnswerOfBlankImagesAndWritesNothing) {
@@ -107,7 +107,7 @@ TEST_F(FlowCommand, HasNoAnswerOfBlankImagesAndWritesNothing) {
   arguments.from = arguments.to = test::write_image(folder, "blank.png", blank);
   arguments.method = "lucas-kanade";
   arguments.out = folder / "f.flo";
-  EXPECT_EQ(message_of<NoAnswer>([&] { flow(arguments); }), "no displacement was found");
+  EXPECT_EQ(message_of<NoResult>([&] { flow(arguments); }), "no displacement was found");
   EXPECT_FALSE(std::filesystem::exists(arguments.out));
 }
 

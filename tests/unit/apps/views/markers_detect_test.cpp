@@ -112,7 +112,7 @@ TEST_F(MarkersDetectCommand, WritesNothingOfAnImageWithoutMarkers) {
   arguments.image =
       test::write_image(*folder, "plain.png", Image(480, 640, CV_8UC1, cv::Scalar(128)));
   arguments.out = *folder / "none.json";
-  EXPECT_EQ(message_of<NoAnswer>([&] { markers_detect(arguments); }),
+  EXPECT_EQ(message_of<NoResult>([&] { markers_detect(arguments); }),
             arguments.image + ": no marker of apriltag_36h11");
   EXPECT_FALSE(std::filesystem::exists(arguments.out));
 }

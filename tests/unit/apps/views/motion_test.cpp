@@ -41,15 +41,16 @@ class MotionCommand : public testing::Test {
     arguments.calib = folder.write("K.txt", calib.str());
   }
   void expect_true_motion(const MotionResult& result) {
-    const MotionEstimate& answer = result.answer;
-    ASSERT_TRUE(answer.outcome) << answer.outcome.reason;
-    EXPECT_FALSE(result.no_answer);
-    const Eigen::Vector3d t = answer.metric ? T_ref_cur.translation()
-                                            : Eigen::Vector3d(T_ref_cur.translation().normalized());
-    EXPECT_LT((answer.T_ref_cur->translation() - t).norm(), 1e-4);
-    EXPECT_LT(test::angle_rad(*answer.T_ref_cur, T_ref_cur), 1e-4);
-    EXPECT_EQ(answer.matches, 120);
-    EXPECT_GE(answer.inliers.size(), 118u);
+    const MotionEstimate& estimate = result.estimate;
+    ASSERT_TRUE(estimate.outcome) << estimate.outcome.reason;
+    EXPECT_FALSE(result.no_result);
+    const Eigen::Vector3d t = estimate.metric
+                                  ? T_ref_cur.translation()
+                                  : Eigen::Vector3d(T_ref_cur.translation().normalized());
+    EXPECT_LT((estimate.T_ref_cur->translation() - t).norm(), 1e-4);
+    EXPECT_LT(test::angle_rad(*estimate.T_ref_cur, T_ref_cur), 1e-4);
+    EXPECT_EQ(estimate.matches, 120);
+    EXPECT_GE(estimate.inliers.size(), 118u);
   }
   const SE3 T_ref_cur =
       test::pose({0, 0.1, 0}, 1.5 * Eigen::Vector3d(std::sin(0.05), 0, std::cos(0.05)));
@@ -65,9 +66,9 @@ TEST_F(MotionCommand, FindsTheMotionOfACarByEveryModelThatFits) {
     arguments.options.gravity = arguments.model == "gravity" ? "0,1,0,0,2,0" : "";
     const MotionResult result = motion(arguments);
     expect_true_motion(result);
-    EXPECT_FALSE(result.answer.metric);
-    EXPECT_EQ(result.answer.knows_covariance, arguments.model != "circular");
-    EXPECT_EQ(result.answer.model, arguments.model == "auto" ? "essential" : model);
+    EXPECT_FALSE(result.estimate.metric);
+    EXPECT_EQ(result.estimate.knows_covariance, arguments.model != "circular");
+    EXPECT_EQ(result.estimate.model, arguments.model == "auto" ? "essential" : model);
   }
 }
 
@@ -84,8 +85,8 @@ TEST_F(MotionCommand, TakesEachVerticalInTheCameraThatItIsOf) {
   arguments.options.gravity =
       "0,1,0," + std::to_string(std::sin(0.3)) + "," + std::to_string(std::cos(0.3)) + ",0";
   const MotionResult result = motion(arguments);
-  ASSERT_TRUE(result.answer.outcome) << result.answer.outcome.reason;
-  EXPECT_LT(test::angle_rad(*result.answer.T_ref_cur, T_ref_cur * roll), 1e-4);
+  ASSERT_TRUE(result.estimate.outcome) << result.estimate.outcome.reason;
+  EXPECT_LT(test::angle_rad(*result.estimate.T_ref_cur, T_ref_cur * roll), 1e-4);
 }
 
 TEST_F(MotionCommand, HandsTheFewestInliersOnToEveryModel) {
@@ -95,7 +96,7 @@ TEST_F(MotionCommand, HandsTheFewestInliersOnToEveryModel) {
     arguments.in = folder / (arguments.model == "3d2d"   ? "seen.txt"
                              : arguments.model == "3d3d" ? "pairs.txt"
                                                          : "matches.txt");
-    EXPECT_TRUE(motion(arguments).no_answer) << model;
+    EXPECT_TRUE(motion(arguments).no_result) << model;
   }
 }
 
@@ -113,11 +114,11 @@ TEST_F(MotionCommand, LevelsTheCameraOfACarByGravity) {
   arguments.model = "circular";
   arguments.options.gravity = "1,0,0";  // tilt * (0, 1, 0)
   const MotionResult result = motion(arguments);
-  ASSERT_TRUE(result.answer.outcome) << result.answer.outcome.reason;
-  EXPECT_NEAR(result.answer.evidence["yaw_rad"].get<double>(), 0.1, 1e-4);
+  ASSERT_TRUE(result.estimate.outcome) << result.estimate.outcome.reason;
+  EXPECT_NEAR(result.estimate.evidence["yaw_rad"].get<double>(), 0.1, 1e-4);
   arguments.options.gravity.clear();
   const MotionResult level = motion(arguments);
-  EXPECT_TRUE(!level.answer.outcome || level.answer.inliers.size() < 60);
+  EXPECT_TRUE(!level.estimate.outcome || level.estimate.inliers.size() < 60);
 }
 
 TEST_F(MotionCommand, TellsMetresByPointsOfKnownPlace) {
@@ -128,11 +129,11 @@ TEST_F(MotionCommand, TellsMetresByPointsOfKnownPlace) {
     arguments.in = folder / file;
     const MotionResult result = motion(arguments);
     expect_true_motion(result);
-    EXPECT_TRUE(result.answer.metric);
+    EXPECT_TRUE(result.estimate.metric);
     EXPECT_THAT(to_text(result), HasSubstr(" m, sigma "));
   }
   arguments.calib.clear();  // the last needs none
-  EXPECT_TRUE(motion(arguments).answer.outcome);
+  EXPECT_TRUE(motion(arguments).estimate.outcome);
 }
 
 TEST_F(MotionCommand, ReportsARotationWithoutATranslation) {
@@ -144,10 +145,10 @@ TEST_F(MotionCommand, ReportsARotationWithoutATranslation) {
       matches << scene.camera.project(p)->transpose() << ' ' << px->transpose() << '\n';
   arguments.in = folder.write("turn.txt", matches.str());
   const MotionResult result = motion(arguments);
-  EXPECT_EQ(result.answer.model, "rotation");
-  EXPECT_FALSE(result.answer.T_ref_cur);
-  ASSERT_TRUE(result.answer.R_ref_cur);
-  EXPECT_LT((result.answer.R_ref_cur->log() - Eigen::Vector3d(0, 0.05, 0)).norm(), 1e-5);
+  EXPECT_EQ(result.estimate.model, "rotation");
+  EXPECT_FALSE(result.estimate.T_ref_cur);
+  ASSERT_TRUE(result.estimate.R_ref_cur);
+  EXPECT_LT((result.estimate.R_ref_cur->log() - Eigen::Vector3d(0, 0.05, 0)).norm(), 1e-5);
   const auto json = nlohmann::json::parse(to_json(result));
   EXPECT_TRUE(json["t_ref_cur"].is_null());
   EXPECT_EQ(json["covariance"].size(), 3u);
@@ -159,8 +160,8 @@ TEST_F(MotionCommand, WritesWhatItKnowsAlsoWhereMatchesAreTooFew) {
   arguments.in = folder.write("repeated.txt", repeated);
   arguments.out = folder / "m.json";
   const MotionResult result = motion(arguments);
-  EXPECT_EQ(result.no_answer, arguments.in + ": 2 distinct matches, 8 needed");
-  EXPECT_EQ(result.answer.matches, 50);
+  EXPECT_EQ(result.no_result, arguments.in + ": 2 distinct matches, 8 needed");
+  EXPECT_EQ(result.estimate.matches, 50);
   EXPECT_EQ(test::read_file(arguments.out), to_json(result));
   const auto json = nlohmann::json::parse(to_json(result));
   EXPECT_EQ(json["outcome"], "too few data");

@@ -39,7 +39,7 @@ PoseGraph walk(double claimed_t, double claimed_r, Random random) {
     graph.constraints.emplace_back(position);
   }
   PoseGraphOptions options;
-  options.start = PoseGraphInitialization::kFile;
+  options.initialization = PoseGraphInitialization::kFile;
   return optimize_pose_graph(graph, options).graph;
 }
 
@@ -69,7 +69,7 @@ TEST(VarianceComponents, ConvergesToTheScatterWhateverWasClaimed) {
       rotation *= found.rotation.factor;
       scale_odometry(graph, found.translation.factor, found.rotation.factor);
       PoseGraphOptions options;
-      options.start = PoseGraphInitialization::kFile;
+      options.initialization = PoseGraphInitialization::kFile;
       graph = optimize_pose_graph(graph, options).graph;
     }
     EXPECT_NEAR(std::log(translation * wrong), 0, 0.35);

@@ -7,12 +7,12 @@
 
 #include <algorithm>
 
-#include "tests/support/scenes/growing_walk.h"
+#include "tests/support/scenes/incremental_walk.h"
 
 namespace placegraph {
 namespace {
 
-using test::GrowingWalk;
+using test::IncrementalWalk;
 
 PoseGraphOptions tight() {
   PoseGraphOptions options;
@@ -26,7 +26,7 @@ using Groups = testing::Types<SE2, SE3, Sim3>;
 TYPED_TEST_SUITE(IncrementalOptimizerOf, Groups);
 
 TYPED_TEST(IncrementalOptimizerOf, ReplayEndsAtTheOptimumOfTheWholeGraph) {
-  const GrowingWalk<TypeParam> walk(60, 0.03, 1);
+  const IncrementalWalk<TypeParam> walk(60, 0.03, 1);
   const IncrementalReplay replay = optimize_incrementally(walk.graph);
   EXPECT_TRUE(replay.outcome) << replay.outcome.reason;
   const PoseGraphReport batch = optimize_pose_graph(replay.graph, tight());
@@ -50,7 +50,7 @@ void feed(IncrementalOptimizer& optimizer, const PoseGraph& graph, bool reversed
 }
 
 TYPED_TEST(IncrementalOptimizerOf, EveryStepStaysWithinTheExcessAskedFor) {
-  const GrowingWalk<TypeParam> walk(40, 0.03, 2);
+  const IncrementalWalk<TypeParam> walk(40, 0.03, 2);
   IncrementalOptions options;
   options.excess = 1e-4;
   IncrementalOptimizer optimizer(options);
@@ -63,7 +63,7 @@ TYPED_TEST(IncrementalOptimizerOf, EveryStepStaysWithinTheExcessAskedFor) {
 }
 
 TYPED_TEST(IncrementalOptimizerOf, TheOrderOfConstraintsOfAStepChangesNothing) {
-  const GrowingWalk<TypeParam> walk(40, 0.03, 3);
+  const IncrementalWalk<TypeParam> walk(40, 0.03, 3);
   IncrementalOptimizer a, b;
   feed<TypeParam>(a, walk.graph, false, [](const IncrementalStep&) {});
   feed<TypeParam>(b, walk.graph, true, [](const IncrementalStep&) {});
@@ -73,7 +73,7 @@ TYPED_TEST(IncrementalOptimizerOf, TheOrderOfConstraintsOfAStepChangesNothing) {
 }
 
 TYPED_TEST(IncrementalOptimizerOf, ARemovedConstraintIsAsIfItHadNeverBeen) {
-  GrowingWalk<TypeParam> walk(40, 0.03, 4);
+  IncrementalWalk<TypeParam> walk(40, 0.03, 4);
   IncrementalOptimizer optimizer;
   feed<TypeParam>(optimizer, walk.graph, false, [](const IncrementalStep&) {});
   RelativePoseConstraint wrong = walk.measure(3, 30, 0);
@@ -90,7 +90,7 @@ TYPED_TEST(IncrementalOptimizerOf, ARemovedConstraintIsAsIfItHadNeverBeen) {
 }
 
 TYPED_TEST(IncrementalOptimizerOf, PiecesAreJoinedLaterAndFallApartAgain) {
-  GrowingWalk<TypeParam> walk(30, 0, 5);
+  IncrementalWalk<TypeParam> walk(30, 0, 5);
   IncrementalOptimizer optimizer;
   // Two halves of a chain, the second somewhere else; then the link between them.
   for (int i = 0; i < 30; ++i) {
@@ -116,7 +116,7 @@ TYPED_TEST(IncrementalOptimizerOf, PiecesAreJoinedLaterAndFallApartAgain) {
 }
 
 TYPED_TEST(IncrementalOptimizerOf, KernelsAndPositionsCount) {
-  GrowingWalk<TypeParam> walk(40, 0.02, 6);
+  IncrementalWalk<TypeParam> walk(40, 0.02, 6);
   for (Constraint& c : walk.graph.constraints) {
     auto& relative = std::get<RelativePoseConstraint>(c);
     if (relative.source == ConstraintSource::kLoop)
@@ -140,7 +140,7 @@ TYPED_TEST(IncrementalOptimizerOf, KernelsAndPositionsCount) {
 }
 
 TYPED_TEST(IncrementalOptimizerOf, AConstraintThatIsNearlyInfiniteFailsUntilItIsRemoved) {
-  GrowingWalk<TypeParam> walk(10, 0.03, 10);
+  IncrementalWalk<TypeParam> walk(10, 0.03, 10);
   IncrementalOptimizer optimizer;
   ASSERT_TRUE(optimizer.add(walk.graph.nodes, walk.graph.constraints).outcome);
   const auto before = std::get<TypeParam>(*optimizer.pose(NodeId(15))).matrix();
@@ -160,7 +160,7 @@ TYPED_TEST(IncrementalOptimizerOf, TheGraphHoldsTheWeights) {
        {RobustKernel::Kind::kNone, RobustKernel::Kind::kHuber, RobustKernel::Kind::kCauchy,
         RobustKernel::Kind::kTukey, RobustKernel::Kind::kGemanMcClure, RobustKernel::Kind::kDcs,
         RobustKernel::Kind::kTruncated}) {
-    GrowingWalk<TypeParam> walk(10, 0.1, 11);
+    IncrementalWalk<TypeParam> walk(10, 0.1, 11);
     for (Constraint& c : walk.graph.constraints)
       std::get<RelativePoseConstraint>(c).kernel = {kind, 2};
     IncrementalOptimizer optimizer;
@@ -178,7 +178,7 @@ TYPED_TEST(IncrementalOptimizerOf, TheGraphHoldsTheWeights) {
 }
 
 TYPED_TEST(IncrementalOptimizerOf, CovarianceOfAChainIsComputedByHand) {
-  GrowingWalk<TypeParam> walk(2, 0, 7);
+  IncrementalWalk<TypeParam> walk(2, 0, 7);
   IncrementalOptimizer optimizer;
   optimizer.add(walk.graph.nodes, walk.graph.constraints);
   // One edge of information 100 from the held node.
@@ -190,7 +190,7 @@ TYPED_TEST(IncrementalOptimizerOf, CovarianceOfAChainIsComputedByHand) {
 }
 
 TYPED_TEST(IncrementalOptimizerOf, ARevisedConstraintIsAsIfItHadBeenMeasuredSo) {
-  GrowingWalk<TypeParam> walk(40, 0.03, 10), other(40, 0.03, 11);
+  IncrementalWalk<TypeParam> walk(40, 0.03, 10), other(40, 0.03, 11);
   IncrementalOptimizer optimizer;
   feed<TypeParam>(optimizer, walk.graph, false, [](const IncrementalStep&) {});
   GraphChange change;
@@ -213,7 +213,7 @@ TYPED_TEST(IncrementalOptimizerOf, ARevisedConstraintIsAsIfItHadBeenMeasuredSo) 
 }
 
 TYPED_TEST(IncrementalOptimizerOf, BeginsWithAGraphAtItsPoses) {
-  const GrowingWalk<TypeParam> walk(40, 0.03, 12);
+  const IncrementalWalk<TypeParam> walk(40, 0.03, 12);
   const PoseGraph solved = optimize_pose_graph(walk.graph, tight()).graph;
   IncrementalOptimizer optimizer({}, solved);
   const IncrementalStep step = optimizer.apply({});
@@ -224,7 +224,7 @@ TYPED_TEST(IncrementalOptimizerOf, BeginsWithAGraphAtItsPoses) {
 }
 
 TYPED_TEST(IncrementalOptimizerOf, RelativeCovarianceIsThatOfTheWholeGraph) {
-  const GrowingWalk<TypeParam> walk(40, 0.03, 13);
+  const IncrementalWalk<TypeParam> walk(40, 0.03, 13);
   IncrementalOptions options;
   options.relinearization = 0;
   IncrementalOptimizer optimizer(options);
@@ -239,7 +239,7 @@ TYPED_TEST(IncrementalOptimizerOf, RelativeCovarianceIsThatOfTheWholeGraph) {
 TEST(IncrementalOptimizer, RefusesWhatDoesNotFitAndChangesNothing) {
   IncrementalOptimizer optimizer;
   EXPECT_FALSE(optimizer.pose(NodeId(0)));
-  GrowingWalk<SE2> walk(3, 0, 8);
+  IncrementalWalk<SE2> walk(3, 0, 8);
   EXPECT_THROW(optimizer.add({}, walk.graph.constraints), ArgumentError);
   optimizer.add(walk.graph.nodes, walk.graph.constraints);
   EXPECT_THROW(optimizer.add({walk.graph.nodes[1]}, {}), ArgumentError);
@@ -260,7 +260,7 @@ TEST(IncrementalOptimizer, RefusesWhatDoesNotFitAndChangesNothing) {
 }
 
 TEST(IncrementalOptimizer, TwoRunsGiveTheSameBits) {
-  const GrowingWalk<SE3> walk(60, 0.03, 9);
+  const IncrementalWalk<SE3> walk(60, 0.03, 9);
   const IncrementalReplay a = optimize_incrementally(walk.graph);
   const IncrementalReplay b = optimize_incrementally(walk.graph);
   EXPECT_EQ(a.cost, b.cost);

@@ -34,11 +34,11 @@ Flown fly(const SwayingBody& flight, double marker_every_s, double outage_s = 1e
     if (i % per_marker == 0 && !(t >= outage_s && t < outage_s + 3))
       (void)flown.filter.add(flight.marker(t, random));
     if (i % per_image != 0 || t < 1) continue;
-    const auto answer = flown.filter.at(SwayingBody::stamp(t));
-    EXPECT_TRUE(answer.outcome) << answer.outcome.reason;
-    const Vector3d e = answer.state.T_world_body.translation() - flight.position(t);
+    const auto estimate = flown.filter.at(SwayingBody::stamp(t));
+    EXPECT_TRUE(estimate.outcome) << estimate.outcome.reason;
+    const Vector3d e = estimate.state.T_world_body.translation() - flight.position(t);
     flown.worst_m = std::max(flown.worst_m, e.norm());
-    const Eigen::Matrix3d P = answer.state.covariance.topLeftCorner<3, 3>();
+    const Eigen::Matrix3d P = estimate.state.covariance.topLeftCorner<3, 3>();
     flown.nees_per_dof += e.dot(P.inverse() * e) / 3;
     ++judged;
   }
@@ -58,9 +58,9 @@ TEST(PositionFilter, RotatesFromItsStartAsTheFirstSampleSays) {
   filter.start(start);
   for (const double t : {0.01, 0.02})
     ASSERT_TRUE(filter.add(ImuSample{SwayingBody::stamp(t), {0, 0, 1}, {0, 0, 9.80665}}));
-  const auto answer = filter.at(SwayingBody::stamp(0.02));
-  ASSERT_TRUE(answer.outcome);
-  EXPECT_NEAR(answer.state.T_world_body.rotation().log().z(), 0.02, 1e-9);
+  const auto estimate = filter.at(SwayingBody::stamp(0.02));
+  ASSERT_TRUE(estimate.outcome);
+  EXPECT_NEAR(estimate.state.T_world_body.rotation().log().z(), 0.02, 1e-9);
 }
 
 TEST(PositionFilter, IsTheSameInWhateverOrderMeasurementsArrive) {
@@ -70,7 +70,7 @@ TEST(PositionFilter, IsTheSameInWhateverOrderMeasurementsArrive) {
   const BodyState start = flight.start(random);
   in_time.start(start);
   late.start(start);
-  std::vector<PoseMeasurement> waiting;
+  std::vector<PoseMeasurement> pending;
   for (int i = 1; i <= 200; ++i) {
     const double t = i / flight.imu_hz;
     const ImuSample sample = flight.imu(t, random);
@@ -79,10 +79,10 @@ TEST(PositionFilter, IsTheSameInWhateverOrderMeasurementsArrive) {
     if (i % 20 == 0) {
       const PoseMeasurement seen = flight.marker(t, random);
       ASSERT_TRUE(in_time.add(seen));
-      waiting.push_back(seen);
+      pending.push_back(seen);
     }
     if (i % 60 == 0) {  // two tenths of a second late, and the newest first
-      for (; !waiting.empty(); waiting.pop_back()) ASSERT_TRUE(late.add(waiting.back()));
+      for (; !pending.empty(); pending.pop_back()) ASSERT_TRUE(late.add(pending.back()));
     }
   }
   const auto a = in_time.at(SwayingBody::stamp(0.9)), b = late.at(SwayingBody::stamp(0.9));
@@ -99,24 +99,24 @@ TEST(PositionFilter, TakesFlowAndMarkersInAnyOrderWithinItsHistory) {
     const BodyState start = flight.start(random);
     in_time.start(start);
     late.start(start);
-    std::vector<std::variant<PoseMeasurement, FlowMeasurement>> waiting;
+    std::vector<std::variant<PoseMeasurement, FlowMeasurement>> pending;
     for (int i = 1; i <= 160; ++i) {
       const double t = i / flight.imu_hz;
       const ImuSample sample = flight.imu(t, random);
       ASSERT_TRUE(in_time.add(sample));
       ASSERT_TRUE(late.add(sample));
-      if (i % 10 == 0) waiting.push_back(flight.flow(t - 10 / flight.imu_hz, t, random));
-      if (i % 20 == 0) waiting.push_back(flight.marker(t, random));
-      for (std::size_t k = waiting.size() - (i % 20 == 0   ? 2
+      if (i % 10 == 0) pending.push_back(flight.flow(t - 10 / flight.imu_hz, t, random));
+      if (i % 20 == 0) pending.push_back(flight.marker(t, random));
+      for (std::size_t k = pending.size() - (i % 20 == 0   ? 2
                                              : i % 10 == 0 ? 1
                                                            : 0);
-           k < waiting.size(); ++k)
-        ASSERT_TRUE(std::visit([&](const auto& seen) { return in_time.add(seen); }, waiting[k]));
+           k < pending.size(); ++k)
+        ASSERT_TRUE(std::visit([&](const auto& seen) { return in_time.add(seen); }, pending[k]));
       if (i % 80 != 0) continue;
-      while (!waiting.empty()) {  // up to four tenths of a second late, shuffled
-        const auto next = waiting.begin() + order.index(static_cast<int>(waiting.size()));
+      while (!pending.empty()) {  // up to four tenths of a second late, shuffled
+        const auto next = pending.begin() + order.index(static_cast<int>(pending.size()));
         ASSERT_TRUE(std::visit([&](const auto& seen) { return late.add(seen); }, *next));
-        waiting.erase(next);
+        pending.erase(next);
       }
     }
     const auto a = in_time.at(SwayingBody::stamp(0.8)), b = late.at(SwayingBody::stamp(0.8));

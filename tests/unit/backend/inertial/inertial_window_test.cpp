@@ -32,10 +32,10 @@ TEST(InertialWindow, HoldsThePosition) {
   Random random = test::seeded_random(1);
   const SwayingBody flight;
   InertialWindow window = after_two_seconds(flight, random);
-  const auto answer = window.solve();
-  ASSERT_TRUE(answer.outcome);
-  ASSERT_EQ(answer.states.size(), 20u);
-  for (const BodyState& state : answer.states) {
+  const auto estimate = window.solve();
+  ASSERT_TRUE(estimate.outcome);
+  ASSERT_EQ(estimate.states.size(), 20u);
+  for (const BodyState& state : estimate.states) {
     const double t = 1e-9 * static_cast<double>(state.stamp_ns);
     // Markers of 1 cm, twenty a second.
     EXPECT_LT((state.T_world_body.translation() - flight.position(t)).norm(), 0.02);
@@ -55,10 +55,10 @@ TEST(InertialWindow, RotatesFromItsStartAsTheFirstSampleSays) {
   vague.stamp_ns = SwayingBody::stamp(0.02);
   vague.covariance = 1e6 * Matrix6d::Identity();
   ASSERT_TRUE(window.add(vague));
-  const auto answer = window.solve();
-  ASSERT_TRUE(answer.outcome);
-  ASSERT_EQ(answer.states.size(), 2u);
-  EXPECT_NEAR(answer.states[1].T_world_body.rotation().log().z(), 0.02, 1e-6);
+  const auto estimate = window.solve();
+  ASSERT_TRUE(estimate.outcome);
+  ASSERT_EQ(estimate.states.size(), 2u);
+  EXPECT_NEAR(estimate.states[1].T_world_body.rotation().log().z(), 0.02, 1e-6);
 }
 
 TEST(InertialWindow, RejectsMeasurementsFarFromThePrediction) {

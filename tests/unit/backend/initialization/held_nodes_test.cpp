@@ -49,9 +49,9 @@ TYPED_TEST(HeldNodeConstraintsOf, TiesCostNothingAtTheHeldPoses) {
   for (const int i : {0, 4, 7}) fixed.nodes[i].fixed = true;
   const PackedGraph<TypeParam> graph = pack<TypeParam>(fixed);
   auto problem = held_node_constraints(graph, find_anchors(graph), RotationError::kLog);
-  const double tied = isotropic_cost(problem, graph.poses);
+  const double constrained = isotropic_cost(problem, graph.poses);
   problem.edges.resize(graph.edges.size());
-  EXPECT_NEAR(tied, isotropic_cost(problem, graph.poses), 1e-9 * tied);
+  EXPECT_NEAR(constrained, isotropic_cost(problem, graph.poses), 1e-9 * constrained);
 }
 
 TYPED_TEST(HeldNodeConstraintsOf, TiesNothingAcrossComponentsNorWhereOneNodeIsHeld) {

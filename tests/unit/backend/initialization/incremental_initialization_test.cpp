@@ -4,13 +4,13 @@
 
 #include <algorithm>
 
-#include "tests/support/scenes/growing_walk.h"
+#include "tests/support/scenes/incremental_walk.h"
 #include "tests/support/scenes/pose_walk.h"
 
 namespace placegraph {
 namespace {
 
-using test::GrowingWalk;
+using test::IncrementalWalk;
 
 constexpr double kUnlimited = 1e6;
 
@@ -20,7 +20,7 @@ using Groups = testing::Types<SE2, SE3, Sim3>;
 TYPED_TEST_SUITE(ReplayedStartOf, Groups);
 
 TYPED_TEST(ReplayedStartOf, IsExactWhereTheMeasurementsAgree) {
-  const GrowingWalk<TypeParam> walk(60, 0, 1);
+  const IncrementalWalk<TypeParam> walk(60, 0, 1);
   PackedGraph<TypeParam> graph = pack<TypeParam>(walk.graph);
   ASSERT_TRUE(initialize_incrementally(graph, RotationError::kLog, kUnlimited));
   for (std::size_t i = 0; i < walk.truth.size(); ++i)
@@ -28,7 +28,7 @@ TYPED_TEST(ReplayedStartOf, IsExactWhereTheMeasurementsAgree) {
 }
 
 TYPED_TEST(ReplayedStartOf, EndsByTheMinimumWithItsWeightsWhateverTheOrderOfTheNodes) {
-  const GrowingWalk<TypeParam> walk(60, 0.03, 2);
+  const IncrementalWalk<TypeParam> walk(60, 0.03, 2);
   PoseGraph shuffled = walk.graph;
   shuffled.nodes[0].fixed = true;
   std::reverse(shuffled.nodes.begin() + 5, shuffled.nodes.end());
@@ -47,7 +47,7 @@ TYPED_TEST(ReplayedStartOf, EndsByTheMinimumWithItsWeightsWhateverTheOrderOfTheN
 }
 
 TYPED_TEST(ReplayedStartOf, LeavesHeldNodesWhereTheyAre) {
-  const GrowingWalk<TypeParam> walk(40, 0.03, 3);
+  const IncrementalWalk<TypeParam> walk(40, 0.03, 3);
   PoseGraph held = walk.graph;
   for (const int i : {3, 30}) {
     held.nodes[i].fixed = true;
@@ -59,7 +59,7 @@ TYPED_TEST(ReplayedStartOf, LeavesHeldNodesWhereTheyAre) {
 }
 
 TYPED_TEST(ReplayedStartOf, LeavesAllAsItWasWhereItCostsMoreThanGranted) {
-  const GrowingWalk<TypeParam> walk(60, 0.03, 4);
+  const IncrementalWalk<TypeParam> walk(60, 0.03, 4);
   PackedGraph<TypeParam> graph = pack<TypeParam>(walk.graph);
   const auto before = graph.poses;
   EXPECT_FALSE(initialize_incrementally(graph, RotationError::kLog, 0.5));
@@ -68,7 +68,7 @@ TYPED_TEST(ReplayedStartOf, LeavesAllAsItWasWhereItCostsMoreThanGranted) {
 }
 
 TYPED_TEST(ReplayedStartOf, LeavesAllAsItWasWhereNoCostCanBeComputed) {
-  GrowingWalk<TypeParam> walk(20, 0, 5);
+  IncrementalWalk<TypeParam> walk(20, 0, 5);
   auto far = walk.measure(2, 12, 0);
   typename TypeParam::Tangent xi = TypeParam::Tangent::Zero();
   xi[0] = 1e200;

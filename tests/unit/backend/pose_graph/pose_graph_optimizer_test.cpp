@@ -101,7 +101,7 @@ TYPED_TEST(PoseGraphOptimizerOf, PullOfAFalseLoopIsReducedByRobustKernels) {
       if (relative.source == ConstraintSource::kLoop) relative.kernel = kernel;
     }
     PoseGraphOptions options = tight();
-    options.start = PoseGraphInitialization::kFile;
+    options.initialization = PoseGraphInitialization::kFile;
     const PoseGraphReport report = optimize_pose_graph(graph, options);
     double worst = 0;
     for (std::size_t i = 0; i < walk.truth.size(); ++i)
@@ -247,7 +247,7 @@ TEST(PoseGraphOptimizer, TellsWhenIterationsRanOut) {
   const Walk<SE2> walk(30, 0.05);
   PoseGraphOptions options;
   options.max_iterations = 1;
-  options.start = PoseGraphInitialization::kFile;
+  options.initialization = PoseGraphInitialization::kFile;
   const PoseGraphReport report = optimize_pose_graph(walk.graph, options);
   EXPECT_EQ(report.outcome.code, Outcome::Code::kNotConverged);
   EXPECT_LT(report.chi2_final, report.chi2_initial);  // the evidence is there all the same

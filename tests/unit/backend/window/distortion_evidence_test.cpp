@@ -18,7 +18,7 @@ Camera ideal_camera() {
 /// A window over a room that a camera with radial distortion looked about in, its images taken for
 /// undistorted; each point is seen
 /// `views` times at most.
-SlidingWindow look_about(double k1, bool depth, int views) {
+SlidingWindow view_directions(double k1, bool depth, int views) {
   Camera lens = ideal_camera();
   lens.distortion = Distortion::kRadialTangential;
   lens.coefficients = {k1};
@@ -70,7 +70,7 @@ double found(const DistortionEvidence& evidence) {
 TEST(DistortionEvidence, TellsTheDistortionThatTheImagesHave) {
   for (const bool depth : {false, true})
     for (const double k1 : {0.02, -0.02}) {
-      const DistortionEvidence evidence = lens_evidence(look_about(k1, depth, 6).state());
+      const DistortionEvidence evidence = lens_evidence(view_directions(k1, depth, 6).state());
       EXPECT_GT(evidence.residuals, 500);
       EXPECT_NEAR(found(evidence), k1, 0.1 * std::abs(k1)) << depth;
       EXPECT_GT(evidence.information, 1 / (0.004 * 0.004)) << depth;
@@ -78,16 +78,16 @@ TEST(DistortionEvidence, TellsTheDistortionThatTheImagesHave) {
 }
 
 TEST(DistortionEvidence, FindsNoneWhereThereIsNone) {
-  EXPECT_NEAR(found(lens_evidence(look_about(0, false, 6).state())), 0, 1e-5);
+  EXPECT_NEAR(found(lens_evidence(view_directions(0, false, 6).state())), 0, 1e-5);
 }
 
 TEST(DistortionEvidence, DepthsAddToIt) {
-  EXPECT_GT(lens_evidence(look_about(0, true, 6).state()).information,
-            lens_evidence(look_about(0, false, 6).state()).information);
+  EXPECT_GT(lens_evidence(view_directions(0, true, 6).state()).information,
+            lens_evidence(view_directions(0, false, 6).state()).information);
 }
 
 TEST(DistortionEvidence, PointsInTwoViewsTellNothing) {
-  const DistortionEvidence evidence = lens_evidence(look_about(0.02, false, 2).state());
+  const DistortionEvidence evidence = lens_evidence(view_directions(0.02, false, 2).state());
   EXPECT_EQ(evidence.residuals, 0);
   EXPECT_EQ(evidence.information, 0);
 }

@@ -17,7 +17,7 @@ namespace {
 
 using test::isometry;
 
-LoopPrediction said(std::int64_t query, std::int64_t candidate, double score) {
+LoopPrediction message(std::int64_t query, std::int64_t candidate, double score) {
   return {FrameId(query), FrameId(candidate), score, "", 0};
 }
 
@@ -31,11 +31,11 @@ LoopTruth three_queries() {
 }
 
 TEST(LoopBenchmark, JudgesTheBestCandidateOfEachQuery) {
-  const LoopBenchmark b = judge_loops(
-      three_queries(),
-      {said(10, 0, 0.2), said(10, 2, 0.9), said(11, 4, 0.8), said(11, 3, 0.7), said(12, 5, 0.1)});
+  const LoopBenchmark b =
+      judge_loops(three_queries(), {message(10, 0, 0.2), message(10, 2, 0.9), message(11, 4, 0.8),
+                                    message(11, 3, 0.7), message(12, 5, 0.1)});
   EXPECT_EQ(b.positives, 2);
-  EXPECT_EQ(b.answered, 3);
+  EXPECT_EQ(b.predicted_queries, 3);
   EXPECT_DOUBLE_EQ(b.recall_at[0].value(), 0.5);
   EXPECT_DOUBLE_EQ(b.recall_at[1].value(), 1);
   EXPECT_DOUBLE_EQ(b.curve.recall_at_full_precision.value(), 0.5);
@@ -52,38 +52,38 @@ TEST(LoopBenchmark, JudgesTheBestCandidateOfEachQuery) {
 TEST(LoopBenchmark, LeavesOutWhatIsNoCandidateWhetherRightOrWrong) {
   LoopTruth truth = three_queries();
   truth.min_age = 9;  // 11 may match 2 at most: its match is none, nor is 2 one of 10's
-  const LoopBenchmark b =
-      judge_loops(truth, {said(10, 2, 0.9), said(10, 7, 0.8), said(10, 1, 0.3), said(11, 3, 1)});
+  const LoopBenchmark b = judge_loops(
+      truth, {message(10, 2, 0.9), message(10, 7, 0.8), message(10, 1, 0.3), message(11, 3, 1)});
   EXPECT_EQ(b.positives, 1);
   EXPECT_EQ(b.dropped, 3);
   EXPECT_EQ(b.queries[0].best.candidate, FrameId(1));
   EXPECT_EQ(b.queries[1].verdict, LoopVerdict::kTooYoung);
   EXPECT_EQ(b.queries[2].verdict, LoopVerdict::kSilent);
   EXPECT_DOUBLE_EQ(b.curve.average_precision.value(), 1);
-  const LoopBenchmark outside = judge_loops(three_queries(), {said(10, 7, 0.8)});
+  const LoopBenchmark outside = judge_loops(three_queries(), {message(10, 7, 0.8)});
   EXPECT_EQ(outside.queries[0].verdict, LoopVerdict::kOutOfRange);
-  EXPECT_EQ(outside.answered, 0);
+  EXPECT_EQ(outside.predicted_queries, 0);
 }
 
 TEST(LoopBenchmark, CountsImagesThatAreNotListedOnlyWhereTheTruthIsWhole) {
   LoopTruth truth = three_queries();
-  EXPECT_EQ(judge_loops(truth, {said(99, 1, 1)}).unjudged, 1);
+  EXPECT_EQ(judge_loops(truth, {message(99, 1, 1)}).unjudged, 1);
   truth.unlisted_have_none = true;
-  const LoopBenchmark b = judge_loops(truth, {said(99, 1, 1)});
+  const LoopBenchmark b = judge_loops(truth, {message(99, 1, 1)});
   EXPECT_EQ(b.unjudged, 0);
   EXPECT_EQ(b.queries.back().verdict, LoopVerdict::kMiss);
 }
 
 TEST(LoopBenchmark, PutsFalseCandidatesOfTheSameScoreFirst) {
-  const LoopBenchmark b = judge_loops(three_queries(), {said(10, 1, 0.5), said(10, 4, 0.5)});
+  const LoopBenchmark b = judge_loops(three_queries(), {message(10, 1, 0.5), message(10, 4, 0.5)});
   EXPECT_EQ(b.queries[0].verdict, LoopVerdict::kMiss);
   EXPECT_EQ(b.queries[0].rank, 2);
 }
 
 TEST(LoopBenchmark, AcceptsMatchesWithinTheTolerance) {
-  EXPECT_EQ(judge_loops(three_queries(), {said(11, 5, 1)}, 1).queries[1].verdict,
+  EXPECT_EQ(judge_loops(three_queries(), {message(11, 5, 1)}, 1).queries[1].verdict,
             LoopVerdict::kMiss);
-  EXPECT_EQ(judge_loops(three_queries(), {said(11, 5, 1)}, 2).queries[1].verdict,
+  EXPECT_EQ(judge_loops(three_queries(), {message(11, 5, 1)}, 2).queries[1].verdict,
             LoopVerdict::kHit);
   EXPECT_THROW((void)judge_loops(three_queries(), {}, -1), ArgumentError);
 }
@@ -91,7 +91,7 @@ TEST(LoopBenchmark, AcceptsMatchesWithinTheTolerance) {
 TEST(LoopBenchmark, DefinesNoRecallWhereNothingIsToBeFound) {
   LoopTruth truth;
   truth.queries = {{FrameId(7), {FrameId(0), FrameId(5), {}}}};
-  const LoopBenchmark b = judge_loops(truth, {said(7, 1, 1)});
+  const LoopBenchmark b = judge_loops(truth, {message(7, 1, 1)});
   EXPECT_EQ(b.positives, 0);
   EXPECT_FALSE(b.recall_at[0]);
   EXPECT_EQ(b.curve.curve.back().misses, 1);

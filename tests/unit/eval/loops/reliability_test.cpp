@@ -10,7 +10,7 @@ TEST(Reliability, CountsByTenthsAndWeighsByAnswers) {
   const Reliability r =
       reliability_of({{0.9, true}, {0.9, true}, {0.9, false}, {0.9, true}, {0.1, false}});
   ASSERT_EQ(r.bins.size(), 10u);
-  EXPECT_EQ(r.bins[9].answers, 4);
+  EXPECT_EQ(r.bins[9].predictions, 4);
   EXPECT_NEAR(r.bins[9].share_right, 0.75, 1e-12);
   EXPECT_NEAR(r.bins[1].mean_probability, 0.1, 1e-12);
   EXPECT_NEAR(r.calibration_error, 0.8 * 0.15 + 0.2 * 0.1, 1e-12);
@@ -18,8 +18,8 @@ TEST(Reliability, CountsByTenthsAndWeighsByAnswers) {
 
 TEST(Reliability, CertaintyBelongsToTheLastTenth) {
   const Reliability r = reliability_of({{1, true}, {0, false}});
-  EXPECT_EQ(r.bins[9].answers, 1);
-  EXPECT_EQ(r.bins[0].answers, 1);
+  EXPECT_EQ(r.bins[9].predictions, 1);
+  EXPECT_EQ(r.bins[0].predictions, 1);
   EXPECT_EQ(r.calibration_error, 0);
   EXPECT_EQ(reliability_of({}).calibration_error, 0);
 }

@@ -53,7 +53,7 @@ TEST(BodyStateError, IsRootMeanSquareWithoutAlignment) {
   EXPECT_NEAR(error.velocity_rmse_mps, 1, 1e-9);
   EXPECT_NEAR(error.attitude_rmse_rad, 0.25, 1e-9);
   EXPECT_NEAR(error.end_error_m, 0, 1e-12);
-  EXPECT_NEAR(error.way_m, 3, 1e-12);
+  EXPECT_NEAR(error.path_length_m, 3, 1e-12);
   // Squares 1, 0.25 and 4 of 15 coordinates, and of three, over four states.
   EXPECT_NEAR(error.anees, 5.25 / 15 / 4, 1e-9);
   EXPECT_NEAR(error.anees_position, 1.0 / 3 / 4, 1e-9);

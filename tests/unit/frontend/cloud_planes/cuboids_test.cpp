@@ -36,12 +36,12 @@ const Eigen::Vector3d kMiddle(0.1, 0, 2.2), kHalf(0.4, 0.3, 0.5);
 
 /// A box in the air before a far wall.
 Seen see_box(const Eigen::Vector3d& ray) {
-  const Eigen::Vector3d from = kRotation.inverse() * -kMiddle, way = kRotation.inverse() * ray;
+  const Eigen::Vector3d from = kRotation.inverse() * -kMiddle, path = kRotation.inverse() * ray;
   double enter = 0, leave = 1e9;
   int label = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    const double a = (-kHalf[axis] - from[axis]) / way[axis],
-                 b = (kHalf[axis] - from[axis]) / way[axis];
+    const double a = (-kHalf[axis] - from[axis]) / path[axis],
+                 b = (kHalf[axis] - from[axis]) / path[axis];
     if (std::min(a, b) > enter) enter = std::min(a, b), label = axis + 1;
     leave = std::min(leave, std::max(a, b));
   }

@@ -20,7 +20,7 @@ Camera camera() {
   return {.width = 320, .height = 240, .fx = 280, .fy = 280, .cx = 159.5, .cy = 119.5};
 }
 
-Image look(const std::vector<Eigen::Vector4d>& planes, const Observation& observation) {
+Image render_view(const std::vector<Eigen::Vector4d>& planes, const Observation& observation) {
   const Camera c = camera();
   Random random(observation.seed);
   Image depth(c.height, c.width, CV_32FC1, cv::Scalar(0));
@@ -63,7 +63,7 @@ const DepthPlane* find(const std::vector<DepthPlane>& planes, const Plane3& trut
 }
 
 TEST(DepthPlanes, AreThoseOfACorner) {
-  const auto planes = find_depth_planes(look(kCorner, {}), camera(), small());
+  const auto planes = find_depth_planes(render_view(kCorner, {}), camera(), small());
   ASSERT_EQ(planes.size(), 3u);
   for (const Eigen::Vector4d& truth : kCorner) {
     const DepthPlane* const plane = find(planes, plane_of(truth));
@@ -82,7 +82,7 @@ double anees(const Observation& observation, const DepthPlanesOptions& options, 
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     Observation one = observation;
     one.seed = seed;
-    const auto planes = find_depth_planes(look(kCorner, one), camera(), options);
+    const auto planes = find_depth_planes(render_view(kCorner, one), camera(), options);
     for (const Eigen::Vector4d& truth : kCorner) {
       const DepthPlane* const plane = find(planes, plane_of(truth));
       if (!plane) {
@@ -114,7 +114,7 @@ TEST(DepthPlanes, AreNeverSurerThanTheFloor) {
   DepthPlanesOptions options;
   options.floor_deg = 0.3;
   options.floor_distance = 0.01;
-  const auto planes = find_depth_planes(look(kCorner, {}), camera(), options);
+  const auto planes = find_depth_planes(render_view(kCorner, {}), camera(), options);
   ASSERT_EQ(planes.size(), 3u);
   for (const DepthPlane& plane : planes) {
     Eigen::RowVector3d J;
@@ -125,7 +125,7 @@ TEST(DepthPlanes, AreNeverSurerThanTheFloor) {
 
 TEST(DepthPlanes, ADoorLeafBeforeItsWallIsAPlaneOfItsOwn) {
   // A wall ahead, 2 m away, with a leaf 3 cm before it in the middle.
-  Image depth = look({{0, 0, 1, 2}}, {.sigma_inverse_depth = 0.0005});
+  Image depth = render_view({{0, 0, 1, 2}}, {.sigma_inverse_depth = 0.0005});
   depth(cv::Rect(96, 48, 112, 176)) = 1.97F;
   const auto planes = find_depth_planes(depth, camera(), small());
   ASSERT_EQ(planes.size(), 2u);
@@ -134,7 +134,7 @@ TEST(DepthPlanes, ADoorLeafBeforeItsWallIsAPlaneOfItsOwn) {
 }
 
 TEST(DepthPlanes, PartsOfAWallBesideAPillarAreOne) {
-  Image depth = look({{0.1, 0, 1, 2}}, {.sigma_inverse_depth = 0.0005});
+  Image depth = render_view({{0.1, 0, 1, 2}}, {.sigma_inverse_depth = 0.0005});
   depth(cv::Rect(128, 0, 48, 240)) = 1.2F;
   DepthPlanesOptions options = small();
   options.min_share = 0.2;  // the pillar is too narrow
@@ -160,7 +160,8 @@ TEST(DepthPlanes, ABallAndNothingHaveNone) {
 }
 
 TEST(DepthPlanes, GoIntoAnotherFrameWithTheirCovariance) {
-  const auto planes = find_depth_planes(look(kCorner, {.sigma_inverse_depth = 0.002}), camera());
+  const auto planes =
+      find_depth_planes(render_view(kCorner, {.sigma_inverse_depth = 0.002}), camera());
   ASSERT_FALSE(planes.empty());
   const SE3 T_new_old(SO3::exp({0.1, -0.3, 0.2}), Eigen::Vector3d(0.4, 0.1, -0.2));
   const DepthPlane there = transform(T_new_old, planes[0]);
@@ -178,7 +179,7 @@ TEST(DepthPlanes, RefuseAnImageOfAnotherKind) {
   EXPECT_THROW((void)find_depth_planes(Image(60, 80, CV_32FC1, cv::Scalar(0)), c), ArgumentError);
   DepthPlanesOptions options;
   options.step_px = 8;
-  EXPECT_THROW((void)find_depth_planes(look(kCorner, {}), c, options), ArgumentError);
+  EXPECT_THROW((void)find_depth_planes(render_view(kCorner, {}), c, options), ArgumentError);
 }
 
 }  // namespace

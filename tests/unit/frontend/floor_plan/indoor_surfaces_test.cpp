@@ -50,34 +50,34 @@ struct TwoRooms {
   explicit TwoRooms(const TwoRoomsOptions& of = {}) : options(of) {
     for (double x = 0.3; x < 7.8; x += 0.5)
       if (options.through || x < 3.5) path.emplace_back(x, 1.45, 1.4);
-    for (int i = 0; i < static_cast<int>(path.size()); ++i) look(i);
+    for (int i = 0; i < static_cast<int>(path.size()); ++i) observe(i);
   }
   /// Rays to what is nearest: outer walls, the wall between (but through the door), floor, ceiling.
-  void look(int observation) {
+  void observe(int observation) {
     const Eigen::Vector3d from = path[static_cast<std::size_t>(observation)];
     for (int a = 0; a < 90; ++a)
       for (int e = -15; e <= 15; ++e) {
         const double rotation = a * std::numbers::pi / 45, pitch = e * 0.08;
-        const Eigen::Vector3d way(std::cos(rotation) * std::cos(pitch),
-                                  std::sin(rotation) * std::cos(pitch), std::sin(pitch));
-        cast(from, way, observation);
+        const Eigen::Vector3d trace(std::cos(rotation) * std::cos(pitch),
+                                    std::sin(rotation) * std::cos(pitch), std::sin(pitch));
+        cast(from, trace, observation);
       }
   }
-  void cast(const Eigen::Vector3d& from, const Eigen::Vector3d& way, int observation) {
+  void cast(const Eigen::Vector3d& from, const Eigen::Vector3d& trace, int observation) {
     double best = 1e9;
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();
     const auto plane = [&](int axis, double at, bool door) {
-      const double t = (at - from[axis]) / way[axis];
+      const double t = (at - from[axis]) / trace[axis];
       if (!(t > 1e-6) || t >= best) return;
-      const Eigen::Vector3d p = from + t * way;
+      const Eigen::Vector3d p = from + t * trace;
       if (door && p[1] > 1 && p[1] < options.door_to_m && p[2] < options.head_m) return;
-      best = t, normal.setZero(), normal[axis] = way[axis] > 0 ? -1 : 1;
+      best = t, normal.setZero(), normal[axis] = trace[axis] > 0 ? -1 : 1;
     };
     for (const double x : {0.0, 8.0}) plane(0, x, false);
     plane(0, from[0] < 4 ? 3.95 : 4.05, true);
     for (const double y : {0.0, 3.0}) plane(1, y, false);
     for (const double z : {0.0, 2.6}) plane(2, z, false);
-    const Eigen::Vector3d to = from + best * way;
+    const Eigen::Vector3d to = from + best * trace;
     const bool between = normal[0] != 0 && std::abs(to[0] - 4) < 0.1;
     if (!between || (to[1] > options.observed_from_m && to[1] < options.observed_to_m))
       points.push_back({to.cast<float>(), normal.cast<float>(), 0.005F, observation});
@@ -148,12 +148,12 @@ TEST(FloorPlan, TakesTheCornerOfANarrowCorridorForNoDoor) {
   for (const Eigen::Vector3d& from : path)
     for (int a = 0; a < 360; ++a)  // rays end at the outer walls and the inner ones
       for (const double z : {0.7, 1.0, 1.4, 1.7}) {
-        const Eigen::Vector3d way(std::cos(deg_to_rad(a)), std::sin(deg_to_rad(a)), 0);
+        const Eigen::Vector3d trace(std::cos(deg_to_rad(a)), std::sin(deg_to_rad(a)), 0);
         Eigen::Vector3d to(from[0], from[1], z);
         const auto inside = [](const Eigen::Vector3d& p) {
           return p[0] > 0 && p[0] < 4.2 && p[1] > 0 && p[1] < 4.6 && (p[1] < 1.2 || p[0] > 3);
         };
-        while (inside(to)) to += 0.02 * way;
+        while (inside(to)) to += 0.02 * trace;
         voxels.add_ray({from[0], from[1], z}, to, 0.1, true);
       }
   EXPECT_TRUE(find_doors({inner}, points, voxels, path).empty());

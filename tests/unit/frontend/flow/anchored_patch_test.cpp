@@ -72,7 +72,7 @@ TEST(AnchoredPatch, IsFoundTwiceAsLargeOnACoarserLevel) {
 }
 
 TEST(AnchoredPatch, SaysHowFarItMayBeOff) {
-  const AnchoredPatch look = patch();
+  const AnchoredPatch anchor = patch();
   double sum = 0;
   int n = 0;
   for (int i = 0; i < 40; ++i) {
@@ -86,7 +86,7 @@ TEST(AnchoredPatch, SaysHowFarItMayBeOff) {
         grey = test::to_grey(grey + 6 * random.normal());
       }
     const auto found =
-        look.find(pyramid_of(image), {kMiddle, Eigen::Matrix2f::Identity()}, 3, 0.8f);
+        anchor.find(pyramid_of(image), {kMiddle, Eigen::Matrix2f::Identity()}, 3, 0.8f);
     ASSERT_TRUE(found);
     const Eigen::Vector2f e = found->px - truth.px;
     sum += e.dot(found->covariance.inverse() * e) / 2;
@@ -110,14 +110,14 @@ TEST(AnchoredPatch, IsNotTakenWhereNothingIsToBeSeenOrTheImageEnds) {
 }
 
 TEST(AnchoredPatch, IsNotFoundElsewhereOrWhereSomethingElseIs) {
-  const AnchoredPatch look = patch();
+  const AnchoredPatch anchor = patch();
   const AnchoredPatch::Place here{kMiddle, Eigen::Matrix2f::Identity()};
   const auto moved = pyramid_of(warped(place(63, 50, 1, 0, 0, 1)));
-  EXPECT_TRUE(look.find(moved, here, 4, 0.8f));
-  EXPECT_FALSE(look.find(moved, here, 2, 0.8f));
-  EXPECT_FALSE(
-      look.find(pyramid_of(test::texture_image(kWidth, kHeight, {77, 16, 2, 50})), here, 3, 0.8f));
-  EXPECT_FALSE(look.find(moved, {{2, 2}, Eigen::Matrix2f::Identity()}, 4, 0.8f));
+  EXPECT_TRUE(anchor.find(moved, here, 4, 0.8f));
+  EXPECT_FALSE(anchor.find(moved, here, 2, 0.8f));
+  EXPECT_FALSE(anchor.find(pyramid_of(test::texture_image(kWidth, kHeight, {77, 16, 2, 50})), here,
+                           3, 0.8f));
+  EXPECT_FALSE(anchor.find(moved, {{2, 2}, Eigen::Matrix2f::Identity()}, 4, 0.8f));
 }
 
 TEST(AnchoredPatch, IsNotComparedAfterStrongWarps) {

@@ -10,7 +10,7 @@
 #include <cstdlib>
 #include <opencv2/core.hpp>
 
-#include "tests/support/scenes/scene_pictures.h"
+#include "tests/support/scenes/scene_images.h"
 
 namespace placegraph {
 namespace {

@@ -10,7 +10,7 @@ namespace {
 using namespace test;
 using Code = Outcome::Code;
 
-SE3 on_the_way(int k) {
+SE3 on_the_path(int k) {
   return SE3(SO3::exp({0.002 * k, 0.01 * k, -0.001 * k}),
              Eigen::Vector3d(0.03 * k, 0.01 * k, 0.12 * k));
 }
@@ -18,7 +18,7 @@ SE3 on_the_way(int k) {
 std::vector<LineView> drive(int count, double noise_px, Random& random) {
   std::vector<LineView> views;
   for (int k = 0; k < count; ++k)
-    views.push_back(view_of(corridor_lines(), on_the_way(k), noise_px, random));
+    views.push_back(view_of(corridor_lines(), on_the_path(k), noise_px, random));
   return views;
 }
 
@@ -33,16 +33,16 @@ TEST(LineInitializer, FindsMotionUpToScaleFromViewsOfACorridor) {
       initialize_from_lines(scene.camera, drive(7, 0.05, random), LineInitializerOptions{}, random);
   ASSERT_TRUE(start.outcome) << start.outcome.reason;
   ASSERT_EQ(start.T_ref_view.size(), 7u);
-  const double unit = on_the_way(6).translation().norm();
+  const double unit = on_the_path(6).translation().norm();
   EXPECT_NEAR(start.T_ref_view[6].translation().norm(), 1, 1e-9);
   for (int k = 1; k < 7; ++k) {
     const SE3& T = start.T_ref_view[static_cast<std::size_t>(k)];
     // Directions of dozens of lines of 0.05 px: about a milliradian; a way of 0.7 m at 5 m of depth
     // turns that into some percent.
-    EXPECT_LT((T.rotation().inverse() * on_the_way(k).rotation()).log().norm(), 4e-3) << k;
-    EXPECT_LT((unit * T.translation() - on_the_way(k).translation()).norm(), 0.08 * unit) << k;
+    EXPECT_LT((T.rotation().inverse() * on_the_path(k).rotation()).log().norm(), 4e-3) << k;
+    EXPECT_LT((unit * T.translation() - on_the_path(k).translation()).norm(), 0.08 * unit) << k;
   }
-  EXPECT_LT(angle_between(start.T_ref_view[6].translation(), on_the_way(6).translation()), 0.06);
+  EXPECT_LT(angle_between(start.T_ref_view[6].translation(), on_the_path(6).translation()), 0.06);
   EXPECT_GE(start.lines.size(), 12u);
 }
 

@@ -12,11 +12,11 @@ using namespace test;
 TEST(VanishingDirectionTracker, ReadsTheRotationByTracksWhoseDirectionItLearned) {
   Random random = seeded_random(61);
   const LineScene scene = corridor_lines();
-  VanishingDirectionTracker compass{VanishingPointOptions{}};
-  compass.learn(scene.camera, view_of(scene, SE3(), 0.05, random), SO3(), random);
-  EXPECT_EQ(compass.directions(), 3);
+  VanishingDirectionTracker tracker{VanishingPointOptions{}};
+  tracker.learn(scene.camera, view_of(scene, SE3(), 0.05, random), SO3(), random);
+  EXPECT_EQ(tracker.directions(), 3);
   const SE3 T(SO3::exp({0.02, -0.15, 0.01}), Eigen::Vector3d(0.2, 0, 0.5));
-  const auto heading = compass.read(scene.camera, view_of(scene, T, 0.05, random),
+  const auto heading = tracker.read(scene.camera, view_of(scene, T, 0.05, random),
                                     T.rotation() * SO3::exp({0.01, 0.01, -0.01}), 0.05);
   ASSERT_TRUE(heading.outcome) << heading.outcome.reason;
   EXPECT_GE(heading.lines, 12);
@@ -28,10 +28,10 @@ TEST(VanishingDirectionTracker, ReadsTheRotationByTracksWhoseDirectionItLearned)
 TEST(VanishingDirectionTracker, NamesTheDirectionsInViewAndTheirTracks) {
   Random random = seeded_random(64);
   const LineScene scene = corridor_lines();
-  VanishingDirectionTracker compass{VanishingPointOptions{}};
-  EXPECT_TRUE(compass.clusters().empty());
-  compass.learn(scene.camera, view_of(scene, SE3(), 0.05, random), SO3(), random);
-  const auto clusters = compass.clusters();
+  VanishingDirectionTracker tracker{VanishingPointOptions{}};
+  EXPECT_TRUE(tracker.clusters().empty());
+  tracker.learn(scene.camera, view_of(scene, SE3(), 0.05, random), SO3(), random);
+  const auto clusters = tracker.clusters();
   ASSERT_EQ(clusters.size(), 3u);
   for (const auto& cluster : clusters) {
     EXPECT_GE(cluster.tracks.size(), 3u);
@@ -48,8 +48,8 @@ TEST(VanishingDirectionTracker, NamesTheDirectionsInViewAndTheirTracks) {
 TEST(VanishingDirectionTracker, SaysNothingWithoutTracksThatItKnows) {
   Random random = seeded_random(62);
   const LineScene scene = corridor_lines();
-  const VanishingDirectionTracker compass{VanishingPointOptions{}};
-  const auto heading = compass.read(scene.camera, view_of(scene, SE3(), 0.05, random), SO3(), 0.1);
+  const VanishingDirectionTracker tracker{VanishingPointOptions{}};
+  const auto heading = tracker.read(scene.camera, view_of(scene, SE3(), 0.05, random), SO3(), 0.1);
   EXPECT_EQ(heading.outcome.code, Outcome::Code::kTooFewData);
 }
 
@@ -61,11 +61,11 @@ TEST(VanishingDirectionTracker, OfOneDirectionLeavesTheRotationAboutItOpen) {
     scene.from.emplace_back(x, -1, 5 + 0.2 * (i % 3));
     scene.to.emplace_back(x, 1, 5 + 0.2 * (i % 3));
   }
-  VanishingDirectionTracker compass{VanishingPointOptions{}};
+  VanishingDirectionTracker tracker{VanishingPointOptions{}};
   const LineView view = view_of(scene, SE3(), 0.05, random);
-  compass.learn(scene.camera, view, SO3(), random);
-  ASSERT_EQ(compass.directions(), 1);
-  const auto heading = compass.read(scene.camera, view, SO3(), 0.1);
+  tracker.learn(scene.camera, view, SO3(), random);
+  ASSERT_EQ(tracker.directions(), 1);
+  const auto heading = tracker.read(scene.camera, view, SO3(), 0.1);
   ASSERT_TRUE(heading.outcome);
   const double about = heading.information(1, 1), across = heading.information(0, 0);
   EXPECT_LT(about, 1e-3 * across);

@@ -55,15 +55,15 @@ TEST(MarkerFilter, KnowsThePoseWhereTheMarkerIsNear) {
   Random random = seeded_random(1);
   const MarkerLayout layout = layout_of(1);
   const SE3 T_world_cam = looking_at_origin(0.6, 0.5, 0.2, 0.4);
-  const MarkerPoseEstimate answer =
+  const MarkerPoseEstimate estimate =
       filter_for(layout).observe(view_from(layout, T_world_cam, 1, random));
-  ASSERT_TRUE(answer.outcome) << answer.outcome.reason;
+  ASSERT_TRUE(estimate.outcome) << estimate.outcome.reason;
   const SE3 truth = T_world_cam * kBodyCam.inverse();
-  const Vector6d error = (answer.observation.T_world_body.inverse() * truth).log();
+  const Vector6d error = (estimate.observation.T_world_body.inverse() * truth).log();
   // 99.99 % of a chi-squared variable with six degrees of freedom.
-  EXPECT_LT(error.dot(answer.observation.covariance.ldlt().solve(error)), 27.9);
-  EXPECT_EQ(answer.markers, 1);
-  EXPECT_EQ(answer.hypotheses.size(), 1u);
+  EXPECT_LT(error.dot(estimate.observation.covariance.ldlt().solve(error)), 27.9);
+  EXPECT_EQ(estimate.markers, 1);
+  EXPECT_EQ(estimate.hypotheses.size(), 1u);
 }
 
 /// Far away, a little tilted: two poses.
@@ -72,9 +72,10 @@ const SE3 kFar = looking_at_origin(4, 0.35, 0.2, 0.4);
 TEST(MarkerFilter, SaysNothingWhileTwoPosesArePossible) {
   Random random = seeded_random(2);
   const MarkerLayout layout = layout_of(1);
-  const MarkerPoseEstimate answer = filter_for(layout).observe(view_from(layout, kFar, 1, random));
-  EXPECT_EQ(answer.outcome.code, Code::kInconsistent);
-  EXPECT_EQ(answer.hypotheses.size(), 2u);
+  const MarkerPoseEstimate estimate =
+      filter_for(layout).observe(view_from(layout, kFar, 1, random));
+  EXPECT_EQ(estimate.outcome.code, Code::kInconsistent);
+  EXPECT_EQ(estimate.hypotheses.size(), 2u);
 }
 
 TEST(MarkerFilter, DecidesByTheRotationBetweenViews) {
@@ -82,29 +83,30 @@ TEST(MarkerFilter, DecidesByTheRotationBetweenViews) {
   const MarkerLayout layout = layout_of(1);
   MarkerFilter filter = filter_for(layout);
   SE3 before;
-  MarkerPoseEstimate answer;
+  MarkerPoseEstimate estimate;
   int views = 0;
-  for (; views < 40 && !answer.outcome; ++views) {
+  for (; views < 40 && !estimate.outcome; ++views) {
     const SE3 T_world_cam = looking_at_origin(4, 0.35 + 0.03 * views, 0.2, 0.4);
     MarkerView view = view_from(layout, T_world_cam, 1, random);
     view.stamp_ns += 50'000'000LL * views;
     const SE3 T_world_body = T_world_cam * kBodyCam.inverse();
     if (views > 0) view.rotation_body = before.rotation().inverse() * T_world_body.rotation();
     before = T_world_body;
-    answer = filter.observe(view);
+    estimate = filter.observe(view);
   }
-  ASSERT_TRUE(answer.outcome) << answer.outcome.reason;
+  ASSERT_TRUE(estimate.outcome) << estimate.outcome.reason;
   EXPECT_GT(views, 1);
-  EXPECT_LT(angle_rad(answer.observation.T_world_body, before), 0.2);
+  EXPECT_LT(angle_rad(estimate.observation.T_world_body, before), 0.2);
 }
 
 TEST(MarkerFilter, DecidesByAllMarkersInView) {
   Random random = seeded_random(4);
   const MarkerLayout layout = layout_of(3);
-  const MarkerPoseEstimate answer = filter_for(layout).observe(view_from(layout, kFar, 3, random));
-  ASSERT_TRUE(answer.outcome) << answer.outcome.reason;
-  EXPECT_EQ(answer.markers, 3);
-  EXPECT_LT(angle_rad(answer.observation.T_world_body, kFar * kBodyCam.inverse()), 0.03);
+  const MarkerPoseEstimate estimate =
+      filter_for(layout).observe(view_from(layout, kFar, 3, random));
+  ASSERT_TRUE(estimate.outcome) << estimate.outcome.reason;
+  EXPECT_EQ(estimate.markers, 3);
+  EXPECT_LT(angle_rad(estimate.observation.T_world_body, kFar * kBodyCam.inverse()), 0.03);
 }
 
 TEST(MarkerFilter, LeavesOutAMarkerThatWasMoved) {
@@ -113,10 +115,10 @@ TEST(MarkerFilter, LeavesOutAMarkerThatWasMoved) {
   MarkerLayout moved = layout;
   moved.markers[2].T_world_marker = moved.markers[2].T_world_marker * SE3(SO3(), {0.1, 0, 0});
   const SE3 T = looking_at_origin(2, 0.3, 0.2, 0.4);
-  const MarkerPoseEstimate answer = filter_for(layout).observe(view_from(moved, T, 3, random));
-  ASSERT_TRUE(answer.outcome) << answer.outcome.reason;
-  EXPECT_EQ(answer.markers, 2);
-  EXPECT_LT(distance_m(answer.observation.T_world_body, T * kBodyCam.inverse()), 0.02);
+  const MarkerPoseEstimate estimate = filter_for(layout).observe(view_from(moved, T, 3, random));
+  ASSERT_TRUE(estimate.outcome) << estimate.outcome.reason;
+  EXPECT_EQ(estimate.markers, 2);
+  EXPECT_LT(distance_m(estimate.observation.T_world_body, T * kBodyCam.inverse()), 0.02);
 }
 
 TEST(MarkerFilter, DecidesByWhatThePositionFilterExpects) {
@@ -130,9 +132,9 @@ TEST(MarkerFilter, DecidesByWhatThePositionFilterExpects) {
   filter.start(state);
   const MarkerView view = view_from(layout, kFar, 1, random);
   const BodyExpectation expected = filter.expectation(view.stamp_ns);
-  const MarkerPoseEstimate answer = filter_for(layout).observe(view, &expected);
-  ASSERT_TRUE(answer.outcome) << answer.outcome.reason;
-  EXPECT_LT(angle_rad(answer.observation.T_world_body, kFar * kBodyCam.inverse()), 0.1);
+  const MarkerPoseEstimate estimate = filter_for(layout).observe(view, &expected);
+  ASSERT_TRUE(estimate.outcome) << estimate.outcome.reason;
+  EXPECT_LT(angle_rad(estimate.observation.T_world_body, kFar * kBodyCam.inverse()), 0.1);
 }
 
 TEST(MarkerFilter, DecidesSoonerWhereUpIsKnown) {
@@ -162,10 +164,10 @@ TEST(MarkerFilter, BeginsByBeaconsWhereThereIsNoMarker) {
   view.stamp_ns = 1;
   view.beacons = detect_beacons(scene.render(T, random));
   MarkerFilter filter({}, scene.layout, kCamera, kBodyCam);
-  const MarkerPoseEstimate answer = filter.observe(view);
-  ASSERT_TRUE(answer.outcome) << answer.outcome.reason;
-  EXPECT_EQ(answer.beacons, 5);
-  EXPECT_LT(distance_m(answer.observation.T_world_body, T * kBodyCam.inverse()), 0.01);
+  const MarkerPoseEstimate estimate = filter.observe(view);
+  ASSERT_TRUE(estimate.outcome) << estimate.outcome.reason;
+  EXPECT_EQ(estimate.beacons, 5);
+  EXPECT_LT(distance_m(estimate.observation.T_world_body, T * kBodyCam.inverse()), 0.01);
   // Three are enough where a filter expects the camera there.
   PositionFilter other({}, kBodyCam);
   BodyState state;

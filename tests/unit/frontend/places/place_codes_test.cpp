@@ -236,11 +236,11 @@ TEST(CodeDatabase, FindsThePlaceSeenFromBesideByEveryCode) {
     const auto memory =
         make_code_database(code, small(), code == PlaceCode::kBow ? binary : real, 1);
     for (int place = 0; place < 3; ++place)
-      EXPECT_TRUE(memory->look_up_and_add(picture(place), {}).empty());
-    const auto list = memory->look_up_and_add(picture(1, 6), ViewRange{0, 2});
+      EXPECT_TRUE(memory->find_and_add(picture(place), {}).empty());
+    const auto list = memory->find_and_add(picture(1, 6), ViewRange{0, 2});
     ASSERT_FALSE(list.empty());
     EXPECT_EQ(list.front().view, 1) << static_cast<int>(code);
-    EXPECT_EQ(memory->look_up_and_add(picture(1), ViewRange{3, 3}).front().view, 3);
+    EXPECT_EQ(memory->find_and_add(picture(1), ViewRange{3, 3}).front().view, 3);
   }
 }
 
@@ -249,8 +249,8 @@ TEST(CodeDatabase, AnswersNothingForABlankImage) {
   const Image blank(120, 160, CV_8UC1, cv::Scalar(90));
   for (const PlaceCode code : {PlaceCode::kBowFloat, PlaceCode::kLandmarks}) {
     const auto memory = make_code_database(code, small(), real, 1);
-    memory->look_up_and_add(blank, {});
-    for (const PlaceSimilarity& similarity : memory->look_up_and_add(blank, ViewRange{0, 0}))
+    memory->find_and_add(blank, {});
+    for (const PlaceSimilarity& similarity : memory->find_and_add(blank, ViewRange{0, 0}))
       EXPECT_EQ(similarity.score, 0);
   }
 }

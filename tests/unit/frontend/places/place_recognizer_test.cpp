@@ -133,8 +133,8 @@ TEST(SequenceFilter, IsLessSureOfAPathThatThePresentImageHasLeft) {
   SequenceFilter filter{SequenceFilterOptions{}};
   filter.update(seen(1, 6), 0, 5);
   filter.update(seen(2, 6), 0, 5);
-  const auto on_the_way = filter.update(seen(3, 6), 0, 5).front();
-  const double sure = filter.confidence(on_the_way, seen(3, 6));
+  const auto on_the_path = filter.update(seen(3, 6), 0, 5).front();
+  const double sure = filter.confidence(on_the_path, seen(3, 6));
   EXPECT_DOUBLE_EQ(sure, 2.0);  // past and present say so alike
   const auto list = seen(0, 6);
   const auto left = filter.update(list, 0, 5).front();

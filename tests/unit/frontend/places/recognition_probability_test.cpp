@@ -14,19 +14,19 @@ bool any(int) { return true; }
 
 TEST(RecognitionProbability, AnAnswerStandsOutAboveWhatIsNotNearIt) {
   const auto lone = lone_evidence({{{3, 2.0}, {4, 1.9}, {7, 1.5}, {9, 0.5}}, {}}, 10);
-  const ViewEstimate answer = answer_of(lone[0], kNext, any);
-  EXPECT_EQ(answer.view, 3);
-  EXPECT_DOUBLE_EQ(answer.margin, 0.5);
-  EXPECT_TRUE(answer.agreed);
-  EXPECT_EQ(answer_of(lone[0], kNext, [](int view) { return view > 5; }).view, 7);
-  EXPECT_EQ(answer_of(lone[1], kNext, any).view, -1);
+  const ViewEstimate estimate = view_estimate(lone[0], kNext, any);
+  EXPECT_EQ(estimate.view, 3);
+  EXPECT_DOUBLE_EQ(estimate.margin, 0.5);
+  EXPECT_TRUE(estimate.agreed);
+  EXPECT_EQ(view_estimate(lone[0], kNext, [](int view) { return view > 5; }).view, 7);
+  EXPECT_EQ(view_estimate(lone[1], kNext, any).view, -1);
 }
 
 TEST(RecognitionProbability, SidesThatAreForDifferentViewsDoNotAgree) {
   const ViewEvidence evidence{{5, 0, 0, 0, 3}, {0, 0, 0, 0, 3}};
-  const ViewEstimate answer = answer_of(evidence, kNext, any);
-  EXPECT_EQ(answer.view, 4);
-  EXPECT_FALSE(answer.agreed);
+  const ViewEstimate estimate = view_estimate(evidence, kNext, any);
+  EXPECT_EQ(estimate.view, 4);
+  EXPECT_FALSE(estimate.agreed);
 }
 
 TEST(RecognitionProbability, AWrongImageAmongOthersIsOutvotedFromBothSides) {
@@ -34,9 +34,9 @@ TEST(RecognitionProbability, AWrongImageAmongOthersIsOutvotedFromBothSides) {
   std::vector<std::vector<PlaceSimilarity>> lists;
   for (int i = 0; i < 10; ++i) lists.push_back({{i, 1.0}, {20, i == 4 ? 1.6 : 0.0}, {29, 0.0}});
   const auto evidence = sequence_evidence(lists, 30, {});
-  EXPECT_EQ(answer_of(lone_evidence(lists, 30)[4], kNext, any).view, 20);
-  EXPECT_EQ(answer_of(evidence[4], kNext, any).view, 4);
-  EXPECT_EQ(answer_of(evidence[0], kNext, any).view, 0);
+  EXPECT_EQ(view_estimate(lone_evidence(lists, 30)[4], kNext, any).view, 20);
+  EXPECT_EQ(view_estimate(evidence[4], kNext, any).view, 4);
+  EXPECT_EQ(view_estimate(evidence[0], kNext, any).view, 0);
 }
 
 // Margins drawn as the model has them: what is said with probability p is right so often.
@@ -54,18 +54,18 @@ TEST(RecognitionProbability, ProbabilitiesAreHonestWhereTheModelHolds) {
   }
   const RecognitionProbability odds(wrongs, rights);
   constexpr int kTrials = 40000;
-  int said = 0, wrongly = 0;
+  int message = 0, wrongly = 0;
   double expected = 0;
   for (int i = 0; i < kTrials; ++i) {
     const bool is_right = i % 2 == 0;
     const double p = odds.probabilities({is_right ? right() : wrong()}, kNext, 0).front();
     if (p < 0.7 || p > 0.95) continue;
-    ++said;
+    ++message;
     wrongly += !is_right;
     expected += 1 - p;
   }
   // A tenth of the right margins is beyond the largest: densities are off by so much.
-  ASSERT_GT(said, 500);
+  ASSERT_GT(message, 500);
   const double sigma = std::sqrt(expected);
   EXPECT_NEAR(wrongly, expected, 4 * sigma + 0.15 * expected);
 }

@@ -48,15 +48,16 @@ TEST(DominantSurface, IsFoundFromAMountingThatIsDegreesAndDecimetresOff) {
   Random random = seeded_random(81);
   const Plane truth = tilted(0.06, -0.02);
   DominantSurface surface({}, kCamera, {Eigen::Vector3d::UnitY(), 1.4});
-  SurfaceAppearance look;
-  for (int i = 0; i < 3; ++i) look = surface.look(sensor(truth, random), SE3(), {}, random);
-  ASSERT_TRUE(look.outcome) << look.outcome.reason;
-  EXPECT_EQ(look.region, SurfaceRegion::kAhead);
-  EXPECT_LT(angle_deg(look.plane_cam, truth), rad_to_deg(4 * look.sigma_normal_rad));
-  EXPECT_NEAR(std::log(look.plane_cam.distance_m / kHeight_m), 0, 4 * look.sigma_log_distance);
-  EXPECT_LT(look.sigma_normal_rad, deg_to_rad(0.5));
-  EXPECT_LT(look.sigma_log_distance, 0.01);
-  EXPECT_GT(look.share, 0.95);
+  SurfaceAppearance appearance;
+  for (int i = 0; i < 3; ++i) appearance = surface.update(sensor(truth, random), SE3(), {}, random);
+  ASSERT_TRUE(appearance.outcome) << appearance.outcome.reason;
+  EXPECT_EQ(appearance.region, SurfaceRegion::kAhead);
+  EXPECT_LT(angle_deg(appearance.plane_cam, truth), rad_to_deg(4 * appearance.sigma_normal_rad));
+  EXPECT_NEAR(std::log(appearance.plane_cam.distance_m / kHeight_m), 0,
+              4 * appearance.sigma_log_distance);
+  EXPECT_LT(appearance.sigma_normal_rad, deg_to_rad(0.5));
+  EXPECT_LT(appearance.sigma_log_distance, 0.01);
+  EXPECT_GT(appearance.share, 0.95);
 }
 
 TEST(DominantSurface, TellsVehiclesFromTheRoad) {
@@ -68,14 +69,15 @@ TEST(DominantSurface, TellsVehiclesFromTheRoad) {
     return std::nullopt;
   };
   DominantSurface surface({}, kCamera, tilted(0));
-  const SurfaceAppearance look = surface.look(sensor(truth, random, lorry), SE3(), {}, random);
-  ASSERT_TRUE(look.outcome) << look.outcome.reason;
-  EXPECT_LT(angle_deg(look.plane_cam, truth), 0.5);
-  ASSERT_FALSE(look.off_px.empty());
+  const SurfaceAppearance appearance =
+      surface.update(sensor(truth, random, lorry), SE3(), {}, random);
+  ASSERT_TRUE(appearance.outcome) << appearance.outcome.reason;
+  EXPECT_LT(angle_deg(appearance.plane_cam, truth), 0.5);
+  ASSERT_FALSE(appearance.off_px.empty());
   int on_lorry = 0;
-  for (const Eigen::Vector2f& px : look.off_px)
+  for (const Eigen::Vector2f& px : appearance.off_px)
     on_lorry += lorry(*kCamera.unproject(px.cast<double>())).has_value();
-  EXPECT_GT(on_lorry, 0.8 * static_cast<double>(look.off_px.size()));
+  EXPECT_GT(on_lorry, 0.8 * static_cast<double>(appearance.off_px.size()));
 }
 
 TEST(DominantSurface, IsLookedAtElsewhereWhereTheRoadAheadIsHidden) {
@@ -89,42 +91,43 @@ TEST(DominantSurface, IsLookedAtElsewhereWhereTheRoadAheadIsHidden) {
   Image mask(kCamera.height, kCamera.width, CV_8UC1, cv::Scalar(255));
   mask.colRange(kCamera.width / 2 + 60, kCamera.width).setTo(0);
   DominantSurface surface({}, kCamera, truth);
-  const SurfaceAppearance look = surface.look(sensor(truth, random, car), SE3(), mask, random);
-  ASSERT_TRUE(look.outcome) << look.outcome.reason;
-  EXPECT_EQ(look.region, SurfaceRegion::kLeft) << to_string(look.region);
-  EXPECT_LT(angle_deg(look.plane_cam, truth), 0.5);
-  for (const Eigen::Vector2f& px : look.on_px) EXPECT_LT(px.x(), kCamera.width / 2 + 60);
+  const SurfaceAppearance appearance =
+      surface.update(sensor(truth, random, car), SE3(), mask, random);
+  ASSERT_TRUE(appearance.outcome) << appearance.outcome.reason;
+  EXPECT_EQ(appearance.region, SurfaceRegion::kLeft) << to_string(appearance.region);
+  EXPECT_LT(angle_deg(appearance.plane_cam, truth), 0.5);
+  for (const Eigen::Vector2f& px : appearance.on_px) EXPECT_LT(px.x(), kCamera.width / 2 + 60);
 }
 
 TEST(DominantSurface, FollowsASlopeFromTheSecondLookOn) {
   Random random = seeded_random(84);
   DominantSurface surface({}, kCamera, tilted(0));
   for (int i = 0; i < 10; ++i)
-    ASSERT_TRUE(surface.look(sensor(tilted(0), random), SE3(), {}, random).outcome);
+    ASSERT_TRUE(surface.update(sensor(tilted(0), random), SE3(), {}, random).outcome);
   const Plane slope = tilted(0.05);
-  const SurfaceAppearance first = surface.look(sensor(slope, random), SE3(), {}, random);
+  const SurfaceAppearance first = surface.update(sensor(slope, random), SE3(), {}, random);
   EXPECT_EQ(first.outcome.code, Code::kInconsistent);
   EXPECT_LT(angle_deg(first.plane_cam, tilted(0)), 0.5);  // not believed yet
-  SurfaceAppearance look;
-  for (int i = 0; i < 2; ++i) look = surface.look(sensor(slope, random), SE3(), {}, random);
-  ASSERT_TRUE(look.outcome) << look.outcome.reason;
-  EXPECT_LT(angle_deg(look.plane_cam, slope), 0.5);
+  SurfaceAppearance appearance;
+  for (int i = 0; i < 2; ++i) appearance = surface.update(sensor(slope, random), SE3(), {}, random);
+  ASSERT_TRUE(appearance.outcome) << appearance.outcome.reason;
+  EXPECT_LT(angle_deg(appearance.plane_cam, slope), 0.5);
 }
 
 TEST(DominantSurface, IsCarriedAlongByTheMotion) {
   Random random = seeded_random(85);
   DominantSurface surface({}, kCamera, tilted(0.02));
-  ASSERT_TRUE(surface.look(sensor(tilted(0.02), random), SE3(), {}, random).outcome);
+  ASSERT_TRUE(surface.update(sensor(tilted(0.02), random), SE3(), {}, random).outcome);
   // The camera rises by 0.3 m and nods by 3 deg, and sees nothing.
   const SE3 T_cur_last = pose({0.05, 0, 0}, {0, 0.3, 0});
   const Plane before = surface.plane_cam(), expected = transform(T_cur_last, before);
   const auto blind = [](const std::vector<Eigen::Vector2f>& px, const std::vector<double>&) {
     return std::vector<std::optional<InverseDepth>>(px.size());
   };
-  const SurfaceAppearance look = surface.look(blind, T_cur_last, {}, random);
-  EXPECT_EQ(look.outcome.code, Code::kTooFewData);
-  EXPECT_LT(angle_deg(look.plane_cam, expected), 1e-6);
-  EXPECT_NEAR(look.plane_cam.distance_m, expected.distance_m, 1e-9);
+  const SurfaceAppearance appearance = surface.update(blind, T_cur_last, {}, random);
+  EXPECT_EQ(appearance.outcome.code, Code::kTooFewData);
+  EXPECT_LT(angle_deg(appearance.plane_cam, expected), 1e-6);
+  EXPECT_NEAR(appearance.plane_cam.distance_m, expected.distance_m, 1e-9);
 }
 
 TEST(DominantSurface, RefusesWallsOfNoiseAndMasksOfAnotherSize) {
@@ -137,8 +140,8 @@ TEST(DominantSurface, RefusesWallsOfNoiseAndMasksOfAnotherSize) {
           InverseDepth{*kCamera.unproject(p.cast<double>()), random.uniform(0.02, 0.6), kSigma});
     return depths;
   };
-  EXPECT_EQ(surface.look(clutter, SE3(), {}, random).outcome.code, Code::kNoConsensus);
-  EXPECT_THROW((void)surface.look(clutter, SE3(), Image::zeros(3, 3, CV_8UC1), random),
+  EXPECT_EQ(surface.update(clutter, SE3(), {}, random).outcome.code, Code::kNoConsensus);
+  EXPECT_THROW((void)surface.update(clutter, SE3(), Image::zeros(3, 3, CV_8UC1), random),
                ArgumentError);
   EXPECT_THROW(DominantSurface({}, kCamera, {Eigen::Vector3d::UnitY(), -1}), ArgumentError);
   DominantSurfaceOptions inside_out;

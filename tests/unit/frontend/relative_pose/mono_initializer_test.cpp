@@ -14,7 +14,7 @@ const Camera kCamera = pinhole(640, 480, 500);
 
 /// Views at equal steps of the motion, the reference first, the current one last; those in between
 /// swerve aside by up to `swerve_m`.
-std::vector<SE3> way(const SE3& T_ref_cur, int steps, double swerve_m = 0) {
+std::vector<SE3> path(const SE3& T_ref_cur, int steps, double swerve_m = 0) {
   std::vector<SE3> views;
   for (int i = 0; i <= steps; ++i) {
     const double share = static_cast<double>(i) / steps;
@@ -76,7 +76,7 @@ TEST(MonoInitializer, RefusesAPlaneWithTwoReadings) {
 
 TEST(MonoInitializer, ReadsAPlaneWithTheHelpOfViewsInBetween) {
   Random random = seeded_random(33);
-  PointScene scene = make_scene(kCamera, way(kTowards, 5, 0.5), 150, random, on_plane(kNormal, 7));
+  PointScene scene = make_scene(kCamera, path(kTowards, 5, 0.5), 150, random, on_plane(kNormal, 7));
   for (auto& px : scene.px) add_noise(px, 0.1, random);
   const auto result = initialize(scene, true, random);
   ASSERT_TRUE(result.outcome) << result.outcome.reason;
@@ -89,7 +89,7 @@ TEST(MonoInitializer, SaysNothingForPureRotation) {
   for (const double noise_px : {0.0, 0.3}) {
     Random random = seeded_random(34);
     PointScene scene =
-        make_scene(kCamera, way(pose({0.02, 0.15, 0.01}, {0, 0, 0}), 3), 150, random);
+        make_scene(kCamera, path(pose({0.02, 0.15, 0.01}, {0, 0, 0}), 3), 150, random);
     for (auto& px : scene.px) add_noise(px, noise_px, random);
     const auto result = initialize(scene, true, random);
     EXPECT_FALSE(result.outcome) << noise_px;

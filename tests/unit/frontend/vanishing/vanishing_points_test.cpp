@@ -14,8 +14,8 @@ using Code = Outcome::Code;
 LineSegment pointing_at(const Camera& camera, const Eigen::Vector3d& v, const Eigen::Vector2d& px,
                         double length) {
   const Eigen::Vector3d to = camera.K() * v;
-  const Eigen::Vector2d way = (to.head<2>() - to.z() * px).normalized();
-  return {px - 0.5 * length * way, px + 0.5 * length * way};
+  const Eigen::Vector2d path = (to.head<2>() - to.z() * px).normalized();
+  return {px - 0.5 * length * path, px + 0.5 * length * path};
 }
 
 std::vector<LineSegment> star(const Camera& camera, const Eigen::Vector3d& v, int count,

@@ -43,13 +43,13 @@ TEST(FlowFile, BrokenFilesAreNamedWithWhatIsWrong) {
   std::filesystem::resize_file(folder / "f.flo", 50);
   std::ofstream(folder / "g.flo") << "no flow at all";
   std::ofstream(folder / "h.png") << "no picture";
-  const auto said = [&](const char* name) {
+  const auto message = [&](const char* name) {
     return test::message_of([&] { (void)read_flow(folder / name); });
   };
-  EXPECT_THAT(said("f.flo"), HasSubstr("f.flo: 50 bytes, but flow of 4x3 pixels has 108"));
-  EXPECT_THAT(said("g.flo"), HasSubstr("g.flo: is not Middlebury flow"));
-  EXPECT_THAT(said("h.png"), HasSubstr("h.png"));
-  EXPECT_THAT(said("none.flo"), HasSubstr("none.flo: flow is missing"));
+  EXPECT_THAT(message("f.flo"), HasSubstr("f.flo: 50 bytes, but flow of 4x3 pixels has 108"));
+  EXPECT_THAT(message("g.flo"), HasSubstr("g.flo: is not Middlebury flow"));
+  EXPECT_THAT(message("h.png"), HasSubstr("h.png"));
+  EXPECT_THAT(message("none.flo"), HasSubstr("none.flo: flow is missing"));
   EXPECT_THROW(write_flow(folder / "f.txt", example()), ArgumentError);
   EXPECT_THROW(write_flow(folder / "f.flo", Image(3, 3, CV_8UC1)), ArgumentError);
 }

@@ -116,7 +116,7 @@ TEST(DirectCue, ASingleCameraLearnsHowItIsMounted) {
   calibration.camera_height_m = kStreetHeight_m;
   DirectCue cue({}, calibration, {}, false);
   Random random(1);
-  const double way_m = true_step().translation().norm();
+  const double true_length_m = true_step().translation().norm();
   std::vector<double> depths_m;
   for (int round = 0; round < 3; ++round) {
     cue.see(tilted.frame(0, Sensor::kMono));
@@ -125,7 +125,7 @@ TEST(DirectCue, ASingleCameraLearnsHowItIsMounted) {
     cue.see(tilted.frame(1, Sensor::kMono));
     const DirectMotion motion = cue.align({SE3(SO3(), Eigen::Vector3d(0, 0, 0.3))});
     ASSERT_TRUE(motion.outcome) << round << motion.outcome.reason;
-    EXPECT_NEAR(motion.T_ref_cur.translation().norm(), way_m,
+    EXPECT_NEAR(motion.T_ref_cur.translation().norm(), true_length_m,
                 3 * std::sqrt(motion.covariance(2, 2)));
     cue.learn(motion);
   }

@@ -73,9 +73,9 @@ TEST(ManhattanCueGround, IsForgottenWithItsKeyframe) {
   EXPECT_TRUE(keyframe.cue.ground(keyframe.lane(2)).mask.empty());
 }
 
-SE3 boards_way(int k) { return test::pose({0.01, 0.05 * k, 0}, {0.05 * k, -0.02 * k, 0.15 * k}); }
+SE3 boards_path(int k) { return test::pose({0.01, 0.05 * k, 0}, {0.05 * k, -0.02 * k, 0.15 * k}); }
 const Image& boards_view(int k) {
-  static const std::vector<Frame> frames = test::boards_frames(5, boards_way);
+  static const std::vector<Frame> frames = test::boards_frames(5, boards_path);
   return frames[static_cast<std::size_t>(k)].image;
 }
 constexpr int kBegins = 3;  // views that a Manhattan frame begins with
@@ -89,17 +89,19 @@ struct Walk {
     for (int k = 0; k < keyframes; ++k) see(k);
   }
   void see(int k) {
-    window.add_keyframe(KeyframeId(k), boards_way(k));
+    window.add_keyframe(KeyframeId(k), boards_path(k));
     cue.observe(KeyframeId(k), boards_view(k), std::nullopt, window);
     if (k > 0) {
-      const SE3 T = boards_way(k - 1).inverse() * boards_way(k);
+      const SE3 T = boards_path(k - 1).inverse() * boards_path(k);
       add_motion(window, {KeyframeId(k - 1), KeyframeId(k), T, 1e6 * Matrix6d::Identity()});
       EXPECT_TRUE(window.optimize().outcome);
     }
     cue.settle(window);
   }
-  std::optional<ManhattanCue::RotationEstimate> heading(int frame, const SO3& R_odom_cam) const {
-    return cue.heading(boards_view(frame), R_odom_cam, window, window.keyframes().back());
+  std::optional<ManhattanCue::RotationEstimate> manhattan_rotation(int frame,
+                                                                   const SO3& R_odom_cam) const {
+    return cue.manhattan_rotation(boards_view(frame), R_odom_cam, window,
+                                  window.keyframes().back());
   }
 };
 
@@ -119,27 +121,27 @@ TEST(ManhattanCue, EdgesOfSeveralKeyframesBeginAManhattanFrame) {
 
 TEST(ManhattanCue, AFrameIsRotatedToWhereItsEdgesPoint) {
   const Walk walk(4);
-  const SO3 truth = boards_way(4).rotation();
+  const SO3 truth = boards_path(4).rotation();
   for (const Eigen::Vector3d& off : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0.005, -0.01, 0)}) {
-    const auto heading = walk.heading(4, truth * SO3::exp(off));
-    ASSERT_TRUE(heading);
-    const SO3 R_odom_cam =
-        *walk.window.manhattan_frame(heading->manhattan_frame) * heading->R_cam_frame.inverse();
+    const auto manhattan_rotation = walk.manhattan_rotation(4, truth * SO3::exp(off));
+    ASSERT_TRUE(manhattan_rotation);
+    const SO3 R_odom_cam = *walk.window.manhattan_frame(manhattan_rotation->manhattan_frame) *
+                           manhattan_rotation->R_cam_frame.inverse();
     EXPECT_LT((R_odom_cam.inverse() * truth).log().norm(), deg_to_rad(0.3));
     // A deviation between a hundredth of a degree and one degree about each axis.
-    const Eigen::Vector3d sigma = heading->information.inverse().diagonal().cwiseSqrt();
+    const Eigen::Vector3d sigma = manhattan_rotation->information.inverse().diagonal().cwiseSqrt();
     EXPECT_GT(sigma.minCoeff(), deg_to_rad(0.01));
     EXPECT_LT(sigma.maxCoeff(), deg_to_rad(1));
   }
 }
 
 TEST(ManhattanCue, WithoutAManhattanFrameThereIsNoHeading) {
-  EXPECT_FALSE(Walk(1).heading(1, boards_way(1).rotation()));
+  EXPECT_FALSE(Walk(1).manhattan_rotation(1, boards_path(1).rotation()));
   Walk walk(4);
   // So far from where it is expected it is no sighting of it.
-  EXPECT_FALSE(walk.heading(4, boards_way(4).rotation() * SO3::exp({0.2, 0, 0.3})));
+  EXPECT_FALSE(walk.manhattan_rotation(4, boards_path(4).rotation() * SO3::exp({0.2, 0, 0.3})));
   walk.cue.reset();
-  EXPECT_FALSE(walk.heading(4, boards_way(4).rotation()));
+  EXPECT_FALSE(walk.manhattan_rotation(4, boards_path(4).rotation()));
   EXPECT_TRUE(walk.cue.view().empty());
 }
 
@@ -148,7 +150,7 @@ TEST(ManhattanCue, WideImagesAreHalvedAndTheirEdgesAreNot) {
   options.max_width_px = 300;
   ManhattanCue halved(options, test::boards_camera(), 1, {});
   SlidingWindow window({}, test::boards_camera());
-  window.add_keyframe(KeyframeId(0), boards_way(0));
+  window.add_keyframe(KeyframeId(0), boards_path(0));
   halved.observe(KeyframeId(0), boards_view(0), std::nullopt, window);
   const Walk whole(1);
   // Most edges of the halved image lie on one of the whole image.
@@ -176,23 +178,24 @@ TEST(ManhattanCue, RefusesFaultyOptions) {
 struct Rotated {
   SlidingWindow window{SlidingWindowOptions{}, test::boards_camera()};
   SE3 T_odom_cam = test::pose({0.1, 0.4, -0.2}, {1, 2, 3});
-  ManhattanCue::RotationEstimate heading;
+  ManhattanCue::RotationEstimate manhattan_rotation;
 
   explicit Rotated(const Eigen::Vector3d& off, double information) {
     window.add_keyframe(KeyframeId(0), SE3());
     const SO3 R_odom_manhattan = SO3::exp({0, 0.3, 0});
     window.add_manhattan_frame(ManhattanFrameId(7), R_odom_manhattan);
-    heading.manhattan_frame = ManhattanFrameId(7);
-    heading.R_cam_frame = (T_odom_cam.rotation() * SO3::exp(off)).inverse() * R_odom_manhattan;
-    heading.information = information * Eigen::Matrix3d::Identity();
+    manhattan_rotation.manhattan_frame = ManhattanFrameId(7);
+    manhattan_rotation.R_cam_frame =
+        (T_odom_cam.rotation() * SO3::exp(off)).inverse() * R_odom_manhattan;
+    manhattan_rotation.information = information * Eigen::Matrix3d::Identity();
   }
 };
 
 TEST(WithHeading, APoseGoesAsFarAsItsInformationLetsIt) {
   const Eigen::Vector3d off(0.01, -0.02, 0.005);
   const Rotated rotated(off, 300);
-  const SE3 T =
-      with_heading(rotated.T_odom_cam, 100 * Matrix6d::Identity(), rotated.heading, rotated.window);
+  const SE3 T = with_manhattan_rotation(rotated.T_odom_cam, 100 * Matrix6d::Identity(),
+                                        rotated.manhattan_rotation, rotated.window);
   // Three parts of four towards the heading; the position has no reason to move.
   const Eigen::Vector3d step = (rotated.T_odom_cam.rotation().inverse() * T.rotation()).log();
   EXPECT_LT((step - 0.75 * off).norm(), 1e-4);
@@ -206,7 +209,8 @@ TEST(WithHeading, ThePositionFollowsTheRotation) {
   Vector6d sum = Vector6d::Zero();
   sum[0] = 1, sum[4] = 2;
   information += 100 * sum * sum.transpose();
-  const SE3 T = with_heading(rotated.T_odom_cam, information, rotated.heading, rotated.window);
+  const SE3 T = with_manhattan_rotation(rotated.T_odom_cam, information, rotated.manhattan_rotation,
+                                        rotated.window);
   const Eigen::Vector3d moved = rotated.T_odom_cam.rotation().inverse() *
                                 (T.translation() - rotated.T_odom_cam.translation());
   EXPECT_NEAR(moved.x(), -0.02, 1e-4);
@@ -216,10 +220,11 @@ TEST(WithHeading, HeadingsKnownAboutOneAxisRotateAboutThatAlone) {
   const Eigen::Vector3d off(0.01, 0.01, 0.01);
   Rotated rotated(off, 0);
   // In the Manhattan frame's axes; the camera's y is what it knows.
-  const Eigen::Vector3d y = rotated.heading.R_cam_frame.inverse() * Eigen::Vector3d::UnitY();
-  rotated.heading.information = 1e9 * y * y.transpose();
-  const SE3 T =
-      with_heading(rotated.T_odom_cam, Matrix6d::Identity(), rotated.heading, rotated.window);
+  const Eigen::Vector3d y =
+      rotated.manhattan_rotation.R_cam_frame.inverse() * Eigen::Vector3d::UnitY();
+  rotated.manhattan_rotation.information = 1e9 * y * y.transpose();
+  const SE3 T = with_manhattan_rotation(rotated.T_odom_cam, Matrix6d::Identity(),
+                                        rotated.manhattan_rotation, rotated.window);
   const Eigen::Vector3d step = (rotated.T_odom_cam.rotation().inverse() * T.rotation()).log();
   EXPECT_LT((step - Eigen::Vector3d(0, 0.01, 0)).norm(), 2e-4);
 }
@@ -227,14 +232,15 @@ TEST(WithHeading, HeadingsKnownAboutOneAxisRotateAboutThatAlone) {
 TEST(WithHeading, WithoutAHeadingOrItsManhattanFrameAPoseStays) {
   Rotated rotated({0, 0.1, 0}, 1e6);
   const Matrix6d information = Matrix6d::Identity();
-  const auto moved = [&](const std::optional<ManhattanCue::RotationEstimate>& heading) {
-    const SE3 T = with_heading(rotated.T_odom_cam, information, heading, rotated.window);
+  const auto moved = [&](const std::optional<ManhattanCue::RotationEstimate>& manhattan_rotation) {
+    const SE3 T = with_manhattan_rotation(rotated.T_odom_cam, information, manhattan_rotation,
+                                          rotated.window);
     return (rotated.T_odom_cam.inverse() * T).log().norm();
   };
-  EXPECT_GT(moved(rotated.heading), 0.05);
+  EXPECT_GT(moved(rotated.manhattan_rotation), 0.05);
   EXPECT_EQ(moved(std::nullopt), 0);
-  rotated.heading.manhattan_frame = ManhattanFrameId(8);
-  EXPECT_EQ(moved(rotated.heading), 0);
+  rotated.manhattan_rotation.manhattan_frame = ManhattanFrameId(8);
+  EXPECT_EQ(moved(rotated.manhattan_rotation), 0);
 }
 
 }  // namespace

@@ -36,12 +36,12 @@ struct Walk {
       if (i > 0) odometry = odometry * (T_world_cam.back().inverse() * T).plus(noise);
       frame.T_odom_cam = odometry;
       frame.step_covariance = sigma.cwiseAbs2().asDiagonal();
-      for (const PlacedMarker& marker : layout.markers) look(marker, T, random, frame);
+      for (const PlacedMarker& marker : layout.markers) observe(marker, T, random, frame);
       T_world_cam.push_back(T);
       frames.push_back(frame);
     }
   }
-  void look(const PlacedMarker& marker, const SE3& T, Random& random, MarkerFrame& frame) const {
+  void observe(const PlacedMarker& marker, const SE3& T, Random& random, MarkerFrame& frame) const {
     MarkerObservation observation;
     observation.id = marker.id;
     for (int k = 0; k < 4; ++k) {

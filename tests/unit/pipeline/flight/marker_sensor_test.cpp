@@ -222,11 +222,11 @@ TEST(MarkerSensor, AsksTheExpectedStateUntilItIsRefuted) {
     view.stamp_ns *= 2;
     return view;
   };
-  const MarkerPoseEstimate answer = sensor.estimate(later(), expectation);
-  ASSERT_TRUE(answer.outcome) << answer.outcome.reason;
-  EXPECT_EQ(answer.markers, 1);
+  const MarkerPoseEstimate estimate = sensor.estimate(later(), expectation);
+  ASSERT_TRUE(estimate.outcome) << estimate.outcome.reason;
+  EXPECT_EQ(estimate.markers, 1);
   // The corners are exact; the expectation does not shift the pose.
-  EXPECT_LT((answer.observation.T_world_body.inverse() * T_world_body).log().norm(), 1e-3);
+  EXPECT_LT((estimate.observation.T_world_body.inverse() * T_world_body).log().norm(), 1e-3);
   for (int i = 0; i < 2; ++i) sensor.report(kRefuted, true);
   EXPECT_EQ(sensor.estimate(later(), expectation).outcome.code, Code::kInconsistent);
 }

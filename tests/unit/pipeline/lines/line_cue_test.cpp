@@ -79,10 +79,10 @@ TEST(LineCue, OnlyASecondCameraThatIsThereCanBeRevised) {
 
 constexpr double kBoardsBaseline_m = 0.5;
 
-SE3 boards_way(int i) { return pose({0, 0.004 * i, 0}, {0.05 * i, -0.03 * i, 0.1 * i}); }
+SE3 boards_path(int i) { return pose({0, 0.004 * i, 0}, {0.05 * i, -0.03 * i, 0.1 * i}); }
 
 const std::vector<Frame>& boards_drive() {
-  static const std::vector<Frame> frames = boards_frames(5, boards_way, kBoardsBaseline_m);
+  static const std::vector<Frame> frames = boards_frames(5, boards_path, kBoardsBaseline_m);
   return frames;
 }
 
@@ -103,10 +103,10 @@ struct Corridor {
   }
   static const Frame& frame(int i) { return boards_drive()[static_cast<std::size_t>(i)]; }
   void keyframe(int i) {
-    window.add_keyframe(KeyframeId(i), boards_way(i));
+    window.add_keyframe(KeyframeId(i), boards_path(i));
     if (i > 0) {
-      cue.track(frame(i).image, window, boards_way(i), 5);
-      cue.accept(window, boards_way(i));
+      cue.track(frame(i).image, window, boards_path(i), 5);
+      cue.accept(window, boards_path(i));
     }
     cue.observe(KeyframeId(i), frame(i), {}, 5, window);
   }
@@ -146,21 +146,21 @@ TEST(LineCue, MotionPlacesTheLinesOfASingleCamera) {
 TEST(LineCue, PosesAFrameByTheLinesThatItFollows) {
   Corridor c;
   c.keyframe(0);
-  c.cue.track(Corridor::frame(1).image, c.window, boards_way(0), 5);
-  const PoseGuess guess{boards_way(0), Matrix6d::Identity()};
+  c.cue.track(Corridor::frame(1).image, c.window, boards_path(0), 5);
+  const PoseGuess guess{boards_path(0), Matrix6d::Identity()};
   const PoseFromLines found = c.cue.pose(c.window, guess, c.random);
   ASSERT_TRUE(found.outcome) << found.outcome.reason;
-  EXPECT_LT((found.T_ref_cam.inverse() * boards_way(1)).log().norm(), 0.02);
+  EXPECT_LT((found.T_ref_cam.inverse() * boards_path(1)).log().norm(), 0.02);
 }
 
 TEST(LineCue, LinesThatContradictThePoseAreNoLongerFollowed) {
   Corridor right, wrong;
   for (Corridor* c : {&right, &wrong}) {
     c->keyframe(0);
-    c->cue.track(Corridor::frame(1).image, c->window, boards_way(1), 5);
+    c->cue.track(Corridor::frame(1).image, c->window, boards_path(1), 5);
   }
-  right.cue.accept(right.window, boards_way(1));
-  wrong.cue.accept(wrong.window, boards_way(1) * pose({0, 0.1, 0}, {0, 0, 0}));
+  right.cue.accept(right.window, boards_path(1));
+  wrong.cue.accept(wrong.window, boards_path(1) * pose({0, 0.1, 0}, {0, 0, 0}));
   EXPECT_GT(right.cue.followed(right.window), 10);
   EXPECT_LT(wrong.cue.followed(wrong.window), right.cue.followed(right.window) / 2);
 }
@@ -188,11 +188,11 @@ TEST(LineCue, TellsHowFarLinesHaveMovedSinceTheKeyframe) {
   ASSERT_GT(c.cue.flow_px().size(), 15u);
   for (const double px : c.cue.flow_px()) EXPECT_LT(px, 1e-9);
   std::map<LineId, Eigen::Vector2d> middle_px;
-  for (const FrameView::Line& line : c.cue.view(c.window, boards_way(0)))
+  for (const FrameView::Line& line : c.cue.view(c.window, boards_path(0)))
     middle_px[line.id] = line.segment.middle();
-  c.cue.track(Corridor::frame(2).image, c.window, boards_way(2), 5);
+  c.cue.track(Corridor::frame(2).image, c.window, boards_path(2), 5);
   const std::vector<double> flow = c.cue.flow_px();
-  const std::vector<FrameView::Line> now = c.cue.view(c.window, boards_way(2));
+  const std::vector<FrameView::Line> now = c.cue.view(c.window, boards_path(2));
   ASSERT_EQ(flow.size(), now.size());
   // How far the middle of an edge is from where its line is now.
   std::vector<double> expected, off;
@@ -200,7 +200,7 @@ TEST(LineCue, TellsHowFarLinesHaveMovedSinceTheKeyframe) {
     const auto line = c.window.line(now[i].id);
     if (!line) continue;
     const Eigen::Vector2d& px = middle_px.at(now[i].id);
-    const auto r = line_residual_px(c.calibration.camera, boards_way(2), *line, px, px);
+    const auto r = line_residual_px(c.calibration.camera, boards_path(2), *line, px, px);
     ASSERT_TRUE(r);
     expected.push_back(std::abs((*r)[0]));
     off.push_back(std::abs(flow[i] - expected.back()));
@@ -215,7 +215,7 @@ TEST(LineCue, ItsViewShowsWhereLinesOfTheWindowAreProjected) {
   Corridor c;
   c.keyframe(0);
   int judged = 0;
-  for (const FrameView::Line& line : c.cue.view(c.window, boards_way(0)))
+  for (const FrameView::Line& line : c.cue.view(c.window, boards_path(0)))
     if (line.off_px) {
       ++judged;
       EXPECT_LT(*line.off_px, 1);
@@ -228,7 +228,7 @@ TEST(LineCue, ItsFeaturesCarryLinesInTheCameraAtTheDepthThatTheyAreSeenAt) {
   Corridor c;
   c.keyframe(0);
   const SE3 T_other = pose({0, 0.5, 0}, {3, 0, 0});
-  const auto here = c.cue.features(c.window, boards_way(0)),
+  const auto here = c.cue.features(c.window, boards_path(0)),
              there = c.cue.features(c.window, T_other);
   ASSERT_EQ(here.size(), there.size());
   std::vector<double> depths;
@@ -240,10 +240,10 @@ TEST(LineCue, ItsFeaturesCarryLinesInTheCameraAtTheDepthThatTheyAreSeenAt) {
     ASSERT_TRUE(z);
     depths.push_back(*z);
     // Both cameras have it at one place of the world.
-    const Eigen::Vector3d of_here = boards_way(0) * here[i].line_cam->nearest_point(),
+    const Eigen::Vector3d of_here = boards_path(0) * here[i].line_cam->nearest_point(),
                           of_there = T_other * there[i].line_cam->nearest_point(),
                           direction = T_other.rotation() * there[i].line_cam->direction();
-    EXPECT_LT(direction.cross(boards_way(0).rotation() * here[i].line_cam->direction()).norm(),
+    EXPECT_LT(direction.cross(boards_path(0).rotation() * here[i].line_cam->direction()).norm(),
               1e-9);
     EXPECT_LT(direction.cross(of_there - of_here).norm(), 1e-9);
   }

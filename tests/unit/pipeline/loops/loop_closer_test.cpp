@@ -142,14 +142,14 @@ TEST_F(LoopCloserOnAStreet, WaitsForASecondLoopThatAgrees) {
     loops += closer.find_loops({odometry, {}, {}}, kDepth_m).size();
   }
   EXPECT_EQ(loops, 0u);
-  const auto waiting =
+  const auto pending =
       std::count_if(closer.records().begin(), closer.records().end(),
                     [](const LoopRecord& r) { return r.stage == LoopStage::kSupport; });
-  EXPECT_GE(waiting, 2) << stages(closer);
+  EXPECT_GE(pending, 2) << stages(closer);
 }
 
 /// The map knows the two by `sigma`, over `way`, and is `off` from the truth.
-KnownMotions certain_map(const SE3& off, double sigma, double way,
+KnownMotions certain_map(const SE3& off, double sigma, double path,
                          const std::function<SE3(std::int64_t)>& T_world) {
   KnownMotions known;
   known.odometry = [=](KeyframeId a, KeyframeId b) {
@@ -158,16 +158,16 @@ KnownMotions certain_map(const SE3& off, double sigma, double way,
   known.map = [=](KeyframeId a, KeyframeId b) {
     PredictedMotion motion{Sim3(T_world(a.value()).inverse() * T_world(b.value()) * off)};
     motion.covariance.diagonal().head<6>().setConstant(sigma * sigma);
-    motion.path_length = way;
+    motion.path_length = path;
     return motion;
   };
   return known;
 }
 
 TEST_F(LoopCloserOnAStreet, RefusesALoopThatACertainMapContradicts) {
-  const auto found = [&](const SE3& off, double sigma, double way) {
+  const auto found = [&](const SE3& off, double sigma, double path) {
     const auto known =
-        certain_map(off, sigma, way, [](std::int64_t k) { return T_world(static_cast<int>(k)); });
+        certain_map(off, sigma, path, [](std::int64_t k) { return T_world(static_cast<int>(k)); });
     LoopCloser closer(small_options(), monocular(), 1);
     std::size_t loops = 0;
     for (int k = 0; k < kAll; ++k) {

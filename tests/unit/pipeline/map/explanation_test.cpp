@@ -57,7 +57,7 @@ TEST(Explanation, TellsWhereAFrameIsAndHowThatIsKnown) {
   EXPECT_LT(
       distance_m(explained->T_map_cam, pose({0, 0.1, 0}, {0, 0, 1}) * pose({0, 0, 0}, {0, 0, 0.5})),
       1e-12);
-  EXPECT_NEAR(explained->way_to_keyframe, 0.5, 1e-12);
+  EXPECT_NEAR(explained->distance_to_keyframe, 0.5, 1e-12);
   EXPECT_EQ(explained->inliers, 40);
   EXPECT_EQ(explained->features, 5);
   EXPECT_EQ(explained->features_placed, 1);

@@ -62,11 +62,11 @@ TEST(MapLocalizer, IsUnsureOfRoomsThatItHasNotSeen) {
       10, [](std::size_t i) { return frame_of(room_view(100 + i, 0)); }, false);
   ASSERT_EQ(found.size(), 10u);
   int placed = 0;
-  for (const Localization& answer : found) {
-    placed += answer.placed;
-    if (!answer.placed) {
-      EXPECT_EQ(answer.stage, "appearance");
-      EXPECT_LT(answer.probability, LocalizerOptions().min_probability);
+  for (const Localization& estimate : found) {
+    placed += estimate.placed;
+    if (!estimate.placed) {
+      EXPECT_EQ(estimate.stage, "appearance");
+      EXPECT_LT(estimate.probability, LocalizerOptions().min_probability);
     }
   }
   EXPECT_LE(placed, 1);  // 95 % sure
@@ -112,10 +112,10 @@ TEST(MapLocalizer, AMapWhoseViewsAllLookTheSameTellsNothing) {
   const auto found = MapLocalizer({}, same).localize(
       2, [](std::size_t) { return frame_of(room_view(0, 0)); }, false);
   ASSERT_EQ(found.size(), 2u);
-  for (const Localization& answer : found) {
-    EXPECT_FALSE(answer.placed);
-    EXPECT_EQ(answer.stage, "calibration");
-    EXPECT_EQ(answer.probability, 0.5);
+  for (const Localization& estimate : found) {
+    EXPECT_FALSE(estimate.placed);
+    EXPECT_EQ(estimate.stage, "calibration");
+    EXPECT_EQ(estimate.probability, 0.5);
   }
 }
 

@@ -62,10 +62,10 @@ TEST(FirstFrameInitializer, NoViewEverWaitsForAnother) {
 TEST(FirstFrameInitializer, AFrameWithoutSurfacesLeavesTheMapEmpty) {
   Beginning b;
   b.tracker.shows_a_keyframe = false;
-  const Initialization waits = b.add(0);
-  EXPECT_EQ(waits.state, TrackingState::kInitializing);
-  EXPECT_EQ(waits.outcome.reason, "no surface to begin with");
-  EXPECT_FALSE(waits.is_reference);
+  const Initialization pending = b.add(0);
+  EXPECT_EQ(pending.state, TrackingState::kInitializing);
+  EXPECT_EQ(pending.outcome.reason, "no surface to begin with");
+  EXPECT_FALSE(pending.is_reference);
   EXPECT_TRUE(b.map.empty());
   EXPECT_EQ(b.tracker.asked, (Calls{"see_first", "prepare", "reset"}));
 }
@@ -74,10 +74,10 @@ TEST(FirstFrameInitializer, AKeyframeThatTheTrackerRefusesIsTakenBack) {
   Beginning b;
   b.map.restart(Scale::kMetric, 9);
   b.tracker.begins = Outcome::failure(Outcome::Code::kTooFewData, "3 of 90 points");
-  const Initialization waits = b.add(0);
-  EXPECT_EQ(waits.state, TrackingState::kInitializing);
-  EXPECT_EQ(waits.outcome.reason, "3 of 90 points");
-  EXPECT_TRUE(waits.keyframes.empty());
+  const Initialization pending = b.add(0);
+  EXPECT_EQ(pending.state, TrackingState::kInitializing);
+  EXPECT_EQ(pending.outcome.reason, "3 of 90 points");
+  EXPECT_TRUE(pending.keyframes.empty());
   EXPECT_TRUE(b.map.empty());
   EXPECT_TRUE(b.map.window().landmarks().empty());
   EXPECT_EQ(b.map.median_depth(), 9);  // not the depth that the refused keyframe saw
@@ -96,13 +96,13 @@ TEST(FirstFrameInitializer, AFrameThatIsRecognizedStillBeginsAtItsGivenPose) {
 }
 
 TEST(Initialization, IsAnUpdateOfTheOdometry) {
-  Initialization waits =
-      Initialization::waiting(Outcome::failure(Outcome::Code::kTooFewData, "too dark"));
-  waits.is_reference = true;
-  waits.T_odom_reference = SE3(SO3(), Eigen::Vector3d(1, 2, 3));
-  waits.rotation = PureRotation{SO3::exp({0, 0.1, 0}), Eigen::Matrix3d::Identity()};
-  waits.posed = {{FrameId(3), SE3()}};
-  const OdometryUpdate update = waits.update();
+  Initialization pending =
+      Initialization::pending(Outcome::failure(Outcome::Code::kTooFewData, "too dark"));
+  pending.is_reference = true;
+  pending.T_odom_reference = SE3(SO3(), Eigen::Vector3d(1, 2, 3));
+  pending.rotation = PureRotation{SO3::exp({0, 0.1, 0}), Eigen::Matrix3d::Identity()};
+  pending.posed = {{FrameId(3), SE3()}};
+  const OdometryUpdate update = pending.update();
   EXPECT_EQ(update.state, TrackingState::kInitializing);
   EXPECT_EQ(update.outcome.reason, "too dark");
   EXPECT_TRUE(update.reference);

@@ -11,10 +11,10 @@ using namespace test;
 
 constexpr int kFrames = 16;
 
-SE3 way(int i) { return pose({0, 0.01 * i, 0}, {-0.08 * i, -0.04 * i, 0.1 * i}); }
+SE3 path(int i) { return pose({0, 0.01 * i, 0}, {-0.08 * i, -0.04 * i, 0.1 * i}); }
 
 const std::vector<Frame>& drive() {
-  static const std::vector<Frame> frames = boards_frames(kFrames, way);
+  static const std::vector<Frame> frames = boards_frames(kFrames, path);
   return frames;
 }
 
@@ -90,14 +90,14 @@ TEST(LineViewInitializer, SeveralViewsOfLinesBeginAMap) {
   ASSERT_EQ(posed.size(), static_cast<std::size_t>(last + 1));
   const double scale =
       (posed[FrameId(last)].translation() - posed[FrameId(0)].translation()).norm() /
-      distance_m(way(last), way(0));
+      distance_m(path(last), path(0));
   for (int i = 1; i <= last; ++i) {
     const SE3 found = posed[FrameId(0)].inverse() * posed[FrameId(i)],
-              truth = way(0).inverse() * way(i);
+              truth = path(0).inverse() * path(i);
     EXPECT_LT(angle_rad(found, truth), 0.01) << i;
     // A tenth of the way: lines along it tell little of how far it goes.
     EXPECT_LT((found.translation() / scale - truth.translation()).norm(),
-              0.1 * distance_m(way(last), way(0)))
+              0.1 * distance_m(path(last), path(0)))
         << i;
   }
 }
@@ -124,20 +124,20 @@ TEST(LineViewInitializer, AnArbitraryMapSeesLinesAtTheUnknownDepth) {
 
 TEST(LineViewInitializer, AKnownMapGivesItsUnitByTheViewThatIsRecognized) {
   BoardsBeginning b(Scale::kFromMap);
-  Initialization waits;
+  Initialization pending;
   int i = 0;
-  for (; i < kFrames && waits.outcome.reason != "the scale of the map is unobservable"; ++i) {
-    waits = b.add(i);
-    ASSERT_NE(waits.state, TrackingState::kTracking) << i;
+  for (; i < kFrames && pending.outcome.reason != "the scale of the map is unobservable"; ++i) {
+    pending = b.add(i);
+    ASSERT_NE(pending.state, TrackingState::kTracking) << i;
   }
   ASSERT_LT(i, kFrames);
   constexpr double kUnit = 3;  // of the map, where the drive is one of metres
   Initialization begun;
   for (; i < kFrames && begun.state != TrackingState::kTracking; ++i)
-    begun = b.add(i, b.T_odom_start * (way(0).inverse() * way(i)).scaled(kUnit));
+    begun = b.add(i, b.T_odom_start * (path(0).inverse() * path(i)).scaled(kUnit));
   ASSERT_EQ(begun.state, TrackingState::kTracking) << begun.outcome.reason;
   const double length = distance_m(b.map.pose(b.map.newest()), b.T_odom_start);
-  EXPECT_NEAR(length / distance_m(way(i - 1), way(0)), kUnit, 0.05 * kUnit);
+  EXPECT_NEAR(length / distance_m(path(i - 1), path(0)), kUnit, 0.05 * kUnit);
 }
 
 TEST(LineViewInitializer, AFrameWithoutTheLinesOfTheFirstViewTakesItsPlace) {
@@ -166,13 +166,13 @@ TEST(LineViewInitializer, WhatWouldTellTheUnitOfAKnownMapIsLostWithItsView) {
 TEST(LineViewInitializer, ACameraThatStandsWaitsAndLeavesTheMapEmpty) {
   BoardsBeginning b;
   Frame still = drive()[0];
-  Initialization waits;
+  Initialization pending;
   for (int i = 0; i < 12; ++i) {
     still.id = FrameId(i);
-    waits = b.initializer.add(still, {}, b.map, b.mapping);
-    ASSERT_EQ(waits.state, TrackingState::kInitializing);
+    pending = b.initializer.add(still, {}, b.map, b.mapping);
+    ASSERT_EQ(pending.state, TrackingState::kInitializing);
   }
-  EXPECT_FALSE(waits.outcome.reason.empty());
+  EXPECT_FALSE(pending.outcome.reason.empty());
   EXPECT_TRUE(b.map.empty());
   EXPECT_TRUE(b.map.window().lines().empty());
   EXPECT_EQ(b.map.median_depth(), LocalMap::kUnknownDepth);

@@ -103,9 +103,9 @@ TEST(TwoViewInitializer, AGuessedScaleTakesThingsToBeAsFarAwayAsBefore) {
 TEST(TwoViewInitializer, AKnownMapGivesItsUnitByTheViewThatIsRecognized) {
   StreetBeginning b(drive(), Scale::kFromMap);
   (void)b.add(0);
-  const Initialization waits = b.add(1);
-  EXPECT_EQ(waits.state, TrackingState::kInitializing);
-  EXPECT_EQ(waits.outcome.reason, "the scale of the map is unobservable");
+  const Initialization pending = b.add(1);
+  EXPECT_EQ(pending.state, TrackingState::kInitializing);
+  EXPECT_EQ(pending.outcome.reason, "the scale of the map is unobservable");
   EXPECT_TRUE(b.map.empty());
   const SE3 T_known = b.T_odom_start * pose({0, 0, 0}, {0, 0, 4});
   ASSERT_EQ(b.add(2, T_known).state, TrackingState::kTracking);
@@ -117,11 +117,11 @@ TEST(TwoViewInitializer, ARotationIsNoBeginningButItsFramesArePosed) {
   StreetBeginning b(rotation_drive());
   (void)b.add(0);
   for (int i = 1; i <= kStands; ++i) {
-    const Initialization waits = b.add(i);
-    ASSERT_EQ(waits.state, TrackingState::kInitializing) << i;
-    ASSERT_TRUE(waits.rotation) << i;
+    const Initialization pending = b.add(i);
+    ASSERT_EQ(pending.state, TrackingState::kInitializing) << i;
+    ASSERT_TRUE(pending.rotation) << i;
     const SO3 truth = rotates_first(0).rotation().inverse() * rotates_first(i).rotation();
-    EXPECT_LT((waits.rotation->R_before_cam.inverse() * truth).log().norm(), 0.003) << i;
+    EXPECT_LT((pending.rotation->R_before_cam.inverse() * truth).log().norm(), 0.003) << i;
   }
   Initialization begun;
   int i = kStands + 1;
@@ -141,11 +141,11 @@ TEST(TwoViewInitializer, ARotationIsNoBeginningButItsFramesArePosed) {
 TEST(TwoViewInitializer, FramesFromBeforeAReferenceThatRotatedOutOfViewArePosed) {
   // It looks from along the street to a house front, and then drives on.
   static constexpr int kRotates = 9, kAll = 14;
-  const auto way = [](int i) {
+  const auto path = [](int i) {
     return pose({0, 0.1 * std::min(i, kRotates), 0},
                 {0, -kStreetHeight_m, 0.3 * std::max(0, i - kRotates)});
   };
-  const StreetDataset looks_aside(kAll, 0, 0, false, way);
+  const StreetDataset looks_aside(kAll, 0, 0, false, path);
   StreetBeginning b(looks_aside);
   Initialization begun = b.add(0);
   std::int64_t reference = 0;
@@ -162,7 +162,7 @@ TEST(TwoViewInitializer, FramesFromBeforeAReferenceThatRotatedOutOfViewArePosed)
   for (const PosedFrame& frame : begun.posed) posed[frame.first] = frame.second;
   for (std::int64_t k = 1; k < reference; ++k) {
     ASSERT_TRUE(posed.contains(FrameId(k))) << k << " of " << reference;
-    const SO3 truth = way(0).rotation().inverse() * way(static_cast<int>(k)).rotation();
+    const SO3 truth = path(0).rotation().inverse() * path(static_cast<int>(k)).rotation();
     const SE3 found = b.T_odom_start.inverse() * posed[FrameId(k)];
     EXPECT_LT((found.rotation().inverse() * truth).log().norm(), 0.01) << k;
   }

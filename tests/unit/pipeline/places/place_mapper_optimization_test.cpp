@@ -200,8 +200,8 @@ TEST(PlaceOptimization, JoinsComponentsOfUnknownRatioByALoop) {
   mapper.add_keyframe(KeyframeId(1), link(0, kLong), {}, kDepth_m);
   const SE3 start = pose({0, 1, 0}, {50, 0, 0});
   mapper.add_keyframe(KeyframeId(2), std::nullopt, start, kDepth_m / 2.5, false);
-  const SE3 way(kLong.rotation(), kLong.translation() / 2.5);
-  mapper.add_keyframe(KeyframeId(3), link(2, way), {}, kDepth_m / 2.5);
+  const SE3 path(kLong.rotation(), kLong.translation() / 2.5);
+  mapper.add_keyframe(KeyframeId(3), link(2, path), {}, kDepth_m / 2.5);
   mapper.add_loop(scaled_loop(3, 1, SE3(), 2.5));
   const PlaceGraph graph = optimized(mapper);
   EXPECT_EQ(mapper.component_of(KeyframeId(3)), 0);
@@ -236,8 +236,8 @@ TEST(PlaceOptimization, KeepsALateMeasuredRunWhereALoopHasPutIt) {
   mapper.add_keyframe(KeyframeId(0), std::nullopt, {}, kDepth_m, false);
   mapper.add_keyframe(KeyframeId(1), link(0, kLong), {}, kDepth_m);
   mapper.add_keyframe(KeyframeId(2), std::nullopt, {}, kDepth_m / 2.5, false);
-  const SE3 way(kLong.rotation(), kLong.translation() / 2.5);
-  mapper.add_keyframe(KeyframeId(3), link(2, way), {}, kDepth_m / 2.5);
+  const SE3 path(kLong.rotation(), kLong.translation() / 2.5);
+  mapper.add_keyframe(KeyframeId(3), link(2, path), {}, kDepth_m / 2.5);
   mapper.add_loop(scaled_loop(3, 1, SE3(), 2.5));
   (void)optimized(mapper);
   const SE3 before = mapper.T_map_keyframe(KeyframeId(3));

@@ -13,10 +13,10 @@ using testing::IsEmpty;
 
 /// What is told, a word and numbers each.
 struct RecordedEvents final : SlamEvents {
-  std::vector<std::string> said;
+  std::vector<std::string> message;
   MapMoved move;
   void say(const std::string& word, std::int64_t a, std::int64_t b) {
-    said.push_back(word + " " + std::to_string(a) + " " + std::to_string(b));
+    message.push_back(word + " " + std::to_string(a) + " " + std::to_string(b));
   }
   void frame_posed(const FrameResult& f) override { say("posed", f.frame.value(), f.inliers); }
   void frame_lost(const FrameResult& f) override { say("lost", f.frame.value(), f.inliers); }
@@ -38,10 +38,10 @@ struct RecordedEvents final : SlamEvents {
   void component_joined(const ComponentJoined& c) override { say("joined", c.component, c.into); }
   void map_moved(const MapMoved& m) override {
     move = m;
-    said.push_back("moved");
+    message.push_back("moved");
   }
   /// What was told since the last call.
-  std::vector<std::string> news() { return std::exchange(said, {}); }
+  std::vector<std::string> news() { return std::exchange(message, {}); }
 };
 
 TEST(EventFeed, TellsPlacesOnceAndInTheOrderOfTheirIds) {

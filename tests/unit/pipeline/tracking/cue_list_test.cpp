@@ -13,8 +13,8 @@ TEST(Cues, AreThoseNamed) {
   const Cues all = parse_cues("plane,lines,points");
   EXPECT_TRUE(all.lines && all.points && all.plane);
   EXPECT_TRUE(parse_cues("lines, manhattan").manhattan);
-  EXPECT_FALSE(all.surfaces_alone());
-  EXPECT_TRUE(parse_cues("plane").surfaces_alone());
+  EXPECT_FALSE(all.without_features());
+  EXPECT_TRUE(parse_cues("plane").without_features());
   EXPECT_TRUE(parse_cues("direct").direct);
 }
 

@@ -111,8 +111,8 @@ TEST(DirectTracker, AFrameThatIsFarFromTheKeyframeIsDueAsOne) {
   for (; i < 4 && !tracked.keyframe_due; ++i) {
     tracked = t.track(i);
     ASSERT_TRUE(tracked.outcome) << i;
-    const double way = distance_m(tracked.T_odom_cam, t.map.pose(KeyframeId(0)));
-    if (way > 0.3 * t.map.median_depth()) {
+    const double path = distance_m(tracked.T_odom_cam, t.map.pose(KeyframeId(0)));
+    if (path > 0.3 * t.map.median_depth()) {
       EXPECT_TRUE(tracked.keyframe_due) << i;
     }
   }

@@ -87,9 +87,9 @@ TEST(IntermediateFrames, FollowTheManhattanFrameThatTheySaw) {
   IntermediateFrames frames = scene.frames();
   const SO3 R_odom_cam =
       (scene.T_odom_keyframe * scene.T_keyframe_cam).rotation() * SO3::exp({0, 0, 0.02});
-  const ManhattanCue::RotationEstimate heading{ManhattanFrameId(3), R_odom_cam.inverse(),
-                                               1e12 * Eigen::Matrix3d::Identity()};
-  frames.remember({FrameId(5), scene.T_keyframe_cam, scene.px, heading});
+  const ManhattanCue::RotationEstimate manhattan_rotation{ManhattanFrameId(3), R_odom_cam.inverse(),
+                                                          1e12 * Eigen::Matrix3d::Identity()};
+  frames.remember({FrameId(5), scene.T_keyframe_cam, scene.px, manhattan_rotation});
   const auto posed = frames.repose(scene.map, KeyframeId(0), 1);
   ASSERT_EQ(posed.size(), 1u);
   EXPECT_LT((posed[0].second.rotation().inverse() * R_odom_cam).log().norm(), 1e-4);

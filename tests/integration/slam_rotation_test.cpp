@@ -16,11 +16,11 @@ constexpr double kRotationRad = 0.035;  // of a frame
 
 /// `before` frames ahead, then turning on the spot for `turning`, then on along the street. Frames
 /// in [dark_begin, dark_end) are black.
-StreetDataset way(int before, int rotating, int after, int dark_begin = 0, int dark_end = 0) {
+StreetDataset path(int before, int rotating, int after, int dark_begin = 0, int dark_end = 0) {
   return StreetDataset(before + rotating + after, dark_begin, dark_end, false, [=](int i) {
-    const int way = std::min(i, before) + std::max(0, i - before - rotating);
+    const int path = std::min(i, before) + std::max(0, i - before - rotating);
     const int rotated_steps = std::clamp(i - before, 0, rotating);
-    return pose({0, kRotationRad * rotated_steps, 0}, {0, -kStreetHeight_m, 0.25 * way});
+    return pose({0, kRotationRad * rotated_steps, 0}, {0, -kStreetHeight_m, 0.25 * path});
   });
 }
 
@@ -50,7 +50,7 @@ double rotation_error_deg(const StreetDataset& dataset, const Trajectory& trajec
 }
 
 TEST(SlamThatRotatesInPlace, KeepsItsPlaceInTheMapThoughAllItKnewLeavesTheView) {
-  const StreetDataset dataset = way(12, 45, 14);  // 90 degrees: it goes on sideways
+  const StreetDataset dataset = path(12, 45, 14);  // 90 degrees: it goes on sideways
   const RunResult run = run_mono(dataset);
   const Trajectory optimized = run.map.trajectory_optimized();
   ASSERT_EQ(optimized.posed(), dataset.size());
@@ -63,7 +63,7 @@ TEST(SlamThatRotatesInPlace, KeepsItsPlaceInTheMapThoughAllItKnewLeavesTheView) 
 }
 
 TEST(SlamThatRotatesInPlace, KnowsHowItStoodBeforeItsFirstSecondView) {
-  const StreetDataset dataset = way(0, 30, 12);
+  const StreetDataset dataset = path(0, 30, 12);
   const RunResult run = run_mono(dataset);
   const Trajectory optimized = run.map.trajectory_optimized();
   ASSERT_EQ(optimized.posed(), dataset.size());
@@ -74,7 +74,7 @@ TEST(SlamThatRotatesInPlace, KnowsHowItStoodBeforeItsFirstSecondView) {
 }
 
 TEST(SlamThatRotatesInPlace, ForgetsWhatItSawBeforeTheDarkIfNothingWasPlacedYet) {
-  const StreetDataset dataset = way(0, 24, 12, 16, 20);
+  const StreetDataset dataset = path(0, 24, 12, 16, 20);
   const RunResult run = run_mono(dataset);
   // Whatever is posed hangs together: the dark tells nothing of how it turned there.
   for (const Trajectory& trajectory : {run.map.trajectory_online, run.map.trajectory_optimized()}) {

@@ -1,4 +1,4 @@
-#include "apps/scene/scene_pictures.h"
+#include "apps/scene/scene_images.h"
 
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>

@@ -1,4 +1,4 @@
-#include "apps/train/training_pictures.h"
+#include "apps/train/training_images.h"
 
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>

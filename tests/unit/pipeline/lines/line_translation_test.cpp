@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/internal/core/angle.h>
-#include <placegraph/pipeline/internal/lines/line_course.h>
+#include <placegraph/pipeline/internal/lines/line_translation.h>
 
 #include "tests/unit/pipeline/lines/edge_tracks.h"
 
@@ -19,12 +19,12 @@ struct Corridor {
   std::vector<VanishingDirectionTracker::DirectionCluster> clusters{
       {Vector3d::UnitZ(), 1e-3, {LineId(1), LineId(2), LineId(3), LineId(4)}}};
 
-  explicit Corridor(const Vector3d& way, const Vector3d& error = Vector3d::Zero(),
+  explicit Corridor(const Vector3d& path, const Vector3d& error = Vector3d::Zero(),
                     double roll_rad = 0) {
     const SO3 rolled = SO3::exp({0, 0, roll_rad});
-    const SE3 first, second(rolled, way);
+    const SE3 first, second(rolled, path);
     window.add_keyframe(KeyframeId(0), first);
-    window.add_keyframe(KeyframeId(1), SE3(rolled, way + error));
+    window.add_keyframe(KeyframeId(1), SE3(rolled, path + error));
     for (int i = 1; i <= 4; ++i) {
       const double x = i % 2 ? -1.5 : 1.5, y = i <= 2 ? -1 : 1;
       for (int k = 0; k < 2; ++k) {
@@ -36,12 +36,12 @@ struct Corridor {
     }
   }
   std::vector<MotionObservation> course(double depth = 3) const {
-    return course_along_lines(window, line_camera(), clusters, observations, KeyframeId(1), depth,
-                              deg_to_rad(2.0));
+    return translation_along_lines(window, line_camera(), clusters, observations, KeyframeId(1),
+                                   depth, deg_to_rad(2.0));
   }
 };
 
-TEST(LineCourse, EdgesAlongTheWaySayThatTheCameraStayedOnTheirDirection) {
+TEST(LineTranslation, EdgesAlongTheWaySayThatTheCameraStayedOnTheirDirection) {
   // The window thinks that the camera went 4 cm aside on a way of 1 m.
   const Corridor corridor({0, 0, 1}, {0.04, 0, 0});
   const auto motions = corridor.course();
@@ -57,7 +57,7 @@ TEST(LineCourse, EdgesAlongTheWaySayThatTheCameraStayedOnTheirDirection) {
   EXPECT_EQ((information.bottomRightCorner<3, 3>().norm()), 0);
 }
 
-TEST(LineCourse, InformationIsThatOfTheNewestKeyframesAxes) {
+TEST(LineTranslation, InformationIsThatOfTheNewestKeyframesAxes) {
   const double roll_rad = 0.7;
   const auto a = Corridor({0, 0, 1}).course();
   const auto b = Corridor({0, 0, 1}, Vector3d::Zero(), roll_rad).course();
@@ -70,7 +70,7 @@ TEST(LineCourse, InformationIsThatOfTheNewestKeyframesAxes) {
   EXPECT_LT((rotated - wanted).norm(), 0.05 * wanted.norm());
 }
 
-TEST(LineCourse, TwiceAsDeepIsHalfAsWellKnown) {
+TEST(LineTranslation, TwiceAsDeepIsHalfAsWellKnown) {
   const Corridor corridor({0, 0, 1});
   const auto near = corridor.course(3), far = corridor.course(6);
   ASSERT_EQ(near.size(), 1u);
@@ -78,13 +78,13 @@ TEST(LineCourse, TwiceAsDeepIsHalfAsWellKnown) {
   EXPECT_NEAR(far[0].information(0, 0) / near[0].information(0, 0), 0.25, 1e-9);
 }
 
-TEST(LineCourse, AWayAcrossTheEdgesHoldsNothing) {
+TEST(LineTranslation, AWayAcrossTheEdgesHoldsNothing) {
   // So short that the planes of the edges hardly turn.
   EXPECT_TRUE(Corridor({0.02, 0, 0.02}).course().empty());
   EXPECT_FALSE(Corridor({0, 0, 0.02}).course().empty());
 }
 
-TEST(LineCourse, LinesOfTheWindowAndLinesThatRotatedDoNotCount) {
+TEST(LineTranslation, LinesOfTheWindowAndLinesThatRotatedDoNotCount) {
   Corridor placed({0, 0, 1});
   for (int i = 1; i <= 4; ++i) placed.window.add_line(LineId(i), Line3());
   EXPECT_TRUE(placed.course().empty());
@@ -92,7 +92,7 @@ TEST(LineCourse, LinesOfTheWindowAndLinesThatRotatedDoNotCount) {
   EXPECT_TRUE(Corridor({0.3, 0, 2}, {-0.3, 0, 0}).course().empty());
 }
 
-TEST(LineCourse, OnlyTheLastObservationInTheNewestKeyframeCounts) {
+TEST(LineTranslation, OnlyTheLastObservationInTheNewestKeyframeCounts) {
   Corridor corridor({0, 0, 1});
   for (auto& [id, seen] : corridor.observations) seen.pop_back();
   EXPECT_TRUE(corridor.course().empty());

@@ -1,4 +1,4 @@
-#include "apps/train/training_pictures.h"
+#include "apps/train/training_images.h"
 
 #include <placegraph/frontend/internal/labels/scene_variants.h>
 #include <placegraph/graph/internal/core/parallel.h>

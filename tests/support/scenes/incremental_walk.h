@@ -20,8 +20,8 @@ Group random_group_element(Random& random, double sigma_m, double sigma_rad) {
 /// loops to the round before. Ids 10, 11, ...; measurements disturbed by `noise` (m and rad); the
 /// poses given are of no use.
 template <class Group>
-struct GrowingWalk {
-  GrowingWalk(int n, double noise, std::uint64_t seed, int round = 15) : random(seed) {
+struct IncrementalWalk {
+  IncrementalWalk(int n, double noise, std::uint64_t seed, int round = 15) : random(seed) {
     typename Group::Tangent step = Group::Tangent::Zero();
     step[0] = 1;
     step[Group::kDof == 3 ? 2 : 5] = 2 * std::numbers::pi / round;

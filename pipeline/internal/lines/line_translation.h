@@ -17,7 +17,7 @@ class SlidingWindow;
 /// keyframe. `clusters`: directions shared by several lines, in the window's frame, with the tracks
 /// along them. `depth` [m]: depth of the scene. `max_rotation_rad`: a line whose plane rotates by
 /// more can be triangulated.
-std::vector<MotionObservation> course_along_lines(
+std::vector<MotionObservation> translation_along_lines(
     const SlidingWindow& window, const Camera& camera,
     const std::vector<VanishingDirectionTracker::DirectionCluster>& clusters,
     const LineObservations& observations, KeyframeId keyframe, double depth,

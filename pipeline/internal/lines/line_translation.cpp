@@ -1,5 +1,5 @@
 #include <placegraph/backend/internal/window/sliding_window.h>
-#include <placegraph/pipeline/internal/lines/line_course.h>
+#include <placegraph/pipeline/internal/lines/line_translation.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -38,7 +38,7 @@ std::optional<PlaneAlong> plane_along(const Camera& camera, const ImageLine::Car
 /// With t the translation in the earlier keyframe, n the plane's normal there and r the line's
 /// perpendicular distance, n^T t = r sin(angle). r is known to a factor only, so that the angle
 /// itself is used as the standard deviation.
-std::vector<MotionObservation> course_along_lines(
+std::vector<MotionObservation> translation_along_lines(
     const SlidingWindow& window, const Camera& camera,
     const std::vector<VanishingDirectionTracker::DirectionCluster>& clusters,
     const LineObservations& observations, KeyframeId keyframe, double depth,

@@ -1,7 +1,7 @@
 #pragma once
 #include <CLI/App.hpp>
 
-#include "apps/scene/scene_pictures.h"
+#include "apps/scene/scene_images.h"
 
 namespace placegraph::apps {
 
