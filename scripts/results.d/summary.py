@@ -19,7 +19,7 @@ import tables
 
 HERE = pathlib.Path(__file__).resolve().parent
 MOST_ROWS = 60
-COLUMNS = ("claim", "measured", "target", "met", "best other system", "page")
+COLUMNS = ("figure", "measured", "target", "met", "best other system", "page")
 HEAD = """# Results
 
 What the system reaches, beside the best other system where one was measured on the same data. Every
@@ -50,7 +50,7 @@ class Unusable(Exception):
 
 @dataclasses.dataclass
 class Row:
-    claim: str
+    figure: str
     page: str
     heading: str  # of the table, with *; empty: any
     row: str  # with *
@@ -72,7 +72,7 @@ def read_rows(text, source):
         elif line and not line.startswith("#"):
             fields = [field.strip() for field in line.split(" | ")]
             if len(fields) != 7 or not all(fields) or not groups:
-                raise Unusable(f"{where}: a line below '## GROUP' is 'CLAIM | PAGE | ROW | COLUMN | TARGET | PEER | SOURCE'")
+                raise Unusable(f"{where}: a line below '## GROUP' is 'FIGURE | PAGE | ROW | COLUMN | TARGET | PEER | SOURCE'")
             if (fields[5] == "-") != (fields[6] == "-"):
                 raise Unusable(f"{where}: a figure of another system has a source, and no other does")
             page, _, heading = fields[1].partition(": ")
@@ -160,7 +160,7 @@ def line_of(row, sections):
     found = matching_rows(sections[row.page], row)
     text, value = measured_of(row, [cells[row.column] for cells in found])
     target, met = target_of(row, found, value)
-    return f"| {row.claim} | {text} | {target} | {met} | {row.peer} | [{row.page}] |"
+    return f"| {row.figure} | {text} | {target} | {met} | {row.peer} | [{row.page}] |"
 
 
 def counts_of(section):

@@ -387,7 +387,7 @@ class Program(unittest.TestCase):
         commit("single")
         (root / "docs" / "results").mkdir()
         (root / "docs" / "results" / "town.md").write_text(self.town, encoding="utf-8")
-        (root / "docs" / "results.md").write_text("# Results\n\n| claim | measured |\n|---|---|\n| a | 1 |\n", encoding="utf-8")
+        (root / "docs" / "results.md").write_text("# Results\n\n| figure | measured |\n|---|---|\n| a | 1 |\n", encoding="utf-8")
         subprocess.run(["git", "add", "docs"], cwd=root, check=True)
         commit("pages")
         (root / "docs" / "results" / "town.md").write_text(self.town + "| c |\n", encoding="utf-8")
