@@ -17,8 +17,8 @@ prose << 'NOTE'
 Flights of 120 s in gusts (docs/synthetic_world.md), again and again without any marker in the image for more than 5 s.
 `position` and `velocity` are the RMSE over all images, without alignment. `drift` is the error at the end of a flight that searched for markers
 in its first 3 s only, over the path flown since. The smoother (`--smooth`) has the same measurements in a window of
-twenty images; `filter / smoother` divides their position RMSE over the same images. CPU has the time that reading takes
-behind it. `met` is for position <= 0.05, velocity <= 0.05, drift <= 2, ratio <= 1.5, CPU <= 6.
+twenty images; `filter / smoother` divides their position RMSE over the same images. CPU is the time of a frame, with the
+reading of its image in brackets. `met` is for position <= 0.05, velocity <= 0.05, drift <= 2, ratio <= 1.5, CPU <= 6.
 NOTE
 columns flight "outages over 5 s" "position [m]" "velocity [m/s]" "drift [% of m]" "filter / smoother" "CPU [ms]" met
 for flight in 1-standard 2-standard 3-standard 4-hard; do
@@ -41,7 +41,7 @@ prose "Load of the machine when the flights were flown, over 15 minutes: $(cut -
 prose << 'NOTE'
 Markers that the flight maps (`--map-markers`): the layout gives the pose of its first marker alone, of the other five their sides. Errors are those
 of the mapped markers in the world of the first. NEES per degree of freedom is 1 where they are as large as their
-covariances. The last two columns are the position RMSE of the flight by the first marker alone, and by the map that
+covariances state. The last two columns are the position RMSE of the flight by the first marker alone, and by the map that
 came of it.
 NOTE
 command_line "placegraph flight run WORLD --out MAPPED --markers FIRST.yaml --map-markers --truth-markers WORLD/markers.yaml"

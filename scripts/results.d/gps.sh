@@ -43,8 +43,8 @@ for drive in 00 06; do
   prose << 'NOTE'
 The fixes have 1 m of noise, 5 % gross errors and dropouts; the odometry drifts by 1 %
 (`tests/support/gps_scenario.h`). A row of three figures has the position RMSE over all of 10 seeds, their median and
-the largest; only the first is judged, without alignment. Where the clock is estimated, the truth is taken by the
-path length. t_rel is that of the odometry, over 100,...,800 m with step 10.
+the largest; only the first is judged, without alignment. Where the clock is estimated, truth and readings are
+paired line by line (`line`), else by their times (`time`). t_rel is that of the odometry, over 100,...,800 m with step 10.
 NOTE
   columns figure target measured met
   for how in "" -clock; do

@@ -31,5 +31,5 @@ extended kitti_00 0.5
 for graph in intel kitti_05 smallGrid3D parking-garage city10000 torus3D; do extended $graph; done
 prose << NOTE
 A step adds one pose and its edges. \`mean\` is its mean CPU time, \`95 %\` what 95 % of the steps stay below, with the
-ratio to the mean in brackets. Figures are medians of $repeats runs where there is a limit, else of one run.
+ratio to the mean in brackets. \`batch chi2_log\` is that of one optimization of the whole graph. Figures are medians of $repeats runs where there is a limit, else of one run.
 NOTE

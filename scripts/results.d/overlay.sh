@@ -22,6 +22,7 @@ for seed in 1 5; do
 done
 prose << 'NOTE'
 Boxes of 0.6 x 0.6 x 1.8 m stand on a grid from 7 to 19 m ahead, wherever nothing solid stands. The camera and its
-height above the road are known; the pavement is higher than the road, so its boxes are placed too low. The model was
+height above the road are known; the pavement is higher than the road that the height refers
+to. The model was
 trained on rendered towns of other seeds.
 NOTE

@@ -2,7 +2,7 @@
 build_bench bench_route_study
 heading "Routes over the place graph of rendered drives"
 command_line "placegraph synth sequence town-loop --out TOWN --difficulty standard"
-command_line "placegraph synth sequence \$DATA/kitti_gt/06/poses.txt --out R06 --difficulty standard --mono    # and 00"
+command_line "placegraph synth sequence \$DATA/kitti_gt/06/poses.txt --out R06 --difficulty standard --mono    # KITTI 00 likewise"
 command_line "build/release/tests/bench/bench_route_study WORLD [FRAMES [CAMERA_HEIGHT]]"
 prose << 'NOTE'
 A map is made of a drive, or of its first frames: in stereo in the town, by one camera of known height elsewhere.

@@ -7,8 +7,9 @@ command_line "placegraph run TOWN --sensor stereo --config street_map --out OUT"
 command_line "placegraph map street OUT --out MAP --set min_step_m=4 --set OPTIONS    # variants"
 command_line "placegraph run \$DATA/sequences/kitti06_stereo51 --sensor stereo --config street_map --set scene.urban.labelling.step_px=4 --out OUT"
 prose << 'NOTE'
-`right`: the share of the known cells of 0.3 m whose class truly stands there. `most surface`: the share whose class
-has the most surface there. `empty`: the share of cells where nothing stands. Cells are compared in the frame
+`right`: the share of the known cells of 0.3 m whose class is present in the cell. `most surface`: the share whose
+class has the most surface in it. `empty`: the share of cells with nothing within 0.5 m. `top view` is of the map seen
+from above. Cells are compared in the frame
 of the first pose, without alignment. `before` places the observations by the poses that each frame had when it was
 done, `after` by those of the finished map with its loops. The models come with the program; they were trained on
 photographs (CamVid) and on rendered towns of other seeds.
