@@ -1,7 +1,8 @@
-"""Compares two results files, figure by figure: what `scripts/results --against` and `--compare` print.
+"""Compares two sets of results, figure by figure: what `scripts/results --against` and `--compare` print.
 
-against.py fetch BASELINE [SECTION...]         prints the file that BASELINE names, if it is well formed and has one of them
-against.py compare OLD NEW [SECTION...]        OLD, NEW: files of the form of docs/results.md, or git revisions
+against.py fetch BASELINE [SECTION...]    prints BASELINE as a single file, if it is well formed and has one of them
+against.py compare OLD NEW [SECTION...]   OLD, NEW: folders of the form of docs/results, single files with
+                                          lines `<!-- section: NAME -->`, or git revisions
   --names OLD NEW     what they are called in messages
   --all               prints figures that are the same to the digit, too
   --tolerances FILE   in place of tolerances.txt beside this program
@@ -36,24 +37,67 @@ class Line:
     tolerance: str = "-"
 
 
-def fetch(name):
-    """The text of a results file, or of docs/results.md of a git revision."""
-    path = pathlib.Path(name)
+def pages_of_folder(folder):
+    """{path: text} of the pages in a folder of results."""
+    paths = sorted(path for path in folder.glob("*.md") if path.is_file())
+    if not paths:
+        raise Unusable(f"{folder}: no page of results in it")
+    return {str(path): path.read_text(encoding="utf-8") for path in paths}
+
+
+def git(*arguments):
+    """What git prints of this repository; None where it fails."""
     try:
+        done = subprocess.run(["git", *arguments], cwd=HERE, capture_output=True, check=False)
+    except OSError as error:
+        raise Unusable(f"git cannot be run: {error}") from None
+    return done.stdout.decode("utf-8", "replace") if done.returncode == 0 else None
+
+
+def of_revision(name):
+    """The pages of docs/results of a git revision, or the text of its docs/results.md."""
+    listed = git("ls-tree", "--full-tree", "--name-only", name, "docs/results/")
+    paths = [path for path in (listed or "").splitlines() if path.endswith(".md")]
+    if paths:
+        return {f"{name}:{path}": git("show", f"{name}:{path}") for path in paths}
+    text = git("show", f"{name}:docs/results.md")
+    if text is None:
+        raise Unusable(f"'{name}' is neither a file or folder of results nor a git revision with docs/results")
+    return text
+
+
+def fetch(name):
+    """What a name stands for: the text of a single file, or {path: text} of pages."""
+    path = pathlib.Path(name)
+    if not name or name.startswith("-"):
+        raise Unusable(f"'{name}' is neither a file or folder of results nor a git revision")
+    try:
+        if path.is_dir():
+            return pages_of_folder(path)
         if path.is_file():
             return path.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
         raise Unusable(f"{name}: cannot be read: {error}") from None
-    if path.is_dir() or not name or name.startswith("-"):
-        raise Unusable(f"'{name}' is neither a file of results nor a git revision")
-    try:
-        shown = subprocess.run(["git", "show", f"{name}:docs/results.md"], cwd=HERE, capture_output=True,
-                               check=False)
-    except OSError as error:
-        raise Unusable(f"git cannot be run: {error}") from None
-    if shown.returncode != 0:
-        raise Unusable(f"'{name}' is neither a file of results nor a git revision with docs/results.md")
-    return shown.stdout.decode("utf-8", "replace")
+    return of_revision(name)
+
+
+def section_of_page(path):
+    return pathlib.PurePath(path).stem
+
+
+def sections_of(fetched, name):
+    """The sections of what `fetch` has read; a single file is called `name` in messages."""
+    if isinstance(fetched, str):
+        return tables.parse(fetched, name)
+    return {section_of_page(path): tables.parse_page(section_of_page(path), text, path)
+            for path, text in fetched.items()}
+
+
+def single_file(fetched):
+    """The text of a single file with the same sections."""
+    if isinstance(fetched, str):
+        return fetched
+    return "\n".join(f"<!-- section: {section_of_page(path)} -->\n\n{text}" for path, text in fetched.items())
 
 
 def gone(section, row, column="-", before="-"):
@@ -94,7 +138,7 @@ def compare_cells(place, before, after, rules, references):
 
 
 def compare_rows(place, old, new, rules, references):
-    """Lines of one row: the cells of its figures by their columns; place is section and row."""
+    """Lines of one row: the cells of its figures by their columns; place is section and row, as they are now."""
     lines = []
     for column, before in old.items():
         name = column if column in new else rules.renamed_column(*place, column)
@@ -133,12 +177,12 @@ def compare_tables(section, old, new, rules, references):
     lines = []
     for row, name in rows_without_names(missing, rest).items():
         names[row] = name
-        lines += compare_cells((section, row, "(name)"), row, name, rules, references)
+        lines += compare_cells((section, name, "(name)"), row, name, rules, references)
     for row, cells in old_rows.items():
         if row in names:
             figures = dict(zip(old.columns[width:], cells[width:]))
             others = dict(zip(new.columns[width:], new_rows[names[row]][width:]))
-            lines += compare_rows((section, row), figures, others, rules, references)
+            lines += compare_rows((section, names[row]), figures, others, rules, references)
         elif row in missing:
             lines.append(gone(section, row))
     return lines + [fresh(section, row) for row in rest if row not in names.values()]
@@ -223,19 +267,19 @@ def read_rules(file):
 
 
 def run_fetch(arguments):
-    text = fetch(arguments.baseline)
-    older = by_new_names(tables.parse(text, arguments.baseline), arguments.sections, read_rules(arguments.tolerances))
+    fetched = fetch(arguments.baseline)
+    older = by_new_names(sections_of(fetched, arguments.baseline), arguments.sections, read_rules(arguments.tolerances))
     if arguments.sections and not any(name in older for name in arguments.sections):
         raise Unusable(f"{arguments.baseline} has no section {', '.join(arguments.sections)}")
-    sys.stdout.write(text)
+    sys.stdout.write(single_file(fetched))
     return 0
 
 
 def run_compare(arguments):
     names = arguments.names or (arguments.old, arguments.new)
     rules = read_rules(arguments.tolerances)
-    old = tables.parse(fetch(arguments.old), names[0])
-    new = tables.parse(fetch(arguments.new), names[1])
+    old = sections_of(fetch(arguments.old), names[0])
+    new = sections_of(fetch(arguments.new), names[1])
     lines = compare(old, new, rules, arguments.sections, names)
     print_lines(lines, arguments.all, names, told_references(old, new, arguments.sections))
     return 1 if any(line.judgement.verdict == "worse" for line in lines) else 0

@@ -5,7 +5,7 @@ s=$data/scene/camvid
 heading "$title"
 rendered="--rendered 11,12,13 --rendered-frames 25" # as for the models that come with the program
 command_line "placegraph train surfaces|urban \$DATA/scene/camvid --holdout SEQUENCE $rendered --ablation --out MODEL"
-command_line "placegraph scene surfaces|label SEQUENCE --model MODEL --confidence --out LABELS"
+command_line "placegraph image surfaces|labels SEQUENCE --model MODEL --confidence --out LABELS"
 command_line "placegraph eval labels LABELS SEQUENCE [--surfaces]"
 
 # labelled NAME FOLDER ARGUMENTS...: surfaces and classes of a folder, judged
@@ -31,11 +31,8 @@ for sequence in 0001TP 0006R0 0016E5; do
 done
 labelled val "$s/val" ""
 for kind in surfaces urban; do
-  cat >> "$rows" << NOTE
-
-$([ $kind = surfaces ] && echo "Sky, ground, vertical, object" || echo "The eleven classes, both models asked"); \`val\` by the models that come with the program:
-NOTE
-  columns held-out "pixel accuracy" "class accuracy" "mean IoU" "calibration error" "ms of CPU a picture"
+  prose "$([ $kind = surfaces ] && echo "Sky, ground, vertical, object" || echo "The eleven classes, by both models"); \`val\` by the models that come with the program:"
+  columns held-out "pixel accuracy" "class accuracy" "mean IoU" "calibration error" "CPU an image [ms]"
   for part in 0001TP 0006R0 0016E5 val; do
     f=$out/camvid-$part-$kind.check.json
     cells "$part" "$(digits "$(number "$f" pixel_accuracy)")" "$(digits "$(number "$f" class_accuracy)")" "$(digits "$(number "$f" mean_iou)")" \
@@ -54,12 +51,9 @@ target "classes, pixel accuracy, val" "$(number "$out/camvid-val-urban.check.jso
 target "classes, mean IoU, val" "$(number "$out/camvid-val-urban.check.json" mean_iou)" ">=" 0.45
 target "calibration error of surfaces, mean of the sequences held out" "$(mean_of surfaces calibration_error)" "<=" 0.05
 target "calibration error of classes, mean of the sequences held out" "$(mean_of urban calibration_error)" "<=" 0.05
-target "milliseconds a picture, both models, one thread" "$(number "$out/camvid-val-urban.json" ms_per_picture)" "<=" 250
+target "CPU an image, both models, one thread [ms]" "$(number "$out/camvid-val-urban.json" ms_per_picture)" "<=" 250
 
-cat >> "$rows" << 'NOTE'
-
-What each part brings (urban model alone, pixel accuracy and mean IoU on the sequence held out):
-NOTE
+prose 'What each part brings: pixel accuracy and mean IoU of the urban model alone on the sequence that was held out.'
 columns part 0001TP 0006R0 0016E5
 # step_of FILE PART KEY: of the report of --ablation
 step_of() { awk -v part="\"$2\": {" -v key="\"$3\":" 'index($0, part) { on = 1 } on && index($0, key) { gsub(/[^0-9.]/, "", $2); print $2; exit }' "$1"; }

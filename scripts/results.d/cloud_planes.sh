@@ -8,23 +8,32 @@ study=build/release/tests/bench/bench_cloud_planes_study
 command_line "$study castle \$DATA/scene/castle_rgbd"
 command_line "$study synpeb \$DATA/scene/planes_synpeb/test_100_xyzlabel.txt"
 command_line "$study generated 5"
-cat >> "$rows" << 'NOTE'
-
-20 depth images 640x480 of a model 0.2 m high, planes of 300 px or more, coplanar faces as one, window and door with their walls; a range scan of
-10,000 points, taken as points without order, planes of 100 points or more; 20 generated clouds of 0.3 to 60 m with curved things,
-none that planarity was trained on. Noise added along the ray: mm for the castle, % of the range for the scan, none for the generated ones (they
-have their own). Correct: found region and plane hold 80 % of each other (Hoover et al. 1996). In pieces: planes that several found regions share; joined:
-found regions that hold several planes; false: found regions of that size that are none of these. The same options everywhere.
+prose << 'NOTE'
+`castle`: 20 depth images of 640x480 of a model 0.2 m high, planes of 300 px or more; coplanar faces count as one, a
+window and a door belong to their wall. `synpeb`: a range scan of 10,000 points, taken as points without order, planes
+of 100 points or more. `generated`: 20 clouds of 0.3 to 60 m with curved surfaces, on none of which planarity was
+trained. The added noise lies along the ray: in mm for the castle, in % of the range for the scan; the generated clouds
+have their own.
 NOTE
-columns data "noise added" method planes correct share "in pieces, a plane" joined missed false "normal, median [deg]" "normal, worst [deg]" "CPU a cloud, median [ms]"
+prose << 'NOTE'
+Correct: a found region and a plane hold 80 % of each other (Hoover et al. 1996). In pieces: the share of the
+planes that several found regions hold. Joined: found regions that hold several planes. False: found regions of that
+size that are none of these. The same options are used everywhere.
+NOTE
+columns data noise method planes correct share "in pieces" joined missed false
 $study castle "$s/castle_rgbd" > "$out/cloud_planes.tsv"
 $study synpeb "$s/planes_synpeb/test_100_xyzlabel.txt" | tail -n +2 >> "$out/cloud_planes.tsv"
 $study generated 5 | tail -n +2 | awk -F '\t' '$2 == 0' >> "$out/cloud_planes.tsv"
 tail -n +2 "$out/cloud_planes.tsv" > "$out/cloud_planes.rows"
+while IFS='	' read -r name noise method planes correct share over extra under missed false rest; do
+  unit=mm; [ "$name" = castle ] || unit=%
+  cells "$name" "$noise $unit" "$method" "$planes" "$correct" "$share" "$over" "$under" "$missed" "$false"
+done < "$out/cloud_planes.rows"
+columns data noise method "normal, median [deg]" "worst [deg]" "CPU a cloud, median [ms]"
 while IFS='	' read -r name noise method planes correct share over extra under missed false median worst ms found; do
   unit=mm; [ "$name" = castle ] || unit=%
   [ "$name" = castle ] || { median=-; worst=-; }
-  cells "$name" "$noise $unit" "$method" "$planes" "$correct" "$share" "$over" "$under" "$missed" "$false" "$median" "$worst" "$ms"
+  cells "$name" "$noise $unit" "$method" "$median" "$worst" "$ms"
 done < "$out/cloud_planes.rows"
 # study_value DATA NOISE METHOD COLUMN
 study_value() { awk -F '\t' -v d="$1" -v n="$2" -v m="$3" -v c="$4" '$1 == d && $2 == n && $3 == m { print $c }' "$out/cloud_planes.rows"; }

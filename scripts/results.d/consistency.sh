@@ -1,9 +1,12 @@
-# Whether edges of the place graph know what they claim: rendered sequences, each cue.
+# Whether the errors of the edges of the place graph agree with their covariances: rendered sequences, each cue.
 title="Edges of the place graph against the truth"
 heading "$title"
 command_line "placegraph run WORLD --sensor SENSOR --cues CUES --no-loops --out OUT"
 command_line "placegraph eval edges WORLD OUT --json"
-printf '\nNEES per degree of freedom of the odometry edges (1 where claims are right); of right claims 1 %% lie beyond the 99 %% bound.\n' >> "$rows"
+prose << 'NOTE'
+NEES is that of the odometry edges per degree of freedom, 1 where the stated covariances are right; 1 % of the edges then
+lie beyond the 99 % bound.
+NOTE
 columns sequence sensor cues edges "mean NEES" "median NEES" "beyond 99 % [%]" "mean in [0.5, 2]" "beyond <= 3 %"
 # consistency_row NAME WORLD SENSOR CUES
 consistency_row() {

@@ -1,5 +1,5 @@
-# cube_planar200: one eye over a plane.
-title="cube_planar200: one eye over a plane"
+# cube_planar200: one camera over a plane.
+title="cube_planar200: monocular over a plane"
 s=$data/sequences/cube_planar200
 [ -d "$s" ] || { absent "$title"; return 0; }
 run cube "$s" --sensor mono

@@ -8,8 +8,8 @@ title="Elements: every combination on a rendered town, a rendered corridor and a
 heading "$title"
 command_line "ELEMENTS_FRAMES=$frames ELEMENTS_ROUND=$round ELEMENTS_WORLDS=\"$worlds\" scripts/results elements"
 command_line "placegraph run SEQUENCE --scene none --elements motion[,spatial][,geometry][,context][,semantics] --out OUT"
-# places_told FILE KIND: share of the places of a run labelled as what they are [%]
-places_told() {
+# places_labelled FILE KIND: share of the places of a run labelled as what they are [%]
+places_labelled() {
   right=$(number "$1" "$2"); all=$(number "$1" places)
   [ -n "$right" ] && computed %.0f "100 * $right / $all" || echo 0
 }
@@ -20,9 +20,8 @@ combinations() {
   clip=$1; what=$2; of=$3; kind=$4; shift 4
   table_file=$out/elements-$clip.txt
   : > "$table_file"
-  echo >> "$rows"
-  echo "$what:" >> "$rows"
-  columns elements posed loops "ATE [m] sim3" "ATE [m] origin" "places told $kind [%]" "CPU [ms a frame]"
+  heading "$what"
+  columns elements posed loops "ATE [m] sim3" "ATE [m] origin" "places labelled $kind [%]" "CPU [ms a frame]"
   for bits in 0000 1000 0100 0010 0001 1100 1010 1001 0110 0101 0011 1110 1101 1011 0111 1111; do
     list=motion
     i=1
@@ -34,14 +33,16 @@ combinations() {
     run "$n" "$of" "$@" --elements "$list" --scene none
     f=$out/$n/result.json
     a=$(ate sim3 "$f"); b=$(ate origin "$f")
-    loops=$(number "$f" loops_accepted); told=$(places_told "$f" "$kind")
-    cells "$list" "$(number "$f" posed)" "$loops" "$(digits "$a" 4)" "$(digits "$b" 4)" "$told" \
+    loops=$(number "$f" loops_accepted); labelled=$(places_labelled "$f" "$kind")
+    cells "$list" "$(number "$f" posed)" "$loops" "$(digits "$a" 4)" "$(digits "$b" 4)" "$labelled" \
       "$(computed %.0f "1000 * $(number "$f" cpu_s) / $(number "$f" frames)")"
-    echo "$bits $a $loops $told $b" >> "$table_file"
+    echo "$bits $a $loops $labelled $b" >> "$table_file"
   done
-  echo >> "$rows"
-  echo "Effects ($what): with less without, mean over all combinations of the others; of two: half of what the one's effect gains by the other, which neither brings alone. Less ATE is better." >> "$rows"
-  columns element "ATE sim3 [m]" "ATE origin [m]" loops "places told [%]"
+  prose << 'NOTE'
+Effects: of one element, the figure with it less that without it, as a mean over all combinations of the others; of
+two, half of what the effect of the one gains by the other. Less ATE is better.
+NOTE
+  columns element "ATE sim3 [m]" "ATE origin [m]" loops "places labelled [%]"
   LC_ALL=C awk '
     { for (k = 2; k <= 5; k++) v[$1, k] = $k; bits[NR] = $1 }
     # sign of a term in a two-level factorial design
@@ -64,13 +65,13 @@ for world in $worlds; do
   case $world in
     town)
       render elements-town town-loop --difficulty standard --frames "$frames" --mono
-      combinations town "Town-loop, $frames frames, one eye, camera height 1.65 m" "$out/elements-town-world" street --sensor mono --camera-height 1.65 ;;
+      combinations town "Town-loop, $frames frames, monocular, camera height 1.65 m" "$out/elements-town-world" street --sensor mono --camera-height 1.65 ;;
     corridor)
       render elements-round corridor-loop --difficulty standard --depth --mono --frames "$round"
       combinations round "Corridor-loop, $round frames, RGB-D" "$out/elements-round-world" corridor --sensor rgbd ;;
     k0095)
       s=$data/sequences/kitti0095_mono268
       [ -d "$s" ] || continue
-      combinations k0095 "kitti0095_mono268, its first $frames frames, one eye, camera height 1.65 m" "$s" street --sensor mono --camera-height 1.65 --set max_frames="$frames" ;;
+      combinations k0095 "kitti0095_mono268, its first $frames frames, monocular, camera height 1.65 m" "$s" street --sensor mono --camera-height 1.65 --set max_frames="$frames" ;;
   esac
 done

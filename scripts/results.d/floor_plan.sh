@@ -2,10 +2,12 @@
 title="Floor plans"
 heading "$title"
 command_line "placegraph synth sequence WORLD --seed SEED --difficulty DIFFICULTY --stereo --out SEQUENCE"
-command_line "placegraph run SEQUENCE --sensor SENSOR --config floor_plan --out OUT     # one eye: --camera-height 1.4"
-echo >> "$rows"
-echo "By the first pose, nothing fitted. Walls: median distance from the surfaces of true walls that the poses can have seen to the plan's," >> "$rows"
-echo "and from the plan's to true ones; rooms: the least intersection over union of those that were entered." >> "$rows"
+command_line "placegraph run SEQUENCE --sensor SENSOR --config floor_plan --out OUT    # mono: --camera-height 1.4"
+prose << 'NOTE'
+The plan is compared in the frame of the first pose, without alignment. Walls: median distance from the surfaces of the
+true walls that the poses can have seen to the walls of the plan; plan: from the walls of the plan to true ones. Room
+IoU: the least intersection over union of the rooms that were entered.
+NOTE
 columns world sensor "walls [cm]" "plan [cm]" target met "room IoU" ">= .85" "doors found" ">= 80 %" "false doors"
 plan_row() {
   f=$out/$1/result.json; limit=5; case "$3" in mono) limit=15 ;; esac
@@ -35,4 +37,5 @@ done
 mkdir -p docs/images
 cp "$out/plan-corridor-loop-1-rgbd/floor_plan.png" docs/images/floor_plan_corridor.png
 cp "$out/plan-warehouse-1-rgbd/floor_plan.png" docs/images/floor_plan_warehouse.png
-printf '\n![Floor plan of the rendered corridor](images/floor_plan_corridor.png)\n\n![Floor plan of the rendered warehouse](images/floor_plan_warehouse.png)\n' >> "$rows"
+picture "Floor plan of the rendered corridor" floor_plan_corridor.png
+picture "Floor plan of the rendered warehouse" floor_plan_warehouse.png

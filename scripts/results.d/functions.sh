@@ -1,5 +1,5 @@
-# What the sections of scripts/results are written with. A section writes Markdown into $rows; its
-# files lie in $out.
+# What the sections of scripts/results are written with. A section writes Markdown into $rows, which
+# becomes docs/results/SECTION.md; its files lie in $out.
 
 # digits VALUE [N]: rounded for the table
 digits() { case "$1" in null|'') echo "none" ;; *) LC_ALL=C awk -v v="$1" -v n="${2:-3}" 'BEGIN { printf "%.*f", n, v }' ;; esac; }
@@ -11,13 +11,42 @@ verdict() {
     ok = v ~ /^[-+0-9.eE]+$/ && (op == "<=" ? v + 0 <= l + 0 : op == ">=" ? v + 0 >= l + 0 : v + 0 == l + 0)
     print ok ? "yes" : "**no**" }'
 }
-heading() { printf '\n### %s\n\n' "$1" >> "$rows"; }
-command_line() { printf '    %s\n' "$1" >> "$rows"; }
+# gap: an empty line, where the last is not empty
+gap() { [ -z "$(tail -n 1 "$rows")" ] || echo >> "$rows"; }
+# heading TEXT: the first of a section is that of its page
+heading() { if [ -s "$rows" ]; then gap; printf '## %s\n\n' "$1" >> "$rows"; else printf '# %s\n\n' "$1" >> "$rows"; fi; }
+# command_line TEXT: a line of a code block; a long one is continued, and its remark (# ...) stands above it
+command_line() {
+  case $(tail -n 1 "$rows") in '    '*) ;; *) gap ;; esac
+  printf '%s\n' "$1" | LC_ALL=C awk '{
+    if (length > 96 && match($0, /  +# /)) {
+      print "    " substr($0, RSTART + RLENGTH - 2)
+      $0 = substr($0, 1, RSTART - 1)
+    }
+    if (length <= 96) { print "    " $0; next }
+    count = split($0, word, " "); line = "    " word[1]
+    for (i = 2; i <= count; i++) {
+      part = word[i]  # an option stays with its value
+      if (part ~ /^-/ && i < count && word[i + 1] !~ /^[-[]/) part = part " " word[++i]
+      if (length(line) + 1 + length(part) > 98) { print line " \\"; line = "        " part }
+      else line = line " " part
+    }
+    print line
+  }' >> "$rows"
+}
+# prose [TEXT]: a paragraph, of the text or of standard input, in lines of 100 characters at most
+prose() {
+  gap
+  { if [ $# -gt 0 ]; then printf '%s' "$1"; else cat; fi; } | tr '\n' ' ' | sed 's/ *$//' | fold -s -w 100 | sed 's/ *$//' >> "$rows"
+  echo >> "$rows"
+}
+# picture TITLE FILE: of docs/images
+picture() { gap; printf '![%s](../images/%s)\n' "$1" "$2" >> "$rows"; }
 # cells CELL...: a row of a table
 cells() { printf '| %s ' "$@" >> "$rows"; echo "|" >> "$rows"; }
 # columns NAME...: the head of a table
 columns() {
-  echo >> "$rows"
+  gap
   cells "$@"
   for column in "$@"; do printf '|---' >> "$rows"; done
   echo "|" >> "$rows"
@@ -31,8 +60,8 @@ absent() { heading "$1"; echo "Absent: the data are not on this machine." >> "$r
 build_reference() { "${CXX:-g++}" -O2 -o "$out/reference_run" scripts/results.d/reference_run.cpp; }
 # reference_seconds: the CPU time of five reference runs, one a line
 reference_seconds() { for k in 1 2 3 4 5; do "$out/reference_run"; done; }
-# told_reference BEFORE AFTER: for the foot of a table
-told_reference() {
+# reference_line BEFORE AFTER: for the foot of a page
+reference_line() {
   printf '%s s (%s before, %s after)' "$(digits "$(printf '%s\n' "$1" "$2" | median)")" \
     "$(digits "$(echo "$1" | median)")" "$(digits "$(echo "$2" | median)")"
 }
@@ -44,7 +73,7 @@ build_bench() {
   cmake --build --preset release -j"$(nproc)" --target "$@"
   cmake --preset release -DPLACEGRAPH_BENCH=OFF > "$out/configure.log"
 }
-# tabbed FILE KEY: of lines `key<tab>value`
+# tabbed FILE KEY: the value of lines `key<tab>value`; KEY is a regular expression
 tabbed() { sed -n "s/^$2	//p" "$1"; }
 
 # render NAME ARGUMENTS...: renders $out/NAME-world quietly
@@ -74,7 +103,8 @@ judge() {
 # cost NAME: wall time and memory of a run
 cost() {
   f=$out/$1/result.json
-  printf '\n%s frames in %s s (%s s CPU), %s MB at most.\n' "$(number "$f" frames)" \
+  gap
+  printf '%s frames in %s s (%s s CPU), %s MB at most.\n' "$(number "$f" frames)" \
     "$(digits "$(number "$f" wall_s)" 1)" "$(digits "$(number "$f" cpu_s)" 1)" "$(digits "$(number "$f" peak_mb)" 0)" >> "$rows"
 }
 

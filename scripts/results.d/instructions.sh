@@ -1,8 +1,8 @@
-# Instructions of fixed workloads, counted by valgrind's callgrind: what a change costs, whatever the
+# Instructions of fixed workloads, counted by valgrind's callgrind: what a change costs on any
 # machine. Valgrind shows every program the same processor (with AVX2, without AVX-512) wherever the real
 # one has AVX2; threads, processors, environment and folder are pinned. What is read is made under
 # valgrind too, so that rounding does not depend on the machine either. INSTRUCTION_REPEATS counts each
-# workload so often and tells the spread; INSTRUCTION_ROWS, a regular expression, takes some of the rows.
+# workload so often and prints the spread; INSTRUCTION_ROWS, a regular expression, takes some of the rows.
 scripts/install_packages valgrind > "$out/instructions-install.log" 2>&1 || { cat "$out/instructions-install.log" >&2; return 1; }
 command -v valgrind > /dev/null || { say "instructions: valgrind is not installed"; return 1; }
 title="Instructions: what work costs on any machine"
@@ -83,7 +83,7 @@ command_line "placegraph synth graph \$DATA/posegraphs/intel.g2o --false-loops 1
 command_line "placegraph synth sequence town-loop --frames 10 --stereo --depth --threads 1 --out TOWN"
 command_line "valgrind --tool=callgrind placegraph optimize GRAPH.g2o -o OUT.g2o --quiet [--incremental|--robust auto]"
 command_line "valgrind --tool=callgrind placegraph eval TRUTH.txt ESTIMATE.txt --align se3 --json"
-command_line "valgrind --tool=callgrind placegraph run TOWN --sensor SENSOR --threads 1 --out OUT    # one eye: --camera-height 1.65"
+command_line "valgrind --tool=callgrind placegraph run TOWN --sensor SENSOR --threads 1 --out OUT    # mono: --camera-height 1.65"
 columns work "instructions [million]"
 
 say "instructions: start-up"
@@ -104,16 +104,19 @@ LC_ALL=C awk '{ $4 = sprintf("%.9g", 1.005 * $4 + 0.1 * sin(NR / 50)); $12 = spr
   "$work/truth.txt" > "$work/estimate.txt"
 work_of "eval: $(wc -l < "$work/truth.txt") poses" eval truth.txt estimate.txt --align se3 --json
 
-frames_of "ten frames: one eye" --sensor mono --camera-height 1.65
-frames_of "ten frames: two eyes" --sensor stereo
+frames_of "ten frames: monocular" --sensor mono --camera-height 1.65
+frames_of "ten frames: stereo" --sensor stereo
 frames_of "ten frames: RGB-D" --sensor rgbd
 published "incremental: M3500" M3500 --incremental
-cat >> "$rows" << NOTE
-
-Counted by callgrind without simulated caches, one thread, OpenBLAS and OpenCV on the processor that valgrind shows (AVX2, no AVX-512).
-Every row but the first is net of start-up. The counts hold for one set of compilers and libraries: compare revisions built on one system.
-Counts of one program in three sittings, on an idle and on a busy machine, lay at most 0.03 % apart, the start-up by 0.2 million.
-Opening a sequence looks at one image in twenty for its grey levels, eight at most, and of two eyes at one pair in twenty for its rows, four at most: ten
-frames pay for one image (33 million here) and one pair (240 million), a thousand frames for eight and four.
+prose << 'NOTE'
+Counted by callgrind without simulated caches, one thread, OpenBLAS and OpenCV on the processor that valgrind shows (AVX2,
+no AVX-512). Every row but the first is net of start-up. The counts hold for one set of compilers and libraries: compare
+revisions built on one system. Counts of one program in three sittings, on an idle and on a busy machine, were at most
+0.03 % apart, the start-up by 0.2 million.
 NOTE
-[ "$repeats" = 1 ] || printf 'Medians of %s counts, at most %s %% apart.\n' "$repeats" "$widest" >> "$rows"
+prose << 'NOTE'
+Opening a sequence looks at one image in twenty for its grey levels, at most eight, and at one stereo pair in twenty for
+its rows, at most four. Ten frames pay for one image (33 million here) and one pair (240 million), a thousand frames for
+eight and four.
+NOTE
+[ "$repeats" = 1 ] || prose "Medians of $repeats counts, at most $widest % apart."

@@ -1,5 +1,5 @@
-# kitti00_mono200: one eye of known height.
-title="kitti00_mono200: one eye, camera height 1.65 m"
+# kitti00_mono200: one camera of known height.
+title="kitti00_mono200: monocular, camera height 1.65 m"
 s=$data/sequences/kitti00_mono200
 [ -d "$s" ] || { absent "$title"; return 0; }
 run kitti00 "$s" --sensor mono --camera-height 1.65

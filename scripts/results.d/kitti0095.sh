@@ -1,5 +1,5 @@
-# kitti0095_mono268: one eye of known height in city traffic.
-title="kitti0095_mono268: one eye, camera height 1.65 m, city traffic"
+# kitti0095_mono268: one camera of known height in city traffic.
+title="kitti0095_mono268: monocular, camera height 1.65 m, city traffic"
 s=$data/sequences/kitti0095_mono268
 [ -d "$s" ] || { absent "$title"; return 0; }
 run kitti0095 "$s" --sensor mono --camera-height 1.65

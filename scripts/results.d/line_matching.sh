@@ -6,10 +6,10 @@ build_bench bench_pair_scores
 heading "$title"
 command_line "placegraph image match-lines \$DATA/scene/line_matching/PAIR/1.png .../2.png --segments .../lsd1.txt .../lsd2.txt --out MATCHES.txt"
 command_line "build/release/tests/bench/bench_pair_scores lines \$DATA/scene/line_matching/PAIR/lsd_GroundTruthMatches.txt MATCHES.txt"
-cat >> "$rows" << 'NOTE'
-
-The same with the segments of EDLines (`ed`). Precision: share of the matches that are among those that people marked; recall: share of the
-groups (segments of one edge in either image) of which a match was found.
+prose << 'NOTE'
+`lsd`: with the segments of LSD; `ed`: with those of EDLines. Precision: the share of the matches that are among those
+marked by people. Recall: the share of the groups (segments of one edge in either image) of which a match was found.
+Recall of all pairs: the share of the marked pairs of segments that were found.
 NOTE
 columns pair segments groups matches precision recall "recall of all pairs"
 for kind in lsd ed; do

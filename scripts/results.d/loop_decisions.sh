@@ -1,6 +1,6 @@
 # What a run decides of loop candidates: probabilities against the truth, and what lines and two
 # views bring. The coefficients of the probabilities were fitted to two rounds of a block, the
-# corridor and the warehouse of seed 7 and the street of alike blocks (tests/bench/loop_probability_study); judged on others.
+# corridor and the warehouse of seed 7 and the street of equal blocks (tests/bench/loop_probability_study); judged on others.
 title="Loop decisions"
 heading "$title"
 command_line "placegraph synth sequence corridor-loop --out WORLD --seed 1 --difficulty standard    # warehouse likewise"
@@ -10,7 +10,7 @@ command_line "placegraph loops --predictions OUT/loops.csv --format run --true-p
 render "loops-corridor" corridor-loop --seed 1 --difficulty standard --size 320x240
 render "loops-warehouse" warehouse --seed 1 --difficulty standard --size 320x240
 
-columns sequence sensor cues accepted "of them by two views" "with lines" "false (of accepted)" candidates "probabilities off by" "met (<= .10)"
+columns sequence sensor cues accepted "by two views" "with lines" false candidates "off by" "met (<= .10)"
 # decisions NAME FOLDER SENSOR CUES RADIUS
 decisions() {
   name=loops-$1-$3-$(echo "$4" | tr , _)
@@ -32,4 +32,9 @@ for cues in points points,lines; do
     decisions sevenscenes "$data/sequences/sevenscenes_rgbd334" rgbd $cues 0.5
   fi
 done
-printf '\nFalse: a constraint more than 0.1 m or 5 deg off, where the unit is the metre. Off by: mean over candidates, by tenths, of |probability - share that truly are within the radius (1 m, 0.5 m in sevenscenes) and 40 deg|.\n' >> "$rows"
+prose << 'NOTE'
+Of the accepted loops: `by two views`, those whose pose comes from two views; `with lines`, those that lines support;
+`false`, those more than 0.1 m or 5 deg off, where the scale is known. `off by` is the calibration error of the loop
+probabilities: over the candidates, in tenths of probability, the mean difference between the probability and the share
+that truly lies within the radius (1 m, in sevenscenes 0.5 m) and 40 deg.
+NOTE

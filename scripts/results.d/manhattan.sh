@@ -1,10 +1,9 @@
-# Directions of rectangular worlds in single images; what they are worth to motion is in `ablation`.
-title="Directions of rectangular worlds"
+# Manhattan frames of single images, and the heading of a run with and without them.
+title="Manhattan frames and vanishing points"
 york=$data/scene/york_urban_vp
 [ -d "$york" ] || { absent "$title"; return 0; }
 heading "$title"
-echo "Segments of single images (\`york_urban_vp\`) against vanishing points that people marked." >> "$rows"
-echo >> "$rows"
+prose 'Vanishing points found from the segments of single images (`york_urban_vp`), against those marked by people.'
 command_line "integration_york_urban_tests"
 cmake --build --preset release -j"$(nproc)" --target integration_york_urban_tests > "$out/york-build.log"
 PLACEGRAPH_DATA=$data build/release/tests/integration/integration_york_urban_tests > "$out/york.txt" || true
@@ -14,10 +13,13 @@ figure() { sed -n "s/.*$1 \([0-9.]*\).*/\1/p" "$out/york.txt" | head -1; }
 york_row() { cells "$1" "$3 $4" "$(digits "$2" 3)" "$(verdict "$2" "$3" "$4")"; }
 york_row "rotation error, median [deg]" "$(figure 'error median')" "<=" 1.5
 york_row "rotation error, 95 % [deg]" "$(figure 'deg, 95 %')" "<=" 4
-york_row "marked points found within 2 deg" "$(figure recall)" ">=" 0.85
-york_row "false ones an image" "$(figure false)" "<=" 1
+york_row "marked vanishing points found within 2 deg" "$(figure recall)" ">=" 0.85
+york_row "false vanishing points an image" "$(figure false)" "<=" 1
 
-printf '\nThe heading of a run with two eyes once round the rendered corridor without loop closing, against the truth from the first pose on: what rectangular worlds are worth.\n\n' >> "$rows"
+prose << 'NOTE'
+The heading of a stereo run once round the rendered corridor without loop closing, against the truth from the first pose
+on, without and with the cue `manhattan`. `beyond` is the share of the frames whose error exceeds the target.
+NOTE
 command_line "placegraph synth sequence corridor-loop --difficulty standard --stereo --depth --labels --out WORLD"
 command_line "placegraph run WORLD --sensor stereo --cues CUES --no-loops --out OUT"
 render heading corridor-loop --difficulty standard --stereo --depth --labels
@@ -41,7 +43,7 @@ heading_errors() {
   sort -g "$out/heading.txt" | LC_ALL=C awk -v last="$last" '{ v[NR] = $1; n += $1 > 0.5 }
     END { printf "%.3f %.3f %.3f %.1f\n", v[int((NR + 1) / 2)], v[NR], last, 100 * n / NR }'
 }
-columns cues "heading error, median [deg]" "at the end [deg]" "greatest [deg]" "target" met "frames beyond it [%]"
+columns cues "heading error, median [deg]" "at the end [deg]" "greatest [deg]" "target" met "beyond [%]"
 for cues in points,plane points,plane,manhattan; do
   run "heading-$cues" "$out/heading-world" --sensor stereo --cues $cues --no-loops
   set -- $(heading_errors "$out/heading-world/poses.txt" "$out/heading-$cues/trajectory_optimized.kitti")

@@ -1,7 +1,11 @@
-# With and without: labels of surfaces in motion, on what is real and what is rendered.
-title="Masks from labels of surfaces: with and without (configs/models/surfaces.pgscene)"
+# Runs with and without masks from labels of surfaces, on real and on rendered sequences.
+title="Runs with and without masks from labels of surfaces"
 heading "$title"
-command_line "placegraph run SEQUENCE [--set semantics.enabled=true ...] --out OUT; the judgement in its result.json"
+command_line "placegraph run SEQUENCE [--set semantics.enabled=true ...] --out OUT"
+prose << 'NOTE'
+The model is `configs/models/surfaces.pgscene`; the figures are those of `result.json`. `origin` fits nothing, so the
+errors are metric; `sim3` fits a similarity, whose scale gives the scale error.
+NOTE
 columns sequence run posed keyframes "ATE [m] origin" "ATE [m] sim3" "scale error [%]" "t_rel [%]" "CPU [ms a frame]"
 # scale_error NAME: of the similarity that fits best
 masks_row() {
@@ -39,24 +43,28 @@ with_and_without() {
   done
 }
 s=$data/sequences/kitti0095_mono268
-if [ -d "$s" ]; then with_and_without k0095 "kitti0095_mono268, one eye" "$s" 50,100,150,200 --sensor mono --camera-height 1.65; fi
+if [ -d "$s" ]; then with_and_without k0095 "kitti0095_mono268, mono" "$s" 50,100,150,200 --sensor mono --camera-height 1.65; fi
 s=$data/sequences/kitti06_stereo51
 if [ -d "$s" ]; then
-  with_and_without k06 "kitti06_stereo51, two eyes" "$s" 10,20,30,40,50 --sensor stereo
-  with_and_without k06m "kitti06_stereo51, left eye" "$s" 10,20,30,40,50 --sensor mono --camera-height 1.65
+  with_and_without k06 "kitti06_stereo51, stereo" "$s" 10,20,30,40,50 --sensor stereo
+  with_and_without k06m "kitti06_stereo51, left camera" "$s" 10,20,30,40,50 --sensor mono --camera-height 1.65
 fi
 frames=${MASKS_FRAMES:-150}
 render traffic town-loop --difficulty hard --frames "$frames" --mono --seed 3
-with_and_without traffic "town-loop seed 3, hard traffic, $frames frames, one eye" "$out/traffic-world" 50,100 --sensor mono --camera-height 1.65
+with_and_without traffic "town-loop seed 3, hard, $frames frames, mono" "$out/traffic-world" 50,100 --sensor mono --camera-height 1.65
 
 # Places: twice round a block, with other traffic in either round.
 write_rounds 2 "$out/masks-rounds.txt"
 render masks-rounds "$out/masks-rounds.txt" --difficulty hard --mono --size 620x188
-printf '\nPlaces recognized again: two rounds of a block of 316 m in hard traffic, half size, one eye. Revisits (within 5 m and 30 deg of a view 300 frames older) as the finished map tells them.\n' >> "$rows"
+prose << 'NOTE'
+Places recognized again: two rounds of a block of 316 m in hard traffic, monocular, at half size. The finished map gives
+the revisits (within 5 m and 30 deg of a view that is 300 frames older).
+NOTE
 command_line "placegraph synth sequence rounds.txt --out WORLD --difficulty hard --mono --size 620x188"
 command_line "placegraph run WORLD --sensor mono --camera-height 1.65 [--set semantics.enabled=true ...] --out OUT"
-command_line "placegraph map export OUT --revisits known.txt; placegraph loops --predictions known.txt --true-poses WORLD/poses.txt --min-age 300 --json"
-columns run "loops, true" "loops, false" "loops looked at" "revisits, R@1" AP "recall at full precision" "ATE [m] origin"
+command_line "placegraph map export OUT --revisits known.txt"
+command_line "placegraph loops --predictions known.txt --true-poses WORLD/poses.txt --min-age 300 --json"
+columns run "loops, true" "loops, false" "loop candidates" "revisits, R@1" AP "recall at full precision" "ATE [m] origin"
 # places_row NAME TITLE ARGUMENTS...
 places_row() {
   n=masks-rounds-$1; what=$2; shift 2

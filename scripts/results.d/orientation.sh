@@ -3,6 +3,10 @@ title="Orientation maps"
 heading "$title"
 command_line "placegraph synth sequence corridor-loop --seed SEED --difficulty DIFFICULTY --labels --mono --out WORLD"
 command_line "placegraph image orientation WORLD --every 10"
+prose << 'NOTE'
+Coverage: the share of the pixels that get an orientation. Right of those: the share of them whose orientation is that of
+the rendered surface.
+NOTE
 columns world images "CPU [ms an image]" "coverage [%]" ">= 60" "right of those [%]" ">= 88"
 for world in "corridor-loop 1 standard" "corridor-loop 7 hard" "warehouse 1 standard"; do
   set -- $world

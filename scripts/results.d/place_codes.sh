@@ -23,8 +23,12 @@ for s in $sets vtm_virtual_house; do
   learned "$s" binary --kind binary --words 10000
   learned "$s" float --kind float --words 10000
 done
-printf '\nEvery vocabulary is learned from the three sets other than the one it is judged on; without one, `bow` learns its words from the images it\nhas seen. R@1 / AP / recall at full precision of single images; of vtm_virtual_house the share of images whose most alike training image is\nof their place. CPU is that of one image, all told.\n\n' >> "$rows"
-columns codes $sets vtm_virtual_house "ms CPU, kitchen"
+prose << 'NOTE'
+Every vocabulary is learned from the three sets other than the one that it is judged on; `bow, own words` learns its words
+from the images that it has seen. A cell is R@1 / AP / recall at full precision of single images; of vtm_virtual_house it
+is the share of images whose most similar training image is of their place. CPU is the whole time of one image.
+NOTE
+columns codes $sets vtm_virtual_house "CPU, kitchen [ms]"
 for codes in cues "bow online" bow bow_float llc landmarks; do
   set --
   for s in $sets vtm_virtual_house; do
@@ -46,7 +50,7 @@ for codes in cues "bow online" bow bow_float llc landmarks; do
   cells "$name" "$@" "${cost:-}"
 done
 
-printf '\nReading a vocabulary [ms]:\n' >> "$rows"
+prose 'Reading a vocabulary:'
 columns kind words "read in [ms]" target met
 all=
 for s in $sets vtm_virtual_house; do all="$all $(folder_of "$s")"; done
@@ -55,8 +59,8 @@ for kind in binary float; do
   # shellcheck disable=SC2086
   $placegraph train vocabulary $all --out "$vocabularies/many-$kind.pgw" --kind $kind --words 100000 --descriptors 300000 --force > "$out/vocabulary.log" 2>&1
   for file in "$vocabularies/$kind-corridor_milford.pgw" "$vocabularies/many-$kind.pgw"; do
-    told=$($placegraph places vocabulary "$file")
-    ms=$(echo "$told" | sed 's/.*read in \([0-9]*\) ms/\1/')
-    cells $kind "$(echo "$told" | sed 's/.*: \([0-9]*\) .* words,.*/\1/')" "$ms" "<= 300" "$(verdict "$ms" "<=" 300)"
+    info=$($placegraph places vocabulary "$file")
+    ms=$(echo "$info" | sed 's/.*read in \([0-9]*\) ms/\1/')
+    cells $kind "$(echo "$info" | sed 's/.*: \([0-9]*\) .* words,.*/\1/')" "$ms" "<= 300" "$(verdict "$ms" "<=" 300)"
   done
 done

@@ -18,8 +18,8 @@ found() {
     *) $placegraph loops --predictions "$out/$name.txt" $truth --json > "$out/$name.json" ;;
   esac
 }
-# told_right TOLD, matched_right FOUND: the share of images of vtm_virtual_house told as, or matched with one of, their label
-told_right() { awk 'NR == FNR { label[$1] = $2; next } { n++; right += $2 == label[$1] } END { print right / n }' "$data/places/vtm_virtual_house/labels.txt" "$1"; }
+# classified_right LABELS, matched_right FOUND: the share of images of vtm_virtual_house with, or matched with one of, their label
+classified_right() { awk 'NR == FNR { label[$1] = $2; next } { n++; right += $2 == label[$1] } END { print right / n }' "$data/places/vtm_virtual_house/labels.txt" "$1"; }
 matched_right() { awk 'NR == FNR { label[$1] = $2; next } { n++; right += label[$2] == label[$1] } END { print right / n }' "$data/places/vtm_virtual_house/labels.txt" "$1"; }
 # figures NAME SET: R@1 / AP / recall at full precision, or the share matched with an image of their place
 figures() {

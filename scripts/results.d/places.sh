@@ -4,7 +4,7 @@ title="Place recognition"
 heading "$title"
 command_line "placegraph match FOLDER --out found.txt [--sequence] [--appearance CUES]    # kitchen: --min-age 34"
 command_line "placegraph loops --predictions found.txt --truth FOLDER/gt.txt --json"
-command_line "placegraph places classify \$DATA/places/vtm_virtual_house --out told.txt [--sequence]"
+command_line "placegraph places classify \$DATA/places/vtm_virtual_house --out labels.txt [--sequence]"
 command_line "placegraph loops --predictions found.txt --true-poses poses.txt --radius 0.5 --heading 30 --min-age 34 --json    # kitchen"
 . scripts/results.d/place_sets.sh
 # target NAME KEY LIMIT WHAT: a row
@@ -50,13 +50,13 @@ done
 house=$data/places/vtm_virtual_house
 if [ -d "$house" ]; then
   for mode in "|single image" "--sequence|sequence"; do
-    $placegraph places classify "$house" --out "$out/places-told.txt" --force ${mode%|*} > "$out/places-told.log"
-    value=$(told_right "$out/places-told.txt")
+    $placegraph places classify "$house" --out "$out/places-labels.txt" --force ${mode%|*} > "$out/places-labels.log"
+    value=$(classified_right "$out/places-labels.txt")
     cells "vtm_virtual_house, places classify, ${mode#*|}" accuracy ">= 0.985" "$(digits "$value")" "$(verdict "$value" ">=" 0.985)"
   done
 fi
 
-printf '\nEach cue alone, all but one, and all, on single images: R@1 / AP / recall at full precision.\n' >> "$rows"
+prose 'Each cue alone, all but one, and all, on single images: R@1 / AP / recall at full precision.'
 columns cues $sets
 for cues in tiny colour gradients gabor corners colour,gradients,gabor,corners tiny,gradients,gabor,corners tiny,colour,gabor,corners tiny,colour,gradients,corners tiny,colour,gradients,gabor tiny,colour,gradients,gabor,corners; do
   set --
@@ -72,19 +72,21 @@ frames=$data/sequences/sevenscenes_rgbd334/image_0
 cmake --preset release -DPLACEGRAPH_BENCH=ON > "$out/configure.log"
 cmake --build --preset release -j"$(nproc)" --target bench_place_study > "$out/places-build.log"
 cmake --preset release -DPLACEGRAPH_BENCH=OFF > "$out/configure.log"
-printf '\nCPU time of an image of 640x480, medians (target: 12 ms with 10,000 views), and memory.\n\n' >> "$rows"
+prose 'CPU time of an image of 640x480, medians (target: 12 ms with 10,000 views), and memory.'
 command_line "bench_place_study \$DATA/sequences/sevenscenes_rgbd334/image_0 --plot docs/images/place_cost.png 1000 3000 10000 30000 100000"
-echo >> "$rows"
+gap
 mkdir -p docs/images
 build/release/tests/bench/bench_place_study "$frames" --plot docs/images/place_cost.png 1000 3000 10000 30000 100000 > "$out/places-cost.txt"
 sed 's/^/    /' "$out/places-cost.txt" >> "$rows"
 cost=$(sed -n 's/^ *10000 views: .* all \([0-9.]*\) ms$/\1/p' "$out/places-cost.txt")
-printf '\n![What recognizing a place costs, against the views stored](images/place_cost.png)\n' >> "$rows"
+picture "What recognizing a place costs, against the views stored" place_cost.png
 columns figure target measured met
 cells "whole place pipeline, 10,000 views [ms CPU an image]" "<= 12" "$cost" "$(verdict "$cost" "<=" 12)"
 
 # The tiny image alone, among windows of 0.7 of the width; queries are larger, smaller or beside.
-printf '\nRecall of the tiny image by its pyramid of scales and shifts / where it stands, against zoom and shift (share of the width).\n\n' >> "$rows"
+prose << 'NOTE'
+Recall of the tiny image by its pyramid of scales and shifts / without it, against zoom and shift (share of the width).
+NOTE
 command_line "bench_place_study FOLDER --robustness"
 set --
 for s in $sets; do

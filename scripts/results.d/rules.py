@@ -38,7 +38,7 @@ class Judgement:
 
 def pattern(text):
     """`*` stands for anything, all else for itself."""
-    return re.compile(".*".join(re.escape(part) for part in text.strip().split("*")), re.DOTALL)
+    return re.compile("(.*)".join(re.escape(part) for part in text.strip().split("*")), re.DOTALL)
 
 
 @dataclasses.dataclass
@@ -64,13 +64,16 @@ class Rules:
         return self._renamed(section, row, column, column)
 
     def _renamed(self, section, row, column, old):
-        """The new name; None where it is known to be gone."""
+        """The new name, in which each `*` is what that of the old one stood for; None where it is known to be gone."""
         for sections, rows, columns, new in self.renames:
             if (rows is None) != (row is None) or (columns is None) != (column is None):
                 continue
             if (sections.fullmatch(section) and (row is None or rows.fullmatch(row))
                     and (column is None or columns.fullmatch(column))):
-                return None if new == "(gone)" else new
+                if new == "(gone)":
+                    return None
+                stood = iter((columns or rows or sections).fullmatch(old).groups())
+                return re.sub(r"\*", lambda _: next(stood, "*"), new)
         return old
 
 

@@ -1,4 +1,8 @@
-"""Reads the tables of a file as docs/results.md is: sections, tables, rows, and the figures of a cell."""
+"""Reads the pages of docs/results: sections, tables, rows, and the figures of a cell.
+
+A section is a page of docs/results, named by its file, or a part of a single file between lines
+`<!-- section: NAME -->`, which is how revisions before the pages have them in docs/results.md.
+"""
 
 import dataclasses
 import math
@@ -6,15 +10,20 @@ import re
 
 
 class Malformed(Exception):
-    """A file that is not of the form of docs/results.md."""
+    """A file that is not of the form of the pages of docs/results."""
 
 
 @dataclasses.dataclass
 class Table:
     heading: str
-    columns: list  # names, made unique
+    names: list  # of the columns, as they stand
     rows: list  # lists of cells, as many as columns
     line: int
+
+    @property
+    def columns(self):
+        """The names, made unique."""
+        return unique_columns(self.names)
 
 
 @dataclasses.dataclass
@@ -98,7 +107,7 @@ def read_table(lines, start, heading, source):
         raise Malformed(f"{source}:{start + 1}: a line of a table that does not end with '|'") from None
     if start + 1 >= len(lines) or not re.fullmatch(r"\s*\|(\s*:?-+:?\s*\|)+\s*", lines[start + 1]):
         raise Malformed(f"{source}:{start + 1}: a table without a line of dashes below its head")
-    table = Table(heading, unique_columns(columns), [], start + 1)
+    table = Table(heading, columns, [], start + 1)
     at = start + 2
     while at < len(lines) and lines[at].lstrip().startswith("|"):
         try:
@@ -112,35 +121,46 @@ def read_table(lines, start, heading, source):
     return table, at
 
 
-def parse(text, source):
-    """The sections of a results file by their names."""
-    sections, section, heading, at = {}, None, "", 0
-    lines = text.splitlines()
-    while at < len(lines):
+def read_section(name, lines, first, last, source):
+    """The section in lines[first:last]."""
+    section, heading, at = Section(name, []), "", first
+    while at < last:
         line = lines[at]
-        mark = re.fullmatch(r"<!-- section: (\S+) -->\s*", line)
-        if mark:
-            if mark[1] in sections:
-                raise Malformed(f"{source}:{at + 1}: a second section {mark[1]}")
-            section, heading = Section(mark[1], []), ""
-            sections[mark[1]] = section
-        elif section is None:
-            pass
-        elif line.startswith("### "):
-            heading = line[4:].strip()
+        if re.match("#{1,3} ", line):
+            heading = line.lstrip("#").strip()
         elif line.lstrip().startswith("|"):
             table, at = read_table(lines, at, heading, source)
             section.tables.append(table)
             continue
-        elif line.startswith("Measured at "):
-            told = re.search(r"; reference run (\d+\.?\d*) s\b", line)
-            section.reference_s = float(told[1]) if told else None
+        elif told := re.match(r"(?:Measured at .*; r|R)eference run (\d+\.?\d*) s\b", line):
+            section.reference_s = float(told[1])
         elif line.startswith(("Absent:", "**no**: failed")):
             section.remark = line.strip()
         at += 1
-    if not sections:
+    return section
+
+
+def parse(text, source):
+    """The sections of a single file by their names."""
+    lines = text.splitlines()
+    marks = [(at, mark[1]) for at, line in enumerate(lines)
+             if (mark := re.fullmatch(r"<!-- section: (\S+) -->\s*", line))]
+    if not marks:
         raise Malformed(f"{source}: no section of results in it")
+    sections = {}
+    for (at, name), (end, _) in zip(marks, marks[1:] + [(len(lines), "")]):
+        if name in sections:
+            raise Malformed(f"{source}:{at + 1}: a second section {name}")
+        sections[name] = read_section(name, lines, at + 1, end, source)
     return sections
+
+
+def parse_page(name, text, source):
+    """The section of a page of its own."""
+    lines = text.splitlines()
+    if not lines or not lines[0].startswith("# "):
+        raise Malformed(f"{source}:1: a page of results begins with '# HEADING'")
+    return read_section(name, lines, 0, len(lines), source)
 
 
 def key_width(*tables):
@@ -166,6 +186,36 @@ def rows_by_key(table, width):
     return rows
 
 
+def key_of_continuation(table, after):
+    """How many columns the table `after` repeats, so that its others go on with the rows of `table`; 0 where
+    it is a table of its own: of another heading, other rows, or with a column that `table` has too."""
+    if table.heading != after.heading or len(table.rows) != len(after.rows):
+        return 0
+    width = 0
+    for name, other in zip(table.names, after.names):
+        if name != other or any(a[width] != b[width] for a, b in zip(table.rows, after.rows)):
+            break
+        width += 1
+    keys = {tuple(row[:width]) for row in table.rows}
+    rest = [name for name in after.names[width:] if name.lower() not in GENERIC]
+    if width == 0 or not rest or len(keys) != len(table.rows) or set(rest) & set(table.names):
+        return 0
+    return width
+
+
+def joined_tables(tables):
+    """The tables, a wide one that is written as several with the same first columns as one."""
+    result = []
+    for table in tables:
+        width = key_of_continuation(result[-1], table) if result else 0
+        if width:
+            wide = result.pop()
+            table = Table(wide.heading, wide.names + table.names[width:],
+                          [a + b[width:] for a, b in zip(wide.rows, table.rows)], wide.line)
+        result.append(table)
+    return result
+
+
 def matched_tables(before, after):
     """Pairs of tables of two versions of a section: by heading, first column and order, then by first
     column and order alone; None where the other version has none."""
@@ -178,7 +228,7 @@ def matched_tables(before, after):
             result[(*key, counts[key])] = table
         return result
 
-    old, new = keyed(before), keyed(after)
+    old, new = keyed(joined_tables(before)), keyed(joined_tables(after))
     pairs = [(old[key], new[key]) for key in old if key in new]
     rest = [table for key, table in new.items() if key not in old]
     for key in (key for key in old if key not in new):

@@ -6,12 +6,12 @@ title="The topological map and its loops"
 [ -d "$data/kitti_gt/00" ] || { absent "$title"; return 0; }
 heading "$title"
 command_line "placegraph synth sequence \$DATA/kitti_gt/NN/poses.txt --out WORLD --difficulty standard --mono --size 620x188"
-command_line "placegraph synth sequence rounds.txt --out WORLD --difficulty standard --mono --size 620x188    # 316 m three times, 0.3 m aside"
+command_line "placegraph synth sequence rounds.txt --out WORLD --difficulty standard --mono --size 620x188    # rounds of 316 m"
 command_line "placegraph synth sequence repeated-blocks --out WORLD --difficulty standard --mono --size 620x188"
-command_line "placegraph run WORLD --sensor mono --camera-height 1.65 --out OUT    # place_check and loop_check of OUT/result.json"
+command_line "placegraph run WORLD --sensor mono --camera-height 1.65 --out OUT"
 command_line "placegraph map export OUT --revisits known.txt"
 command_line "placegraph match WORLD --sequence --min-age 300 --out found.txt"
-command_line "placegraph loops --predictions known.txt (found.txt) --true-poses WORLD/poses.txt --min-age 300 --json"
+command_line "placegraph loops --predictions known.txt|found.txt --true-poses WORLD/poses.txt --min-age 300 --json"
 
 # half NAME WORLD: renders it, maps it, and recognizes its views
 half() {
@@ -32,7 +32,12 @@ for drive in $drives; do half $drive "$data/kitti_gt/$drive/poses.txt"; done
 half rounds "$out/rounds.txt"
 half blocks repeated-blocks
 
-columns drive places "of them added by revisits" purity "adjacency, precision" "adjacency, recall" "loops, true" "loops, false" "met (<= 5 %, >= .95 each, 0 false)"
+prose << 'NOTE'
+`00` to `08` are whole KITTI drives, `rounds` goes three times round a block of 316 m, each round 0.3 m beside the last,
+`blocks` has blocks that look the same. Figures are those of `place_check` and `loop_check` in `result.json`. Precision and recall are those of the
+adjacency of places. `met`: at most 5 % of the revisited places added again, purity, precision and recall of at least 0.95, and no false loop.
+NOTE
+columns drive places "added by revisits" purity precision recall "loops, true" "loops, false" met
 for drive in $drives rounds blocks; do
   f=$out/half$drive/result.json
   growth=$(number "$f" growth); purity=$(number "$f" purity)
@@ -46,11 +51,15 @@ for drive in $drives rounds blocks; do
     "$(digits "$purity")" "$(digits "$precision")" "$(digits "$recall")" "$(number "$f" true_loops)" "$false" "$met"
 done
 
-printf '\nPlaces founded in the first, second and third round: ' >> "$rows"
+gap
+printf 'Places founded in the first, second and third round: ' >> "$rows"
 awk '/"anchor_keyframe"/ { anchor = 1 } anchor && /"frame":/ { gsub(/[^0-9]/, ""); n[int($0 / 316)]++; anchor = 0 }
   END { printf "%d, %d, %d.\n", n[0], n[1], n[2] }' "$out/halfrounds/places.json" >> "$rows"
 
-printf '\nRevisits (within 5 m and 30 deg of a view 300 frames older): as the finished map tells them, places first, then the distance of its poses; and by recognition alone, before any geometry.\n' >> "$rows"
+prose << 'NOTE'
+Revisits (within 5 m and 30 deg of a view 300 frames older): as the finished map gives them, by the places first, then by
+the distance of its poses; and by recognition alone, before any geometry.
+NOTE
 columns drive by revisits R@1 AP "recall at full precision" target met
 for drive in 00 06; do
   for by in known loops; do

@@ -3,7 +3,7 @@ render_town
 world=$out/town-world
 run town-no-loops "$world" --no-loops
 run town "$world"
-heading "town-loop (standard): what scripts/demo shows"
+heading "The rendered town: what scripts/demo shows"
 command_line "placegraph synth sequence town-loop --out WORLD --difficulty standard"
 command_line "placegraph run WORLD --out OUT [--no-loops]"
 command_line "placegraph eval WORLD OUT/trajectory_optimized.kitti --align se3"

@@ -6,10 +6,9 @@ build_bench bench_pair_scores
 heading "$title"
 command_line "placegraph image two-view-planes \$DATA/scene/adelaide_planes/PAIR.txt --out LABELS.txt"
 command_line "build/release/tests/bench/bench_pair_scores planes \$DATA/scene/adelaide_planes/PAIR.txt LABELS.txt"
-cat >> "$rows" << 'NOTE'
-
-Misclassified: share of the matches whose label is another one than people gave, outliers among the labels, under the one-to-one
-assignment of labels that suits best.
+prose << 'NOTE'
+Misclassified: the share of the matches whose label differs from that given by people, under the best one-to-one
+assignment of the labels. Outliers are one of the labels.
 NOTE
 columns pair matches "planes marked" "planes found" "misclassified [%]"
 : > "$out/two_view_planes.values"

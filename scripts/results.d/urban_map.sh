@@ -1,16 +1,20 @@
-# Maps of what is where in a street: rendered towns against their true scenes, before and after loops
+# Semantic maps of streets: rendered towns against their true scenes, before and after loops
 # corrected them; the top view of a real street.
 title="Semantic maps of streets"
 heading "$title"
 command_line "placegraph synth sequence town-loop --seed SEED --stereo --labels --frames 570 --out TOWN"
 command_line "placegraph run TOWN --sensor stereo --config street_map --out OUT"
-command_line "placegraph map street OUT --out MAP --set min_step_m=4 --set OPTIONS     # what each part brings"
-command_line "placegraph run \$DATA/sequences/kitti06_stereo51 --sensor stereo --config street_map --set scene.urban.sight.step_px=4 --out OUT"
-echo >> "$rows"
-echo "Cells of 0.3 m whose class is one that truly stands there, of all that are known, by the first pose: nothing is fitted. \`before\`" >> "$rows"
-echo "lays the sights out by the poses as they stood when each frame was done, \`after\` by those of the finished map, with its loops. The" >> "$rows"
-echo "models are those that come with the program, learned from photographs (CamVid) and from rendered towns of other seeds." >> "$rows"
-columns world labels correction cells "right [%]" "of most surface [%]" "nothing there [%]" "top view right [%]" target met
+command_line "placegraph map street OUT --out MAP --set min_step_m=4 --set OPTIONS    # variants"
+command_line "placegraph run \$DATA/sequences/kitti06_stereo51 --sensor stereo --config street_map --set scene.urban.labelling.step_px=4 --out OUT"
+prose << 'NOTE'
+`right`: the share of the known cells of 0.3 m whose class is present in the cell. `most surface`: the share whose
+class has the most surface in it. `empty`: the share of cells with nothing within 0.5 m. `top view` is of the map seen
+from above. Cells are compared in the frame
+of the first pose, without alignment. `before` places the observations by the poses that each frame had when it was
+done, `after` by those of the finished map with its loops. The models come with the program; they were trained on
+photographs (CamVid) and on rendered towns of other seeds.
+NOTE
+columns world labels correction cells "right [%]" "most surface [%]" "empty [%]" "top view right [%]" target met
 # score FILE CORRECTION GROUP FIELD
 score() {
   awk -v when="\"$2\"" -v group="\"$3\"" -v field="\"$4\"" '
@@ -44,13 +48,13 @@ for seed in 1 5; do
   score_rows "$out/urban-town-$seed/result.json" "town-loop, seed $seed" "as they are" ">= 90"
 done
 another apart "keyframes 4 m apart"
-another flat "the same, without height and normal" --set sight.geometry.weight=0
+another flat "the same, without height and normal" --set labelling.geometry.weight=0
 another residuals "the same, without residuals" --set residuals=false
-another moving "the same, nothing dropped as moving" --set residuals=false --set 'sight.moving=""'
+another moving "the same, nothing dropped as moving" --set residuals=false --set 'labelling.moving=""'
 s=$data/sequences/kitti06_stereo51
 if [ -d "$s" ]; then
-  run urban-kitti06 "$s" --sensor stereo --config street_map --set scene.urban.sight.step_px=4
+  run urban-kitti06 "$s" --sensor stereo --config street_map --set scene.urban.labelling.step_px=4
   mkdir -p docs/images
   cp "$out/urban-kitti06/semantic_map.png" docs/images/urban_map_kitti06.png
-  printf '\n![kitti06_stereo51 from above](images/urban_map_kitti06.png)\n' >> "$rows"
+  picture "kitti06_stereo51 from above" urban_map_kitti06.png
 fi

@@ -11,7 +11,8 @@ violation as file:line, and fails if there is one. Checked are
   members such as `Slam::finish`, whose names occur in the sources (CHANGELOG.md may name those
     that are gone);
   pages such as docs/map.md, in prose, too;
-  relative links, and the headings that they lead to.
+  relative links, also those named below a text (`[page]: path`), and the headings that they lead to;
+  the length of lines, at most 120 characters, but in CHANGELOG.md.
 """
 import glob
 import os
@@ -24,6 +25,8 @@ WORD = re.compile(r"(?<![\w./:-])(?:placegraph/)?(?:%s)/[\w./*{},<>-]*" %
                   "|".join(re.escape(folder) for folder in FOLDERS))
 INCLUDE = re.compile(r"#include <placegraph/([^>]+)>")
 LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
+NAMED_LINK = re.compile(r"^\[[^\]]+\]:\s+(\S+)", re.M)
+LINE_LENGTH = 120
 CODE = re.compile(r"(?<!`)(`+)(?!`)((?:[^\n]|\n(?!\n))+?)(?<!`)\1(?!`)")
 MEMBER = re.compile(r"(?!std::|cv::|placegraph::)[A-Z]\w*(::\w+)+$")
 SOURCE = re.compile(r"\w+\.(h|cpp)$")
@@ -120,8 +123,12 @@ def named_in(code):
 
 def check_document(root, document, sources, words):
     with open(os.path.join(root, document), encoding="utf-8") as text:
-        pieces, prose = parts_of(text.read())
+        text = text.read()
+    pieces, prose = parts_of(text)
     found = []
+    if document != "CHANGELOG.md":
+        found = [(number, f"a line of {len(line)} characters, {LINE_LENGTH} are allowed")
+                 for number, line in enumerate(text.split("\n"), 1) if len(line) > LINE_LENGTH]
     for line, code in pieces:
         missing = [word for word in named_in(code) if not exists(root, word)]
         if SOURCE.match(code) and code not in sources:
@@ -136,7 +143,7 @@ def check_document(root, document, sources, words):
         if page.endswith(".md") and not exists(root, page):
             found.append((1 + plain.count("\n", 0, match.start()),
                           f"no such file or folder: {page}"))
-    for match in LINK.finditer(prose):
+    for match in [*LINK.finditer(prose), *NAMED_LINK.finditer(prose)]:
         fault = link_fault(root, document, match.group(1))
         if fault:
             found.append((1 + prose.count("\n", 0, match.start()), fault))

@@ -31,6 +31,10 @@ PLANTED = (
     ("docs/map.md", "See docs/maps.md.", "no such file or folder: docs/maps.md"),
     ("docs/map.md", "See [it](docs/map.md).", "the link leads nowhere: docs/map.md"),
     ("docs/map.md", "See [it](#a-map).", "no heading of this name: #a-map"),
+    ("docs/map.md", "[it]: maps.md", "the link leads nowhere: maps.md"),
+    ("docs/map.md", "word " * 24 + "x", "a line of 121 characters, 120 are allowed"),
+    ("README.md", "| " + "a" * 118 + " |", "a line of 122 characters, 120 are allowed"),
+    ("docs/results/town.md", "    " + "word " * 25, "a line of 129 characters, 120 are allowed"),
     ("docs/studies/a.md", "Run `scripts/demos` twice.", "no such file or folder: scripts/demos"),
     ("CHANGELOG.md", "Run `scripts/demos` twice.", "no such file or folder: scripts/demos"),
 )

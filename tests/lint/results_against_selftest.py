@@ -169,9 +169,21 @@ class Rows(unittest.TestCase):
     def test_a_row_that_is_listed_as_renamed_is_compared(self):
         before, after = file_of(("row", "x"), ("b", "2")), file_of(("row", "x"), ("c", "3"))
         lines = compared(before, after, "rename town | b -> c\n* | * | * | lower 0")
-        self.assertEqual([(line.row, line.before, line.after) for line in lines], [("b", "2", "3")])
+        self.assertEqual([(line.row, line.before, line.after) for line in lines], [("c", "2", "3")])
         self.assertEqual(lines[0].judgement.verdict, "worse")
         self.assertEqual(compared(before, file_of(("row", "x")), "rename town | b -> (gone)"), [])
+
+    def test_a_star_of_a_new_name_is_what_that_of_the_old_one_stood_for(self):
+        before = file_of(("row", "x"), ("a, one eye, 7", "2"), ("b, one eye, 8", "4"))
+        after = file_of(("row", "x"), ("a, monocular, 7", "2"), ("b, monocular, 8", "5"))
+        lines = compared(before, after, "rename town | *, one eye, * -> *, monocular, *\n* | * | * | lower 0")
+        self.assertEqual([(line.row, line.before, line.after) for line in lines],
+                         [("a, monocular, 7", "2", "2"), ("b, monocular, 8", "4", "5")])
+
+    def test_a_renamed_row_is_judged_by_the_rule_of_its_new_name(self):
+        before, after = file_of(("row", "x"), ("b", "2")), file_of(("row", "x"), ("c", "3"))
+        text = "rename town | b -> c\ntown | c | x | info\n* | * | * | equal 0"
+        self.assertEqual([line.judgement.verdict for line in compared(before, after, text)], ["info"])
 
     def test_a_row_listed_as_renamed_to_one_that_is_not_there_is_gone(self):
         before, after = file_of(("row", "x"), ("b", "2")), file_of(("row", "x"), ("d", "2"))
@@ -190,6 +202,51 @@ class Rows(unittest.TestCase):
         after = file_of(("row", "x"), ("wrong, of 12 views", "0"))
         told = [(line.column, line.judgement.verdict) for line in compared(before, after)]
         self.assertEqual(told, [("(name)", "worse"), ("x", "same")])
+
+
+class WideTables(unittest.TestCase):
+    """One table that is written as two or three with the same first columns."""
+
+    def page(self, *parts, heading="Town"):
+        return "".join(file_of(*part, heading=heading).replace("<!-- section: town -->", "") for part in parts)
+
+    def compared(self, before, after, text="* | * | * | equal 0"):
+        mark = "<!-- section: town -->\n"
+        lines = compared(mark + before, mark + after, text)
+        return [(line.row, line.column, line.judgement.verdict) for line in lines]
+
+    wide = (("row", "x", "target", "met", "y", "target", "met"), ("a", "1", "<= 2", "yes", "3", "<= 4", "yes"))
+    first = (("row", "x", "target", "met"), ("a", "1", "<= 2", "yes"))
+
+    def test_every_figure_is_found_in_one_of_the_parts(self):
+        second = (("row", "y", "target", "met"), ("a", "3", "<= 4", "yes"))
+        for before, after in (((self.wide,), (self.first, second)), ((self.first, second), (self.wide,)),
+                              ((self.first, second), (self.first, second))):
+            told = self.compared(self.page(*before), self.page(*after))
+            self.assertEqual({line[2] for line in told}, {"same"}, told)
+            self.assertEqual({line[1] for line in told}, {"x", "y", "target (x)", "target (y)", "met (x)", "met (y)"})
+
+    def test_a_figure_of_the_second_part_that_is_worse_or_gone(self):
+        worse = self.page(self.first, (("row", "y", "target", "met"), ("a", "5", "<= 4", "**no**")))
+        told = self.compared(self.page(self.wide), worse)
+        self.assertEqual([line[1] for line in told if line[2] == "worse"], ["y", "met (y)"])
+        told = self.compared(self.page(self.wide), self.page(self.first))
+        self.assertIn(("a", "y", "worse"), told)
+
+    def test_three_parts(self):
+        parts = [(("row", name), ("a", "1"), ("b", "2")) for name in "xyz"]
+        wide = (("row", "x", "y", "z"), ("a", "1", "1", "1"), ("b", "2", "2", "2"))
+        told = self.compared(self.page(wide), self.page(*parts))
+        self.assertEqual([line[2] for line in told], ["same"] * 6)
+
+    def test_tables_of_other_rows_or_of_a_common_column_are_tables_of_their_own(self):
+        for second in ((("row", "x", "z"), ("a", "2", "3")), (("row", "z"), ("b", "3")), (("other", "z"), ("a", "3")),
+                       (("row", "z"), ("a", "3"), ("b", "4"))):
+            section = tables.parse("<!-- section: town -->\n" + self.page((("row", "x"), ("a", "1")), second), "page")
+            self.assertEqual(len(tables.joined_tables(section["town"].tables)), 2, second)
+        text = "<!-- section: town -->\n" + self.page((("row", "x"), ("a", "1"))) + \
+            self.page((("row", "z"), ("a", "1")), heading="Another")
+        self.assertEqual(len(tables.joined_tables(tables.parse(text, "page")["town"].tables)), 2)
 
 
 class Sections(unittest.TestCase):
@@ -231,8 +288,17 @@ class Program(unittest.TestCase):
         path.write_text(text, encoding="utf-8")
         return str(path)
 
-    def run_program(self, *arguments):
-        done = subprocess.run([sys.executable, "-B", PROGRAM, *arguments], capture_output=True, text=True, check=False)
+    def pages(self, folder="pages", **texts):
+        """A folder of results with a page of each name; None: no page."""
+        path = pathlib.Path(self.folder.name) / folder
+        path.mkdir(exist_ok=True)
+        for name, text in texts.items():
+            if text is not None:
+                (path / f"{name}.md").write_text(text, encoding="utf-8")
+        return str(path)
+
+    def run_program(self, *arguments, program=PROGRAM):
+        done = subprocess.run([sys.executable, "-B", program, *arguments], capture_output=True, text=True, check=False)
         return done.returncode, done.stdout, done.stderr
 
     def refused(self, *arguments):
@@ -263,9 +329,80 @@ class Program(unittest.TestCase):
         self.assertIn("second section", self.refused("fetch", self.file("twice.md", twice + twice)))
         self.assertIn("neither", self.refused("compare", good, self.folder.name + "/nowhere.md"))
         self.assertIn("neither", self.refused("compare", good, "no-such-revision"))
-        self.assertIn("neither", self.refused("fetch", self.folder.name))
+        self.assertIn("no page of results", self.refused("fetch", self.pages(empty=None)))
         self.assertIn("no section city", self.refused("fetch", good, "city"))
         self.assertIn("section city", self.refused("compare", good, good, "city"))
+
+    town = "# Town\n\n    a command\n\n| row | ATE [m] |\n|---|---|\n| a | 1.00 |\n\n## Second\n\n| row | x |\n|---|---|\n| b | 1 |\n"
+
+    def test_a_folder_of_pages_is_read_as_a_single_file_is(self):
+        single = self.file("single.md", "<!-- section: town -->\n\n" + self.town.replace("## ", "### ").replace("# Town", "### Town"))
+        folder = self.pages(town=self.town)
+        for before, after in ((single, folder), (folder, single), (folder, folder)):
+            code, told, errors = self.run_program("compare", before, after)
+            self.assertEqual((code, errors), (0, ""))
+            self.assertIn("2 figures: 2 unchanged.", told)
+        other = self.pages("other", town=self.town.replace("1.00", "2.00"), city="# City\n\n| row | x |\n|---|---|\n| a | 1 |\n")
+        code, told, _ = self.run_program("compare", single, other)
+        self.assertEqual(code, 1)
+        self.assertIn("| town | a | ATE [m] | 1.00 | 2.00 | +100 % |", told)
+        code, told, _ = self.run_program("compare", other, folder)
+        self.assertIn("| city | all of its rows | - | - | - | gone | - | **worse** |", told)
+
+    def test_a_baseline_of_pages_is_printed_as_a_single_file(self):
+        folder = self.pages(town=self.town, city="# City\n\nAbsent: the data are not on this machine.\n")
+        code, text, _ = self.run_program("fetch", folder, "town")
+        self.assertEqual(code, 0)
+        code, told, _ = self.run_program("compare", self.file("single.md", text), folder)
+        self.assertEqual((code, "2 figures: 2 unchanged." in told), (0, True), told)
+        self.assertIn("no section village", self.refused("fetch", folder, "village"))
+
+    def test_a_malformed_page_is_named_with_its_own_path_and_line(self):
+        good = self.pages("good", town=self.town)
+        ragged = self.pages("ragged", town=self.town, zebra=self.town + "| c | 2 | 3 |\n")
+        self.assertIn("ragged/zebra.md:14: 3 cells where the head has 2", self.refused("compare", ragged, good))
+        self.assertIn("ragged/zebra.md:14:", self.refused("fetch", ragged))
+        bare = self.pages("bare", town="| row | x |\n|---|---|\n| a | 1 |\n")
+        self.assertIn("bare/town.md:1: a page of results begins with", self.refused("compare", good, bare))
+        latin = self.pages("latin")
+        (pathlib.Path(latin) / "town.md").write_bytes(b"# Town \xff\n")
+        self.assertIn("cannot be read", self.refused("compare", good, latin))
+
+    def test_a_git_revision_of_either_form(self):
+        root = pathlib.Path(self.folder.name) / "project"
+        program = root / "scripts" / "results.d" / "against.py"
+        program.parent.mkdir(parents=True)
+        for source in PROGRAM.parent.glob("*.[pt][yx]*"):
+            (program.parent / source.name).write_bytes(source.read_bytes())
+        (root / "docs").mkdir()
+
+        def commit(name):
+            subprocess.run(["git", "-c", "user.name=a", "-c", "user.email=a@b", "-c", "commit.gpgsign=false", "commit",
+                            "-qm", name], cwd=root, check=True)
+            subprocess.run(["git", "tag", name], cwd=root, check=True)
+
+        subprocess.run(["git", "init", "-q"], cwd=root, check=True)
+        (root / "docs" / "results.md").write_text("<!-- section: town -->\n\n" + self.town, encoding="utf-8")
+        subprocess.run(["git", "add", "docs"], cwd=root, check=True)
+        commit("single")
+        (root / "docs" / "results").mkdir()
+        (root / "docs" / "results" / "town.md").write_text(self.town, encoding="utf-8")
+        (root / "docs" / "results.md").write_text("# Results\n\n| figure | measured |\n|---|---|\n| a | 1 |\n", encoding="utf-8")
+        subprocess.run(["git", "add", "docs"], cwd=root, check=True)
+        commit("pages")
+        (root / "docs" / "results" / "town.md").write_text(self.town + "| c |\n", encoding="utf-8")
+        subprocess.run(["git", "add", "docs"], cwd=root, check=True)
+        commit("ragged")
+        for before, after in (("single", "pages"), ("pages", "single"), ("pages", str(root / "docs" / "results"))):
+            if after.startswith("/"):
+                (root / "docs" / "results" / "town.md").write_text(self.town, encoding="utf-8")
+            code, told, errors = self.run_program("compare", before, after, program=program)
+            self.assertEqual((code, errors), (0, ""))
+            self.assertIn("2 figures: 2 unchanged.", told)
+        code, _, errors = self.run_program("compare", "pages", "ragged", program=program)
+        self.assertEqual((code, errors), (2, "scripts/results: ragged:docs/results/town.md:14: 1 cells where the head has 2\n"))
+        code, _, errors = self.run_program("compare", "pages", "nothing", program=program)
+        self.assertEqual((code, len(errors.splitlines()), "neither" in errors), (2, 1, True), errors)
 
     def test_bad_tolerances_are_refused(self):
         good = self.file("good.md", file_of(("row", "x"), ("a", "1")))
@@ -274,7 +411,7 @@ class Program(unittest.TestCase):
             self.assertIn("t.txt:1", self.refused("compare", good, good, "--tolerances", self.file("t.txt", text)))
 
     def test_the_results_of_the_project_are_read_to_the_last_figure(self):
-        results = ROOT / "docs" / "results.md"
+        results = ROOT / "docs" / "results"
         code, told, errors = self.run_program("compare", str(results), str(results), "--all")
         self.assertEqual((code, errors), (0, ""))
         self.assertNotIn("**worse**", told)

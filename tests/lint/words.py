@@ -2,8 +2,9 @@
 
 Reads words.txt beside it for the words that are refused and words_allowed.txt for the phrases in
 which they are allowed. Looks at identifiers of all C++ sources; at comments and texts in quotes of
-the sources outside tests; at the documents (README.md, docs/*.md but results.md, glossary.md and
-elements.md). Also refuses a comment that begins with a bare "of". Not read: the table of old
+the sources outside tests; at the documents (README.md, docs/**/*.md but glossary.md and elements.md);
+at the sections of the results (scripts/results.d/*.sh and summary.txt), where a key of JSON that
+`number FILE KEY` reads is left out. Also refuses a comment that begins with a bare "of". Not read: the table of old
 spellings of commands (apps/shell/spellings.cpp), the former keys of options (`formerly("...")`) and
 keys of JSON. Prints `file:line: ...` for each fault and exits with 1 if there is one, with 0 and a summary otherwise. With PATH, only files below it are read.
 """
@@ -13,7 +14,9 @@ import subprocess
 import sys
 
 CODE = ("apps", "backend", "eval", "examples", "frontend", "graph", "io", "pipeline", "tests")
-LEFT_OUT = re.compile(r"docs/(results|glossary|elements)\.md|tests/lint/|tests/mutations/|apps/shell/spellings\.cpp")
+LEFT_OUT = re.compile(r"docs/(glossary|elements)\.md|tests/lint/|tests/mutations/|apps/shell/spellings\.cpp")
+SECTION = re.compile(r"scripts/results\.d/(\w+\.sh|summary\.txt)")
+JSON_NUMBER = re.compile(r'\bnumber "[^"\n]*" \w+')
 FORMER_KEY = re.compile(r"formerly\(\s*$")
 MOST_ALLOWED = 30
 TOKEN = re.compile(r'(?P<comment>//[^\n]*|/\*.*?\*/)|(?P<include>#[ \t]*include[^\n]*)'
@@ -117,6 +120,12 @@ def document_faults(words, text):
         yield line_at(text, offset), f"'{word}'; the term is {term}"
 
 
+def section_faults(words, text):
+    text = JSON_NUMBER.sub(lambda match: " " * len(match.group(0)), text)
+    for offset, word, term in words.in_prose(text):
+        yield line_at(text, offset), f"'{word}'; the term is {term}"
+
+
 def tracked(root, paths):
     listed = subprocess.run(["git", "-C", root, "ls-files", "--", *paths], capture_output=True, text=True)
     if listed.returncode == 0 and listed.stdout:
@@ -136,12 +145,15 @@ def main():
             continue
         is_code = file.endswith((".h", ".cpp")) and file.split("/")[0] in CODE
         is_document = file == "README.md" or (file.startswith("docs/") and file.endswith(".md"))
-        if not (is_code or is_document):
+        judge = code_faults if is_code else document_faults if is_document else \
+            section_faults if SECTION.fullmatch(file) else None
+        if judge is None:
             continue
         files += 1
         with open(os.path.join(root, file), encoding="utf-8") as source:
             text = source.read()
-        for line, fault in sorted(code_faults(words, file, text) if is_code else document_faults(words, text)):
+        arguments = (words, file, text) if is_code else (words, text)
+        for line, fault in sorted(judge(*arguments)):
             faults += 1
             print(f"{file}:{line}: {fault}")
     print(f"words: {faults} faults in {files} files")

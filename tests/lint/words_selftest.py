@@ -30,6 +30,13 @@ PLANTED = [  # file, text, the line of the fault or None
     ("docs/a.md", "`eye` and\n\n```\ntwo eyes\n```\n", None),
     ("docs/a.md", "The free\nunits of a map.\n", 1),
     ("README.md", "Places are believed.\n", 1),
+    ("docs/results.md", "# Results\n\n| one eye | 1 |\n", 3),
+    ("docs/results/town.md", "# The town, two eyes\n", 1),
+    ("docs/elements.md", "One eye.\n", None),
+    ("scripts/results.d/a.sh", "# A section.\ncells \"ten frames: one eye\" 1\n", 2),
+    ("scripts/results.d/a.sh", "cells \"$(number \"$f\" sightings)\" \"$(digits \"$(number \"$out/a.json\" told)\")\"\n", None),
+    ("scripts/results.d/summary.txt", "one eye | town | a | b | - | - | -\n", 1),
+    ("scripts/results.d/tolerances.txt", "rename a | one eye -> monocular\n", None),
 ]
 
 

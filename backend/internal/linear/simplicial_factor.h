@@ -10,7 +10,7 @@ namespace placegraph {
 /// matrix is in the order of elimination. The kernels use the instructions of the processor, so
 /// bits may differ between processors, but not between runs. The native solver, which uses it,
 /// takes 5.4 ms of CPU time for intel (Ceres with CHOLMOD: 20 ms) and 21 ms for M3500 (60 ms); see
-/// docs/results.md, pose graphs.
+/// docs/results/pose_graphs.md.
 class SimplicialFactor {
  public:
   explicit SimplicialFactor(const BlockPanels& matrix);

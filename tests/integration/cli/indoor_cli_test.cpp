@@ -33,7 +33,7 @@ TEST_F(IndoorCli, TellsOrientationsOfASequence) {
   ASSERT_EQ(result.code, 0) << result.err;
   const json summary = json::parse(result.out);
   EXPECT_EQ(summary["images"], 3);
-  // At half the size of what the section of docs/results.md measures.
+  // At half the size of what docs/results/orientation.md has.
   EXPECT_GT(summary["check"]["accuracy"].get<double>(), 0.8);
   EXPECT_TRUE(fs::exists(dir / "maps/000020.png"));
 }

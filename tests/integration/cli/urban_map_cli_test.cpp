@@ -41,7 +41,7 @@ TEST_F(UrbanMapCli, TellsWhatTrulyStandsThere) {
   const json& semantic = summary["semantic_map"];
   EXPECT_EQ(semantic["outcome"], "ok");
   EXPECT_GT(semantic["cells"].get<int>(), 1000);
-  // At half the size and a tenth of the way of what the section of docs/results.md measures.
+  // At half the size and a tenth of the path of what docs/results/urban_map.md has.
   for (const char* poses : {"online", "optimized"}) {
     EXPECT_GT(semantic["check"][poses]["all"]["right_share"].get<double>(), 0.75) << poses;
     EXPECT_LT(semantic["check"][poses]["all"]["nothing_share"].get<double>(), 0.05) << poses;

@@ -16,7 +16,7 @@ using PerCue = std::array<double, kClassifierCues>;
 ///
 /// The kernel machine is the default. The two of OpenCV serve for comparison: on the same views and
 /// cues they classify 0.994 and 0.955 of the places correctly, the kernel machine 0.994
-/// (docs/results.md, section place_classifiers).
+/// (docs/results/place_classifiers.md).
 enum class PlaceMachineKind {
   kKernel,    ///< least-squares support vector machines over one kernel of all cues
   kSvm,       ///< support vector machines over the same kernel (OpenCV)
