@@ -86,8 +86,8 @@ LocalizeCounts count(const std::vector<Localization>& localizations) {
 }
 
 std::string text_of(const LocalizeCounts& counts) {
-  std::string text = fmt::format("{} image{}, {} placed ({} with a pose", counts.images,
-                                 counts.images == 1 ? "" : "s", counts.placed, counts.posed);
+  std::string text = fmt::format("{} images, {} placed ({} with a pose", counts.images,
+                                 counts.placed, counts.posed);
   for (const auto& [reason, images] : counts.without_pose)
     text += fmt::format("; {} without: {}", images, reason);
   text += fmt::format("), {} refused", counts.images - counts.placed);

@@ -11,7 +11,7 @@ namespace placegraph::apps {
 
 void add_image_labels_command(CLI::App& image) {
   CLI::App* command =
-      image.add_subcommand("labels", "Classify the pixels of a street: road, building, car, ..");
+      image.add_subcommand("labels", "Classify the pixels of a street: road, building, car and others");
   command->footer("placegraph image labels camvid/val --out labels");
   auto arguments = std::make_shared<SceneImageArguments>();
   auto json = std::make_shared<bool>(false);

@@ -14,8 +14,7 @@ void add_image_popup_command(CLI::App& image) {
   CLI::App* command =
       image.add_subcommand("popup", "Make a 3D model of planes from one image, and insert a box");
   command->footer(
-      "placegraph image popup street.png --calib K.txt --camera-height 1.65 --out street.ply --box "
-      "1,12,0.6,0.6,1.8 --draw overlay.png");
+      "placegraph image popup street.png --calib K.txt --camera-height 1.65 --out street.ply");
   auto arguments = std::make_shared<ScenePopupArguments>();
   auto json = std::make_shared<bool>(false);
   ScenePopupArguments& a = *arguments;

@@ -1,6 +1,7 @@
 #include "apps/shell/command_reference.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/internal/core/wrapped_text.h>
 
@@ -81,8 +82,6 @@ std::string_view page_of(const std::string& words) {
   throw ArgumentError("command_reference: no page for " + words);
 }
 
-bool is_argument(const CLI::Option& option) { return !option.nonpositional(); }
-
 /// "image motion MATCHES".
 std::string usage_of(const CLI::App& command) {
   std::string text = words_of(command);
@@ -92,10 +91,10 @@ std::string usage_of(const CLI::App& command) {
 }
 
 /// Characters that Markdown or a table would read as its own.
-std::string escaped(const std::string& text) {
+std::string markdown(const std::string& text) {
   std::string out;
   for (const char c : text) {
-    if (c == '|' || c == '<' || c == '*' || c == '_' || c == '[') out += '\\';
+    if (c == '|' || c == '<' || c == '*') out += '\\';
     out += c;
   }
   return out;
@@ -104,7 +103,9 @@ std::string escaped(const std::string& text) {
 std::string option_item(const CLI::Option& option) {
   std::string name = option.get_name(is_argument(option), true);
   if (option.get_items_expected_max() > 0 && option.nonpositional()) name += " VALUE";
-  std::string text = fmt::format("- `{}`: {}", name, escaped(option.get_description()));
+  std::string text = fmt::format("- `{}`: {}", name, markdown(option.get_description()));
+  if (const std::vector<std::string> choices = choices_of(option); !choices.empty())
+    text += fmt::format("; one of {}", fmt::join(choices, ", "));
   if (const std::string standard = option.get_default_str(); !standard.empty())
     text += fmt::format(" (default: `{}`)", standard);
   return wrapped_text(text, "  ");
@@ -115,18 +116,19 @@ std::string section_of(const CLI::App& command) {
   std::string text = fmt::format("\n### `{}`\n\n", usage_of(command));
   const std::string_view page = page_of(words);
   text += wrapped_text(
-      escaped(command.get_description()) + "." +
+      markdown(command.get_description()) + "." +
           (page.empty() ? "" : fmt::format(" See [{}]({}).", page.substr(0, page.find('.')), page)),
       "");
   text += fmt::format("\n```sh\n{}\n```\n\n", command.get_footer());
   for (const CLI::Option* option : command.get_options())
-    if (!option->get_group().empty()) text += option_item(*option);
+    if (!option->get_group().empty() && option != command.get_help_ptr())
+      text += option_item(*option);
   return text;
 }
 
 std::string list_item(const CLI::App& command) {
   return wrapped_text(
-      fmt::format("- `{}`: {}", usage_of(command), escaped(command.get_description())), "  ");
+      fmt::format("- `{}`: {}", usage_of(command), markdown(command.get_description())), "  ");
 }
 
 }  // namespace
@@ -141,7 +143,7 @@ std::string command_reference(const CLI::App& app) {
       continue;
     }
     list +=
-        fmt::format("\n**{}**: {}\n\n", command->get_name(), escaped(command->get_description()));
+        fmt::format("\n**{}**: {}\n\n", command->get_name(), markdown(command->get_description()));
     for (const CLI::App* verb : verbs) {
       list += list_item(*verb);
       sections += section_of(*verb);

@@ -26,14 +26,6 @@ struct Node {
   std::vector<Flag> flags;
 };
 
-/// "TEXT:{a,b}" names the choices a and b.
-std::vector<std::string> choices_of(const CLI::Option& option) {
-  const std::string type = option.get_type_name();
-  const std::size_t begin = type.rfind('{'), end = type.rfind('}');
-  if (begin == std::string::npos || end == std::string::npos) return {};
-  return CLI::detail::split(type.substr(begin + 1, end - begin - 1), ',');
-}
-
 void list_nodes(const CLI::App& app, const std::string& path, std::vector<Node>& nodes) {
   Node node{path, {}, {}};
   for (const CLI::Option* option : app.get_options())

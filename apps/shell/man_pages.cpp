@@ -11,7 +11,7 @@ namespace placegraph::apps {
 namespace {
 
 /// Text as roff shows it: no character of it is an instruction.
-std::string escaped(const std::string& text) {
+std::string roff(const std::string& text) {
   std::string out;
   for (const char c : text) {
     if (c == '\\')
@@ -31,15 +31,13 @@ std::string page_name(const CLI::App& command) {
 }
 
 std::string option_text(const CLI::Option& option) {
-  std::string text = ".TP\n.B " + escaped(option.get_name(!option.nonpositional(), true));
+  std::string text = ".TP\n.B " + roff(option.get_name(!option.nonpositional(), true));
   if (option.get_items_expected_max() > 0 && option.nonpositional()) text += " \\fIVALUE\\fR";
-  text += "\n" + escaped(option.get_description());
+  text += "\n" + roff(option.get_description());
   const std::string standard = option.get_default_str();
-  if (!standard.empty()) text += " (default: " + escaped(standard) + ")";
+  if (!standard.empty()) text += " (default: " + roff(standard) + ")";
   return text + "\n";
 }
-
-bool is_argument(const CLI::Option& option) { return !option.nonpositional(); }
 
 /// The arguments and flags of a command, in sections of their own.
 std::string options_text(const CLI::App& command) {
@@ -54,15 +52,14 @@ std::string options_text(const CLI::App& command) {
 std::string arguments_text(const CLI::App& command) {
   std::string text;
   for (const CLI::Option* option : command.get_options())
-    if (is_argument(*option)) text += " \\fI" + escaped(option->get_name(true)) + "\\fR";
+    if (is_argument(*option)) text += " \\fI" + roff(option->get_name(true)) + "\\fR";
   return text;
 }
 
 std::string commands_text(const CLI::App& command) {
   std::string text;
   for (const CLI::App* sub : commands_of(command))
-    text +=
-        ".TP\n.BR " + escaped(page_name(*sub)) + " (1)\n" + escaped(sub->get_description()) + "\n";
+    text += ".TP\n.BR " + roff(page_name(*sub)) + " (1)\n" + roff(sub->get_description()) + "\n";
   return text.empty() ? text : ".SH COMMANDS\n" + text;
 }
 
@@ -71,13 +68,13 @@ void list_pages(const CLI::App& command, std::vector<ManPage>& pages) {
   std::string title = name;
   std::ranges::transform(title, title.begin(), [](unsigned char c) { return std::toupper(c); });
   const bool is_group = !commands_of(command).empty();
-  std::string text = fmt::format(".TH {} 1 \"\" \"placegraph {}\" \"placegraph\"\n", escaped(title),
+  std::string text = fmt::format(".TH {} 1 \"\" \"placegraph {}\" \"placegraph\"\n", roff(title),
                                  PLACEGRAPH_VERSION);
-  text += ".SH NAME\n" + escaped(name) + " \\- " + escaped(command.get_description()) + "\n";
-  text += ".SH SYNOPSIS\n.B " + escaped(full_name(command)) +
+  text += ".SH NAME\n" + roff(name) + " \\- " + roff(command.get_description()) + "\n";
+  text += ".SH SYNOPSIS\n.B " + roff(full_name(command)) +
           (is_group ? "\n.I COMMAND\n" : "\n[\\fIOPTIONS\\fR]" + arguments_text(command) + "\n");
   text += commands_text(command) + options_text(command);
-  text += ".SH EXAMPLE\n.EX\n" + escaped(command.get_footer()) + "\n.EE\n";
+  text += ".SH EXAMPLE\n.EX\n" + roff(command.get_footer()) + "\n.EE\n";
   text +=
       ".SH EXIT STATUS\n0 success, 1 the data allow no result, 2 usage, configuration or file "
       "error, 130 a signal ended a run.\n";

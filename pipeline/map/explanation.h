@@ -19,10 +19,9 @@ struct Explanation {
   std::optional<KeyframeId> keyframe;  ///< keyframe to which the frame's pose is relative
   std::optional<PlaceId> place;        ///< place of that keyframe
   std::vector<std::string> labels;     ///< labels of the place
-  int component = 0;  ///< component of the place, after loops have joined components
-  SE3 T_map_cam;      ///< pose of the (left) camera, through keyframe and place
-  double distance_to_keyframe =
-      0;  ///< distance between frame and keyframe, in the scale of the map
+  int component = 0;                ///< component of the place, after loops have joined components
+  SE3 T_map_cam;                    ///< pose of the (left) camera, through keyframe and place
+  double distance_to_keyframe = 0;  ///< from the frame, in the scale of the map
   /// Covariance of T_map_cam in its right tangent, with the first place of the map fixed: the
   /// covariance of the place in the place graph, transformed to the frame. The error of the frame
   /// within the place is not included. Nothing if the graph leaves directions unobservable or

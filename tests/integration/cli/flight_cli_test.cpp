@@ -40,7 +40,7 @@ class FlightCli : public CliTest {
 TEST_F(FlightCli, KnowsWhereItIsToCentimetres) {
   const CommandResult ran = run("flight run " + flight() + " --out out --profile");
   ASSERT_EQ(ran.code, 0) << ran.err;
-  EXPECT_THAT(ran.out, HasSubstr("81 of 81 frames answered"));
+  EXPECT_THAT(ran.out, HasSubstr("81 of 81 frames with a state"));
   EXPECT_THAT(ran.out, HasSubstr("detect markers"));
   const json summary = result("out");
   EXPECT_EQ(summary["lost_frames"].size(), 0U);

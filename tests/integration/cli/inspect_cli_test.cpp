@@ -73,6 +73,8 @@ TEST_F(Inspect, NamesFoldersThatAreNoSequence) {
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("1 in places/images: "));
   EXPECT_THAT(result.out, HasSubstr("not possible: places: no sequence is recognized"));
+  test::write_image(dir, "bare/1.png", test::tiny_grey(8, 6, 1));
+  expect_usage_error("run bare --out out", "calibration.yaml is missing");
 }
 
 TEST_F(Inspect, RefusesABrokenSequence) {

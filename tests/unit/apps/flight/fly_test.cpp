@@ -98,7 +98,7 @@ TEST(FlightText, SaysHowWellItIsKnown) {
                     {"reading_ms_per_frame", 1.25},
                     {"cpu_ms_per_frame", 10.5},
                     {"stages", {{{"name", "flow"}, {"calls", 79}, {"cpu_s", 0.4}}}}};
-  const std::string first = "flight: 78 of 80 frames answered, 70 with flow, 60 with markers\n";
+  const std::string first = "flight: 78 of 80 frames with a state, 70 with flow, 60 with markers\n";
   const std::string last = "11.75 ms CPU a frame (1.25 of them reading), results in out\n";
   EXPECT_EQ(to_text(result), first + last);
   result.summary["error"] = {{"position_rmse_m", 0.0123},

@@ -77,6 +77,7 @@ TEST_F(LocalizeCommand, RefusesAnImageOfARoomThatTheMapDoesNotKnow) {
   EXPECT_EQ(result.counts.refused, (std::map<std::string, std::size_t>{{"appearance", 1}}));
   const json written = json::parse(test::read_file(arguments.out));
   EXPECT_FALSE(written["images"][3]["placed"].get<bool>());
+  EXPECT_EQ(written["images"][3]["file"], "000003.png");
   EXPECT_TRUE(written["images"][4]["placed"].get<bool>());
   EXPECT_EQ(json::parse(to_json(result))["refused_by"]["appearance"], 1);
 }
@@ -86,7 +87,7 @@ TEST_F(LocalizeCommand, KeepsTheNumbersOfARange) {
   const LocalizeResult result = localize(arguments);
   EXPECT_EQ(result.first, 2);
   EXPECT_EQ(result.counts.images, 3u);
-  EXPECT_THAT(test::read_file(arguments.out), HasSubstr("T_map_cam: tx ty tz qx qy qz qw\n2 "));
+  EXPECT_THAT(test::read_file(arguments.out), HasSubstr("tz qx qy qz qw, # file name\n2 "));
   arguments.range = {2, 6};
   arguments.force = true;
   EXPECT_THAT(message_of<ArgumentError>([&] { localize(arguments); }),

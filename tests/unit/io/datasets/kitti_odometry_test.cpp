@@ -44,6 +44,8 @@ TEST(KittiOdometry, OpensTheSmallestSequenceAtTenHertz) {
   EXPECT_EQ(dataset->size(), 3u);
   EXPECT_THAT(dataset->sensors(), ElementsAre(Sensor::kMono));
   EXPECT_EQ(dataset->stamp_ns(2), 200000000);
+  EXPECT_EQ(fs::path(dataset->image_path(2)).filename(), "000002.png");
+  EXPECT_THROW((void)dataset->image_path(3), ArgumentError);
   EXPECT_FALSE(dataset->ground_truth());
   const Calibration calibration = dataset->calibration(Sensor::kMono);
   EXPECT_EQ(calibration.camera.width, 8);
