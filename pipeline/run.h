@@ -46,6 +46,8 @@ struct RunResult {
   /// Reasons why frames have no pose, the most frequent first. Reasons that differ only in numbers
   /// are merged. Frames before a resumed run are not counted.
   std::vector<UnposedFrames> unposed;
+  /// Doubts about the images, the calibration and the motion that the frames show (Slam::notes).
+  std::vector<DataNote> notes;
   /// Environment of each keyframe; empty unless `context` is enabled.
   std::vector<EnvironmentObservation> environments;
 };

@@ -3,6 +3,7 @@
 #include <placegraph/graph/core/stage_times.h>
 #include <placegraph/graph/image/frame.h>
 #include <placegraph/graph/map.h>
+#include <placegraph/graph/measurements/data_note.h>
 #include <placegraph/pipeline/slam/frame_result.h>
 #include <placegraph/pipeline/slam_options.h>
 
@@ -97,6 +98,9 @@ class Slam {
   ///
   /// run_sequence restarts with undistorted images once the thresholds of LensOptions are exceeded.
   LensDistortion lens() const;
+  /// Returns doubts about the images, the calibration and the motion, as far as the frames so far
+  /// show them.
+  std::vector<DataNote> notes() const;
   /// Returns one entry per keyframe of this run, in order; empty unless `context` is enabled.
   const std::vector<EnvironmentObservation>& environments() const;
   /// Returns the tracked features of the last frame [px]; empty lists if that frame is lost.

@@ -3,12 +3,40 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// A remark about input data.
+/// What a note is about; the code in result.json is that of to_string.
+enum class NoteCause {
+  kNone,            ///< information that casts no doubt on results
+  kFewPosed,        ///< fewer frames have a pose than required
+  kLostFrames,      ///< spans of frames have no pose
+  kComponents,      ///< the map has several components in frames of their own
+  kJump,            ///< the images jump from one place to another
+  kScale,           ///< lengths contradict each other or are implausible
+  kCameraHeight,    ///< the camera height above the ground
+  kBaseline,        ///< the distance between the cameras
+  kCamerasSwapped,  ///< the left and the right images are exchanged
+  kRightImageLate,  ///< the right images were taken at another time
+  kRightImage,      ///< the right images are not rectified, or show something else
+  kDepthUnit,       ///< the unit of the depth images
+  kDepthMismatch,   ///< the depth images do not belong to the images
+  kCalibration,     ///< focal lengths or principal point
+  kDistortion,      ///< lens distortion that the calibration does not contain
+  kStaticOverlay,   ///< something in the images moves with the camera
+  kTimes,           ///< time stamps
+  kImages,          ///< images are dark, blank, blurred or of few grey levels
+  kRepeatedFrames,  ///< consecutive images are identical
+  kUpsideDown,      ///< the camera is not upright
+  kDrift            ///< the expected error at the end is large
+};
+const char* to_string(NoteCause cause);
+
+/// A remark about input data or about a run.
 /// It names the data that were left out and the reason, or the numbers that are suspicious and a
 /// possible remedy.
 struct DataNote {
-  std::string text;           ///< one line
-  bool doubts_scale = false;  ///< lengths may be wrong: results must not be called metric
+  std::string text;                    ///< one line
+  bool doubts_scale = false;           ///< lengths may be wrong: results must not be called metric
+  NoteCause cause = NoteCause::kNone;  ///< what is in doubt
+  std::string advice = {};             ///< what to try next, if the text does not say it
 };
 
 }  // namespace placegraph

@@ -48,13 +48,13 @@ std::optional<DataNote> odd_posture(const Camera& camera, const Rotations& rotat
             "about the vertical one), as if it lay on its side",
             rotations.about_x_deg, rotations.about_y_deg) +
             advice,
-        true};
+        true, NoteCause::kUpsideDown, ""};
   if (camera.height > camera.width && !clearly(rotations.about_y_deg, rotations.about_x_deg))
     return DataNote{
         "the images are higher than wide, and the camera's rotations do not show whether it "
         "is upright" +
             advice,
-        true};
+        true, NoteCause::kUpsideDown, ""};
   return std::nullopt;
 }
 
@@ -122,7 +122,7 @@ std::optional<DataNote> odd_sides(const NearestSides& sides) {
                               "as if the camera lay on its side or upside down; the scale is in "
                               "doubt",
                               sides.below, sides.nearest_other),
-                  true};
+                  true, NoteCause::kUpsideDown, ""};
 }
 
 namespace {
@@ -154,7 +154,7 @@ std::optional<DataNote> odd_speed(const Trajectory& trajectory) {
           "the camera moves at {:.3g} m/s: the baseline, the depth unit, the camera's height or "
           "the times are not in metres and seconds",
           speed),
-      true};
+      true, NoteCause::kScale, ""};
 }
 
 }  // namespace placegraph

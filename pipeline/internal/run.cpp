@@ -253,6 +253,7 @@ class SequenceRun {
     result_.map = slam.finish();
     result_.unposed = unposed_frames(result_.map.trajectory_optimized(), result_.map, reasons_);
     if (inputs_.map_file) commit(slam, !result_.broken_off && !result_.stopped);
+    result_.notes = slam.notes();
     result_.environments = slam.environments();
     result_.stages = times_.stages();
     result_.stages.insert(result_.stages.end(), slam.stages().begin(), slam.stages().end());

@@ -3,6 +3,7 @@
 #include <placegraph/graph/map_changes.h>
 #include <placegraph/graph/measurements/measured_motion.h>
 #include <placegraph/pipeline/cues/frame_view.h>
+#include <placegraph/pipeline/internal/health/health_monitor.h>
 #include <placegraph/pipeline/internal/local_map/lens_estimator.h>
 #include <placegraph/pipeline/internal/slam/event_feed.h>
 #include <placegraph/pipeline/internal/slam/map_feed.h>
@@ -65,6 +66,7 @@ struct Slam::Impl {
   EnvironmentMonitor environments;
   MapFeed feed;
   EventFeed events;
+  HealthMonitor health;
   bool finished = false;
 };
 
@@ -90,6 +92,7 @@ void Slam::resume(const Map& map, const PlaceHistory& history, const Frame& last
 }
 Map Slam::snapshot() const { return impl_->feed.snapshot(impl_->sources()); }
 LensDistortion Slam::lens() const { return impl_->odometry.lens().estimate(); }
+std::vector<DataNote> Slam::notes() const { return impl_->health.notes(); }
 FrameView Slam::view() const { return impl_->odometry.view(); }
 const std::vector<StageTimes::Stage>& Slam::stages() const { return impl_->times.stages(); }
 
@@ -152,6 +155,7 @@ FrameResult Slam::Impl::add_frame(const Frame& frame) {
   // 4. The frame's pose, relative to a keyframe and as currently estimated.
   place(frame, located, update, result);
   recorder.finish(result.component == 0 ? result.T_map_cam : std::nullopt);
+  health.add(frame, result, odometry);
   events.frame_done(result);
   return result;
 }

@@ -91,20 +91,20 @@ std::optional<DataNote> odd_rows(const RowOffsets& offsets, const Camera& camera
                                 "rectified, or not taken at the same time",
                                 offsets.inliers, offsets.matches) +
                         advice,
-                    true};
+                    true, NoteCause::kRightImage, ""};
   if (offsets.behind > 0.5 * offsets.inliers)
     return DataNote{
         fmt::format("{} of {} matches are farther right in the right images: are the cameras "
                     "swapped?",
                     offsets.behind, offsets.inliers),
-        true};
+        true, NoteCause::kCamerasSwapped, ""};
   const double bend_px = std::abs(offsets.rows[2]) / camera.fy * 0.5 * camera.width;
   if (offsets.rms_px < kMostRmsPx && bend_px < kMostBendPx) return std::nullopt;
   return DataNote{fmt::format("matches between the cameras are {:.1f} px off their rows (root mean "
                               "square of {}), {}",
                               offsets.rms_px, offsets.inliers, likely_cause(offsets, camera)) +
                       advice,
-                  true};
+                  true, NoteCause::kRightImage, ""};
 }
 
 }  // namespace placegraph

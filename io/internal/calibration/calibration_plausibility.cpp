@@ -78,7 +78,7 @@ double share_shown(const Remap& remap, const Camera& raw) {
   return share(low_x, high_x, raw.width - 1) * share(low_y, high_y, raw.height - 1);
 }
 
-DataNote of_scale(std::string text) { return {std::move(text), true}; }
+DataNote of_scale(NoteCause cause, std::string text) { return {std::move(text), true, cause, ""}; }
 
 void add_principal_point(const Camera& camera, std::vector<DataNote>& notes) {
   const double x = camera.cx / (camera.width - 1), y = camera.cy / (camera.height - 1);
@@ -88,12 +88,15 @@ void add_principal_point(const Camera& camera, std::vector<DataNote>& notes) {
       "the height of {}x{} images",
       camera.cx, camera.cy, 100 * x, 100 * y, camera.width, camera.height);
   if (x > 0 && y > 0 && similar && (std::min(x, y) > 0.75 || std::max(x, y) < 0.3)) {
-    notes.push_back(of_scale(fmt::format(
-        "{}: the calibration seems to be for images of about {:.0f}x{:.0f}; scale fx, fy, cx and "
-        "cy by {:.3g}, or use images of that size",
-        where, 2 * camera.cx, 2 * camera.cy, 0.5 * camera.width / camera.cx)));
+    notes.push_back(
+        of_scale(NoteCause::kCalibration,
+                 fmt::format("{}: the calibration seems to be for images of about {:.0f}x{:.0f}; "
+                             "scale fx, fy, cx and "
+                             "cy by {:.3g}, or use images of that size",
+                             where, 2 * camera.cx, 2 * camera.cy, 0.5 * camera.width / camera.cx)));
   } else if (!(std::min(x, y) >= -kBeside && std::max(x, y) <= 1 + kBeside)) {
-    notes.push_back(of_scale(where + ": is the calibration for other images?"));
+    notes.push_back(
+        of_scale(NoteCause::kCalibration, where + ": is the calibration for other images?"));
   }
 }
 
@@ -159,8 +162,10 @@ std::optional<DataNote> fit_to_image(const std::string& image_path, const Image&
 
 std::optional<DataNote> odd_camera_height(double height_m) {
   if (height_m <= kGreatestHeight_m && height_m >= kLeastHeight_m) return std::nullopt;
-  return of_scale(fmt::format(
-      "a camera height of {:g} m above the ground is implausible: is it in metres?", height_m));
+  return of_scale(
+      NoteCause::kCameraHeight,
+      fmt::format("a camera height of {:g} m above the ground is implausible: is it in metres?",
+                  height_m));
 }
 
 std::vector<DataNote> odd_calibration(const Calibration& calibration) {
@@ -170,6 +175,7 @@ std::vector<DataNote> odd_calibration(const Calibration& calibration) {
   const double baseline_m = calibration.baseline_m;
   if (baseline_m > kGreatestBaseline_m || (baseline_m > 0 && baseline_m < kLeastBaseline_m))
     notes.push_back(of_scale(
+        NoteCause::kBaseline,
         fmt::format("a baseline of {:g} m is implausible for the two cameras of a vehicle or "
                     "a handheld device: it must be in metres, "
                     "not in millimetres and not times fx",
@@ -180,7 +186,8 @@ std::vector<DataNote> odd_calibration(const Calibration& calibration) {
     const double distance_m = calibration.depth->T_cam_depth.translation().norm();
     if (distance_m > kGreatestDepthCamera_m)
       notes.push_back(
-          of_scale(fmt::format("the depth camera is {:g} m from the camera (T_cam_depth): is this "
+          of_scale(NoteCause::kCalibration,
+                   fmt::format("the depth camera is {:g} m from the camera (T_cam_depth): is this "
                                "in metres?",
                                distance_m)));
   }

@@ -88,12 +88,14 @@ ImageLevels sample_levels(const std::vector<std::string>& paths) {
     levels.notes.push_back(
         {fmt::format("the images are very dark: 99 % of their pixels are at most {} of "
                      "255 grey levels",
-                     high)});
+                     high),
+         false, NoteCause::kImages, ""});
   else if (high - low < kLittleContrast)
     levels.notes.push_back(
         {fmt::format("the images have hardly any contrast: 98 % of their pixels are "
                      "from {} to {} of 255 grey levels",
-                     low, high)});
+                     low, high),
+         false, NoteCause::kImages, ""});
   return levels;
 }
 

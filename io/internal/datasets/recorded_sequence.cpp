@@ -28,7 +28,7 @@ class RecordedDataset : public Dataset {
     if (levels.of_16 && !s_.right.empty()) bits_ = std::max(bits_, sample_levels(s_.right).bits);
     for (DataNote& note : levels.notes) s_.notes.push_back(std::move(note));
     const std::string odd = odd_spacing(s_.stamps_ns, "frame");
-    if (!odd.empty()) s_.notes.push_back({odd});
+    if (!odd.empty()) s_.notes.push_back({odd, false, NoteCause::kTimes, ""});
     if (s_.ground_truth && s_.ground_truth->posed() < n)
       s_.notes.push_back(
           {fmt::format("{} of {} frames have no ground truth", n - s_.ground_truth->posed(), n)});

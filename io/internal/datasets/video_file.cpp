@@ -54,7 +54,7 @@ class VideoDataset : public Dataset {
     read_times(yaml.fps);
     for (DataNote& note : odd_calibration(calibration_)) notes_.push_back(std::move(note));
     const std::string odd = odd_spacing(stamps_ns_, "frame");
-    if (!odd.empty()) notes_.push_back({odd});
+    if (!odd.empty()) notes_.push_back({odd, false, NoteCause::kTimes, ""});
   }
 
   const std::string& name() const override { return name_; }
