@@ -5,6 +5,9 @@
 #include <placegraph/graph/place_graph.h>
 #include <placegraph/graph/place_view.h>
 
+#include <cstddef>
+#include <vector>
+
 namespace [[gnu::visibility("default")]] placegraph {
 
 /// A keyframe of a map; its pose is relative to its place, see PlaceMember.
@@ -48,6 +51,15 @@ struct LoopRecord {
   bool accepted() const { return stage == LoopStage::kAccepted; }
 };
 
+/// Frames whose poses are in one coordinate frame. A new component begins after a loss of tracking
+/// that nothing bridges; constraints between places join components.
+struct MapComponent {
+  int number = 0;                   ///< number as in PlaceGraph::joined_components
+  bool main = false;                ///< whether it has the most frames with a pose
+  std::size_t posed = 0;            ///< number of its frames that have a pose
+  std::size_t first = 0, last = 0;  ///< positions of its first and last such frame in Map::frames
+};
+
 /// The result of a SLAM run; a plain value, a copy of which is a snapshot.
 struct Map {
   std::vector<Keyframe> keyframes;       ///< keyframes by ascending id
@@ -56,7 +68,8 @@ struct Map {
   std::vector<FrameRecord> frames;       ///< every input frame, in order
   std::vector<LoopRecord> loops;         ///< every candidate that was tested, in order
   bool metric = false;                   ///< whether its scale is known: lengths are in metres
-  Trajectory trajectory_online;  ///< each frame's pose T_map_cam as estimated when it was processed
+  /// Each frame's pose T_map_cam as estimated when it was processed, of the main component alone.
+  Trajectory trajectory_online;
 
   /// The keyframe with the given id; nullptr if there is none.
   const Keyframe* find_keyframe(KeyframeId id) const;
@@ -67,11 +80,19 @@ struct Map {
   Eigen::Vector3d position(const PointLandmark& landmark) const {
     return S_map_keyframe(landmark.keyframe) * landmark.point_cam;
   }
-  /// Every frame's pose T_map_cam, through its keyframe and place.
-  /// Frames of other components than the first are posed only if constraints join them to it;
-  /// otherwise they count as lost here. Throws ArgumentError if a posed frame's keyframe or that
-  /// keyframe's place is not in the map.
-  Trajectory trajectory_optimized() const;
+  /// The components that have frames with a pose, by ascending number; one of them is the main one.
+  /// Throws as trajectory_optimized.
+  std::vector<MapComponent> components() const;
+  /// MapComponent::number of the one with the most posed frames, of equal ones the first; 0 without
+  /// any.
+  int main_component() const;
+  /// The pose T_map_cam of every frame of the main component, through its keyframe and place.
+  /// Frames of other components have no pose here. Throws ArgumentError if a posed frame's keyframe
+  /// or that keyframe's place is not in the map.
+  Trajectory trajectory_optimized() const { return trajectory_optimized(main_component()); }
+  /// The same for the frames of the component with this MapComponent::number, in the frame of that
+  /// component.
+  Trajectory trajectory_optimized(int component) const;
 };
 
 }  // namespace placegraph

@@ -63,9 +63,9 @@ struct PlaceGraph {
 
   /// The place with the given id; nullptr if there is none.
   const Place* find(PlaceId id) const;
-  /// For every place the number of its connected component.
-  /// Places of one `component` and places that a constraint joins belong together. Numbers count
-  /// from 0 in the order of `places`. Throws ArgumentError for a constraint on an unknown place.
+  /// For every place the number of its connected component: the smallest Place::component in it.
+  /// Places of one `component` and places that a constraint joins belong together. Throws
+  /// ArgumentError for a constraint on an unknown place.
   std::vector<int> joined_components() const;
   /// The same as a pose graph over SE(3), or Sim(3) if the constraints are.
   /// The first place of every connected component is fixed. Throws as joined_components.

@@ -12,6 +12,7 @@
 #include <set>
 #include <sstream>
 
+#include "apps/results/component_files.h"
 #include "apps/results/run_judgement.h"
 #include "apps/support/json_file.h"
 
@@ -40,8 +41,9 @@ PlotCurve curve_of(const Trajectory& trajectory, const std::string& name) {
 std::vector<Eigen::Vector3d> place_positions(const Map& map, const AlignmentResult& alignment) {
   const std::vector<int> components = map.place_graph.joined_components();
   std::vector<Eigen::Vector3d> positions;
+  const int main = map.main_component();
   for (std::size_t i = 0; i < components.size(); ++i)
-    if (components[i] == 0)
+    if (components[i] == main)
       positions.push_back(
           alignment.apply(map.place_graph.places[i].T_map_place.isometry()).translation());
   return positions;
@@ -140,6 +142,7 @@ json describe_run(const RunResult& run, const Trajectory& optimized) {
           {"keyframes", map.keyframes.size()},
           {"places", map.place_graph.places.size()},
           {"components", components.size()},
+          {"component_trajectories", describe_components(map)},
           {"loops_checked", map.loops.size()},
           {"loops_accepted", accepted},
           {"metric", map.metric},
@@ -161,10 +164,19 @@ std::string run_plot(const RunResult& run, const Trajectory& optimized,
           evaluate(truth_of_frames(*ground_truth, run.map), *trajectory, options, name);
       if (result.outcome) results.push_back(std::move(result));
     }
+    const AlignmentResult main_alignment =
+        results.empty() ? AlignmentResult() : results.back().alignment;
+    for (const MapComponent& component : run.map.components()) {
+      if (component.main || results.empty()) continue;
+      EvaluationResult result = evaluate(truth_of_frames(*ground_truth, run.map),
+                                         run.map.trajectory_optimized(component.number), options,
+                                         "component " + std::to_string(component.number));
+      if (result.outcome) results.push_back(std::move(result));
+    }
     if (!results.empty()) {
       plot = plot_of(results);
       aligned = std::string(", align ") + (run.map.metric ? "origin" : "sim3");
-      plot.places_m = place_positions(run.map, results.back().alignment);
+      plot.places_m = place_positions(run.map, main_alignment);
     }
   }
   if (plot.curves.empty()) {

@@ -77,6 +77,11 @@ void add_run_command(CLI::App& app) {
                       "motion by other sensors (wheels, laser, IMU); see docs/other_sensors.md");
   command->add_option("--config", a.config, kConfigText);
   command->add_option("--set", a.settings, kSetText)->allow_extra_args(false);
+  command
+      ->add_option("--min-posed", a.min_posed,
+                   "share of the frames that must have a pose; exit code 1 below it")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
   command->add_flag("--no-loops", a.no_loops, "disable loop closure");
   command->add_option("--seed", a.seed, kSeedText);
   command->add_option("--threads", a.threads, kThreadsText);

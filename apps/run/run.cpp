@@ -15,8 +15,10 @@
 #include <memory>
 #include <opencv2/core/utility.hpp>
 
+#include "apps/results/component_files.h"
 #include "apps/results/environment_files.h"
 #include "apps/results/floor_plan_files.h"
+#include "apps/results/judgement_text.h"
 #include "apps/results/run_files.h"
 #include "apps/results/run_judgement.h"
 #include "apps/results/semantic_map_files.h"
@@ -66,6 +68,7 @@ void write_results(const std::string& folder, const RunResult& run, const Trajec
   write_g2o(path("graph.g2o"), graph);
   fs::remove(path("graph_se3.g2o"));
   if (graph.kind() == PoseKind::kSim3) write_g2o(path("graph_se3.g2o"), rigid_graph(graph));
+  write_other_components(folder, run.map);
   write_file(path("places.json"), places_json(run.map));
   const auto transitions = place_transitions(run.map);
   write_file(path("places.graphml"), to_graphml(run.map.place_graph, transitions));
@@ -254,6 +257,8 @@ RunReport run(const RunArguments& asked) {
   const Trajectory* truth = truth_of(dataset);
   if (run.stopped) summary["interrupted"] = true;
   if (truth) summary.update(judge_run(*truth, run, optimized));
+  const Judgement judgement = judge(run, prepared.notes, arguments.min_posed);
+  summary["judgement"] = describe_judgement(judgement);
   write_results(arguments.out, run, optimized, truth, dataset.name(), summary);
   if (run.broken_off)
     report.broken_off = *run.broken_off + " (results of the " + std::to_string(optimized.size()) +
@@ -264,6 +269,10 @@ RunReport run(const RunArguments& asked) {
                     optimized.size(), frames_to_run(dataset, options), arguments.out);
   else if (optimized.posed() == 0)
     report.no_result = arguments.sequence + ": no frame could be posed" + why_unposed(run);
+  else if (judgement.verdict == Verdict::kFailed)
+    report.no_result =
+        fmt::format("{}: {}, fewer than {:.3g} % (--min-posed){}", arguments.sequence,
+                    judgement.findings.front().text, 100 * arguments.min_posed, why_unposed(run));
   return report;
 }
 

@@ -21,6 +21,7 @@ struct RunArguments {
   std::optional<double> camera_height_m;
   std::optional<std::int64_t> seed;
   std::optional<int> threads;
+  double min_posed = 0.2;  ///< share of the frames that must have a pose, else exit code 1
   bool no_loops = false;
   Verbosity verbosity = Verbosity::kNormal;
   bool force = false;  ///< write into folders that are not empty

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 
+#include "apps/results/component_files.h"
+#include "apps/results/judgement_text.h"
+
 namespace placegraph::apps {
 namespace {
 
@@ -23,6 +26,10 @@ std::string frames_text(const json& summary) {
                        summary["frames"].get<int>(), summary["posed_online"].get<int>(),
                        summary["keyframes"].get<int>(), summary["places"].get<int>(),
                        summary["loops_accepted"].get<int>()));
+  if (const std::string components =
+          components_text(summary.value("component_trajectories", json::array()));
+      !components.empty())
+    text += line("", components);
   for (const json& frames : summary["unposed"])
     text += line(
         "", fmt::format("no pose: {} ({} {})", frames["reason"].get<std::string>(),
@@ -67,11 +74,19 @@ std::string scene_text(const json& summary) {
   return text;
 }
 
+std::string judgement_lines(const json& summary) {
+  if (!summary.contains("judgement")) return "";
+  std::string text = judgement_text(summary["judgement"], std::string(13, ' '));
+  text.pop_back();  // `line` ends it
+  return line("judgement", text);
+}
+
 }  // namespace
 
 std::string to_text(const RunReport& report) {
   const json& summary = report.summary;
   return frames_text(summary) + motion_text(summary) + scene_text(summary) +
+         judgement_lines(summary) +
          line("",
               fmt::format("{:.1f} s, {:.1f} ms CPU a frame, results in {}",
                           summary["wall_s"].get<double>(),

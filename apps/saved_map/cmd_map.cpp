@@ -41,6 +41,8 @@ void add_export_command(CLI::App& map) {
   arguments->paths.resize(forms.size());
   for (std::size_t i = 0; i < forms.size(); ++i)
     command->add_option(forms[i].flag, arguments->paths[i], "file for " + forms[i].what);
+  command->add_option("--component", arguments->component,
+                      "component whose trajectory is written; default: the main one");
   command->add_flag("--force", arguments->force, kForceText);
   command->callback([arguments] { map_export(*arguments); });
 }

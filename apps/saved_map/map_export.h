@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,9 @@ std::vector<MapExportForm> map_export_forms();
 struct MapExportArguments {
   std::string map;  ///< map.db, or a folder written by `placegraph run`
   std::vector<std::string>
-      paths;           ///< one path per form, in the order of map_export_forms(); empty: none
+      paths;  ///< one path per form, in the order of map_export_forms(); empty: none
+  /// Component whose trajectory is written; nothing: the main one.
+  std::optional<int> component;
   bool force = false;  ///< overwrite existing files
 };
 

@@ -1,10 +1,12 @@
 #include "apps/saved_map/map_info.h"
 
 #include <fmt/format.h>
+#include <placegraph/pipeline/run.h>
 
 #include <algorithm>
 #include <set>
 
+#include "apps/results/component_files.h"
 #include "apps/results/map_file.h"
 
 namespace placegraph::apps {
@@ -41,6 +43,7 @@ json describe_map(const std::string& path, const StoredMap& stored) {
                {"sensor", stored.origin.calibration ? to_string(stored.origin.sensor) : "images"},
                {"places", map.place_graph.places.size()},
                {"components", components.size()},
+               {"component_trajectories", describe_components(map)},
                {"keyframes", map.keyframes.size()},
                {"views", views},
                {"features", features},
@@ -63,6 +66,11 @@ json describe_map(const std::string& path, const StoredMap& stored) {
   return info;
 }
 
+std::string other_components(const json& components) {
+  const std::string text = components_text(components);
+  return text.empty() ? text : "           " + text + "\n";
+}
+
 }  // namespace
 
 MapInfoResult map_info(const MapInfoArguments& arguments) {
@@ -79,6 +87,7 @@ std::string to_text(const MapInfoResult& result) {
                      summary["sensor"].get<std::string>()) +
          fmt::format("  places   {} in {} components, {} constraints, {} loops\n", count("places"),
                      count("components"), count("constraints"), count("loops_accepted")) +
+         other_components(summary["component_trajectories"]) +
          fmt::format("  frames   {}, {} posed, {} keyframes, path {:.1f} {}\n", count("frames"),
                      count("posed"), count("keyframes"), summary["path_length"].get<double>(),
                      summary["metric"].get<bool>() ? "m" : "(scale unknown)") +

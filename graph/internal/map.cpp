@@ -1,6 +1,8 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/map.h>
 
+#include <algorithm>
+#include <map>
 #include <unordered_map>
 
 namespace placegraph {
@@ -26,40 +28,87 @@ Sim3 Map::S_map_keyframe(KeyframeId id) const {
          PlaceMember{id, keyframe->T_place_keyframe, keyframe->scale}.S_place_keyframe();
 }
 
-Trajectory Map::trajectory_optimized() const {
-  // Poses of other components than the first are in frames of their own.
-  const std::vector<int> component = place_graph.joined_components();
-  std::unordered_map<PlaceId, const Place*> place_by_id;
-  std::unordered_map<PlaceId, bool> belongs;
-  for (std::size_t i = 0; i < component.size(); ++i) {
-    place_by_id.emplace(place_graph.places[i].id, &place_graph.places[i]);
-    belongs.emplace(place_graph.places[i].id, component[i] == 0);
-  }
-  std::unordered_map<KeyframeId, const Keyframe*> keyframe_by_id;
-  for (const Keyframe& keyframe : keyframes) keyframe_by_id.emplace(keyframe.id, &keyframe);
+namespace {
 
+/// Keyframes and places of a map by their ids.
+class MapIndex {
+ public:
+  explicit MapIndex(const Map& map) {
+    const std::vector<int> joined = map.place_graph.joined_components();
+    for (std::size_t i = 0; i < joined.size(); ++i)
+      places_.emplace(map.place_graph.places[i].id, Entry{&map.place_graph.places[i], joined[i]});
+    for (const Keyframe& keyframe : map.keyframes) keyframes_.emplace(keyframe.id, &keyframe);
+  }
+
+  /// The keyframe of a posed frame, its place and the number of its component.
+  struct Location {
+    const Keyframe* keyframe;
+    const Place* place;
+    int component;
+  };
+  Location of(const FrameRecord& record) const {
+    if (!record.keyframe)
+      throw ArgumentError("map: frame " + to_string(record.frame) + " has a pose and no keyframe");
+    const auto keyframe = keyframes_.find(*record.keyframe);
+    if (keyframe == keyframes_.end())
+      throw ArgumentError("map: frame " + to_string(record.frame) + " refers to keyframe " +
+                          to_string(*record.keyframe) + ", which is not there");
+    const auto place = places_.find(keyframe->second->place);
+    if (place == places_.end())
+      throw ArgumentError("map: keyframe " + to_string(*record.keyframe) + " refers to place " +
+                          to_string(keyframe->second->place) + ", which is not there");
+    return {keyframe->second, place->second.place, place->second.component};
+  }
+
+ private:
+  struct Entry {
+    const Place* place;
+    int component;
+  };
+  std::unordered_map<PlaceId, Entry> places_;
+  std::unordered_map<KeyframeId, const Keyframe*> keyframes_;
+};
+
+}  // namespace
+
+std::vector<MapComponent> Map::components() const {
+  const MapIndex index(*this);
+  std::map<int, MapComponent> found;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (!frames[i].T_keyframe_frame) continue;
+    const int number = index.of(frames[i]).component;
+    MapComponent& component =
+        found.try_emplace(number, MapComponent{number, false, 0, i, i}).first->second;
+    ++component.posed;
+    component.last = i;
+  }
+  std::vector<MapComponent> result;
+  for (const auto& [number, component] : found) result.push_back(component);
+  if (!result.empty()) std::ranges::max_element(result, {}, &MapComponent::posed)->main = true;
+  return result;
+}
+
+int Map::main_component() const {
+  for (const MapComponent& component : components())
+    if (component.main) return component.number;
+  return 0;
+}
+
+Trajectory Map::trajectory_optimized(int component) const {
+  const MapIndex index(*this);
   Trajectory trajectory;
   trajectory.poses.reserve(frames.size());
   for (const FrameRecord& record : frames) {
     StampedPose& pose = trajectory.poses.emplace_back();
     pose.stamp_ns = record.stamp_ns;
     if (!record.T_keyframe_frame) continue;
-    if (!record.keyframe)
-      throw ArgumentError("map: frame " + to_string(record.frame) + " has a pose and no keyframe");
-    const auto keyframe = keyframe_by_id.find(*record.keyframe);
-    if (keyframe == keyframe_by_id.end())
-      throw ArgumentError("map: frame " + to_string(record.frame) + " refers to keyframe " +
-                          to_string(*record.keyframe) + ", which is not there");
-    const auto place = place_by_id.find(keyframe->second->place);
-    if (place == place_by_id.end())
-      throw ArgumentError("map: keyframe " + to_string(*record.keyframe) + " refers to place " +
-                          to_string(keyframe->second->place) + ", which is not there");
-    if (!belongs.at(place->first)) continue;
+    const MapIndex::Location at = index.of(record);
+    if (at.component != component) continue;
     // The scale moves positions; a camera's own pose has none.
-    const Keyframe& at = *keyframe->second;
     const Sim3 S_map_keyframe =
-        place->second->S_map_place() *
-        PlaceMember{at.id, at.T_place_keyframe, at.scale}.S_place_keyframe();
+        at.place->S_map_place() *
+        PlaceMember{at.keyframe->id, at.keyframe->T_place_keyframe, at.keyframe->scale}
+            .S_place_keyframe();
     pose.T_world_body = SE3(S_map_keyframe.rotation() * record.T_keyframe_frame->rotation(),
                             S_map_keyframe * record.T_keyframe_frame->translation())
                             .isometry();

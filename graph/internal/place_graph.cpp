@@ -3,6 +3,9 @@
 #include <placegraph/graph/place_graph.h>
 #include <placegraph/graph/pose_graph/node_index.h>
 
+#include <algorithm>
+#include <map>
+#include <set>
 #include <unordered_map>
 
 namespace placegraph {
@@ -32,7 +35,14 @@ std::vector<int> PlaceGraph::joined_components() const {
                           to_string(constraint.to) + ": unknown place");
     sets.join(from->second, to->second);
   }
-  return sets.numbers();
+  std::vector<int> numbers = sets.numbers();
+  std::map<int, int> smallest;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    int& number = smallest.emplace(numbers[i], places[i].component).first->second;
+    number = std::min(number, places[i].component);
+  }
+  for (int& number : numbers) number = smallest.at(number);
+  return numbers;
 }
 
 PoseGraph PlaceGraph::pose_graph() const {
@@ -40,10 +50,9 @@ PoseGraph PlaceGraph::pose_graph() const {
   const bool scaled =
       !constraints.empty() && kind_of(constraints.front().T_from_to) == PoseKind::kSim3;
   const std::vector<int> component = joined_components();
-  int seen = 0;
+  std::set<int> seen;
   for (std::size_t i = 0; i < places.size(); ++i) {
-    const bool first = component[i] == seen;
-    seen += first;
+    const bool first = seen.insert(component[i]).second;
     const Pose pose = scaled ? Pose(places[i].S_map_place()) : Pose(places[i].T_map_place);
     graph.nodes.push_back({node_of_place(places[i].id), pose, first});
   }

@@ -2,7 +2,6 @@
 #include <placegraph/pipeline/judgement.h>
 
 #include <algorithm>
-#include <set>
 
 namespace placegraph {
 namespace {
@@ -13,12 +12,12 @@ struct Span {
   std::size_t count() const { return last - first + 1; }
 };
 
-/// Spans of frames without a pose in the final trajectory, behind the first frame that has one.
-std::vector<Span> lost_spans(const Trajectory& trajectory) {
+/// Spans of frames without a pose in any component, behind the first frame that has one.
+std::vector<Span> lost_spans(const Map& map) {
   std::vector<Span> spans;
   bool begun = false;
-  for (std::size_t i = 0; i < trajectory.size(); ++i) {
-    const bool posed = trajectory.poses[i].T_world_body.has_value();
+  for (std::size_t i = 0; i < map.frames.size(); ++i) {
+    const bool posed = map.frames[i].T_keyframe_frame.has_value();
     begun = begun || posed;
     if (posed || !begun) continue;
     if (spans.empty() || spans.back().last + 1 != i) spans.push_back({i, i});
@@ -33,14 +32,14 @@ std::string frames_text(const Map& map, const Span& span) {
                                          map.frames[span.last].frame.value());
 }
 
-std::optional<DataNote> note_of_lost(const Map& map, const Trajectory& trajectory) {
-  const std::vector<Span> spans = lost_spans(trajectory);
+std::optional<DataNote> note_of_lost(const Map& map) {
+  const std::vector<Span> spans = lost_spans(map);
   if (spans.empty()) return std::nullopt;
   std::size_t lost = 0;
   for (const Span& span : spans) lost += span.count();
   const Span& longest = *std::ranges::max_element(spans, {}, &Span::count);
   std::string text =
-      fmt::format("{} of {} frames are lost after the beginning: ", lost, trajectory.size());
+      fmt::format("{} of {} frames are lost after the beginning: ", lost, map.frames.size());
   text += spans.size() == 1 ? frames_text(map, longest)
                             : fmt::format("in {} spans, the longest is {}", spans.size(),
                                           frames_text(map, longest));
@@ -49,13 +48,22 @@ std::optional<DataNote> note_of_lost(const Map& map, const Trajectory& trajector
 }
 
 std::optional<DataNote> note_of_components(const Map& map) {
-  const std::vector<int> joined = map.place_graph.joined_components();
-  const std::set<int> components(joined.begin(), joined.end());
+  const std::vector<MapComponent> components = map.components();
   if (components.size() < 2) return std::nullopt;
-  return DataNote{
-      fmt::format("the map has {} components, each in a frame of its own", components.size()),
-      false, NoteCause::kComponents,
-      "their relative poses are unknown: a place seen again or another motion source joins them"};
+  std::string spans;
+  for (const MapComponent& component : components)
+    spans += fmt::format("{}{}{}", spans.empty() ? "" : ", ",
+                         frames_text(map, {component.first, component.last}),
+                         component.main ? " (main)" : "");
+  return DataNote{fmt::format("the map has {} components, each in a frame of its own: {}",
+                              components.size(), spans),
+                  false, NoteCause::kComponents,
+                  "a place seen again or another motion source would join them"};
+}
+
+std::size_t tracked_frames(const Map& map) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      map.frames, [](const FrameRecord& frame) { return frame.T_keyframe_frame.has_value(); }));
 }
 
 std::string scale_text(const RunResult& run) {
@@ -85,21 +93,20 @@ const char* to_string(Verdict verdict) {
 
 Judgement judge(const RunResult& run, const std::vector<DataNote>& notes, double min_posed) {
   Judgement judgement;
-  const Trajectory trajectory = run.map.trajectory_optimized();
+  const std::size_t frames = run.map.frames.size(), posed = tracked_frames(run.map);
   const auto add = [&](const std::optional<DataNote>& note) {
     if (note && note->cause != NoteCause::kNone) judgement.findings.push_back(*note);
   };
-  const double posed = static_cast<double>(trajectory.posed());
-  if (posed < min_posed * static_cast<double>(trajectory.size()) || posed == 0) {
+  if (posed == 0 || static_cast<double>(posed) < min_posed * static_cast<double>(frames)) {
     judgement.verdict = Verdict::kFailed;
-    add(DataNote{fmt::format("{} of {} frames have a pose", trajectory.posed(), trajectory.size()),
-                 false, NoteCause::kFewPosed,
+    add(DataNote{fmt::format("{} of {} frames have a pose", posed, frames), false,
+                 NoteCause::kFewPosed,
                  run.unposed.empty() ? "" : "the most frequent reason: " + run.unposed[0].reason});
   }
   for (const DataNote& note : notes) add(note);
   for (const DataNote& note : run.notes) add(note);
   add(note_of_components(run.map));
-  add(note_of_lost(run.map, trajectory));
+  add(note_of_lost(run.map));
   if (!judgement.findings.empty() && judgement.verdict == Verdict::kGood)
     judgement.verdict = Verdict::kDoubtful;
   const auto doubt = std::ranges::find_if(judgement.findings,

@@ -154,7 +154,7 @@ FrameResult Slam::Impl::add_frame(const Frame& frame) {
 
   // 4. The frame's pose, relative to a keyframe and as currently estimated.
   place(frame, located, update, result);
-  recorder.finish(result.component == 0 ? result.T_map_cam : std::nullopt);
+  recorder.finish(result.T_map_cam, result.component);
   health.add(frame, result, odometry);
   events.frame_done(result);
   return result;
@@ -335,7 +335,7 @@ void Slam::Impl::take_up(const Map& map, const PlaceHistory& history, const Fram
   PlaceMapper known_places(options.places, options.pose_graph, map.place_graph.places, history);
   closer = LoopCloser(options.loops, calibration, options.seed, map);
   mapper = std::move(known_places);
-  recorder.take_up(map, last.id);
+  recorder.take_up(map, last.id, map.main_component());
   feed.take_up(map, closer);
   events.take_up(mapper, closer.records());
   optimized(mapper.optimize());

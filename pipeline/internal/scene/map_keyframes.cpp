@@ -22,10 +22,11 @@ SE3 camera_pose(const Map& map, KeyframeId keyframe) {
 
 std::set<KeyframeId> connected_keyframes(const Map& map) {
   const std::vector<int> components = map.place_graph.joined_components();
+  const int main = map.main_component();
   std::set<PlaceId> places;
   std::set<KeyframeId> keyframes;
   for (std::size_t i = 0; i < components.size(); ++i)
-    if (components[i] == 0) places.insert(map.place_graph.places[i].id);
+    if (components[i] == main) places.insert(map.place_graph.places[i].id);
   for (const Keyframe& keyframe : map.keyframes)
     if (places.count(keyframe.place)) keyframes.insert(keyframe.id);
   return keyframes;

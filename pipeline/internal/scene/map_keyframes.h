@@ -16,7 +16,7 @@ using KeyframePoses = std::function<std::optional<SE3>(KeyframeId keyframe)>;
 /// T_map_cam of a keyframe; lengths of its points are already those of the map.
 SE3 camera_pose(const Map& map, KeyframeId keyframe);
 
-/// Keyframes of the first component of a map and of those joined to it.
+/// Keyframes of the main component of a map.
 std::set<KeyframeId> connected_keyframes(const Map& map);
 
 /// The poses of the connected keyframes.

@@ -3,6 +3,19 @@
 #include <algorithm>
 
 namespace placegraph {
+namespace {
+
+/// Component with the most frames that have a pose.
+int main_component(const MapSources& sources) {
+  std::map<int, std::size_t> frames;
+  for (const FrameRecord& record : sources.recorder.records())
+    if (record.T_keyframe_frame) ++frames[sources.mapper.component_of(*record.keyframe)];
+  const auto most =
+      std::ranges::max_element(frames, {}, [](const auto& component) { return component.second; });
+  return most == frames.end() ? 0 : most->first;
+}
+
+}  // namespace
 
 void MapFeed::keep_view(KeyframeId keyframe, const Frame& frame) {
   if (!views_in_colour_) views_in_colour_ = !frame.colour.empty();
@@ -56,7 +69,7 @@ Map MapFeed::snapshot(const MapSources& sources) const {
   map.frames = sources.recorder.records();
   map.loops = sources.closer.records();
   map.metric = sources.mapper.metric();
-  map.trajectory_online = sources.recorder.online();
+  map.trajectory_online.poses = sources.recorder.online(main_component(sources));
   return map;
 }
 
@@ -76,10 +89,13 @@ MapChanges MapFeed::take_changes(const MapSources& sources) {
   for (std::size_t i = first_view_; i < views.size(); ++i)
     changes.keyframes.push_back(keyframe_of(views[i], recorder));
   views_.clear();
-  changes.first_frame = recorder.first_changed();
+  // The online poses of another component take the place of those that were reported.
+  const int main = main_component(sources);
+  changes.first_frame = main == reported_component_ ? recorder.first_changed() : 0;
+  reported_component_ = main;
   const auto from = static_cast<std::ptrdiff_t>(changes.first_frame);
   changes.frames.assign(recorder.records().begin() + from, recorder.records().end());
-  changes.online.assign(recorder.online().poses.begin() + from, recorder.online().poses.end());
+  changes.online = recorder.online(main, changes.first_frame);
   changes.first_landmark = first_landmark_ / kLandmarksSavedTogether * kLandmarksSavedTogether;
   changes.landmarks = landmarks(sources.odometry, changes.first_landmark);
   changes.loops = closer.records();

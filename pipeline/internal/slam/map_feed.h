@@ -51,6 +51,7 @@ class MapFeed {
   std::int64_t first_landmark_id_ = 0;               // first id after those of the saved map
   std::set<PlaceId> described_places_;               // places whose appearance has been reported
   std::size_t first_view_ = 0, first_landmark_ = 0;  // first items that have not been reported
+  int reported_component_ = 0;  // component whose online poses have been reported
   // number of views on which the vocabulary of the reported appearances was trained
   std::size_t reported_training_ = 0;
 };

@@ -18,10 +18,19 @@ void TrajectoryRecorder::record(KeyframeId keyframe, const SE3& T_keyframe_frame
   records_.back().inliers = inliers;
 }
 
-void TrajectoryRecorder::finish(const std::optional<SE3>& T_map_cam) {
+void TrajectoryRecorder::finish(const std::optional<SE3>& T_map_cam, int component) {
   StampedPose pose{newest().stamp_ns, std::nullopt};
   if (T_map_cam) pose.T_world_body = T_map_cam->isometry();
-  online_.poses.push_back(pose);
+  online_.push_back(pose);
+  online_component_.push_back(component);
+}
+
+std::vector<StampedPose> TrajectoryRecorder::online(int component, std::size_t first) const {
+  std::vector<StampedPose> poses(online_.begin() + static_cast<std::ptrdiff_t>(first),
+                                 online_.end());
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    if (online_component_[first + i] != component) poses[i].T_world_body.reset();
+  return poses;
 }
 
 /// The record of a frame, to be changed; null for a frame without one.
@@ -64,7 +73,7 @@ void TrajectoryRecorder::rescale(KeyframeId first_keyframe, double factor) {
 void TrajectoryRecorder::begin_at_origin(bool rotated) {
   if (!rotated) {
     for (const std::size_t origin : origins_) {
-      online_.poses[origin].T_world_body.reset();
+      online_[origin].T_world_body.reset();
       first_changed_ = std::min(first_changed_, origin);
     }
     origins_.clear();
@@ -72,14 +81,15 @@ void TrajectoryRecorder::begin_at_origin(bool rotated) {
   origins_.push_back(records_.size() - 1);
 }
 
-void TrajectoryRecorder::take_up(const Map& map, FrameId last_frame) {
+void TrajectoryRecorder::take_up(const Map& map, FrameId last_frame, int component) {
   for (const Keyframe& keyframe : map.keyframes) {
     frames_[keyframe.id] = keyframe.frame;
     stamps_ns_[keyframe.id] = keyframe.stamp_ns;
   }
   for (std::size_t i = 0; i < map.frames.size() && map.frames[i].frame <= last_frame; ++i) {
     records_.push_back(map.frames[i]);
-    online_.poses.push_back(map.trajectory_online.poses.at(i));
+    online_.push_back(map.trajectory_online.poses.at(i));
+    online_component_.push_back(component);
   }
   report_all();
 }

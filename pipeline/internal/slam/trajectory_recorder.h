@@ -20,8 +20,8 @@ class TrajectoryRecorder {
   bool accepts(const Frame& frame) const;
   /// Sets the pose of the newest frame relative to a keyframe.
   void record(KeyframeId keyframe, const SE3& T_keyframe_frame, int inliers);
-  /// Ends the newest frame, with its pose in the first component of the map, if it has one.
-  void finish(const std::optional<SE3>& T_map_cam);
+  /// Ends the newest frame, with its pose in the frame of a component of the map, if it has one.
+  void finish(const std::optional<SE3>& T_map_cam, int component);
 
   /// Adds a frame that has become a keyframe.
   void add_keyframe(const NewKeyframe& keyframe);
@@ -44,21 +44,24 @@ class TrajectoryRecorder {
   const FrameRecord& newest() const { return records_.back(); }
   bool newest_has_keyframe() const { return records_.back().keyframe.has_value(); }
   const std::vector<FrameRecord>& records() const { return records_; }
-  const Trajectory& online() const { return online_; }
+  /// The online poses from position `first` on of frames that were in a component when they were
+  /// processed; other frames have none.
+  std::vector<StampedPose> online(int component, std::size_t first = 0) const;
   FrameId frame_of(KeyframeId keyframe) const { return frames_.at(keyframe); }
   std::int64_t stamp_ns_of(KeyframeId keyframe) const { return stamps_ns_.at(keyframe); }
 
   /// First record that has changed since the records were last reported.
   std::size_t first_changed() const { return first_changed_; }
   void report_all() { first_changed_ = records_.size(); }
-  /// Takes over the frames of a saved map up to `last_frame`.
-  void take_up(const Map& map, FrameId last_frame);
+  /// Takes over the frames of a saved map up to `last_frame`. Its online poses are of `component`.
+  void take_up(const Map& map, FrameId last_frame, int component);
 
  private:
   FrameRecord* record_of(FrameId frame);
 
   std::vector<FrameRecord> records_;
-  Trajectory online_;
+  std::vector<StampedPose> online_;               // poses in the frames of their components
+  std::vector<int> online_component_;             // component of each online pose
   std::map<KeyframeId, FrameId> frames_;          // frame of each keyframe
   std::map<KeyframeId, std::int64_t> stamps_ns_;  // time stamp of each keyframe
   std::vector<std::size_t> origins_;

@@ -106,6 +106,26 @@ TEST(Map, FramesOfAnotherComponentAreLostUntilAConstraintJoinsIt) {
   EXPECT_EQ(map.trajectory_optimized().posed(), 3u);
 }
 
+TEST(Map, ListsItsComponentsTheMainOneHasTheMostFrames) {
+  Map map = make_map(4);
+  auto components = map.components();
+  ASSERT_EQ(components.size(), 2u);
+  EXPECT_EQ(components[0].number, 0);
+  EXPECT_TRUE(components[0].main);
+  EXPECT_EQ(components[0].posed, 2u);
+  EXPECT_EQ(components[0].last, 1u);
+  EXPECT_EQ(components[1].number, 4);
+  EXPECT_EQ(components[1].first, 3u);
+  EXPECT_TRUE(map.trajectory_optimized(4).poses[3].T_world_body);
+  EXPECT_EQ(map.trajectory_optimized(4).posed(), 1u);
+  // Two more frames: the other component is the main one.
+  for (int i = 4; i < 6; ++i) map.frames.push_back({FrameId(i), i * 100, KeyframeId(200), SE3()});
+  EXPECT_EQ(map.main_component(), 4);
+  EXPECT_EQ(map.trajectory_optimized().posed(), 3u);
+  EXPECT_EQ(Map().main_component(), 0);
+  EXPECT_TRUE(Map().components().empty());
+}
+
 TEST(Map, RefusesFramesAndKeyframesThatHangOnNothing) {
   Map map = make_map(0);
   map.frames[1].keyframe = KeyframeId(999);

@@ -54,7 +54,7 @@ struct System {
     closer.add_view(id, frame, T_previous_this);
     mapper.add_keyframe(id, link, SE3(), odometry.map().median_depth());
     recorder.record(id, SE3(), update.inliers);
-    recorder.finish(update.T_odom_cam);
+    recorder.finish(update.T_odom_cam, 0);
     feed.keep_view(id, frame);
   }
 };

@@ -27,7 +27,7 @@ struct Recorded {
         recorder.add_keyframe({KeyframeId(i / 3), frame(i)});
       }
       recorder.record(KeyframeId(i / 3), along(i % 3), 50);
-      recorder.finish(along(i));
+      recorder.finish(along(i), 0);
     }
     recorder.report_all();
   }
@@ -62,7 +62,7 @@ TEST(TrajectoryRecorder, ACorrectionStaysWithTheKeyframeOfItsSegment) {
   EXPECT_NEAR(r.recorder.records()[4].T_keyframe_frame->translation().z(), 1.5, 1e-12);
   EXPECT_EQ(r.recorder.first_changed(), 1u);
   // What was known online stays.
-  EXPECT_NEAR(r.recorder.online().poses[4].T_world_body->translation().z(), 4, 1e-12);
+  EXPECT_NEAR(r.recorder.online(0)[4].T_world_body->translation().z(), 4, 1e-12);
 }
 
 TEST(TrajectoryRecorder, FramesFromBeforeASegmentHangOnItsFirstKeyframe) {
@@ -88,26 +88,45 @@ TEST(TrajectoryRecorder, AnOriginThatIsReplacedHasNoPoseUnlessTheCameraOnlyRotat
   for (int i = 0; i < 3; ++i) {
     recorder.begin(frame(i));
     recorder.begin_at_origin(i == 1);  // frame 1 has rotated since 0; 2 has not
-    recorder.finish(along(0));
-    if (i == 1) EXPECT_TRUE(recorder.online().poses[0].T_world_body);
+    recorder.finish(along(0), 0);
+    if (i == 1) {
+      EXPECT_TRUE(recorder.online(0)[0].T_world_body);
+    }
   }
-  EXPECT_FALSE(recorder.online().poses[0].T_world_body);
-  EXPECT_FALSE(recorder.online().poses[1].T_world_body);
-  EXPECT_TRUE(recorder.online().poses[2].T_world_body);
+  EXPECT_FALSE(recorder.online(0)[0].T_world_body);
+  EXPECT_FALSE(recorder.online(0)[1].T_world_body);
+  EXPECT_TRUE(recorder.online(0)[2].T_world_body);
+}
+
+TEST(TrajectoryRecorder, OnlinePosesAreThoseOfOneComponent) {
+  TrajectoryRecorder recorder;
+  for (int i = 0; i < 4; ++i) {
+    recorder.begin(frame(i));
+    recorder.finish(i == 1 ? std::nullopt : std::optional(along(i)), i < 2 ? 0 : 1);
+  }
+  const auto posed = [&](int component, std::size_t first) {
+    std::vector<bool> result;
+    for (const StampedPose& pose : recorder.online(component, first))
+      result.push_back(pose.T_world_body.has_value());
+    return result;
+  };
+  EXPECT_EQ(posed(0, 0), std::vector<bool>({true, false, false, false}));
+  EXPECT_EQ(posed(1, 0), std::vector<bool>({false, false, true, true}));
+  EXPECT_EQ(posed(1, 3), std::vector<bool>({true}));
 }
 
 TEST(TrajectoryRecorder, TakesUpASavedMapUpToItsLastKeyframe) {
   const Recorded r;
   Map map;
   map.frames = r.recorder.records();
-  map.trajectory_online = r.recorder.online();
+  map.trajectory_online.poses = r.recorder.online(0);
   Keyframe keyframe;
   keyframe.id = KeyframeId(1), keyframe.frame = FrameId(3), keyframe.stamp_ns = 300;
   map.keyframes.push_back(keyframe);
   TrajectoryRecorder next;
-  next.take_up(map, FrameId(3));
+  next.take_up(map, FrameId(3), 0);
   EXPECT_EQ(next.records().size(), 4u);
-  EXPECT_EQ(next.online().poses.size(), 4u);
+  EXPECT_EQ(next.online(0).size(), 4u);
   EXPECT_EQ(next.newest_keyframe(), KeyframeId(1));
   EXPECT_EQ(next.first_changed(), 4u);
 }

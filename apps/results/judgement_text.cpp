@@ -1,0 +1,36 @@
+#include "apps/results/judgement_text.h"
+
+#include <nlohmann/json.hpp>
+
+namespace placegraph::apps {
+
+using nlohmann::json;
+
+json describe_judgement(const Judgement& judgement) {
+  json findings = json::array();
+  for (const DataNote& finding : judgement.findings)
+    findings.push_back(
+        {{"cause", to_string(finding.cause)}, {"text", finding.text}, {"advice", finding.advice}});
+  return {{"verdict", to_string(judgement.verdict)},
+          {"metric", judgement.metric},
+          {"why_metric", judgement.why_metric},
+          {"findings", findings}};
+}
+
+std::string judgement_text(const json& judgement, const std::string& indent) {
+  const json& findings = judgement["findings"];
+  std::string text = judgement["verdict"].get<std::string>();
+  text += judgement["metric"].get<bool>() ? ": lengths are in metres, " : ": scale unknown, ";
+  text += judgement["why_metric"].get<std::string>();
+  text += findings.empty() ? "; nothing contradicts the result\n" : "\n";
+  for (const json& finding : findings) {
+    text +=
+        indent + finding["cause"].get<std::string>() + ": " + finding["text"].get<std::string>();
+    if (const auto advice = finding["advice"].get<std::string>(); !advice.empty())
+      text += "; " + advice;
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace placegraph::apps
