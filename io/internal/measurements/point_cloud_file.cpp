@@ -2,6 +2,7 @@
 #include <placegraph/io/internal/files/text_file.h>
 #include <placegraph/io/internal/measurements/point_cloud_file.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -213,6 +214,9 @@ PointCloud read_point_cloud(const std::string& path) {
                      : extension == ".bin" ? read_kitti_cloud(path)
                                            : read_text(path);
   if (cloud.points.empty()) throw FileError(path, "no point in it");
+  // Depth cameras write the sensor's own position for a ray without a measurement.
+  const Eigen::Vector3d none = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  std::replace(cloud.points.begin(), cloud.points.end(), Eigen::Vector3d(0, 0, 0), none);
   return cloud;
 }
 
