@@ -1,4 +1,5 @@
 #include <placegraph/graph/core/error.h>
+#include <placegraph/io/internal/files/input_file.h>
 #include <placegraph/io/internal/files/text_file.h>
 #include <placegraph/io/internal/measurements/point_cloud_file.h>
 
@@ -22,6 +23,7 @@ std::string read_bytes(const std::string& path) {
   const auto size = std::filesystem::file_size(path, error);
   if (error) throw FileError(path, "cannot be read: " + error.message());
   if (size > kLargest) throw FileError(path, "larger than 2 GiB");
+  require_input_file(path);
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw FileError(path, "cannot be opened");
   std::string bytes{std::istreambuf_iterator<char>(stream), {}};
