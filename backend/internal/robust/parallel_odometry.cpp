@@ -114,7 +114,8 @@ class Surroundings {
     return rings;
   }
 
-  /// Of more than kCompared edges every second, third, ... one stands for its neighbours.
+  /// The misfit with the other edges. If they are more than kCompared, every second, third, ... one
+  /// stands for those around it.
   double misfit_with_others(const Group& T_u_v, const Parallel& edges, int u) const {
     constexpr std::size_t kCompared = 500;
     const std::size_t stride = (edges.size() - 1) / kCompared + 1;
