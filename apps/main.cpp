@@ -59,7 +59,9 @@ int main(int argc, char** argv) {
   keep_freed_memory();
   try {
     const auto app = make_command_line();
-    return parse_and_run(*app, present_spelling({argv + 1, argv + argc}));
+    const int code = parse_and_run(*app, present_spelling({argv + 1, argv + argc}));
+    finish_printing();
+    return code;
   } catch (const NoResult& reason) {
     return complain(kNoResult, reason.what());
   } catch (const Interrupted& reason) {

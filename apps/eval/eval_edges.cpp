@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/json_text.h>
 #include <placegraph/graph/pose_graph/constraint_source.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 
@@ -62,7 +63,7 @@ std::string to_json(const EvalEdgesResult& result) {
                                  {"mean_nees", c.mean_nees},
                                  {"median_nees", c.median_nees},
                                  {"share_beyond_99", c.share_beyond_99}};
-  return report.dump(1) + "\n";
+  return json_text(report, 1);
 }
 
 }  // namespace placegraph::apps

@@ -4,6 +4,7 @@
 #include <placegraph/eval/internal/plots/precision_recall_plot.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/internal/core/id_format.h>
+#include <placegraph/graph/internal/core/json_text.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 
 #include <algorithm>
@@ -204,7 +205,7 @@ std::string to_json(const LoopsResult& result) {
       report["systems"].push_back(json_of(judgement));
   }
   report["protocol"] = result.protocol;
-  return report.dump(1) + "\n";
+  return json_text(report, 1);
 }
 
 std::string to_text(const LoopsResult& result) {
@@ -217,8 +218,8 @@ std::string to_text(const LoopsResult& result) {
   for (const LoopJudgement& judgement : result.systems) {
     const LoopBenchmark& b = judgement.benchmark;
     text += fmt::format("{:<{}} {:>9} {:>8} {:>7} {:>7} {:>7} {:>7} {:>14} {:>7}\n", judgement.name,
-                        width, b.positives, b.predicted_queries, cell(b.recall_at[0]), cell(b.recall_at[1]),
-                        cell(b.recall_at[2]), cell(b.curve.average_precision),
+                        width, b.positives, b.predicted_queries, cell(b.recall_at[0]),
+                        cell(b.recall_at[1]), cell(b.recall_at[2]), cell(b.curve.average_precision),
                         cell(b.curve.recall_at_full_precision), cell(b.curve.f1_max));
   }
   return text + remarks_text(result.systems);

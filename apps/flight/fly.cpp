@@ -1,6 +1,7 @@
 #include "apps/flight/fly.h"
 
 #include <fmt/format.h>
+#include <placegraph/graph/internal/core/json_text.h>
 #include <placegraph/io/internal/measurements/marker_layout_file.h>
 #include <placegraph/io/internal/trajectories/body_state_file.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
@@ -86,7 +87,7 @@ void write_results(const std::string& folder, const Flown& flown, const MarkerLa
   if (flown.map && flown.map->outcome)
     write_marker_layout(path("markers.yaml"), with_mapped(layout, *flown.map));
   write_file(path("frames.csv"), frames_csv(flown.run));
-  write_file(path("result.json"), flown.summary.dump(1) + "\n");
+  write_file(path("result.json"), json_text(flown.summary, 1));
 }
 
 }  // namespace
@@ -128,7 +129,7 @@ std::string to_text(const FlightResult& result) {
                             result.out);
 }
 
-std::string to_json(const FlightResult& result) { return result.summary.dump(1) + "\n"; }
+std::string to_json(const FlightResult& result) { return json_text(result.summary, 1); }
 
 std::string stages_text(const FlightResult& result) {
   const double frames = result.summary["frames"].get<double>();

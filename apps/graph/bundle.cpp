@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/json_text.h>
 #include <placegraph/io/graphs/bal.h>
 
 #include <algorithm>
@@ -48,7 +49,7 @@ std::string to_json(const BundleResult& result) {
   json["iterations"] = result.report.iterations;
   json["cpu_ms"] = result.cpu_ms;
   json["wall_ms"] = result.wall_ms;
-  return json.dump(2) + "\n";
+  return json_text(json, 2);
 }
 
 std::string to_text(const BundleResult& result) {

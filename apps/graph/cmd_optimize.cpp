@@ -1,7 +1,6 @@
 #include "apps/graph/cmd_optimize.h"
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <memory>
 
 #include "apps/graph/optimize.h"
@@ -17,11 +16,9 @@ struct OptimizeCommand {
 };
 
 void run(const OptimizeCommand& command) {
-  LogSink sink;
-  if (!command.quiet)
-    sink = [](LogLevel, const std::string& message) {
-      std::fprintf(stderr, "%s\n", message.c_str());
-    };
+  const LogSink sink = [&](LogLevel level, const std::string& message) {
+    if (!command.quiet || level == LogLevel::kWarning) note(message);
+  };
   const OptimizeResult result = optimize(command.arguments, sink);
   print(command.json ? to_json(result) : to_text(result));
 }

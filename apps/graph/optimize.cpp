@@ -6,6 +6,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/internal/core/chi_squared.h>
 #include <placegraph/graph/internal/core/id_format.h>
+#include <placegraph/graph/internal/core/json_text.h>
 #include <placegraph/io/graphs/g2o.h>
 #include <placegraph/io/graphs/pose_graph_file.h>
 
@@ -64,16 +65,28 @@ int doubtful_edges(const GraphSolution& solution) {
   return static_cast<int>(beyond - rejected);
 }
 
-/// Ratio of the cost to its expectation from the information of the edges, if the least squares of
-/// a graph with loops look like those of a wrong graph.
+/// Ratio of the cost to its expectation from the information of the edges, if it looks like that of
+/// a wrong graph.
 std::optional<double> misfit_of(const OptimizeResult& result) {
-  constexpr double kMuch = 10;  // factor above the expected cost
+  constexpr double kMuch = 3;       // factor above the expected cost
+  constexpr double kChance = 1e-6;  // probability of such a cost, for small graphs
   const PoseGraph& graph = result.solution.graph;
   const auto free = static_cast<double>(graph.constraints.size()) -
                     static_cast<double>(graph.nodes.size()) + result.solution.components;
   const double expected = degrees_of_freedom(graph.kind()) * std::max(1.0, free);
-  if (result.robust != "none" || result.after.log < kMuch * expected) return std::nullopt;
+  const bool by_chance = chi_squared_tail(result.after.log, static_cast<int>(expected)) > kChance;
+  if (result.after.log < kMuch * expected || by_chance) return std::nullopt;
   return result.after.log / expected;
+}
+
+std::string misfit_text(const OptimizeResult& result, double misfit) {
+  const bool rejects = !result.solution.rejected.empty();
+  return fmt::format(
+      "chi2 is {} times what the information of the edges lets expect{}: it looks like false "
+      "loops{}, or information that promises too much",
+      fmt::format(fmt::runtime(misfit < 10 ? "{:.1f}" : "{:.0f}"), misfit),
+      rejects ? fmt::format(", without those that --robust {} rejected", result.robust) : "",
+      result.robust == "auto" ? "" : " (try --robust auto)");
 }
 
 /// "3, 5, 7 and 12 more"
@@ -243,10 +256,7 @@ void optimize_poses(const OptimizeArguments& arguments, const GraphTask& task, P
     throw NoResult(arguments.in + ": the cost of the solution is not finite");
   if (!arguments.plot.empty()) draw(arguments.plot, drawn, solution, result.after);
   if (const auto misfit = misfit_of(result))
-    log(sink, LogLevel::kWarning,
-        "placegraph: {}: chi2 is {:.0f} times what the information of the edges lets expect: "
-        "false loops (try --robust auto), or information that promises too much",
-        arguments.in, *misfit);
+    log(sink, LogLevel::kWarning, "warning: {}: {}", arguments.in, misfit_text(result, *misfit));
   warn_of_free_directions(arguments.in, solution.free.count, free_vertices(solution));
   if (!solution.loops_judged)
     warn(arguments.in + ": too few loops agree to know the noise's scale: --robust " +
@@ -354,7 +364,7 @@ std::string to_json(const OptimizeResult& result) {
   } else {
     report = describe(result);
   }
-  return report.dump(2) + "\n";
+  return json_text(report, 2);
 }
 
 std::string to_text(const OptimizeResult& result) {

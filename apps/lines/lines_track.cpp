@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <placegraph/frontend/internal/lines/track_consistency.h>
 #include <placegraph/graph/internal/core/id_format.h>
+#include <placegraph/graph/internal/core/json_text.h>
 #include <placegraph/graph/internal/core/median.h>
 #include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/datasets/open_dataset.h>
@@ -126,7 +127,7 @@ std::string to_json(const LinesTrackResult& result) {
     json["wrong_percent"] = judged->wrong_percent();
     json["undecided"] = judged->undecided;
   }
-  return json.dump(2) + "\n";
+  return json_text(json, 2);
 }
 
 }  // namespace placegraph::apps

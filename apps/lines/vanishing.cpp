@@ -1,6 +1,7 @@
 #include "apps/lines/vanishing.h"
 
 #include <fmt/format.h>
+#include <placegraph/graph/internal/core/json_text.h>
 #include <placegraph/io/internal/measurements/segment_file.h>
 
 #include <nlohmann/json.hpp>
@@ -117,7 +118,7 @@ std::string to_json(const VanishingResult& result) {
   json["noise"] = {{"end_px", vanishing.noise.end_px},
                    {"parallel_deg", vanishing.noise.parallel_deg}};
   json["cpu_ms"] = result.cpu_ms;
-  return json.dump(2) + "\n";
+  return json_text(json, 2);
 }
 
 }  // namespace placegraph::apps

@@ -5,6 +5,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/internal/core/angle.h>
 #include <placegraph/graph/internal/core/id_format.h>
+#include <placegraph/graph/internal/core/json_text.h>
 #include <placegraph/graph/scene/environment.h>
 #include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/datasets/open_dataset.h>
@@ -239,6 +240,6 @@ std::string to_text(const ExplainResult& result) {
   return text;
 }
 
-std::string to_json(const ExplainResult& result) { return result.explanation.dump(1) + "\n"; }
+std::string to_json(const ExplainResult& result) { return json_text(result.explanation, 1); }
 
 }  // namespace placegraph::apps

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/json_text.h>
 #include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/graphs/g2o.h>
 #include <placegraph/io/graphs/geo_export.h>
@@ -125,7 +126,7 @@ GeoreferenceReport georeference(const GeoreferenceArguments& arguments) {
 
   report.summary = describe_georeference(result);
   report.summary["cpu_ms"] = cpu_ms;
-  write_results(arguments.out, input, result, report.summary.dump(2) + "\n");
+  write_results(arguments.out, input, result, json_text(report.summary, 2));
   return report;
 }
 
@@ -162,6 +163,6 @@ std::string to_text(const GeoreferenceReport& report) {
                             report.out);
 }
 
-std::string to_json(const GeoreferenceReport& report) { return report.summary.dump(2) + "\n"; }
+std::string to_json(const GeoreferenceReport& report) { return json_text(report.summary, 2); }
 
 }  // namespace placegraph::apps

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/json_text.h>
 #include <placegraph/io/config/yaml_config.h>
 #include <placegraph/pipeline/run.h>
 
@@ -125,7 +126,7 @@ std::string localizations_json(const LocalizeResult& result) {
   for (std::size_t i = 0; i < result.localizations.size(); ++i)
     list.push_back(json_of(result.first + static_cast<std::int64_t>(i), result.names[i],
                            result.localizations[i]));
-  return json{{"images", list}}.dump(1) + "\n";
+  return json_text(json{{"images", list}}, 1);
 }
 
 }  // namespace
@@ -162,7 +163,7 @@ LocalizeResult localize(const LocalizeArguments& arguments) {
 std::string to_json(const LocalizeResult& result) {
   json summary = json_of(result.counts, result.notes);
   summary["cpu_ms_an_image"] = result.cpu_ms_an_image;
-  return summary.dump(1) + "\n";
+  return json_text(summary, 1);
 }
 
 std::string to_text(const LocalizeResult& result) {

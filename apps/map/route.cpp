@@ -5,6 +5,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/internal/core/angle.h>
 #include <placegraph/graph/internal/core/id_format.h>
+#include <placegraph/graph/internal/core/json_text.h>
 
 #include <algorithm>
 #include <cmath>
@@ -78,12 +79,11 @@ std::string to_json(const RouteResult& result) {
   json steps = json::array();
   for (std::size_t i = 0; i < route.steps.size(); ++i)
     steps.push_back(step_json(route, i, result.map));
-  return json{{"from", route.steps.front().place},
-              {"to", route.steps.back().place},
-              {"length_m", route.length_m()},
-              {"steps", steps}}
-             .dump(1) +
-         "\n";
+  return json_text(json{{"from", route.steps.front().place},
+                        {"to", route.steps.back().place},
+                        {"length_m", route.length_m()},
+                        {"steps", steps}},
+                   1);
 }
 
 std::string to_text(const RouteResult& result) {

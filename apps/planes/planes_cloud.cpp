@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/json_text.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/internal/measurements/point_cloud_file.h>
 
@@ -193,7 +194,7 @@ PlanesCloudResult planes_cloud(const PlanesCloudArguments& arguments) {
   if (!truth.empty()) result.check = check_planes(truth, found.labels, arguments.check);
   if (!arguments.cuboids.empty()) result.cuboids = cuboids_of(arguments, cloud, found);
   write_labels(arguments, cloud, found.labels);
-  if (result.cuboids) write_file(arguments.cuboids, cuboids_json(*result.cuboids).dump(2) + '\n');
+  if (result.cuboids) write_file(arguments.cuboids, json_text(cuboids_json(*result.cuboids), 2));
   return result;
 }
 
@@ -235,7 +236,7 @@ std::string to_json(const PlanesCloudResult& result) {
   if (result.check) json["check"] = check_json(*result.check);
   if (result.cuboids) json["cuboids"] = cuboids_json(*result.cuboids);
   json["cpu_ms"] = result.cpu_ms;
-  return json.dump(2) + "\n";
+  return json_text(json, 2);
 }
 
 }  // namespace placegraph::apps

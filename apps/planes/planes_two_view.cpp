@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/json_text.h>
 #include <placegraph/io/internal/measurements/match_file.h>
 
 #include <nlohmann/json.hpp>
@@ -61,7 +62,7 @@ void write_files(const PlanesTwoViewArguments& arguments, const PlanesTwoViewRes
   for (const int label : result.planes.labels) text += std::to_string(label) + '\n';
   write_file(arguments.out, text);
   if (!arguments.motion.empty())
-    write_file(arguments.motion, motion_json(*result.motion).dump(2) + '\n');
+    write_file(arguments.motion, json_text(motion_json(*result.motion), 2));
 }
 
 }  // namespace
@@ -117,7 +118,7 @@ std::string to_json(const PlanesTwoViewResult& result) {
   json["regions"] = regions_json(result.planes);
   if (result.motion) json["motion"] = motion_json(*result.motion);
   json["cpu_ms"] = result.cpu_ms;
-  return json.dump(2) + "\n";
+  return json_text(json, 2);
 }
 
 }  // namespace placegraph::apps

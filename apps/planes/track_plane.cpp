@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/json_text.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/internal/files/text_file.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
@@ -190,7 +191,7 @@ std::string to_json(const TrackPlaneResult& result) {
   json["tracks"] = ordered_json::array();
   for (std::size_t i = 0; i < result.tracks.size(); ++i)
     json["tracks"].push_back(track_json(result.tracks[i], i));
-  return json.dump(2) + "\n";
+  return json_text(json, 2);
 }
 
 }  // namespace placegraph::apps

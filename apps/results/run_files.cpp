@@ -3,6 +3,7 @@
 #include <placegraph/eval/internal/plots/plot.h>
 #include <placegraph/eval/trajectory/evaluate.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/json_text.h>
 #include <placegraph/graph/place_transitions.h>
 #include <placegraph/graph/pose_graph/constraint_source.h>
 
@@ -91,9 +92,9 @@ std::string places_json(const Map& map) {
       loops.push_back({{"query_frame", loop.query_frame},
                        {"match_frame", loop.match_frame},
                        {"T_match_query", pose_json(loop.T_match_query)}});
-  return json{{"places", places}, {"edges", edges}, {"transitions", transitions}, {"loops", loops}}
-             .dump(1) +
-         "\n";
+  return json_text(
+      json{{"places", places}, {"edges", edges}, {"transitions", transitions}, {"loops", loops}},
+      1);
 }
 
 std::string loops_csv(const Map& map) {

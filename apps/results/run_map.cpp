@@ -55,8 +55,8 @@ void take_edges(const json& edges, const PoseGraph& written, RunMap& map) {
 
 FrameId RunMap::anchor_frame(const Place& place) const {
   const auto frame = frame_of_keyframe.find(place.anchor_keyframe);
-  require(frame != frame_of_keyframe.end(),
-          "place " + to_string(place.id) + " has no frame of its anchor");
+  if (frame == frame_of_keyframe.end())
+    throw FileError(file, "place " + to_string(place.id) + " has no frame of its anchor");
   return frame->second;
 }
 
@@ -66,6 +66,7 @@ RunMap run_map_of(StoredMap stored, const std::string& path) {
   require(stored.origin.calibration.has_value(),
           path + ": is a map of images without a camera, in which nothing has a pose");
   RunMap map;
+  map.file = path;
   for (const Keyframe& keyframe : stored.map.keyframes)
     map.frame_of_keyframe[keyframe.id] = keyframe.frame;
   map.graph = std::move(stored.map.place_graph);
@@ -81,6 +82,7 @@ RunMap read_run_map(const std::string& folder) {
   const PoseGraph written = read_g2o((root / "graph.g2o").string());
   const json document = read_json(path);
   RunMap map;
+  map.file = path;
   try {
     for (const json& entry : document.at("places"))
       map.graph.places.push_back(place_of(entry, map));

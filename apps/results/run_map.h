@@ -11,8 +11,9 @@ namespace placegraph::apps {
 struct RunMap {
   PlaceGraph graph;  ///< without appearances
   std::map<KeyframeId, FrameId> frame_of_keyframe;
+  std::string file;  ///< file that lists the places
 
-  /// Frame of a place's anchor keyframe. Throws ArgumentError for a place without one.
+  /// Frame of a place's anchor keyframe. Throws FileError for a place without one.
   FrameId anchor_frame(const Place& place) const;
 };
 

@@ -4,6 +4,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/time.h>
 #include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/internal/core/json_text.h>
 #include <placegraph/io/datasets/open_dataset.h>
 #include <placegraph/io/internal/files/image_list.h>
 #include <placegraph/pipeline/run.h>
@@ -193,16 +194,15 @@ InspectResult inspect(const InspectArguments& arguments) {
 
 std::string to_json(const InspectResult& result) {
   if (result.no_sequence)
-    return json({{"sequence", nullptr},
-                 {"format", "images"},
-                 {"frames", result.images},
-                 {"run", nullptr},
-                 {"reason", *result.no_sequence}})
-               .dump(1) +
-           "\n";
+    return json_text(json({{"sequence", nullptr},
+                           {"format", "images"},
+                           {"frames", result.images},
+                           {"run", nullptr},
+                           {"reason", *result.no_sequence}}),
+                     1);
   json text = describe(result.summary);
   if (result.unreadable) text["unreadable"] = result.unreadable->count;
-  return text.dump(1) + "\n";
+  return json_text(text, 1);
 }
 
 std::string to_text(const InspectResult& result) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/json_text.h>
 #include <placegraph/graph/internal/pose_graph/rigid_graph.h>
 #include <placegraph/graph/place_transitions.h>
 #include <placegraph/io/datasets/open_dataset.h>
@@ -75,7 +76,7 @@ void write_results(const std::string& folder, const RunResult& run, const Trajec
   write_file(path("places.dot"), to_dot(run.map.place_graph, transitions));
   write_file(path("loops.csv"), loops_csv(run.map));
   write_file(path("plot.png"), run_plot(run, optimized, truth, title));
-  write_file(path("result.json"), summary.dump(1) + "\n");
+  write_file(path("result.json"), json_text(summary, 1));
 }
 
 json describe_stages(const RunResult& run) {

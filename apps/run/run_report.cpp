@@ -1,6 +1,7 @@
 #include "apps/run/run_report.h"
 
 #include <fmt/format.h>
+#include <placegraph/graph/internal/core/json_text.h>
 
 #include <algorithm>
 
@@ -94,7 +95,7 @@ std::string to_text(const RunReport& report) {
                           report.out));
 }
 
-std::string to_json(const RunReport& report) { return report.summary.dump(1) + "\n"; }
+std::string to_json(const RunReport& report) { return json_text(report.summary, 1); }
 
 std::string stages_text(const RunReport& report) {
   const double frames = std::max(1, report.summary["frames"].get<int>());

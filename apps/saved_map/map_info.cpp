@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <placegraph/pipeline/run.h>
+#include <placegraph/graph/internal/core/json_text.h>
 
 #include <algorithm>
 #include <set>
@@ -98,6 +99,6 @@ std::string to_text(const MapInfoResult& result) {
                      megabytes("landmarks_bytes"));
 }
 
-std::string to_json(const MapInfoResult& result) { return result.summary.dump(1) + "\n"; }
+std::string to_json(const MapInfoResult& result) { return json_text(result.summary, 1); }
 
 }  // namespace placegraph::apps

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/internal/core/id_format.h>
+#include <placegraph/graph/internal/core/json_text.h>
 #include <placegraph/io/datasets/open_dataset.h>
+#include <placegraph/io/internal/files/input_file.h>
 #include <placegraph/io/internal/files/text_file.h>
 #include <placegraph/io/internal/measurements/label_file.h>
 
@@ -48,6 +50,7 @@ bool is_text(const std::string& line) {
 
 /// Names from a file, one per line, the first of label 0.
 std::vector<std::string> read_names(const std::string& path) {
+  require_input_file(path);
   std::ifstream file(path);
   if (!file) throw FileError(path, "cannot be read");
   std::vector<std::string> names;
@@ -161,7 +164,7 @@ std::string to_text(const MapLabelResult& result) {
 }
 
 std::string to_json(const MapLabelResult& result) {
-  return json{{"places", result.list}}.dump(1) + "\n";
+  return json_text(json{{"places", result.list}}, 1);
 }
 
 }  // namespace placegraph::apps

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/json_text.h>
 #include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/datasets/open_dataset.h>
 
@@ -52,6 +53,6 @@ std::string to_text(const MapSemanticResult& result) {
                      result.summary["keyframes"].get<std::int64_t>(), result.out);
 }
 
-std::string to_json(const MapSemanticResult& result) { return result.summary.dump(1) + "\n"; }
+std::string to_json(const MapSemanticResult& result) { return json_text(result.summary, 1); }
 
 }  // namespace placegraph::apps

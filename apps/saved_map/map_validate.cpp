@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/internal/core/id_format.h>
+#include <placegraph/graph/internal/core/json_text.h>
 #include <placegraph/pipeline/internal/places/place_mapper.h>
 
 #include <nlohmann/json.hpp>
@@ -59,7 +60,7 @@ std::string to_json(const MapValidateResult& result) {
                                {"finished", result.finished},
                                {"places", result.places},
                                {"frames", result.frames}};
-  return json.dump(1) + "\n";
+  return json_text(json, 1);
 }
 
 }  // namespace placegraph::apps

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/json_text.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/internal/measurements/class_list.h>
 
@@ -80,7 +81,7 @@ std::string to_json(const SceneCheckResult& result) {
     for (int d = 0; result.confusion && d <= n; ++d)
       report["confusion"][name].push_back(check.count(c, d));
   }
-  return report.dump(2) + "\n";
+  return json_text(report, 2);
 }
 
 std::string to_text(const SceneCheckResult& result) {

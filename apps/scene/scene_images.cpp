@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/json_text.h>
 #include <placegraph/graph/internal/core/parallel.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/internal/files/image_list.h>
@@ -130,7 +131,7 @@ std::string to_text(const SceneImageResult& result) {
 std::string to_json(const SceneImageResult& result) {
   nlohmann::json report = {{"pictures", result.images}, {"ms_per_picture", result.cpu_ms_an_image}};
   for (const auto& [name, share] : shares_of(result)) report["shares"][name] = share;
-  return report.dump(2) + "\n";
+  return json_text(report, 2);
 }
 
 }  // namespace placegraph::apps

@@ -4,6 +4,7 @@
 #include <placegraph/frontend/internal/segments/segment_detector.h>
 #include <placegraph/frontend/internal/vanishing/scene_directions.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/json_text.h>
 #include <placegraph/io/datasets/open_dataset.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/internal/files/atomic_file.h>
@@ -213,7 +214,7 @@ std::string to_json(const SceneOrientationResult& result) {
     report["check"] = {{"pixels", sequence->check->judged},
                        {"coverage", sequence->check->coverage()},
                        {"accuracy", sequence->check->accuracy()}};
-  return report.dump(2) + "\n";
+  return json_text(report, 2);
 }
 
 std::string to_text(const SceneOrientationResult& result) {

@@ -5,6 +5,7 @@
 #include <placegraph/frontend/internal/scene/popup.h>
 #include <placegraph/frontend/internal/segments/segment_detector.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/json_text.h>
 #include <placegraph/io/files/image_file.h>
 
 #include <array>
@@ -143,7 +144,7 @@ std::string to_json(const ScenePopupResult& result) {
     report["seen_px"] = result.box->seen_px;
     report["hidden_px"] = result.box->hidden_px;
   }
-  return report.dump(2) + "\n";
+  return json_text(report, 2);
 }
 
 std::string to_text(const ScenePopupResult& result) {

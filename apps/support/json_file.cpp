@@ -1,6 +1,7 @@
 #include "apps/support/json_file.h"
 
 #include <placegraph/graph/core/error.h>
+#include <placegraph/io/internal/files/input_file.h>
 
 #include <array>
 #include <cmath>
@@ -11,6 +12,7 @@
 namespace placegraph::apps {
 
 nlohmann::json read_json(const std::string& path) {
+  require_input_file(path);
   std::ifstream stream(path);
   if (!stream) throw FileError(path, "cannot be opened for reading");
   try {

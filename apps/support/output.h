@@ -44,8 +44,10 @@ class OutputFolder {
 /// Writes a whole file, atomically; bytes as they are. Throws FileError.
 void write_file(const std::string& path, const std::string& content);
 
-/// Prints the result of a command on stdout.
+/// Prints the result of a command on stdout. Throws Error if that cannot be written.
 void print(const std::string& text);
+/// Writes what is buffered on stdout; Error as print().
+void finish_printing();
 
 /// Prints a note as one line on stderr.
 void note(const std::string& message);
@@ -56,7 +58,8 @@ LogSink option_notes();
 /// Prints "warning: ..." as one line on stderr.
 void warn(const std::string& message);
 
-/// The text in one line; `main` uses it for messages of other libraries.
+/// The text in one line, as messages are printed: control characters are escaped, and of a very
+/// long text only its begin and end are kept.
 std::string one_line(const std::string& text);
 
 }  // namespace placegraph::apps

@@ -1,7 +1,6 @@
 #include "apps/train/cmd_train_scene.h"
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <memory>
 
 #include "apps/shipped/scene_models.h"
@@ -77,9 +76,7 @@ void add_train_scene_command(CLI::App& train_command, SceneModel::Kind kind, con
   command->add_flag("--json", *json, kJsonText);
   command->add_flag("--force", a.force, kForceText);
   command->callback([arguments, json, kind] {
-    const LogSink sink = [](LogLevel, const std::string& message) {
-      std::fprintf(stderr, "%s\n", message.c_str());
-    };
+    const LogSink sink = [](LogLevel, const std::string& message) { note(message); };
     const TrainSceneResult result = train_scene(*arguments, kind, sink);
     print(*json ? to_json(result) : to_text(result));
   });

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/json_text.h>
 
 #include <algorithm>
 #include <memory>
@@ -85,7 +86,7 @@ std::string to_json(const TrainEnvironmentResult& result) {
   const nlohmann::ordered_json report = {{"out", result.out},
                                          {"lesson", described(result.training_set)},
                                          {"left_out", described(result.left_out)}};
-  return report.dump(2) + "\n";
+  return json_text(report, 2);
 }
 
 std::string to_text(const TrainEnvironmentResult& result) {

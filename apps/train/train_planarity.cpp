@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <placegraph/frontend/internal/cloud_planes/cloud_planes.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/json_text.h>
 #include <placegraph/io/internal/measurements/point_cloud_file.h>
 #include <placegraph/io/internal/synthetic/worlds/cloud_scene.h>
 #include <placegraph/io/internal/synthetic/worlds/synthetic_world.h>
@@ -122,7 +123,7 @@ std::string to_json(const TrainPlanarityResult& result) {
                       {"right", share(score.right, score.segments)},
                       {"planes_kept", share(score.planes_kept, score.planes)},
                       {"others_kept", share(score.others_kept, score.others)}};
-  return json.dump(2) + "\n";
+  return json_text(json, 2);
 }
 
 std::string to_text(const TrainPlanarityResult& result) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/json_text.h>
 #include <placegraph/graph/internal/core/parallel.h>
 #include <placegraph/io/models/scene_model_file.h>
 
@@ -233,7 +234,7 @@ std::string to_json(const TrainSceneResult& result) {
     for (const SceneAblation& step : result.held_out->ablation)
       report["ablation"][step.parts] = json_of(step.check, result.classes);
   }
-  return report.dump(2) + "\n";
+  return json_text(report, 2);
 }
 
 }  // namespace placegraph::apps

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <placegraph/frontend/internal/flow/optical_flow.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/json_text.h>
 #include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/internal/measurements/flow_file.h>
@@ -134,7 +135,7 @@ std::string to_json(const FlowResult& result) {
     json["share_beyond_3px"] = result.error->share_beyond_3px;
   }
   if (!result.cues.is_null()) json["cues"] = result.cues;
-  return json.dump(2) + "\n";
+  return json_text(json, 2);
 }
 
 }  // namespace placegraph::apps

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <placegraph/frontend/internal/markers/marker_dictionary.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/json_text.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/internal/measurements/marker_layout_file.h>
 
@@ -177,7 +178,7 @@ std::string to_json(const MarkersDetectResult& result) {
     }
   }
   json["cpu_ms"] = result.cpu_ms;
-  return json.dump(2) + "\n";
+  return json_text(json, 2);
 }
 
 }  // namespace placegraph::apps

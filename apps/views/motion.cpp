@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/json_text.h>
 
 #include <array>
 #include <cmath>
@@ -158,7 +159,7 @@ std::string to_json(const MotionResult& result) {
     for (const SE3& rival : estimate.rivals) json["rivals"].push_back(rows_json(rival.matrix()));
   }
   json["cpu_ms"] = result.cpu_ms;
-  return json.dump(2) + "\n";
+  return json_text(json, 2);
 }
 
 }  // namespace placegraph::apps

@@ -9,9 +9,21 @@
 namespace placegraph {
 namespace {
 
+/// "; there are 0, 1, 4 and 12 more"
+std::string known_places(const PlaceGraph& graph) {
+  constexpr std::size_t kMost = 20;
+  std::string text = graph.places.empty() ? "" : "; there are ";
+  for (std::size_t i = 0; i < std::min(kMost, graph.places.size()); ++i)
+    text += (i == 0 ? "" : ", ") + to_string(graph.places[i].id);
+  if (graph.places.size() > kMost)
+    text += " and " + std::to_string(graph.places.size() - kMost) + " more";
+  return text;
+}
+
 const Place& place_of(const PlaceGraph& graph, PlaceId id) {
   const Place* place = graph.find(id);
-  require(place != nullptr, "route: there is no place " + to_string(id));
+  if (!place)
+    throw ArgumentError("route: there is no place " + to_string(id) + known_places(graph));
   return *place;
 }
 

@@ -58,7 +58,7 @@ StoredMap read_map(const std::string& path);
 /// Reads only the origin of a saved map. Throws FileError as read_map.
 MapOrigin read_map_origin(const std::string& path);
 
-/// Runs SQLite's own integrity check; returns what it finds, or "ok".
+/// Runs SQLite's own integrity check; returns what it finds first, in one line, or "ok".
 ///
 /// Throws FileError for a file that is not a saved map.
 std::string check_map_file(const std::string& path);

@@ -213,7 +213,9 @@ class SequenceRun {
     origin.sequence = inputs_.map_file->sequence;
     origin.sensor = result_.sensor;
     origin.calibration = result_.calibration;
-    origin.options = dump_options(options_);
+    RunOptions options = options_;
+    options.threads = RunOptions().threads;  // the map does not depend on it
+    origin.options = dump_options(options);
     if (options_.slam.views.enabled) origin.view_options = dump_options(options_.slam.views.cues);
     origin.lens_k1 = lens_.k1();
     origin.lens_pass = pass_;

@@ -125,11 +125,14 @@ LocalSolution descend_to_the_end(PackedGraph<Group>& graph, LocalSolver<Group>& 
     const bool fell = next.cost_final < solution.cost_final;
     solution.outcome = std::move(next.outcome);
     solution.iterations += next.iterations;
+    solution.crawls = next.crawls;
     solution.cost_final = next.cost_final;
     if (!fell) break;
   }
   return solution;
 }
+
+bool converged(const LocalSolution& solution) { return solution.outcome && !solution.crawls; }
 
 /// Whether a is preferred: convergence is decisive, then the lower cost.
 bool better(const LocalSolution& a, const LocalSolution& b) {
@@ -137,6 +140,7 @@ bool better(const LocalSolution& a, const LocalSolution& b) {
     return std::isfinite(a.cost_final);
   if (static_cast<bool>(a.outcome) != static_cast<bool>(b.outcome))
     return static_cast<bool>(a.outcome);
+  if (a.crawls != b.crawls) return b.crawls;
   return a.cost_final < b.cost_final;
 }
 
@@ -151,7 +155,7 @@ class Candidates {
     starts_.push_back(poses);
     graph_.poses = std::move(poses);
     LocalSolution solution =
-        best_.solution.outcome
+        converged(best_.solution)
             ? descend_to_the_end(graph_, solver_, kWithinReach * best_.solution.cost_final)
             : descend_to_the_end(graph_, solver_);
     iterations_ += solution.iterations;
@@ -217,7 +221,7 @@ InitializedSolution solve_automatically(PackedGraph<Group>& graph, RotationError
   Candidates<Group> candidates(graph, solver);
   candidates.descend(file_first ? file : chordal, file_first ? PoseGraphInitialization::kFile
                                                              : PoseGraphInitialization::kChordal);
-  if (candidates.best().outcome &&
+  if (converged(candidates.best()) &&
       (windings_are_settled(graph) || certified_as_they_are(graph, rotation_error)))
     return candidates.take();
   graph.poses = chordal.empty() ? file : chordal;
@@ -227,7 +231,7 @@ InitializedSolution solve_automatically(PackedGraph<Group>& graph, RotationError
       initialize_certified(graph, rotation_error,
                            std::max(kCertifiedDescents * descent, kLeastCertifiedIterations))
           .tight;
-  if (tight && candidates.best().outcome && rotations_agree(graph.poses, candidates.poses()))
+  if (tight && converged(candidates.best()) && rotations_agree(graph.poses, candidates.poses()))
     return candidates.take();
   candidates.descend(std::vector<Group>(graph.poses), PoseGraphInitialization::kCertified);
   if (tight) return candidates.take();

@@ -28,6 +28,12 @@ double sum(const std::vector<double>& values) {
   return total;
 }
 
+/// The sum without the rejected edges.
+double sum_of_kept(std::vector<double> chi2, const std::vector<RejectedEdge>& rejected) {
+  for (const RejectedEdge& edge : rejected) chi2[edge.constraint] = 0;
+  return sum(chi2);
+}
+
 /// The initialization of a robust method.
 /// False loops corrupt initializations that use loops. Graduated non-convexity uses the odometry,
 /// because it needs a good initialization even if the given poses are not.
@@ -68,7 +74,8 @@ PoseGraphReport optimize(PoseGraph graph, const PoseGraphOptions& options,
                          const LogSink& log_sink) {
   PackedGraph<Group> packed = pack<Group>(graph);
   PoseGraphReport report;
-  report.chi2_initial = sum(chi2_by_constraint(packed, options.rotation_error));
+  const std::vector<double> initial = chi2_by_constraint(packed, options.rotation_error);
+  report.chi2_initial = sum(initial);
   minimize(packed,
            {.engine = options.engine,
             .rotation_error = options.rotation_error,
@@ -82,8 +89,10 @@ PoseGraphReport optimize(PoseGraph graph, const PoseGraphOptions& options,
   report.chi2_by_constraint = chi2_by_constraint(packed, options.rotation_error);
   report.chi2_final = sum(report.chi2_by_constraint);
   log(log_sink, LogLevel::kInfo,
-      "pose graph: chi2 {:f} -> {:f} in {} iterations, initialization {}", report.chi2_initial,
-      report.chi2_final, report.iterations, to_string(report.initialization_used));
+      "pose graph: chi2 {:f} -> {:f} in {} iterations, initialization {}",
+      sum_of_kept(initial, report.rejected),
+      sum_of_kept(report.chi2_by_constraint, report.rejected), report.iterations,
+      to_string(report.initialization_used));
   return report;
 }
 

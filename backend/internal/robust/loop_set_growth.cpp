@@ -1,3 +1,4 @@
+#include <placegraph/backend/internal/robust/bending_groups.h>
 #include <placegraph/backend/internal/robust/loop_gate.h>
 #include <placegraph/backend/internal/robust/loop_leverage.h>
 #include <placegraph/backend/internal/robust/loop_set_growth.h>
@@ -51,6 +52,7 @@ class Growth {
         gnc_(gnc),
         gate_(graph, probability, support.noise_scale,
               {options.margin, options.tail, options.nearly_right}),
+        ring_noise_{support.noise_scale, gate_.of_noise()},
         rough_solver_(rough_) {}
 
   double noise_scale() const { return gate_.noise_scale(); }
@@ -78,6 +80,16 @@ class Growth {
     for (int round = 0; round < max_rounds_; ++round) {
       if (test(every) == 0 && take_lone() == 0) break;
       (void)rough_solver_.solve(graph_);
+    }
+  }
+
+  /// Drops groups that bend the odometry, and settles again.
+  void drop_bending_groups() {
+    constexpr int kMostDropped = 20;
+    for (int dropped = 0; dropped < kMostDropped; ++dropped) {
+      if (!drop_bending_group(graph_, clusters_, ring_noise_, rough_.rotation_error, rough_solver_))
+        break;
+      settle();
     }
   }
 
@@ -167,6 +179,7 @@ class Growth {
   int max_rounds_;
   GncOptions gnc_;
   LoopGate<Group> gate_;
+  RingNoise ring_noise_;
   SubsetSolver<Group> rough_solver_;
 };
 
@@ -177,7 +190,6 @@ namespace {
 template <class Group>
 LoopSetGrowth finish(Growth<Group>& growth, PackedGraph<Group>& graph,
                      const LocalSolverOptions& solver) {
-  growth.settle();
   LoopSetGrowth result;
   result.local = SubsetSolver<Group>(solver).solve(graph);
   result.noise_scale = growth.noise_scale();
@@ -193,6 +205,7 @@ LoopSetGrowth extend_loop_set(PackedGraph<Group>& graph, const LoopSupport& supp
   options.check();
   Growth<Group> growth(graph, support, probability, solver, options, gnc);
   growth.take_groups();
+  growth.settle();
   return finish(growth, graph, solver);
 }
 
@@ -202,6 +215,8 @@ LoopSetGrowth settle_loops(PackedGraph<Group>& graph, const LoopSupport& support
                            const LoopSetGrowthOptions& options, const GncOptions& gnc) {
   options.check();
   Growth<Group> growth(graph, support, probability, solver, options, gnc);
+  growth.settle();
+  growth.drop_bending_groups();
   return finish(growth, graph, solver);
 }
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <placegraph/eval/trajectory/report.h>
+#include <placegraph/graph/internal/core/json_text.h>
 
 #include <nlohmann/json.hpp>
 
@@ -130,14 +131,14 @@ std::string groups_text(const SegmentResult& segments) {
 
 }  // namespace
 
-std::string to_json(const EvaluationResult& result) { return object(result).dump(2) + "\n"; }
+std::string to_json(const EvaluationResult& result) { return json_text(object(result), 2); }
 
 std::string to_json(const std::vector<EvaluationResult>& results, bool with_average) {
   Json json;
   json["results"] = Json::array();
   for (const EvaluationResult& result : results) json["results"].push_back(object(result));
   if (with_average) json["average"] = average_json(average(results));
-  return json.dump(2) + "\n";
+  return json_text(json, 2);
 }
 
 std::string to_csv(const std::vector<EvaluationResult>& results) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 namespace placegraph {
@@ -14,10 +15,28 @@ struct NeighbourTree::Search {
 };
 
 NeighbourTree::NeighbourTree(const std::vector<Eigen::Vector3d>& points)
-    : points_(&points), order_(points.size()) {
+    : points_(&points), order_(points.size()), rank_(points.size()) {
+  group_equal_points();
+  nodes_.reserve(positions_.size() / 4 + 1);
+  if (!positions_.empty()) build(0, static_cast<int>(positions_.size()));
+}
+
+void NeighbourTree::group_equal_points() {
+  const auto at = [&](int i) -> const Eigen::Vector3d& {
+    return (*points_)[static_cast<std::size_t>(i)];
+  };
   std::iota(order_.begin(), order_.end(), 0);
-  nodes_.reserve(points.size() / 4 + 1);
-  if (!points.empty()) build(0, static_cast<int>(points.size()));
+  std::sort(order_.begin(), order_.end(), [&](int a, int b) {
+    const Eigen::Vector3d &p = at(a), &q = at(b);
+    return std::tie(p[0], p[1], p[2], a) < std::tie(q[0], q[1], q[2], b);
+  });
+  for (int k = 0; k < static_cast<int>(order_.size()); ++k) {
+    const int point = order_[static_cast<std::size_t>(k)];
+    rank_[static_cast<std::size_t>(point)] = k;
+    if (positions_.empty() || at(positions_.back().first) != at(point))
+      positions_.push_back({k, k, point});
+    positions_.back().end = k + 1;
+  }
 }
 
 int NeighbourTree::build(int begin, int end) {
@@ -25,18 +44,22 @@ int NeighbourTree::build(int begin, int end) {
   const int index = static_cast<int>(nodes_.size());
   nodes_.push_back({begin, end});
   if (end - begin <= kLeaf) return index;
-  Eigen::Vector3d least = (*points_)[static_cast<std::size_t>(order_[begin])], most = least;
-  for (int i = begin; i < end; ++i) {
-    const Eigen::Vector3d& p = (*points_)[static_cast<std::size_t>(order_[i])];
-    least = least.cwiseMin(p), most = most.cwiseMax(p);
-  }
+  const auto at = [&](const Position& position) -> const Eigen::Vector3d& {
+    return (*points_)[static_cast<std::size_t>(position.first)];
+  };
+  const auto from = positions_.begin() + begin, to = positions_.begin() + end;
+  Eigen::Vector3d least = at(*from), most = least;
+  for (auto position = from; position != to; ++position)
+    least = least.cwiseMin(at(*position)), most = most.cwiseMax(at(*position));
   int axis = 0;
-  if (!((most - least).maxCoeff(&axis) > 0)) return index;  // all at one position
+  (most - least).maxCoeff(&axis);
   const int middle = begin + (end - begin) / 2;
-  const auto key = [&](int i) { return (*points_)[static_cast<std::size_t>(i)][axis]; };
-  std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
-                   [&](int a, int b) { return key(a) < key(b) || (key(a) == key(b) && a < b); });
-  const double cut = key(order_[middle]);
+  const auto key = [&](const Position& position) {
+    return std::pair(at(position)[axis], position.first);
+  };
+  std::nth_element(from, positions_.begin() + middle, to,
+                   [&](const Position& a, const Position& b) { return key(a) < key(b); });
+  const double cut = key(positions_[static_cast<std::size_t>(middle)]).first;
   const int first = build(begin, middle), second = build(middle, end);
   Node& node = nodes_[static_cast<std::size_t>(index)];
   node.axis = axis, node.cut = cut, node.first = first, node.second = second;
@@ -51,18 +74,29 @@ void NeighbourTree::nearest(int i, int k, std::vector<int>& found) const {
   for (const auto& [distance, index] : search.best) found.push_back(index);
 }
 
+void NeighbourTree::offer(const Position& position, Search& search) const {
+  const double distance =
+      ((*points_)[static_cast<std::size_t>(position.first)] - search.at).squaredNorm();
+  const int own = rank_[static_cast<std::size_t>(search.self)];
+  const int size = position.end - position.begin;
+  const bool around_self = own >= position.begin && own < position.end;
+  // From the point behind its own one on, and around.
+  const int skip = around_self ? own - position.begin + 1 : 0;
+  const int count = std::min(static_cast<int>(search.k), around_self ? size - 1 : size);
+  for (int i = 0; i < count; ++i) {
+    const int k = position.begin + (skip + i) % size;
+    const std::pair<double, int> entry{distance, order_[static_cast<std::size_t>(k)]};
+    if (search.best.size() == search.k && !(entry < search.best.back())) continue;
+    if (search.best.size() == search.k) search.best.pop_back();
+    search.best.insert(std::upper_bound(search.best.begin(), search.best.end(), entry), entry);
+  }
+}
+
 void NeighbourTree::visit(int index, Search& search) const {
   const Node& node = nodes_[static_cast<std::size_t>(index)];
   if (node.axis < 0) {
-    for (int i = node.begin; i < node.end; ++i) {
-      const int point = order_[static_cast<std::size_t>(i)];
-      if (point == search.self) continue;
-      const std::pair<double, int> entry{
-          ((*points_)[static_cast<std::size_t>(point)] - search.at).squaredNorm(), point};
-      if (search.best.size() == search.k && !(entry < search.best.back())) continue;
-      if (search.best.size() == search.k) search.best.pop_back();
-      search.best.insert(std::upper_bound(search.best.begin(), search.best.end(), entry), entry);
-    }
+    for (int i = node.begin; i < node.end; ++i)
+      offer(positions_[static_cast<std::size_t>(i)], search);
     return;
   }
   const double beyond = search.at[node.axis] - node.cut;

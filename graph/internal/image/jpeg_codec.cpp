@@ -1,6 +1,7 @@
 #include <placegraph/graph/internal/image/jpeg_codec.h>
 #include <placegraph/graph/internal/image/picture_size.h>
 
+#include <jerror.h>
 #include <jpeglib.h>
 #include <algorithm>
 #include <csetjmp>
@@ -16,12 +17,34 @@ namespace {
 struct JpegErrors {
   jpeg_error_mgr base;
   std::jmp_buf jump;
+  bool damaged;  ///< whether pixels were invented for missing or wrong data
 };
+
+/// More bytes than this between two markers are data that no block used. Some cameras write a few.
+constexpr int kMostStray = 64;
 
 [[noreturn]] void leave_jpeg(j_common_ptr info) {
   std::longjmp(reinterpret_cast<JpegErrors*>(info->err)->jump, 1);
 }
 void ignore_jpeg_message(j_common_ptr) {}
+/// Decides which of libjpeg's warnings (level -1) are about damaged pixels.
+void judge_jpeg_warning(j_common_ptr info, int level) {
+  if (level >= 0) return;
+  switch (info->err->msg_code) {
+    case JWRN_HIT_MARKER:
+    case JWRN_HUFF_BAD_CODE:
+    case JWRN_MUST_RESYNC:
+    case JWRN_BOGUS_PROGRESSION:
+      reinterpret_cast<JpegErrors*>(info->err)->damaged = true;
+      break;
+    case JWRN_EXTRANEOUS_DATA:
+      if (info->err->msg_parm.i[0] > kMostStray)
+        reinterpret_cast<JpegErrors*>(info->err)->damaged = true;
+      break;
+    default:
+      break;
+  }
+}
 
 void do_nothing(j_decompress_ptr) {}
 /// No more bytes exist than those in memory.
@@ -40,6 +63,7 @@ class JpegReader {
     info_.err = jpeg_std_error(&errors_.base);
     errors_.base.error_exit = leave_jpeg;
     errors_.base.output_message = ignore_jpeg_message;
+    errors_.base.emit_message = judge_jpeg_warning;
     source_.next_input_byte = reinterpret_cast<const JOCTET*>(bytes.data());
     source_.bytes_in_buffer = bytes.size();
     source_.init_source = do_nothing;
@@ -78,6 +102,13 @@ class JpegReader {
   bool read_row(JSAMPROW row) noexcept {
     if (setjmp(errors_.jump)) return false;
     return jpeg_read_scanlines(&info_, &row, 1) == 1;
+  }
+
+  /// Reads up to the end mark, after the last row; whether all data made sense.
+  bool finish() noexcept {
+    if (setjmp(errors_.jump)) return false;
+    (void)jpeg_finish_decompress(&info_);  // false: the end mark is missing, all rows are there
+    return !errors_.damaged;
   }
 
  private:
@@ -124,7 +155,7 @@ Image decode_jpeg(std::string_view bytes) {
     if (!reader.read_row(inks.empty() ? image.ptr(v) : inks.data())) return {};
     if (!inks.empty()) inks_to_bgr(inks, image.ptr(v));
   }
-  return image;
+  return reader.finish() ? image : Image();
 }
 
 }  // namespace placegraph

@@ -13,8 +13,10 @@ bool is_jpeg(std::string_view bytes);
 bool is_truncated_jpeg(std::string_view bytes);
 
 /// Decodes a JPEG, baseline or progressive, to CV_8UC1 if it is grey and else to CV_8UC3 BGR;
-/// returns an empty image if the bytes are not a JPEG. Inks (CMYK) are converted to colours. The
-/// pixels are those of OpenCV's imdecode; the EXIF orientation is not applied.
+/// returns an empty image if the bytes are not a JPEG, or if pixels are missing or damaged as far
+/// as the code shows it. Bytes behind the end mark, and a few before one, do no harm. Inks (CMYK)
+/// are converted to colours. The pixels are those of OpenCV's imdecode; the EXIF orientation is not
+/// applied.
 Image decode_jpeg(std::string_view bytes);
 
 }  // namespace placegraph

@@ -59,6 +59,7 @@ void check(const std::string& path, const CalibrationYaml& yaml) {
   const bool own = depth.fx > 0;
   need(own == (depth.fy > 0) && own == (depth.width > 0) && own == (depth.height > 0),
        "depth: width, height, fx, fy, cx, cy go together");
+  need(depth.sigma_at_1m > 0, "depth.sigma_at_1m: is not above 0");
   need(own || depth.T_cam_depth.empty(), "depth.T_cam_depth: needs a depth camera of its own (fx)");
 }
 

@@ -21,7 +21,11 @@ class RecordedDataset : public Dataset {
     require(n > 0 && s_.left.size() == n && fits(s_.right) && fits(s_.depth) &&
                 (!s_.ground_truth || s_.ground_truth->size() == n),
             "recorded sequence: lists of different lengths");
-    s_.calibration.check();
+    try {
+      s_.calibration.check();
+    } catch (const ArgumentError& error) {
+      throw FileError(s_.name, error.what());
+    }
     for (DataNote& note : odd_calibration(s_.calibration)) s_.notes.push_back(std::move(note));
     ImageLevels levels = sample_levels(s_.left);
     bits_ = levels.bits;

@@ -3,6 +3,7 @@
 #include <placegraph/graph/internal/image/picture.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/internal/files/atomic_file.h>
+#include <placegraph/io/internal/files/input_file.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -18,6 +19,7 @@ constexpr int kLeastSide = 4;  ///< smallest side of an image [px]: less is only
 std::string read_bytes(const std::string& path) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) throw FileError(path, "image is missing");
+  require_input_file(path);
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   std::ifstream stream(path, std::ios::binary);
   if (error || !stream) throw FileError(path, "image cannot be read");

@@ -1,4 +1,5 @@
 #include <placegraph/graph/core/error.h>
+#include <placegraph/io/internal/files/input_file.h>
 #include <placegraph/io/internal/files/text_file.h>
 
 #include <algorithm>
@@ -25,7 +26,7 @@ std::string_view trimmed(std::string_view text) {
 bool ends_a_field(char c) { return is_blank(c) || c == ',' || c == ';'; }
 
 std::string read_whole(const std::string& path) {
-  if (std::filesystem::is_directory(path)) throw FileError(path, "is a folder, not a file");
+  require_input_file(path);
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw FileError(path, "cannot be opened for reading");
   std::string text;

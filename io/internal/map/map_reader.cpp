@@ -283,7 +283,12 @@ MapOrigin read_map_origin(const std::string& path) { return MapReader(path).orig
 std::string check_map_file(const std::string& path) {
   SqliteDatabase database(path, SqliteDatabase::Access::kRead);
   check_map_schema(database);
-  return database.text("PRAGMA integrity_check");
+  // Each finding is a line; the first says enough, and its list of findings can be long.
+  std::string found = database.text("PRAGMA integrity_check(1)");
+  std::ranges::replace(found, '\n', ' ');
+  constexpr std::size_t kMost = 200;  // characters
+  if (found.size() > kMost) found = found.substr(0, kMost) + " ...";
+  return found;
 }
 
 bool is_unfinished_map(const std::string& path) {

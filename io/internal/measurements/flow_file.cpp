@@ -3,6 +3,7 @@
 #include <placegraph/graph/internal/image/png_codec.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/internal/files/atomic_file.h>
+#include <placegraph/io/internal/files/input_file.h>
 #include <placegraph/io/internal/measurements/flow_file.h>
 
 #include <array>
@@ -22,6 +23,7 @@ static_assert(std::endian::native == std::endian::little, "the files are little-
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 constexpr float kMiddleburyTag = 202021.25F, kMiddleburyLimit = 1e9F, kMiddleburyUnknown = 1.6e9F;
 constexpr std::int32_t kMaxSide = 32768;
+constexpr std::int64_t kMaxPixels = std::int64_t{1} << 27;  // 1 GiB of flow
 
 bool known(const cv::Vec2f& d) { return std::isfinite(d[0]) && std::isfinite(d[1]); }
 
@@ -32,6 +34,7 @@ std::string extension_of(const std::string& path) {
 }
 
 Image read_middlebury(const std::string& path) {
+  require_input_file(path);
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   std::ifstream stream(path, std::ios::binary);
@@ -42,7 +45,8 @@ Image read_middlebury(const std::string& path) {
   stream.read(reinterpret_cast<char*>(sides.data()), sizeof sides);
   if (!stream || tag != kMiddleburyTag) throw FileError(path, "is not Middlebury flow");
   const auto [width, height] = sides;
-  if (width < 1 || height < 1 || width > kMaxSide || height > kMaxSide)
+  if (width < 1 || height < 1 || width > kMaxSide || height > kMaxSide ||
+      std::int64_t{width} * height > kMaxPixels)
     throw FileError(path, fmt::format("flow of {}x{} pixels", width, height));
   const std::uintmax_t expected = 12 + std::uintmax_t{8} * static_cast<std::uintmax_t>(width) *
                                            static_cast<std::uintmax_t>(height);

@@ -1,7 +1,9 @@
 #include <placegraph/graph/core/error.h>
+#include <placegraph/io/internal/files/input_file.h>
 #include <placegraph/io/internal/files/text_file.h>
 #include <placegraph/io/internal/measurements/point_cloud_file.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -21,6 +23,7 @@ std::string read_bytes(const std::string& path) {
   const auto size = std::filesystem::file_size(path, error);
   if (error) throw FileError(path, "cannot be read: " + error.message());
   if (size > kLargest) throw FileError(path, "larger than 2 GiB");
+  require_input_file(path);
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw FileError(path, "cannot be opened");
   std::string bytes{std::istreambuf_iterator<char>(stream), {}};
@@ -213,6 +216,9 @@ PointCloud read_point_cloud(const std::string& path) {
                      : extension == ".bin" ? read_kitti_cloud(path)
                                            : read_text(path);
   if (cloud.points.empty()) throw FileError(path, "no point in it");
+  // Depth cameras write the sensor's own position for a ray without a measurement.
+  const Eigen::Vector3d none = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  std::replace(cloud.points.begin(), cloud.points.end(), Eigen::Vector3d(0, 0, 0), none);
   return cloud;
 }
 

@@ -11,8 +11,9 @@ namespace placegraph {
 /// Reads a cloud in the format of the file's extension: `.ply` (ascii or binary little endian, the
 /// properties x y z of its vertices, float or double), `.bin` (KITTI: four float32 per point, x y z
 /// intensity), and otherwise text: `x y z` per line, further columns are not read. The axes of the
-/// scan are kept. Throws FileError, with the line in text, if the file is missing, truncated,
-/// inconsistent with its own counts, has a number that is not finite or beyond 1e6, or no point.
+/// scan are kept. A point (0, 0, 0) has no measurement and becomes NaN. Throws FileError, with the
+/// line in text, if the file is missing, truncated, inconsistent with its own counts, has a number
+/// that is not finite or beyond 1e6, or no point.
 PointCloud read_point_cloud(const std::string& path);
 
 /// The organised cloud of a depth image (CV_32FC1 metres, 0 where nothing was measured) of a camera

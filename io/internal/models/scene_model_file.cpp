@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/internal/files/atomic_file.h>
+#include <placegraph/io/internal/files/input_file.h>
 #include <placegraph/io/models/scene_model_file.h>
 
 #include <array>
@@ -143,6 +144,8 @@ DecisionForest get_forest(Reader& in, int classes, const std::string& path) {
 }
 
 std::vector<char> payload_of(const std::string& path) {
+  constexpr std::uint32_t kMostBytes = 1u << 30;
+  require_input_file(path);
   std::ifstream stream(path, std::ios::binary);
   if (!stream || !std::filesystem::is_regular_file(path)) throw FileError(path, "cannot be read");
   SceneHeader header;
@@ -160,6 +163,8 @@ std::vector<char> payload_of(const std::string& path) {
   if (size != whole)
     throw FileError(path, fmt::format("byte {}: {}, the header says {} bytes", size,
                                       size < whole ? "truncated" : "goes on too long", whole));
+  if (header.bytes > kMostBytes)
+    throw FileError(path, fmt::format("{} bytes: a scene model is not larger than 1 GiB", size));
   std::vector<char> payload(header.bytes);
   stream.read(payload.data(), static_cast<std::streamsize>(payload.size()));
   if (!stream) throw FileError(path, "cannot be read to its end");

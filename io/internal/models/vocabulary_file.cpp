@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/internal/files/atomic_file.h>
+#include <placegraph/io/internal/files/input_file.h>
 #include <placegraph/io/internal/models/vocabulary_file.h>
 
 #include <array>
@@ -23,6 +24,8 @@ struct WordsHeader {
   std::uint32_t version = kWordsVersion, kind = 0, dimension = 0, words = 0, nodes = 0;
 };
 static_assert(sizeof(WordsHeader) == 28);
+
+constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 31;
 
 template <class T>
 void put(std::ofstream& stream, const std::vector<T>& values) {
@@ -59,6 +62,8 @@ WordsHeader read_header(std::ifstream& stream, const std::string& path, std::uin
     throw FileError(path, fmt::format("byte 16: {} numbers a word", header.dimension));
   if (header.words == 0 || header.words > header.nodes || header.nodes > 1u << 30)
     throw FileError(path, fmt::format("byte 20: {} words, {} nodes", header.words, header.nodes));
+  if (size > kMostBytes)
+    throw FileError(path, fmt::format("{} bytes: a vocabulary is not larger than 2 GiB", size));
   if (size != size_of(header))
     throw FileError(path, fmt::format("byte {}: {}, and {} words of {} nodes take {}", size,
                                       size < size_of(header) ? "truncated" : "goes on too long",
@@ -69,6 +74,7 @@ WordsHeader read_header(std::ifstream& stream, const std::string& path, std::uin
 }  // namespace
 
 WordTree read_vocabulary(const std::string& path) {
+  require_input_file(path);
   std::error_code error;
   const std::uint64_t size =
       std::filesystem::is_regular_file(path, error) ? std::filesystem::file_size(path, error) : 0;

@@ -1,4 +1,5 @@
 #include <placegraph/graph/core/error.h>
+#include <placegraph/io/internal/files/input_file.h>
 #include <placegraph/io/internal/scene/indoor_map_file.h>
 
 #include <cmath>
@@ -37,6 +38,7 @@ std::vector<Eigen::Vector2d> polygon_of(const json& value) {
 }
 
 json read_document(const std::string& path) {
+  require_input_file(path);
   std::ifstream file(path);
   if (!file) throw FileError(path, "cannot be read");
   try {

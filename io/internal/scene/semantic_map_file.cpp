@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/io/internal/files/input_file.h>
 #include <placegraph/io/internal/scene/semantic_map_file.h>
 
 #include <algorithm>
@@ -124,6 +125,7 @@ std::string to_ply(const SemanticMap& map) {
 }
 
 SemanticMap read_semantic_map(const std::string& path) {
+  require_input_file(path);
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw FileError(path, "cannot be read");
   const std::string bytes{std::istreambuf_iterator<char>(stream), {}};

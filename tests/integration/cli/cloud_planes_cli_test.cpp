@@ -163,6 +163,10 @@ TEST_F(CloudPlanesCli, StandsBesideTheSubcommandAndReadsStrictly) {
   expect_usage_error("planes huge.ply --out l.txt", "truncated");
   dir.write("few.txt", "1 2 3\n2 2 3\n");
   expect_usage_error("planes few.txt --out l.txt", "2 points, 12 needed");
+  std::string nothing_measured;
+  for (int i = 0; i < 1000; ++i) nothing_measured += "0 0 0\n";
+  dir.write("zeros.txt", nothing_measured);
+  expect_usage_error("planes zeros.txt --out l.txt", "0 points, 12 needed");
   EXPECT_FALSE(fs::exists(dir / "l.txt"));
   dir.write("kept.txt", "kept");
   expect_usage_error("planes cloud.txt --out kept.txt", "kept.txt");

@@ -1,6 +1,8 @@
 // The module libplacegraph_opencv_plugin.so, see picture_plugin.h. It depends on OpenCV alone.
 #include <placegraph/graph/internal/image/picture_plugin.h>
 
+#include <cstdlib>
+#include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
 #include <opencv2/ximgproc/slic.hpp>
@@ -39,7 +41,16 @@ class CaptureReader : public VideoReader {
   cv::VideoCapture capture_;
 };
 
+/// Damaged files are reported by the caller, which knows their names.
+void silence_libraries() {
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+  constexpr const char* kQuiet = "-8";  // AV_LOG_QUIET
+  setenv("OPENCV_FFMPEG_LOGLEVEL", kQuiet, 0);
+}
+
 struct OpenCvPlugin : PicturePlugin {
+  OpenCvPlugin() { silence_libraries(); }
+
   Image decode(std::string_view bytes, DecodedPixels pixels) const override {
     try {
       // imdecode() only reads the buffer.

@@ -101,6 +101,25 @@ TEST(NeighbourTree, FindsWhatEveryoneIsNearest) {
   EXPECT_TRUE(found.empty());
 }
 
+TEST(NeighbourTree, EqualPointsShareTheirNeighboursEvenly) {
+  constexpr int kEqual = 50'000, kSought = 8;
+  std::vector<Eigen::Vector3d> points(kEqual, Eigen::Vector3d(1, 2, 3));
+  points.emplace_back(1, 2, 4);
+  const NeighbourTree tree(points);  // a search among all equal points would take minutes
+  std::vector<int> found, sought(points.size(), 0);
+  for (int i = 0; i < kEqual; ++i) {
+    tree.nearest(i, kSought, found);
+    ASSERT_EQ(found.size(), static_cast<std::size_t>(kSought));
+    for (const int j : found) {
+      ASSERT_NE(j, i);
+      ++sought[static_cast<std::size_t>(j)];
+    }
+  }
+  EXPECT_EQ(*std::max_element(sought.begin(), sought.end()), kSought);
+  tree.nearest(kEqual, 3, found);
+  EXPECT_EQ(found, (std::vector<int>{0, 1, 2}));
+}
+
 /// Two chains of `half` nodes, joined weakly in the middle.
 std::vector<Affinity> two_chains(int half, double bridge) {
   std::vector<Affinity> edges;

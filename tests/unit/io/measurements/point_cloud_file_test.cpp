@@ -45,6 +45,15 @@ TEST(PointCloudFile, ReadsTextWithOrWithoutLabels) {
   EXPECT_THAT(message(dir.path()), HasSubstr("folder"));
 }
 
+TEST(PointCloudFile, TakesTheSensorsOwnPositionAsNoMeasurement) {
+  test::TemporaryFolder dir;
+  const PointCloud cloud = read_point_cloud(dir.write("a.txt", "0 0 0\n1 2 3\n-0 0 0\n0 0 1\n"));
+  ASSERT_EQ(cloud.points.size(), 4u);  // labels of the file stay in step with its lines
+  EXPECT_FALSE(cloud.points[0].allFinite());
+  EXPECT_FALSE(cloud.points[2].allFinite());
+  EXPECT_EQ(cloud.points[3], Eigen::Vector3d(0, 0, 1));
+}
+
 TEST(PointCloudFile, ReadsKittiScans) {
   test::TemporaryFolder dir;
   const PointCloud cloud =

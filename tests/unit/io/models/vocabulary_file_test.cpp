@@ -3,6 +3,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/internal/models/vocabulary_file.h>
 
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <limits>
@@ -81,6 +82,10 @@ TEST_F(VocabularyFile, SaysAtWhichByteItIsBroken) {
   EXPECT_THAT(with(23, 127), HasSubstr("byte 20: "));  // a count that fits no memory
   EXPECT_THAT(with(28, 0), HasSubstr("node 0 has children outside the tree"));
   EXPECT_THROW((void)read_vocabulary(folder / "none"), FileError);
+  EXPECT_THAT(refusal(good + "x"), HasSubstr("byte 97"));
+  std::filesystem::resize_file(folder / "broken.pgw", std::uintmax_t{3} << 30);  // holes alone
+  EXPECT_THAT(test::message_of([&] { (void)read_vocabulary(folder / "broken.pgw"); }),
+              HasSubstr("a vocabulary is not larger than 2 GiB"));
 }
 
 TEST_F(VocabularyFile, WritesNoTreeThatIsNone) {
