@@ -45,6 +45,14 @@ struct ComponentJoined {
   int into = 0;       ///< component to which its places now belong
 };
 
+/// The lens distortion for which run_sequence begins again with undistorted images.
+struct LensFound {
+  FrameId frame;        ///< frame after which it was clear
+  double k1 = 0;        ///< first radial coefficient of OpenCV's model, over all passes
+  double sigma_k1 = 0;  ///< standard deviation of k1
+  int pass = 0;         ///< pass that begins now, from 2 on
+};
+
 /// Listener for events during mapping.
 ///
 /// Derive from this class, override the functions of interest and pass the object to Slam
@@ -75,6 +83,8 @@ class SlamEvents {
 
   /// Called by run_sequence when a run begins; earlier events refer to another map.
   virtual void run_began() {}
+  /// Called by run_sequence when images proved to be distorted; run_began follows.
+  virtual void lens_found(const LensFound& lens) { static_cast<void>(lens); }
   /// Called when a frame has a pose.
   virtual void frame_posed(const FrameResult& frame) { static_cast<void>(frame); }
   /// Called when a frame has no pose (yet), see FrameResult::outcome.

@@ -9,13 +9,16 @@
 #include <placegraph/graph/scene/environment.h>
 #include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/datasets/open_dataset.h>
+#include <placegraph/pipeline/internal/map_environment.h>
 #include <placegraph/pipeline/map/explanation.h>
 #include <placegraph/pipeline/run.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
 #include "apps/results/map_file.h"
+#include "apps/results/run_map.h"
 #include "apps/shipped/scene_models.h"
 #include "apps/support/output.h"
 
@@ -65,26 +68,46 @@ json where(const Explanation& explanation, const Map& map) {
   return at;
 }
 
-/// Shares of the image by class, the largest first.
-json shares_of(const std::vector<float>& probabilities, const std::vector<std::string>& classes,
-               const SceneView& view) {
-  const SceneLabels labels = most_probable(probabilities, static_cast<int>(classes.size()), view);
-  std::vector<std::int64_t> counts(classes.size());
+/// Shares of the image by class; "none" for pixels without a class.
+json shares_of(const SceneLabels& labels, const std::vector<std::string>& classes) {
+  std::vector<std::int64_t> counts(classes.size() + 1);
   for (int v = 0; v < labels.labels.rows; ++v)
-    for (int u = 0; u < labels.labels.cols; ++u) {
-      const auto label = static_cast<std::size_t>(labels.labels.at<std::uint8_t>(v, u));
-      if (label < counts.size()) ++counts[label];
-    }
+    for (int u = 0; u < labels.labels.cols; ++u)
+      ++counts[std::min<std::size_t>(labels.labels.at<std::uint8_t>(v, u), classes.size())];
   json shares = json::object();
-  for (std::size_t c = 0; c < classes.size(); ++c)
+  for (std::size_t c = 0; c < counts.size(); ++c)
     if (counts[c] > 0)
-      shares[classes[c]] =
+      shares[c < classes.size() ? classes[c] : "none"] =
           static_cast<double>(counts[c]) / static_cast<double>(labels.labels.total());
   return shares;
 }
 
+/// The last keyframe up to a frame, else the first one.
+KeyframeId keyframe_near(const Map& map, FrameId frame) {
+  const auto after = std::ranges::upper_bound(map.keyframes, frame, {}, &Keyframe::frame);
+  return after == map.keyframes.begin() ? map.keyframes.front().id : std::prev(after)->id;
+}
+
+/// Probability that the frame is in a street: as the run labelled its place, else by the images
+/// and points of the keyframes around it.
+double street_around(const StoredMap& stored, const Explanation& explanation,
+                     const Dataset& dataset, const SceneModel& surfaces) {
+  const Place* place =
+      explanation.posed ? stored.map.place_graph.find(*explanation.place) : nullptr;
+  if (const auto kind = place ? environment_of(*place) : std::nullopt)
+    return assumptions_of(*kind).street_surfaces ? 1 : 0;
+  const SurfaceLabeller labeller(std::make_shared<const SceneModel>(surfaces), {});
+  return street_probability(environment_around(
+      stored.map, keyframe_near(stored.map, explanation.frame),
+      dataset.calibration(stored.origin.sensor).camera, labeller, [&](const Keyframe& keyframe) {
+        return dataset.frame(static_cast<std::size_t>(keyframe.frame.value()),
+                             stored.origin.sensor);
+      }));
+}
+
 /// Content of the image by the installed models, or the reason why it is unknown.
-json seen_in(const StoredMap& stored, FrameId frame) {
+json seen_in(const StoredMap& stored, const Explanation& explanation) {
+  const FrameId frame = explanation.frame;
   const std::string& sequence = stored.origin.sequence;
   if (sequence.empty() || !std::filesystem::exists(sequence))
     return {{"unknown", "the images are no longer at " + sequence}};
@@ -101,8 +124,12 @@ json seen_in(const StoredMap& stored, FrameId frame) {
   const Frame image = dataset->frame(static_cast<std::size_t>(frame.value()), stored.origin.sensor);
   const SceneView view = view_scene(image.colour.empty() ? image.image : image.colour);
   const UrbanLabels labels = label_urban(urban, surfaces, view);
-  return {{"surfaces", shares_of(labels.surfaces, surfaces.classes, view)},
-          {"classes", shares_of(labels.classes, urban.classes, view)}};
+  const double street = street_around(stored, explanation, *dataset, surfaces);
+  return {{"surfaces", shares_of(most_probable(labels.surfaces, surfaces.class_count(), view),
+                                 surfaces.classes)},
+          {"street", street},
+          {"classes", shares_of(street_labels(labels.classes, urban.class_count(), view, street),
+                                urban.classes)}};
 }
 
 /// Assumptions of the run at this frame.
@@ -153,14 +180,14 @@ std::string where_text(const json& at) {
   if (!at["posed"].get<bool>()) {
     return "where      not posed: tracking was lost or not yet initialized\n";
   }
-  const auto unit = at["unit"].get<std::string>();
+  const char* const unit = unit_of(at["unit"] == "m");
   std::string text =
       fmt::format("where      place {}{}, {:.3g} {} from its keyframe {}, component {}\n",
                   at["place"].get<std::int64_t>(), labels_of(at["labels"]),
                   at["distance_to_keyframe"].get<double>(), unit,
                   at["keyframe"].get<std::int64_t>(), at["component"].get<int>());
-  text += fmt::format("           position {}, orientation {}(x y z w)\n", joined(at["position"]),
-                      joined(at["quaternion_xyzw"]));
+  text += fmt::format("           position {}{}, orientation {}(x y z w)\n", joined(at["position"]),
+                      unit, joined(at["quaternion_xyzw"]));
   if (at.contains("sigma_position"))
     text +=
         fmt::format("           sigma {:.3g} {} and {:.3g} deg, relative to the first place\n",
@@ -186,8 +213,9 @@ std::string assumptions(const json& assumed) {
 std::string sees_text(const json& sees) {
   if (sees.contains("unknown"))
     return fmt::format("sees       unknown: {}\n", sees["unknown"].get<std::string>());
-  return fmt::format("sees       {}\n           {}\n", named(sees["surfaces"]),
-                     named(sees["classes"]));
+  return fmt::format("sees       {}\n           {} (of a street by {:.0f} %)\n",
+                     named(sees["surfaces"]), named(sees["classes"]),
+                     100 * sees["street"].get<double>());
 }
 
 }  // namespace
@@ -208,7 +236,7 @@ ExplainResult explain(const ExplainArguments& arguments) {
              {"features_placed", explanation->features_placed},
              {"constraints", explanation->constraints},
              {"loops", list_of(explanation->loops)}}},
-           {"sees", seen_in(stored, explanation->frame)},
+           {"sees", seen_in(stored, *explanation)},
            {"assumed", assumed_by(stored, options, *explanation)},
            {"refused", list_of(explanation->refused)}}};
 }

@@ -135,6 +135,9 @@ std::string to_text(const GeoreferenceReport& report) {
   std::string text =
       fmt::format("origin       {:.9f}, {:.9f}, {:.3f} m (latitude, longitude, height)\n",
                   result.origin.latitude_deg, result.origin.longitude_deg, result.origin.height_m);
+  if (const auto& scale = result.scale)
+    text += fmt::format("scale        {:.5g} +- {:.2g} metres per unit, by the fixes\n",
+                        scale->metres_per_unit, scale->sigma);
   text += fmt::format(
       "fixes        {} used, {} rejected, {} outside the map's time; residual {:.3f} m RMS\n",
       result.fixes_used, result.fixes_rejected,

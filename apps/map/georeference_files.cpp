@@ -41,9 +41,11 @@ std::vector<NodeVisit> read_visits(const std::string& path) {
 
 Sim3 with_scale(const Pose& pose) { return Sim3(std::get<SE3>(pose)); }
 
-/// The same graph with an unobservable scale at every node.
+/// The same graph with an unobservable scale at every node. A graph that has scales already is
+/// returned unchanged.
 PoseGraph similarity_graph(const PoseGraph& graph) {
   PoseGraph out = graph;
+  if (graph.kind() == PoseKind::kSim3) return out;
   for (PoseNode& node : out.nodes) node.T_world_node = with_scale(node.T_world_node);
   for (Constraint& constraint : out.constraints) {
     auto& edge = std::get<RelativePoseConstraint>(constraint);
@@ -146,6 +148,8 @@ nlohmann::ordered_json describe_georeference(const GeoreferenceResult& result) {
   json["T_enu_map"] = {{"scale", result.T_enu_map.scale()},
                        {"position_m", numbers(result.T_enu_map.translation())},
                        {"quaternion_xyzw", {q.x(), q.y(), q.z(), q.w()}}};
+  if (const auto& scale = result.scale)
+    json["scale"] = {{"metres_per_unit", scale->metres_per_unit}, {"sigma", scale->sigma}};
   json["alignment_rmse_m"] = result.alignment_rmse_m;
   json["nodes"] = result.graph.nodes.size();
   json["unplaced_nodes"] = result.unplaced_nodes;

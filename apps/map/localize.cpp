@@ -129,6 +129,68 @@ std::string localizations_json(const LocalizeResult& result) {
   return json_text(json{{"images", list}}, 1);
 }
 
+/// Reads the images and remembers the errors of those that cannot be read.
+class QueryReader {
+ public:
+  explicit QueryReader(const QueryImages& images) : images_(images), errors_(images.count) {}
+
+  /// An image; an empty frame if it cannot be read.
+  Frame read(std::size_t i) {
+    try {
+      return images_.frame(i);
+    } catch (const FileError& error) {
+      errors_[i] = error.what();
+      return {};
+    }
+  }
+  /// Why an image was refused before the comparison, with its name; empty if it was compared.
+  std::string refusal(std::size_t i, const Localization& at) const {
+    if (at.stage == "unreadable") return errors_[i];
+    if (at.stage != "grey") return "";
+    const std::string name = images_.name(i);
+    return (name.empty() ? fmt::format("image {}", images_.first + static_cast<std::int64_t>(i))
+                         : name) +
+           ": is grey, and the map's images have colour";
+  }
+
+ private:
+  const QueryImages& images_;
+  std::vector<std::string> errors_;
+};
+
+/// Warns of images that could not be compared, of the first ones by name.
+void warn_of_refusals(const QueryReader& reader, const LocalizeResult& result) {
+  constexpr std::size_t kNamed = 10;
+  std::size_t refused = 0;
+  for (std::size_t i = 0; i < result.localizations.size(); ++i) {
+    const std::string refusal = reader.refusal(i, result.localizations[i]);
+    if (!refusal.empty() && ++refused <= kNamed) warn(refusal + "; the image is refused");
+  }
+  if (refused > kNamed)
+    warn(fmt::format("{} more images are refused unread or as grey ones; {} names them",
+                     refused - kNamed, result.out));
+}
+
+LocalizeResult localize_all(const LocalizeArguments& arguments, const MapLocalizer& localizer,
+                            const QueryImages& images) {
+  LocalizeResult result{arguments.out, images.first, {}, {}, {}, images.notes, 0, {}};
+  for (std::size_t i = 0; i < images.count; ++i) result.names.push_back(images.name(i));
+  QueryReader reader(images);
+  {
+    Progress progress("placing", static_cast<std::int64_t>(images.count), "images");
+    result.localizations = localizer.localize(
+        images.count,
+        [&](std::size_t i) {
+          progress.update(static_cast<std::int64_t>(i) + 1);
+          return reader.read(i);
+        },
+        arguments.sequence);
+  }
+  warn_of_refusals(reader, result);
+  result.counts = count(result.localizations);
+  return result;
+}
+
 }  // namespace
 
 LocalizeResult localize(const LocalizeArguments& arguments) {
@@ -141,17 +203,7 @@ LocalizeResult localize(const LocalizeArguments& arguments) {
   cv::setNumThreads(1);
   const MapLocalizer localizer(options, std::move(stored));
   const Stopwatch watch;
-  Progress progress("placing", static_cast<std::int64_t>(images.count), "images");
-  LocalizeResult result{arguments.out, images.first, {}, {}, {}, images.notes, 0, {}};
-  for (std::size_t i = 0; i < images.count; ++i) result.names.push_back(images.name(i));
-  result.localizations = localizer.localize(
-      images.count,
-      [&](std::size_t i) {
-        progress.update(static_cast<std::int64_t>(i) + 1);
-        return images.frame(i);
-      },
-      arguments.sequence);
-  result.counts = count(result.localizations);
+  LocalizeResult result = localize_all(arguments, localizer, images);
   write_file(arguments.out,
              arguments.as_json ? localizations_json(result) : localizations_text(result));
   result.cpu_ms_an_image = watch.cpu_ms() / static_cast<double>(result.localizations.size());

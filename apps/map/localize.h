@@ -40,8 +40,8 @@ struct LocalizeResult {
 };
 
 /// Localizes images in a saved map and writes the results: `placegraph map localize`.
-/// Progress goes to stderr. Throws ArgumentError, FileError, and NoResult if the map has no views
-/// to compare with.
+/// Progress goes to stderr, and a warning about each image that cannot be compared, which is
+/// refused. Throws ArgumentError, FileError, and NoResult if the map has no views to compare with.
 LocalizeResult localize(const LocalizeArguments& arguments);
 
 std::string to_text(const LocalizeResult& result);

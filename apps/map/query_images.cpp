@@ -32,18 +32,28 @@ QueryImages bare_images(const std::string& path, const std::vector<int>& range) 
           {}};
 }
 
+/// The first image that can be read; an empty one if there is none.
+Image first_readable(const QueryImages& images) {
+  for (std::size_t i = 0; i < images.count; ++i) try {
+      return images.frame(i).image;
+    } catch (const FileError&) {
+    }
+  return {};
+}
+
 /// Images without a calibration; those of the size of the map's images are assumed to be from its
 /// camera.
 QueryImages images_without_camera(const std::string& path, const std::vector<int>& range,
                                   const Camera& map_camera) {
   QueryImages images = bare_images(path, range);
-  const Image first = images.frame(0).image;
-  images.notes.push_back(
-      first.cols == map_camera.width && first.rows == map_camera.height
-          ? "no camera is given; images of the map's size are taken for the map's, without "
-            "distortion"
-          : "no camera is given (calibration.yaml), and these images have not the size of the "
-            "map's: no poses");
+  const Image first = first_readable(images);
+  if (!first.empty())
+    images.notes.push_back(
+        first.cols == map_camera.width && first.rows == map_camera.height
+            ? "no camera is given; images of the map's size are taken for the map's, without "
+              "distortion"
+            : "no camera is given (calibration.yaml), and these images have not the size of the "
+              "map's: no poses");
   return images;
 }
 

@@ -11,8 +11,9 @@ namespace placegraph::apps {
 /// Images to localize in a map, as taken by the map's camera.
 struct QueryImages {
   std::size_t count = 0;
-  std::int64_t first = 0;                   ///< number of the first image in its folder
-  std::function<Frame(std::size_t)> frame;  ///< the image with an index from 0 to count - 1
+  std::int64_t first = 0;  ///< number of the first image in its folder
+  /// The image with an index from 0 to count - 1. Throws FileError if it cannot be read.
+  std::function<Frame(std::size_t)> frame;
   /// File name of an image; empty where images are not single files.
   std::function<std::string(std::size_t)> name;
   /// Remarks on the images and on their conversion to the map's camera.

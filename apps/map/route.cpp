@@ -42,16 +42,36 @@ json step_json(const Route& route, std::size_t i, const RunMap& map) {
   return entry;
 }
 
+/// The places in the order in which their numbers get room in a plot: both ends of the path, its
+/// other places, the rest of the map.
+std::vector<Place> places_by_rank(const Route& route, const PlaceGraph& graph) {
+  const auto rank = [&](const Place& place) {
+    if (place.id == route.steps.front().place || place.id == route.steps.back().place) return 0;
+    return std::ranges::any_of(route.steps,
+                               [&](const RouteStep& step) { return step.place == place.id; })
+               ? 1
+               : 2;
+  };
+  std::vector<Place> places = graph.places;
+  std::ranges::stable_sort(places, {}, rank);
+  return places;
+}
+
 Plot route_plot(const Route& route, const RunMap& map) {
   Plot plot;
-  plot.title = fmt::format("from place {} to place {}: {:.1f} m", route.steps.front().place,
-                           route.steps.back().place, route.length_m());
-  PlotCurve places{"places", {}, true}, path{"path", {}, false};
+  plot.title = fmt::format("from place {} to place {}: {:.1f} {}", route.steps.front().place,
+                           route.steps.back().place, route.length_m(), map.unit());
+  plot.unit = map.unit();
+  PlotCurve all{"map", {}, true}, path{"path", {}, false};
   for (const Place& place : map.graph.places)
-    places.positions_m.emplace_back(place.T_map_place.translation());
+    all.positions_m.emplace_back(place.T_map_place.translation());
+  for (const Place& place : places_by_rank(route, map.graph)) {
+    plot.places_m.push_back(place.T_map_place.translation());
+    plot.place_names.push_back(to_string(place.id));
+  }
   for (const RouteStep& step : route.steps)
     path.positions_m.emplace_back(map.graph.find(step.place)->T_map_place.translation());
-  plot.curves = {places, path};
+  plot.curves = {all, path};
   for (const RelativePoseConstraint& edge : map.graph.constraints)
     if (edge.source == ConstraintSource::kLoop)
       plot.links_m.emplace_back(map.graph.find(place_of_node(edge.from))->T_map_place.translation(),
@@ -81,6 +101,7 @@ std::string to_json(const RouteResult& result) {
     steps.push_back(step_json(route, i, result.map));
   return json_text(json{{"from", route.steps.front().place},
                         {"to", route.steps.back().place},
+                        {"unit", result.map.metric ? "m" : "arbitrary"},
                         {"length_m", route.length_m()},
                         {"steps", steps}},
                    1);
@@ -88,12 +109,16 @@ std::string to_json(const RouteResult& result) {
 
 std::string to_text(const RouteResult& result) {
   const Route& route = result.route;
-  std::string text = fmt::format("{} places, {:.2f} m\n place  frame    leg [m]  travelled [m]\n",
-                                 route.steps.size(), route.length_m());
+  const std::string unit = result.map.unit();
+  const std::string leg = fmt::format("{:>10}", "leg [" + unit + "]"),
+                    travelled = fmt::format("{:>14}", "travelled [" + unit + "]");
+  std::string text = fmt::format("{} places, {:.2f} {}{}\n place  frame {} {}\n",
+                                 route.steps.size(), route.length_m(), unit,
+                                 result.map.metric ? "" : " (scale unknown)", leg, travelled);
   for (const RouteStep& step : route.steps)
-    text += fmt::format("{:>6} {:>6} {:>10.3f} {:>14.3f}\n", step.place.value(),
+    text += fmt::format("{:>6} {:>6} {:>{}.3f} {:>{}.3f}\n", step.place.value(),
                         result.map.anchor_frame(*result.map.graph.find(step.place)).value(),
-                        step.leg_m, step.travelled_m);
+                        step.leg_m, leg.size(), step.travelled_m, travelled.size());
   return text;
 }
 

@@ -1,6 +1,5 @@
 #include "apps/results/run_files.h"
 
-#include <placegraph/eval/internal/plots/plot.h>
 #include <placegraph/eval/trajectory/evaluate.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/internal/core/json_text.h>
@@ -15,6 +14,7 @@
 
 #include "apps/results/component_files.h"
 #include "apps/results/run_judgement.h"
+#include "apps/results/run_map.h"
 #include "apps/support/json_file.h"
 
 namespace placegraph::apps {
@@ -38,16 +38,16 @@ PlotCurve curve_of(const Trajectory& trajectory, const std::string& name) {
   return curve;
 }
 
-/// Positions of the places that are in the frame of the map.
-std::vector<Eigen::Vector3d> place_positions(const Map& map, const AlignmentResult& alignment) {
+/// Adds the places that are in the frame of the map, with their numbers.
+void add_places(const Map& map, const AlignmentResult& alignment, Plot& plot) {
   const std::vector<int> components = map.place_graph.joined_components();
-  std::vector<Eigen::Vector3d> positions;
   const int main = map.main_component();
-  for (std::size_t i = 0; i < components.size(); ++i)
-    if (components[i] == main)
-      positions.push_back(
-          alignment.apply(map.place_graph.places[i].T_map_place.isometry()).translation());
-  return positions;
+  for (std::size_t i = 0; i < components.size(); ++i) {
+    if (components[i] != main) continue;
+    const Place& place = map.place_graph.places[i];
+    plot.places_m.push_back(alignment.apply(place.T_map_place.isometry()).translation());
+    plot.place_names.push_back(to_string(place.id));
+  }
 }
 
 Sim3 similarity_of(const SE2&) { throw ArgumentError("a place graph is not planar"); }
@@ -150,8 +150,8 @@ json describe_run(const RunResult& run, const Trajectory& optimized) {
           {"lens_k1", run.lens_k1}};
 }
 
-std::string run_plot(const RunResult& run, const Trajectory& optimized,
-                     const Trajectory* ground_truth, const std::string& title) {
+Plot run_plot(const RunResult& run, const Trajectory& optimized, const Trajectory* ground_truth,
+              const std::string& title) {
   Plot plot;
   std::string aligned;
   if (ground_truth) {
@@ -177,12 +177,13 @@ std::string run_plot(const RunResult& run, const Trajectory& optimized,
     if (!results.empty()) {
       plot = plot_of(results);
       aligned = std::string(", align ") + (run.map.metric ? "origin" : "sim3");
-      plot.places_m = place_positions(run.map, main_alignment);
+      add_places(run.map, main_alignment, plot);
     }
   }
   if (plot.curves.empty()) {
     plot.curves = {curve_of(run.map.trajectory_online, "online"), curve_of(optimized, "optimized")};
-    plot.places_m = place_positions(run.map, {});
+    plot.unit = unit_of(run.map.metric);
+    add_places(run.map, {}, plot);
     const PlotCurve& curve = plot.curves.back();
     for (const LoopRecord& loop : run.map.loops) {
       if (!loop.accepted()) continue;
@@ -195,7 +196,7 @@ std::string run_plot(const RunResult& run, const Trajectory& optimized,
     }
   }
   plot.title = title + aligned;
-  return to_png(plot);
+  return plot;
 }
 
 }  // namespace placegraph::apps

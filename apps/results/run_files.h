@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/eval/internal/plots/plot.h>
 #include <placegraph/pipeline/run.h>
 
 #include <nlohmann/json_fwd.hpp>
@@ -14,9 +15,9 @@ std::string loops_csv(const Map& map);  ///< columns query,match,inliers,accepte
 nlohmann::json describe_motion(const PlaceGraph& graph);
 /// Members of result.json for the map and its trajectories; the caller adds the times.
 nlohmann::json describe_run(const RunResult& run, const Trajectory& optimized);
-/// Top view of the trajectories, the places and the loops as PNG bytes.
+/// Top view of the trajectories, the places with their numbers, and the loops.
 /// With `ground_truth` (may be nullptr) it also shows the errors.
-std::string run_plot(const RunResult& run, const Trajectory& optimized,
-                     const Trajectory* ground_truth, const std::string& title);
+Plot run_plot(const RunResult& run, const Trajectory& optimized, const Trajectory* ground_truth,
+              const std::string& title);
 
 }  // namespace placegraph::apps

@@ -51,7 +51,17 @@ void take_edges(const json& edges, const PoseGraph& written, RunMap& map) {
   }
 }
 
+/// Whether a run says that its lengths are metres; a graph with scales is not metric if the folder
+/// has no result.json.
+bool is_metric(const std::filesystem::path& folder, const PoseGraph& written) {
+  const std::string path = (folder / "result.json").string();
+  if (!std::filesystem::exists(path)) return written.kind() != PoseKind::kSim3;
+  return read_json(path).value("metric", true);
+}
+
 }  // namespace
+
+const char* unit_of(bool metric) { return metric ? "m" : "units"; }
 
 FrameId RunMap::anchor_frame(const Place& place) const {
   const auto frame = frame_of_keyframe.find(place.anchor_keyframe);
@@ -67,6 +77,7 @@ RunMap run_map_of(StoredMap stored, const std::string& path) {
           path + ": is a map of images without a camera, in which nothing has a pose");
   RunMap map;
   map.file = path;
+  map.metric = stored.map.metric;
   for (const Keyframe& keyframe : stored.map.keyframes)
     map.frame_of_keyframe[keyframe.id] = keyframe.frame;
   map.graph = std::move(stored.map.place_graph);
@@ -83,6 +94,7 @@ RunMap read_run_map(const std::string& folder) {
   const json document = read_json(path);
   RunMap map;
   map.file = path;
+  map.metric = is_metric(root, written);
   try {
     for (const json& entry : document.at("places"))
       map.graph.places.push_back(place_of(entry, map));

@@ -7,14 +7,20 @@
 
 namespace placegraph::apps {
 
+/// Unit of the lengths of a map in texts and plots: "m", or "units" if its scale is unknown.
+const char* unit_of(bool metric);
+
 /// Places of a folder of `placegraph run` (graph.g2o and places.json) or of a map.db.
 struct RunMap {
-  PlaceGraph graph;  ///< without appearances
+  PlaceGraph graph;     ///< without appearances
+  bool metric = false;  ///< lengths are in metres
   std::map<KeyframeId, FrameId> frame_of_keyframe;
   std::string file;  ///< file that lists the places
 
   /// Frame of a place's anchor keyframe. Throws FileError for a place without one.
   FrameId anchor_frame(const Place& place) const;
+  /// Unit of its lengths in texts and plots: "m", or "units" if the scale is unknown.
+  const char* unit() const { return unit_of(metric); }
 };
 
 /// Reads the places of a folder or of a saved map.

@@ -23,11 +23,13 @@ LogSink RunMessages::log() {
   };
 }
 
-void RunMessages::run_began() {
-  if (has_begun_)
-    print(Verbosity::kNormal, "event", "the run begins again with undistorted images");
-  has_begun_ = true;
-  lost_ = 0;
+void RunMessages::run_began() { lost_ = 0; }
+
+void RunMessages::lens_found(const LensFound& lens) {
+  print(Verbosity::kNormal, "event",
+        fmt::format("frame {}: lens distortion found (k1 = {:.4f} +- {:.4f}): the run begins again "
+                    "with undistorted images, pass {}",
+                    lens.frame, lens.k1, lens.sigma_k1, lens.pass));
 }
 
 void RunMessages::frame_posed(const FrameResult& frame) {

@@ -27,6 +27,7 @@ class RunMessages : public SlamEvents {
   LogSink log();
 
   void run_began() override;
+  void lens_found(const LensFound& lens) override;
   void frame_posed(const FrameResult& frame) override;
   void frame_lost(const FrameResult& frame) override;
   void loop_accepted(const LoopRecord& loop) override;
@@ -42,7 +43,6 @@ class RunMessages : public SlamEvents {
   Verbosity verbosity_;
   Print print_;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
-  bool has_begun_ = false;
   int lost_ = 0;  ///< consecutive frames without a pose since the last posed one
 };
 

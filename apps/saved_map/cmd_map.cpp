@@ -16,10 +16,11 @@
 namespace placegraph::apps {
 namespace {
 
-/// Adds `map NAME MAP [--json]`, which prints the result of `run`.
+/// Adds `map NAME MAP [--json]`, which prints the result of `run`, and returns it with its
+/// arguments.
 template <class Arguments, class Result>
-void add_report(CLI::App& map, const std::string& name, const char* what,
-                Result (*run)(const Arguments&)) {
+std::pair<CLI::App*, Arguments*> add_report(CLI::App& map, const std::string& name,
+                                            const char* what, Result (*run)(const Arguments&)) {
   auto arguments = std::make_shared<Arguments>();
   auto json = std::make_shared<bool>(false);
   CLI::App* command = map.add_subcommand(name, what);
@@ -30,6 +31,7 @@ void add_report(CLI::App& map, const std::string& name, const char* what,
     const Result result = run(*arguments);
     print(*json ? to_json(result) : to_text(result));
   });
+  return {command, arguments.get()};
 }
 
 void add_export_command(CLI::App& map) {
@@ -50,7 +52,9 @@ void add_export_command(CLI::App& map) {
 }  // namespace
 
 void add_map_commands(CLI::App& map) {
-  add_report(map, "info", "Summarize a saved map", map_info);
+  const auto [info, arguments] = add_report(map, "info", "Summarize a saved map", map_info);
+  info->add_flag("--places", arguments->places,
+                 "list the places too: number, component, frame, keyframes, position, labels");
   add_report(map, "validate", "Check a saved map: every row, reference and number", map_validate);
   add_export_command(map);
   add_map_learn_command(map);

@@ -1,14 +1,15 @@
 #include "apps/saved_map/map_info.h"
 
 #include <fmt/format.h>
-#include <placegraph/pipeline/run.h>
 #include <placegraph/graph/internal/core/json_text.h>
+#include <placegraph/pipeline/run.h>
 
 #include <algorithm>
 #include <set>
 
 #include "apps/results/component_files.h"
 #include "apps/results/map_file.h"
+#include "apps/results/run_map.h"
 
 namespace placegraph::apps {
 namespace {
@@ -72,10 +73,47 @@ std::string other_components(const json& components) {
   return text.empty() ? text : "           " + text + "\n";
 }
 
+json list_places(const StoredMap& stored) {
+  json list = json::array();
+  for (const Place& place : stored.map.place_graph.places) {
+    const Keyframe* anchor = stored.map.find_keyframe(place.anchor_keyframe);
+    const Eigen::Vector3d& t = place.T_map_place.translation();
+    json position = nullptr;
+    if (stored.origin.calibration) position = {t.x(), t.y(), t.z()};
+    list.push_back({{"id", place.id},
+                    {"component", place.component},
+                    {"frame", anchor ? json(anchor->frame) : json(nullptr)},
+                    {"keyframes", place.members.size()},
+                    {"position", position},
+                    {"labels", place.labels}});
+  }
+  return list;
+}
+
+std::string places_text(const json& list, const char* unit) {
+  std::string text =
+      fmt::format(" place  component  frame  keyframes  position x y z [{}]  labels\n", unit);
+  for (const json& place : list) {
+    std::string position = fmt::format("{:>9}", "-");
+    if (const json& at = place["position"]; !at.is_null())
+      position = fmt::format("{:>9.3f}{:>9.3f}{:>9.3f}", at[0].get<double>(), at[1].get<double>(),
+                             at[2].get<double>());
+    std::string labels;
+    for (const json& label : place["labels"]) labels += "  " + label.get<std::string>();
+    text += fmt::format("{:>6} {:>10} {:>6} {:>10}{}{}\n", place["id"].get<std::int64_t>(),
+                        place["component"].get<int>(), place["frame"].dump(),
+                        place["keyframes"].get<std::size_t>(), position, labels);
+  }
+  return text;
+}
+
 }  // namespace
 
 MapInfoResult map_info(const MapInfoArguments& arguments) {
-  return {describe_map(map_path_of(arguments.map), read_stored_map(arguments.map))};
+  const StoredMap stored = read_stored_map(arguments.map);
+  MapInfoResult result{describe_map(map_path_of(arguments.map), stored)};
+  if (arguments.places) result.summary["place_list"] = list_places(stored);
+  return result;
 }
 
 std::string to_text(const MapInfoResult& result) {
@@ -91,12 +129,15 @@ std::string to_text(const MapInfoResult& result) {
          other_components(summary["component_trajectories"]) +
          fmt::format("  frames   {}, {} posed, {} keyframes, path {:.1f} {}\n", count("frames"),
                      count("posed"), count("keyframes"), summary["path_length"].get<double>(),
-                     summary["metric"].get<bool>() ? "m" : "(scale unknown)") +
+                     summary["metric"].get<bool>() ? "m" : "units (scale unknown)") +
          fmt::format("  content  {} features, {} views, {} landmarks\n", count("features"),
                      count("views"), count("landmarks")) +
          fmt::format("  size     {:.1f} MB: features {:.1f}, views {:.1f}, landmarks {:.1f}\n",
                      megabytes("file_bytes"), megabytes("features_bytes"), megabytes("views_bytes"),
-                     megabytes("landmarks_bytes"));
+                     megabytes("landmarks_bytes")) +
+         (summary.contains("place_list")
+              ? places_text(summary["place_list"], unit_of(summary["metric"].get<bool>()))
+              : "");
 }
 
 std::string to_json(const MapInfoResult& result) { return json_text(result.summary, 1); }

@@ -26,11 +26,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<std::string> image_paths_of(const std::string& input) {
-  if (fs::is_directory(input)) return list_images(image_folder_of(input));
-  return {input};
-}
-
 /// Number of pixels of each class, then of unknown ones.
 std::vector<std::int64_t> label_image(const std::string& path, const SceneImageArguments& a,
                                       std::size_t classes,
@@ -75,6 +70,11 @@ std::vector<std::pair<std::string, double>> shares_of(const SceneImageResult& re
 
 }  // namespace
 
+std::vector<std::string> image_paths_of(const std::string& input) {
+  if (fs::is_directory(input)) return list_images(image_folder_of(input));
+  return {input};
+}
+
 Image draw_labels(const Image& bgr, const Image& labels, int classes) {
   Image table(1, 256, CV_8UC3, cv::Scalar::all(0));
   for (int c = 0; c < classes; ++c) {
@@ -90,7 +90,7 @@ Image draw_labels(const Image& bgr, const Image& labels, int classes) {
 }
 
 SceneImageResult label_images(const SceneImageArguments& a, const std::vector<std::string>& classes,
-                              const std::function<SceneLabels(const SceneView&)>& label) {
+                              const ImageLabeller& label) {
   cv::setNumThreads(1);
   const std::vector<std::string> images = image_paths_of(a.input);
   std::set<std::string> names;
@@ -107,7 +107,8 @@ SceneImageResult label_images(const SceneImageArguments& a, const std::vector<st
     const std::size_t count = std::min(part, images.size() - begin);
     parallel_for(static_cast<int>(count), a.threads, [&](int k) {
       const std::size_t at = begin + static_cast<std::size_t>(k);
-      pixels[at] = label_image(images[at], a, classes.size(), label);
+      pixels[at] = label_image(images[at], a, classes.size(),
+                               [&](const SceneView& view) { return label(at, view); });
     });
     progress.update(static_cast<std::int64_t>(begin + count));
   }

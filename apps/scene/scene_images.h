@@ -15,6 +15,9 @@ struct SceneImageArguments {
   std::string out;    ///< folder for NAME.png
   std::string model;  ///< model to use instead of the installed one; empty: the installed one
   std::string surfaces_model;  ///< the same for surfaces, for `image labels`
+  /// For `image labels`, where none of the classes may be visible: `sequence` judges it over
+  /// neighbouring images, `each` image by image; `street`: every image shows a street.
+  std::string surroundings = "sequence";
   double unknown_below =
       0;                    ///< pixels with a lower probability get the number after the last class
   int threads = 1;          ///< number of threads
@@ -32,13 +35,18 @@ struct SceneImageResult {
   double cpu_ms_an_image = 0;
 };
 
+/// The image, or the images of the folder in natural order. Throws FileError.
+std::vector<std::string> image_paths_of(const std::string& input);
+
+/// Labels the image of a number, from 0 on.
+using ImageLabeller = std::function<SceneLabels(std::size_t image, const SceneView& view)>;
+
 /// Labels one image or every image of a folder by `label`.
 /// Writes OUT/NAME.png of class numbers, and on demand NAME.confidence.png and NAME.drawn.png.
 /// Progress goes to stderr. Throws ArgumentError, and FileError also if two images would have the
 /// same name.
 SceneImageResult label_images(const SceneImageArguments& arguments,
-                              const std::vector<std::string>& classes,
-                              const std::function<SceneLabels(const SceneView&)>& label);
+                              const std::vector<std::string>& classes, const ImageLabeller& label);
 
 /// Shares of the classes in one line.
 std::string to_text(const SceneImageResult& result);

@@ -1,8 +1,11 @@
 #include "apps/scene/scene_label.h"
 
 #include <placegraph/frontend/internal/labels/urban_labels.h>
+#include <placegraph/frontend/internal/scene/street_trust.h>
 
+#include "apps/scene/street_images.h"
 #include "apps/shipped/scene_models.h"
+#include "apps/support/output.h"
 
 namespace placegraph::apps {
 
@@ -11,9 +14,17 @@ SceneImageResult scene_label(const SceneImageArguments& a) {
   const SceneModel surfaces = load_scene_model(SceneModel::Kind::kSurfaces, a.surfaces_model);
   LabellerOptions options;
   options.relations = a.relations;
-  return label_images(a, urban.classes, [&](const SceneView& view) {
-    return most_probable(label_urban(urban, surfaces, view, options).classes, urban.class_count(),
-                         view, a.unknown_below);
+  const std::vector<std::string> images = image_paths_of(a.input);
+  std::vector<double> street(images.size(), 1);
+  // Kinds of environments are known by the surfaces of the installed model, and other models may
+  // have classes that are not of streets.
+  if (a.surroundings != "street" && a.model.empty() && a.surfaces_model.empty()) {
+    require_free_folder(a.out, a.force);
+    street = street_probabilities(images, surfaces, a.surroundings == "sequence", a.threads);
+  }
+  return label_images(a, urban.classes, [&](std::size_t image, const SceneView& view) {
+    return street_labels(label_urban(urban, surfaces, view, options).classes, urban.class_count(),
+                         view, street.at(image), a.unknown_below);
   });
 }
 

@@ -10,7 +10,7 @@ SceneImageResult scene_surfaces(const SceneImageArguments& a) {
   const SceneModel model = load_scene_model(SceneModel::Kind::kSurfaces, a.model);
   LabellerOptions options;
   options.relations = a.relations;
-  return label_images(a, model.classes, [&](const SceneView& view) {
+  return label_images(a, model.classes, [&](std::size_t, const SceneView& view) {
     return classify_surfaces(model, view, a.unknown_below, options).surfaces;
   });
 }

@@ -12,13 +12,27 @@ constexpr std::chrono::milliseconds kTerminalInterval{200};
 constexpr std::chrono::seconds kQuietInterval{10};
 }  // namespace
 
-std::string progress_text(std::int64_t done, std::int64_t total, double seconds,
+void Pace::update(std::int64_t done, Clock::time_point now) {
+  if (done_ < 0 || done < done_) {
+    base_ = done;
+    begin_ = now;
+  }
+  done_ = done;
+  now_ = now;
+}
+
+std::optional<double> Pace::rate() const {
+  const double seconds = std::chrono::duration<double>(now_ - begin_).count();
+  if (done_ <= base_ || !(seconds > 0)) return std::nullopt;
+  return static_cast<double>(done_ - base_) / seconds;
+}
+
+std::string progress_text(std::int64_t done, std::int64_t total, std::optional<double> rate,
                           const std::string& unit) {
   std::string text = fmt::format("{}/{} {}", done, total, unit);
-  if (done <= 0 || !(seconds > 0)) return text;
-  const double rate = static_cast<double>(done) / seconds;
-  const auto left_s = static_cast<std::int64_t>(static_cast<double>(total - done) / rate + 0.5);
-  return text + fmt::format(", {:.1f}/s, {}:{:02} left", rate, left_s / 60, left_s % 60);
+  if (!rate) return text;
+  const auto left_s = static_cast<std::int64_t>(static_cast<double>(total - done) / *rate + 0.5);
+  return text + fmt::format(", {:.1f}/s, {}:{:02} left", *rate, left_s / 60, left_s % 60);
 }
 
 Progress::Progress(std::string what, std::int64_t total, std::string unit)
@@ -26,8 +40,7 @@ Progress::Progress(std::string what, std::int64_t total, std::string unit)
       unit_(std::move(unit)),
       total_(total),
       terminal_(isatty(STDERR_FILENO) == 1),
-      begin_(Clock::now()),
-      next_(begin_ +
+      next_(Clock::now() +
             (terminal_ ? Clock::duration(kTerminalInterval) : Clock::duration(kQuietInterval))) {}
 
 Progress::~Progress() {
@@ -36,9 +49,9 @@ Progress::~Progress() {
 
 void Progress::update(std::int64_t done) {
   const Clock::time_point now = Clock::now();
+  pace_.update(done, now);
   if (now < next_ && !(terminal_ && done == total_)) return;
-  const double seconds = std::chrono::duration<double>(now - begin_).count();
-  const std::string text = what_ + ": " + progress_text(done, total_, seconds, unit_);
+  const std::string text = what_ + ": " + progress_text(done, total_, pace_.rate(), unit_);
   if (terminal_) {
     // Blanks overwrite what a longer line before left behind.
     const std::size_t blanks = width_ > text.size() ? width_ - text.size() : 0;

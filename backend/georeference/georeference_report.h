@@ -41,6 +41,12 @@ struct FixReport {
   bool rejected = false;                                   ///< used, but with a weight below 0.1
 };
 
+/// The scale that the fixes give to a map without one.
+struct MapScale {
+  double metres_per_unit = 1;  ///< geometric mean over the nodes of the first placed component
+  double sigma = 0;  ///< standard deviation of that mean [m per unit]; infinite: undetermined
+};
+
 /// A gap between fixes within the time of the map.
 struct GpsDropout {
   std::int64_t begin_ns = 0, end_ns = 0;  ///< first and last time [ns], by the nodes' clock
@@ -55,6 +61,7 @@ struct GeoreferenceResult {
   /// The similarity that fits the first aligned component to its fixes, before optimization.
   Sim3 T_enu_map;
   double alignment_rmse_m = 0;             ///< RMS error of that similarity [m]
+  std::optional<MapScale> scale;           ///< scale of a Sim(3) map; empty: the map has one
   std::vector<FixReport> fixes;            ///< one per fix of the input
   std::vector<GpsDropout> dropouts;        ///< gaps between fixes, in time order
   std::vector<NodeId> unplaced_nodes;      ///< nodes of components that could not be aligned

@@ -21,8 +21,9 @@ struct Localization {
   std::optional<KeyframeId> keyframe;  ///< keyframe to which the image was matched
   std::optional<FrameId> frame;        ///< frame of that keyframe
   double probability = 0;              ///< probability that the place is correct
-  /// Test that decided. For placed images: "geometry" or "appearance". For others: "blank" (the
-  /// image has no content to compare), "calibration" (the keyframes of the map provide no examples
+  /// Test that decided. For placed images: "geometry" or "appearance". For others: "unreadable"
+  /// (there is no image), "grey" (the map's keyframes are in colour), "blank" (the image has no
+  /// content to compare), "calibration" (the keyframes of the map provide no examples
   /// of wrong matches), "appearance" (the probability is too low), "geometry" (the features
   /// contradict the match).
   std::string stage;
@@ -50,13 +51,14 @@ class MapLocalizer {
   /// Callback that returns the frame of an index; called once for each, in ascending order.
   ///
   /// `image` is grey and taken by the camera of the map (images of another size are placed without
-  /// a pose); `colour` is required if the map's keyframes were stored in colour.
+  /// a pose), or empty if the image cannot be read. `colour` is needed if the map's keyframes were
+  /// stored in colour. Images that cannot be compared are refused and give their neighbours in a
+  /// sequence no evidence.
   using Frames = std::function<Frame(std::size_t)>;
   /// Localizes `count` images; returns one result for each, in order.
   ///
   /// `sequence`: the images are consecutive images of one drive, and each is classified with the
-  /// evidence of its neighbours; otherwise each image is classified independently. Throws
-  /// ArgumentError if colour is missing.
+  /// evidence of its neighbours; otherwise each image is classified independently.
   std::vector<Localization> localize(std::size_t count, const Frames& frames, bool sequence) const;
 
  private:

@@ -5,6 +5,7 @@
 #include <placegraph/backend/internal/georeference/fix_statistics.h>
 #include <placegraph/backend/internal/georeference/gps_alignment.h>
 #include <placegraph/backend/internal/georeference/map_latency.h>
+#include <placegraph/backend/internal/georeference/map_scale.h>
 #include <placegraph/backend/internal/georeference/variance_components.h>
 #include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
 #include <placegraph/graph/core/error.h>
@@ -19,9 +20,7 @@
 namespace placegraph {
 namespace {
 
-constexpr double kHuberWidth = 1.345;
-constexpr double kRejectedWeight = 0.1;
-constexpr double kGrossChi2 = 25;
+constexpr double kHuberWidth = 1.345, kRejectedWeight = 0.1, kGrossChi2 = 25;
 
 /// The steps of georeference().
 class Georeferencer {
@@ -382,6 +381,7 @@ void Georeferencer::finish() {
   result_.lever_arm = calibration_.head<3>();
   result_.clock_offset_s = in_.clock_offset_s + calibration_[3];
   result_.trajectory = track_->moved(graph_);
+  result_.scale = map_scale(map_, result_.graph);
   log(log_, LogLevel::kInfo, "georeference: {} fixes used, {} rejected", result_.fixes_used,
       result_.fixes_rejected);
 }

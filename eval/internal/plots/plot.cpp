@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <placegraph/eval/internal/plots/label_room.h>
 #include <placegraph/eval/internal/plots/plot.h>
 #include <placegraph/eval/internal/plots/plot_canvas.h>
 #include <placegraph/eval/internal/plots/plot_style.h>
@@ -188,10 +189,32 @@ std::vector<LegendEntry> legend_of(const Plot& plot) {
   return legend;
 }
 
-void draw_top_view(PlotCanvas& canvas, const Plot& plot, Panel panel) {
+// The names of the places beside them, where they cover neither a curve nor the legend.
+void draw_place_names(PlotCanvas& canvas, const Plot& plot, const Points& places_px,
+                      const std::vector<Points>& lines_px, LabelRoom& room) {
+  for (const Points& line : lines_px)
+    for (std::size_t i = 1; i < line.size(); ++i)
+      if (line[i - 1] && line[i]) room.occupy_line(*line[i - 1], *line[i]);
+  constexpr double kName_px = 13, kDisc_px = 3;
+  for (const auto& place : places_px)
+    room.occupy(*place - Vector2d(kDisc_px, kDisc_px), Vector2d(2 * kDisc_px, 2 * kDisc_px));
+  for (std::size_t i = 0; i < plot.place_names.size(); ++i) {
+    const Vector2d size(canvas.text_width(plot.place_names[i], kName_px), 0.75 * kName_px);
+    if (const auto corner = room.place_beside(*places_px[i], size))
+      canvas.text(*corner + Vector2d(0, size[1]), plot.place_names[i], kName_px, kInk,
+                  TextAnchor::kLeft);
+  }
+}
+
+// The curve that determines the axes.
+const PlotCurve& chooser_of(const Plot& plot) {
   const auto reference = std::find_if(plot.curves.begin(), plot.curves.end(),
                                       [](const PlotCurve& curve) { return curve.reference; });
-  const PlotCurve& chooser = reference != plot.curves.end() ? *reference : plot.curves.front();
+  return reference != plot.curves.end() ? *reference : plot.curves.front();
+}
+
+void draw_top_view(PlotCanvas& canvas, const Plot& plot, Panel panel) {
+  const PlotCurve& chooser = chooser_of(plot);
   const auto [horizontal, vertical] = top_view_axes(chooser.positions_m);
   for (const PlotCurve& curve : plot.curves)
     for (const auto& p : curve.positions_m) {
@@ -221,8 +244,8 @@ void draw_top_view(PlotCanvas& canvas, const Plot& plot, Panel panel) {
   const Vector2d box(width + 74, 26.0 * static_cast<double>(legend.size()) + 14);
   if (best_corner(panel, box, lines_px()).second > 0) make_room_on_top(panel, box[1] + 20);
 
-  const char* axes[] = {"x [m]", "y [m]", "z [m]"};
-  draw_axes(canvas, panel, axes[horizontal], axes[vertical],
+  const auto axis = [&](int which) { return fmt::format("{} [{}]", "xyz"[which], plot.unit); };
+  draw_axes(canvas, panel, axis(horizontal), axis(vertical),
             horizontal == 0 ? "top view" : "side view");
   const std::vector<Points> lines = lines_px();
   const std::vector<LegendEntry> styles = styles_of(plot);
@@ -233,12 +256,20 @@ void draw_top_view(PlotCanvas& canvas, const Plot& plot, Panel panel) {
         draw_with_gaps(canvas, lines[i], styles[i].colour, styles[i].width_px);
   for (const auto& [a, b] : plot.rejected_links_m) canvas.line({px(a), px(b)}, kRejected, 1.5);
   for (const auto& [a, b] : plot.links_m) canvas.line({px(a), px(b)}, kLink, 1.5);
-  for (const Eigen::Vector3d& place : plot.places_m) canvas.disc(px(place), 2.5, kWhite, kInk);
+  Points places;
+  for (const Eigen::Vector3d& place : plot.places_m) {
+    places.emplace_back(px(place));
+    canvas.disc(*places.back(), 2.5, kWhite, kInk);
+  }
   const auto start = std::find_if(chooser.positions_m.begin(), chooser.positions_m.end(),
                                   [](const auto& p) { return p.has_value(); });
   if (start != chooser.positions_m.end()) canvas.disc(px(**start), 5, kWhite, kInk);
   canvas.end_clip();
-  draw_legend(canvas, best_corner(panel, box, lines).first, box, legend);
+  const Vector2d legend_corner = best_corner(panel, box, lines).first;
+  LabelRoom room(panel.corner, panel.size);
+  room.occupy(legend_corner, box);
+  draw_place_names(canvas, plot, places, lines, room);
+  draw_legend(canvas, legend_corner, box, legend);
   draw_frame(canvas, panel);
 }
 

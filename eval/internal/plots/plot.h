@@ -27,10 +27,13 @@ struct PlotError {
 /// reference (else of the first curve), in equal scale. Right: the errors, if there are any.
 struct Plot {
   std::string title;
+  std::string unit = "m";  ///< unit of the positions; "units" if their scale is unknown
   std::vector<PlotCurve> curves;
   std::vector<PlotError> errors;
   std::string error_label = "position error";
-  std::vector<Eigen::Vector3d> places_m;                                      ///< nodes of the map
+  std::vector<Eigen::Vector3d> places_m;  ///< nodes of the map
+  /// Names of the places, written where there is room, the first ones first; empty: none.
+  std::vector<std::string> place_names;
   std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> links_m;           ///< loop closures
   std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> rejected_links_m;  ///< false ones
 };

@@ -30,6 +30,7 @@ std::vector<std::optional<Eigen::Vector3d>> line_of(const PoseGraph& graph,
 Plot plot_of(const PoseGraph& before, const PoseGraph& after, const std::vector<int>& rejected) {
   const NodeIndex index = after.index_by_id();
   Plot plot;
+  if (after.kind() == PoseKind::kSim3) plot.unit = "units";
   PlotCurve start{"before", line_of(before, index), true}, end{"after", line_of(after, index)};
   plot.curves = {start, end};
   std::vector<char> is_rejected(after.constraints.size());

@@ -16,6 +16,7 @@ namespace placegraph {
 struct MapLocalizer::Impl {
   Impl(const LocalizerOptions& options, StoredMap stored);
   std::vector<Localization> localize(std::size_t count, const Frames& frames, bool sequence) const;
+  std::string why_incomparable(const Frame& frame) const;
   std::string why_no_features(const Image& grey) const;
   std::vector<PlaceSimilarity> similarities(const PlaceView& view) const;
   void learn_near();
@@ -78,6 +79,12 @@ MapLocalizer::Impl::Impl(const LocalizerOptions& options, StoredMap stored)
   if (options_.geometry && stored_.origin.calibration &&
       std::any_of(all.begin(), all.end(), has_depth))
     closer_.emplace(options_.loops, *stored_.origin.calibration, 0, stored_.map);
+}
+
+/// Stage that refuses an image before the comparison; empty if it can be compared.
+std::string MapLocalizer::Impl::why_incomparable(const Frame& frame) const {
+  if (frame.image.empty()) return "unreadable";
+  return in_colour_ && frame.colour.empty() ? "grey" : "";
 }
 
 /// Reason why the features of an image cannot be compared with the map's; empty if they can.
@@ -198,11 +205,16 @@ std::vector<Localization> MapLocalizer::Impl::localize(std::size_t count, const 
                                                        bool sequence) const {
   std::vector<std::vector<PlaceSimilarity>> lists;
   std::vector<std::optional<LocatedFrame>> verified;
-  std::vector<std::string> hindrances;
+  std::vector<std::string> hindrances, incomparable;
   for (std::size_t i = 0; i < count; ++i) {
     const Frame frame = frames(i);
-    require(!in_colour_ || !frame.colour.empty(),
-            "image " + std::to_string(i) + " is grey, and the map's views have colour");
+    incomparable.push_back(why_incomparable(frame));
+    if (!incomparable.back().empty()) {
+      lists.emplace_back();
+      hindrances.emplace_back();
+      verified.emplace_back();
+      continue;
+    }
     lists.push_back(similarities(
         describe_place(in_colour_ ? frame.colour : frame.image, options_.recognizer.cues, true)));
     hindrances.push_back(why_no_features(frame.image));
@@ -222,6 +234,7 @@ std::vector<Localization> MapLocalizer::Impl::localize(std::size_t count, const 
   std::vector<Localization> result;
   for (std::size_t i = 0; i < count; ++i) {
     result.push_back(described(estimates[i], probabilities[i]));
+    if (!incomparable[i].empty()) result.back().stage = incomparable[i];
     if (!calibration && estimates[i].view >= 0) result.back().stage = "calibration";
     if (verified[i]) take_geometry(*verified[i], result.back());
     if (result.back().placed && !result.back().T_map_cam)

@@ -5,9 +5,11 @@
 #include <cmath>
 
 #include "apps/support/output.h"
+#include "tests/support/clean_world.h"
 #include "tests/support/message_of.h"
 #include "tests/support/random_map.h"
 #include "tests/support/scenes/street_files.h"
+#include "tests/unit/apps/saved_map/posed_map.h"
 
 namespace placegraph::apps {
 namespace {
@@ -103,6 +105,18 @@ TEST_F(ExplainTwoPlaces, SaysWhatWasTakenForGranted) {
   EXPECT_EQ(explained(2)["assumed"]["sensor"], "measured depth");
 }
 
+TEST_F(ExplainTwoPlaces, CountsInUnitsWhereTheScaleIsUnknown) {
+  write_map(folder / "map.db", stored);
+  EXPECT_THAT(to_text(explain({folder.path(), FrameId(2)})),
+              testing::AllOf(HasSubstr("0.5 m from its keyframe 1"), HasSubstr(" m and ")));
+  stored.map.metric = false;
+  write_map(folder / "map.db", stored);
+  const std::string text = to_text(explain({folder.path(), FrameId(2)}));
+  EXPECT_THAT(text,
+              testing::AllOf(HasSubstr("0.5 units from its keyframe 1"),
+                             HasSubstr("position 0 0 1.5 units, "), HasSubstr(" units and ")));
+}
+
 TEST_F(ExplainTwoPlaces, ALostFrameHasNoPlace) {
   EXPECT_EQ(explained(3)["where"], json({{"posed", false}}));
 }
@@ -119,6 +133,32 @@ TEST_F(ExplainTwoPlaces, SaysWhatThePictureShowsWhereThatIsStillThere) {
     EXPECT_NEAR(sum, 1, 1e-9) << kind;
   }
   EXPECT_EQ(explained(2)["sees"]["unknown"], (folder / "s") + " has 2 frames now");
+  EXPECT_EQ(sees["street"], 0.0);  // the run called the place a corridor
+  EXPECT_EQ(sees["classes"], json({{"none", 1.0}}));
+}
+
+/// What `explain` tells of the image of frame 8 of a rendered world, by its map at true poses.
+json seen_in_world(const std::string& name, Sensor sensor, int width, int height) {
+  const test::TemporaryFolder folder;
+  const SyntheticWorld world(test::clean_world(name, 12, width, height));
+  SequenceWriterOptions writing;
+  writing.contents.right = sensor == Sensor::kStereo;
+  writing.contents.depth = sensor == Sensor::kRgbd;
+  write_sequence(world, folder / "world", writing);
+  write_map(folder / "map.db", test::posed_map(world, folder / "world", sensor, 2));
+  return explain({folder / "map.db", FrameId(8)}).explanation["sees"];
+}
+
+TEST(ExplainCommand, TellsNoStreetClassesOfACorridor) {
+  const json sees = seen_in_world("corridor-loop", Sensor::kRgbd, 320, 240);
+  EXPECT_LT(sees["street"].get<double>(), 0.2);
+  EXPECT_GE(sees["classes"]["none"].get<double>(), 0.95);
+}
+
+TEST(ExplainCommand, TellsTheClassesOfAStreet) {
+  const json sees = seen_in_world("town-loop", Sensor::kStereo, 620, 188);
+  EXPECT_GT(sees["street"].get<double>(), 0.9);
+  EXPECT_FALSE(sees["classes"].contains("none"));
 }
 
 TEST(ExplainCommand, RefusesAFrameThatTheMapDoesNotHave) {

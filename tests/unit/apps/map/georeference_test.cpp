@@ -79,6 +79,8 @@ TEST_F(GeoreferenceCommand, PutsTheMapOntoTheEarth) {
   const GeoreferenceReport report = georeference(arguments);
   EXPECT_EQ(report.result.fixes_used, kNodes);
   EXPECT_EQ(report.result.fixes_rejected, 0);
+  EXPECT_FALSE(report.result.scale);  // the map has one
+  EXPECT_FALSE(report.summary.contains("scale"));
   EXPECT_LT(report.result.residual_rms_m, 0.01);
   EXPECT_EQ(report.summary["origin"]["height_m"], 115.0);
   EXPECT_EQ(json::parse(test::read_file(folder / "out/georeference.json")), json(report.summary));
@@ -91,6 +93,58 @@ TEST_F(GeoreferenceCommand, PutsTheMapOntoTheEarth) {
   EXPECT_EQ(read_g2o(folder / "out/graph_enu.g2o").nodes.size(), static_cast<std::size_t>(kNodes));
   for (const char* name : {"map.geojson", "map.kml", "fixes.csv"})
     EXPECT_TRUE(std::filesystem::exists(folder / ("out/" + std::string(name)))) << name;
+}
+
+TEST_F(GeoreferenceCommand, GivesTheFolderOfARunWithoutScaleItsScale) {
+  constexpr double kUnit_m = 2.5;
+  constexpr int kPlaces = 10, kFramesAPlace = kNodes / kPlaces;
+  const auto T_map_cam = [&](int i) {
+    const double a = i * kAngle_rad, r = kRadius_m / kUnit_m;
+    return SE3(SO3::exp({0, 0, a}), {r * std::sin(a), r * (1 - std::cos(a)), 0});
+  };
+  PoseGraph graph;
+  Trajectory trajectory;
+  json places = json::array();
+  for (int i = 0; i < kNodes; ++i)
+    trajectory.poses.push_back({100'000'000LL * i, T_map_cam(i).isometry()});
+  for (int p = 0; p < kPlaces; ++p) {
+    const SE3 T_map_place = T_map_cam(kFramesAPlace * p);
+    graph.nodes.push_back({NodeId(p), Sim3(T_map_place), p == 0});
+    places.push_back({{"id", p}, {"members", {{{"stamp_ns", 100'000'000LL * kFramesAPlace * p}}}}});
+    if (p == 0) continue;
+    const SE3 T_from_to = T_map_cam(kFramesAPlace * (p - 1)).inverse() * T_map_place;
+    graph.constraints.emplace_back(RelativePoseConstraint{NodeId(p - 1), NodeId(p), Sim3(T_from_to),
+                                                          1e4 * Information::Identity(7, 7)});
+  }
+  std::filesystem::create_directory(folder / "run");
+  write_g2o(folder / "run/graph.g2o", graph);
+  write_trajectory(folder / "run/trajectory_optimized.tum", trajectory, TrajectoryFormat::kTum);
+  folder.write("run/places.json", json{{"places", places}}.dump());
+  folder.write("run/result.json", R"({"metric": false})");
+  arguments.graph = folder / "run";
+  arguments.times.clear();
+  const GeoreferenceReport report = georeference(arguments);
+  ASSERT_TRUE(report.result.scale);
+  EXPECT_NEAR(report.result.scale->metres_per_unit, kUnit_m, 1e-3);
+  EXPECT_GT(report.result.scale->sigma, 0);
+  EXPECT_LT(report.result.scale->sigma, 0.1);
+  EXPECT_EQ(report.summary["scale"]["metres_per_unit"], report.result.scale->metres_per_unit);
+  EXPECT_EQ(report.summary["scale"]["sigma"], report.result.scale->sigma);
+  EXPECT_THAT(to_text(report), HasSubstr("\nscale        2.5 +- "));
+  const Trajectory written = read_trajectory(folder / "out/trajectory_enu.tum");
+  ASSERT_EQ(written.size(), static_cast<std::size_t>(kNodes));
+  for (int i = 0; i < kNodes; ++i) {
+    const Eigen::Vector3d at =
+        written.poses[static_cast<std::size_t>(i)].T_world_body->translation();
+    const Eigen::Vector3d truth_m(100 - kRadius_m + kRadius_m * std::cos(i * kAngle_rad),
+                                  kRadius_m * std::sin(i * kAngle_rad), 0);
+    EXPECT_LT((at - truth_m).norm(), 0.05) << i;
+  }
+  const PoseGraph placed = read_g2o(folder / "out/graph_enu.g2o");
+  ASSERT_EQ(placed.kind(), PoseKind::kSE3);
+  const auto& edge = std::get<RelativePoseConstraint>(placed.constraints.front());
+  EXPECT_NEAR(std::get<SE3>(edge.T_from_to).translation().norm(),
+              2 * kRadius_m * std::sin(kFramesAPlace * kAngle_rad / 2), 0.02);
 }
 
 TEST_F(GeoreferenceCommand, AnAntennaBesideTheCameraIsHeeded) {

@@ -82,6 +82,27 @@ TEST_F(LocalizeCommand, RefusesAnImageOfARoomThatTheMapDoesNotKnow) {
   EXPECT_EQ(json::parse(to_json(result))["refused_by"]["appearance"], 1);
 }
 
+TEST_F(LocalizeCommand, RefusesAGreyOrUnreadableImageAndPlacesTheOthers) {
+  Random random(9);
+  Image grey;
+  cv::cvtColor(test::wall_view(0, 22, random), grey, cv::COLOR_BGR2GRAY);
+  test::write_image(folder, "new/000000.png", grey);
+  folder.write("new/000003.png", "no image");
+  testing::internal::CaptureStderr();
+  const LocalizeResult result = localize(arguments);
+  const std::string warnings = testing::internal::GetCapturedStderr();
+  EXPECT_THAT(warnings, HasSubstr("warning: 000000.png: is grey, and the map's images have colour; "
+                                  "the image is refused\n"));
+  EXPECT_THAT(warnings, HasSubstr("new/000003.png: "));
+  EXPECT_EQ(result.counts.placed, 4u);
+  EXPECT_FALSE(result.no_result);
+  EXPECT_EQ(result.counts.refused,
+            (std::map<std::string, std::size_t>{{"grey", 1}, {"unreadable", 1}}));
+  const std::string written = test::read_file(arguments.out);
+  EXPECT_THAT(written, HasSubstr("\n0 -1 -1 0.000000 refused:grey  # 000000.png\n"));
+  EXPECT_THAT(written, HasSubstr("\n3 -1 -1 0.000000 refused:unreadable  # 000003.png\n"));
+}
+
 TEST_F(LocalizeCommand, KeepsTheNumbersOfARange) {
   arguments.range = {2, 4};
   const LocalizeResult result = localize(arguments);

@@ -70,6 +70,32 @@ TEST_F(RouteCommand, LeadsOverThePlacesBetween) {
             "     2     20      2.000          3.000\n");
 }
 
+TEST_F(RouteCommand, CountsInUnitsWhereTheScaleIsUnknown) {
+  arguments.plot = folder / "way.svg";
+  EXPECT_EQ(json::parse(to_json(route(arguments)))["unit"], "m");
+  EXPECT_THAT(test::read_file(arguments.plot),
+              testing::AllOf(HasSubstr(": 3.0 m<"), HasSubstr(">z [m]<")));
+  folder.write("run/result.json", R"({"metric": false})");
+  arguments.force = true;
+  const RouteResult result = route(arguments);
+  EXPECT_EQ(to_text(result),
+            "3 places, 3.00 units (scale unknown)\n"
+            " place  frame leg [units] travelled [units]\n"
+            "     0      0       0.000             0.000\n"
+            "     1     10       1.000             1.000\n"
+            "     2     20       2.000             3.000\n");
+  EXPECT_EQ(json::parse(to_json(result))["unit"], "arbitrary");
+  EXPECT_THAT(test::read_file(arguments.plot),
+              testing::AllOf(HasSubstr(": 3.0 units<"), HasSubstr(">z [units]<")));
+}
+
+TEST_F(RouteCommand, WritesTheNumbersOfThePlacesIntoThePlot) {
+  arguments.plot = folder / "way.svg";
+  route(arguments);
+  for (const char* number : {">0<", ">1<", ">2<", ">3<"})
+    EXPECT_THAT(test::read_file(arguments.plot), HasSubstr(number));
+}
+
 TEST_F(RouteCommand, WritesTheViewToExpectAtEveryPlace) {
   route(arguments);
   const json path = json::parse(test::read_file(arguments.out));

@@ -61,10 +61,12 @@ TEST_F(Messages, NameLoopsScaleComponentsAndARestart) {
   messages.map_moved(scaled);
   messages.map_moved(MapMoved());
   messages.component_joined({1, 0});
+  messages.lens_found({FrameId(69), -0.0364, 0.0021, 2});
   messages.run_began();
   EXPECT_THAT(lines, ElementsAre("frame 90: loop closed with frame 3", "the metric scale is known",
                                  "component 1 joined to component 0",
-                                 "the run begins again with undistorted images"));
+                                 "frame 69: lens distortion found (k1 = -0.0364 +- 0.0021): the "
+                                 "run begins again with undistorted images, pass 2"));
 }
 
 TEST_F(Messages, AreWarningsAloneIfQuiet) {

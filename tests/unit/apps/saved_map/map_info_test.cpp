@@ -63,6 +63,30 @@ TEST(MapInfoCommand, TheWayLeadsOverFramesThatHaveAPose) {
   EXPECT_NEAR(info["path_length"].get<double>(), 5, 1e-9);
 }
 
+TEST(MapInfoCommand, ListsThePlacesIfAsked) {
+  const test::TemporaryFolder folder;
+  Random random(3);
+  StoredMap stored = test::random_map(random);
+  stored.map.metric = false;
+  write_map(folder / "map.db", stored);
+  EXPECT_FALSE(map_info({folder.path()}).summary.contains("place_list"));
+  const MapInfoResult result = map_info({folder.path(), true});
+  const json& list = result.summary["place_list"];
+  const std::vector<Place>& places = stored.map.place_graph.places;
+  ASSERT_EQ(list.size(), places.size());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    EXPECT_EQ(list[i]["id"], places[i].id.value());
+    EXPECT_EQ(list[i]["keyframes"], places[i].members.size());
+    EXPECT_EQ(list[i]["frame"], stored.map.find_keyframe(places[i].anchor_keyframe)->frame.value());
+    EXPECT_NEAR(list[i]["position"][2].get<double>(), places[i].T_map_place.translation().z(),
+                1e-9);
+  }
+  const std::string text = to_text(result);
+  EXPECT_THAT(text, HasSubstr(" units (scale unknown)\n"));
+  EXPECT_THAT(text, HasSubstr("\n place  component  frame  keyframes  position x y z [units]"));
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 7 + static_cast<long>(places.size()));
+}
+
 TEST(MapInfoCommand, NamesTheFileThatIsNoMap) {
   const test::TemporaryFolder folder;
   EXPECT_THAT(message_of([&] { map_info({folder.path()}); }),

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/files/image_file.h>
+#include <placegraph/io/internal/synthetic/writers/sequence_writer.h>
 
 #include "apps/scene/scene_surfaces.h"
+#include "tests/support/clean_world.h"
 #include "tests/support/message_of.h"
 #include "tests/unit/apps/scene/drawn_set.h"
 
@@ -67,6 +69,43 @@ TEST_F(SceneLabelCommand, RefusesAModelOfTheOtherKindAndOneThatIsMissing) {
   EXPECT_THAT(message_of([&] { scene_surfaces(arguments); }),
               HasSubstr("none.pgscene: no such model; `placegraph train surfaces DATA"));
   EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+}
+
+/// Renders the left images of a world into the folder `name`.
+std::string rendered(const test::TemporaryFolder& folder, const std::string& name, int frames,
+                     int width, int height) {
+  write_sequence(SyntheticWorld(test::clean_world(name, frames, width, height)), folder / name, {});
+  return folder / name + "/image_0";
+}
+
+/// Share of the pixels that got a class.
+double labelled_share(const SceneImageResult& result) {
+  double sum = 0;
+  for (const std::int64_t pixels : result.pixels) sum += static_cast<double>(pixels);
+  return 1 - static_cast<double>(result.pixels.back()) / sum;
+}
+
+TEST(SceneLabelOfRooms, FindsNoStreetInACorridor) {
+  const test::TemporaryFolder folder;
+  SceneImageArguments arguments;
+  arguments.input = rendered(folder, "corridor-loop", 12, 320, 240);
+  arguments.out = folder / "labels";
+  EXPECT_LE(labelled_share(scene_label(arguments)), 0.05);
+  arguments.force = true;
+  arguments.surroundings = "street";
+  EXPECT_EQ(labelled_share(scene_label(arguments)), 1);
+}
+
+TEST(SceneLabelOfRooms, LeavesAStreetAsItIs) {
+  const test::TemporaryFolder folder;
+  SceneImageArguments arguments;
+  arguments.input = rendered(folder, "town-loop", 4, 620, 188);
+  arguments.out = folder / "labels";
+  const SceneImageResult result = scene_label(arguments);
+  EXPECT_EQ(labelled_share(result), 1);
+  arguments.force = true;
+  arguments.surroundings = "street";
+  EXPECT_EQ(scene_label(arguments).pixels, result.pixels);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <placegraph/backend/georeference/georeference.h>
 #include <placegraph/backend/internal/georeference/antenna_trajectory.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/random.h>
 
 #include "tests/support/seed.h"
 
@@ -95,8 +96,8 @@ TEST(Georeference, PutsAnExactMapWhereItsFixesAre) {
   EXPECT_EQ(result.origin.latitude_deg, kOrigin.latitude_deg);
 }
 
-TEST(Georeference, GivesAMapWithoutScaleItsScale) {
-  const auto truth = eight(80);
+/// The exact drive as a map without scale: its unit is 10 m.
+GeoreferenceInput drive_without_scale(const std::vector<SE3>& truth) {
   GeoreferenceInput in = exact_drive(truth);
   for (PoseNode& node : in.graph.nodes) {
     const SE3 T = std::get<SE3>(node.T_world_node);
@@ -107,10 +108,40 @@ TEST(Georeference, GivesAMapWithoutScaleItsScale) {
     const SE3 T = std::get<SE3>(edge.T_from_to);
     edge = edge_between(edge.from, edge.to, Sim3(T.rotation(), 0.1 * T.translation(), 1), 7);
   }
+  return in;
+}
+
+TEST(Georeference, GivesAMapWithoutScaleItsScale) {
+  const auto truth = eight(80);
+  const GeoreferenceInput in = drive_without_scale(truth);
   const GeoreferenceResult result = georeference(in, {});
   ASSERT_TRUE(result.outcome) << result.outcome.reason;
   EXPECT_NEAR(scale_of(result.graph.nodes[40].T_world_node), 10, 1e-3);
   EXPECT_LT(largest_error(result, truth), 1e-2);
+  ASSERT_TRUE(result.scale);
+  EXPECT_NEAR(result.scale->metres_per_unit, 10, 1e-3);
+  EXPECT_FALSE(georeference(exact_drive(truth), {}).scale);
+}
+
+TEST(Georeference, KnowsTheScaleAsWellAsItSays) {
+  const auto truth = eight(80);
+  constexpr int kDraws = 12;
+  double squares = 0;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    Random random(3, static_cast<std::uint64_t>(draw));
+    GeoreferenceInput in = drive_without_scale(truth);
+    for (std::size_t i = 0; i < in.fixes.size(); ++i) {
+      const Eigen::Vector3d noise_m(random.normal(0, 0.5), random.normal(0, 0.5),
+                                    random.normal(0, 0.5));
+      in.fixes[i] = fix_at(in.fixes[i].stamp_ns, truth[i] * kArm + noise_m);
+    }
+    const GeoreferenceResult result = georeference(in, {});
+    ASSERT_TRUE(result.outcome) << result.outcome.reason;
+    const double deviation = (result.scale->metres_per_unit - 10) / result.scale->sigma;
+    squares += deviation * deviation / kDraws;
+  }
+  EXPECT_GT(squares, 0.3);
+  EXPECT_LT(squares, 2.2);
 }
 
 TEST(Georeference, RotatesAPlanarMapAboutTheVertical) {

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <placegraph/eval/internal/plots/growth_plot.h>
+#include <placegraph/eval/internal/plots/label_room.h>
 #include <placegraph/eval/internal/plots/pose_graph_plot.h>
 #include <placegraph/graph/core/error.h>
 
@@ -48,6 +49,58 @@ TEST(PoseGraphPlot, NamesLoopsAndRejectedOnesInItsLegend) {
   EXPECT_THAT(some, HasSubstr(">1 loop closure<"));
   EXPECT_THAT(some, HasSubstr(">1 rejected<"));
   EXPECT_THAT(to_svg(plot_of(chain(1), chain(2), {})), Not(HasSubstr("rejected")));
+}
+
+TEST(PoseGraphPlot, HasNoMetresIfTheGraphHasScales) {
+  EXPECT_THAT(to_svg(plot_of(chain(1), chain(2), {})), HasSubstr(" [m]<"));
+  PoseGraph scaled = chain(1);
+  for (PoseNode& node : scaled.nodes)
+    node.T_world_node = Sim3(SO3(), {std::get<SE2>(node.T_world_node).translation().x(), 0, 0}, 1);
+  const std::string svg = to_svg(plot_of(scaled, scaled, {}));
+  EXPECT_THAT(svg, HasSubstr(" [units]<"));
+  EXPECT_THAT(svg, Not(HasSubstr(" [m]<")));
+}
+
+TEST(LabelRoom, PlacesLabelsBesidePointsWithoutOverlap) {
+  LabelRoom room({0, 0}, {300, 200});
+  const Eigen::Vector2d point(150, 100), size(24, 10);
+  std::vector<Eigen::Vector2d> corners;
+  while (const auto corner = room.place_beside(point, size)) {
+    for (const Eigen::Vector2d& other : corners)
+      EXPECT_TRUE(((*corner - other).cwiseAbs().array() >= size.array()).any());
+    EXPECT_LT((*corner + 0.5 * size - point).norm(), 30);
+    corners.push_back(*corner);
+  }
+  EXPECT_GE(corners.size(), 4u);
+  EXPECT_LE(corners.size(), 8u);
+}
+
+TEST(LabelRoom, KeepsLabelsOffLinesAndInThePanel) {
+  const Eigen::Vector2d size(24, 10);
+  LabelRoom room({0, 0}, {300, 200});
+  for (double y = 80; y <= 120; y += 3) room.occupy_line({0, y}, {300, y});
+  EXPECT_FALSE(room.place_beside({150, 100}, size));
+  EXPECT_TRUE(room.place_beside({150, 40}, size));
+  const auto corner = room.place_beside({299, 1}, size);  // at the upper right corner
+  ASSERT_TRUE(corner);
+  EXPECT_LE(corner->x() + size.x(), 300);
+  EXPECT_GE(corner->y(), 0);
+  room.occupy({0, 150}, {300, 50});
+  EXPECT_FALSE(room.place_beside({150, 180}, size));
+}
+
+TEST(PlotPlaces, AreNumberedWhereThereIsRoom) {
+  Plot plot = plot_of(chain(1), chain(2), {});
+  for (int i = 0; i < 40; ++i) {
+    plot.places_m.emplace_back(2, 1e-3 * i, 0);  // all at one pixel
+    plot.place_names.push_back("place" + std::to_string(i));
+  }
+  plot.places_m.emplace_back(5, 0, 0);
+  plot.place_names.emplace_back("alone");
+  const std::string svg = to_svg(plot);
+  EXPECT_THAT(svg, HasSubstr(">place0<"));
+  EXPECT_THAT(svg, HasSubstr(">alone<"));
+  EXPECT_THAT(svg, Not(HasSubstr(">place39<")));
 }
 
 GrowthPlot growth() {

@@ -6,7 +6,6 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "tests/support/message_of.h"
 #include "tests/support/scenes/street.h"
 #include "tests/support/scenes/texture.h"
 
@@ -85,13 +84,28 @@ TEST(MapLocalizer, ImagesOfOneDriveSupportEachOther) {
   }
 }
 
-TEST(MapLocalizer, AGreyImageCannotBeComparedWithColouredViews) {
+TEST(MapLocalizer, RefusesAnImageThatItCannotCompareAndPlacesTheOthers) {
   const MapLocalizer localizer({}, rooms(true));
-  const std::string message = message_of<ArgumentError>([&] {
-    (void)localizer.localize(
-        1, [](std::size_t) { return frame_of(room_view(0, 0)); }, false);
-  });
-  EXPECT_NE(message.find("image 0 is grey"), std::string::npos) << message;
+  const auto in_colour = [](const Image& grey) {
+    Frame frame = frame_of(grey);
+    cv::cvtColor(grey, frame.colour, cv::COLOR_GRAY2BGR);
+    return frame;
+  };
+  for (const bool sequence : {false, true}) {
+    const auto found = localizer.localize(
+        6,
+        [&](std::size_t i) {
+          const Image view = room_view(2, 3.0 * static_cast<double>(i) + 1);
+          return i == 1 ? frame_of(view) : i == 4 ? Frame() : in_colour(view);
+        },
+        sequence);
+    ASSERT_EQ(found.size(), 6u);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      EXPECT_EQ(found[i].placed, i != 1 && i != 4) << i << sequence;
+      EXPECT_EQ(found[i].stage, i == 1 ? "grey" : i == 4 ? "unreadable" : "appearance") << i;
+      EXPECT_EQ(found[i].place.has_value(), i != 1 && i != 4) << i;
+    }
+  }
 }
 
 TEST(MapLocalizer, RefusesMapsThatItCannotCompareWith) {
