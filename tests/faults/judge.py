@@ -78,6 +78,7 @@ class Kit:
         self.seed, self.frames, self.keep = chosen.seed, chosen.frames, chosen.keep
         self.data = chosen.data
         self.base_lock = threading.Lock()
+        shutil.rmtree(os.path.join(self.work, "bases"), ignore_errors=True)  # of another program, perhaps
 
     def table(self):
         faults = []

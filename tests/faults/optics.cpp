@@ -52,10 +52,11 @@ Image coloured(const Image& image, std::size_t) {
 /// Darkens the image away from its middle, down to a tenth in the corners.
 Image with_vignette(const Image& image, std::size_t) {
   Image out = image.clone();
-  const double cu = 0.5 * (image.cols - 1), cv = 0.5 * (image.rows - 1);
+  const double mid_u = 0.5 * (image.cols - 1), mid_v = 0.5 * (image.rows - 1);
   for (int v = 0; v < out.rows; ++v) {
     for (int u = 0; u < out.cols; ++u) {
-      const double r2 = ((u - cu) * (u - cu) + (v - cv) * (v - cv)) / (cu * cu + cv * cv);
+      const double du = (u - mid_u) / mid_u, dv = (v - mid_v) / mid_v,
+                   r2 = 0.5 * (du * du + dv * dv);
       out.at<uchar>(v, u) = static_cast<uchar>(image.at<uchar>(v, u) * (1 - 0.9 * r2));
     }
   }

@@ -39,10 +39,10 @@ Recording with_right_rows(const Recording& recording, double rows) {
 
 Recording with_right_rotated(const Recording& recording, double angle_deg) {
   return with_right(recording, whole(recording), [angle_deg](const Image& image, std::size_t) {
-    const double angle = angle_deg * CV_PI / 180, cu = 0.5 * image.cols, cv = 0.5 * image.rows;
-    const double c = std::cos(angle), s = std::sin(angle);
+    const double angle = angle_deg * CV_PI / 180, c = std::cos(angle), s = std::sin(angle);
+    const double mid_u = 0.5 * image.cols, mid_v = 0.5 * image.rows;
     Eigen::Matrix3d H;
-    H << c, -s, cu - c * cu + s * cv, s, c, cv - s * cu - c * cv, 0, 0, 1;
+    H << c, -s, mid_u - c * mid_u + s * mid_v, s, c, mid_v - s * mid_u - c * mid_v, 0, 0, 1;
     return warped(image, H, cv::INTER_LINEAR);
   });
 }
