@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/pipeline/judgement.h>
+#include <placegraph/pipeline/run.h>
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>

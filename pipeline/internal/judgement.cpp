@@ -1,5 +1,5 @@
 #include <fmt/format.h>
-#include <placegraph/pipeline/judgement.h>
+#include <placegraph/pipeline/run.h>
 
 #include <algorithm>
 
