@@ -63,7 +63,7 @@ struct PlaceGraph {
 
   /// The place with the given id; nullptr if there is none.
   const Place* find(PlaceId id) const;
-  /// For every place the number of its connected component: the smallest Place::component in it.
+  /// For every place the number of its connected component, the smallest Place::component there.
   /// Places of one `component` and places that a constraint joins belong together. Throws
   /// ArgumentError for a constraint on an unknown place.
   std::vector<int> joined_components() const;

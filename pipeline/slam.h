@@ -98,8 +98,9 @@ class Slam {
   ///
   /// run_sequence restarts with undistorted images once the thresholds of LensOptions are exceeded.
   LensDistortion lens() const;
-  /// Returns doubts about the images, the calibration and the motion, as far as the frames so far
-  /// show them.
+  /// Returns doubts that the frames so far raise.
+  ///
+  /// They concern the images, the calibration and the motion; each has a cause.
   std::vector<DataNote> notes() const;
   /// Returns one entry per keyframe of this run, in order; empty unless `context` is enabled.
   const std::vector<EnvironmentObservation>& environments() const;

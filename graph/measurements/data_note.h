@@ -27,6 +27,7 @@ enum class NoteCause {
   kUpsideDown,      ///< the camera is not upright
   kDrift            ///< the expected error at the end is large
 };
+/// The code of a cause in result.json, such as "static_overlay".
 const char* to_string(NoteCause cause);
 
 /// A remark about input data or about a run.
