@@ -51,8 +51,10 @@ struct LoopRecord {
   bool accepted() const { return stage == LoopStage::kAccepted; }
 };
 
-/// Frames whose poses are in one coordinate frame. A new component begins after a loss of tracking
-/// that nothing bridges; constraints between places join components.
+/// Frames whose poses are in one coordinate frame.
+///
+/// A new component begins after a loss of tracking that nothing bridges. Constraints between places
+/// join components.
 struct MapComponent {
   int number = 0;                   ///< number as in PlaceGraph::joined_components
   bool main = false;                ///< whether it has the most frames with a pose
@@ -80,18 +82,19 @@ struct Map {
   Eigen::Vector3d position(const PointLandmark& landmark) const {
     return S_map_keyframe(landmark.keyframe) * landmark.point_cam;
   }
-  /// The components that have frames with a pose, by ascending number; one of them is the main one.
-  /// Throws as trajectory_optimized.
+  /// The components that have frames with a pose, by ascending number.
+  ///
+  /// One of them is the main one. Throws as trajectory_optimized.
   std::vector<MapComponent> components() const;
-  /// MapComponent::number of the one with the most posed frames, of equal ones the first; 0 without
-  /// any.
+  /// Number of the component with the most posed frames, of equal ones the first.
+  ///
+  /// 0 for a map without components. Throws as trajectory_optimized.
   int main_component() const;
   /// The pose T_map_cam of every frame of the main component, through its keyframe and place.
   /// Frames of other components have no pose here. Throws ArgumentError if a posed frame's keyframe
   /// or that keyframe's place is not in the map.
   Trajectory trajectory_optimized() const { return trajectory_optimized(main_component()); }
-  /// The same for the frames of the component with this MapComponent::number, in the frame of that
-  /// component.
+  /// The same for the component with this MapComponent::number, in its own frame.
   Trajectory trajectory_optimized(int component) const;
 };
 

@@ -63,7 +63,9 @@ struct PlaceGraph {
 
   /// The place with the given id; nullptr if there is none.
   const Place* find(PlaceId id) const;
-  /// For every place the number of its connected component, the smallest Place::component there.
+  /// For every place the number of its connected component.
+  ///
+  /// It is the smallest Place::component in it.
   /// Places of one `component` and places that a constraint joins belong together. Throws
   /// ArgumentError for a constraint on an unknown place.
   std::vector<int> joined_components() const;

@@ -111,7 +111,7 @@ bool begins_with(const Words& words, const Words& head) {
   return words.size() >= head.size() && std::equal(head.begin(), head.end(), words.begin());
 }
 
-std::string note(const std::string& given, const std::string& present) {
+std::string note_of_old(const std::string& given, const std::string& present) {
   return fmt::format("'{}' is an old spelling of '{}'", given, present);
 }
 
@@ -135,7 +135,7 @@ void replace_command(CommandWords& line) {
   for (const CommandSpelling& spelling : command_spellings()) {
     if (!begins_with(line.words, spelling.given)) continue;
     if (!spelling.short_form)
-      line.notes.push_back(note(joined(spelling.given), joined(spelling.present)));
+      line.notes.push_back(note_of_old(joined(spelling.given), joined(spelling.present)));
     return replace_head(line.words, spelling.given.size(), spelling.present);
   }
   for (const GroupSpelling& spelling : group_spellings()) {
@@ -144,7 +144,7 @@ void replace_command(CommandWords& line) {
     const bool has_argument = std::any_of(line.words.begin() + 1, line.words.end(), is_argument);
     if (!has_argument || std::ranges::count(spelling.commands, line.words[1]) > 0) return;
     if (!spelling.short_form)
-      line.notes.push_back(note(spelling.group, spelling.group + " " + spelling.command));
+      line.notes.push_back(note_of_old(spelling.group, spelling.group + " " + spelling.command));
     return replace_head(line.words, 1, {spelling.group, spelling.command});
   }
 }
@@ -155,7 +155,7 @@ void replace_flags(CommandWords& line) {
     for (std::string& word : line.words) {
       if (word != spelling.given && !word.starts_with(spelling.given + "=")) continue;
       word = spelling.present + word.substr(spelling.given.size());
-      line.notes.push_back(note(spelling.given, spelling.present));
+      line.notes.push_back(note_of_old(spelling.given, spelling.present));
     }
   }
 }
