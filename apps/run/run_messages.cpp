@@ -5,6 +5,8 @@
 
 #include <utility>
 
+#include "apps/support/output.h"
+
 namespace placegraph::apps {
 
 RunMessages::RunMessages(Verbosity verbosity, Print print)
@@ -81,8 +83,9 @@ void RunMessages::map_moved(const MapMoved& move) {
         fmt::format("{} places moved by up to {:.3g}", move.places, move.translation));
 }
 
-void RunMessages::print(Verbosity least, const char* level, const std::string& line) const {
+void RunMessages::print(Verbosity least, const char* level, const std::string& text) const {
   if (verbosity_ < least) return;
+  const std::string line = one_line(text);
   if (verbosity_ == Verbosity::kDebug) {
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin_;
     return print_(fmt::format("{:9.3f} s  {:<7}  {}", elapsed.count(), level, line));

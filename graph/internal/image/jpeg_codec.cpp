@@ -1,12 +1,14 @@
 #include <placegraph/graph/internal/image/jpeg_codec.h>
 #include <placegraph/graph/internal/image/picture_size.h>
 
-#include <jerror.h>
+// clang-format off
+#include <cstdio>  // jpeglib.h needs FILE
 #include <jpeglib.h>
+#include <jerror.h>  // its numbers depend on what jpeglib.h defines
+// clang-format on
 #include <algorithm>
 #include <csetjmp>
 #include <cstdint>
-#include <cstdio>  // jpeglib.h needs FILE
 #include <vector>
 
 namespace placegraph {
@@ -33,6 +35,7 @@ void judge_jpeg_warning(j_common_ptr info, int level) {
   switch (info->err->msg_code) {
     case JWRN_HIT_MARKER:
     case JWRN_HUFF_BAD_CODE:
+    case JWRN_ARITH_BAD_CODE:
     case JWRN_MUST_RESYNC:
     case JWRN_BOGUS_PROGRESSION:
       reinterpret_cast<JpegErrors*>(info->err)->damaged = true;

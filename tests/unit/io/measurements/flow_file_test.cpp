@@ -50,6 +50,13 @@ TEST(FlowFile, BrokenFilesAreNamedWithWhatIsWrong) {
   EXPECT_THAT(message("g.flo"), HasSubstr("g.flo: is not Middlebury flow"));
   EXPECT_THAT(message("h.png"), HasSubstr("h.png"));
   EXPECT_THAT(message("none.flo"), HasSubstr("none.flo: flow is missing"));
+  const std::int32_t side = 20000;  // of 3.2 GB, all of which are holes
+  std::ofstream large(folder / "large.flo", std::ios::binary);
+  large << "PIEH";
+  for (int k = 0; k < 2; ++k) large.write(reinterpret_cast<const char*>(&side), sizeof side);
+  large.close();
+  std::filesystem::resize_file(folder / "large.flo", 12 + std::uintmax_t{8} * side * side);
+  EXPECT_THAT(message("large.flo"), HasSubstr("large.flo: flow of 20000x20000 pixels"));
   EXPECT_THROW(write_flow(folder / "f.txt", example()), ArgumentError);
   EXPECT_THROW(write_flow(folder / "f.flo", Image(3, 3, CV_8UC1)), ArgumentError);
 }
