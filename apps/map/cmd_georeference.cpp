@@ -18,7 +18,7 @@ void add_georeference_command(CLI::App& map) {
       "placegraph map georeference out/run --gps 2011_09_26_drive_0095_sync --out out/earth");
   command
       ->add_option("GRAPH", a.graph,
-                   "folder written by `placegraph run`, or a .g2o graph with --times")
+                   "folder written by `placegraph run` or its map.db, or a .g2o graph with --times")
       ->required()
       ->check(CLI::ExistingPath);
   command

@@ -8,6 +8,7 @@
 #include <placegraph/io/graphs/g2o.h>
 #include <placegraph/io/graphs/pose_graph_file.h>
 #include <placegraph/io/internal/sensors/oxts_file.h>
+#include <placegraph/io/map/map_database.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 
 #include <filesystem>
@@ -69,12 +70,33 @@ GeoreferenceInput read_run(const std::string& folder) {
   return input;
 }
 
+GeoreferenceInput read_saved_map(const std::string& path) {
+  const StoredMap stored = read_map(path);
+  require(stored.origin.calibration.has_value(),
+          path + ": is a map of images without a camera, in which nothing has a pose");
+  const Map& map = stored.map;
+  GeoreferenceInput input;
+  input.graph = map.place_graph.pose_graph();
+  if (!map.metric) input.graph = similarity_graph(input.graph);
+  for (const Place& place : map.place_graph.places)
+    for (const PlaceMember& member : place.members)
+      input.visits.push_back(
+          {map.find_keyframe(member.keyframe)->stamp_ns, node_of_place(place.id)});
+  input.motion = map.trajectory_optimized();
+  std::erase_if(input.motion.poses, [](const StampedPose& pose) { return !pose.T_world_body; });
+  return input;
+}
+
 }  // namespace
 
 GeoreferenceInput read_georeference_input(const std::string& path, const std::string& times_path) {
   if (fs::is_directory(path)) {
     require(times_path.empty(), "--times: the folder of a run has its own");
     return read_run(path);
+  }
+  if (fs::path(path).extension() == ".db") {
+    require(times_path.empty(), "--times: a saved map has its own");
+    return read_saved_map(path);
   }
   GeoreferenceInput input;
   input.graph = read_pose_graph(path);

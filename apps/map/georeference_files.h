@@ -8,10 +8,11 @@ namespace placegraph::apps {
 
 /// Reads the graph, the visits and the motion of a map.
 /// `path` is the output folder of `placegraph run` (graph.g2o, places.json,
-/// trajectory_optimized.tum, result.json) or a pose graph in any form of read_pose_graph. In a
-/// folder, every member of a place is a visit, and a map without metric scale becomes a Sim(3)
-/// graph. With a pose graph, line i of `times_path`, from 0, is the time of the node with id i.
-/// Throws FileError, and ArgumentError if `times_path` is missing or superfluous.
+/// trajectory_optimized.tum, result.json), its map.db (any file NAME.db), or a pose graph in any
+/// form of read_pose_graph. In a folder or a map, every member of a place is a visit, and a map
+/// without metric scale becomes a Sim(3) graph. With a pose graph, line i of `times_path`, from 0,
+/// is the time of the node with id i. Throws FileError, and ArgumentError if `times_path` is
+/// missing or superfluous.
 GeoreferenceInput read_georeference_input(const std::string& path, const std::string& times_path);
 
 /// Converts a graph for .g2o.

@@ -4,6 +4,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/internal/core/angle.h>
 #include <placegraph/io/graphs/g2o.h>
+#include <placegraph/io/map/map_database.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 
 #include <cmath>
@@ -145,6 +146,55 @@ TEST_F(GeoreferenceCommand, GivesTheFolderOfARunWithoutScaleItsScale) {
   const auto& edge = std::get<RelativePoseConstraint>(placed.constraints.front());
   EXPECT_NEAR(std::get<SE3>(edge.T_from_to).translation().norm(),
               2 * kRadius_m * std::sin(kFramesAPlace * kAngle_rad / 2), 0.02);
+}
+
+TEST_F(GeoreferenceCommand, TakesASavedMap) {
+  constexpr double kUnit_m = 2.5;
+  const auto T_map_cam = [&](int i) {
+    const double a = i * kAngle_rad, r = kRadius_m / kUnit_m;
+    return SE3(SO3::exp({0, 0, a}), {r * std::sin(a), r * (1 - std::cos(a)), 0});
+  };
+  StoredMap stored;
+  stored.origin.calibration.emplace().camera = {640, 480, 500, 500, 320, 240, Distortion::kNone,
+                                                {}};
+  Map& map = stored.map;
+  for (int i = 0; i < kNodes; ++i) {
+    const KeyframeId id(i / 10);
+    const std::int64_t stamp_ns = 100'000'000LL * i;
+    if (i % 10 == 0) {
+      Keyframe keyframe;
+      keyframe.id = id;
+      keyframe.place = PlaceId(id.value());
+      keyframe.frame = FrameId(i);
+      keyframe.stamp_ns = stamp_ns;
+      map.keyframes.push_back(keyframe);
+      Place place;
+      place.id = keyframe.place;
+      place.anchor_keyframe = id;
+      place.T_map_place = T_map_cam(i);
+      place.members = {{id, SE3(), 1}};
+      map.place_graph.places.push_back(place);
+      if (i > 0)
+        map.place_graph.constraints.push_back({NodeId(i / 10 - 1), NodeId(i / 10),
+                                               Sim3(T_map_cam(i - 10).inverse() * T_map_cam(i)),
+                                               1e4 * Information::Identity(7, 7)});
+    }
+    map.frames.push_back({FrameId(i), stamp_ns, id,
+                          map.place_graph.places.back().T_map_place.inverse() * T_map_cam(i), 50});
+    map.trajectory_online.poses.push_back({stamp_ns, std::nullopt});
+  }
+  map.frames.back().keyframe.reset();  // lost
+  map.frames.back().T_keyframe_frame.reset();
+  write_map(folder / "map.db", stored);
+  arguments.graph = folder / "map.db";
+  EXPECT_THAT(message_of<ArgumentError>([&] { georeference(arguments); }),
+              HasSubstr("--times: a saved map has its own"));
+  arguments.times.clear();
+  const GeoreferenceReport report = georeference(arguments);
+  ASSERT_TRUE(report.result.scale);
+  EXPECT_NEAR(report.result.scale->metres_per_unit, kUnit_m, 1e-3);
+  EXPECT_EQ(report.result.trajectory.size(), static_cast<std::size_t>(kNodes - 1));
+  EXPECT_LT(report.result.residual_rms_m, 0.05);
 }
 
 TEST_F(GeoreferenceCommand, AnAntennaBesideTheCameraIsHeeded) {
