@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <opencv2/imgproc.hpp>
 
 namespace placegraph::faults {
@@ -129,6 +130,8 @@ Recording read_recording(const std::string& path, const ReadingOptions& options)
 }
 
 void write_recording(const Recording& recording, const std::string& name, const std::string& path) {
+  require(!std::filesystem::exists(path) || std::filesystem::is_empty(path),
+          path + ": is not an empty folder");
   synthetic::SequenceFolder folder(path, false);
   folder.make("image_0");
   if (recording.has_right()) folder.make("image_1");

@@ -26,6 +26,13 @@ TEST(FaultRecording, IsReadAsItWasWritten) {
             "{\"fault\": \"some_fault\", \"first\": 0, \"last\": 59}\n");
 }
 
+TEST(FaultRecording, IsNotWrittenIntoAFolderWithContent) {
+  const placegraph::test::TemporaryFolder folder;
+  folder.write("sequence/notes.txt", "mine");
+  EXPECT_THROW(write_recording(small_recording(), "none", folder / "sequence"), ArgumentError);
+  EXPECT_EQ(placegraph::test::read_file(folder / "sequence/notes.txt"), "mine");
+}
+
 TEST(FaultRecording, StatedDepthUnitIsWrittenAndTheTrueOneIsUsed) {
   const placegraph::test::TemporaryFolder folder;
   Recording recording = small_recording();
