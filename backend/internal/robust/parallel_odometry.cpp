@@ -114,8 +114,7 @@ class Surroundings {
     return rings;
   }
 
-  /// The misfit with the other edges. If they are more than kCompared, every second, third, ... one
-  /// stands for those around it.
+  /// Of more than kCompared edges every second, third, ... one stands for its neighbours.
   double misfit_with_others(const Group& T_u_v, const Parallel& edges, int u) const {
     constexpr std::size_t kCompared = 500;
     const std::size_t stride = (edges.size() - 1) / kCompared + 1;
