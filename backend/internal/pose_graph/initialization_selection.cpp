@@ -125,14 +125,11 @@ LocalSolution descend_to_the_end(PackedGraph<Group>& graph, LocalSolver<Group>& 
     const bool fell = next.cost_final < solution.cost_final;
     solution.outcome = std::move(next.outcome);
     solution.iterations += next.iterations;
-    solution.crawls = next.crawls;
     solution.cost_final = next.cost_final;
     if (!fell) break;
   }
   return solution;
 }
-
-bool converged(const LocalSolution& solution) { return solution.outcome && !solution.crawls; }
 
 /// Whether a is preferred: convergence is decisive, then the lower cost.
 bool better(const LocalSolution& a, const LocalSolution& b) {
@@ -140,7 +137,6 @@ bool better(const LocalSolution& a, const LocalSolution& b) {
     return std::isfinite(a.cost_final);
   if (static_cast<bool>(a.outcome) != static_cast<bool>(b.outcome))
     return static_cast<bool>(a.outcome);
-  if (a.crawls != b.crawls) return b.crawls;
   return a.cost_final < b.cost_final;
 }
 
@@ -155,7 +151,7 @@ class Candidates {
     starts_.push_back(poses);
     graph_.poses = std::move(poses);
     LocalSolution solution =
-        converged(best_.solution)
+        best_.solution.outcome
             ? descend_to_the_end(graph_, solver_, kWithinReach * best_.solution.cost_final)
             : descend_to_the_end(graph_, solver_);
     iterations_ += solution.iterations;
@@ -221,7 +217,7 @@ InitializedSolution solve_automatically(PackedGraph<Group>& graph, RotationError
   Candidates<Group> candidates(graph, solver);
   candidates.descend(file_first ? file : chordal, file_first ? PoseGraphInitialization::kFile
                                                              : PoseGraphInitialization::kChordal);
-  if (converged(candidates.best()) &&
+  if (candidates.best().outcome &&
       (windings_are_settled(graph) || certified_as_they_are(graph, rotation_error)))
     return candidates.take();
   graph.poses = chordal.empty() ? file : chordal;
@@ -231,7 +227,7 @@ InitializedSolution solve_automatically(PackedGraph<Group>& graph, RotationError
       initialize_certified(graph, rotation_error,
                            std::max(kCertifiedDescents * descent, kLeastCertifiedIterations))
           .tight;
-  if (tight && converged(candidates.best()) && rotations_agree(graph.poses, candidates.poses()))
+  if (tight && candidates.best().outcome && rotations_agree(graph.poses, candidates.poses()))
     return candidates.take();
   candidates.descend(std::vector<Group>(graph.poses), PoseGraphInitialization::kCertified);
   if (tight) return candidates.take();

@@ -22,9 +22,6 @@ struct LocalSolution {
   /// Whether the normal equations were positive definite near the end, so that the minimum is
   /// locally unique. Also false if that was not tested (Ceres).
   bool regular = false;
-  /// Whether the descent was ended because its cost hardly fell any more, far from a stationary
-  /// point: constraints that contradict each other leave long flat valleys. The outcome is ok then.
-  bool crawls = false;
 };
 
 }  // namespace placegraph

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <vector>
 
 namespace placegraph {
 namespace {
@@ -22,22 +21,6 @@ constexpr int kMaxRejections = 30;
 constexpr int kMostShortened = 8;
 constexpr double kDampingOfOpenDirections = 1e-4;
 constexpr double kFirstDamping = 1e-10, kLeastDamping = 1e-16;
-
-/// The costs of a descent, which crawls if one of many steps gains next to nothing.
-class CostHistory {
- public:
-  /// Adds the cost after a step; whether the last steps together lowered it by less than 1 %.
-  bool crawls(double cost) {
-    constexpr std::size_t kSteps = 50;
-    constexpr double kLeastFall = 0.01;
-    costs_.push_back(cost);
-    return costs_.size() > kSteps && cost > (1 - kLeastFall) * costs_[costs_.size() - 1 - kSteps];
-  }
-  void restart() { costs_.clear(); }
-
- private:
-  std::vector<double> costs_;
-};
 
 }  // namespace
 
@@ -209,14 +192,12 @@ LocalSolution NativeSolver<Group>::solve(PackedGraph<Group>& graph) {
   solution.outcome = Outcome::failure(Outcome::Code::kNotConverged,
                                       "the maximum number of iterations was reached");
   int rejections = 0;
-  CostHistory history;
   for (;;) {
     std::optional<Step> step;
     if (lambda_ == 0 && shortened_ == kMostShortened) {
       graph.poses = before_shortening_;
       cost_ = equations_->linearize(graph, options_.rotation_error);
       lambda_ = kFirstDamping;
-      history.restart();
     }
     if (lambda_ == 0 && !(step = newton_step())) lambda_ = kDampingOfOpenDirections;
     if (lambda_ > 0) step = damped_step();
@@ -236,9 +217,8 @@ LocalSolution NativeSolver<Group>::solve(PackedGraph<Group>& graph) {
                                                                       : take_dogleg(graph, *step);
     rejections = taken ? 0 : rejections + 1;
     log(options_.log, LogLevel::kDebug, "iteration {}: cost {:f}", solution.iterations, cost_);
-    solution.crawls = history.crawls(cost_);
     // No step of any length lowers the cost: the minimum, up to rounding.
-    if (solution.crawls || (!taken && (lambda_ == 0 || rejections == kMaxRejections))) {
+    if (!taken && (lambda_ == 0 || rejections == kMaxRejections)) {
       solution.outcome = Outcome::ok();
       break;
     }
