@@ -6,13 +6,11 @@
 
 #include <algorithm>
 #include <numeric>
-#include <utility>
 
 namespace placegraph {
 namespace {
 
 using Cluster = std::vector<int>;  // loops, as positions in PackedGraph::edges
-constexpr double kDrift = 10;      ///< ratio of the noise of long rings to that of short ones
 
 LocalSolverOptions roughly(LocalSolverOptions options) {
   options.relative_decrease = std::max(options.relative_decrease, 1e-4);
@@ -53,8 +51,6 @@ class Growth {
         gnc_(gnc),
         gate_(graph, probability, support.noise_scale,
               {options.margin, options.tail, options.nearly_right}),
-        ring_scale_(support.noise_scale),
-        ring_gate_(gate_.of_noise()),
         rough_solver_(rough_) {}
 
   double noise_scale() const { return gate_.noise_scale(); }
@@ -85,68 +81,8 @@ class Growth {
     }
   }
 
-  /// Drops groups without which the rest of the graph fits far better, and settles again.
-  /// Graduated non-convexity looks at the errors of loops alone: it may keep a group of false loops
-  /// that bends the odometry until its own loops fit.
-  void drop_bending_groups() {
-    constexpr int kMostDropped = 20;
-    for (int dropped = 0; dropped < kMostDropped && is_bent() && drop_most_strained(); ++dropped)
-      settle();
-  }
-
  private:
   std::vector<double> chi2() const { return chi2_by_edge(graph_, rough_.rotation_error); }
-
-  double cost() const {
-    const std::vector<double> errors = chi2();
-    double sum = 0;
-    for (std::size_t i = 0; i < errors.size(); ++i) sum += graph_.edges[i].weight * errors[i];
-    return sum;
-  }
-
-  /// Whether the cost is far above that of the noise of neighbouring loops.
-  bool is_bent() const {
-    const auto edges = std::count_if(graph_.edges.begin(), graph_.edges.end(),
-                                     [](const auto& edge) { return edge.weight > 0; });
-    const double redundant =
-        static_cast<double>(edges) - static_cast<double>(graph_.poses.size()) + 1;
-    return cost() > kDrift * ring_scale_ * Group::kDof * std::max(1.0, redundant);
-  }
-
-  /// The accepted loops of every group that has some, those of the largest mean error first.
-  std::vector<Cluster> by_strain() const {
-    const std::vector<double> errors = chi2();
-    std::vector<std::pair<double, Cluster>> strained;
-    for (const Cluster& cluster : clusters_) {
-      Cluster kept;
-      double sum = 0;
-      for (const int edge : cluster)
-        if (graph_.edges[edge].weight > 0) kept.push_back(edge), sum += errors[edge];
-      if (!kept.empty()) strained.emplace_back(-sum / static_cast<double>(kept.size()), kept);
-    }
-    std::sort(strained.begin(), strained.end());
-    std::vector<Cluster> result;
-    for (auto& [strain, kept] : strained) result.push_back(std::move(kept));
-    return result;
-  }
-
-  /// Drops the first of the most strained groups whose loss lowers the cost by far more than the
-  /// gates of its loops; false if there is none.
-  bool drop_most_strained() {
-    constexpr std::size_t kTried = 10;
-    const double before = cost();
-    const PackedGraph<Group> bent = graph_;
-    std::vector<Cluster> groups = by_strain();
-    if (groups.size() > kTried) groups.resize(kTried);
-    for (const Cluster& group : groups) {
-      for (const int edge : group) graph_.edges[edge].weight = 0;
-      reconnect(graph_, chi2());
-      (void)rough_solver_.solve(graph_);
-      if (before - cost() > kDrift * static_cast<double>(group.size()) * ring_gate_) return true;
-      graph_ = bent;
-    }
-    return false;
-  }
 
   bool taken(const Cluster& cluster) const {
     const auto n = std::count_if(cluster.begin(), cluster.end(),
@@ -231,7 +167,6 @@ class Growth {
   int max_rounds_;
   GncOptions gnc_;
   LoopGate<Group> gate_;
-  double ring_scale_, ring_gate_;  ///< noise and gate by the rings of neighbouring loops alone
   SubsetSolver<Group> rough_solver_;
 };
 
@@ -242,6 +177,7 @@ namespace {
 template <class Group>
 LoopSetGrowth finish(Growth<Group>& growth, PackedGraph<Group>& graph,
                      const LocalSolverOptions& solver) {
+  growth.settle();
   LoopSetGrowth result;
   result.local = SubsetSolver<Group>(solver).solve(graph);
   result.noise_scale = growth.noise_scale();
@@ -257,7 +193,6 @@ LoopSetGrowth extend_loop_set(PackedGraph<Group>& graph, const LoopSupport& supp
   options.check();
   Growth<Group> growth(graph, support, probability, solver, options, gnc);
   growth.take_groups();
-  growth.settle();
   return finish(growth, graph, solver);
 }
 
@@ -267,8 +202,6 @@ LoopSetGrowth settle_loops(PackedGraph<Group>& graph, const LoopSupport& support
                            const LoopSetGrowthOptions& options, const GncOptions& gnc) {
   options.check();
   Growth<Group> growth(graph, support, probability, solver, options, gnc);
-  growth.settle();
-  growth.drop_bending_groups();
   return finish(growth, graph, solver);
 }
 

@@ -31,8 +31,7 @@ template <class Group>
                                             const LoopSetGrowthOptions& options,
                                             const GncOptions& gnc);
 
-/// Step 3 only, from the poses and the weights of `graph`; then groups that bend the rest of the
-/// graph are dropped, if its cost is far above the noise of the rings.
+/// Step 3 only, from the poses and the weights of `graph`.
 template <class Group>
 [[nodiscard]] LoopSetGrowth settle_loops(PackedGraph<Group>& graph, const LoopSupport& support,
                                          double probability, const LocalSolverOptions& solver,
