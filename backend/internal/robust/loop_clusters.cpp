@@ -187,24 +187,6 @@ std::vector<RingMisclosure> drift_rings(const std::vector<LoopOnChain<Group>>& l
   return rings;
 }
 
-/// Removes the edges that repeat one step of the chain, and the copies of other loops; returns each
-/// as a group of its own.
-template <class Group>
-std::vector<std::vector<int>> take_repeats(std::vector<LoopOnChain<Group>>& loops,
-                                           const OdometryChain<Group>& chain) {
-  std::vector<LoopOnChain<Group>> kept;
-  std::vector<std::vector<int>> repeats;
-  for (const LoopOnChain<Group>& loop : loops) {
-    const bool repeats_other = !kept.empty() && is_copy(kept.back(), loop);
-    if (repeats_other || chain.repeats_step(loop.from, loop.to))
-      repeats.push_back({loop.edge});
-    else
-      kept.push_back(loop);
-  }
-  loops = std::move(kept);
-  return repeats;
-}
-
 }  // namespace
 
 RingMixture fit_rings(const std::vector<LoopPair>& pairs, const std::vector<RingMisclosure>& drift,
@@ -236,7 +218,12 @@ LoopSupport support_loops(const PackedGraph<Group>& graph, const OdometryChain<G
   LoopSupport support;
   if (graph.poses.empty()) return support;
   auto loops = loops_on_chain(graph, chain);
-  const auto repeats = take_repeats(loops, chain);
+  std::vector<std::vector<int>> steps;  // edges that repeat one step of the chain
+  std::erase_if(loops, [&](const LoopOnChain<Group>& loop) {
+    if (!chain.repeats_step(loop.from, loop.to)) return false;
+    steps.push_back({loop.edge});
+    return true;
+  });
   const auto pairs = neighbouring_pairs(loops, chain, options.reach, options.neighbours);
   const RingMixture rings =
       fit_rings(pairs, drift_rings(loops, chain), Group::kDof, tangent_volume(graph, chain));
@@ -244,7 +231,7 @@ LoopSupport support_loops(const PackedGraph<Group>& graph, const OdometryChain<G
   support.scale_is_known = rings.scale_is_known;
   support.clusters = clusters_of(loops, pairs, rings.probability, options.least_probability);
   for (const auto& cluster : support.clusters) support.alone += cluster.size() == 1;
-  support.clusters.insert(support.clusters.end(), repeats.begin(), repeats.end());
+  support.clusters.insert(support.clusters.end(), steps.begin(), steps.end());
   return support;
 }
 

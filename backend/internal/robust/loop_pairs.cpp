@@ -28,67 +28,6 @@ LoopOnChain<Group> loop_on_chain(const PackedGraph<Group>& graph, int edge,
   return loop;
 }
 
-/// Loops by cells of `reach` x `reach` poses: neighbours are in the same or an adjacent cell.
-/// Loops between the same two nodes are one entry, so that many of them cost no more than few.
-template <class Group>
-class EndCells {
- public:
-  EndCells(const std::vector<LoopOnChain<Group>>& loops, const OdometryChain<Group>& chain,
-           int reach)
-      : loops_(loops), chain_(chain), reach_(reach) {
-    std::map<std::pair<int, int>, int> entry_of;
-    for (std::size_t i = 0; i < loops.size(); ++i) {
-      const auto [known, fresh] =
-          entry_of.try_emplace({loops[i].from, loops[i].to}, static_cast<int>(entries_.size()));
-      if (fresh) {
-        cells_[cell_of(loops[i], 0, 0)].push_back(known->second);
-        entries_.emplace_back();
-      }
-      entries_[static_cast<std::size_t>(known->second)].push_back(static_cast<int>(i));
-    }
-  }
-
-  /// Candidates for the `neighbours` nearest loops of loop `i`: distance and loop.
-  void near(int i, int neighbours, std::vector<std::pair<int, int>>& found) const {
-    found.clear();
-    const auto& loop = loops_[static_cast<std::size_t>(i)];
-    for (int di = -1; di <= 1; ++di)
-      for (int dj = -1; dj <= 1; ++dj) {
-        const auto cell = cells_.find(cell_of(loop, di, dj));
-        if (cell == cells_.end()) continue;
-        for (const int entry : cell->second)
-          add(i, loop, entries_[static_cast<std::size_t>(entry)], neighbours, found);
-      }
-  }
-
- private:
-  using Cell = std::tuple<int, int, int, int>;
-  Cell cell_of(const LoopOnChain<Group>& loop, int di, int dj) const {
-    return {chain_.run(loop.from), chain_.run(loop.to), chain_.position(loop.from) / reach_ + di,
-            chain_.position(loop.to) / reach_ + dj};
-  }
-  /// The first of the loops between two nodes, as many as can be among the nearest.
-  void add(int i, const LoopOnChain<Group>& loop, const std::vector<int>& others, int neighbours,
-           std::vector<std::pair<int, int>>& found) const {
-    const auto& first = loops_[static_cast<std::size_t>(others.front())];
-    const int at_from = std::abs(chain_.position(loop.from) - chain_.position(first.from));
-    const int at_to = std::abs(chain_.position(loop.to) - chain_.position(first.to));
-    if (at_from > reach_ || at_to > reach_) return;
-    int left = neighbours;
-    for (std::size_t k = 0; k < others.size() && left > 0; ++k) {
-      if (others[k] == i) continue;
-      found.emplace_back(at_from + at_to, others[k]);
-      --left;
-    }
-  }
-
-  const std::vector<LoopOnChain<Group>>& loops_;
-  const OdometryChain<Group>& chain_;
-  int reach_;
-  std::vector<std::vector<int>> entries_;  ///< loops between the same two nodes, ascending
-  std::map<Cell, std::vector<int>> cells_;
-};
-
 }  // namespace
 
 template <class Group>
@@ -104,11 +43,6 @@ std::vector<LoopOnChain<Group>> loops_on_chain(const PackedGraph<Group>& graph,
     return std::lexicographical_compare(log_a.begin(), log_a.end(), log_b.begin(), log_b.end());
   });
   return loops;
-}
-
-template <class Group>
-bool is_copy(const LoopOnChain<Group>& a, const LoopOnChain<Group>& b) {
-  return a.from == b.from && a.to == b.to && a.W.log() == b.W.log() && a.covariance == b.covariance;
 }
 
 template <class Group>
@@ -135,11 +69,32 @@ template <class Group>
 std::vector<LoopPair> neighbouring_pairs(const std::vector<LoopOnChain<Group>>& loops,
                                          const OdometryChain<Group>& chain, int reach,
                                          int neighbours) {
-  const EndCells<Group> cells(loops, chain, reach);
+  // Loops by cells of `reach` x `reach` poses: neighbours are in the same or an adjacent cell.
+  using Cell = std::tuple<int, int, int, int>;
+  const auto cell_of = [&](const LoopOnChain<Group>& loop, int di, int dj) {
+    return Cell{chain.run(loop.from), chain.run(loop.to), chain.position(loop.from) / reach + di,
+                chain.position(loop.to) / reach + dj};
+  };
+  std::map<Cell, std::vector<int>> cells;
+  for (std::size_t i = 0; i < loops.size(); ++i)
+    cells[cell_of(loops[i], 0, 0)].push_back(static_cast<int>(i));
+
   std::vector<std::pair<int, int>> pairs;
   std::vector<std::pair<int, int>> near;  // distance, loop
   for (std::size_t i = 0; i < loops.size(); ++i) {
-    cells.near(static_cast<int>(i), neighbours, near);
+    near.clear();
+    for (int di = -1; di <= 1; ++di)
+      for (int dj = -1; dj <= 1; ++dj) {
+        const auto cell = cells.find(cell_of(loops[i], di, dj));
+        if (cell == cells.end()) continue;
+        for (const int other : cell->second) {
+          const int at_from =
+              std::abs(chain.position(loops[i].from) - chain.position(loops[other].from));
+          const int at_to = std::abs(chain.position(loops[i].to) - chain.position(loops[other].to));
+          if (other != static_cast<int>(i) && at_from <= reach && at_to <= reach)
+            near.emplace_back(at_from + at_to, other);
+        }
+      }
     const std::size_t n = std::min(near.size(), static_cast<std::size_t>(neighbours));
     std::partial_sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(n), near.end());
     for (std::size_t k = 0; k < n; ++k)
@@ -157,7 +112,6 @@ std::vector<LoopPair> neighbouring_pairs(const std::vector<LoopOnChain<Group>>& 
 #define PLACEGRAPH_INSTANTIATE(Group)                                                           \
   template std::vector<LoopOnChain<Group>> loops_on_chain(const PackedGraph<Group>&,            \
                                                           const OdometryChain<Group>&);         \
-  template bool is_copy(const LoopOnChain<Group>&, const LoopOnChain<Group>&);                  \
   template RingMisclosure ring_misclosure(const LoopOnChain<Group>&, const LoopOnChain<Group>&, \
                                           const OdometryChain<Group>&);                         \
   template RingMisclosure drift_misclosure(const LoopOnChain<Group>&,                           \

@@ -23,12 +23,6 @@ template <class Group>
 std::vector<LoopOnChain<Group>> loops_on_chain(const PackedGraph<Group>& graph,
                                                const OdometryChain<Group>& chain);
 
-/// Whether two loops have the same ends, measurement and information. Copies agree without being
-/// true, and their rings close better than any noise. Copies stand side by side in
-/// loops_on_chain().
-template <class Group>
-bool is_copy(const LoopOnChain<Group>& a, const LoopOnChain<Group>& b);
-
 /// Misclosure of the ring of two loops, weighted by the stated information.
 struct RingMisclosure {
   double chi2 = 0;

@@ -114,19 +114,6 @@ class Surroundings {
     return rings;
   }
 
-  /// Of more than kCompared edges every second, third, ... one stands for its neighbours.
-  double misfit_with_others(const Group& T_u_v, const Parallel& edges, int u) const {
-    constexpr std::size_t kCompared = 500;
-    const std::size_t stride = (edges.size() - 1) / kCompared + 1;
-    double sum = 0;
-    for (std::size_t k = 0; k < edges.size(); k += stride) {
-      const int other = edges[k];
-      const typename Group::Tangent e = (motion(graph_, other, u).inverse() * T_u_v).log();
-      sum += cost(0.5 * e.dot(graph_.edges[other].information * e));
-    }
-    return sum;
-  }
-
   double misfit_of(int edge, const Parallel& edges, const std::vector<Ring>& rings, int u,
                    int v) const {
     const Group T_u_v = motion(graph_, edge, u);
@@ -134,7 +121,11 @@ class Surroundings {
     const typename Group::Tangent at_poses =
         (T_u_v.inverse() * (graph_.poses[u].inverse() * graph_.poses[v])).log();
     double sum = cost(at_poses.dot(information * at_poses));
-    if (edges.size() > 2) sum += misfit_with_others(T_u_v, edges, u);
+    if (edges.size() > 2)
+      for (const int other : edges) {
+        const typename Group::Tangent e = (motion(graph_, other, u).inverse() * T_u_v).log();
+        sum += cost(0.5 * e.dot(graph_.edges[other].information * e));
+      }
     // With this edge on the chain, all later poses of the run move by D.
     Group D = chain_.pose(u) * T_u_v * chain_.pose(v).inverse();
     if (chain_.position(u) > chain_.position(v))

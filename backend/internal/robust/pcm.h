@@ -11,8 +11,7 @@ namespace placegraph {
 /// of at most `gate`, weighted by the information. For the loops between two runs (or within one)
 /// the largest set of pairwise consistent loops is returned. Sets are positions in
 /// PackedGraph::edges, the largest set first; every loop is compared with every other one between
-/// the same runs; copies of one loop count once and stay together. `max_steps` limits the search
-/// (max_clique.h).
+/// the same runs. `max_steps` limits the search (max_clique.h).
 template <class Group>
 std::vector<std::vector<int>> consistent_loops(const PackedGraph<Group>& graph,
                                                const OdometryChain<Group>& chain, double gate,

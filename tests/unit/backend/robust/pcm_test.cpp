@@ -92,42 +92,6 @@ TEST(PairwiseConsistency, KeepsTheLoopsThatAgreeAndDropsTheRest) {
   EXPECT_EQ(sets[0], (std::vector<int>{39, 40, 41, 42, 43, 44}));
 }
 
-TEST(PairwiseConsistency, CountsCopiesOfALoopOnceAndKeepsThemTogether) {
-  PoseGraph graph = line(40);
-  for (int i = 0; i < 6; ++i) add_loop(graph, i, 30 + i, SE2(0, 0, 0));
-  for (int i = 0; i < 20'000; ++i) add_loop(graph, 4, 20, SE2(0, 5, 1));
-  for (int i = 0; i < 20'000; ++i) add_loop(graph, 2, 32, SE2(0, 0, 0));
-  const auto packed = pack<SE2>(graph);
-  const OdometryChain<SE2> chain(packed);
-  const auto sets = consistent_loops(packed, chain, chi_squared_quantile(0.99, 3));
-  ASSERT_EQ(sets.size(), 1u);
-  EXPECT_EQ(sets[0].size(), 20'006u);
-}
-
-TEST(LoopPairs, ManyLoopsBetweenTwoNodesHaveFewNeighboursEach) {
-  constexpr int kLoops = 20'000, kNeighbours = 8;
-  PoseGraph graph = line(40);
-  for (int i = 0; i < kLoops; ++i) add_loop(graph, 4, 34, SE2(1e-4 * i, 0, 0));
-  add_loop(graph, 5, 35, SE2(0, 0, 0));
-  const auto packed = pack<SE2>(graph);
-  const OdometryChain<SE2> chain(packed);
-  const auto pairs = neighbouring_pairs(loops_on_chain(packed, chain), chain, 10, kNeighbours);
-  EXPECT_LE(pairs.size(), static_cast<std::size_t>(kNeighbours) * (kLoops + 1));
-  EXPECT_GE(pairs.size(), static_cast<std::size_t>(kNeighbours) * kLoops / 2);
-}
-
-TEST(LoopSupport, CopiesOfALoopSupportNothing) {
-  PoseGraph graph = line(40);
-  for (int i = 0; i < 12; ++i) add_loop(graph, i, 25 + i, SE2(0.02 * (i % 3), 0, 0));
-  for (int i = 0; i < 5; ++i) add_loop(graph, 3, 28, SE2(0, 0, 0));
-  const auto packed = pack<SE2>(graph);
-  const LoopSupport support = support_loops(packed, OdometryChain<SE2>(packed), {});
-  EXPECT_EQ(support.loops(), 17u);
-  ASSERT_EQ(support.clusters.size(), 6u);
-  EXPECT_EQ(support.clusters[0].size(), 12u);
-  EXPECT_EQ(support.alone, 0);
-}
-
 TEST(LoopSupport, FindsTheNoiseWhateverTheInformationClaims) {
   for (const double claimed : {0.002, 0.02, 0.2}) {
     const LoopedWalk<SE2> walk({.claimed = claimed, .false_loops = 100});
