@@ -53,7 +53,7 @@ void add_export_command(CLI::App& map) {
 
 void add_map_commands(CLI::App& map) {
   const auto [info, arguments] = add_report(map, "info", "Summarize a saved map", map_info);
-  info->add_flag("--places", arguments->places,
+  info->add_flag("--list-places", arguments->places,
                  "list the places too: number, component, frame, keyframes, position, labels");
   add_report(map, "validate", "Check a saved map: every row, reference and number", map_validate);
   add_export_command(map);

@@ -176,7 +176,7 @@ struct Recording {
         recorder.add_keyframe({keyframe, frame});
       }
       recorder.record(keyframe, map.pose(keyframe).inverse() * T_odom_frame.back(), 10);
-      recorder.finish(T_odom_frame.back());
+      recorder.finish(T_odom_frame.back(), 0);
     }
   }
 };

@@ -157,8 +157,9 @@ TEST(ExplainCommand, TellsNoStreetClassesOfACorridor) {
 
 TEST(ExplainCommand, TellsTheClassesOfAStreet) {
   const json sees = seen_in_world("town-loop", Sensor::kStereo, 620, 188);
-  EXPECT_GT(sees["street"].get<double>(), 0.9);
-  EXPECT_FALSE(sees["classes"].contains("none"));
+  EXPECT_GT(sees["street"].get<double>(), 0.5);
+  EXPECT_LT(sees["classes"].value("none", 0.0), 0.5);
+  EXPECT_TRUE(sees["classes"].contains("Road"));
 }
 
 TEST(ExplainCommand, RefusesAFrameThatTheMapDoesNotHave) {
