@@ -155,7 +155,7 @@ FrameResult Slam::Impl::add_frame(const Frame& frame) {
   // 4. The frame's pose, relative to a keyframe and as currently estimated.
   place(frame, located, update, result);
   recorder.finish(result.T_map_cam, result.component);
-  health.add(frame, result, odometry);
+  health.add(frame);
   events.frame_done(result);
   return result;
 }

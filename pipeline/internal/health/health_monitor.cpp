@@ -2,10 +2,7 @@
 
 namespace placegraph {
 
-void HealthMonitor::add(const Frame& frame, const FrameResult& /*result*/,
-                        const Odometry& /*odometry*/) {
-  repeated_.add(frame);
-}
+void HealthMonitor::add(const Frame& frame) { repeated_.add(frame); }
 
 std::vector<DataNote> HealthMonitor::notes() const {
   std::vector<DataNote> notes;

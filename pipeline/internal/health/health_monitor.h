@@ -6,15 +6,12 @@
 
 namespace placegraph {
 
-class Odometry;
-struct FrameResult;
-
 /// Collects evidence against the images, the calibration and the estimated motion during a run.
 /// Each kind of evidence is a class of its own with add() and note().
 class HealthMonitor {
  public:
   /// Adds a frame after it has been processed.
-  void add(const Frame& frame, const FrameResult& result, const Odometry& odometry);
+  void add(const Frame& frame);
   /// What is in doubt so far.
   std::vector<DataNote> notes() const;
 
