@@ -24,6 +24,13 @@ struct UnposedFrames {
   int count = 0;  ///< number of frames, at least 1
 };
 
+/// How one frame was tracked.
+struct FrameHealth {
+  FrameId frame;                     ///< FrameResult::frame
+  std::string reason;                ///< FrameResult::outcome's; empty if the frame has a pose
+  std::optional<double> confidence;  ///< as in FrameResult
+};
+
 /// Result of run_sequence.
 struct RunResult {
   Sensor sensor = Sensor::kMono;  ///< sensor configuration of the run
@@ -46,6 +53,8 @@ struct RunResult {
   /// Reasons why frames have no pose, the most frequent first. Reasons that differ only in numbers
   /// are merged. Frames before a resumed run are not counted.
   std::vector<UnposedFrames> unposed;
+  /// Reason or confidence of each frame, ascending. Frames before a resumed run are missing.
+  std::vector<FrameHealth> frame_health;
   /// Doubts about the images, the calibration and the motion that the frames show (Slam::notes).
   std::vector<DataNote> notes;
   /// Environment of each keyframe; empty unless `context` is enabled.
@@ -67,6 +76,9 @@ struct Judgement {
   bool metric = false;             ///< whether lengths are in metres, as far as the run shows
   std::string why_metric;          ///< what gives the map its scale, or why it has none
   std::vector<DataNote> findings;  ///< what is in doubt, each with its cause and what to try next
+  /// Standard deviation of the position of the last place relative to the first one of its
+  /// component, by the covariances of the place graph; nothing where it is not determined.
+  std::optional<double> expected_drift_m;
 };
 
 /// Judges a run by its map, by RunResult::notes and by `notes` on its data and options.

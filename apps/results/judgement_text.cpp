@@ -1,5 +1,7 @@
 #include "apps/results/judgement_text.h"
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 namespace placegraph::apps {
@@ -11,10 +13,12 @@ json describe_judgement(const Judgement& judgement) {
   for (const DataNote& finding : judgement.findings)
     findings.push_back(
         {{"cause", to_string(finding.cause)}, {"text", finding.text}, {"advice", finding.advice}});
-  return {{"verdict", to_string(judgement.verdict)},
-          {"metric", judgement.metric},
-          {"why_metric", judgement.why_metric},
-          {"findings", findings}};
+  json result = {{"verdict", to_string(judgement.verdict)},
+                 {"metric", judgement.metric},
+                 {"why_metric", judgement.why_metric},
+                 {"findings", findings}};
+  if (judgement.expected_drift_m) result["expected_drift_m"] = *judgement.expected_drift_m;
+  return result;
 }
 
 std::string judgement_text(const json& judgement, const std::string& indent) {
@@ -22,6 +26,10 @@ std::string judgement_text(const json& judgement, const std::string& indent) {
   std::string text = judgement["verdict"].get<std::string>();
   text += judgement["metric"].get<bool>() ? ": lengths are in metres, " : ": scale unknown, ";
   text += judgement["why_metric"].get<std::string>();
+  if (judgement.contains("expected_drift_m"))
+    text += fmt::format("; expected drift at the end {:.2g} {}",
+                        judgement["expected_drift_m"].get<double>(),
+                        judgement["metric"].get<bool>() ? "m" : "units");
   text += findings.empty() ? "; nothing contradicts the result\n" : "\n";
   for (const json& finding : findings) {
     text +=

@@ -128,6 +128,20 @@ json describe_motion(const PlaceGraph& graph) {
   return motion;
 }
 
+/// Confidence of each frame, rounded, and the reasons of those without a pose.
+json describe_frames(const std::vector<FrameHealth>& frames) {
+  json confidence = json::array(), reasons = json::array();
+  for (const FrameHealth& frame : frames) {
+    confidence.push_back(frame.confidence ? json(std::round(100 * *frame.confidence) / 100)
+                                          : json());
+    if (!frame.reason.empty())
+      reasons.push_back({{"frame", frame.frame.value()}, {"reason", frame.reason}});
+  }
+  return {{"first_frame", frames.empty() ? json() : json(frames.front().frame.value())},
+          {"confidence", confidence},
+          {"reasons", reasons}};
+}
+
 json describe_run(const RunResult& run, const Trajectory& optimized) {
   const Map& map = run.map;
   std::set<int> components;
@@ -140,6 +154,7 @@ json describe_run(const RunResult& run, const Trajectory& optimized) {
           {"posed_online", map.trajectory_online.posed()},
           {"lost_frames", lost_frames(map, optimized)},
           {"lost_frames_online", lost_frames(map, map.trajectory_online)},
+          {"frame_health", describe_frames(run.frame_health)},
           {"keyframes", map.keyframes.size()},
           {"places", map.place_graph.places.size()},
           {"components", components.size()},

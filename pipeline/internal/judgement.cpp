@@ -1,7 +1,11 @@
 #include <fmt/format.h>
+#include <placegraph/backend/internal/solver/pose_marginals.h>
+#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/pipeline/internal/motion_check.h>
 #include <placegraph/pipeline/run.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace placegraph {
 namespace {
@@ -61,9 +65,74 @@ std::optional<DataNote> note_of_components(const Map& map) {
                   "a place seen again or another motion source would join them"};
 }
 
+/// Frames in which far fewer of the tracked landmarks agree with the pose than usual.
+std::optional<DataNote> note_of_confidence(const std::vector<FrameHealth>& frames) {
+  constexpr double kOfUsual = 0.5, kShare = 0.01;
+  std::vector<double> confidences;
+  for (const FrameHealth& frame : frames)
+    if (frame.confidence) confidences.push_back(*frame.confidence);
+  if (confidences.empty()) return std::nullopt;
+  const double usual = median_of(confidences);
+  const auto low = [&](const FrameHealth& frame) {
+    return frame.confidence && *frame.confidence < kOfUsual * usual;
+  };
+  const auto count = static_cast<double>(std::ranges::count_if(frames, low));
+  if (count < 2 || count < kShare * static_cast<double>(confidences.size())) return std::nullopt;
+  const FrameHealth& first = *std::ranges::find_if(frames, low);
+  return DataNote{
+      fmt::format("in {} frames less than half of the usual share of the tracked points "
+                  "agrees with the pose; the first is frame {}",
+                  count, first.frame.value()),
+      false, NoteCause::kJump,
+      "look at these images: some are missing, covered, or of another place"};
+}
+
 std::size_t tracked_frames(const Map& map) {
   return static_cast<std::size_t>(std::ranges::count_if(
       map.frames, [](const FrameRecord& frame) { return frame.T_keyframe_frame.has_value(); }));
+}
+
+std::optional<double> drift_of(const PlaceGraph& places) {
+  const std::vector<int> components = places.joined_components();
+  if (components.empty()) return std::nullopt;
+  std::size_t last = 0;
+  for (std::size_t i = 0; i < components.size(); ++i)
+    if (components[i] == components[0]) last = i;
+  if (last == 0) return std::nullopt;
+  const PoseMarginals marginals(places.pose_graph());
+  if (!marginals.outcome()) return std::nullopt;
+  const auto node = [&](std::size_t i) { return node_of_place(places.places[i].id); };
+  const Information covariance = marginals.relative_covariance(node(0), node(last));
+  return std::sqrt(covariance.topLeftCorner<3, 3>().trace());
+}
+
+double length_of(const Trajectory& trajectory) {
+  double length = 0;
+  const StampedPose* before = nullptr;
+  for (const StampedPose& pose : trajectory.poses) {
+    if (!pose.T_world_body) continue;
+    if (before)
+      length += (pose.T_world_body->translation() - before->T_world_body->translation()).norm();
+    before = &pose;
+  }
+  return length;
+}
+
+std::optional<DataNote> note_of_drift(const std::optional<double>& drift, double length,
+                                      bool metric) {
+  constexpr double kMostShare = 0.05;
+  if (!drift || !(*drift > kMostShare * length)) return std::nullopt;
+  return DataNote{
+      fmt::format("the end is known to {:.3g}{} relative to the beginning, {:.0f} % of the path",
+                  *drift, metric ? " m" : "", 100 * *drift / length),
+      false, NoteCause::kDrift, "places that are seen again reduce it"};
+}
+
+/// A camera height beside a sensor that measures the scale itself.
+std::optional<DataNote> note_of_height(const RunResult& run) {
+  if (run.sensor == Sensor::kMono || !run.calibration.camera_height_m) return std::nullopt;
+  return odd_height(nearest_sides(run.map, *run.calibration.camera_height_m), run.sensor,
+                    *run.calibration.camera_height_m);
 }
 
 std::string scale_text(const RunResult& run) {
@@ -105,6 +174,13 @@ Judgement judge(const RunResult& run, const std::vector<DataNote>& notes, double
   }
   for (const DataNote& note : notes) add(note);
   for (const DataNote& note : run.notes) add(note);
+  add(note_of_height(run));
+  judgement.expected_drift_m = drift_of(run.map.place_graph);
+  add(note_of_drift(judgement.expected_drift_m, length_of(run.map.trajectory_optimized()),
+                    run.map.metric));
+  for (const MapComponent& component : run.map.components())
+    add(odd_steps(run.map.trajectory_optimized(component.number)));
+  add(note_of_confidence(run.frame_health));
   add(note_of_components(run.map));
   add(note_of_lost(run.map));
   if (!judgement.findings.empty() && judgement.verdict == Verdict::kGood)

@@ -3,6 +3,7 @@
 #include <placegraph/graph/geometry/se3.h>
 #include <placegraph/graph/internal/core/angle.h>
 #include <placegraph/graph/internal/core/median.h>
+#include <placegraph/graph/internal/core/quantile.h>
 #include <placegraph/io/internal/datasets/recorded_sequence.h>
 #include <placegraph/pipeline/internal/motion_check.h>
 
@@ -74,8 +75,6 @@ std::set<KeyframeId> keyframes_that_go_ahead(const Map& map) {
   }
   return ahead;
 }
-/// The lowest quintile; -1 for fewer than thirty values.
-
 /// The lowest fifth; -1 of fewer than thirty.
 double lowest_fifth(std::vector<double> values) {
   constexpr std::size_t kFewest = 30;
@@ -125,6 +124,20 @@ std::optional<DataNote> odd_sides(const NearestSides& sides) {
                   true, NoteCause::kUpsideDown, ""};
 }
 
+std::optional<DataNote> odd_height(const NearestSides& sides, Sensor sensor,
+                                   double camera_height_m) {
+  constexpr double kTooNear = 0.55, kTooFar = 1.4;
+  if (sides.below < 0 || (sides.below > kTooNear && sides.below < kTooFar)) return std::nullopt;
+  const bool stereo = sensor == Sensor::kStereo;
+  return DataNote{
+      fmt::format("the nearest landmarks below the camera are {:.2f} m below it by the {}, but its "
+                  "height is {:g} m",
+                  sides.below * camera_height_m, stereo ? "baseline" : "depth images",
+                  camera_height_m),
+      true, NoteCause::kCameraHeight,
+      fmt::format("measure the height, or check the {}", stereo ? "baseline" : "depth unit")};
+}
+
 namespace {
 
 /// Whether the stamps are those assigned to recordings without times: 10 Hz, to the nanosecond.
@@ -155,6 +168,34 @@ std::optional<DataNote> odd_speed(const Trajectory& trajectory) {
           "the times are not in metres and seconds",
           speed),
       true, NoteCause::kScale, ""};
+}
+
+std::optional<DataNote> odd_steps(const Trajectory& trajectory) {
+  constexpr std::size_t kFewest = 20, kBeside = 2;
+  constexpr double kOfNeighbours = 5, kOfUsual = 3, kUsual = 0.9;
+  std::vector<double> steps;
+  std::vector<std::size_t> frames;
+  for (std::size_t i = 1; i < trajectory.size(); ++i) {
+    const StampedPose &a = trajectory.poses[i - 1], &b = trajectory.poses[i];
+    if (!a.T_world_body || !b.T_world_body) continue;
+    steps.push_back((b.T_world_body->translation() - a.T_world_body->translation()).norm());
+    frames.push_back(i);
+  }
+  if (steps.size() < kFewest) return std::nullopt;
+  const double usual = quantile_of(steps, kUsual);
+  std::vector<std::size_t> jumps;
+  for (std::size_t k = kBeside; k + kBeside < steps.size(); ++k) {
+    double neighbour = usual * kOfUsual / kOfNeighbours;
+    for (std::size_t d = 1; d <= kBeside; ++d)
+      neighbour = std::max({neighbour, steps[k - d], steps[k + d]});
+    if (steps[k] > kOfNeighbours * neighbour) jumps.push_back(frames[k]);
+  }
+  if (jumps.empty()) return std::nullopt;
+  return DataNote{fmt::format("the position jumps in {} frames, the first is pose {} of the "
+                              "trajectory: the steps beside it are a fifth of it or less",
+                              jumps.size(), jumps.front()),
+                  true, NoteCause::kJump,
+                  "look at these images: some are missing, out of order, or of another place"};
 }
 
 }  // namespace placegraph

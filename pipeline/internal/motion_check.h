@@ -39,6 +39,17 @@ NearestSides nearest_sides(const Map& map, double camera_height_m);
 /// ground is at one. This is the case for cameras on their side or upside down.
 std::optional<DataNote> odd_sides(const NearestSides& sides);
 
+/// Reports that the ground is not where the camera height lets expect it, for a sensor that
+/// measures the scale itself: the nearest landmarks below are nearer than 0.55 of the height (what
+/// stands on the ground is nearer than the ground) or farther than 1.4 of it. Nothing if too few
+/// are below.
+std::optional<DataNote> odd_height(const NearestSides& sides, Sensor sensor,
+                                   double camera_height_m);
+
+/// Reports frames whose position jumps: the step from the frame before is longer than five times
+/// each of the two steps before and after it and than three times nine tenths of all steps.
+std::optional<DataNote> odd_steps(const Trajectory& trajectory);
+
 /// Reports a camera that is faster than any vehicle or hand (a median of 100 m/s), so that its
 /// baseline, depth unit, height or time unit cannot be correct. Nothing if all time stamps are
 /// multiples of a tenth of a second, as in recordings without time stamps (kDefaultRateHz).

@@ -152,13 +152,18 @@ std::string without_numbers(std::string text) {
 }
 
 std::vector<UnposedFrames> unposed_frames(const Trajectory& optimized, const Map& map,
-                                          const std::map<FrameId, std::string>& reasons) {
+                                          const std::vector<FrameHealth>& frames) {
   std::map<std::string, UnposedFrames> kinds;
   for (std::size_t i = 0; i < map.frames.size() && i < optimized.size(); ++i) {
-    const auto reason = reasons.find(map.frames[i].frame);
-    if (optimized.poses[i].T_world_body || reason == reasons.end()) continue;
-    UnposedFrames& kind = kinds[without_numbers(reason->second)];
-    if (kind.count++ == 0) kind.reason = reason->second;
+    const auto health =
+        std::ranges::lower_bound(frames, map.frames[i].frame, {}, &FrameHealth::frame);
+    if (optimized.poses[i].T_world_body || health == frames.end() ||
+        health->frame != map.frames[i].frame)
+      continue;
+    const std::string reason =
+        health->reason.empty() ? "not connected to the first component of the map" : health->reason;
+    UnposedFrames& kind = kinds[without_numbers(reason)];
+    if (kind.count++ == 0) kind.reason = reason;
   }
   std::vector<UnposedFrames> result;
   for (auto& [text, kind] : kinds) result.push_back(std::move(kind));
@@ -228,7 +233,7 @@ class SequenceRun {
     if (database_ && stored.map.keyframes.empty()) database_->clear(origin());
     if (inputs_.events) inputs_.events->run_began();
     Slam slam(options_.slam, result_.calibration, slam_inputs());
-    reasons_.clear();
+    result_.frame_health.clear();
     const std::size_t first = go_on(stored, slam);
     FrameReader reader(dataset_, lens_, result_.sensor, end_, options_.threads > 1);
     for (std::size_t i = first; i < end_; ++i) {
@@ -244,8 +249,7 @@ class SequenceRun {
         break;
       }
       const FrameResult done = slam.add_frame(frame);
-      reasons_.emplace(frame.id, done.outcome ? "not connected to the first component of the map"
-                                              : done.outcome.reason);
+      result_.frame_health.push_back({frame.id, done.outcome.reason, done.confidence});
       if (inputs_.observer) inputs_.observer(frame, done, slam.view());
       if (inputs_.progress) inputs_.progress(i + 1 - begin_, end_ - begin_, done);
       if (learn_lens(slam.lens(), pass_, options_.lens, lens_, inputs_.log)) {
@@ -257,7 +261,8 @@ class SequenceRun {
     }
     result_.lens_k1 = lens_.k1();
     result_.map = slam.finish();
-    result_.unposed = unposed_frames(result_.map.trajectory_optimized(), result_.map, reasons_);
+    result_.unposed =
+        unposed_frames(result_.map.trajectory_optimized(), result_.map, result_.frame_health);
     if (inputs_.map_file) commit(slam, !result_.broken_off && !result_.stopped);
     result_.notes = slam.notes();
     result_.environments = slam.environments();
@@ -307,8 +312,6 @@ class SequenceRun {
   int pass_ = 0;
   std::optional<MapDatabase> database_;
   StageTimes times_;
-  /// Reason for every frame, if it has no pose in the end.
-  std::map<FrameId, std::string> reasons_;
   RunResult result_;
 };
 

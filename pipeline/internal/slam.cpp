@@ -27,7 +27,8 @@ struct Slam::Impl {
                  log_sink),
         environments(o.context.filter, c.camera),
         feed(o.views.cues),
-        events(inputs.events) {
+        events(inputs.events),
+        health(c) {
     if (inputs.surfaces) use_surfaces(inputs.surfaces);
     if (inputs.motion) use_motion(inputs.motion);
   }
@@ -155,7 +156,7 @@ FrameResult Slam::Impl::add_frame(const Frame& frame) {
   // 4. The frame's pose, relative to a keyframe and as currently estimated.
   place(frame, located, update, result);
   recorder.finish(result.T_map_cam, result.component);
-  health.add(frame);
+  health.add(frame, result, odometry);
   events.frame_done(result);
   return result;
 }
@@ -165,6 +166,9 @@ void Slam::Impl::place(const Frame& frame, const std::optional<LocatedFrame>& lo
   if (update.state == TrackingState::kTracking) {
     recovery.tracked();
     result.inliers = update.inliers;
+    const double needed = options.odometry.points.pose.ransac.min_inliers;
+    if (update.inliers > 0)
+      result.confidence = update.agreement * update.inliers / (update.inliers + needed);
     const KeyframeId reference = update.keyframe.value();
     record(reference, odometry.map().pose(reference).inverse() * update.T_odom_cam, result);
   } else if (const auto at =

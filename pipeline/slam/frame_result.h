@@ -28,6 +28,9 @@ struct FrameResult {
   bool keyframe = false;   ///< whether keyframes were added to the map with this frame
   bool new_place = false;  ///< whether one of these keyframes founded a place
   int inliers = 0;  ///< number of landmarks (or pixels of aligned planes) that agree with the pose
+  /// Share of the tracked landmarks that agree with the pose, in [0, 1], times n / (n + m) for n
+  /// inliers where m are needed at least. Nothing for a pose that was not found by tracking.
+  std::optional<double> confidence;
   int component = 0;       ///< component in which T_map_cam is expressed; 0 is the first
   int loops_accepted = 0;  ///< number of loop closures that were accepted with this frame
 };

@@ -49,6 +49,8 @@ struct OdometryOptions {
   KeyframeOptions keyframe;  ///< criteria for a new keyframe
   /// Bundle adjustment over the last keyframes.
   SlidingWindowOptions window{.max_keyframes = 10, .relative_decrease = 1e-3};
+  /// Minimum share of the tracked points that agree with the pose of a frame, which else is lost.
+  double min_agreement = 0.25;
   /// SlidingWindowOptions::scale_drift (logarithm per keyframe) of a monocular camera whose scale
   /// is measured by the ground or another sensor.
   double scale_drift = 0.003;

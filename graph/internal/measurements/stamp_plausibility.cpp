@@ -3,6 +3,7 @@
 #include <placegraph/graph/internal/core/median.h>
 #include <placegraph/graph/internal/measurements/stamp_plausibility.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace placegraph {
@@ -42,6 +43,32 @@ std::string odd_spacing(const std::vector<std::int64_t>& stamps_ns, const std::s
     return {};
   return fmt::format("a {} every {:.3g} s ({:.3g} Hz): {}", what, spacing_s, 1 / spacing_s,
                      likely_unit(spacing_s));
+}
+
+std::string irregular_spacing(const std::vector<std::int64_t>& stamps_ns) {
+  constexpr double kGap = 5, kDeviation = 0.2, kShare = 0.2;
+  const double median_s = median_spacing_s(stamps_ns);
+  if (!(median_s > 0)) return {};
+  std::size_t gaps = 0, first_gap = 0, irregular = 0;
+  double longest = 0;
+  for (std::size_t i = 1; i < stamps_ns.size(); ++i) {
+    const double spacing = seconds(stamps_ns[i - 1], stamps_ns[i]) / median_s;
+    if (spacing > kGap && gaps++ == 0) first_gap = i - 1;
+    longest = std::max(longest, spacing);
+    if (std::abs(spacing - std::max(1.0, std::round(spacing))) > kDeviation) ++irregular;
+  }
+  if (gaps > 0)
+    return fmt::format(
+        "{} intervals between images are over five times the median of {:.3g} s, up to {:.3g} s, "
+        "the first after frame {}: images are missing, or times jump",
+        gaps, median_s, longest * median_s, first_gap);
+  const auto spacings = static_cast<double>(stamps_ns.size() - 1);
+  if (static_cast<double>(irregular) > kShare * spacings)
+    return fmt::format(
+        "the times of the images are irregular: {} of {} intervals differ by over 20 % from "
+        "multiples of the median of {:.3g} s",
+        irregular, stamps_ns.size() - 1, median_s);
+  return {};
 }
 
 std::string other_clock(const std::vector<std::int64_t>& stamps_ns,

@@ -11,6 +11,11 @@ namespace placegraph {
 /// Precondition: increasing stamps [ns].
 std::string odd_spacing(const std::vector<std::int64_t>& stamps_ns, const std::string& what);
 
+/// A line about images that are missing, or whose times vary: spacings of more than five times the
+/// median, or more than a fifth of the spacings off from a multiple of it by more than a fifth.
+/// Empty if neither is the case. Precondition: increasing stamps [ns].
+std::string irregular_spacing(const std::vector<std::int64_t>& stamps_ns);
+
 /// The reason why two recordings have no time in common, if it can be found: the factor or the
 /// offset that would make them overlap; empty if neither is evident. `other` names the recording
 /// whose times are questioned, "the estimate". Precondition: increasing stamps [ns], none empty.

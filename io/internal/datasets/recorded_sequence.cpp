@@ -31,8 +31,9 @@ class RecordedDataset : public Dataset {
     bits_ = levels.bits;
     if (levels.of_16 && !s_.right.empty()) bits_ = std::max(bits_, sample_levels(s_.right).bits);
     for (DataNote& note : levels.notes) s_.notes.push_back(std::move(note));
-    const std::string odd = odd_spacing(s_.stamps_ns, "frame");
-    if (!odd.empty()) s_.notes.push_back({odd, false, NoteCause::kTimes, ""});
+    for (const std::string& odd :
+         {odd_spacing(s_.stamps_ns, "frame"), irregular_spacing(s_.stamps_ns)})
+      if (!odd.empty()) s_.notes.push_back({odd, false, NoteCause::kTimes, ""});
     if (s_.ground_truth && s_.ground_truth->posed() < n)
       s_.notes.push_back(
           {fmt::format("{} of {} frames have no ground truth", n - s_.ground_truth->posed(), n)});

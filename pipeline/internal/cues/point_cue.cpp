@@ -113,6 +113,7 @@ PointCue::TrackedPose PointCue::pose(const SlidingWindow& window, const SE3& T_o
       track_of.push_back(i);
     }
   TrackedPose result;
+  result.landmarks = static_cast<int>(points.size());
   result.pose = estimate_pose_3d2d(camera_, points, px, options_.pose, random, &T_odom_prior);
   // Tracks that contradict the pose slid off their point, or the point moves.
   result.keep.assign(tracks().size(), true);

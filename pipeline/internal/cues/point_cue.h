@@ -30,6 +30,7 @@ class PointCue {
   struct TrackedPose {
     Pose3d2dResult pose;     ///< T_ref_cam is T_odom_cam
     std::vector<bool> keep;  ///< one flag per track: whether it agrees with the pose
+    int landmarks = 0;       ///< number of tracks with a landmark
   };
   /// Tracks the points into an image whose predicted pose is `T_odom_expected`, and estimates its
   /// pose against the landmarks of the window. `T_odom_last`: pose of the previous image.

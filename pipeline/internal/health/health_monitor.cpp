@@ -1,8 +1,22 @@
 #include <placegraph/pipeline/internal/health/health_monitor.h>
+#include <placegraph/pipeline/internal/odometry/odometry.h>
+#include <placegraph/pipeline/slam/frame_result.h>
 
 namespace placegraph {
 
-void HealthMonitor::add(const Frame& frame) { repeated_.add(frame); }
+HealthMonitor::HealthMonitor(const Calibration& calibration)
+    : right_(calibration), depth_(calibration), focal_(calibration) {}
+
+void HealthMonitor::add(const Frame& frame, const FrameResult& result, const Odometry& odometry) {
+  const ImageStatistics statistics = image_statistics(frame.image);
+  images_.add(frame.id, statistics);
+  if (statistics.range > 0) repeated_.add(frame);  // blank images are often equal
+  if (!frame.right.empty()) right_images_.add(frame.id, image_statistics(frame.right));
+  right_.add(frame, result.T_map_cam);
+  depth_.add(frame);
+  range_.add(frame);
+  if (result.keyframe) focal_.observe(odometry.map().window());
+}
 
 std::vector<DataNote> HealthMonitor::notes() const {
   std::vector<DataNote> notes;
@@ -10,6 +24,12 @@ std::vector<DataNote> HealthMonitor::notes() const {
     if (note) notes.push_back(*note);
   };
   collect(repeated_.note());
+  collect(images_.note());
+  collect(right_images_.note());
+  collect(right_.note());
+  collect(depth_.note());
+  collect(range_.note());
+  collect(focal_.note());
   return notes;
 }
 

@@ -1,22 +1,37 @@
 #pragma once
 #include <placegraph/graph/measurements/data_note.h>
+#include <placegraph/pipeline/internal/health/depth_agreement.h>
+#include <placegraph/pipeline/internal/health/depth_range.h>
+#include <placegraph/pipeline/internal/health/focal_check.h>
+#include <placegraph/pipeline/internal/health/image_quality.h>
 #include <placegraph/pipeline/internal/health/repeated_images.h>
+#include <placegraph/pipeline/internal/health/right_image_time.h>
 
 #include <vector>
 
 namespace placegraph {
 
+class Odometry;
+struct FrameResult;
+
 /// Collects evidence against the images, the calibration and the estimated motion during a run.
 /// Each kind of evidence is a class of its own with add() and note().
 class HealthMonitor {
  public:
+  explicit HealthMonitor(const Calibration& calibration);
   /// Adds a frame after it has been processed.
-  void add(const Frame& frame);
+  void add(const Frame& frame, const FrameResult& result, const Odometry& odometry);
   /// What is in doubt so far.
   std::vector<DataNote> notes() const;
 
  private:
   RepeatedImages repeated_;
+  ImageQuality images_{"images", NoteCause::kImages};
+  ImageQuality right_images_{"right images", NoteCause::kRightImage};
+  RightImageTime right_;
+  DepthAgreement depth_;
+  DepthRange range_;
+  FocalCheck focal_;
 };
 
 }  // namespace placegraph

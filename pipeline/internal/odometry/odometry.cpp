@@ -42,6 +42,7 @@ OdometryUpdate Odometry::track(const Frame& frame) {
   update.state = tracked.outcome ? TrackingState::kTracking : TrackingState::kLost;
   update.outcome = tracked.outcome;
   update.inliers = tracked.inliers;
+  update.agreement = tracked.agreement;
   if (!tracked.outcome) {
     log(log_, LogLevel::kInfo, "frame {} lost: {}", frame.id, tracked.outcome.reason);
     update.rotation = tracked.rotation;

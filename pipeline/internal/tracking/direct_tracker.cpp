@@ -118,6 +118,7 @@ TrackedFrame DirectTracker::track(const Frame& frame, const LocalMap& map,
   tracked.T_odom_cam = map.window().pose(map.newest()) * aligned.T_ref_cur;
   tracked.inliers =
       static_cast<int>(aligned.inlier_share * static_cast<double>(aligned.seen.size()));
+  tracked.agreement = aligned.inlier_share;
   newest_ = aligned;
   last_frame_ = frame;
   ++frames_since_keyframe_;

@@ -47,7 +47,7 @@ TrackedFrame FeatureTracker::track(const Frame& frame, const LocalMap& map,
   const PointTracker points_before = points_.checkpoint();
   const std::optional<LineCue> lines_before = lines_;
   const SlidingWindow& window = map.window();
-  const auto [points, keep] =
+  const auto [points, keep, landmarks] =
       cues_.points ? points_.follow(frame.image, window, motion.T_odom_cam(), motion.predicted(),
                                     motion.velocity_known(), map.median_depth(), random)
                    : points_.pose(window, motion.predicted(), random);
@@ -55,6 +55,13 @@ TrackedFrame FeatureTracker::track(const Frame& frame, const LocalMap& map,
   tracked.outcome = points.outcome;
   tracked.T_odom_cam = points.T_ref_cam;
   tracked.inliers = static_cast<int>(points.inliers.size());
+  if (points.outcome) {
+    tracked.agreement = static_cast<double>(tracked.inliers) / landmarks;
+    if (tracked.agreement < options_.min_agreement)
+      tracked.outcome = Outcome::failure(
+          Outcome::Code::kNoConsensus, fmt::format("{} of {} tracked landmarks agree with the pose",
+                                                   tracked.inliers, landmarks));
+  }
   Matrix6d information = points.information;
   if (lines_) {
     const PoseFromLines both =

@@ -13,6 +13,7 @@ struct TrackedFrame {
   Outcome outcome;
   SE3 T_odom_cam;  ///< only valid if `outcome` is a success
   int inliers = 0;
+  double agreement = 1;  ///< share of the tracked landmarks that agree with the pose
   bool keyframe_due = false;
   std::optional<PureRotation> rotation;  ///< rotation that explains a failure
 };

@@ -39,6 +39,10 @@ void visit(OptionVisitor& field, OdometryOptions& o) {
         "minimum number of points that masks from labels must leave", {0, 1e5});
   field("min_parallax_deg", o.points.min_parallax_deg,
         "minimum angle between two rays to triangulate a landmark [deg]", {0.01, 45});
+  field(
+      "min_agreement", o.min_agreement,
+      "minimum share of the tracked points that agree with the pose; with fewer, the frame is lost",
+      {0, 1});
   field.internal()("scale_drift", o.scale_drift,
                    "monocular scale drift per keyframe (logarithm) where the scale is measured",
                    {0, 1});

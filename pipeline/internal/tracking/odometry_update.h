@@ -35,6 +35,7 @@ struct OdometryUpdate {
   SE3 T_odom_cam;                      ///< valid if tracking, or for the first of the two views
   std::optional<KeyframeId> keyframe;  ///< reference keyframe, if tracking
   int inliers = 0;
+  double agreement = 1;    ///< share of the tracked landmarks that agree with the pose
   Outcome outcome;         ///< outcome of tracking; the reason why it failed or restarts
   bool reference = false;  ///< during initialization: this frame is the first of the two views
   std::vector<NewKeyframe> new_keyframes;

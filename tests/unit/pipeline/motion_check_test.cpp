@@ -91,6 +91,43 @@ TEST(NearestSides, AreThoseOfAStreetOrOfACameraOnItsSide) {
   EXPECT_FALSE(odd_sides(nearest_sides(Map(), 1.65)));
 }
 
+TEST(OddHeight, ContradictsTheBaselineOrTheDepths) {
+  const auto note_for = [](double height_m, Sensor sensor) {
+    return odd_height(nearest_sides(map_with(1.65, 5, 6), height_m), sensor, height_m);
+  };
+  EXPECT_FALSE(note_for(1.65, Sensor::kStereo));
+  EXPECT_FALSE(note_for(1.4, Sensor::kStereo));
+  EXPECT_FALSE(note_for(2.2, Sensor::kStereo));
+  for (const double height_m : {0.8, 3.3}) {
+    const auto note = note_for(height_m, Sensor::kStereo);
+    ASSERT_TRUE(note) << height_m;
+    EXPECT_EQ(note->cause, NoteCause::kCameraHeight);
+    EXPECT_TRUE(note->doubts_scale);
+    EXPECT_THAT(note->text, HasSubstr("1.65 m below it by the baseline"));
+  }
+  EXPECT_THAT(note_for(3.3, Sensor::kRgbd)->text, HasSubstr("by the depth images"));
+  EXPECT_FALSE(odd_height(nearest_sides(Map(), 1.65), Sensor::kStereo, 1.65));
+}
+
+TEST(OddSteps, AreLongerThanThoseBesideThem) {
+  Trajectory trajectory = drive(10, kY, 90);
+  EXPECT_FALSE(odd_steps(trajectory));
+  for (std::size_t i = 100; i < trajectory.size(); ++i)
+    trajectory.poses[i].T_world_body->pretranslate(Eigen::Vector3d(0, 0, 12));
+  const auto note = odd_steps(trajectory);
+  ASSERT_TRUE(note);
+  EXPECT_EQ(note->cause, NoteCause::kJump);
+  EXPECT_THAT(note->text, HasSubstr("jumps in 1 frames, the first is pose 100"));
+}
+
+TEST(OddSteps, AreNotThoseOfACameraThatStartsOrStops) {
+  Trajectory trajectory = drive(10, kY, 0);
+  for (std::size_t i = 0; i < 80; ++i) trajectory.poses[i] = trajectory.poses[80];
+  EXPECT_FALSE(odd_steps(trajectory));
+  trajectory.poses.resize(10);
+  EXPECT_FALSE(odd_steps(trajectory));
+}
+
 TEST(OddSpeed, IsFasterThanAnyVehicle) {
   EXPECT_FALSE(odd_speed(drive(40, kY, 0)));
   const auto note = odd_speed(drive(1000, kY, 0));

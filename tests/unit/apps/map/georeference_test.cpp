@@ -114,8 +114,12 @@ TEST_F(GeoreferenceCommand, GivesTheFolderOfARunWithoutScaleItsScale) {
     places.push_back({{"id", p}, {"members", {{{"stamp_ns", 100'000'000LL * kFramesAPlace * p}}}}});
     if (p == 0) continue;
     const SE3 T_from_to = T_map_cam(kFramesAPlace * (p - 1)).inverse() * T_map_place;
-    graph.constraints.emplace_back(RelativePoseConstraint{NodeId(p - 1), NodeId(p), Sim3(T_from_to),
-                                                          1e4 * Information::Identity(7, 7)});
+    graph.constraints.emplace_back(
+        RelativePoseConstraint{.from = NodeId(p - 1),
+                               .to = NodeId(p),
+                               .T_from_to = Sim3(T_from_to),
+                               .information = 1e4 * Information::Identity(7, 7),
+                               .kernel = {}});
   }
   std::filesystem::create_directory(folder / "run");
   write_g2o(folder / "run/graph.g2o", graph);
@@ -175,9 +179,12 @@ TEST_F(GeoreferenceCommand, TakesASavedMap) {
       place.members = {{id, SE3(), 1}};
       map.place_graph.places.push_back(place);
       if (i > 0)
-        map.place_graph.constraints.push_back({NodeId(i / 10 - 1), NodeId(i / 10),
-                                               Sim3(T_map_cam(i - 10).inverse() * T_map_cam(i)),
-                                               1e4 * Information::Identity(7, 7)});
+        map.place_graph.constraints.push_back(
+            {.from = NodeId(i / 10 - 1),
+             .to = NodeId(i / 10),
+             .T_from_to = Sim3(T_map_cam(i - 10).inverse() * T_map_cam(i)),
+             .information = 1e4 * Information::Identity(7, 7),
+             .kernel = {}});
     }
     map.frames.push_back({FrameId(i), stamp_ns, id,
                           map.place_graph.places.back().T_map_place.inverse() * T_map_cam(i), 50});

@@ -104,6 +104,7 @@ TEST(MapInfoText, SaysItInSixLines) {
                     {"sensor", "stereo"},
                     {"places", 4},
                     {"components", 2},
+                    {"component_trajectories", json::array()},
                     {"constraints", 3},
                     {"loops_accepted", 1},
                     {"frames", 40},

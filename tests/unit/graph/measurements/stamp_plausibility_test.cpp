@@ -24,6 +24,27 @@ TEST(OddSpacing, IsThatOfAnotherUnit) {
   EXPECT_THAT(odd_spacing(stamps(0, 100'000), "pose"), HasSubstr("1000 times too small?"));
 }
 
+TEST(IrregularSpacing, NamesGaps) {
+  std::vector<std::int64_t> times = stamps(0, 100'000'000);
+  EXPECT_THAT(irregular_spacing(times), IsEmpty());
+  for (std::size_t i = 10; i < times.size(); ++i) times[i] += 200'000'000;  // two images dropped
+  EXPECT_THAT(irregular_spacing(times), IsEmpty());
+  for (std::size_t i = 15; i < times.size(); ++i) times[i] += 900'000'000;
+  EXPECT_EQ(irregular_spacing(times),
+            "1 intervals between images are over five times the median of 0.1 s, up to 1 s, the "
+            "first after frame 14: images are missing, or times jump");
+}
+
+TEST(IrregularSpacing, NamesTimesThatVary) {
+  std::vector<std::int64_t> times = stamps(0, 100'000'000);
+  for (std::size_t i = 0; i < times.size(); i += 2) times[i] += 5'000'000;
+  EXPECT_THAT(irregular_spacing(times), IsEmpty());
+  for (std::size_t i = 0; i < times.size(); i += 4) times[i] += 40'000'000;
+  EXPECT_THAT(irregular_spacing(times), HasSubstr("irregular: 9 of 19"));
+  EXPECT_THAT(irregular_spacing({}), IsEmpty());
+  EXPECT_THAT(irregular_spacing({1, 2}), IsEmpty());
+}
+
 TEST(OddSpacing, IsNotThatOfSlowOrFastSensors) {
   EXPECT_THAT(odd_spacing(stamps(0, 2'000'000'000), "frame"), IsEmpty());
   EXPECT_THAT(odd_spacing(stamps(0, 1'000'000), "pose"), IsEmpty());

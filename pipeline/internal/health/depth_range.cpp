@@ -1,0 +1,37 @@
+#include <fmt/format.h>
+#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/pipeline/internal/health/depth_range.h>
+
+#include <algorithm>
+
+namespace placegraph {
+
+void DepthRange::add(const Frame& frame) {
+  constexpr int kFramesAnImage = 10, kStepPx = 8;
+  constexpr std::size_t kFewest = 100;
+  if (frame.depth.empty() || frames_++ % kFramesAnImage != 0) return;
+  std::vector<float> distances;
+  for (int v = 0; v < frame.depth.rows; v += kStepPx)
+    for (int u = 0; u < frame.depth.cols; u += kStepPx)
+      if (const float z = frame.depth.at<float>(v, u); z > 0) distances.push_back(z);
+  if (distances.size() < kFewest) return;
+  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+  std::nth_element(distances.begin(), middle, distances.end());
+  medians_m_.push_back(*middle);
+}
+
+std::optional<DataNote> DepthRange::note() const {
+  constexpr std::size_t kFewest = 3;
+  constexpr double kNearest_m = 0.4, kFarthest_m = 8;
+  if (medians_m_.size() < kFewest) return std::nullopt;
+  const double median_m = median_of(medians_m_);
+  if (median_m > kNearest_m && median_m < kFarthest_m) return std::nullopt;
+  return DataNote{fmt::format("half of the distances in the depth images are {} {:.3g} m: depth "
+                              "cameras measure from about 0.3 to 10 m",
+                              median_m < kNearest_m ? "below" : "beyond", median_m),
+                  true, NoteCause::kDepthUnit,
+                  "give the unit of the depth images: 1 mm, or a 5000th of a metre as in TUM's "
+                  "folders"};
+}
+
+}  // namespace placegraph

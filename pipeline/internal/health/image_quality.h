@@ -1,0 +1,38 @@
+#pragma once
+#include <placegraph/graph/core/ids.h>
+#include <placegraph/graph/measurements/data_note.h>
+#include <placegraph/pipeline/internal/health/image_statistics.h>
+
+#include <array>
+#include <optional>
+
+namespace placegraph {
+
+/// Counts images of one camera that show little of the world: blank, overexposed, blurred, noisy,
+/// or of another brightness than the one before.
+class ImageQuality {
+ public:
+  /// `images`: what the note calls them, such as "images" or "right images".
+  ImageQuality(const char* images, NoteCause cause) : images_(images), cause_(cause) {}
+
+  void add(FrameId frame, const ImageStatistics& statistics);
+  /// Reports the defects that more than two images and more than three per cent of them have.
+  std::optional<DataNote> note() const;
+
+ private:
+  enum Defect { kBlank, kOverexposed, kBlurred, kNoisy, kFlickering, kDefects };
+  struct Count {
+    int images = 0;
+    FrameId first;
+  };
+  void count(Defect defect, FrameId frame);
+  bool frequent(const Count& count) const;
+
+  const char* images_;
+  NoteCause cause_;
+  int frames_ = 0;
+  std::optional<double> last_mean_;
+  std::array<Count, kDefects> counts_;
+};
+
+}  // namespace placegraph

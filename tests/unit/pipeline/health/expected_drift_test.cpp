@@ -1,0 +1,69 @@
+#include <gtest/gtest.h>
+#include <placegraph/pipeline/run.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/support/scenes/scene.h"
+
+namespace placegraph {
+namespace {
+
+/// A path of places a metre apart, whose distances are each known to `sigma_m`.
+RunResult path_of(int places, double sigma_m) {
+  RunResult run;
+  run.map.metric = true;
+  for (int k = 0; k < places; ++k) {
+    Keyframe keyframe;
+    keyframe.id = KeyframeId(k);
+    keyframe.place = PlaceId(k);
+    keyframe.frame = FrameId(k);
+    run.map.keyframes.push_back(keyframe);
+    Place place;
+    place.id = PlaceId(k);
+    place.anchor_keyframe = KeyframeId(k);
+    place.T_map_place = test::pose({0, 0, 0}, {0, 0, 1.0 * k});
+    place.members = {{KeyframeId(k), SE3(), 1}};
+    run.map.place_graph.places.push_back(place);
+    run.map.frames.push_back({FrameId(k), 10 * k, KeyframeId(k), SE3(), 30});
+    if (k == 0) continue;
+    RelativePoseConstraint edge;
+    edge.from = NodeId(k - 1), edge.to = NodeId(k);
+    edge.T_from_to = test::pose({0, 0, 0}, {0, 0, 1});
+    edge.information = 1e12 * Matrix6d::Identity();
+    edge.information.topLeftCorner<3, 3>() = Eigen::Matrix3d::Identity() / (sigma_m * sigma_m);
+    edge.source = ConstraintSource::kOdometry;
+    run.map.place_graph.constraints.push_back(edge);
+  }
+  return run;
+}
+
+bool reports_drift(const Judgement& judgement) {
+  return std::ranges::any_of(judgement.findings,
+                             [](const DataNote& note) { return note.cause == NoteCause::kDrift; });
+}
+
+TEST(ExpectedDrift, IsTheDeviationOfTheLastPlaceFromTheFirst) {
+  const Judgement judgement = judge(path_of(17, 0.01), {}, 0.5);
+  ASSERT_TRUE(judgement.expected_drift_m);
+  EXPECT_NEAR(*judgement.expected_drift_m, 0.01 * std::sqrt(3 * 16), 1e-4);
+  EXPECT_FALSE(reports_drift(judgement));
+}
+
+TEST(ExpectedDrift, IsReportedBeyondTheTwentiethPartOfThePath) {
+  EXPECT_TRUE(reports_drift(judge(path_of(17, 0.2), {}, 0.5)));
+}
+
+TEST(ExpectedDrift, IsUnknownForAPlaceAlone) {
+  EXPECT_FALSE(judge(path_of(1, 0.01), {}, 0.5).expected_drift_m);
+}
+
+TEST(ExpectedDrift, IgnoresComponentsThatAreNotJoined) {
+  RunResult run = path_of(17, 0.01);
+  run.map.place_graph.places.back().component = 1;
+  run.map.place_graph.constraints.pop_back();
+  EXPECT_NEAR(*judge(run, {}, 0.5).expected_drift_m, 0.01 * std::sqrt(3 * 15), 1e-4);
+}
+
+}  // namespace
+}  // namespace placegraph
