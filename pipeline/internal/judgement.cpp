@@ -178,8 +178,11 @@ Judgement judge(const RunResult& run, const std::vector<DataNote>& notes, double
   judgement.expected_drift_m = drift_of(run.map.place_graph);
   add(note_of_drift(judgement.expected_drift_m, length_of(run.map.trajectory_optimized()),
                     run.map.metric));
-  for (const MapComponent& component : run.map.components())
-    add(odd_steps(run.map.trajectory_optimized(component.number)));
+  for (const MapComponent& component : run.map.components()) {
+    const Trajectory trajectory = run.map.trajectory_optimized(component.number);
+    add(odd_steps(trajectory));
+    add(odd_order(trajectory));
+  }
   add(note_of_confidence(run.frame_health));
   add(note_of_components(run.map));
   add(note_of_lost(run.map));

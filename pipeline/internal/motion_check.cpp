@@ -134,7 +134,7 @@ std::optional<DataNote> odd_height(const NearestSides& sides, Sensor sensor,
                   "height is {:g} m",
                   sides.below * camera_height_m, stereo ? "baseline" : "depth images",
                   camera_height_m),
-      true, NoteCause::kCameraHeight,
+      true, NoteCause::kScale,
       fmt::format("measure the height, or check the {}", stereo ? "baseline" : "depth unit")};
 }
 
@@ -170,25 +170,63 @@ std::optional<DataNote> odd_speed(const Trajectory& trajectory) {
       true, NoteCause::kScale, ""};
 }
 
-std::optional<DataNote> odd_steps(const Trajectory& trajectory) {
-  constexpr std::size_t kFewest = 20, kBeside = 2;
-  constexpr double kOfNeighbours = 5, kOfUsual = 3, kUsual = 0.9;
-  std::vector<double> steps;
-  std::vector<std::size_t> frames;
+namespace {
+
+/// A step between two consecutive poses.
+struct Step {
+  std::size_t frame = 0;  ///< index of the later pose
+  Eigen::Vector3d way = Eigen::Vector3d::Zero();
+  double length() const { return way.norm(); }
+};
+
+std::vector<Step> steps_of(const Trajectory& trajectory) {
+  std::vector<Step> steps;
   for (std::size_t i = 1; i < trajectory.size(); ++i) {
     const StampedPose &a = trajectory.poses[i - 1], &b = trajectory.poses[i];
-    if (!a.T_world_body || !b.T_world_body) continue;
-    steps.push_back((b.T_world_body->translation() - a.T_world_body->translation()).norm());
-    frames.push_back(i);
+    if (a.T_world_body && b.T_world_body)
+      steps.push_back({i, b.T_world_body->translation() - a.T_world_body->translation()});
   }
-  if (steps.size() < kFewest) return std::nullopt;
-  const double usual = quantile_of(steps, kUsual);
+  return steps;
+}
+
+/// Distance covered in ten steps, as a share of their length: 1 on a straight path, about 0.1 for a
+/// camera that trembles at one place.
+double progress_of(const std::vector<Step>& steps) {
+  constexpr std::size_t kSteps = 10;
+  double length = 0, covered = 0;
+  for (std::size_t begin = 0; begin + kSteps <= steps.size(); begin += kSteps) {
+    Eigen::Vector3d way = Eigen::Vector3d::Zero();
+    for (std::size_t k = begin; k < begin + kSteps; ++k) {
+      way += steps[k].way;
+      length += steps[k].length();
+    }
+    covered += way.norm();
+  }
+  return length > 0 ? covered / length : 0;
+}
+
+double length_quantile(const std::vector<Step>& steps, double share) {
+  std::vector<double> lengths;
+  for (const Step& step : steps) lengths.push_back(step.length());
+  return quantile_of(std::move(lengths), share);
+}
+
+constexpr std::size_t kFewestSteps = 20;
+
+}  // namespace
+
+std::optional<DataNote> odd_steps(const Trajectory& trajectory) {
+  constexpr std::size_t kBeside = 2;
+  constexpr double kOfNeighbours = 5, kOfUsual = 3, kUsual = 0.9;
+  const std::vector<Step> steps = steps_of(trajectory);
+  if (steps.size() < kFewestSteps) return std::nullopt;
+  const double usual = length_quantile(steps, kUsual);
   std::vector<std::size_t> jumps;
   for (std::size_t k = kBeside; k + kBeside < steps.size(); ++k) {
     double neighbour = usual * kOfUsual / kOfNeighbours;
     for (std::size_t d = 1; d <= kBeside; ++d)
-      neighbour = std::max({neighbour, steps[k - d], steps[k + d]});
-    if (steps[k] > kOfNeighbours * neighbour) jumps.push_back(frames[k]);
+      neighbour = std::max({neighbour, steps[k - d].length(), steps[k + d].length()});
+    if (steps[k].length() > kOfNeighbours * neighbour) jumps.push_back(steps[k].frame);
   }
   if (jumps.empty()) return std::nullopt;
   return DataNote{fmt::format("the position jumps in {} frames, the first is pose {} of the "
@@ -196,6 +234,28 @@ std::optional<DataNote> odd_steps(const Trajectory& trajectory) {
                               jumps.size(), jumps.front()),
                   true, NoteCause::kJump,
                   "look at these images: some are missing, out of order, or of another place"};
+}
+
+std::optional<DataNote> odd_order(const Trajectory& trajectory) {
+  constexpr double kOfMedian = 0.5, kOpposite = -0.5, kShare = 0.1, kProgress = 0.3;
+  const std::vector<Step> steps = steps_of(trajectory);
+  if (steps.size() < kFewestSteps || progress_of(steps) < kProgress) return std::nullopt;
+  const double least = kOfMedian * length_quantile(steps, 0.5);
+  std::size_t compared = 0, opposite = 0;
+  for (std::size_t k = 1; k < steps.size(); ++k) {
+    const double a = steps[k - 1].length(), b = steps[k].length();
+    if (!(a > 0 && b > 0) || a < least || b < least) continue;
+    ++compared;
+    if (steps[k - 1].way.dot(steps[k].way) < kOpposite * a * b) ++opposite;
+  }
+  if (compared < kFewestSteps ||
+      static_cast<double>(opposite) < kShare * static_cast<double>(compared))
+    return std::nullopt;
+  return DataNote{
+      fmt::format("the camera moves to and fro from frame to frame, in {} of {} steps: images "
+                  "have changed places",
+                  opposite, compared),
+      true, NoteCause::kTimes, "check the order of the images and their times"};
 }
 
 }  // namespace placegraph

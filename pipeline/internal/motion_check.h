@@ -50,6 +50,11 @@ std::optional<DataNote> odd_height(const NearestSides& sides, Sensor sensor,
 /// each of the two steps before and after it and than three times nine tenths of all steps.
 std::optional<DataNote> odd_steps(const Trajectory& trajectory);
 
+/// Reports a camera that moves to and fro from frame to frame, as if images had changed places: a
+/// tenth of the steps that are no shorter than half of the median are opposite to the one before,
+/// though it gets on. Nothing for a camera that trembles at one place.
+std::optional<DataNote> odd_order(const Trajectory& trajectory);
+
 /// Reports a camera that is faster than any vehicle or hand (a median of 100 m/s), so that its
 /// baseline, depth unit, height or time unit cannot be correct. Nothing if all time stamps are
 /// multiples of a tenth of a second, as in recordings without time stamps (kDefaultRateHz).

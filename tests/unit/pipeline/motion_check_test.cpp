@@ -101,7 +101,7 @@ TEST(OddHeight, ContradictsTheBaselineOrTheDepths) {
   for (const double height_m : {0.8, 3.3}) {
     const auto note = note_for(height_m, Sensor::kStereo);
     ASSERT_TRUE(note) << height_m;
-    EXPECT_EQ(note->cause, NoteCause::kCameraHeight);
+    EXPECT_EQ(note->cause, NoteCause::kScale);
     EXPECT_TRUE(note->doubts_scale);
     EXPECT_THAT(note->text, HasSubstr("1.65 m below it by the baseline"));
   }
@@ -126,6 +126,29 @@ TEST(OddSteps, AreNotThoseOfACameraThatStartsOrStops) {
   EXPECT_FALSE(odd_steps(trajectory));
   trajectory.poses.resize(10);
   EXPECT_FALSE(odd_steps(trajectory));
+}
+
+TEST(OddOrder, IsThatOfImagesThatChangedPlaces) {
+  Trajectory trajectory = drive(10, kY, 90);
+  EXPECT_FALSE(odd_order(trajectory));
+  for (std::size_t i = 0; i + 1 < 30; i += 2)
+    std::swap(trajectory.poses[i].T_world_body, trajectory.poses[i + 1].T_world_body);
+  const auto note = odd_order(trajectory);
+  ASSERT_TRUE(note);
+  EXPECT_EQ(note->cause, NoteCause::kTimes);
+  EXPECT_THAT(note->text, HasSubstr("to and fro"));
+}
+
+TEST(OddOrder, IsNotThatOfACameraThatStandsOrReturns) {
+  Trajectory trajectory = drive(10, kY, 0);
+  for (std::size_t i = 100; i < trajectory.size(); ++i)
+    trajectory.poses[i].T_world_body = trajectory.poses[trajectory.size() - i].T_world_body;
+  EXPECT_FALSE(odd_order(trajectory));
+  for (std::size_t i = 0; i < trajectory.size(); ++i) {
+    trajectory.poses[i].T_world_body = trajectory.poses[0].T_world_body;
+    if (i % 2 == 0) trajectory.poses[i].T_world_body->translation().x() += 1e-3;
+  }
+  EXPECT_FALSE(odd_order(trajectory));
 }
 
 TEST(OddSpeed, IsFasterThanAnyVehicle) {
