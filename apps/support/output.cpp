@@ -1,8 +1,11 @@
 #include "apps/support/output.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/internal/files/atomic_file.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
@@ -41,6 +44,17 @@ std::string shortened(const std::string& line) {
   return line.substr(0, begin) + " ... " + line.substr(end);
 }
 
+/// Locks a folder against other processes; -1 where the file system has no locks.
+int lock_folder(const std::string& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return -1;
+  if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return descriptor;
+  const bool taken = errno == EWOULDBLOCK;
+  ::close(descriptor);
+  if (taken) throw FileError(path, "another program is writing into it");
+  return -1;
+}
+
 }  // namespace
 
 void require_free(const std::string& path, bool force) {
@@ -66,11 +80,13 @@ OutputFolder::OutputFolder(std::string path) {
     made_.push_back(folder.string());
   make_output_folder(path);
   AtomicFile probe((fs::path(path) / "probe").string());
+  locked_ = lock_folder(path);
 }
 
 OutputFolder::~OutputFolder() {
   std::error_code ignored;
   for (const std::string& folder : made_) fs::remove(folder, ignored);  // only if it is empty
+  if (locked_ >= 0) ::close(locked_);
 }
 
 void write_file(const std::string& path, const std::string& content) {

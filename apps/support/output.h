@@ -28,8 +28,9 @@ void require_free(const std::string& path, bool force);
 void require_free_folder(const std::string& path, bool force);
 
 /// A folder for results, made before the work for them.
-/// If the work ends without results, the folders that were made are removed. Throws FileError if
-/// the folder cannot be made or written to.
+/// If the work ends without results, the folders that were made are removed. The folder is locked
+/// until then: throws FileError if another process has locked it, or if it cannot be made or
+/// written to.
 class OutputFolder {
  public:
   explicit OutputFolder(std::string path);
@@ -39,6 +40,7 @@ class OutputFolder {
 
  private:
   std::vector<std::string> made_;  ///< folders that were made, from the innermost on
+  int locked_ = -1;                ///< descriptor of the folder; its lock ends with it
 };
 
 /// Writes a whole file, atomically; bytes as they are. Throws FileError.

@@ -12,13 +12,7 @@ namespace placegraph {
 FocalCheck::FocalCheck(const Calibration& calibration)
     : camera_(calibration.camera), depths_measured_(calibration.depth.has_value()) {}
 
-void FocalCheck::observe(const SlidingWindow& window) {
-  const std::vector<KeyframeId> keyframes = window.keyframes();
-  if (static_cast<int>(keyframes.size()) < window.state().options.max_keyframes) return;
-  if (keyframes.front() <= newest_) return;
-  newest_ = keyframes.back();
-  add(focal_evidence(window.state(), depths_measured_));
-}
+void FocalCheck::add(const WindowState& window) { add(focal_evidence(window, depths_measured_)); }
 
 void FocalCheck::add(const FocalEvidence& evidence) {
   if (evidence.information(0, 0) > 0) windows_.push_back(evidence);

@@ -1,6 +1,4 @@
 #pragma once
-#include <placegraph/backend/internal/window/sliding_window.h>
-#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/measurements/data_note.h>
 #include <placegraph/pipeline/internal/health/focal_evidence.h>
@@ -18,8 +16,8 @@ class FocalCheck {
  public:
   explicit FocalCheck(const Calibration& calibration);
 
-  /// Adds the evidence of a full window, if its keyframes are all newer than those of the last one.
-  void observe(const SlidingWindow& window);
+  /// Adds the evidence of a window that shares no keyframe with the ones before.
+  void add(const WindowState& window);
   void add(const FocalEvidence& evidence);
   struct Estimate {
     double error = 0;  ///< relative error of the calibration's focal length: f (1 + error) fits
@@ -37,7 +35,6 @@ class FocalCheck {
   Camera camera_;
   bool depths_measured_;
   std::vector<FocalEvidence> windows_;
-  std::optional<KeyframeId> newest_;  // newest keyframe of the last window
 };
 
 }  // namespace placegraph

@@ -5,7 +5,7 @@
 namespace placegraph {
 
 HealthMonitor::HealthMonitor(const Calibration& calibration)
-    : right_(calibration), depth_(calibration), focal_(calibration) {}
+    : right_(calibration), focal_(calibration), residuals_(calibration) {}
 
 void HealthMonitor::add(const Frame& frame, const FrameResult& result, const Odometry& odometry) {
   const ImageStatistics statistics = image_statistics(frame.image);
@@ -13,9 +13,17 @@ void HealthMonitor::add(const Frame& frame, const FrameResult& result, const Odo
   if (statistics.range > 0) repeated_.add(frame);  // blank images are often equal
   if (!frame.right.empty()) right_images_.add(frame.id, image_statistics(frame.right));
   right_.add(frame, result.T_map_cam);
-  depth_.add(frame);
   range_.add(frame);
-  if (result.keyframe) focal_.observe(odometry.map().window());
+  if (result.keyframe) examine(odometry.map().window());
+}
+
+void HealthMonitor::examine(const SlidingWindow& window) {
+  const std::vector<KeyframeId> keyframes = window.keyframes();
+  if (static_cast<int>(keyframes.size()) < window.state().options.max_keyframes) return;
+  if (keyframes.front() <= newest_) return;
+  newest_ = keyframes.back();
+  focal_.add(window.state());
+  residuals_.add(window_residuals(window.state()));
 }
 
 std::vector<DataNote> HealthMonitor::notes() const {
@@ -27,9 +35,9 @@ std::vector<DataNote> HealthMonitor::notes() const {
   collect(images_.note());
   collect(right_images_.note());
   collect(right_.note());
-  collect(depth_.note());
   collect(range_.note());
   collect(focal_.note());
+  for (const DataNote& note : residuals_.notes()) notes.push_back(note);
   return notes;
 }
 

@@ -1,17 +1,20 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/measurements/data_note.h>
-#include <placegraph/pipeline/internal/health/depth_agreement.h>
 #include <placegraph/pipeline/internal/health/depth_range.h>
 #include <placegraph/pipeline/internal/health/focal_check.h>
 #include <placegraph/pipeline/internal/health/image_quality.h>
 #include <placegraph/pipeline/internal/health/repeated_images.h>
 #include <placegraph/pipeline/internal/health/right_image_time.h>
+#include <placegraph/pipeline/internal/health/window_residuals.h>
 
+#include <optional>
 #include <vector>
 
 namespace placegraph {
 
 class Odometry;
+class SlidingWindow;
 struct FrameResult;
 
 /// Collects evidence against the images, the calibration and the estimated motion during a run.
@@ -25,13 +28,17 @@ class HealthMonitor {
   std::vector<DataNote> notes() const;
 
  private:
+  /// Examines a full window, if its keyframes are all newer than those of the last one.
+  void examine(const SlidingWindow& window);
+
   RepeatedImages repeated_;
   ImageQuality images_{"images", NoteCause::kImages};
   ImageQuality right_images_{"right images", NoteCause::kRightImage};
   RightImageTime right_;
-  DepthAgreement depth_;
   DepthRange range_;
   FocalCheck focal_;
+  ResidualCheck residuals_;
+  std::optional<KeyframeId> newest_;  // newest keyframe of the last window that was examined
 };
 
 }  // namespace placegraph

@@ -9,8 +9,8 @@ struct ImageStatistics {
   double range = 0;  ///< between the 2nd and the 98th percentile [grey levels]
   double white = 0;  ///< share of pixels with the greatest grey level
   /// Mean squared difference of grey levels two pixels apart, divided by that of eight pixels
-  /// apart; the smaller ratio of rows and columns. White noise gives 1, an image that is smooth over
-  /// eight pixels 1/16. 0 if all grey levels are equal.
+  /// apart; the smaller ratio of rows and columns. White noise gives 1, an image that is smooth
+  /// over eight pixels 1/16. 0 if all grey levels are equal.
   double detail = 0;
 };
 

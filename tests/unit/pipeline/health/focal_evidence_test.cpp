@@ -60,7 +60,7 @@ SlidingWindow window_of(double s, double k1, Depth depth, double rotation_rad) {
       if (depth == Depth::kMeasured) {
         o.inverse_depth = 1 / p_cam.z();
         o.sigma_inverse_depth = 0.005;
-      } else if (depth == Depth::kMeasured) {
+      } else if (depth == Depth::kDisparity) {
         o.inverse_depth = (1 + s) / p_cam.z();  // disparity / (assumed focal length * baseline)
         o.sigma_inverse_depth = 0.5 / (assumed.fx * kBaseline_m);
       }
