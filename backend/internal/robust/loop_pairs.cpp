@@ -70,35 +70,47 @@ std::vector<LoopPair> neighbouring_pairs(const std::vector<LoopOnChain<Group>>& 
                                          const OdometryChain<Group>& chain, int reach,
                                          int neighbours) {
   // Loops by cells of `reach` x `reach` poses: neighbours are in the same or an adjacent cell.
+  // Those between the same two nodes are equally near: of them the first ones suffice, however
+  // many.
   using Cell = std::tuple<int, int, int, int>;
   const auto cell_of = [&](const LoopOnChain<Group>& loop, int di, int dj) {
     return Cell{chain.run(loop.from), chain.run(loop.to), chain.position(loop.from) / reach + di,
                 chain.position(loop.to) / reach + dj};
   };
-  std::map<Cell, std::vector<int>> cells;
-  for (std::size_t i = 0; i < loops.size(); ++i)
-    cells[cell_of(loops[i], 0, 0)].push_back(static_cast<int>(i));
+  struct SameEnds {
+    int first, count;  // positions in `loops`, which are sorted by their ends
+  };
+  std::map<Cell, std::vector<SameEnds>> cells;
+  for (int i = 0; i < static_cast<int>(loops.size()); ++i) {
+    std::vector<SameEnds>& cell = cells[cell_of(loops[i], 0, 0)];
+    if (!cell.empty() && loops[cell.back().first].from == loops[i].from &&
+        loops[cell.back().first].to == loops[i].to)
+      ++cell.back().count;
+    else
+      cell.push_back({i, 1});
+  }
 
   std::vector<std::pair<int, int>> pairs;
   std::vector<std::pair<int, int>> near;  // distance, loop
-  for (std::size_t i = 0; i < loops.size(); ++i) {
+  for (int i = 0; i < static_cast<int>(loops.size()); ++i) {
     near.clear();
     for (int di = -1; di <= 1; ++di)
       for (int dj = -1; dj <= 1; ++dj) {
         const auto cell = cells.find(cell_of(loops[i], di, dj));
         if (cell == cells.end()) continue;
-        for (const int other : cell->second) {
-          const int at_from =
-              std::abs(chain.position(loops[i].from) - chain.position(loops[other].from));
-          const int at_to = std::abs(chain.position(loops[i].to) - chain.position(loops[other].to));
-          if (other != static_cast<int>(i) && at_from <= reach && at_to <= reach)
-            near.emplace_back(at_from + at_to, other);
+        for (const SameEnds& others : cell->second) {
+          const LoopOnChain<Group>& other = loops[others.first];
+          const int at_from = std::abs(chain.position(loops[i].from) - chain.position(other.from));
+          const int at_to = std::abs(chain.position(loops[i].to) - chain.position(other.to));
+          if (at_from > reach || at_to > reach) continue;
+          const int end = others.first + std::min(others.count, neighbours + 1);
+          for (int k = others.first; k < end; ++k)
+            if (k != i) near.emplace_back(at_from + at_to, k);
         }
       }
     const std::size_t n = std::min(near.size(), static_cast<std::size_t>(neighbours));
     std::partial_sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(n), near.end());
-    for (std::size_t k = 0; k < n; ++k)
-      pairs.emplace_back(std::minmax(static_cast<int>(i), near[k].second));
+    for (std::size_t k = 0; k < n; ++k) pairs.emplace_back(std::minmax(i, near[k].second));
   }
   std::sort(pairs.begin(), pairs.end());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <numeric>
+#include <utility>
 
 namespace placegraph {
 namespace {
@@ -32,7 +33,8 @@ std::vector<int> by_degree(const BitGraph& graph) {
 
 class Search {
  public:
-  Search(const BitGraph& graph, std::int64_t max_steps) : graph_(graph), steps_left_(max_steps) {}
+  Search(const BitGraph& graph, std::vector<int> weights, std::int64_t max_steps)
+      : graph_(graph), weights_(std::move(weights)), steps_left_(max_steps) {}
 
   void run() {
     Bits all(graph_.words(), 0);
@@ -44,12 +46,14 @@ class Search {
 
  private:
   /// Vertices of `candidates` by colour classes (no two of a class are adjacent), and for each the
-  /// number of classes so far, an upper bound of a clique of it and the vertices before it.
-  void colour(Bits candidates, std::vector<int>& vertices, std::vector<int>& bound) const {
-    for (int classes = 1; std::any_of(candidates.begin(), candidates.end(),
-                                      [](std::uint64_t word) { return word != 0; });
-         ++classes) {
+  /// sum of the largest weights of the classes so far, an upper bound of a clique of it and the
+  /// vertices before it.
+  void colour(Bits candidates, std::vector<int>& vertices, std::vector<std::int64_t>& bound) const {
+    std::int64_t before = 0;  // sum over the classes before this one
+    while (std::any_of(candidates.begin(), candidates.end(),
+                       [](std::uint64_t word) { return word != 0; })) {
       Bits free = candidates;
+      std::int64_t heaviest = 0;
       for (std::size_t w = 0; w < free.size(); ++w)
         while (free[w] != 0) {
           const int v = static_cast<int>(64 * w) + std::countr_zero(free[w]);
@@ -59,20 +63,24 @@ class Search {
           free[w] &= ~bit;
           candidates[w] &= ~bit;
           vertices.push_back(v);
-          bound.push_back(classes);
+          heaviest = std::max<std::int64_t>(heaviest, weights_[static_cast<std::size_t>(v)]);
+          bound.push_back(before + heaviest);
         }
+      before += heaviest;
     }
   }
 
   void expand(Bits candidates) {
-    std::vector<int> vertices, bound;
+    std::vector<int> vertices;
+    std::vector<std::int64_t> bound;
     colour(candidates, vertices, bound);
     steps_left_ -= static_cast<std::int64_t>(vertices.size());
     for (std::size_t i = vertices.size(); i-- > 0;) {
-      if (current_.size() + static_cast<std::size_t>(bound[i]) <= best_.size()) return;
+      if (weight_ + bound[i] <= best_weight_) return;
       if (!complete() && !best_.empty()) return;  // the first branch is searched completely
       const int v = vertices[i];
       current_.push_back(v);
+      weight_ += weights_[static_cast<std::size_t>(v)];
       Bits next(candidates.size());
       bool any = false;
       for (std::size_t w = 0; w < next.size(); ++w) {
@@ -81,24 +89,31 @@ class Search {
       }
       if (any)
         expand(std::move(next));
-      else if (current_.size() > best_.size())
-        best_ = current_;
+      else if (weight_ > best_weight_)
+        best_ = current_, best_weight_ = weight_;
       current_.pop_back();
+      weight_ -= weights_[static_cast<std::size_t>(v)];
       candidates[v / 64] &= ~(std::uint64_t{1} << (v % 64));
     }
   }
 
   const BitGraph& graph_;
+  std::vector<int> weights_;
   std::int64_t steps_left_;
   std::vector<int> current_, best_;
+  std::int64_t weight_ = 0, best_weight_ = 0;  // of current_ and best_
 };
 
 }  // namespace
 
-Clique max_clique(const BitGraph& graph, std::int64_t max_steps) {
+Clique max_clique(const BitGraph& graph, std::int64_t max_steps, const std::vector<int>& weights) {
   const std::vector<int> order = by_degree(graph);
   const BitGraph sorted = reordered(graph, order);
-  Search search(sorted, max_steps);
+  std::vector<int> sorted_weights(order.size(), 1);
+  if (!weights.empty())
+    for (std::size_t i = 0; i < order.size(); ++i)
+      sorted_weights[i] = weights[static_cast<std::size_t>(order[i])];
+  Search search(sorted, std::move(sorted_weights), max_steps);
   search.run();
   Clique clique;
   for (const int v : search.best()) clique.vertices.push_back(order[v]);

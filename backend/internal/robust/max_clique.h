@@ -34,15 +34,17 @@ class BitGraph {
 
 struct Clique {
   std::vector<int> vertices;  ///< ascending
-  bool proven = false;        ///< whether no clique is larger; else the search reached its limit
+  bool proven = false;        ///< whether no clique is heavier; else the search reached its limit
 };
 
-/// A largest set of pairwise adjacent vertices.
+/// A set of pairwise adjacent vertices with the largest sum of `weights`, which are positive, one a
+/// vertex; without weights, a largest set.
 /// Branch and bound with greedy colouring (Tomita & Kameda 2007, on bit sets as San Segundo et al.
 /// 2011), vertices of high degree first, so that the first branch is already a good heuristic.
 /// `max_steps` (coloured vertices) limits the search by count, not by time, so that the same graph
 /// has the same result. Boost.Graph only lists all maximal cliques, which are too many here; it has
 /// no branch-and-bound search for the largest one.
-Clique max_clique(const BitGraph& graph, std::int64_t max_steps);
+Clique max_clique(const BitGraph& graph, std::int64_t max_steps,
+                  const std::vector<int>& weights = {});
 
 }  // namespace placegraph

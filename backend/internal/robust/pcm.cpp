@@ -5,6 +5,27 @@
 #include <map>
 
 namespace placegraph {
+namespace {
+
+/// Loops between the same nodes with the same measurement and information.
+template <class Group>
+bool are_copies(const LoopOnChain<Group>& a, const LoopOnChain<Group>& b) {
+  return a.from == b.from && a.to == b.to && a.W.log() == b.W.log() && a.covariance == b.covariance;
+}
+
+/// Positions of consecutive copies; copies agree with each other and with the same other loops.
+template <class Group>
+std::vector<std::vector<int>> groups_of_copies(const std::vector<LoopOnChain<Group>>& loops) {
+  std::vector<std::vector<int>> groups;
+  for (int i = 0; i < static_cast<int>(loops.size()); ++i) {
+    if (groups.empty() || !are_copies(loops[groups.back().front()], loops[i]))
+      groups.emplace_back();
+    groups.back().push_back(i);
+  }
+  return groups;
+}
+
+}  // namespace
 
 template <class Group>
 std::vector<std::vector<int>> consistent_loops(const PackedGraph<Group>& graph,
@@ -15,14 +36,18 @@ std::vector<std::vector<int>> consistent_loops(const PackedGraph<Group>& graph,
     by_runs[{chain.run(loop.from), chain.run(loop.to)}].push_back(loop);
   std::vector<std::vector<int>> sets;
   for (const auto& [runs, loops] : by_runs) {
-    const int n = static_cast<int>(loops.size());
+    const std::vector<std::vector<int>> groups = groups_of_copies(loops);
+    const int n = static_cast<int>(groups.size());
+    std::vector<int> weights;
+    for (const auto& group : groups) weights.push_back(static_cast<int>(group.size()));
     BitGraph consistency(n);
     for (int a = 0; a < n; ++a)
       for (int b = a + 1; b < n; ++b)
-        if (ring_misclosure(loops[a], loops[b], chain).chi2 <= gate) consistency.join(a, b);
+        if (ring_misclosure(loops[groups[a].front()], loops[groups[b].front()], chain).chi2 <= gate)
+          consistency.join(a, b);
     sets.emplace_back();
-    for (const int i : max_clique(consistency, max_steps).vertices)
-      sets.back().push_back(loops[i].edge);
+    for (const int group : max_clique(consistency, max_steps, weights).vertices)
+      for (const int i : groups[group]) sets.back().push_back(loops[i].edge);
   }
   std::stable_sort(sets.begin(), sets.end(),
                    [](const auto& a, const auto& b) { return a.size() > b.size(); });

@@ -48,6 +48,30 @@ TEST(MaxClique, IsAsLargeAsTryingEverySetFinds) {
     }
 }
 
+TEST(MaxClique, IsAsHeavyAsTryingEverySetFinds) {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    const BitGraph graph = random_graph(11, 0.5, seed);
+    std::vector<int> weights;
+    for (int v = 0; v < graph.vertices(); ++v) weights.push_back(1 + (7 * v + 3) % 5);
+    const auto weight_of = [&](const std::vector<int>& vertices) {
+      int sum = 0;
+      for (const int v : vertices) sum += weights[static_cast<std::size_t>(v)];
+      return sum;
+    };
+    int heaviest = 0;
+    for (int set = 0; set < 1 << graph.vertices(); ++set) {
+      std::vector<int> vertices;
+      for (int v = 0; v < graph.vertices(); ++v)
+        if (set >> v & 1) vertices.push_back(v);
+      if (is_clique(graph, vertices)) heaviest = std::max(heaviest, weight_of(vertices));
+    }
+    const Clique clique = max_clique(graph, 1000000, weights);
+    EXPECT_TRUE(clique.proven);
+    EXPECT_TRUE(is_clique(graph, clique.vertices));
+    EXPECT_EQ(weight_of(clique.vertices), heaviest) << "seed " << seed;
+  }
+}
+
 TEST(MaxClique, FindsWhatWasHiddenAmongTwoHundredVertices) {
   BitGraph graph = random_graph(200, 0.3, 7);
   std::vector<int> hidden;

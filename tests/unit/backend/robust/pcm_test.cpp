@@ -4,6 +4,8 @@
 #include <placegraph/backend/internal/robust/pcm.h>
 #include <placegraph/graph/internal/core/chi_squared.h>
 
+#include <algorithm>
+
 #include "tests/support/scenes/looped_walk.h"
 
 namespace placegraph {
@@ -135,6 +137,34 @@ TEST(LoopLeverage, SamplesTellOnlyWhatIsFarAbove) {
     else
       EXPECT_GT(rough[i], 30);
   }
+}
+
+TEST(Pcm, KeepsManyCopiesOfALoopTogether) {
+  PoseGraph graph = line(40);
+  for (int i = 0; i < 5000; ++i) add_loop(graph, 2, 30, SE2(28, 0, 0));
+  for (int i = 0; i < 3; ++i) add_loop(graph, 4 + i, 31, SE2(10, 5, 1));
+  const auto packed = pack<SE2>(graph);
+  const OdometryChain<SE2> chain(packed);
+  const auto sets = consistent_loops(packed, chain, chi_squared_quantile(0.95, 3), 1'000'000);
+  ASSERT_EQ(sets.size(), 1u);
+  EXPECT_EQ(sets[0].size(), 5000u);
+}
+
+TEST(NeighbouringPairs, AreAsManyAsTheNeighboursAllow) {
+  PoseGraph graph = line(40);
+  constexpr int kCopies = 20'000, kNeighbours = 5;
+  for (int i = 0; i < kCopies; ++i) add_loop(graph, 2, 30, SE2(28, 0, 0));
+  add_loop(graph, 3, 31, SE2(28, 0, 0));
+  const auto packed = pack<SE2>(graph);
+  const OdometryChain<SE2> chain(packed);
+  const auto loops = loops_on_chain(packed, chain);
+  const auto pairs = neighbouring_pairs(loops, chain, 10, kNeighbours);
+  EXPECT_LE(pairs.size(), static_cast<std::size_t>(kNeighbours) * loops.size());
+  EXPECT_GE(pairs.size(), loops.size());
+  const bool other = std::ranges::any_of(pairs, [&](const LoopPair& pair) {
+    return loops[pair.b].from == 3 || loops[pair.a].from == 3;
+  });
+  EXPECT_TRUE(other);
 }
 
 }  // namespace
