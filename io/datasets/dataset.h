@@ -41,6 +41,9 @@ class Dataset {
   virtual Frame frame(std::size_t index, Sensor sensor) const = 0;
   /// Ground truth T_world_cam, one entry per frame (no pose where it is unknown), if any.
   virtual const std::optional<Trajectory>& ground_truth() const = 0;
+  /// Whether the recording states that its images are rectified, as those of a stereo pair are.
+  /// run_sequence then estimates no lens distortion, whichever sensor it uses.
+  virtual bool images_rectified() const { return false; }
   /// Notes about skipped data and implausible data, one line each.
   virtual std::vector<DataNote> notes() const { return {}; }
 };

@@ -252,7 +252,8 @@ class SequenceRun {
       result_.frame_health.push_back({frame.id, done.outcome.reason, done.confidence});
       if (inputs_.observer) inputs_.observer(frame, done, slam.view());
       if (inputs_.progress) inputs_.progress(i + 1 - begin_, end_ - begin_, done);
-      if (learn_lens(slam.lens(), pass_, options_.lens, lens_, inputs_.log)) {
+      if (!dataset_.images_rectified() &&
+          learn_lens(slam.lens(), pass_, options_.lens, lens_, inputs_.log)) {
         if (inputs_.events)
           inputs_.events->lens_found({frame.id, lens_.k1(), slam.lens().sigma_k1, pass_ + 2});
         return false;

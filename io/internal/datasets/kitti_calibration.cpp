@@ -72,6 +72,7 @@ KittiCameras read_kitti_cameras(const std::string& path, int left, bool with_rig
   KittiCameras cameras;
   cameras.camera = kitti_camera(path, left_key, P_left->second);
   cameras.position_in_cam0 = kitti_position(P_left->second);
+  cameras.paired = P_right != lines.end();
   if (!with_right || P_right == lines.end()) return cameras;
   const Camera right = kitti_camera(path, right_key, P_right->second);
   if (right.fx != cameras.camera.fx || right.fy != cameras.camera.fy ||

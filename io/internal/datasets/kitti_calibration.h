@@ -34,7 +34,8 @@ void set_size(const std::string& first_image, const Image& image, Camera& camera
 /// size is not in the file and remains 0.
 struct KittiCameras {
   Camera camera;
-  double baseline_m = 0;                                       ///< 0 without a right camera
+  double baseline_m = 0;  ///< 0 without a right camera
+  bool paired = false;    ///< whether the file describes the right camera, with images or without
   Eigen::Vector3d position_in_cam0 = Eigen::Vector3d::Zero();  ///< rectified left camera
 };
 /// `with_right`: there are images of a right camera. Throws FileError for a file without the left

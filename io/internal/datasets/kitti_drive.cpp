@@ -135,6 +135,7 @@ std::unique_ptr<Dataset> open_kitti_drive(const std::string& folder) {
   RecordedSequence sequence;
   sequence.name = folder_name(folder);
   sequence.format = "kitti_raw";
+  sequence.rectified = true;
   std::vector<std::int64_t> numbers;
   take_images(drive, left, cameras.baseline_m > 0, sequence, numbers);
   take_times(drive, left, numbers, sequence);

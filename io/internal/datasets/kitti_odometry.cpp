@@ -32,6 +32,7 @@ Eigen::Vector3d read_cameras(const fs::path& folder, RecordedSequence& sequence)
       read_kitti_cameras((folder / "calib.txt").string(), left, fs::is_directory(right_folder));
   sequence.left = list_numbered_images((folder / fmt::format("image_{}", left)).string());
   sequence.calibration.camera = cameras.camera;
+  sequence.rectified = cameras.paired;
   set_size(sequence.left[0], read_image(sequence.left[0]).grey, sequence.calibration.camera);
   require_plausible_camera((folder / "calib.txt").string(), sequence.calibration.camera);
   sequence.raw_camera = sequence.calibration.camera;

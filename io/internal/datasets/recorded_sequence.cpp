@@ -54,6 +54,7 @@ class RecordedDataset : public Dataset {
     check_index(index);
     return s_.stamps_ns[index];
   }
+  bool images_rectified() const override { return s_.rectified || s_.calibration.baseline_m > 0; }
   const std::optional<Trajectory>& ground_truth() const override { return s_.ground_truth; }
   std::vector<DataNote> notes() const override { return s_.notes; }
 

@@ -14,6 +14,7 @@ struct RecordedSequence {
   std::vector<std::string> left, right, depth;  ///< paths of the raw images
   Camera raw_camera;        ///< camera of the raw left images: only the size is used
   Calibration calibration;  ///< calibration of all images, after remapping
+  bool rectified = false;   ///< Dataset::images_rectified; a baseline implies it
   Remap left_remap, right_remap, depth_remap;
   double depth_unit_m = 0.001;  ///< metres of one step of the depth images
   std::optional<Trajectory> ground_truth;

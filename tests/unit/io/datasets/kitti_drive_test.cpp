@@ -44,6 +44,7 @@ TEST_F(KittiDrive, IsTwoGreyCamerasWithTheirTimes) {
   const auto dataset = open();
   EXPECT_EQ(dataset->format(), "kitti_raw");
   EXPECT_EQ(dataset->size(), 4u);
+  EXPECT_TRUE(dataset->images_rectified());
   EXPECT_THAT(dataset->sensors(), ElementsAre(Sensor::kStereo, Sensor::kMono));
   EXPECT_EQ(dataset->calibration(Sensor::kStereo).baseline_m, 0.5);
   EXPECT_EQ(dataset->stamp_ns(0), 0);

@@ -86,6 +86,14 @@ TEST(KittiOdometry, ReadsStereoTimesAndTruth) {
   EXPECT_THROW(dataset->stamp_ns(3), ArgumentError);
 }
 
+TEST(KittiOdometry, IsRectifiedIfItsFileDescribesAPair) {
+  const TemporaryFolder folder;
+  write_mono(folder);
+  EXPECT_FALSE(open_dataset(folder / "s")->images_rectified());
+  folder.write("s/calib.txt", kP0 + kP1);  // the right images are not there
+  EXPECT_TRUE(open_dataset(folder / "s")->images_rectified());
+}
+
 TEST(KittiOdometry, FindsTheTruthOfTheBenchmarksOwnLayout) {
   const TemporaryFolder folder;
   write_mono(folder, "dataset/sequences/07/");
