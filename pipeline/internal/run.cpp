@@ -11,6 +11,7 @@
 #include <placegraph/io/sensors/odometry_file.h>
 #include <placegraph/pipeline/cues/frame_view.h>
 #include <placegraph/pipeline/internal/lens_correction.h>
+#include <placegraph/pipeline/internal/run_mask.h>
 #include <placegraph/pipeline/run.h>
 #include <placegraph/pipeline/slam_events.h>
 
@@ -72,9 +73,9 @@ MeasuredMotion read_motion(const Dataset& dataset, const MotionOptions& options,
 /// Reads frames in order, one ahead of the caller if it may use a thread for that.
 class FrameReader {
  public:
-  FrameReader(const Dataset& dataset, const LensCorrection& lens, Sensor sensor, std::size_t end,
-              bool ahead)
-      : dataset_(dataset), lens_(lens), sensor_(sensor), end_(end), ahead_(ahead) {}
+  FrameReader(const Dataset& dataset, const RunMask& mask, const LensCorrection& lens,
+              Sensor sensor, std::size_t end, bool ahead)
+      : dataset_(dataset), mask_(mask), lens_(lens), sensor_(sensor), end_(end), ahead_(ahead) {}
 
   Frame read(std::size_t index) {
     Frame frame = next_.valid() ? next_.get() : load(index);
@@ -83,14 +84,16 @@ class FrameReader {
     return frame;
   }
 
- private:
   Frame load(std::size_t index) const {
     Frame frame = dataset_.frame(index, sensor_);
+    mask_.apply(frame);
     lens_.apply(frame);
     return frame;
   }
 
+ private:
   const Dataset& dataset_;
+  RunMask mask_;
   LensCorrection lens_;
   Sensor sensor_;
   std::size_t end_;
@@ -174,6 +177,7 @@ class SequenceRun {
     result_.sensor = choose_sensor(dataset, options.sensor);
     result_.calibration = dataset.calibration(result_.sensor);
     if (options.camera_height_m > 0) result_.calibration.camera_height_m = options.camera_height_m;
+    mask_ = RunMask(options.mask, result_.calibration.camera);
     begin_ = options.first_frame;
     require(begin_ < dataset.size(),
             "first_frame: the sequence has " + std::to_string(dataset.size()) + " frames");
@@ -222,6 +226,10 @@ class SequenceRun {
     return origin;
   }
 
+  FrameReader reader() const {
+    return {dataset_, mask_, lens_, result_.sensor, end_, options_.threads > 1};
+  }
+
   /// Processes the sequence; returns false if the images must be corrected and the run restarted.
   bool pass(const StoredMap& stored) {
     result_.calibration = lens_.calibration();
@@ -230,7 +238,7 @@ class SequenceRun {
     Slam slam(options_.slam, result_.calibration, slam_inputs());
     reasons_.clear();
     const std::size_t first = go_on(stored, slam);
-    FrameReader reader(dataset_, lens_, result_.sensor, end_, options_.threads > 1);
+    FrameReader reader = this->reader();
     for (std::size_t i = first; i < end_; ++i) {
       result_.stopped = inputs_.stop && inputs_.stop();
       if (result_.stopped) break;
@@ -284,9 +292,7 @@ class SequenceRun {
     require(last >= begin_ && last < end_,
             inputs_.map_file->path + ": its last keyframe is frame " + std::to_string(last) +
                 ", which is not in the sequence");
-    Frame frame = dataset_.frame(last, result_.sensor);
-    lens_.apply(frame);
-    slam.resume(stored.map, stored.history, frame);
+    slam.resume(stored.map, stored.history, reader().load(last));
     result_.resumed_at = FrameId(last + 1);
     return last + 1;
   }
@@ -303,6 +309,7 @@ class SequenceRun {
   const RunOptions& options_;
   const RunInputs& inputs_;
   std::size_t begin_ = 0, end_ = 0;
+  RunMask mask_;
   LensCorrection lens_{Calibration()};
   int pass_ = 0;
   std::optional<MapDatabase> database_;
