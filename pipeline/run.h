@@ -64,9 +64,9 @@ const char* to_string(Verdict verdict);
 /// Judgement of a run by its own evidence, without ground truth.
 struct Judgement {
   Verdict verdict = Verdict::kGood;  ///< how far the result can be trusted
-  bool metric = false;             ///< whether lengths are in metres, as far as the run shows
-  std::string why_metric;          ///< what gives the map its scale, or why it has none
-  std::vector<DataNote> findings;  ///< what is in doubt, each with its cause and what to try next
+  bool metric = false;               ///< whether lengths are in metres, as far as the run shows
+  std::string why_metric;            ///< what gives the map its scale, or why it has none
+  std::vector<DataNote> findings;    ///< what is in doubt, each with its cause and what to try next
 };
 
 /// Judges a run by its map, by RunResult::notes and by `notes` on its data and options.
@@ -115,10 +115,11 @@ struct RunInputs {
 /// Runs SLAM on every frame of a sequence, as fast as possible.
 ///
 /// Restarts, at most twice, if the images of a monocular or RGB-D camera are found to be distorted
-/// (LensOptions). The result does not depend on the number of threads. An unreadable frame other
-/// than the first ends the run (RunResult::broken_off). Throws ArgumentError for options that their
-/// check() rejects or for a sequence that lacks the required data, FileError for files that cannot
-/// be read or written.
+/// (LensOptions), and at most twice if something in the images is found to move with the camera
+/// (StaticOverlayOptions): it is masked then. The result does not depend on the number of threads.
+/// An unreadable frame other than the first ends the run (RunResult::broken_off). Throws
+/// ArgumentError for options that their check() rejects or for a sequence that lacks the required
+/// data, FileError for files that cannot be read or written.
 RunResult run_sequence(const Dataset& dataset, const RunOptions& options,
                        const RunInputs& inputs = {});
 

@@ -169,6 +169,17 @@ std::vector<UnposedFrames> unposed_frames(const Trajectory& optimized, const Map
   return result;
 }
 
+SlamInputs slam_inputs(const Dataset& dataset, const RunOptions& options, const RunInputs& given) {
+  SlamInputs inputs;
+  inputs.surfaces = given.surfaces;
+  inputs.events = given.events;
+  inputs.log = given.log;
+  if (!options.motion.file.empty())
+    inputs.motion =
+        std::make_shared<const MeasuredMotion>(read_motion(dataset, options.motion, given.log));
+  return inputs;
+}
+
 /// A run over a sequence, with the file in which it saves its map.
 class SequenceRun {
  public:
@@ -195,10 +206,7 @@ class SequenceRun {
       if (stored.finished) return as_saved(std::move(stored));
       database_ = MapDatabase::open(inputs_.map_file->path);
     }
-    while (!pass(stored)) {
-      ++pass_;
-      stored = StoredMap();
-    }
+    while (!pass(stored)) stored = StoredMap();
     return std::move(result_);
   }
 
@@ -230,12 +238,22 @@ class SequenceRun {
     return {dataset_, mask_, lens_, result_.sensor, end_, options_.threads > 1};
   }
 
+  /// Whether the run must restart without a static overlay. The lens is then estimated again:
+  /// tracks on the overlay have contributed to its estimate.
+  bool restarts_without_overlay(const Slam& slam) {
+    if (!mask_.learn(slam, lens_)) return false;
+    lens_.reset();
+    pass_ = 0;
+    log(inputs_.log, LogLevel::kInfo, "restarting without what moves with the camera");
+    return true;
+  }
+
   /// Processes the sequence; returns false if the images must be corrected and the run restarted.
   bool pass(const StoredMap& stored) {
     result_.calibration = lens_.calibration();
     if (database_ && stored.map.keyframes.empty()) database_->clear(origin());
     if (inputs_.events) inputs_.events->run_began();
-    Slam slam(options_.slam, result_.calibration, slam_inputs());
+    Slam slam(options_.slam, result_.calibration, slam_inputs(dataset_, options_, inputs_));
     reasons_.clear();
     const std::size_t first = go_on(stored, slam);
     FrameReader reader = this->reader();
@@ -256,9 +274,11 @@ class SequenceRun {
                                               : done.outcome.reason);
       if (inputs_.observer) inputs_.observer(frame, done, slam.view());
       if (inputs_.progress) inputs_.progress(i + 1 - begin_, end_ - begin_, done);
+      if (restarts_without_overlay(slam)) return false;
       if (learn_lens(slam.lens(), pass_, options_.lens, lens_, inputs_.log)) {
         if (inputs_.events)
           inputs_.events->lens_found({frame.id, lens_.k1(), slam.lens().sigma_k1, pass_ + 2});
+        ++pass_;
         return false;
       }
       if (inputs_.map_file && done.new_place) commit(slam, false);
@@ -268,21 +288,11 @@ class SequenceRun {
     result_.unposed = unposed_frames(result_.map.trajectory_optimized(), result_.map, reasons_);
     if (inputs_.map_file) commit(slam, !result_.broken_off && !result_.stopped);
     result_.notes = slam.notes();
+    result_.notes.insert(result_.notes.begin(), mask_.notes().begin(), mask_.notes().end());
     result_.environments = slam.environments();
     result_.stages = times_.stages();
     result_.stages.insert(result_.stages.end(), slam.stages().begin(), slam.stages().end());
     return true;
-  }
-
-  SlamInputs slam_inputs() const {
-    SlamInputs inputs;
-    inputs.surfaces = inputs_.surfaces;
-    inputs.events = inputs_.events;
-    inputs.log = inputs_.log;
-    if (!options_.motion.file.empty())
-      inputs.motion = std::make_shared<const MeasuredMotion>(
-          read_motion(dataset_, options_.motion, inputs_.log));
-    return inputs;
   }
 
   /// Restores the saved state; returns the index of the next frame.

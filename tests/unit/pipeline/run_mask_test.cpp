@@ -4,8 +4,8 @@
 
 #include <opencv2/core.hpp>
 
-#include "tests/support/temporary_folder.h"
 #include "tests/support/scenes/scene.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/unit/io/datasets/tiny_images.h"
 
 namespace placegraph {
