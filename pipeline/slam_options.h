@@ -46,7 +46,7 @@ struct StaticOverlayOptions {
   double min_motion_px = 8;  ///< displacement of most moving points that completes an episode [px]
   /// Minimum distance from a patch that stands still to the nearest pixel at which the motion
   /// allows it [px].
-  double min_contradiction_px = 1;
+  double min_contradiction_px = 0.5;
   int min_episodes = 2;  ///< number of episodes that prove a patch to move with the camera
   int min_patches = 6;   ///< minimum number of proven patches in a region that is masked
   void check() const;

@@ -35,7 +35,7 @@ void visit(OptionVisitor& field, StaticOverlayOptions& o) {
   field.internal()("min_contradiction_px", o.min_contradiction_px,
                    "minimum distance from a patch that stands still to where the motion allows it "
                    "[px]",
-                   {0.5, 100});
+                   {0.1, 100});
   field.internal()("min_episodes", o.min_episodes,
                    "number of episodes that prove a patch to move with the camera", {1, 1000});
   field.internal()("min_patches", o.min_patches,

@@ -47,7 +47,10 @@ void StandingPatches::look(const Image& image, const Image& mask) {
   ++looks_;
   std::vector<Cell*> standing, moved;
   for (Cell& cell : cells_)
-    if (cell.patch) (stands(image, *cell.patch) ? standing : moved).push_back(&cell);
+    if (cell.patch && !mask.empty() && mask.at<std::uint8_t>(cell.patch->px) == 0)
+      cell.patch.reset();
+    else if (cell.patch)
+      (stands(image, *cell.patch) ? standing : moved).push_back(&cell);
   // A cell whose patch moved waits for its turn: so many cells are in motion.
   const auto in_motion = static_cast<double>(kTurns * moved.size());
   const bool moving =

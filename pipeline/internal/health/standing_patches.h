@@ -22,8 +22,8 @@ class StandingPatches {
 
   StandingPatches(const StaticOverlayOptions& options, const Camera& camera);
 
-  /// Compares the patches with an image (CV_8UC1), and takes new ones where `mask` is not 0 (may be
-  /// empty).
+  /// Compares the patches with an image (CV_8UC1), and takes new ones. Where `mask` is 0 there are
+  /// none (may be empty).
   void look(const Image& image, const Image& mask);
   /// Whether enough patches stand still for so long that the motion of the camera must be asked.
   bool suspects() const;
