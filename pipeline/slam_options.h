@@ -41,7 +41,7 @@ void visit(OptionVisitor& field, ContextOptions& options);
 /// motion of other points moves every point of the world there, however far away.
 struct StaticOverlayOptions {
   bool enabled = true;       ///< search for static overlays and mask them
-  int interval = 2;          ///< number of frames from one look at the patches to the next
+  int interval = 2;          ///< number of frames from one comparison of the patches to the next
   double standing_px = 0.3;  ///< maximum displacement of a patch that stands still [px]
   double min_motion_px = 8;  ///< displacement of most moving points that completes an episode [px]
   /// Minimum distance from a patch that stands still to the nearest pixel at which the motion

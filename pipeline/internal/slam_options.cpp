@@ -27,7 +27,7 @@ void visit(OptionVisitor& field, StaticOverlayOptions& o) {
   field.basic()("enabled", o.enabled,
                 "find and mask what moves with the camera: dirt, time stamps, the bonnet");
   field.internal()("interval", o.interval,
-                   "number of frames from one look at the patches to the next", {1, 100});
+                   "number of frames from one comparison of the patches to the next", {1, 100});
   field.internal()("standing_px", o.standing_px,
                    "maximum displacement of a patch that stands still [px]", {0.05, 5});
   field.internal()("min_motion_px", o.min_motion_px,

@@ -8,8 +8,8 @@
 namespace placegraph {
 namespace {
 
-/// Patches are taken in one of so many cells at a look.
-constexpr int kTurns = 4;
+/// Patches are taken in one of so many cells at a comparison.
+constexpr int kInterleaved = 4;
 
 /// The smaller eigenvalue of the sum of squared gradients, `a`, `b`, `c` its elements uu, uv, vv.
 double smaller_eigenvalue(double a, double b, double c) {
@@ -41,18 +41,18 @@ cv::Rect StandingPatches::rect(int cell) const {
   return {begin, cv::Point((column + 1) * width_ / kColumns, (row + 1) * height_ / kRows)};
 }
 
-void StandingPatches::look(const Image& image, const Image& mask) {
+void StandingPatches::compare(const Image& image, const Image& mask) {
   constexpr int kFewest = 8, kMostExcused = 50;
   constexpr double kMovingShare = 0.25;
-  ++looks_;
+  ++comparisons_;
   std::vector<Cell*> standing, moved;
   for (Cell& cell : cells_)
     if (cell.patch && !mask.empty() && mask.at<std::uint8_t>(cell.patch->px) == 0)
       cell.patch.reset();
     else if (cell.patch)
       (stands(image, *cell.patch) ? standing : moved).push_back(&cell);
-  // A cell whose patch moved waits for its turn: so many cells are in motion.
-  const auto in_motion = static_cast<double>(kTurns * moved.size());
+  // A cell whose patch moved waits until it is taken again: so many cells are in motion.
+  const auto in_motion = static_cast<double>(kInterleaved * moved.size());
   const bool moving =
       moved.size() >= kFewest &&
       in_motion >= kMovingShare * (in_motion + static_cast<double>(standing.size()));
@@ -61,7 +61,8 @@ void StandingPatches::look(const Image& image, const Image& mask) {
     cell->patch.reset();
     if (moving) cell->moved = std::min(cell->moved + 1, kMostExcused);
   }
-  for (int c = looks_ % kTurns; c < static_cast<int>(cells_.size()); c += kTurns) {
+  for (int c = comparisons_ % kInterleaved; c < static_cast<int>(cells_.size());
+       c += kInterleaved) {
     Cell& cell = cells_[c];
     if (cell.patch) continue;
     cell.patch = take(image, mask, c);
@@ -105,10 +106,10 @@ double StandingPatches::texture(const Image& image, const cv::Point& px) const {
 /// Nothing if its position could not be measured to a fraction of `standing_px`.
 std::optional<StandingPatches::Patch> StandingPatches::patch_at(const Image& image,
                                                                 const cv::Point& px) const {
-  constexpr double kNoise_grey = 3, kFraction = 0.25;  // of the difference of two grey values
+  constexpr double kNoise_grey = 3, kFraction = 0.25;  // noise: that of two grey values
   Patch patch;
   patch.px = px;
-  patch.taken = looks_;
+  patch.taken = comparisons_;
   Eigen::Matrix2f sum = Eigen::Matrix2f::Zero();
   for (int v = px.y - half_; v <= px.y + half_; ++v)
     for (int u = px.x - half_; u <= px.x + half_; ++u) {
@@ -156,8 +157,8 @@ bool StandingPatches::stands(const Image& image, const Patch& patch) const {
 
 /// Where patches used to move, one must stand still for long.
 bool StandingPatches::is_suspect(const Cell& cell) const {
-  constexpr int kLooks = 4;
-  return cell.patch && cell.patch->stood >= kLooks + cell.excused;
+  constexpr int kComparisons = 4;
+  return cell.patch && cell.patch->stood >= kComparisons + cell.excused;
 }
 
 bool StandingPatches::suspects() const {
@@ -165,10 +166,10 @@ bool StandingPatches::suspects() const {
          options_.min_patches;
 }
 
-bool StandingPatches::judge(const ImageMotion& motion, int since_look) {
+bool StandingPatches::judge(const ImageMotion& motion, int since) {
   bool found = false;
   for (Cell& cell : cells_) {
-    if (!is_suspect(cell) || cell.patch->taken > since_look) continue;
+    if (!is_suspect(cell) || cell.patch->taken > since) continue;
     const auto must = motion.least_displacement({cell.patch->px.x, cell.patch->px.y});
     if (!must) continue;
     const double spoken = speaks_against(*must, options_.min_contradiction_px);
@@ -179,10 +180,10 @@ bool StandingPatches::judge(const ImageMotion& motion, int since_look) {
 }
 
 Image StandingPatches::elsewhere() const {
-  constexpr int kLooks = 2;
+  constexpr int kComparisons = 2;
   Image mask(height_, width_, CV_8UC1, cv::Scalar(255));
   for (int c = 0; c < static_cast<int>(cells_.size()); ++c)
-    if (cells_[c].patch && cells_[c].patch->stood >= kLooks) mask(rect(c)).setTo(0);
+    if (cells_[c].patch && cells_[c].patch->stood >= kComparisons) mask(rect(c)).setTo(0);
   return mask;
 }
 

@@ -14,8 +14,8 @@ namespace placegraph {
 /// another one.
 ///
 /// A patch may stand still for good reason: it is far away and the camera translates, it lies in
-/// the direction of motion, or the camera rests. Looks count only while patches elsewhere move, and
-/// only motions of the camera that move every point of the world speak against a patch.
+/// the direction of motion, or the camera rests. Comparisons count only while patches elsewhere
+/// move, and only motions of the camera that move every point of the world speak against a patch.
 class StandingPatches {
  public:
   static constexpr int kColumns = 24, kRows = 16;  ///< cells of the grid
@@ -24,14 +24,14 @@ class StandingPatches {
 
   /// Compares the patches with an image (CV_8UC1), and takes new ones. Where `mask` is 0 there are
   /// none (may be empty).
-  void look(const Image& image, const Image& mask);
+  void compare(const Image& image, const Image& mask);
   /// Whether enough patches stand still for so long that the motion of the camera must be asked.
   bool suspects() const;
-  /// Judges the patches that have stood still since a look by the motion since then; returns
+  /// Judges the patches that have stood still since a comparison by the motion since then; returns
   /// whether it speaks against some of them.
-  bool judge(const ImageMotion& motion, int since_look);
-  /// Number of looks so far.
-  int looks() const { return looks_; }
+  bool judge(const ImageMotion& motion, int since);
+  /// Number of comparisons so far.
+  int comparisons() const { return comparisons_; }
   /// Pixels that no patch covers which has stood still for a while (CV_8UC1, 255; 0 elsewhere).
   Image elsewhere() const;
   /// The cells with proven patches, enough of them in one region, and those of other patches of the
@@ -43,15 +43,15 @@ class StandingPatches {
     cv::Point px;               // its centre
     std::vector<float> grey;    // row by row, without its mean
     std::vector<float> du, dv;  // gradients of the grey values
-    Eigen::Matrix2f inverse;    // of the sum of the squared gradients
+    Eigen::Matrix2f inverse;    // that of the sum of the squared gradients
     float norm2 = 0;            // sum of the squares of `grey`
-    int taken = 0;              // the look at which it was taken
-    int stood = 0;              // looks at which others moved and it did not
+    int taken = 0;              // the comparison at which it was taken
+    int stood = 0;              // comparisons at which others moved and it did not
     double against = 0;         // in episodes that are certain
   };
   struct Cell {
     std::optional<Patch> patch;
-    int moved = 0;    // looks at which its patches moved
+    int moved = 0;    // comparisons at which its patches moved
     int excused = 0;  // the same, when its patch was taken
   };
   cv::Rect rect(int cell) const;
@@ -64,7 +64,7 @@ class StandingPatches {
   StaticOverlayOptions options_;
   int width_, height_, half_;  // [px]; half the side of a patch
   std::vector<Cell> cells_;
-  int looks_ = 0;
+  int comparisons_ = 0;
 };
 
 }  // namespace placegraph

@@ -49,19 +49,19 @@ StaticOverlay::StaticOverlay(const StaticOverlayOptions& options, const Camera& 
       tracker_(tracker_options(camera)) {}
 
 bool StaticOverlay::add(const Frame& frame) {
-  const bool looks = frames_++ % options_.interval == 0;
+  const bool compares = frames_++ % options_.interval == 0;
   if (!px_ref_.empty()) track(frame);
-  if (!looks) return false;
+  if (!compares) return false;
   const Image used = both_masks(frame.mask, mask_);
-  patches_.look(frame.image, used);
+  patches_.compare(frame.image, used);
   if (!px_ref_.empty()) return go_on(frame, used);
-  if (!patches_.suspects() || patches_.looks() < next_) return false;
+  if (!patches_.suspects() || patches_.comparisons() < next_) return false;
   track(frame);
   begin(used);
   return false;
 }
 
-/// Goes on with an episode after a look; returns whether the mask has grown.
+/// Goes on with an episode after a comparison; returns whether the mask has grown.
 bool StaticOverlay::go_on(const Frame& frame, const Image& used) {
   constexpr int kLongest = 15, kFewest = 20, kMostWithoutResult = 3, kPause = 20;
   const auto& tracks = tracker_.tracks();
@@ -70,14 +70,14 @@ bool StaticOverlay::go_on(const Frame& frame, const Image& used) {
   const auto others = std::ranges::count_if(
       tracks, [&](const PointTrack& t) { return moved_px(t) >= options_.standing_px; });
   const bool complete = moving >= std::max<std::ptrdiff_t>(kFewest, others / 2);
-  if (!complete && patches_.looks() - begun_ < kLongest && std::ssize(tracks) >= kFewest)
+  if (!complete && patches_.comparisons() - begun_ < kLongest && std::ssize(tracks) >= kFewest)
     return false;
   const bool found = complete && judge(frame.id);
   without_result_ = found ? 0 : without_result_ + 1;
   if (without_result_ >= kMostWithoutResult) {
     tracker_.reset();
     px_ref_.clear();
-    next_ = patches_.looks() + kPause;
+    next_ = patches_.comparisons() + kPause;
     return false;
   }
   begin(used);
@@ -94,7 +94,7 @@ void StaticOverlay::begin(const Image& mask) {
   tracker_.detect(reduced(both_masks(patches_.elsewhere(), mask), cv::INTER_NEAREST));
   px_ref_.clear();
   for (const PointTrack& track : tracker_.tracks()) px_ref_[track.id] = full(track.px);
-  begun_ = patches_.looks();
+  begun_ = patches_.comparisons();
 }
 
 /// Judges the patches that stood still in the episode by the motion of the points.
@@ -179,9 +179,10 @@ std::string StaticOverlay::text() const {
 
 std::optional<DataNote> StaticOverlay::note() const {
   if (mask_.empty()) return std::nullopt;
-  return DataNote{text() + ": it was masked", false, NoteCause::kStaticOverlay,
-                  "look for dirt on the lens, a time stamp or the bonnet; a mask of your own "
-                  "(`run --mask`) is exact"};
+  return DataNote{
+      text() + ": it was masked", false, NoteCause::kStaticOverlay,
+      "check the lens for dirt, the images for a time stamp or the bonnet; a mask of your own "
+      "(`run --mask`) is exact"};
 }
 
 }  // namespace placegraph

@@ -16,7 +16,7 @@ namespace placegraph {
 ///
 /// Patches that stand still are watched at next to no cost (StandingPatches). Only when some of
 /// them have stood still for long while others moved, points elsewhere are tracked until most have
-/// moved: their motion tells by how much every point of the world must have moved (ImageMotion).
+/// moved: their motion says by how much every point of the world must have moved (ImageMotion).
 class StaticOverlay {
  public:
   /// `camera`: that of the (left) images.
@@ -55,12 +55,12 @@ class StaticOverlay {
   int last_cells_ = 0;  // in the region at the last episode
 
   // The episode in progress.
-  int reduction_;  // of the images in which points are tracked
+  int reduction_;  // that of the images in which points are tracked
   PointTracker tracker_;
   std::map<LandmarkId, Eigen::Vector2d> px_ref_;  // at the beginning; empty: none in progress
-  int begun_ = 0;                                 // look with which it began
+  int begun_ = 0;                                 // comparison with which it began
   int without_result_ = 0;                        // episodes that say nothing, in succession
-  int next_ = 0;                                  // look from which an episode may begin
+  int next_ = 0;                                  // comparison from which an episode may begin
   int tracked_images_ = 0;
 };
 

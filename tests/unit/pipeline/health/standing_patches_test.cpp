@@ -12,7 +12,7 @@ using namespace test;
 
 const Camera kCamera = pinhole(640, 480, 500);
 const cv::Rect kFixed(200, 150, 200, 150);
-constexpr int kLooks = 20;
+constexpr int kComparisons = 20;
 
 /// A wide texture with structure of some pixels.
 Image texture(int width, int height, int seed) {
@@ -24,7 +24,7 @@ Image texture(int width, int height, int seed) {
   return noise;
 }
 
-/// Image `i` of a camera that moves by `step_px` a look, with something fixed to it.
+/// Image `i` of a camera that moves by `step_px` a comparison, with something fixed to it.
 Image moving_image(int i, int step_px) {
   static const Image world = texture(2000, kCamera.height, 1);
   static const Image fixed = texture(kFixed.width, kFixed.height, 2);
@@ -49,7 +49,7 @@ ImageMotion rotation(double angle) {
 
 TEST(StandingPatches, AreSuspectWhereTheRestOfTheImageMoves) {
   StandingPatches patches({}, kCamera);
-  for (int i = 0; i < kLooks; ++i) patches.look(moving_image(i, 5), {});
+  for (int i = 0; i < kComparisons; ++i) patches.compare(moving_image(i, 5), {});
   EXPECT_TRUE(patches.suspects());
   const Image elsewhere = patches.elsewhere();
   EXPECT_LT(cv::countNonZero(elsewhere(kFixed)), 0.4 * kFixed.area());
@@ -59,9 +59,9 @@ TEST(StandingPatches, AreSuspectWhereTheRestOfTheImageMoves) {
 TEST(StandingPatches, AreNotSuspectWhenTheCameraRestsOrNothingIsFixed) {
   StandingPatches at_rest({}, kCamera), clean({}, kCamera);
   const Image world = texture(2000, kCamera.height, 1);
-  for (int i = 0; i < kLooks; ++i) {
-    at_rest.look(moving_image(0, 5), {});
-    clean.look(world(cv::Rect(5 * i, 0, kCamera.width, kCamera.height)), {});
+  for (int i = 0; i < kComparisons; ++i) {
+    at_rest.compare(moving_image(0, 5), {});
+    clean.compare(world(cv::Rect(5 * i, 0, kCamera.width, kCamera.height)), {});
   }
   EXPECT_FALSE(at_rest.suspects());
   EXPECT_FALSE(clean.suspects());
@@ -69,10 +69,10 @@ TEST(StandingPatches, AreNotSuspectWhenTheCameraRestsOrNothingIsFixed) {
 
 TEST(StandingPatches, StandStillWhateverTheExposure) {
   StandingPatches patches({}, kCamera);
-  for (int i = 0; i < kLooks; ++i) {
+  for (int i = 0; i < kComparisons; ++i) {
     Image image;
     moving_image(i, 5).convertTo(image, CV_8U, 0.5 + 0.02 * i, 10 + i);
-    patches.look(image, {});
+    patches.compare(image, {});
   }
   EXPECT_TRUE(patches.suspects());
 }
@@ -81,30 +81,30 @@ TEST(StandingPatches, AreNotTakenWhereTheMaskForbidsThem) {
   StandingPatches patches({}, kCamera);
   Image mask(kCamera.height, kCamera.width, CV_8UC1, cv::Scalar(255));
   mask(kFixed).setTo(0);
-  for (int i = 0; i < kLooks; ++i) patches.look(moving_image(i, 5), mask);
+  for (int i = 0; i < kComparisons; ++i) patches.compare(moving_image(i, 5), mask);
   EXPECT_FALSE(patches.suspects());
 }
 
 TEST(StandingPatches, MustStandForLongWhereOthersMoved) {
   StandingPatches patches({}, kCamera);
   const Image world = texture(2000, kCamera.height, 1);
-  for (int i = 0; i < 2 * kLooks; ++i)
-    patches.look(world(cv::Rect(5 * i, 0, kCamera.width, kCamera.height)), {});
-  int looks = 0;
-  for (; looks < 4 * kLooks && !patches.suspects(); ++looks)
-    patches.look(moving_image(looks, 5), {});
-  EXPECT_GT(looks, 10);
+  for (int i = 0; i < 2 * kComparisons; ++i)
+    patches.compare(world(cv::Rect(5 * i, 0, kCamera.width, kCamera.height)), {});
+  int comparisons = 0;
+  for (; comparisons < 4 * kComparisons && !patches.suspects(); ++comparisons)
+    patches.compare(moving_image(comparisons, 5), {});
+  EXPECT_GT(comparisons, 10);
   EXPECT_TRUE(patches.suspects());
 }
 
 TEST(StandingPatches, AreProvenByRotationsSinceTheyWereTaken) {
   StandingPatches patches({}, kCamera);
-  for (int i = 0; i < kLooks; ++i) patches.look(moving_image(i, 5), {});
-  EXPECT_FALSE(patches.judge(rotation(0.02), 0));         // before they were taken
-  EXPECT_FALSE(patches.judge(rotation(0.0005), kLooks));  // a fourth of a pixel
-  EXPECT_TRUE(patches.judge(rotation(0.02), kLooks));
+  for (int i = 0; i < kComparisons; ++i) patches.compare(moving_image(i, 5), {});
+  EXPECT_FALSE(patches.judge(rotation(0.02), 0));               // before they were taken
+  EXPECT_FALSE(patches.judge(rotation(0.0005), kComparisons));  // a fourth of a pixel
+  EXPECT_TRUE(patches.judge(rotation(0.02), kComparisons));
   EXPECT_EQ(cv::countNonZero(patches.proven_cells()), 0);  // once is not enough
-  EXPECT_TRUE(patches.judge(rotation(0.02), kLooks));
+  EXPECT_TRUE(patches.judge(rotation(0.02), kComparisons));
   Image cells;
   cv::resize(patches.proven_cells(), cells, {640, 480}, 0, 0, cv::INTER_NEAREST);
   EXPECT_GT(cv::countNonZero(cells(kFixed)), 0.6 * kFixed.area());
