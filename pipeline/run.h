@@ -127,10 +127,11 @@ struct RunInputs {
 /// Runs SLAM on every frame of a sequence, as fast as possible.
 ///
 /// Restarts, at most twice, if the images of a monocular or RGB-D camera are found to be distorted
-/// (LensOptions). The result does not depend on the number of threads. An unreadable frame other
-/// than the first ends the run (RunResult::broken_off). Throws ArgumentError for options that their
-/// check() rejects or for a sequence that lacks the required data, FileError for files that cannot
-/// be read or written.
+/// (LensOptions), and at most twice if something in the images is found to move with the camera
+/// (StaticOverlayOptions): it is masked then. The result does not depend on the number of threads.
+/// An unreadable frame other than the first ends the run (RunResult::broken_off). Throws
+/// ArgumentError for options that their check() rejects or for a sequence that lacks the required
+/// data, FileError for files that cannot be read or written.
 RunResult run_sequence(const Dataset& dataset, const RunOptions& options,
                        const RunInputs& inputs = {});
 

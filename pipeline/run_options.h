@@ -60,6 +60,9 @@ struct RunOptions {
   double camera_height_m = 0;
   int first_frame = 0;  ///< index of the first frame to process
   int max_frames = 0;   ///< maximum number of frames to process; 0: all
+  /// Path of a grey image of the images' size; its pixels that are 0 are not used in any frame.
+  /// Empty: none.
+  std::string mask;
   int threads = 2;  ///< with 2 or more, the next frame is read in parallel; the result is the same
   MotionOptions motion;  ///< motion measured by other sensors
   LensOptions lens;      ///< self-calibration of radial distortion

@@ -98,6 +98,11 @@ class Slam {
   ///
   /// run_sequence restarts with undistorted images once the thresholds of LensOptions are exceeded.
   LensDistortion lens() const;
+  /// Returns a mask that is 0 where something moves with the camera.
+  ///
+  /// It is CV_8UC1 and of the (left) images; it is empty as long as nothing is found. Later frames
+  /// are masked by it; run_sequence restarts.
+  Image overlay_mask() const;
   /// Returns doubts that the frames so far raise.
   ///
   /// They concern the images, the calibration and the motion; each has a cause.

@@ -73,6 +73,9 @@ void add_run_command(CLI::App& app) {
                       "semantics; default: as the options say");
   add_old_scene(*command, a.scene);
   command->add_option("--camera-height", a.camera_height_m, kCameraHeightText);
+  command->add_option("--mask", a.mask,
+                      "grey image of the images' size; where it is 0, the (left) images are not "
+                      "used");
   command->add_option("--odometry", a.odometry,
                       "motion by other sensors (wheels, laser, IMU); see docs/other_sensors.md");
   command->add_option("--config", a.config, kConfigText);

@@ -81,6 +81,7 @@ RunOptions run_options(const RunArguments& arguments, RunOptions options) {
     require(*arguments.camera_height_m > 0, "--camera-height: must be positive");
     options.camera_height_m = *arguments.camera_height_m;
   }
+  if (!arguments.mask.empty()) options.mask = arguments.mask;
   if (!arguments.odometry.empty()) options.motion.file = arguments.odometry;
   if (arguments.seed) {
     require(*arguments.seed >= 0, "--seed: must not be negative");

@@ -16,10 +16,14 @@ class LensCorrection {
 
   /// Adds `k1`, which was estimated from corrected images, to the removed distortion.
   void add(double k1);
+  /// Removes nothing again.
+  void reset() { *this = LensCorrection(as_given_); }
   double k1() const { return k1_; }
   /// Calibration of the corrected images.
   Calibration calibration() const;
   void apply(Frame& frame) const;
+  /// Mask of the given images (CV_8UC1) with the pixels that `mask` marks in corrected ones.
+  Image mask_as_taken(const Image& mask) const;
 
  private:
   Calibration as_given_;

@@ -11,6 +11,7 @@
 #include <placegraph/io/sensors/odometry_file.h>
 #include <placegraph/pipeline/cues/frame_view.h>
 #include <placegraph/pipeline/internal/lens_correction.h>
+#include <placegraph/pipeline/internal/run_mask.h>
 #include <placegraph/pipeline/run.h>
 #include <placegraph/pipeline/slam_events.h>
 
@@ -72,9 +73,9 @@ MeasuredMotion read_motion(const Dataset& dataset, const MotionOptions& options,
 /// Reads frames in order, one ahead of the caller if it may use a thread for that.
 class FrameReader {
  public:
-  FrameReader(const Dataset& dataset, const LensCorrection& lens, Sensor sensor, std::size_t end,
-              bool ahead)
-      : dataset_(dataset), lens_(lens), sensor_(sensor), end_(end), ahead_(ahead) {}
+  FrameReader(const Dataset& dataset, const RunMask& mask, const LensCorrection& lens,
+              Sensor sensor, std::size_t end, bool ahead)
+      : dataset_(dataset), mask_(mask), lens_(lens), sensor_(sensor), end_(end), ahead_(ahead) {}
 
   Frame read(std::size_t index) {
     Frame frame = next_.valid() ? next_.get() : load(index);
@@ -83,14 +84,16 @@ class FrameReader {
     return frame;
   }
 
- private:
   Frame load(std::size_t index) const {
     Frame frame = dataset_.frame(index, sensor_);
+    mask_.apply(frame);
     lens_.apply(frame);
     return frame;
   }
 
+ private:
   const Dataset& dataset_;
+  RunMask mask_;
   LensCorrection lens_;
   Sensor sensor_;
   std::size_t end_;
@@ -171,6 +174,17 @@ std::vector<UnposedFrames> unposed_frames(const Trajectory& optimized, const Map
   return result;
 }
 
+SlamInputs slam_inputs(const Dataset& dataset, const RunOptions& options, const RunInputs& given) {
+  SlamInputs inputs;
+  inputs.surfaces = given.surfaces;
+  inputs.events = given.events;
+  inputs.log = given.log;
+  if (!options.motion.file.empty())
+    inputs.motion =
+        std::make_shared<const MeasuredMotion>(read_motion(dataset, options.motion, given.log));
+  return inputs;
+}
+
 /// A run over a sequence, with the file in which it saves its map.
 class SequenceRun {
  public:
@@ -179,6 +193,7 @@ class SequenceRun {
     result_.sensor = choose_sensor(dataset, options.sensor);
     result_.calibration = dataset.calibration(result_.sensor);
     if (options.camera_height_m > 0) result_.calibration.camera_height_m = options.camera_height_m;
+    mask_ = RunMask(options.mask, result_.calibration.camera);
     begin_ = options.first_frame;
     require(begin_ < dataset.size(),
             "first_frame: the sequence has " + std::to_string(dataset.size()) + " frames");
@@ -196,10 +211,7 @@ class SequenceRun {
       if (stored.finished) return as_saved(std::move(stored));
       database_ = MapDatabase::open(inputs_.map_file->path);
     }
-    while (!pass(stored)) {
-      ++pass_;
-      stored = StoredMap();
-    }
+    while (!pass(stored)) stored = StoredMap();
     return std::move(result_);
   }
 
@@ -227,15 +239,29 @@ class SequenceRun {
     return origin;
   }
 
+  FrameReader reader() const {
+    return {dataset_, mask_, lens_, result_.sensor, end_, options_.threads > 1};
+  }
+
+  /// Whether the run must restart without a static overlay. The lens is then estimated again:
+  /// tracks on the overlay have contributed to its estimate.
+  bool restarts_without_overlay(const Slam& slam) {
+    if (!mask_.learn(slam, lens_)) return false;
+    lens_.reset();
+    pass_ = 0;
+    log(inputs_.log, LogLevel::kInfo, "restarting without what moves with the camera");
+    return true;
+  }
+
   /// Processes the sequence; returns false if the images must be corrected and the run restarted.
   bool pass(const StoredMap& stored) {
     result_.calibration = lens_.calibration();
     if (database_ && stored.map.keyframes.empty()) database_->clear(origin());
     if (inputs_.events) inputs_.events->run_began();
-    Slam slam(options_.slam, result_.calibration, slam_inputs());
+    Slam slam(options_.slam, result_.calibration, slam_inputs(dataset_, options_, inputs_));
     result_.frame_health.clear();
     const std::size_t first = go_on(stored, slam);
-    FrameReader reader(dataset_, lens_, result_.sensor, end_, options_.threads > 1);
+    FrameReader reader = this->reader();
     for (std::size_t i = first; i < end_; ++i) {
       result_.stopped = inputs_.stop && inputs_.stop();
       if (result_.stopped) break;
@@ -252,10 +278,12 @@ class SequenceRun {
       result_.frame_health.push_back({frame.id, done.outcome.reason, done.confidence});
       if (inputs_.observer) inputs_.observer(frame, done, slam.view());
       if (inputs_.progress) inputs_.progress(i + 1 - begin_, end_ - begin_, done);
+      if (restarts_without_overlay(slam)) return false;
       if (!dataset_.images_rectified() &&
           learn_lens(slam.lens(), pass_, options_.lens, lens_, inputs_.log)) {
         if (inputs_.events)
           inputs_.events->lens_found({frame.id, lens_.k1(), slam.lens().sigma_k1, pass_ + 2});
+        ++pass_;
         return false;
       }
       if (inputs_.map_file && done.new_place) commit(slam, false);
@@ -266,21 +294,11 @@ class SequenceRun {
         unposed_frames(result_.map.trajectory_optimized(), result_.map, result_.frame_health);
     if (inputs_.map_file) commit(slam, !result_.broken_off && !result_.stopped);
     result_.notes = slam.notes();
+    result_.notes.insert(result_.notes.begin(), mask_.notes().begin(), mask_.notes().end());
     result_.environments = slam.environments();
     result_.stages = times_.stages();
     result_.stages.insert(result_.stages.end(), slam.stages().begin(), slam.stages().end());
     return true;
-  }
-
-  SlamInputs slam_inputs() const {
-    SlamInputs inputs;
-    inputs.surfaces = inputs_.surfaces;
-    inputs.events = inputs_.events;
-    inputs.log = inputs_.log;
-    if (!options_.motion.file.empty())
-      inputs.motion = std::make_shared<const MeasuredMotion>(
-          read_motion(dataset_, options_.motion, inputs_.log));
-    return inputs;
   }
 
   /// Restores the saved state; returns the index of the next frame.
@@ -290,9 +308,7 @@ class SequenceRun {
     require(last >= begin_ && last < end_,
             inputs_.map_file->path + ": its last keyframe is frame " + std::to_string(last) +
                 ", which is not in the sequence");
-    Frame frame = dataset_.frame(last, result_.sensor);
-    lens_.apply(frame);
-    slam.resume(stored.map, stored.history, frame);
+    slam.resume(stored.map, stored.history, reader().load(last));
     result_.resumed_at = FrameId(last + 1);
     return last + 1;
   }
@@ -309,6 +325,7 @@ class SequenceRun {
   const RunOptions& options_;
   const RunInputs& inputs_;
   std::size_t begin_ = 0, end_ = 0;
+  RunMask mask_;
   LensCorrection lens_{Calibration()};
   int pass_ = 0;
   std::optional<MapDatabase> database_;

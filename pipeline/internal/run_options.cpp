@@ -55,6 +55,9 @@ void visit(OptionVisitor& field, RunOptions& o) {
                 {0, 1e9});
   field.basic()("max_frames", o.max_frames, "maximum number of frames to process; 0: all",
                 {0, 1e9});
+  field("mask", o.mask,
+        "path of a grey image of the images' size; where it is 0, the (left) images are not used; "
+        "empty: none");
   field.basic()("threads", o.threads, "number of threads; the result does not depend on it",
                 {1, 256});
   field.group("motion", o.motion, "motion measured by other sensors");

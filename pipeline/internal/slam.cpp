@@ -4,6 +4,7 @@
 #include <placegraph/graph/measurements/measured_motion.h>
 #include <placegraph/pipeline/cues/frame_view.h>
 #include <placegraph/pipeline/internal/health/health_monitor.h>
+#include <placegraph/pipeline/internal/health/static_overlay.h>
 #include <placegraph/pipeline/internal/local_map/lens_estimator.h>
 #include <placegraph/pipeline/internal/slam/event_feed.h>
 #include <placegraph/pipeline/internal/slam/map_feed.h>
@@ -29,6 +30,7 @@ struct Slam::Impl {
         feed(o.views.cues),
         events(inputs.events),
         health(c) {
+    if (o.overlays.enabled) overlay.emplace(o.overlays, c.camera, o.seed);
     if (inputs.surfaces) use_surfaces(inputs.surfaces);
     if (inputs.motion) use_motion(inputs.motion);
   }
@@ -37,7 +39,8 @@ struct Slam::Impl {
   void use_surfaces(const std::shared_ptr<const SceneModel>& surfaces);
 
   void check_frame(const Frame& frame) const;
-  FrameResult add_frame(const Frame& frame);
+  FrameResult add_frame(const Frame& given);
+  Frame without_overlay(const Frame& frame);
   void place(const Frame& frame, const std::optional<LocatedFrame>& located,
              const OdometryUpdate& update, FrameResult& result);
   void record(KeyframeId keyframe, const SE3& T_keyframe_frame, FrameResult& result);
@@ -68,6 +71,7 @@ struct Slam::Impl {
   MapFeed feed;
   EventFeed events;
   HealthMonitor health;
+  std::optional<StaticOverlay> overlay;
   bool finished = false;
 };
 
@@ -93,7 +97,13 @@ void Slam::resume(const Map& map, const PlaceHistory& history, const Frame& last
 }
 Map Slam::snapshot() const { return impl_->feed.snapshot(impl_->sources()); }
 LensDistortion Slam::lens() const { return impl_->odometry.lens().estimate(); }
-std::vector<DataNote> Slam::notes() const { return impl_->health.notes(); }
+Image Slam::overlay_mask() const { return impl_->overlay ? impl_->overlay->mask() : Image(); }
+std::vector<DataNote> Slam::notes() const {
+  std::vector<DataNote> notes = impl_->health.notes();
+  if (const auto note = impl_->overlay ? impl_->overlay->note() : std::nullopt)
+    notes.push_back(*note);
+  return notes;
+}
 FrameView Slam::view() const { return impl_->odometry.view(); }
 const std::vector<StageTimes::Stage>& Slam::stages() const { return impl_->times.stages(); }
 
@@ -133,9 +143,25 @@ void Slam::Impl::check_frame(const Frame& frame) const {
           "frame " + to_string(frame.id) + ": ids and stamps must increase");
 }
 
-FrameResult Slam::Impl::add_frame(const Frame& frame) {
-  check_frame(frame);
-  recorder.begin(frame);
+/// The frame as it is used: without what moves with the camera. If that is found in this frame and
+/// has captured the map, a new component of the map begins.
+Frame Slam::Impl::without_overlay(const Frame& frame) {
+  if (!overlay) return frame;
+  const auto span = times.measure("static overlays");
+  if (overlay->add(frame)) {
+    log(log_sink, LogLevel::kInfo, "frame {}: {}: masked", frame.id, overlay->text());
+    if (overlay->has_captured(odometry.view()))
+      recovery.begin_component(frame.id, odometry);
+    else
+      odometry.drop_masked(overlay->mask());
+  }
+  return overlay->apply(frame);
+}
+
+FrameResult Slam::Impl::add_frame(const Frame& given) {
+  check_frame(given);
+  recorder.begin(given);
+  const Frame frame = without_overlay(given);
 
   // 1. Visual odometry; while no track segment is connected to the map, with the predicted pose.
   const std::optional<LocatedFrame> expected = recovery.expect(frame, known(), odometry);

@@ -138,15 +138,30 @@ std::map<LandmarkId, Eigen::Vector2d> PointCue::anchor() {
 
 void PointCue::drop_tracks_on_movable_objects(const Image& still) {
   if (still.empty()) return;
-  std::vector<bool> keep;
-  int kept = 0;
-  for (const PointTrack& track : tracks()) {
-    const int u = std::clamp(static_cast<int>(std::lround(track.px.x())), 0, still.cols - 1);
-    const int v = std::clamp(static_cast<int>(std::lround(track.px.y())), 0, still.rows - 1);
-    keep.push_back(still.at<std::uint8_t>(v, u) != 0);
-    kept += keep.back();
+  const std::vector<bool> keep = used_by(still);
+  if (std::ranges::count(keep, true) >= options_.min_unmasked_tracks) tracker_.keep(keep);
+}
+
+void PointCue::drop_masked(const Image& mask, SlidingWindow& window) {
+  const std::vector<bool> keep = used_by(mask);
+  for (std::size_t i = 0; i < keep.size(); ++i) {
+    const LandmarkId id = tracks()[i].id;
+    if (keep[i]) continue;
+    if (window.landmark(id)) window.remove_landmark(id);
+    observations_.erase(id);
   }
-  if (kept >= options_.min_unmasked_tracks) tracker_.keep(keep);
+  tracker_.keep(keep);
+}
+
+/// One flag per track: whether its pixel is not 0 in the mask.
+std::vector<bool> PointCue::used_by(const Image& mask) const {
+  std::vector<bool> used;
+  for (const PointTrack& track : tracks()) {
+    const int u = std::clamp(static_cast<int>(std::lround(track.px.x())), 0, mask.cols - 1);
+    const int v = std::clamp(static_cast<int>(std::lround(track.px.y())), 0, mask.rows - 1);
+    used.push_back(mask.at<std::uint8_t>(v, u) != 0);
+  }
+  return used;
 }
 
 void PointCue::detect(const Image& mask, bool labelled, const Image& given_mask) {

@@ -50,6 +50,8 @@ class PointCue {
   std::map<LandmarkId, Eigen::Vector2d> anchor();
   /// Drops tracks where `still` is 0 (CV_8UC1, the image's size), if enough others remain.
   void drop_tracks_on_movable_objects(const Image& still);
+  /// Drops tracks where `mask` is 0 (CV_8UC1, the image's size), and their landmarks.
+  void drop_masked(const Image& mask, SlidingWindow& window);
   /// Detects new points in the newest image where `mask` allows them. If the mask was made from
   /// semantic labels (`labelled`) and too few points are found, detects points wherever
   /// `given_mask` allows them.
@@ -96,6 +98,7 @@ class PointCue {
     Eigen::Vector2d px;
     Eigen::Matrix2d covariance_px;
   };
+  std::vector<bool> used_by(const Image& mask) const;
   std::vector<Eigen::Vector2f> predict(const SlidingWindow& window, const SE3& T_odom_last,
                                        const SE3& T_odom_cam, double median_depth) const;
   std::vector<std::optional<InverseDepth>> measure_depth(const Frame& frame,

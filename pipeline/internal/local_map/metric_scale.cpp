@@ -48,16 +48,17 @@ std::vector<Eigen::Vector2d> MetricScale::ground_outline_px() const {
   return ground_ ? ground_->outline_px() : std::vector<Eigen::Vector2d>();
 }
 
-/// Ground mask from surface labels and the edges of the newest keyframe.
+/// Ground mask from surface labels, the edges of the newest keyframe and the mask of its frame.
 GroundMask MetricScale::ground_in(const KeyframeImages& images, const Cues& cues) const {
   GroundMask ground;
   if (cues.manhattan) ground = cues.manhattan->ground(ground_->outline_px());
   if (ground.level && !ground_->may_be_ground(*ground.level)) ground = {};
-  const Image labelled = images.ground();
-  if (ground.mask.empty())
-    ground.mask = labelled;
-  else if (!labelled.empty())
-    ground.mask = ground.mask & labelled;
+  for (const Image& mask : {images.ground(), images.given_mask}) {
+    if (ground.mask.empty())
+      ground.mask = mask;
+    else if (!mask.empty())
+      ground.mask = ground.mask & mask;
+  }
   return ground;
 }
 

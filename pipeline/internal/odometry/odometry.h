@@ -36,6 +36,9 @@ class Odometry {
     map_.go_on_from(next_keyframe, median_depth);
   }
 
+  /// Drops the tracks and landmarks whose pixel in the newest image is 0 in `mask` (CV_8UC1).
+  void drop_masked(const Image& mask) { tracker_->drop_masked(mask, map_); }
+
   /// Sets the motion of the camera measured by other sensors, before the first frame: it provides
   /// the scale of a monocular camera.
   void set_motion(std::shared_ptr<const MeasuredMotion> motion_cam);

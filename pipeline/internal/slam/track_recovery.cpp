@@ -114,9 +114,14 @@ OdometryUpdate TrackRecovery::restart(const Frame& frame, std::optional<LocatedF
     if (!odometry.started()) anchor_.reset();
     return begun;
   }
-  log(log_, LogLevel::kInfo, "frame {}: a new component of the map begins", frame.id);
-  odometry.restart(T_map_last_);
+  begin_component(frame.id, odometry);
   return odometry.add_frame(frame);
+}
+
+void TrackRecovery::begin_component(FrameId frame, Odometry& odometry) {
+  log(log_, LogLevel::kInfo, "frame {}: a new component of the map begins", frame);
+  anchor_.reset();
+  odometry.restart(T_map_last_);
 }
 
 std::optional<LocatedFrame> TrackRecovery::pose_without_tracking(

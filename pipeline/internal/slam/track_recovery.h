@@ -54,6 +54,8 @@ class TrackRecovery {
   /// then processed it again. Otherwise returns the update unchanged.
   OdometryUpdate restart(const Frame& frame, std::optional<LocatedFrame> located,
                          const OdometryUpdate& update, const KnownMap& known, Odometry& odometry);
+  /// Begins a new component of the map with the next frame.
+  void begin_component(FrameId frame, Odometry& odometry);
   /// Location of a frame that is not tracked; nothing if it is unknown.
   std::optional<LocatedFrame> pose_without_tracking(const Frame& frame,
                                                     const std::optional<LocatedFrame>& located,

@@ -38,6 +38,10 @@ void FeatureTracker::reset() {
   intermediate_.clear();
 }
 
+void FeatureTracker::drop_masked(const Image& mask, LocalMap& map) {
+  points_.drop_masked(mask, map.window());
+}
+
 void FeatureTracker::see_first(const Frame& frame) {
   if (cues_.points) points_.track(frame.image);
 }

@@ -32,6 +32,7 @@ class FeatureTracker : public FrameTracker {
   std::vector<PosedFrame> finish_keyframe(double scale, const LocalMap& map) override;
   Outcome enough_to_begin(const LocalMap& map) const override;
   void reset() override;
+  void drop_masked(const Image& mask, LocalMap& map) override;
   void assume(const std::optional<Assumptions>& assumptions) override;
   bool corrects_rotations() const override { return manhattan_.has_value(); }
   LineCue* lines() override { return lines_ ? &*lines_ : nullptr; }

@@ -56,6 +56,8 @@ class FrameTracker {
   /// Whether the first keyframe shows enough landmarks for tracking; otherwise the reason.
   virtual Outcome enough_to_begin(const LocalMap& /*map*/) const { return Outcome::ok(); }
   virtual void reset() = 0;
+  /// Drops the tracks whose pixel is 0 in `mask` (CV_8UC1), and their landmarks.
+  virtual void drop_masked(const Image& /*mask*/, LocalMap& /*map*/) {}
 
   /// Sets the assumptions about the environment; nothing: all cues of the options are used.
   virtual void assume(const std::optional<Assumptions>& /*assumptions*/) {}

@@ -45,10 +45,12 @@ TEST(RunOptionsOfArguments, TakeTheFlagsThatHaveNoOptionOfTheirName) {
   arguments.cues = "points";
   arguments.camera_height_m = 1.65;
   arguments.odometry = "wheels.txt";
+  arguments.mask = "bonnet.png";
   const RunOptions options = run_options(arguments);
   EXPECT_EQ(options.slam.odometry.cues, "points");
   EXPECT_EQ(options.camera_height_m, 1.65);
   EXPECT_EQ(options.motion.file, "wheels.txt");
+  EXPECT_EQ(options.mask, "bonnet.png");
 }
 
 TEST(RunOptionsOfArguments, KnowWhatIsMappedOfTheScene) {

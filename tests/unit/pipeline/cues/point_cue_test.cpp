@@ -57,6 +57,20 @@ TEST(PointCue, FollowsPointsAndPosesTheNextFrame) {
   EXPECT_GT(std::count(tracked.keep.begin(), tracked.keep.end(), true), 100);
 }
 
+TEST(PointCue, MaskedTracksAreDroppedWithTheirLandmarks) {
+  Street street;
+  Image mask(street_camera().height, street_camera().width, CV_8UC1, cv::Scalar(255));
+  mask.colRange(0, mask.cols / 2).setTo(0);
+  std::vector<LandmarkId> masked;
+  for (const auto& [id, px] : street.points.landmark_pixels(street.window))
+    if (px.x() < mask.cols / 2 - 1) masked.push_back(id);
+  ASSERT_GT(masked.size(), 20U);
+  street.points.drop_masked(mask, street.window);
+  for (const LandmarkId id : masked) EXPECT_FALSE(street.window.landmark(id));
+  EXPECT_GT(street.points.tracks().size(), 20U);
+  for (const PointTrack& track : street.points.tracks()) EXPECT_GT(track.px.x(), mask.cols / 2 - 1);
+}
+
 TEST(PointCue, TracksThatContradictThePoseAreMarked) {
   Street street;
   Random random(1);

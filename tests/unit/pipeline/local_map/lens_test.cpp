@@ -4,6 +4,7 @@
 #include <placegraph/pipeline/internal/local_map/lens_estimator.h>
 
 #include <cmath>
+#include <opencv2/core.hpp>
 
 #include "tests/support/scenes/window_world.h"
 
@@ -158,6 +159,25 @@ TEST(LensCorrection, MovesABrightSpotToWhereAnIdealCameraShowsIt) {
     }
   EXPECT_LT((mean / weight - expected).norm(), 0.1);
   EXPECT_GT((px - expected).norm(), 1);
+}
+
+TEST(LensCorrection, AMaskOfCorrectedImagesIsThatOfTheGivenOnes) {
+  Calibration calibration;
+  calibration.camera = {
+      .width = 320, .height = 240, .fx = 250, .fy = 250, .cx = 159.5, .cy = 119.5};
+  LensCorrection lens(calibration);
+  Image mask(240, 320, CV_8UC1, cv::Scalar(255));
+  mask(cv::Rect(30, 40, 60, 50)).setTo(0);
+  EXPECT_EQ(lens.mask_as_taken(mask).data, mask.data);  // nothing is corrected
+  lens.add(-0.1);
+  Frame frame;
+  frame.image = mask;
+  frame.mask = lens.mask_as_taken(mask);
+  EXPECT_GT(cv::countNonZero(frame.mask != mask), 200);  // the lens has moved it
+  lens.apply(frame);
+  EXPECT_LT(
+      cv::countNonZero(frame.mask(cv::Rect(20, 30, 80, 70)) != mask(cv::Rect(20, 30, 80, 70))),
+      150);  // along its outline
 }
 
 }  // namespace

@@ -144,5 +144,14 @@ TEST(TrackRecovery, ASegmentThatBeginsLaterIsNoContinuation) {
   EXPECT_EQ(link->source, ConstraintSource::kOther);
 }
 
+TEST(TrackRecovery, AComponentCanBeginAtOnce) {
+  Scene scene;
+  const SE3 T_map_last(SO3(), Eigen::Vector3d(4, 5, 6));
+  scene.recovery.stands_at(T_map_last);
+  scene.recovery.begin_component(FrameId(7), scene.odometry);
+  EXPECT_TRUE(scene.odometry.map().empty());
+  EXPECT_FALSE(scene.recovery.take_link(scene.odometry.map(), scene.mapper));
+}
+
 }  // namespace
 }  // namespace placegraph

@@ -1,0 +1,70 @@
+#pragma once
+#include <placegraph/graph/geometry/camera.h>
+#include <placegraph/graph/image/image.h>
+#include <placegraph/pipeline/internal/health/image_motion.h>
+#include <placegraph/pipeline/slam_options.h>
+
+#include <optional>
+#include <vector>
+
+namespace placegraph {
+
+/// Small patches, at most one in each cell of a grid, that are compared with the same pixels of
+/// later images. Nothing is searched: a patch stands still, or it is given up and the cell takes
+/// another one.
+///
+/// A patch may stand still for good reason: it is far away and the camera translates, it lies in
+/// the direction of motion, or the camera rests. Comparisons count only while patches elsewhere
+/// move, and only motions of the camera that move every point of the world speak against a patch.
+class StandingPatches {
+ public:
+  static constexpr int kColumns = 24, kRows = 16;  ///< cells of the grid
+
+  StandingPatches(const StaticOverlayOptions& options, const Camera& camera);
+
+  /// Compares the patches with an image (CV_8UC1), and takes new ones. Where `mask` is 0 there are
+  /// none (may be empty).
+  void compare(const Image& image, const Image& mask);
+  /// Whether enough patches stand still for so long that the motion of the camera must be asked.
+  bool suspects() const;
+  /// Judges the patches that have stood still since a comparison by the motion since then; returns
+  /// whether it speaks against some of them.
+  bool judge(const ImageMotion& motion, int since);
+  /// Number of comparisons so far.
+  int comparisons() const { return comparisons_; }
+  /// Pixels that no patch covers which has stood still for a while (CV_8UC1, 255; 0 elsewhere).
+  Image elsewhere() const;
+  /// The cells with proven patches, enough of them in one region, and those of other patches of the
+  /// region that stand still (kRows x kColumns, CV_8UC1, 255; 0 elsewhere).
+  Image proven_cells() const;
+
+ private:
+  struct Patch {
+    cv::Point px;               // its centre
+    std::vector<float> grey;    // row by row, without its mean
+    std::vector<float> du, dv;  // gradients of the grey values
+    Eigen::Matrix2f inverse;    // that of the sum of the squared gradients
+    float norm2 = 0;            // sum of the squares of `grey`
+    int taken = 0;              // the comparison at which it was taken
+    int stood = 0;              // comparisons at which others moved and it did not
+    double against = 0;         // in episodes that are certain
+  };
+  struct Cell {
+    std::optional<Patch> patch;
+    int moved = 0;    // comparisons at which its patches moved
+    int excused = 0;  // the same, when its patch was taken
+  };
+  cv::Rect rect(int cell) const;
+  std::optional<Patch> take(const Image& image, const Image& mask, int cell) const;
+  std::optional<Patch> patch_at(const Image& image, const cv::Point& px) const;
+  double texture(const Image& image, const cv::Point& px) const;
+  bool stands(const Image& image, const Patch& patch) const;
+  bool is_suspect(const Cell& cell) const;
+
+  StaticOverlayOptions options_;
+  int width_, height_, half_;  // [px]; half the side of a patch
+  std::vector<Cell> cells_;
+  int comparisons_ = 0;
+};
+
+}  // namespace placegraph

@@ -1,0 +1,31 @@
+#include <placegraph/graph/core/error.h>
+#include <placegraph/io/files/image_file.h>
+#include <placegraph/pipeline/internal/health/static_overlay.h>
+#include <placegraph/pipeline/internal/run_mask.h>
+
+#include <opencv2/core.hpp>
+
+namespace placegraph {
+
+RunMask::RunMask(const std::string& path, const Camera& camera) {
+  if (path.empty()) return;
+  mask_ = read_image(path).grey;
+  require_size(path, mask_, camera.width, camera.height);
+  if (cv::countNonZero(mask_) == 0)
+    throw FileError(path, "masks the whole image: all pixels are 0");
+}
+
+void RunMask::apply(Frame& frame) const { frame.mask = both_masks(frame.mask, mask_); }
+
+bool RunMask::learn(const Slam& slam, const LensCorrection& lens) {
+  constexpr std::size_t kMost = 2;
+  if (notes_.size() >= kMost) return false;
+  const Image found = slam.overlay_mask();
+  if (found.empty()) return false;
+  mask_ = both_masks(mask_, lens.mask_as_taken(found));
+  for (const DataNote& note : slam.notes())
+    if (note.cause == NoteCause::kStaticOverlay) notes_.push_back(note);
+  return true;
+}
+
+}  // namespace placegraph
