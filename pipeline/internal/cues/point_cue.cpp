@@ -1,4 +1,5 @@
 #include <placegraph/frontend/internal/features/triangulation.h>
+#include <placegraph/frontend/internal/flow/matched_displacements.h>
 #include <placegraph/graph/internal/core/angle.h>
 #include <placegraph/graph/internal/core/median.h>
 #include <placegraph/pipeline/internal/cues/nearest_depth.h>
@@ -6,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace placegraph {
 namespace {
@@ -73,32 +75,44 @@ std::vector<Eigen::Vector2f> PointCue::predict(const SlidingWindow& window, cons
 
 /// If the prediction of the last frame was accurate, the points of this one are searched nearby; if
 /// half of the landmarks are not found in this manner, the camera has jerked, and they are searched
-/// in a larger area.
+/// in a larger area. If that gives no pose, they are searched near features that match.
 PointCue::TrackedPose PointCue::follow(const Image& image, const SlidingWindow& window,
                                        const SE3& T_odom_last, const SE3& T_odom_expected,
                                        bool velocity_known, double median_depth, Random& random) {
   constexpr double kEnough = 0.5, kNear_px = 4;
+  const PointTracker before = tracker_;
   const auto predicted = predict(window, T_odom_last, T_odom_expected, median_depth);
-  const auto search = [&](PointTracker::Search range) {
-    const auto span = times_.measure("point tracking");
-    std::map<LandmarkId, Eigen::Vector2f> expected;
-    for (std::size_t i = 0; i < predicted.size(); ++i) expected[tracks()[i].id] = predicted[i];
-    tracker_.track(image, predicted, range);
+  std::map<LandmarkId, Eigen::Vector2f> expected;
+  for (std::size_t i = 0; i < predicted.size(); ++i) expected[tracks()[i].id] = predicted[i];
+  const auto found = [&](Random& draws) {
     std::vector<double> errors_px;
     for (const PointTrack& track : tracks())
       errors_px.push_back((track.px - expected.at(track.id)).norm());
     prediction_error_px_ = errors_px.empty() ? kNear_px : median_of(errors_px);
-    return pose(window, T_odom_expected, random);
+    return pose(window, T_odom_expected, draws);
+  };
+  const auto search = [&](PointTracker::Search range) {
+    const auto span = times_.measure("point tracking");
+    tracker_.track(image, predicted, range);
+    return found(random);
   };
   if (velocity_known && prediction_error_px_ < kNear_px) {
-    const PointTracker before = tracker_;
     const double landmarks = tracked_landmarks(window);
     TrackedPose near = search(PointTracker::Search::kNear);
     if (near.pose.outcome && static_cast<double>(near.pose.inliers.size()) > kEnough * landmarks)
       return near;
     tracker_ = before;
   }
-  return search(PointTracker::Search::kWide);
+  TrackedPose wide = search(PointTracker::Search::kWide);
+  if (wide.pose.outcome) return wide;
+  const auto span = times_.measure("point tracking");
+  const PointTracker wide_tracks = std::exchange(tracker_, before);
+  const double wide_error_px = prediction_error_px_;
+  if (Random draws = random; track_near_matches(tracker_, image))
+    if (TrackedPose matched = found(draws); matched.pose.outcome) return matched;
+  tracker_ = wide_tracks;
+  prediction_error_px_ = wide_error_px;
+  return wide;
 }
 
 PointCue::TrackedPose PointCue::pose(const SlidingWindow& window, const SE3& T_odom_prior,

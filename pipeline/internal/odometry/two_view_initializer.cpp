@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <placegraph/frontend/internal/flow/matched_displacements.h>
 #include <placegraph/frontend/internal/relative_pose/mono_initializer.h>
 #include <placegraph/graph/internal/core/log_message.h>
 #include <placegraph/graph/internal/core/median.h>
@@ -36,6 +37,10 @@ Initialization TwoViewInitializer::add(const Frame& frame, const std::optional<S
   {
     const auto span = times_.measure("point tracking");
     points.track(frame.image);
+    if (static_cast<int>(points.tracks().size()) < 2 * options_.initializer.min_points)
+      if (PointTracker matched = before; track_near_matches(matched, frame.image) &&
+                                         matched.tracks().size() > points.tracks().size())
+        points.restore(std::move(matched));
   }
   Initialization result = try_second_view(frame, T_known, map, mapping);
   if (result.state == TrackingState::kLost) points.restore(before);

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <placegraph/frontend/internal/flow/matched_displacements.h>
 #include <placegraph/frontend/internal/flow/point_tracker.h>
 #include <placegraph/graph/core/error.h>
 
@@ -55,6 +56,39 @@ TEST(PointTracker, StartsFromThePredictionWhereTheMotionIsLarge) {
   for (const PointTrack& track : tracker.tracks())
     right += (track.px - track.px_previous - Eigen::Vector2f(60, 0)).norm() < 0.2;
   EXPECT_GT(right, 0.5 * detected);  // the last quarter of the image has left
+}
+
+TEST(PointTracker, FindsAStepThatIsTooWideForItNearMatches) {
+  const Texture fine{7, 24, 3, 60};
+  const Image before = texture_image(640, 480, fine);
+  const Eigen::Vector2f shift(150, 40);
+  const Image after = texture_image(640, 480, fine, -shift.x(), -shift.y());
+  const auto right = [&](const PointTracker& tracker) {
+    return static_cast<std::size_t>(std::count_if(
+        tracker.tracks().begin(), tracker.tracks().end(), [&](const PointTrack& track) {
+          return (track.px - track.px_previous - shift).norm() < 0.2;
+        }));
+  };
+  PointTracker wide{PointTrackerOptions()};
+  wide.track(before);
+  wide.detect();
+  PointTracker matched = wide;
+  const std::size_t detected = wide.tracks().size();
+  ASSERT_GT(detected, 200u);
+  wide.track(after);
+  EXPECT_LT(right(wide), 0.25 * detected);
+  ASSERT_TRUE(track_near_matches(matched, after));
+  EXPECT_GT(right(matched), 0.5 * detected);  // about a third has left the image
+  EXPECT_GT(right(matched), 0.9 * matched.tracks().size());
+}
+
+TEST(PointTracker, IsLeftAsItIsWhereNoFeaturesMatch) {
+  PointTracker tracker = started();
+  const std::size_t tracks = tracker.tracks().size();
+  EXPECT_FALSE(track_near_matches(tracker, Image(tracker.image().size(), CV_8UC1, cv::Scalar(0))));
+  EXPECT_EQ(tracker.tracks().size(), tracks);
+  PointTracker empty{PointTrackerOptions()};
+  EXPECT_FALSE(track_near_matches(empty, tracker.image()));
 }
 
 TEST(PointTracker, FindsNearAPredictionWhatAWideSearchFinds) {

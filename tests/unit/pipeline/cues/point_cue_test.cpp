@@ -71,6 +71,28 @@ TEST(PointCue, MaskedTracksAreDroppedWithTheirLandmarks) {
   for (const PointTrack& track : street.points.tracks()) EXPECT_GT(track.px.x(), mask.cols / 2 - 1);
 }
 
+TEST(PointCue, PosesAFrameAfterAStepThatIsTooWideForATracker) {
+  Street street;
+  Random random(1);
+  const SE3 T_rotated = T_world_cam(0) * pose({0, 0.5, 0}, {0.1, 0, 0.2});
+  const Image rotated = render(street.calibration.camera, T_rotated, test::street(), 2).grey;
+  PointTracker wide = street.points.checkpoint();
+  wide.track(rotated);
+  const auto right =
+      std::count_if(wide.tracks().begin(), wide.tracks().end(), [&](const PointTrack& track) {
+        const auto point = street.window.landmark(track.id);
+        const auto px =
+            point ? street.calibration.camera.project(T_rotated.inverse() * *point) : std::nullopt;
+        return px && (*px - track.px.cast<double>()).norm() < 2;
+      });
+  EXPECT_LT(right, 12);
+  const auto tracked = street.points.follow(rotated, street.window, T_world_cam(0), T_world_cam(0),
+                                            false, 10, random);
+  ASSERT_TRUE(tracked.pose.outcome) << tracked.pose.outcome.reason;
+  EXPECT_LT(error(tracked.pose.T_ref_cam, T_rotated), 0.03);
+  EXPECT_EQ(tracked.keep.size(), street.points.tracks().size());
+}
+
 TEST(PointCue, TracksThatContradictThePoseAreMarked) {
   Street street;
   Random random(1);

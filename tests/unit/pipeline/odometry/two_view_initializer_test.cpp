@@ -182,6 +182,19 @@ TEST(TwoViewInitializer, AnotherFrameTakesThePlaceOfAReferenceThatIsOutOfView) {
   EXPECT_TRUE(b.map.pose(KeyframeId(0)).translation().isApprox(b.T_odom_start.translation(), 1e-9));
 }
 
+TEST(TwoViewInitializer, KeepsItsReferenceOverAStepThatIsTooWideForATracker) {
+  const auto path = [](int i) {
+    return pose({0, 0.5 * i, 0}, {0.5 * i, -kStreetHeight_m, 0.2 * i});
+  };
+  const StreetDataset rotates(2, 0, 0, false, path);
+  StreetBeginning b(rotates);
+  (void)b.add(0);
+  const Initialization second = b.add(1);
+  EXPECT_FALSE(second.is_reference) << second.outcome.reason;
+  if (second.state != TrackingState::kTracking) return;  // it may wait for a wider baseline
+  EXPECT_LT(angle_rad(b.motion(), path(0).inverse() * path(1)), 0.02);
+}
+
 TEST(TwoViewInitializer, WhatWouldTellTheUnitOfAKnownMapIsLostWithItsView) {
   StreetBeginning b(drive(), Scale::kFromMap);
   (void)b.add(0);
