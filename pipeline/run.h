@@ -73,9 +73,9 @@ const char* to_string(Verdict verdict);
 /// Judgement of a run by its own evidence, without ground truth.
 struct Judgement {
   Verdict verdict = Verdict::kGood;  ///< how far the result can be trusted
-  bool metric = false;             ///< whether lengths are in metres, as far as the run shows
-  std::string why_metric;          ///< what gives the map its scale, or why it has none
-  std::vector<DataNote> findings;  ///< what is in doubt, each with its cause and what to try next
+  bool metric = false;               ///< whether lengths are in metres, as far as the run shows
+  std::string why_metric;            ///< what gives the map its scale, or why it has none
+  std::vector<DataNote> findings;    ///< what is in doubt, each with its cause and what to try next
   /// Standard deviation of the position of the last place relative to the first one of its
   /// component, by the covariances of the place graph; nothing where it is not determined.
   std::optional<double> expected_drift_m;

@@ -175,8 +175,8 @@ namespace {
 /// A step between two consecutive poses.
 struct Step {
   std::size_t frame = 0;  ///< index of the later pose
-  Eigen::Vector3d way = Eigen::Vector3d::Zero();
-  double length() const { return way.norm(); }
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();
+  double length() const { return offset.norm(); }
 };
 
 std::vector<Step> steps_of(const Trajectory& trajectory) {
@@ -195,12 +195,12 @@ double progress_of(const std::vector<Step>& steps) {
   constexpr std::size_t kSteps = 10;
   double length = 0, covered = 0;
   for (std::size_t begin = 0; begin + kSteps <= steps.size(); begin += kSteps) {
-    Eigen::Vector3d way = Eigen::Vector3d::Zero();
+    Eigen::Vector3d offset = Eigen::Vector3d::Zero();
     for (std::size_t k = begin; k < begin + kSteps; ++k) {
-      way += steps[k].way;
+      offset += steps[k].offset;
       length += steps[k].length();
     }
-    covered += way.norm();
+    covered += offset.norm();
   }
   return length > 0 ? covered / length : 0;
 }
@@ -246,7 +246,7 @@ std::optional<DataNote> odd_order(const Trajectory& trajectory) {
     const double a = steps[k - 1].length(), b = steps[k].length();
     if (!(a > 0 && b > 0) || a < least || b < least) continue;
     ++compared;
-    if (steps[k - 1].way.dot(steps[k].way) < kOpposite * a * b) ++opposite;
+    if (steps[k - 1].offset.dot(steps[k].offset) < kOpposite * a * b) ++opposite;
   }
   if (compared < kFewestSteps ||
       static_cast<double>(opposite) < kShare * static_cast<double>(compared))

@@ -101,7 +101,7 @@ class Search {
   std::vector<int> weights_;
   std::int64_t steps_left_;
   std::vector<int> current_, best_;
-  std::int64_t weight_ = 0, best_weight_ = 0;  // of current_ and best_
+  std::int64_t weight_ = 0, best_weight_ = 0;  // those of current_ and best_
 };
 
 }  // namespace

@@ -12,7 +12,7 @@ constexpr int kRowStep = 5, kNear = 2, kFar = 8, kSmallest = 16;
 using Histogram = std::array<std::int64_t, 256>;
 
 std::int64_t squared_differences(const std::uint8_t* a, const std::uint8_t* b, int count) {
-  std::int32_t sum = 0;  // of at most 2^15 differences without overflow
+  std::int32_t sum = 0;  // holds 2^15 differences at least
   for (int i = 0; i < count; ++i) {
     const int difference = a[i] - b[i];
     sum += difference * difference;

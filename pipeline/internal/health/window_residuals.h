@@ -25,7 +25,7 @@ WindowResiduals window_residuals(const WindowState& state);
 /// time: they leave residuals that no pose explains.
 class ResidualCheck {
  public:
-  /// `calibration` tells where inverse depths come from: a depth camera or a second camera.
+  /// `calibration` shows where inverse depths come from: a depth camera or a second camera.
   explicit ResidualCheck(const Calibration& calibration);
 
   void add(const WindowResiduals& window) { windows_.push_back(window); }
