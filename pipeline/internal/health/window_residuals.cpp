@@ -42,7 +42,7 @@ std::vector<DataNote> ResidualCheck::notes() const {
 }
 
 std::optional<DataNote> ResidualCheck::note_of_pixels() const {
-  constexpr double kMost = 0.03;
+  constexpr double kMost = 0.05;
   const auto odd = [](const WindowResiduals& window) {
     return share(window.odd_pixels, window.pixels) > kMost;
   };

@@ -29,9 +29,9 @@ class ResidualCheck {
   explicit ResidualCheck(const Calibration& calibration);
 
   void add(const WindowResiduals& window) { windows_.push_back(window); }
-  /// Reports windows in which more than three per cent of the pixels are odd, and depths that are
-  /// odd in more than three per cent (of a stereo pair: six) of all windows' measurements. Some
-  /// per mille to one per cent are usual.
+  /// Reports windows in which more than five per cent of the pixels are odd, and depths that are
+  /// odd in more than three per cent (of a stereo pair: six) of all windows' measurements. Some per
+  /// mille to three per cent are usual.
   std::vector<DataNote> notes() const;
 
  private:

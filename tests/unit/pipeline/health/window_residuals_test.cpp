@@ -69,10 +69,10 @@ TEST(ResidualCheck, AcceptsWhatNoiseAllows) {
 
 TEST(ResidualCheck, ReportsAStretchInWhichPointsContradictTheMotion) {
   ResidualCheck check(calibration_of(true));
-  for (int i = 0; i < 5; ++i) check.add(residuals_of(i == 2 ? 8 : 0, 0));
+  for (int i = 0; i < 5; ++i) check.add(residuals_of(i == 2 ? 12 : 0, 0));
   ASSERT_EQ(check.notes().size(), 1u);
   EXPECT_EQ(check.notes()[0].cause, NoteCause::kDrift);
-  EXPECT_THAT(check.notes()[0].text, HasSubstr("in 1 of 5 stretches over 3 %"));
+  EXPECT_THAT(check.notes()[0].text, HasSubstr("in 1 of 5 stretches over 5 %"));
 }
 
 TEST(ResidualCheck, ReportsDepthsThatDoNotBelongToTheImages) {
