@@ -27,7 +27,7 @@ struct UnposedFrames {
 /// How one frame was tracked.
 struct FrameHealth {
   FrameId frame;                     ///< FrameResult::frame
-  std::string reason;                ///< FrameResult::outcome's; empty if the frame has a pose
+  std::string reason;                ///< FrameResult::outcome's; empty if that is ok
   std::optional<double> confidence;  ///< as in FrameResult
 };
 
