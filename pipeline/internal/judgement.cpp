@@ -65,19 +65,25 @@ std::optional<DataNote> note_of_components(const Map& map) {
                   "a place seen again or another motion source would join them"};
 }
 
-/// Frames in which far fewer of the tracked landmarks agree with the pose than usual.
-std::optional<DataNote> note_of_confidence(const std::vector<FrameHealth>& frames) {
-  constexpr double kOfUsual = 0.5, kShare = 0.01;
+/// Share of the tracked landmarks that agrees with the poses of most frames; 0 without one.
+double usual_confidence(const std::vector<FrameHealth>& frames) {
   std::vector<double> confidences;
   for (const FrameHealth& frame : frames)
     if (frame.confidence) confidences.push_back(*frame.confidence);
-  if (confidences.empty()) return std::nullopt;
-  const double usual = median_of(confidences);
+  return confidences.empty() ? 0 : median_of(confidences);
+}
+
+/// Frames in which far fewer of the tracked landmarks agree with the pose than usual.
+std::optional<DataNote> note_of_confidence(const std::vector<FrameHealth>& frames) {
+  constexpr double kOfUsual = 0.5, kShare = 0.01;
+  const double usual = usual_confidence(frames);
   const auto low = [&](const FrameHealth& frame) {
     return frame.confidence && *frame.confidence < kOfUsual * usual;
   };
   const auto count = static_cast<double>(std::ranges::count_if(frames, low));
-  if (count < 2 || count < kShare * static_cast<double>(confidences.size())) return std::nullopt;
+  const auto posed = static_cast<double>(
+      std::ranges::count_if(frames, [](const FrameHealth& f) { return f.confidence.has_value(); }));
+  if (count < 2 || count < kShare * posed) return std::nullopt;
   const FrameHealth& first = *std::ranges::find_if(frames, low);
   return DataNote{
       fmt::format("in {} frames less than half of the usual share of the tracked points "
@@ -85,6 +91,29 @@ std::optional<DataNote> note_of_confidence(const std::vector<FrameHealth>& frame
                   count, first.frame.value()),
       false, NoteCause::kJump,
       "look at these images: some are missing, covered, or of another place"};
+}
+
+/// Spans of frames in which fewer of the tracked landmarks agree with the pose than usual.
+std::optional<DataNote> note_of_spans(const std::vector<FrameHealth>& frames) {
+  constexpr std::size_t kFrames = 10;
+  constexpr double kOfUsual = 2.0 / 3;
+  const double usual = usual_confidence(frames);
+  std::size_t spans = 0, first = 0, last = 0;
+  for (std::size_t i = 0; i + kFrames <= frames.size(); ++i) {
+    std::vector<double> confidences;
+    for (std::size_t k = i; k < i + kFrames; ++k)
+      if (frames[k].confidence) confidences.push_back(*frames[k].confidence);
+    if (confidences.size() < kFrames || !(median_of(confidences) < kOfUsual * usual)) continue;
+    if (spans++ == 0) first = i;
+    last = i + kFrames - 1;
+  }
+  if (spans == 0) return std::nullopt;
+  return DataNote{
+      fmt::format("between the frames {} and {} less than two thirds of the usual share of the "
+                  "tracked points agrees with the poses",
+                  frames[first].frame.value(), frames[last].frame.value()),
+      false, NoteCause::kDrift,
+      "look for what moves or covers the view there; --mask leaves it out"};
 }
 
 std::size_t tracked_frames(const Map& map) {
@@ -120,7 +149,7 @@ double length_of(const Trajectory& trajectory) {
 
 std::optional<DataNote> note_of_drift(const std::optional<double>& drift, double length,
                                       bool metric) {
-  constexpr double kMostShare = 0.05;
+  constexpr double kMostShare = 0.03;
   if (!drift || !(*drift > kMostShare * length)) return std::nullopt;
   return DataNote{
       fmt::format("the end is known to {:.3g}{} relative to the beginning, {:.0f} % of the path",
@@ -135,14 +164,18 @@ std::optional<DataNote> note_of_height(const RunResult& run) {
                     *run.calibration.camera_height_m);
 }
 
+/// What gives the scale, and whether the recording has a second length to compare it with.
 std::string scale_text(const RunResult& run) {
+  const std::optional<double>& height_m = run.calibration.camera_height_m;
+  const char* unchecked = "; nothing in the recording checks it";
   if (run.sensor == Sensor::kStereo)
-    return fmt::format("by the baseline of {:g} m", run.calibration.baseline_m);
-  if (run.sensor == Sensor::kRgbd) return "by the depth images";
+    return fmt::format("by the baseline of {:g} m{}", run.calibration.baseline_m,
+                       height_m ? "" : unchecked);
+  if (run.sensor == Sensor::kRgbd)
+    return fmt::format("by the unit of the depth images{}", height_m ? "" : unchecked);
   if (!run.map.metric) return "one camera alone does not observe the scale";
-  if (run.calibration.camera_height_m)
-    return fmt::format("by the camera height of {:g} m above the ground",
-                       *run.calibration.camera_height_m);
+  if (height_m)
+    return fmt::format("by the camera height of {:g} m above the ground{}", *height_m, unchecked);
   return "by the motion that other sensors measured";
 }
 
@@ -184,6 +217,7 @@ Judgement judge(const RunResult& run, const std::vector<DataNote>& notes, double
     add(odd_order(trajectory));
   }
   add(note_of_confidence(run.frame_health));
+  add(note_of_spans(run.frame_health));
   add(note_of_components(run.map));
   add(note_of_lost(run.map));
   if (!judgement.findings.empty() && judgement.verdict == Verdict::kGood)

@@ -81,13 +81,18 @@ Recording with_baseline(const Recording& recording, double factor) {
   return out;
 }
 
+/// Within this factor a stated length is plausible: the recording is that of a larger world.
+bool is_plausible(double factor) { return factor >= 0.5 && factor <= 2; }
+
 Fault camera_height(const char* name, const char* what, double factor) {
-  return {name, "mono", what, "camera_height_questionable|scale_questionable",
+  const std::string causes = "camera_height_questionable|scale_questionable";
+  return {name, "mono", what, causes + (is_plausible(factor) ? kUnchecked : ""),
           [factor](const Recording& r, std::uint32_t) { return with_camera_height(r, factor); }};
 }
 
 Fault baseline(const char* name, const char* what, double factor) {
-  return {name, "stereo", what, "baseline_questionable|scale_questionable",
+  const std::string causes = "baseline_questionable|scale_questionable";
+  return {name, "stereo", what, causes + (is_plausible(factor) ? kUnchecked : ""),
           [factor](const Recording& r, std::uint32_t) { return with_baseline(r, factor); }};
 }
 

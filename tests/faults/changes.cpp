@@ -36,6 +36,12 @@ Recording selected(const Recording& recording, const std::vector<std::size_t>& n
 
 }  // namespace
 
+cv::RNG random_of(std::uint32_t seed, std::size_t index) {
+  cv::RNG random(seed * 7919ULL + index + 1);
+  for (int k = 0; k < 4; ++k) random.next();
+  return random;
+}
+
 Span whole(const Recording& recording) { return {0, recording.size() - 1}; }
 
 Span part(const Recording& recording, double from, double to) {

@@ -1,5 +1,7 @@
 #pragma once
+#include <cstdint>
 #include <functional>
+#include <opencv2/core.hpp>
 
 #include "tests/faults/recording.h"
 
@@ -7,6 +9,10 @@ namespace placegraph::faults {
 
 /// Functions of which faults are made. None changes its arguments: images are copied before they
 /// are drawn on.
+
+/// Random numbers of a frame. The first numbers of OpenCV's generator are proportional to its seed,
+/// so that they would ascend from frame to frame.
+cv::RNG random_of(std::uint32_t seed, std::size_t index);
 
 /// All frames.
 Span whole(const Recording& recording);

@@ -44,7 +44,7 @@ Fault late(std::size_t frames) {
 Recording with_depth_of_others(const Recording& recording, std::uint32_t seed) {
   std::vector<std::size_t> numbers(recording.size());
   std::iota(numbers.begin(), numbers.end(), std::size_t{0});
-  cv::RNG random(seed * 7919ULL + 1);
+  cv::RNG random = random_of(seed, 0);
   for (std::size_t i = numbers.size() - 1; i > 0; --i)
     std::swap(numbers[i],
               numbers[static_cast<std::size_t>(random.uniform(0, static_cast<int>(i) + 1))]);
@@ -59,7 +59,7 @@ Image flipped(const Image& depth, int about) {
 
 /// No measurement in random rectangles, which cover about half of the image.
 Image with_holes(const Image& depth, std::uint32_t seed, std::size_t index) {
-  cv::RNG random(seed * 7919ULL + index + 1);
+  cv::RNG random = random_of(seed, index);
   Image out = depth.clone();
   for (int i = 0; i < 25; ++i) {
     const cv::Size size(depth.cols / 6, depth.rows / 6);
@@ -71,7 +71,7 @@ Image with_holes(const Image& depth, std::uint32_t seed, std::size_t index) {
 
 /// Independent noise of each pixel, in proportion to its depth.
 Image with_depth_noise(const Image& depth, double fraction, std::uint32_t seed, std::size_t index) {
-  cv::RNG random(seed * 7919ULL + index + 1);
+  cv::RNG random = random_of(seed, index);
   Image factor(depth.size(), CV_32FC1);
   random.fill(factor, cv::RNG::NORMAL, 1, fraction);
   const Image positive = cv::max(factor, 0.1);

@@ -18,6 +18,10 @@ struct Fault {
   std::function<Recording(const Recording&, std::uint32_t seed)> apply;
 };
 
+/// Cause of a stated length that is wrong by a plausible factor: the judgement must say that the
+/// scale rests on it and that nothing in the recording checks it.
+inline constexpr const char* kUnchecked = "|scale_unchecked";
+
 /// The faults of one kind, in a fixed order.
 std::vector<Fault> optics_faults();
 std::vector<Fault> overlay_faults();

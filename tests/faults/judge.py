@@ -86,7 +86,7 @@ class Kit:
             if not line.startswith("#"):
                 name, sensors, group, causes, _ = line.split("\t")
                 faults.append(Fault(name, tuple(sensors.split()), group, () if causes == "-" else tuple(causes.split("|"))))
-        unknown = sorted({cause for fault in faults for cause in fault.causes} - report.CAUSES)
+        unknown = sorted({cause for fault in faults for cause in fault.causes} - report.CAUSES - {report.UNCHECKED})
         if unknown:
             raise KitError(f"make_fault list: cause '{unknown[0]}' is unknown")
         return faults
@@ -139,7 +139,7 @@ def read_run(run, out, truth, first_faulty):
     """Fills in what the folder of a run says."""
     with open(os.path.join(out, "result.json"), encoding="utf-8") as file:
         result = json.load(file)
-    run.verdict, run.found = report.judgement_of(result)
+    run.verdict, run.found, run.unchecked = report.judgement_of(result)
     run.metric = result.get("judgement", result)["metric"]
     poses = read_poses(os.path.join(out, "trajectory_optimized.kitti"))
     if len(poses) != len(truth):

@@ -125,9 +125,9 @@ def judged(verdict, *causes):
 
 
 def run(causes=("static_overlay",), wrong_frames_found=(1, 2), exit_code=0, result=None, group="fixed"):
-    verdict, found = report.judgement_of(result or {})
+    verdict, found, unchecked = report.judgement_of(result or {})
     return report.Run("fault", group, "base", "mono", list(causes), exit_code, frames=10, posed=10,
-                      wrong=list(wrong_frames_found), verdict=verdict, found=found)
+                      wrong=list(wrong_frames_found), verdict=verdict, found=found, unchecked=unchecked)
 
 
 class Reports(unittest.TestCase):
@@ -147,6 +147,17 @@ class Reports(unittest.TestCase):
     def test_a_fault_without_a_cause_is_reported_by_any_doubt(self):
         self.assertFalse(run(causes=(), result=judged("doubtful", "jump")).wrong_and_unreported())
         self.assertTrue(run(causes=()).wrong_and_unreported())
+
+    def test_a_length_that_nothing_checks_must_be_said_to_be_unchecked(self):
+        said = judged("good")
+        said["judgement"]["why_metric"] = "by the baseline of 1 m; nothing in the recording checks it"
+        causes = ("baseline_questionable", report.UNCHECKED)
+        self.assertEqual(run(causes=causes, result=said).reported(), "unchecked")
+        self.assertFalse(run(causes=causes, result=said).wrong_and_unreported())
+        self.assertTrue(run(causes=causes, result=judged("good")).wrong_and_unreported())
+        self.assertTrue(run(causes=causes[:1], result=said).wrong_and_unreported())
+        self.assertEqual(report.summary_of([run(causes=causes, result=said)])["unchecked"], 1)
+        self.assertFalse(run(group="clean", causes=(), result=said).false_alarm())
 
     def test_nothing_wrong_needs_no_report(self):
         self.assertFalse(run(wrong_frames_found=()).wrong_and_unreported())

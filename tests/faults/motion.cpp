@@ -93,7 +93,7 @@ Recording there_and_back(const Recording& recording) {
 }
 
 Image with_sensor_noise(const Image& image, std::uint32_t seed, std::size_t index) {
-  cv::RNG random(seed * 7919ULL + index + 1);
+  cv::RNG random = random_of(seed, index);
   Image noise(image.size(), CV_16SC1), out;
   random.fill(noise, cv::RNG::NORMAL, 0, 2);
   cv::add(image, noise, out, cv::noArray(), CV_8U);
@@ -145,7 +145,7 @@ Eigen::Matrix3d roll_of_pixels(const Camera& camera, double angle) {
 /// The camera rolls about its axis by up to 4 degrees, differently in each frame.
 Recording shaken(const Recording& recording, std::uint32_t seed) {
   const auto angle_of = [seed](std::size_t index) {
-    cv::RNG random(seed * 7919ULL + index + 1);
+    cv::RNG random = random_of(seed, index);
     return random.uniform(-4.0, 4.0) * CV_PI / 180;
   };
   Recording out = with_images(recording, whole(recording), [&](const Image& image, std::size_t i) {

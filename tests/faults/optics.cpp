@@ -21,7 +21,7 @@ Image with_gain(const Image& image, double gain, double offset = 0) {
 }
 
 Image with_noise(const Image& image, double sigma, std::uint32_t seed, std::size_t index) {
-  cv::RNG random(seed * 7919ULL + index + 1);
+  cv::RNG random = random_of(seed, index);
   Image noise(image.size(), CV_16SC1), out;
   random.fill(noise, cv::RNG::NORMAL, 0, sigma);
   cv::add(image, noise, out, cv::noArray(), CV_8U);
@@ -65,7 +65,7 @@ Image with_vignette(const Image& image, std::size_t) {
 
 /// Rows that were not transmitted repeat the last one that was.
 Image with_lost_rows(const Image& image, std::uint32_t seed, std::size_t index) {
-  cv::RNG random(seed * 7919ULL + index + 1);
+  cv::RNG random = random_of(seed, index);
   Image out = image.clone();
   for (int v = 1; v < out.rows; ++v)
     if (random.uniform(0.0, 1.0) < 0.25) out.row(v - 1).copyTo(out.row(v));
@@ -105,7 +105,7 @@ Recording with_gains(const Recording& recording, const std::function<double(std:
 
 Recording flickering(const Recording& recording, std::uint32_t seed) {
   return with_gains(recording, [seed](std::size_t index) {
-    cv::RNG random(seed * 7919ULL + index + 1);
+    cv::RNG random = random_of(seed, index);
     return random.uniform(0.6, 1.4);
   });
 }

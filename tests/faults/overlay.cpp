@@ -15,7 +15,7 @@ constexpr auto kOverlay = "static_overlay";
 
 /// Sharp random blocks over a fraction of the image's area, at a place that the seed chooses.
 Image with_blocks(const Image& image, double fraction, std::uint32_t seed) {
-  cv::RNG random(seed * 7919ULL + 1);
+  cv::RNG random = random_of(seed, 0);
   const double side = std::sqrt(fraction);
   const cv::Size size(static_cast<int>(image.cols * side), static_cast<int>(image.rows * side));
   const cv::Point corner(random.uniform(0, image.cols - size.width + 1),
@@ -49,7 +49,7 @@ Image with_logo(const Image& image, std::size_t) {
 
 /// Blurred dark spots as of drops and dust on the glass.
 Image with_dirt(const Image& image, std::uint32_t seed) {
-  cv::RNG random(seed * 7919ULL + 1);
+  cv::RNG random = random_of(seed, 0);
   Image clear(image.size(), CV_32FC1, cv::Scalar(1)), light, out;
   for (int spot = 0; spot < 40; ++spot) {
     const cv::Point centre(random.uniform(0, image.cols), random.uniform(0, image.rows));

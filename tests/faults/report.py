@@ -8,6 +8,7 @@ cameras_swapped right_image_late right_image_unusable depth_unit_questionable de
 calibration_questionable distortion_questionable static_overlay times_questionable images_unusable
 repeated_frames upside_down drift_large""".split())
 INFORMATION = frozenset({"distortion_questionable"})  # no alarm in a run that is judged good: the lens was corrected
+UNCHECKED = "scale_unchecked"  # cause of a length that no evidence can contradict
 OK, NO_RESULT, REFUSED = 0, 1, 2  # exit codes of the program
 
 
@@ -25,6 +26,7 @@ class Run:
     wrong: list = dataclasses.field(default_factory=list)  # numbers of frames whose pose is wrong
     metric: bool = False
     verdict: str = ""  # empty: no judgement
+    unchecked: bool = False  # the judgement says that nothing in the recording checks the scale
     found: list = dataclasses.field(default_factory=list)  # causes that the judgement names
     message: str = ""  # last line on stderr
 
@@ -33,7 +35,13 @@ class Run:
 
     def named(self):
         """Whether the judgement names the cause; where the fault has none, whether it doubts the run."""
-        return bool(set(self.found) & set(self.causes)) if self.causes else self.doubted()
+        if not self.causes:
+            return self.doubted()
+        return bool(set(self.found) & set(self.causes)) or self.only_unchecked()
+
+    def only_unchecked(self):
+        """Whether the judgement says no more of the cause than that nothing checks the scale."""
+        return self.unchecked and UNCHECKED in self.causes and not set(self.found) & set(self.causes)
 
     def doubted(self):
         return self.verdict not in ("", "good") or bool(self.found)
@@ -44,6 +52,8 @@ class Run:
             return "CRASHED"
         if self.exit_code == REFUSED:
             return "refused"
+        if self.only_unchecked():
+            return "unchecked"
         if self.named():
             return "cause" if self.causes else "doubt"
         return "doubt" if self.doubted() else "lost" if self.posed == 0 else "-"
@@ -57,17 +67,18 @@ class Run:
 
 
 def judgement_of(result):
-    """Verdict and causes of result.json; nothing where it has no judgement."""
+    """Verdict, causes and whether the scale is said to be unchecked, of result.json; nothing where
+    it has no judgement."""
     judgement = result.get("judgement")
     if judgement is None:
-        return "", []
+        return "", [], False
     causes = [finding["cause"] for finding in judgement["findings"]]
     unknown = sorted(set(causes) - CAUSES)
     if unknown:
         raise ValueError(f"result.json: judgement.findings: cause '{unknown[0]}' is unknown")
     if judgement["verdict"] not in ("good", "doubtful", "failed"):
         raise ValueError(f"result.json: judgement.verdict: '{judgement['verdict']}' is unknown")
-    return judgement["verdict"], causes
+    return judgement["verdict"], causes, "nothing in the recording checks it" in judgement["why_metric"]
 
 
 ROW = "{:24} {:6} {:12} {:7} {:>9} {:>6}  {:9} {:5}  {}"
@@ -101,6 +112,7 @@ def summary_of(runs):
         "wrong_frames_unreported": sum(len(run.wrong) for run in unreported),
         "refused": sum(run.exit_code == REFUSED for run in faulty),
         "crashed": sum(run.crashed() for run in runs),
+        "unchecked": sum(run.only_unchecked() for run in faulty),
         "with_cause": len(with_cause),
         "cause_named_percent": percent(sum(run.named() for run in with_cause), len(with_cause)),
         "wrong_cause_named_percent": percent(sum(run.named() for run in wrong), len(wrong)),
@@ -114,7 +126,8 @@ def summary_line(name, runs):
     return (f"{name}: {s['runs']} runs with faults, {s['wrong']} with wrong poses; wrong and unreported "
             f"{s['wrong_and_unreported']} ({s['wrong_frames_unreported']} frames; doubted {s['of_these_doubted']}); "
             f"cause named rightly {s['cause_named_percent']} % of {s['with_cause']}, "
-            f"{s['wrong_cause_named_percent']} % of those with wrong poses; refused {s['refused']}, "
+            f"{s['wrong_cause_named_percent']} % of those with wrong poses "
+            f"({s['unchecked']} as the length that nothing checks); refused {s['refused']}, "
             f"crashed {s['crashed']}; false alarms {s['false_alarms']} of {s['clean']} clean")
 
 

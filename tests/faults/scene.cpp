@@ -15,7 +15,7 @@ constexpr auto kMotion = "drift_large|jump|scale_questionable|few_posed";
 
 /// A picture of random blocks with soft edges.
 Image block_picture(cv::Size size, std::uint32_t seed) {
-  cv::RNG random(seed * 7919ULL + 1);
+  cv::RNG random = random_of(seed, 0);
   const int block = std::max(4, size.width / 20);
   Image small(size.height / block + 1, size.width / block + 1, CV_8UC1), out;
   random.fill(small, cv::RNG::UNIFORM, 20, 236);
@@ -64,7 +64,7 @@ Recording with_moving_object(const Recording& recording, std::uint32_t seed) {
 Recording with_plain_wall(const Recording& recording, std::size_t frames, std::uint32_t seed) {
   const Span span = middle(recording, frames);
   Recording out = with_images(recording, span, [seed](const Image& image, std::size_t index) {
-    cv::RNG random(seed * 7919ULL + index + 1);
+    cv::RNG random = random_of(seed, index);
     Image wall(image.size(), CV_8UC1);
     random.fill(wall, cv::RNG::NORMAL, 150, 1.5);
     return wall;
@@ -82,7 +82,7 @@ Image mirrored(const Image& image, std::size_t) {
 
 /// White flakes of 2 to 6 pixels, at other places in every image.
 Image with_snow(const Image& image, std::uint32_t seed, std::size_t index) {
-  cv::RNG random(seed * 7919ULL + index + 1);
+  cv::RNG random = random_of(seed, index);
   Image out = image.clone();
   const int flakes = image.cols * image.rows / 400;
   for (int i = 0; i < flakes; ++i) {

@@ -63,7 +63,7 @@ Recording frozen(const Recording& recording) {
 
 Recording shuffled(const Recording& recording, std::uint32_t seed) {
   std::vector<std::size_t> numbers = numbers_of(recording);
-  cv::RNG random(seed * 7919ULL + 1);
+  cv::RNG random = random_of(seed, 0);
   for (std::size_t i = numbers.size() - 1; i > 0; --i)
     std::swap(numbers[i],
               numbers[static_cast<std::size_t>(random.uniform(0, static_cast<int>(i) + 1))]);
@@ -100,7 +100,7 @@ Recording with_stamps(const Recording& recording,
 Recording jittered(const Recording& recording, std::uint32_t seed) {
   const std::int64_t distance_ns = median_distance_ns(recording);
   return with_stamps(recording, [&](std::size_t i, std::int64_t stamp_ns) {
-    cv::RNG random(seed * 7919ULL + i + 1);
+    cv::RNG random = random_of(seed, i);
     return stamp_ns + distance_ns +
            static_cast<std::int64_t>(random.uniform(-0.45, 0.45) *
                                      static_cast<double>(distance_ns));

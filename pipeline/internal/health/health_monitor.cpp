@@ -5,7 +5,7 @@
 namespace placegraph {
 
 HealthMonitor::HealthMonitor(const Calibration& calibration)
-    : right_(calibration), focal_(calibration), residuals_(calibration) {}
+    : right_(calibration), flow_(calibration), intrinsics_(calibration), residuals_(calibration) {}
 
 void HealthMonitor::add(const Frame& frame, const FrameResult& result, const Odometry& odometry) {
   const ImageStatistics statistics = image_statistics(frame.image);
@@ -14,6 +14,7 @@ void HealthMonitor::add(const Frame& frame, const FrameResult& result, const Odo
   if (!frame.right.empty()) right_images_.add(frame.id, image_statistics(frame.right));
   right_.add(frame, result.T_map_cam);
   range_.add(frame);
+  flow_.add(frame, result.T_map_cam);
   if (result.keyframe) examine(odometry.map().window());
 }
 
@@ -22,7 +23,7 @@ void HealthMonitor::examine(const SlidingWindow& window) {
   if (static_cast<int>(keyframes.size()) < window.state().options.max_keyframes) return;
   if (keyframes.front() <= newest_) return;
   newest_ = keyframes.back();
-  focal_.add(window.state());
+  intrinsics_.add(window.state());
   residuals_.add(window_residuals(window.state()));
 }
 
@@ -36,7 +37,8 @@ std::vector<DataNote> HealthMonitor::notes() const {
   collect(right_images_.note());
   collect(right_.note());
   collect(range_.note());
-  collect(focal_.note());
+  collect(flow_.note());
+  for (const DataNote& note : intrinsics_.notes()) notes.push_back(note);
   for (const DataNote& note : residuals_.notes()) notes.push_back(note);
   return notes;
 }

@@ -2,8 +2,9 @@
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/measurements/data_note.h>
 #include <placegraph/pipeline/internal/health/depth_range.h>
-#include <placegraph/pipeline/internal/health/focal_check.h>
+#include <placegraph/pipeline/internal/health/flow_check.h>
 #include <placegraph/pipeline/internal/health/image_quality.h>
+#include <placegraph/pipeline/internal/health/intrinsics_check.h>
 #include <placegraph/pipeline/internal/health/repeated_images.h>
 #include <placegraph/pipeline/internal/health/right_image_time.h>
 #include <placegraph/pipeline/internal/health/window_residuals.h>
@@ -36,7 +37,8 @@ class HealthMonitor {
   ImageQuality right_images_{"right images", NoteCause::kRightImage};
   RightImageTime right_;
   DepthRange range_;
-  FocalCheck focal_;
+  FlowCheck flow_;
+  IntrinsicsCheck intrinsics_;
   ResidualCheck residuals_;
   std::optional<KeyframeId> newest_;  // newest keyframe of the last window that was examined
 };

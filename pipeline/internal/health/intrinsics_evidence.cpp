@@ -2,7 +2,7 @@
 #include <placegraph/backend/factors/reprojection.h>
 #include <placegraph/backend/internal/window/window_state.h>
 #include <placegraph/graph/core/robust_kernel.h>
-#include <placegraph/pipeline/internal/health/focal_evidence.h>
+#include <placegraph/pipeline/internal/health/intrinsics_evidence.h>
 
 #include <Eigen/Dense>
 #include <cmath>
@@ -10,12 +10,12 @@
 namespace placegraph {
 namespace {
 
-constexpr Eigen::Index kParameters = 2;
+constexpr Eigen::Index kParameters = IntrinsicsEvidence::kParameters;
 
-/// Normal equations of the keyframes' poses and, in the last columns, the parameters of the lens.
-class FocalEquations {
+/// Normal equations of the keyframes' poses and, in the last columns, the intrinsics.
+class IntrinsicsEquations {
  public:
-  FocalEquations(const WindowState& state, bool depths_measured)
+  IntrinsicsEquations(const WindowState& state, bool depths_measured)
       : state_(state),
         depths_measured_(depths_measured),
         kernel_{RobustKernel::Kind::kHuber, state.options.huber_px} {
@@ -49,7 +49,7 @@ class FocalEquations {
 
   /// The evidence with the poses eliminated; directions that no residual measures (the pose of the
   /// whole window, the scale of a monocular camera) are left out.
-  FocalEvidence evidence() const {
+  IntrinsicsEvidence evidence() const {
     constexpr double kNothing = 1e-9;  // share of the largest eigenvalue
     const Eigen::Index poses = H_.cols() - kParameters;
     const Eigen::VectorXd unit =
@@ -63,7 +63,7 @@ class FocalEquations {
         eigen.eigenvectors().transpose() *
         (unit.asDiagonal() * H_.topRightCorner(poses, kParameters)).eval();
     const Eigen::VectorXd b = eigen.eigenvectors().transpose() * unit.cwiseProduct(b_.head(poses));
-    FocalEvidence result;
+    IntrinsicsEvidence result;
     result.gradient = b_.tail(kParameters) - coupling.transpose() * inverse.cwiseProduct(b);
     result.information = H_.bottomRightCorner(kParameters, kParameters) -
                          coupling.transpose() * inverse.asDiagonal() * coupling;
@@ -77,15 +77,38 @@ class FocalEquations {
     const Eigen::Matrix3d R = T_map_cam.rotation().matrix();
     const Eigen::Vector3d p_cam = PointInCamera(R, T_map_cam.translation(), p_map).p_cam;
     const Reprojection reprojection = reprojection_of(state_.camera, o);
-    const Eigen::Vector2d x = p_cam.head<2>() / p_cam.z();
-    const Eigen::Vector2d by_focal =
-        add_rows(row, column, R, p_cam, reprojection) *
-        reprojection.whiten(Eigen::Vector2d(state_.camera.fx, state_.camera.fy).cwiseProduct(x));
-    J_.block<2, 1>(row, J_.cols() - 2) = by_focal;
-    J_.block<2, 1>(row, J_.cols() - 1) = x.squaredNorm() * by_focal;
-    if (o.inverse_depth && depths_measured_)
-      add_rows(row + 2, column, R, p_cam, InverseDepth(*o.inverse_depth, o.sigma_inverse_depth));
+    const double weight = add_rows(row, column, R, p_cam, reprojection);
+    const PixelDerivative by_intrinsics = derivative(p_cam.head<2>() / p_cam.z());
+    for (Eigen::Index i = 0; i < kParameters; ++i)
+      J_.block<2, 1>(row, J_.cols() - kParameters + i) =
+          weight * reprojection.whiten(by_intrinsics.col(i));
+    if (o.inverse_depth) {
+      const InverseDepth depth(*o.inverse_depth, o.sigma_inverse_depth);
+      const double depth_weight = add_rows(row + 2, column, R, p_cam, depth);
+      const double by_inverse = depth_weight * depth.inverse_sigma / p_cam.z();
+      const auto column_of = [&](Eigen::Index i) { return J_.cols() - kParameters + i; };
+      if (depths_measured_) {
+        J_(row + 2, column_of(IntrinsicsEvidence::kDepthOffset)) = -by_inverse / p_cam.z();
+      } else {  // a longer fx makes disparities larger
+        J_(row + 2, column_of(IntrinsicsEvidence::kFocal)) = by_inverse;
+        J_(row + 2, column_of(IntrinsicsEvidence::kAspect)) = 0.5 * by_inverse;
+      }
+    }
     for (int i = 0; i < 6; ++i) columns_.push_back(column_.at(o.keyframe) + i);
+  }
+
+  using PixelDerivative = Eigen::Matrix<double, 2, kParameters>;
+  /// Derivative of the pixel of a point (x, y, 1) by the intrinsics.
+  PixelDerivative derivative(const Eigen::Vector2d& x) const {
+    const Eigen::Vector2d f(state_.camera.fx, state_.camera.fy);
+    PixelDerivative J;
+    J.col(IntrinsicsEvidence::kFocal) = f.cwiseProduct(x);
+    J.col(IntrinsicsEvidence::kAspect) = 0.5 * Eigen::Vector2d(f[0] * x[0], -f[1] * x[1]);
+    J.col(IntrinsicsEvidence::kPrincipalX) = Eigen::Vector2d(f[0], 0);
+    J.col(IntrinsicsEvidence::kPrincipalY) = Eigen::Vector2d(0, f[1]);
+    J.col(IntrinsicsEvidence::kRadial) = x.squaredNorm() * f.cwiseProduct(x);
+    J.col(IntrinsicsEvidence::kDepthOffset).setZero();
+    return J;
   }
 
   /// Adds the rows of a measurement for its pose and point; returns the root of their weight.
@@ -116,9 +139,9 @@ class FocalEquations {
 
 }  // namespace
 
-FocalEvidence focal_evidence(const WindowState& state, bool depths_measured) {
+IntrinsicsEvidence intrinsics_evidence(const WindowState& state, bool depths_measured) {
   constexpr std::size_t kViews = 3;
-  FocalEquations equations(state, depths_measured);
+  IntrinsicsEquations equations(state, depths_measured);
   bool any = false;
   for (const auto& [id, landmark] : state.landmarks) {
     const auto observations = usable_observations(state, landmark);
@@ -126,7 +149,7 @@ FocalEvidence focal_evidence(const WindowState& state, bool depths_measured) {
     equations.add(observations, landmark.p_map);
     any = true;
   }
-  return any ? equations.evidence() : FocalEvidence();
+  return any ? equations.evidence() : IntrinsicsEvidence();
 }
 
 }  // namespace placegraph
