@@ -103,6 +103,10 @@ NearestSides nearest_sides(const Map& map, double camera_height_m) {
   }
   NearestSides sides;
   sides.below = lowest_fifth(distances[kBelow]);
+  const auto on_ground = std::ranges::count_if(
+      distances[kBelow], [](double distance) { return std::abs(distance - 1) < 0.1; });
+  sides.on_ground =
+      static_cast<double>(on_ground) / std::max(1.0, static_cast<double>(distances[kBelow].size()));
   for (const int side : {kAbove, kLeft, kRight}) {
     const double nearest = lowest_fifth(distances[static_cast<std::size_t>(side)]);
     if (nearest >= 0 && (sides.nearest_other < 0 || nearest < sides.nearest_other))
@@ -112,9 +116,9 @@ NearestSides nearest_sides(const Map& map, double camera_height_m) {
 }
 
 std::optional<DataNote> odd_sides(const NearestSides& sides) {
-  constexpr double kOtherTooNear = 0.6, kBelowTooNear = 0.8;
+  constexpr double kOtherTooNear = 0.6, kBelowTooNear = 0.8, kGround = 1.0 / 3;
   if (sides.below < 0 || sides.nearest_other < 0 || sides.below > kBelowTooNear ||
-      sides.nearest_other > kOtherTooNear)
+      sides.nearest_other > kOtherTooNear || sides.on_ground > kGround)
     return std::nullopt;
   return DataNote{fmt::format("landmarks below the camera are as near as {:.2f} of its height, and "
                               "those on another side as near as {:.2f}: the ground is not below, "

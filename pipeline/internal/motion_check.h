@@ -28,6 +28,7 @@ std::optional<DataNote> odd_posture(const Camera& camera, const Rotations& rotat
 /// that move along their optical axis. Negative if there are fewer than thirty landmarks.
 struct NearestSides {
   double below = -1, nearest_other = -1;
+  double on_ground = 0;  ///< share of the landmarks below that are 0.9 to 1.1 heights away
   /// Whether the nearest landmarks below are about as far away as the ground, and no others are
   /// nearer.
   bool are_upright() const { return below > 0.9 && nearest_other > 1; }
@@ -36,7 +37,8 @@ NearestSides nearest_sides(const Map& map, double camera_height_m);
 
 /// Reports that the surface below the camera cannot be the ground: landmarks on another side are
 /// nearer than six tenths of the height, and those below are nearer than eight tenths, while the
-/// ground is at one. This is the case for cameras on their side or upside down.
+/// ground is at one and less than a third of those below lie on it. This is the case for cameras on
+/// their side or upside down.
 std::optional<DataNote> odd_sides(const NearestSides& sides);
 
 /// Reports that the ground is not where the camera height lets expect it, for a sensor that

@@ -112,6 +112,29 @@ TEST(Judgement, NamesFramesOfLowConfidence) {
   EXPECT_THAT(judgement.findings[0].text, HasSubstr("the first is frame 5"));
 }
 
+TEST(Judgement, NamesSpansOfLowConfidence) {
+  RunResult run = run_of(std::string(40, '0'));
+  for (int i = 0; i < 40; ++i) run.frame_health.push_back({FrameId(i), "", i < 20 ? 0.8 : 0.81});
+  for (std::size_t i = 12; i < 17; ++i) run.frame_health[i].confidence = 0.5;
+  EXPECT_THAT(causes_of(judge(run, {}, 0.2)), IsEmpty());  // too short
+  for (std::size_t i = 17; i < 22; ++i) run.frame_health[i].confidence = 0.5;
+  const Judgement judgement = judge(run, {}, 0.2);
+  ASSERT_THAT(causes_of(judgement), testing::ElementsAre("drift_large"));
+  EXPECT_THAT(judgement.findings[0].text, HasSubstr("less than two thirds of the usual share"));
+}
+
+TEST(Judgement, SaysWhetherTheScaleIsChecked) {
+  RunResult run = run_of("0000");
+  run.map.metric = true;
+  run.sensor = Sensor::kStereo;
+  run.calibration.baseline_m = 0.5;
+  run.calibration.camera_height_m.reset();
+  EXPECT_EQ(judge(run, {}, 0.2).why_metric,
+            "by the baseline of 0.5 m; nothing in the recording checks it");
+  run.calibration.camera_height_m = 1.65;
+  EXPECT_EQ(judge(run, {}, 0.2).why_metric, "by the baseline of 0.5 m");
+}
+
 TEST(Judgement, ListsLostSpansAndComponents) {
   const Judgement judgement = judge(run_of("..000..0.111"), {}, 0.2);
   EXPECT_EQ(judgement.verdict, Verdict::kDoubtful);

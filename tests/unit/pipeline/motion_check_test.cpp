@@ -89,6 +89,11 @@ TEST(NearestSides, AreThoseOfAStreetOrOfACameraOnItsSide) {
   // A corridor: walls nearer than the floor, which is where it is to be.
   EXPECT_FALSE(odd_sides(nearest_sides(map_with(1.65, 0.8, 0.9), 1.65)));
   EXPECT_FALSE(odd_sides(nearest_sides(Map(), 1.65)));
+  // A narrow one, with doors and posters before the walls: the floor is seen nevertheless.
+  EXPECT_TRUE(odd_sides({0.6, 0.5, 0.1}));
+  EXPECT_FALSE(odd_sides({0.6, 0.5, 0.4}));
+  EXPECT_NEAR(street.on_ground, 1, 1e-9);
+  EXPECT_NEAR(rotated.on_ground, 0, 1e-9);
 }
 
 TEST(OddHeight, ContradictsTheBaselineOrTheDepths) {
