@@ -25,7 +25,7 @@ class IntrinsicsCheck {
   };
   /// The mean over all windows, weighted by their information, and a prior about zero.
   Estimate estimate() const;
-  /// Reports the most significant error beyond three standard deviations, and windows that
+  /// Reports the most significant error beyond 2.8 standard deviations, and windows that
   /// contradict each other by twice their deviations.
   std::vector<DataNote> notes() const;
 

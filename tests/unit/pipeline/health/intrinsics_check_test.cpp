@@ -26,12 +26,12 @@ TEST(IntrinsicsCheck, IsTheWeightedMeanOfItsWindows) {
   IntrinsicsCheck check(mono());
   EXPECT_TRUE(std::isinf(check.estimate().sigmas[0]));
   check.add(window_of(Evidence::kFocal, 0.10, 0.001));
-  EXPECT_NEAR(check.estimate().errors[0], 0.10, 2e-3);
-  EXPECT_NEAR(check.estimate().sigmas[0], std::hypot(0.02, 0.012), 1e-3);  // a window's own error
+  EXPECT_NEAR(check.estimate().errors[0], 0.10, 3e-3);
+  EXPECT_NEAR(check.estimate().sigmas[0], std::hypot(0.02, 0.015), 1e-3);  // a window's own error
   check.add(window_of(Evidence::kFocal, 0.13, 1));
-  EXPECT_NEAR(check.estimate().errors[0], 0.10, 2e-3);
+  EXPECT_NEAR(check.estimate().errors[0], 0.10, 3e-3);
   for (int i = 0; i < 24; ++i) check.add(window_of(Evidence::kFocal, 0.10, 0.001));
-  EXPECT_NEAR(check.estimate().sigmas[0], std::hypot(0.004, 0.012), 1e-3);
+  EXPECT_NEAR(check.estimate().sigmas[0], std::hypot(0.004, 0.015), 1e-3);
 }
 
 TEST(IntrinsicsCheck, ReportsALargeErrorOfOneStretchAlone) {
