@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <placegraph/graph/internal/core/median.h>
 #include <placegraph/pipeline/internal/health/image_quality.h>
 
 #include <algorithm>
@@ -20,6 +21,7 @@ void ImageQuality::add(FrameId frame, const ImageStatistics& s) {
   const auto last = std::exchange(last_mean_, s.mean);
   if (s.range < kBlankRange) return count(kBlank, frame);
   if (s.white > kOverexposedShare) count(kOverexposed, frame);
+  uniform_.emplace_back(frame, s.uniform);
   if (s.detail < kBlurredDetail) count(kBlurred, frame);
   if (s.detail > kNoisyDetail) count(kNoisy, frame);
   if (last && std::abs(std::log((s.mean + 1) / (*last + 1))) > kBrightnessStep)
@@ -29,6 +31,19 @@ void ImageQuality::add(FrameId frame, const ImageStatistics& s) {
 void ImageQuality::count(Defect defect, FrameId frame) {
   Count& count = counts_[defect];
   if (count.images++ == 0) count.first = frame;
+}
+
+/// Images of which far more has one grey level than is usual in the recording.
+ImageQuality::Count ImageQuality::covered() const {
+  constexpr double kShare = 0.5, kMoreThanUsual = 0.3;
+  std::vector<double> shares;
+  for (const auto& [frame, share] : uniform_) shares.push_back(share);
+  Count count;
+  if (shares.empty()) return count;
+  const double most = std::max(kShare, median_of(std::move(shares)) + kMoreThanUsual);
+  for (const auto& [frame, share] : uniform_)
+    if (share > most && count.images++ == 0) count.first = frame;
+  return count;
 }
 
 bool ImageQuality::frequent(const Count& count) const {
@@ -44,19 +59,23 @@ std::optional<DataNote> ImageQuality::note() const {
   constexpr std::array<Text, kDefects> kTexts{
       {{"blank: their grey levels span less than 30 of 255", "check exposure, lens cap and light"},
        {"overexposed: over 40 % of their pixels are white", "shorten the exposure"},
+       {"covered: over half of their pixels have the same grey level, unlike the others",
+        "look for what covers the lens"},
        {"blurred: they are smooth over 8 pixels", "focus the lens, or shorten the exposure"},
        {"noise for the most part", "add light, or lengthen the exposure"},
        {"brighter or darker than the one before by over 20 %", "fix exposure and gain"}}};
-  const auto worst = std::ranges::max_element(counts_, {}, &Count::images);
+  std::array<Count, kDefects> counts = counts_;
+  counts[kCovered] = covered();
+  const auto worst = std::ranges::max_element(counts, {}, &Count::images);
   if (!frequent(*worst)) return std::nullopt;
   std::string text;
   for (std::size_t i = 0; i < kDefects; ++i)
-    if (frequent(counts_[i]))
-      text += fmt::format("{}{} of {} {} (from frame {} on) are {}", text.empty() ? "" : "; ",
-                          counts_[i].images, frames_, images_, counts_[i].first.value(),
-                          kTexts[i].what);
+    if (frequent(counts[i]))
+      text +=
+          fmt::format("{}{} of {} {} (from frame {} on) are {}", text.empty() ? "" : "; ",
+                      counts[i].images, frames_, images_, counts[i].first.value(), kTexts[i].what);
   return DataNote{text, false, cause_,
-                  kTexts[static_cast<std::size_t>(worst - counts_.begin())].advice};
+                  kTexts[static_cast<std::size_t>(worst - counts.begin())].advice};
 }
 
 }  // namespace placegraph

@@ -5,11 +5,13 @@
 
 #include <array>
 #include <optional>
+#include <utility>
+#include <vector>
 
 namespace placegraph {
 
-/// Counts images of one camera that show little of the world: blank, overexposed, blurred, noisy,
-/// or of another brightness than the one before.
+/// Counts images of one camera that show little of the world: blank, overexposed, covered, blurred,
+/// noisy, or of another brightness than the one before.
 class ImageQuality {
  public:
   /// `images`: what the note calls them, such as "images" or "right images".
@@ -20,12 +22,13 @@ class ImageQuality {
   std::optional<DataNote> note() const;
 
  private:
-  enum Defect { kBlank, kOverexposed, kBlurred, kNoisy, kFlickering, kDefects };
+  enum Defect { kBlank, kOverexposed, kCovered, kBlurred, kNoisy, kFlickering, kDefects };
   struct Count {
     int images = 0;
     FrameId first;
   };
   void count(Defect defect, FrameId frame);
+  Count covered() const;
   bool frequent(const Count& count) const;
 
   const char* images_;
@@ -33,6 +36,7 @@ class ImageQuality {
   int frames_ = 0;
   std::optional<double> last_mean_;
   std::array<Count, kDefects> counts_;
+  std::vector<std::pair<FrameId, double>> uniform_;  // largest share of a grey level
 };
 
 }  // namespace placegraph

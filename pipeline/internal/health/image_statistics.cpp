@@ -30,6 +30,14 @@ int quantile(const Histogram& histogram, double share, std::int64_t pixels) {
   return 255;
 }
 
+/// The largest number of pixels within three successive levels, white left out.
+std::int64_t most_uniform(const Histogram& histogram) {
+  std::int64_t most = 0;
+  for (std::size_t level = 1; level + 2 < histogram.size(); ++level)
+    most = std::max(most, histogram[level - 1] + histogram[level] + histogram[level + 1]);
+  return most;
+}
+
 double ratio(std::int64_t near, std::int64_t far) {
   return far > 0 ? static_cast<double>(near) / static_cast<double>(far) : 0;
 }
@@ -58,6 +66,7 @@ ImageStatistics image_statistics(const Image& image) {
   statistics.mean = static_cast<double>(sum) / static_cast<double>(pixels);
   statistics.range = quantile(histogram, 1 - kTail, pixels) - quantile(histogram, kTail, pixels);
   statistics.white = static_cast<double>(histogram[255]) / static_cast<double>(pixels);
+  statistics.uniform = static_cast<double>(most_uniform(histogram)) / static_cast<double>(pixels);
   statistics.detail = std::min(ratio(near_x, far_x), ratio(near_y, far_y));
   return statistics;
 }

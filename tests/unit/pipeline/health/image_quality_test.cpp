@@ -81,6 +81,18 @@ TEST(ImageQuality, NamesWhatMoreThanAFewImagesLack) {
   EXPECT_THAT(with(good * 3, 5)->text, HasSubstr("overexposed"));
 }
 
+TEST(ImageQuality, NamesImagesThatAreCoveredForATime) {
+  const Image good = squares(8);
+  Image half = good.clone();
+  half.colRange(0, 200).setTo(90);
+  EXPECT_NEAR(image_statistics(half).uniform, 0.63, 0.03);
+  std::vector<Image> images(20, good), always(20, half);
+  images.insert(images.end(), 5, half);
+  ASSERT_TRUE(note_for(images));
+  EXPECT_THAT(note_for(images)->text, HasSubstr("5 of 25 images (from frame 120 on) are covered"));
+  EXPECT_FALSE(note_for(always));  // a plain background
+}
+
 TEST(ImageQuality, NamesLightThatChangesFromImageToImage) {
   std::vector<Image> images;
   for (int i = 0; i < 20; ++i) images.push_back(squares(8) * (i % 2 == 0 ? 1.0 : 0.6));
