@@ -81,9 +81,6 @@ Recording with_baseline(const Recording& recording, double factor) {
   return out;
 }
 
-/// Within this factor a stated length is plausible: the recording is that of a larger world.
-bool is_plausible(double factor) { return factor >= 0.5 && factor <= 2; }
-
 Fault camera_height(const char* name, const char* what, double factor) {
   const std::string causes = "camera_height_questionable|scale_questionable";
   return {name, "mono", what, causes + (is_plausible(factor) ? kUnchecked : ""),

@@ -37,9 +37,11 @@ Recording selected(const Recording& recording, const std::vector<std::size_t>& n
 }  // namespace
 
 cv::RNG random_of(std::uint32_t seed, std::size_t index) {
-  cv::RNG random(seed * 7919ULL + index + 1);
-  for (int k = 0; k < 4; ++k) random.next();
-  return random;
+  // The mixing function of SplitMix64 (Steele et al. 2014).
+  std::uint64_t state = seed * 7919ULL + index + 0x9e3779b97f4a7c15ULL;
+  state = (state ^ (state >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  state = (state ^ (state >> 27)) * 0x94d049bb133111ebULL;
+  return cv::RNG(state ^ (state >> 31));
 }
 
 Span whole(const Recording& recording) { return {0, recording.size() - 1}; }

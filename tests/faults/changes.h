@@ -10,8 +10,8 @@ namespace placegraph::faults {
 /// Functions of which faults are made. None changes its arguments: images are copied before they
 /// are drawn on.
 
-/// Random numbers of a frame. The first numbers of OpenCV's generator are proportional to its seed,
-/// so that they would ascend from frame to frame.
+/// Random numbers of a frame. OpenCV's generator makes an arithmetic progression of successive
+/// seeds: these are mixed.
 cv::RNG random_of(std::uint32_t seed, std::size_t index);
 
 /// All frames.

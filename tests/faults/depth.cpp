@@ -15,7 +15,8 @@ constexpr auto kDepth = "rgbd";
 constexpr auto kMismatch = "depth_mismatch";
 
 Fault unit(const char* name, const char* what, double factor) {
-  return {name, kDepth, what, "depth_unit_questionable|scale_questionable",
+  const std::string causes = "depth_unit_questionable|scale_questionable";
+  return {name, kDepth, what, causes + (is_plausible(factor) ? kUnchecked : ""),
           [factor](const Recording& recording, std::uint32_t) {
             Recording out = recording;
             out.faulty = whole(recording);

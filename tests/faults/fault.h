@@ -21,6 +21,8 @@ struct Fault {
 /// Cause of a stated length that is wrong by a plausible factor: the judgement must say that the
 /// scale rests on it and that nothing in the recording checks it.
 inline constexpr const char* kUnchecked = "|scale_unchecked";
+/// Within this factor a stated length is plausible: the recording is that of a larger world.
+inline bool is_plausible(double factor) { return factor >= 0.5 && factor <= 2; }
 
 /// The faults of one kind, in a fixed order.
 std::vector<Fault> optics_faults();

@@ -53,6 +53,18 @@ TEST(FaultTiming, OrdersKeepTheStampsIncreasing) {
   }
 }
 
+TEST(FaultTiming, JitteredStampsVaryFromFrameToFrame) {
+  const Recording out = faulty(small_recording(), "times_jittered");
+  int varying = 0;
+  for (std::size_t i = 2; i < out.size(); ++i) {
+    const auto spacing = [&](std::size_t k) {
+      return static_cast<double>(out.frames[k].stamp_ns - out.frames[k - 1].stamp_ns);
+    };
+    if (std::abs(spacing(i) / spacing(i - 1) - 1) > 0.1) ++varying;
+  }
+  EXPECT_GT(varying, 40);
+}
+
 TEST(FaultTiming, TruthOfARepeatedFrameStandsAndThatOfAFrozenOneMoves) {
   const Recording recording = small_recording();
   const Recording repeated = faulty(recording, "repeated_frames");
