@@ -82,17 +82,28 @@ std::optional<GroundPlaneScale::ScaleMeasurement> GroundPlaneScale::accept(
                           std::hypot(found.sigma_log_distance, options_.sigma_relative)};
 }
 
+/// The front view is the reference. What is known of the ground is known of the new image.
+GroundPlaneScale::Views GroundPlaneScale::views(const Image& image_new, const Image& image_old,
+                                                const SE3& T_old_new,
+                                                const GroundMask& observation) const {
+  const bool backwards = T_old_new.translation().z() < 0;
+  if (backwards && observation.mask.empty() && !observation.level)
+    return {image_old, image_new, T_old_new.inverse()};
+  return {image_new, image_old, T_old_new};
+}
+
 std::optional<GroundPlaneScale::ScaleMeasurement> GroundPlaneScale::find(
     const Image& image_new, const Image& image_old, const SE3& T_old_new,
     const GroundMask& observation) {
   recent_log_factors_.clear();
-  GroundPlaneResult found = search_ground_plane(image_new, image_old, camera_, T_old_new,
+  const Views v = views(image_new, image_old, T_old_new, observation);
+  GroundPlaneResult found = search_ground_plane(v.ref, v.cur, camera_, v.T_cur_ref,
                                                 observation.level.value_or(normal_cam_),
                                                 options_.plane, observation.mask);
   if (found.outcome && observation.level) {
     GroundPlanePrior level = prior(observation);
     level.plane_ref.distance_m = found.plane_ref.distance_m;
-    found = align_ground_plane(image_new, image_old, camera_, T_old_new, level, options_.plane,
+    found = align_ground_plane(v.ref, v.cur, camera_, v.T_cur_ref, level, options_.plane,
                                observation.mask);
   }
   const auto length = accept(found);
@@ -103,7 +114,8 @@ std::optional<GroundPlaneScale::ScaleMeasurement> GroundPlaneScale::find(
 std::optional<GroundPlaneScale::ScaleMeasurement> GroundPlaneScale::follow(
     const Image& image_new, const Image& image_old, const SE3& T_old_new,
     const GroundMask& observation) {
-  return accept(align_ground_plane(image_new, image_old, camera_, T_old_new, prior(observation),
+  const Views v = views(image_new, image_old, T_old_new, observation);
+  return accept(align_ground_plane(v.ref, v.cur, camera_, v.T_cur_ref, prior(observation),
                                    options_.plane, observation.mask));
 }
 

@@ -10,7 +10,8 @@ namespace placegraph {
 
 /// Metric scale from the ground: tracks the plane under a camera of known height over pairs of
 /// images and estimates the true length of a motion. The mean normal in the camera (pitch and roll
-/// of the mounting) is estimated, never given.
+/// of the mounting) is estimated, never given. The ground before the front one of the two cameras,
+/// which both images show, is compared: that of a camera which moves backwards is the old one.
 class GroundPlaneScale {
  public:
   GroundPlaneScale(const GroundPlaneScaleOptions& options, const Camera& camera,
@@ -37,6 +38,12 @@ class GroundPlaneScale {
   Plane plane_cam() const { return {normal_cam_, camera_height_m_}; }
 
  private:
+  struct Views {
+    Image ref, cur;
+    SE3 T_cur_ref;
+  };
+  Views views(const Image& image_new, const Image& image_old, const SE3& T_old_new,
+              const GroundMask& observation) const;
   std::optional<ScaleMeasurement> accept(const GroundPlaneResult& found);
   double sigma_of_view_rad() const;
   GroundPlanePrior prior(const GroundMask& observation) const;

@@ -69,6 +69,19 @@ TEST_F(GroundScaleOnARoad, CorrectsAScaleThatIsRoughlyRight) {
   }
 }
 
+TEST_F(GroundScaleOnARoad, MeasuresAMotionBackwardsAsThatForwards) {
+  GroundPlaneScale backwards({}, kCamera, kHeight_m);
+  for (const double factor : {1 / kStep_m, 1.0, 1.12}) {
+    const auto forth = factor == 1 / kStep_m ? scale_.find(new_, old_, T_old_new(factor))
+                                             : scale_.follow(new_, old_, T_old_new(factor));
+    const SE3 T_new_old = T_old_new(factor).inverse();
+    const auto back = factor == 1 / kStep_m ? backwards.find(old_, new_, T_new_old)
+                                            : backwards.follow(old_, new_, T_new_old);
+    ASSERT_TRUE(forth && back);
+    EXPECT_NEAR(back->factor, forth->factor, 1e-9 * forth->factor);
+  }
+}
+
 TEST_F(GroundScaleOnARoad, DoesNotAcceptAJumpUntilItLasts) {
   GroundPlaneScaleOptions options;
   options.max_log_jump = 0.1;
