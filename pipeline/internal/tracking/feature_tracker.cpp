@@ -4,6 +4,7 @@
 #include <placegraph/frontend/internal/relative_pose/rotation_2d2d.h>
 #include <placegraph/pipeline/internal/tracking/feature_tracker.h>
 #include <placegraph/pipeline/internal/tracking/line_pose.h>
+#include <placegraph/pipeline/internal/tracking/rotation_check.h>
 
 #include <algorithm>
 
@@ -83,11 +84,12 @@ TrackedFrame FeatureTracker::track(const Frame& frame, const LocalMap& map,
     lines_ = lines_before;
     return tracked;
   }
-  points_.keep(keep);
   const auto manhattan_rotation =
       rotation_from_manhattan(frame, tracked.T_odom_cam, tracked.inliers, map);
   tracked.T_odom_cam =
       with_manhattan_rotation(tracked.T_odom_cam, information, manhattan_rotation, window);
+  tracked.contradicted = contradicted(frame.id, motion.T_odom_cam().inverse() * tracked.T_odom_cam);
+  points_.keep(keep);
   selector_.count_frame();
   tracked.keyframe_due = keyframe_due(tracked.T_odom_cam, tracked.inliers, map);
   if (!tracked.keyframe_due)
@@ -95,6 +97,14 @@ TrackedFrame FeatureTracker::track(const Frame& frame, const LocalMap& map,
                             map.window().pose(map.newest()).inverse() * tracked.T_odom_cam,
                             points_.landmark_pixels(window), manhattan_rotation});
   return tracked;
+}
+
+/// All tracks count, also those that contradict the pose. Measured depths need no such test.
+bool FeatureTracker::contradicted(FrameId frame, const SE3& T_previous_this) const {
+  if (metric_from_start(cues_, calibration_) || !cues_.points) return false;
+  Random random(seed_, static_cast<std::uint64_t>(frame.value()));
+  return contradicts_rotation(calibration_.camera, points_.tracks(), T_previous_this,
+                              options_.initializer.two_view, random);
 }
 
 /// Rotation from Manhattan frames for a frame whose pose has few inliers.
