@@ -78,6 +78,9 @@ TrackedFrame FeatureTracker::track(const Frame& frame, const LocalMap& map,
     if (!both.outcome && cues_.points)
       tracked.outcome.reason = points.outcome.reason + "; " + both.outcome.reason;
   }
+  // Measured depths and Manhattan frames know more about the rotation.
+  if (tracked.outcome && monocular_points() && !manhattan())
+    tracked.outcome = determines_rotation(information);
   if (!tracked.outcome) {
     tracked.rotation = rotation_since(selector_.px_at_keyframe(), random);
     points_.restore(points_before);
@@ -88,7 +91,8 @@ TrackedFrame FeatureTracker::track(const Frame& frame, const LocalMap& map,
       rotation_from_manhattan(frame, tracked.T_odom_cam, tracked.inliers, map);
   tracked.T_odom_cam =
       with_manhattan_rotation(tracked.T_odom_cam, information, manhattan_rotation, window);
-  tracked.contradicted = contradicted(frame.id, motion.T_odom_cam().inverse() * tracked.T_odom_cam);
+  tracked.contradicted = monocular_points() &&
+                         contradicted(frame.id, motion.T_odom_cam().inverse() * tracked.T_odom_cam);
   points_.keep(keep);
   selector_.count_frame();
   tracked.keyframe_due = keyframe_due(tracked.T_odom_cam, tracked.inliers, map);
@@ -99,9 +103,12 @@ TrackedFrame FeatureTracker::track(const Frame& frame, const LocalMap& map,
   return tracked;
 }
 
-/// All tracks count, also those that contradict the pose. Measured depths need no such test.
+bool FeatureTracker::monocular_points() const {
+  return cues_.points && !metric_from_start(cues_, calibration_);
+}
+
+/// All tracks count, also those that contradict the pose.
 bool FeatureTracker::contradicted(FrameId frame, const SE3& T_previous_this) const {
-  if (metric_from_start(cues_, calibration_) || !cues_.points) return false;
   Random random(seed_, static_cast<std::uint64_t>(frame.value()));
   return contradicts_rotation(calibration_.camera, points_.tracks(), T_previous_this,
                               options_.initializer.two_view, random);
@@ -126,7 +133,7 @@ bool FeatureTracker::keyframe_due(const SE3& T_odom_cam, int inliers, const Loca
 
 std::optional<PureRotation> FeatureTracker::rotation_since(
     const std::map<LandmarkId, Eigen::Vector2d>& px_before, Random& random) const {
-  if (metric_from_start(cues_, calibration_) || !cues_.points) return std::nullopt;
+  if (!monocular_points()) return std::nullopt;
   std::vector<Eigen::Vector2d> px_ref, px_cur;
   for (const PointTrack& track : points_.tracks())
     if (const auto before = px_before.find(track.id); before != px_before.end()) {
