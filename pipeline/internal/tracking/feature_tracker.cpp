@@ -2,6 +2,7 @@
 #include <placegraph/frontend/internal/cloud_planes/depth_planes.h>
 #include <placegraph/frontend/internal/flow/point_tracker.h>
 #include <placegraph/frontend/internal/relative_pose/rotation_2d2d.h>
+#include <placegraph/pipeline/internal/cues/determined_rotation.h>
 #include <placegraph/pipeline/internal/tracking/feature_tracker.h>
 #include <placegraph/pipeline/internal/tracking/line_pose.h>
 #include <placegraph/pipeline/internal/tracking/rotation_check.h>

@@ -1,4 +1,3 @@
-#include <fmt/format.h>
 #include <placegraph/frontend/internal/relative_pose/epipolar_error.h>
 #include <placegraph/frontend/internal/relative_pose/epipolar_refinement.h>
 #include <placegraph/frontend/internal/relative_pose/pose_2d2d.h>
@@ -62,17 +61,6 @@ double squared_difference(const SE3& T, const SE3& T_images, const Matrix6d& inf
 }
 
 }  // namespace
-
-Outcome determines_rotation(const Matrix6d& information) {
-  // Recordings in which every pose is right reach 0.3 degrees.
-  constexpr double kMostSigmaDeg = 0.5;
-  const Matrix6d covariance = information.ldlt().solve(Matrix6d::Identity());
-  const double sigma_deg = rad_to_deg(std::sqrt(covariance.bottomRightCorner<3, 3>().trace()));
-  if (sigma_deg < kMostSigmaDeg) return Outcome::ok();
-  return Outcome::failure(
-      Outcome::Code::kDegenerate,
-      fmt::format("the points determine the rotation to {:.1f} degrees only", sigma_deg));
-}
 
 bool contradicts_rotation(const Camera& camera, const std::vector<PointTrack>& tracks,
                           const SE3& T_previous_this, const Pose2d2dOptions& options,

@@ -1,7 +1,5 @@
 #pragma once
 #include <placegraph/frontend/internal/flow/point_tracker.h>
-#include <placegraph/frontend/relative_pose/relative_pose_options.h>
-#include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/internal/core/random.h>
 
@@ -9,12 +7,7 @@
 
 namespace placegraph {
 
-/// Fails if the observations of a pose leave its rotation open: `information` is that of its right
-/// tangent, and its standard deviation must be below half a degree.
-///
-/// Few points in a small part of the image agree with a rotation that is wrong by several degrees,
-/// and new points would get their depths by it.
-[[nodiscard]] Outcome determines_rotation(const Matrix6d& information);
+struct Pose2d2dOptions;
 
 /// Whether the images contradict the rotation of the camera since the previous image.
 ///
