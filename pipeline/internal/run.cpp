@@ -163,8 +163,10 @@ std::vector<UnposedFrames> unposed_frames(const Trajectory& optimized, const Map
     if (optimized.poses[i].T_world_body || health == frames.end() ||
         health->frame != map.frames[i].frame)
       continue;
-    const std::string reason =
-        health->reason.empty() ? "not connected to the first component of the map" : health->reason;
+    const std::string reason = !health->reason.empty() ? health->reason
+                               : map.frames[i].T_keyframe_frame
+                                   ? "not connected to the first component of the map"
+                                   : "the images contradict its pose";
     UnposedFrames& kind = kinds[without_numbers(reason)];
     if (kind.count++ == 0) kind.reason = reason;
   }

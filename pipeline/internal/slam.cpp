@@ -3,6 +3,7 @@
 #include <placegraph/graph/map_changes.h>
 #include <placegraph/graph/measurements/measured_motion.h>
 #include <placegraph/pipeline/cues/frame_view.h>
+#include <placegraph/pipeline/internal/health/contradicted_steps.h>
 #include <placegraph/pipeline/internal/health/health_monitor.h>
 #include <placegraph/pipeline/internal/health/static_overlay.h>
 #include <placegraph/pipeline/internal/local_map/lens_estimator.h>
@@ -41,6 +42,7 @@ struct Slam::Impl {
   void check_frame(const Frame& frame) const;
   FrameResult add_frame(const Frame& given);
   Frame without_overlay(const Frame& frame);
+  void leave_contradicted_map(FrameId frame);
   void place(const Frame& frame, const std::optional<LocatedFrame>& located,
              const OdometryUpdate& update, FrameResult& result);
   void record(KeyframeId keyframe, const SE3& T_keyframe_frame, FrameResult& result);
@@ -71,6 +73,7 @@ struct Slam::Impl {
   MapFeed feed;
   EventFeed events;
   HealthMonitor health;
+  ContradictedSteps contradicted;
   std::optional<StaticOverlay> overlay;
   bool finished = false;
 };
@@ -102,6 +105,7 @@ std::vector<DataNote> Slam::notes() const {
   std::vector<DataNote> notes = impl_->health.notes();
   if (const auto note = impl_->overlay ? impl_->overlay->note() : std::nullopt)
     notes.push_back(*note);
+  if (const auto note = impl_->contradicted.note()) notes.push_back(*note);
   return notes;
 }
 FrameView Slam::view() const { return impl_->odometry.view(); }
@@ -158,10 +162,23 @@ Frame Slam::Impl::without_overlay(const Frame& frame) {
   return overlay->apply(frame);
 }
 
+/// If the images contradict a row of rotations, what follows has another scale: the frames of the
+/// row lose their poses, and a new component begins.
+void Slam::Impl::leave_contradicted_map(FrameId frame) {
+  const auto first = contradicted.row();
+  if (!first || odometry.map().metric()) return;
+  log(log_sink, LogLevel::kInfo, "frames from {} on lose their poses: the images contradict them",
+      *first);
+  recorder.remove_poses(*first);
+  contradicted.end_row();
+  recovery.begin_component(frame, odometry);
+}
+
 FrameResult Slam::Impl::add_frame(const Frame& given) {
   check_frame(given);
   recorder.begin(given);
   const Frame frame = without_overlay(given);
+  leave_contradicted_map(frame.id);
 
   // 1. Visual odometry; while no track segment is connected to the map, with the predicted pose.
   const std::optional<LocatedFrame> expected = recovery.expect(frame, known(), odometry);
@@ -182,6 +199,7 @@ FrameResult Slam::Impl::add_frame(const Frame& given) {
   // 4. The frame's pose, relative to a keyframe and as currently estimated.
   place(frame, located, update, result);
   recorder.finish(result.T_map_cam, result.component);
+  contradicted.add(frame.id, update.contradicted);
   health.add(frame, result, odometry);
   events.frame_done(result);
   return result;

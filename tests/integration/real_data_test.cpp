@@ -94,6 +94,56 @@ TEST(RealData, SevenScenesClosesTrueLoopsOnly) {
   EXPECT_GE(right, 20);
 }
 
+/// Every fifth frame of a sequence from `first` on, as `frames` frames.
+class SparseDataset : public Dataset {
+ public:
+  SparseDataset(const std::string& path, std::size_t first, std::size_t frames)
+      : whole_(open_dataset(path)), first_(first), frames_(frames), truth_(Trajectory()) {
+    for (std::size_t i = 0; i < frames_; ++i)
+      truth_->poses.push_back(whole_->ground_truth()->poses.at(at(i)));
+  }
+  const std::string& name() const override { return whole_->name(); }
+  const std::string& format() const override { return whole_->format(); }
+  std::size_t size() const override { return frames_; }
+  std::vector<Sensor> sensors() const override { return whole_->sensors(); }
+  Calibration calibration(Sensor sensor) const override { return whole_->calibration(sensor); }
+  std::int64_t stamp_ns(std::size_t index) const override { return whole_->stamp_ns(at(index)); }
+  const std::optional<Trajectory>& ground_truth() const override { return truth_; }
+  Frame frame(std::size_t index, Sensor sensor) const override {
+    Frame frame = whole_->frame(at(index), sensor);
+    frame.id = FrameId(static_cast<std::int64_t>(index));
+    return frame;
+  }
+
+ private:
+  std::size_t at(std::size_t index) const { return first_ + 5 * index; }
+  std::unique_ptr<Dataset> whole_;
+  std::size_t first_, frames_;
+  std::optional<Trajectory> truth_;
+};
+
+TEST(RealData, ASparseWalkGoesOnInAnotherComponentWhereImagesContradictItsRotations) {
+  PLACEGRAPH_DATA_OR_SKIP(path, "sequences/sevenscenes_rgbd334");
+  const SparseDataset walk(path, 151, 22);
+  RunOptions options;
+  options.sensor = SensorChoice::kMono;
+  options.slam.loops.enabled = false;
+  const RunResult run = run_sequence(walk, options);
+  EXPECT_EQ(run.map.components().size(), 2u);
+  EXPECT_EQ(std::ranges::count(run.notes, NoteCause::kScale, &DataNote::cause), 1);
+  std::size_t posed = 0;
+  for (const MapComponent& component : run.map.components()) {
+    posed += component.posed;
+    EvaluationOptions aligned;
+    aligned.alignment = Alignment::kSim3;
+    const auto result =
+        evaluate(*walk.ground_truth(), run.map.trajectory_optimized(component.number), aligned);
+    ASSERT_TRUE(result.outcome);
+    EXPECT_LE(result.ape.error_m.rmse, 0.05);
+  }
+  EXPECT_GE(posed, 18u);
+}
+
 TEST(RealData, PlanarBoardIsFollowedToACentimetre) {
   PLACEGRAPH_DATA_OR_SKIP(path, "sequences/cube_planar200");
   EvaluationOptions evaluation;

@@ -2,6 +2,7 @@
 #include <placegraph/frontend/internal/flow/matched_displacements.h>
 #include <placegraph/graph/internal/core/angle.h>
 #include <placegraph/graph/internal/core/median.h>
+#include <placegraph/pipeline/internal/cues/determined_rotation.h>
 #include <placegraph/pipeline/internal/cues/nearest_depth.h>
 #include <placegraph/pipeline/internal/cues/point_cue.h>
 
@@ -75,7 +76,8 @@ std::vector<Eigen::Vector2f> PointCue::predict(const SlidingWindow& window, cons
 
 /// If the prediction of the last frame was accurate, the points of this one are searched nearby; if
 /// half of the landmarks are not found in this manner, the camera has jerked, and they are searched
-/// in a larger area. If that gives no pose, they are searched near features that match.
+/// in a larger area. If that gives no pose, or one whose rotation is open, they are searched near
+/// features that match.
 PointCue::TrackedPose PointCue::follow(const Image& image, const SlidingWindow& window,
                                        const SE3& T_odom_last, const SE3& T_odom_expected,
                                        bool velocity_known, double median_depth, Random& random) {
@@ -104,12 +106,15 @@ PointCue::TrackedPose PointCue::follow(const Image& image, const SlidingWindow& 
     tracker_ = before;
   }
   TrackedPose wide = search(PointTracker::Search::kWide);
-  if (wide.pose.outcome) return wide;
+  if (wide.pose.outcome && determines_rotation(wide.pose.information)) return wide;
   const auto span = times_.measure("point tracking");
   const PointTracker wide_tracks = std::exchange(tracker_, before);
   const double wide_error_px = prediction_error_px_;
   if (Random draws = random; track_near_matches(tracker_, image))
-    if (TrackedPose matched = found(draws); matched.pose.outcome) return matched;
+    if (TrackedPose matched = found(draws);
+        matched.pose.outcome &&
+        (!wide.pose.outcome || matched.pose.inliers.size() > wide.pose.inliers.size()))
+      return matched;
   tracker_ = wide_tracks;
   prediction_error_px_ = wide_error_px;
   return wide;

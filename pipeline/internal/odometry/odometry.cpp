@@ -43,6 +43,7 @@ OdometryUpdate Odometry::track(const Frame& frame) {
   update.outcome = tracked.outcome;
   update.inliers = tracked.inliers;
   update.agreement = tracked.agreement;
+  update.contradicted = tracked.contradicted;
   if (!tracked.outcome) {
     log(log_, LogLevel::kInfo, "frame {} lost: {}", frame.id, tracked.outcome.reason);
     update.rotation = tracked.rotation;

@@ -70,6 +70,14 @@ void TrajectoryRecorder::rescale(KeyframeId first_keyframe, double factor) {
   first_changed_ = 0;
 }
 
+void TrajectoryRecorder::remove_poses(FrameId first) {
+  const FrameRecord* from = record_of(first);
+  for (auto i = static_cast<std::size_t>(from - records_.data()); i < records_.size(); ++i) {
+    records_[i].keyframe.reset();
+    records_[i].T_keyframe_frame.reset();
+  }
+}
+
 void TrajectoryRecorder::begin_at_origin(bool rotated) {
   if (!rotated) {
     for (const std::size_t origin : origins_) {

@@ -31,6 +31,8 @@ class TrajectoryRecorder {
   /// Multiplies all lengths relative to keyframes from `first_keyframe` on by `factor`.
   void rescale(KeyframeId first_keyframe, double factor);
 
+  /// Removes the poses of the frames from `first` on.
+  void remove_poses(FrameId first);
   /// Makes the newest frame the origin of the map, as the first view of a monocular camera that
   /// waits for its second view. `rotated`: the camera has only rotated since the previous first
   /// view, whose pose remains valid. Otherwise the poses of earlier frames are removed.

@@ -2,8 +2,10 @@
 #include <placegraph/frontend/internal/cloud_planes/depth_planes.h>
 #include <placegraph/frontend/internal/flow/point_tracker.h>
 #include <placegraph/frontend/internal/relative_pose/rotation_2d2d.h>
+#include <placegraph/pipeline/internal/cues/determined_rotation.h>
 #include <placegraph/pipeline/internal/tracking/feature_tracker.h>
 #include <placegraph/pipeline/internal/tracking/line_pose.h>
+#include <placegraph/pipeline/internal/tracking/rotation_check.h>
 
 #include <algorithm>
 
@@ -77,17 +79,22 @@ TrackedFrame FeatureTracker::track(const Frame& frame, const LocalMap& map,
     if (!both.outcome && cues_.points)
       tracked.outcome.reason = points.outcome.reason + "; " + both.outcome.reason;
   }
+  // Measured depths and Manhattan frames know more about the rotation.
+  if (tracked.outcome && monocular_points() && !manhattan())
+    tracked.outcome = determines_rotation(information);
   if (!tracked.outcome) {
     tracked.rotation = rotation_since(selector_.px_at_keyframe(), random);
     points_.restore(points_before);
     lines_ = lines_before;
     return tracked;
   }
-  points_.keep(keep);
   const auto manhattan_rotation =
       rotation_from_manhattan(frame, tracked.T_odom_cam, tracked.inliers, map);
   tracked.T_odom_cam =
       with_manhattan_rotation(tracked.T_odom_cam, information, manhattan_rotation, window);
+  tracked.contradicted = monocular_points() &&
+                         contradicted(frame.id, motion.T_odom_cam().inverse() * tracked.T_odom_cam);
+  points_.keep(keep);
   selector_.count_frame();
   tracked.keyframe_due = keyframe_due(tracked.T_odom_cam, tracked.inliers, map);
   if (!tracked.keyframe_due)
@@ -95,6 +102,17 @@ TrackedFrame FeatureTracker::track(const Frame& frame, const LocalMap& map,
                             map.window().pose(map.newest()).inverse() * tracked.T_odom_cam,
                             points_.landmark_pixels(window), manhattan_rotation});
   return tracked;
+}
+
+bool FeatureTracker::monocular_points() const {
+  return cues_.points && !metric_from_start(cues_, calibration_);
+}
+
+/// All tracks count, also those that contradict the pose.
+bool FeatureTracker::contradicted(FrameId frame, const SE3& T_previous_this) const {
+  Random random(seed_, static_cast<std::uint64_t>(frame.value()));
+  return contradicts_rotation(calibration_.camera, points_.tracks(), T_previous_this,
+                              options_.initializer.two_view, random);
 }
 
 /// Rotation from Manhattan frames for a frame whose pose has few inliers.
@@ -116,7 +134,7 @@ bool FeatureTracker::keyframe_due(const SE3& T_odom_cam, int inliers, const Loca
 
 std::optional<PureRotation> FeatureTracker::rotation_since(
     const std::map<LandmarkId, Eigen::Vector2d>& px_before, Random& random) const {
-  if (metric_from_start(cues_, calibration_) || !cues_.points) return std::nullopt;
+  if (!monocular_points()) return std::nullopt;
   std::vector<Eigen::Vector2d> px_ref, px_cur;
   for (const PointTrack& track : points_.tracks())
     if (const auto before = px_before.find(track.id); before != px_before.end()) {

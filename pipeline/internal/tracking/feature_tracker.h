@@ -52,6 +52,8 @@ class FeatureTracker : public FrameTracker {
   void start_selection(int landmarks);
 
  private:
+  bool monocular_points() const;
+  bool contradicted(FrameId frame, const SE3& T_previous_this) const;
   std::optional<ManhattanCue::RotationEstimate> rotation_from_manhattan(const Frame& frame,
                                                                         const SE3& T_odom_cam,
                                                                         int inliers,

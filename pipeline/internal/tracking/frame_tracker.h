@@ -15,6 +15,8 @@ struct TrackedFrame {
   int inliers = 0;
   double agreement = 1;  ///< share of the tracked landmarks that agree with the pose
   bool keyframe_due = false;
+  /// Whether the images contradict its rotation since the previous frame (contradicts_rotation).
+  bool contradicted = false;
   std::optional<PureRotation> rotation;  ///< rotation that explains a failure
 };
 

@@ -35,9 +35,10 @@ struct OdometryUpdate {
   SE3 T_odom_cam;                      ///< valid if tracking, or for the first of the two views
   std::optional<KeyframeId> keyframe;  ///< reference keyframe, if tracking
   int inliers = 0;
-  double agreement = 1;    ///< share of the tracked landmarks that agree with the pose
-  Outcome outcome;         ///< outcome of tracking; the reason why it failed or restarts
-  bool reference = false;  ///< during initialization: this frame is the first of the two views
+  double agreement = 1;       ///< share of the tracked landmarks that agree with the pose
+  bool contradicted = false;  ///< whether the images contradict its rotation
+  Outcome outcome;            ///< outcome of tracking; the reason why it failed or restarts
+  bool reference = false;     ///< during initialization: this frame is the first of the two views
   std::vector<NewKeyframe> new_keyframes;
   /// Frames before the initialization, and frames since the last keyframe, posed with landmarks
   /// that a new keyframe has improved.

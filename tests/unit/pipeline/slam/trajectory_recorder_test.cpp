@@ -54,6 +54,17 @@ TEST(TrajectoryRecorder, FramesMustBeInOrder) {
   EXPECT_FALSE(r.recorder.accepts(late));
 }
 
+TEST(TrajectoryRecorder, PosesAreRemovedFromAFrameOn) {
+  Recorded r;
+  r.recorder.remove_poses(FrameId(2));
+  for (std::size_t i = 0; i < 5; ++i) {
+    EXPECT_EQ(r.recorder.records()[i].T_keyframe_frame.has_value(), i < 2) << i;
+    EXPECT_EQ(r.recorder.records()[i].keyframe.has_value(), i < 2) << i;
+  }
+  EXPECT_EQ(r.recorder.first_changed(), 2u);
+  EXPECT_EQ(r.recorder.online(0).size(), 5u);  // as they were when the frames were processed
+}
+
 TEST(TrajectoryRecorder, ACorrectionStaysWithTheKeyframeOfItsSegment) {
   Recorded r;
   r.recorder.correct({{FrameId(1), along(1.25)}, {FrameId(4), along(4.5)}}, KeyframeId(1), r.map);

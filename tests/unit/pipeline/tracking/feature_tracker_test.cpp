@@ -184,6 +184,38 @@ TEST(FeatureTracker, ASingleCameraKnowsItsRotation) {
   }
 }
 
+/// A single camera whose map has begun with frames 0 to 2, at their true poses.
+struct MonocularTracking : Tracking {
+  MonocularTracking() : Tracking(Sensor::kMono) {
+    for (int i = 0; i < 3; ++i) {
+      if (i > 0) tracker.points().track(dataset.frame(i, sensor).image);
+      (void)keyframe(i, street_T_world_cam(i));
+    }
+    motion = MotionModel(street_T_world_cam(2));
+  }
+};
+
+TEST(FeatureTracker, ImagesContradictARotationThatTheyDoNotShow) {
+  for (const double wrong_rad : {0.0, 0.06}) {
+    MonocularTracking t;
+    t.motion = MotionModel(street_T_world_cam(2) * pose({0, wrong_rad, 0}, {0, 0, 0}));
+    const TrackedFrame tracked = t.track(3);
+    ASSERT_TRUE(tracked.outcome) << tracked.outcome.reason;
+    EXPECT_LT(error(tracked.T_odom_cam, street_T_world_cam(3)), 0.05);
+    EXPECT_EQ(tracked.contradicted, wrong_rad > 0);
+  }
+}
+
+TEST(FeatureTracker, AFrameWhosePointsLeaveItsRotationOpenIsLost) {
+  MonocularTracking t;
+  Image patch(t.calibration.camera.height, t.calibration.camera.width, CV_8UC1, cv::Scalar(0));
+  patch(cv::Rect(20, 90, 90, 90)).setTo(255);
+  t.tracker.drop_masked(patch, t.map);
+  ASSERT_GE(t.tracker.points_odom(t.map).size(), 15u);
+  const TrackedFrame tracked = t.track(3);
+  EXPECT_EQ(tracked.outcome.code, Outcome::Code::kDegenerate) << tracked.outcome.reason;
+}
+
 TEST(FeatureTracker, ACameraThatMeasuresDepthIsNotAskedForRotations) {
   Tracking t;
   (void)t.keyframe(0, street_T_world_cam(0));

@@ -1,0 +1,33 @@
+#pragma once
+#include <placegraph/graph/core/ids.h>
+#include <placegraph/graph/measurements/data_note.h>
+
+#include <optional>
+#include <vector>
+
+namespace placegraph {
+
+/// Finds rows of steps whose rotations the images contradict. A step alone may be blurred, or may
+/// show something that moves; a row of them is posed by a wrong map, and what follows has another
+/// scale.
+class ContradictedSteps {
+ public:
+  /// Adds a frame, and whether the images contradict its rotation since the previous one.
+  void add(FrameId frame, bool contradicted);
+  /// The first frame of the row that the newest frame continues, once it is long enough.
+  std::optional<FrameId> row() const;
+  /// Ends the row: the next frame is posed by another map.
+  void end_row();
+  std::optional<DataNote> note() const;
+
+ private:
+  static constexpr int kSteps = 3;
+  struct Row {
+    FrameId first, last;
+    int steps = 0;
+  };
+  std::optional<Row> row_;  // that of the newest frame
+  std::vector<Row> found_;  // rows that have ended and are long enough
+};
+
+}  // namespace placegraph
