@@ -11,21 +11,21 @@ bool is_clear(const LensDistortion& lens, const LensOptions& options) {
 }
 
 bool is_distorted(const LensDistortion& lens, const LensOptions& options) {
-  constexpr double kStretches = 2;
+  constexpr double kStretches = 1.8;
   return is_clear(lens, options) && lens.stretches >= kStretches;
 }
 
 std::optional<double> change_of_k1(double removed, const LensDistortion& seen, int pass,
                                    const LensOptions& options) {
-  constexpr double kContradiction = 4;  // standard deviations
+  constexpr double kContradiction = 4, kChange = 1.5;  // standard deviations
+  constexpr double kShare = 0.1, kUndone = 0.5;        // of what is removed
   if (pass == 0) return is_distorted(seen, options) ? std::optional(seen.k1) : std::nullopt;
   if (pass > 1 || removed == 0 || !options.enabled) return std::nullopt;
   const double size = std::abs(removed), left = std::abs(seen.k1);
-  if (std::abs(removed + seen.k1) < 0.5 * size)
+  if (std::abs(removed + seen.k1) < kUndone * size)
     return left > kContradiction * seen.sigma_k1 ? std::optional(-removed) : std::nullopt;
-  // What is left counts from a tenth on, once it is known as well as the first estimate was.
-  const bool known = size > options.min_sigmas * seen.sigma_k1;
-  return known && left > 0.1 * size ? std::optional(seen.k1) : std::nullopt;
+  const bool known = size > options.min_sigmas * seen.sigma_k1 && left > kChange * seen.sigma_k1;
+  return known && left > kShare * size ? std::optional(seen.k1) : std::nullopt;
 }
 
 DataNote distortion_note(double removed, const LensDistortion& seen) {
