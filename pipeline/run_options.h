@@ -19,7 +19,8 @@ enum class SensorChoice { kAuto, kMono, kStereo, kRgbd };
 /// rectified (Dataset::images_rectified) are not examined.
 struct LensOptions {
   bool enabled = true;  ///< off: the images are assumed to be undistorted
-  /// Number of frames within which a run may restart: this bounds the work that is repeated.
+  /// Number of frames within which a run may restart, or a fifth of the sequence if that is more:
+  /// this bounds the work that is repeated.
   int max_frames = 200;
   /// Minimum |k1| over its standard deviation for a lens to count as distorted.
   double min_sigmas = 5;

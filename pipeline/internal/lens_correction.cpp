@@ -18,7 +18,7 @@ bool is_distorted(const LensDistortion& lens, const LensOptions& options) {
 std::optional<double> change_of_k1(double removed, const LensDistortion& seen, int pass,
                                    const LensOptions& options) {
   constexpr double kContradiction = 4, kChange = 1.5;  // standard deviations
-  constexpr double kShare = 0.1, kUndone = 0.5;        // of what is removed
+  constexpr double kShare = 0.1, kUndone = 0.5;        // shares of the removed k1
   if (pass == 0) return is_distorted(seen, options) ? std::optional(seen.k1) : std::nullopt;
   if (pass > 1 || removed == 0 || !options.enabled) return std::nullopt;
   const double size = std::abs(removed), left = std::abs(seen.k1);

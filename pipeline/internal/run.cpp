@@ -101,6 +101,12 @@ class FrameReader {
   std::future<Frame> next_;
 };
 
+/// Number of frames within which a run may begin again: this bounds the work that is repeated.
+std::size_t frames_to_restart(std::size_t frames, const LensOptions& options) {
+  constexpr std::size_t kShare = 5;  // a fifth of a long run
+  return std::max(static_cast<std::size_t>(options.max_frames), frames / kShare);
+}
+
 /// Whether the run must begin again because the images show another distortion than `lens` removes;
 /// `lens` then removes that one.
 bool learn_lens(const LensDistortion& seen, int pass, const LensOptions& options,
@@ -274,8 +280,8 @@ class SequenceRun {
       if (inputs_.observer) inputs_.observer(frame, done, slam.view());
       if (inputs_.progress) inputs_.progress(i + 1 - begin_, end_ - begin_, done);
       if (restarts_without_overlay(slam)) return false;
-      const bool early = i - begin_ < static_cast<std::size_t>(options_.lens.max_frames);
-      if (early && !dataset_.images_rectified() &&
+      if (i - begin_ < frames_to_restart(end_ - begin_, options_.lens) &&
+          !dataset_.images_rectified() &&
           learn_lens(slam.lens(), pass_, options_.lens, lens_, inputs_.log)) {
         if (inputs_.events)
           inputs_.events->lens_found({frame.id, lens_.k1(), slam.lens().sigma_k1, pass_ + 2});

@@ -20,12 +20,12 @@ constexpr double kCommonSigma = 0.003;
 double information_of_prior() { return 1 / (kPriorSigma * kPriorSigma); }
 
 bool similar(const WindowMotion& a, const WindowMotion& b) {
-  constexpr double kView_deg = 30, kMotion_deg = 45, kTurn_deg = 20;
+  constexpr double kView_deg = 30, kMotion_deg = 45, kRotation_deg = 20;
   const auto within = [](const SO3& R_a, const SO3& R_b, double limit_deg) {
     return (R_a.inverse() * R_b).log().norm() < deg_to_rad(limit_deg);
   };
   return within(a.R_map_cam, b.R_map_cam, kView_deg) &&
-         within(a.R_first_last, b.R_first_last, kTurn_deg) &&
+         within(a.R_first_last, b.R_first_last, kRotation_deg) &&
          a.direction_cam.dot(b.direction_cam) > std::cos(deg_to_rad(kMotion_deg));
 }
 

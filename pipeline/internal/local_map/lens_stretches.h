@@ -12,7 +12,7 @@ namespace placegraph {
 struct WindowMotion {
   SO3 R_map_cam;                                            ///< the view of its first keyframe
   Eigen::Vector3d direction_cam = Eigen::Vector3d::Zero();  ///< to its last keyframe; unit or zero
-  SO3 R_first_last;                                         ///< the turn of the camera in it
+  SO3 R_first_last;                                         ///< rotation of the camera in it
 };
 
 /// Radial distortion by the evidence of stretches of motion.

@@ -19,10 +19,11 @@ DistortionEvidence window_of(double k1, double sigma) {
 }
 
 /// Of a window that looks `view_deg` to the right of the first one, moves along `direction_cam` and
-/// turns by `turn_deg`.
-WindowMotion motion(double view_deg, const Eigen::Vector3d& direction_cam, double turn_deg = 0) {
+/// rotates by `rotation_deg`.
+WindowMotion motion(double view_deg, const Eigen::Vector3d& direction_cam,
+                    double rotation_deg = 0) {
   return {SO3::exp({0, deg_to_rad(view_deg), 0}), direction_cam,
-          SO3::exp({0, deg_to_rad(turn_deg), 0})};
+          SO3::exp({0, deg_to_rad(rotation_deg), 0})};
 }
 
 const Eigen::Vector3d kAhead = Eigen::Vector3d::UnitZ(), kBack = -Eigen::Vector3d::UnitZ();
