@@ -126,10 +126,11 @@ struct RunInputs {
 
 /// Runs SLAM on every frame of a sequence, as fast as possible.
 ///
-/// Restarts, at most twice, if the images of a monocular or RGB-D camera are found to be distorted
-/// (LensOptions), and at most twice if something in the images is found to move with the camera
-/// (StaticOverlayOptions): it is masked then. The result does not depend on the number of threads.
-/// An unreadable frame other than the first ends the run (RunResult::broken_off). Throws
+/// Restarts if the first images of a monocular or RGB-D camera are found to be distorted
+/// (LensOptions), and once more to refine or to undo the correction; distortion found later is one
+/// of RunResult::notes. Restarts at most twice if something in the images is found to move with the
+/// camera (StaticOverlayOptions): it is masked then. The result does not depend on the number of
+/// threads. An unreadable frame other than the first ends the run (RunResult::broken_off). Throws
 /// ArgumentError for options that their check() rejects or for a sequence that lacks the required
 /// data, FileError for files that cannot be read or written.
 RunResult run_sequence(const Dataset& dataset, const RunOptions& options,

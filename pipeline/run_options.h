@@ -14,14 +14,15 @@ enum class SensorChoice { kAuto, kMono, kStereo, kRgbd };
 
 /// Self-calibration of the radial distortion of a monocular or RGB-D camera.
 ///
-/// If the images are found to be distorted, the run restarts with undistorted ones.
+/// If the first images are found to be distorted, the run restarts with undistorted ones.
+/// Distortion that is found later is reported in RunResult::notes. Images that are stated to be
+/// rectified (Dataset::images_rectified) are not examined.
 struct LensOptions {
   bool enabled = true;  ///< off: the images are assumed to be undistorted
-  /// minimum
-  ///
-  /// k1
-  ///
-  /// over its standard deviation for a lens to count as distorted
+  /// Number of frames within which a run may restart, or a fifth of the sequence if that is more:
+  /// this bounds the work that is repeated.
+  int max_frames = 200;
+  /// Minimum |k1| over its standard deviation for a lens to count as distorted.
   double min_sigmas = 5;
   /// Minimum LensDistortion::effect: RMS displacement of the tracks, in their standard deviations,
   /// that no other motion or structure explains. A smaller effect may come from a bias of the

@@ -24,11 +24,13 @@ struct SceneModel;
 /// Residual radial distortion of images that are expected to be undistorted.
 struct LensDistortion {
   double k1 = 0;  ///< first radial coefficient of OpenCV's model; 0 before the first estimate
-  /// Standard deviation of k1; infinite until about four windows of data have been used.
+  /// Standard deviation of k1; infinite before the first estimate.
   double sigma_k1 = std::numeric_limits<double>::infinity();
   /// Displacement of the tracks by k1 that no other motion or structure explains: root mean square
   /// in standard deviations of the tracks.
   double effect = 0;
+  /// Number of stretches of motion, of equal weight, that k1 was estimated from.
+  double stretches = 0;
 };
 
 /// Optional inputs of Slam besides options and calibration.
@@ -96,7 +98,8 @@ class Slam {
   Map finish();
   /// Returns the radial distortion estimated so far; for a stereo pair it remains unknown.
   ///
-  /// run_sequence restarts with undistorted images once the thresholds of LensOptions are exceeded.
+  /// run_sequence restarts with undistorted images if the thresholds of LensOptions are exceeded
+  /// within its first frames.
   LensDistortion lens() const;
   /// Returns a mask that is 0 where something moves with the camera.
   ///

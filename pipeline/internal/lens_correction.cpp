@@ -1,12 +1,39 @@
+#include <fmt/format.h>
 #include <placegraph/pipeline/internal/lens_correction.h>
 
 #include <cmath>
 
 namespace placegraph {
 
-bool is_distorted(const LensDistortion& lens, const LensOptions& options) {
+bool is_clear(const LensDistortion& lens, const LensOptions& options) {
   return options.enabled && lens.effect > options.min_effect &&
          std::abs(lens.k1) > options.min_sigmas * lens.sigma_k1;
+}
+
+bool is_distorted(const LensDistortion& lens, const LensOptions& options) {
+  constexpr double kStretches = 1.8;
+  return is_clear(lens, options) && lens.stretches >= kStretches;
+}
+
+std::optional<double> change_of_k1(double removed, const LensDistortion& seen, int pass,
+                                   const LensOptions& options) {
+  constexpr double kContradiction = 4, kChange = 1.5;  // standard deviations
+  constexpr double kShare = 0.1, kUndone = 0.5;        // shares of the removed k1
+  if (pass == 0) return is_distorted(seen, options) ? std::optional(seen.k1) : std::nullopt;
+  if (pass > 1 || removed == 0 || !options.enabled) return std::nullopt;
+  const double size = std::abs(removed), left = std::abs(seen.k1);
+  if (std::abs(removed + seen.k1) < kUndone * size)
+    return left > kContradiction * seen.sigma_k1 ? std::optional(-removed) : std::nullopt;
+  const bool known = size > options.min_sigmas * seen.sigma_k1 && left > kChange * seen.sigma_k1;
+  return known && left > kShare * size ? std::optional(seen.k1) : std::nullopt;
+}
+
+DataNote distortion_note(double removed, const LensDistortion& seen) {
+  const std::string what =
+      removed == 0 ? "none of it was removed" : fmt::format("{:.4f} of it was removed", removed);
+  return {fmt::format("the images show radial distortion, k1 = {:.4f} +- {:.4f}; {}",
+                      removed + seen.k1, seen.sigma_k1, what),
+          false, NoteCause::kDistortion, "calibrate the lens, and run again"};
 }
 
 void LensCorrection::add(double k1) {

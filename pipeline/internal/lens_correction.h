@@ -1,13 +1,32 @@
 #pragma once
 #include <placegraph/graph/image/frame.h>
+#include <placegraph/graph/measurements/data_note.h>
 #include <placegraph/io/internal/calibration/rectification.h>
 #include <placegraph/pipeline/run_options.h>
 #include <placegraph/pipeline/slam.h>
 
+#include <optional>
+
 namespace placegraph {
 
-/// Whether images should be undistorted with `lens` before they are used.
+/// Whether `lens` is clear: beyond its standard deviation and by its effect.
+bool is_clear(const LensDistortion& lens, const LensOptions& options);
+/// Whether images should be undistorted with `lens` before they are used: it is clear, and more
+/// than one stretch of motion shows it.
 bool is_distorted(const LensDistortion& lens, const LensOptions& options);
+
+/// Change of the removed k1 with which a run should begin again, if it should.
+///
+/// `removed` was removed in this pass, which is the one of number `pass` (0: the first, which
+/// removes nothing), and `seen` is left. The first estimate may be too small, because tracks that
+/// contradict undistorted images were dropped: it is refined once. It is undone if the corrected
+/// images show by four standard deviations that less than half of it was there: it was then wrong
+/// rather than inaccurate.
+std::optional<double> change_of_k1(double removed, const LensDistortion& seen, int pass,
+                                   const LensOptions& options);
+/// What a run reports of the distortion `seen` that it leaves in its images, besides that
+/// `removed`.
+DataNote distortion_note(double removed, const LensDistortion& seen);
 
 /// Removes radial distortion from monocular images that are expected to be undistorted.
 class LensCorrection {

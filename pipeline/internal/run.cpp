@@ -101,22 +101,23 @@ class FrameReader {
   std::future<Frame> next_;
 };
 
-/// Whether the images are distorted by more than `lens` removes; adds the difference to `lens`. The
-/// first estimate is biased towards no distortion, because tracks that contradict it were dropped:
-/// it is refined once.
+/// Number of frames within which a run may begin again: this bounds the work that is repeated.
+std::size_t frames_to_restart(std::size_t frames, const LensOptions& options) {
+  constexpr std::size_t kShare = 5;  // a fifth of a long run
+  return std::max(static_cast<std::size_t>(options.max_frames), frames / kShare);
+}
+
+/// Whether the run must begin again because the images show another distortion than `lens` removes;
+/// `lens` then removes that one.
 bool learn_lens(const LensDistortion& seen, int pass, const LensOptions& options,
                 LensCorrection& lens, const LogSink& log) {
-  if (pass > 1) return false;
-  LensOptions refined = options;
-  if (pass == 1) {
-    refined.min_sigmas *= 0.5;
-    refined.min_effect *= 0.25;
-  }
-  if (!is_distorted(seen, refined)) return false;
-  lens.add(seen.k1);
-  placegraph::log(log, LogLevel::kInfo,
-                  "images are distorted, k1 = {:f} +- {:f}: restarting with undistorted ones",
-                  lens.k1(), seen.sigma_k1);
+  const auto change = change_of_k1(lens.k1(), seen, pass, options);
+  if (!change) return false;
+  lens.add(*change);
+  placegraph::log(
+      log, LogLevel::kInfo,
+      "images are distorted by {:f} +- {:f} more than expected: restarting with k1 = {:f}", seen.k1,
+      seen.sigma_k1, lens.k1());
   return true;
 }
 
@@ -281,7 +282,8 @@ class SequenceRun {
       if (inputs_.observer) inputs_.observer(frame, done, slam.view());
       if (inputs_.progress) inputs_.progress(i + 1 - begin_, end_ - begin_, done);
       if (restarts_without_overlay(slam)) return false;
-      if (!dataset_.images_rectified() &&
+      if (i - begin_ < frames_to_restart(end_ - begin_, options_.lens) &&
+          !dataset_.images_rectified() &&
           learn_lens(slam.lens(), pass_, options_.lens, lens_, inputs_.log)) {
         if (inputs_.events)
           inputs_.events->lens_found({frame.id, lens_.k1(), slam.lens().sigma_k1, pass_ + 2});
@@ -296,6 +298,8 @@ class SequenceRun {
         unposed_frames(result_.map.trajectory_optimized(), result_.map, result_.frame_health);
     if (inputs_.map_file) commit(slam, !result_.broken_off && !result_.stopped);
     result_.notes = slam.notes();
+    if (!dataset_.images_rectified() && is_clear(slam.lens(), options_.lens))
+      result_.notes.push_back(distortion_note(lens_.k1(), slam.lens()));
     result_.notes.insert(result_.notes.begin(), mask_.notes().begin(), mask_.notes().end());
     result_.environments = slam.environments();
     result_.stages = times_.stages();

@@ -8,6 +8,10 @@ void LensOptions::check() const { check_ranges(*this); }
 void visit(OptionVisitor& field, LensOptions& o) {
   field.basic()("enabled", o.enabled,
                 "monocular or RGB-D: restart with undistorted images if distortion is detected");
+  field("max_frames", o.max_frames,
+        "number of frames within which the run may restart, or a fifth of the sequence if that is "
+        "more; later distortion is only reported",
+        {0, 1e9});
   field.internal()("min_sigmas", o.min_sigmas,
                    "minimum |k1| over its standard deviation for a lens to count as distorted",
                    {0, 1e6});

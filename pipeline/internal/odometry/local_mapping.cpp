@@ -87,7 +87,11 @@ void LocalMapping::calibrate(FrameTracker& tracker, LocalMap& map) {
     log(log_, LogLevel::kDebug, "rectification off by {:f} + {:f} x + {:f} y px", error.offset_px,
         error.by_x_px, error.by_y_px);
   }
-  if (lens_window_ && keyframes > 1 && keyframes >= *lens_window_) lens_.observe(window);
+  if (lens_window_ && keyframes > 1 && keyframes >= *lens_window_ && lens_.observe(window)) {
+    const LensDistortion lens = lens_.estimate();
+    log(log_, LogLevel::kDebug, "lens k1 = {:.4f} +- {:.4f}, effect {:.3f}, {:.2f} stretches",
+        lens.k1, lens.sigma_k1, lens.effect, lens.stretches);
+  }
 }
 
 }  // namespace placegraph

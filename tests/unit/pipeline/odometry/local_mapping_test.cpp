@@ -169,8 +169,8 @@ TEST(LocalMapping, AStereoCameraLearnsWhatItsPairIsOffBy) {
   // hides no more than nine tenths of what was left before.
   EXPECT_LT(before, (1 - std::pow(0.9, 4)) * error_px);
   // Two images at once show distortion as an error of their rectification, so no lens is sought.
-  EXPECT_TRUE(std::isinf(m.mapping->lens().sigma_k1()));
-  EXPECT_EQ(m.mapping->lens().k1(), 0);
+  EXPECT_TRUE(std::isinf(m.mapping->lens().estimate().sigma_k1));
+  EXPECT_EQ(m.mapping->lens().estimate().k1, 0);
 }
 
 TEST(LocalMapping, AFullWindowOfASingleCameraShowsItsLens) {
@@ -184,10 +184,10 @@ TEST(LocalMapping, AFullWindowOfASingleCameraShowsItsLens) {
     return o;
   });
   for (int k = 0; k < 10; ++k) ASSERT_TRUE(m.add(k, pose_of(k)));
-  EXPECT_EQ(m.mapping->lens().k1(), 0);  // the window is not full yet
+  EXPECT_EQ(m.mapping->lens().estimate().k1, 0);  // the window is not full yet
   ASSERT_TRUE(m.add(10, pose_of(10)));
   // Poses and points have been fitted to straight rays: linear about there.
-  EXPECT_NEAR(m.mapping->lens().k1(), kK1, 0.3 * kK1);
+  EXPECT_NEAR(m.mapping->lens().estimate().k1, kK1, 0.3 * kK1);
 }
 
 TEST(LocalMapping, TheScaleComesFromTheGroundOrFromLinesOnIt) {
