@@ -162,16 +162,16 @@ Frame Slam::Impl::without_overlay(const Frame& frame) {
   return overlay->apply(frame);
 }
 
-/// If the images contradict a row of rotations, what follows has another scale: the frames of the
-/// row lose their poses, and a new component begins.
+/// If the images contradict a row of rotations, what follows has another scale: the frames lose
+/// their poses, and a new component begins.
 void Slam::Impl::leave_contradicted_map(FrameId frame) {
-  const auto first = contradicted.row();
-  if (!first || odometry.map().metric()) return;
-  log(log_sink, LogLevel::kInfo, "frames from {} on lose their poses: the images contradict them",
-      *first);
-  recorder.remove_poses(*first);
+  if (!contradicted.row() || odometry.map().metric()) return;
+  const FrameId begin = recorder.frame_of(odometry.map().first());
+  const FrameId first = contradicted.contradicted_from(begin).value();
+  log(log_sink, LogLevel::kInfo, "frames from {} on: the images contradict their poses", first);
+  recorder.remove_poses(first);
   contradicted.end_row();
-  recovery.begin_component(frame, odometry);
+  recovery.begin_apart(frame, odometry);
 }
 
 FrameResult Slam::Impl::add_frame(const Frame& given) {

@@ -2,7 +2,7 @@
 #include <placegraph/graph/internal/core/angle.h>
 #include <placegraph/pipeline/internal/cues/determined_rotation.h>
 
-#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <cmath>
 
 namespace placegraph {
@@ -10,12 +10,14 @@ namespace placegraph {
 Outcome determines_rotation(const Matrix6d& information) {
   // Recordings in which every pose is right reach 0.3 degrees.
   constexpr double kMostSigmaDeg = 0.5;
-  const Matrix6d covariance = information.ldlt().solve(Matrix6d::Identity());
+  const Matrix6d covariance = information.inverse();  // not finite if it is singular
   const double sigma_deg = rad_to_deg(std::sqrt(covariance.bottomRightCorner<3, 3>().trace()));
   if (sigma_deg < kMostSigmaDeg) return Outcome::ok();
   return Outcome::failure(
       Outcome::Code::kDegenerate,
-      fmt::format("the points determine the rotation to {:.1f} degrees only", sigma_deg));
+      std::isfinite(sigma_deg)
+          ? fmt::format("the points determine the rotation to {:.1f} degrees only", sigma_deg)
+          : "the points do not determine the rotation");
 }
 
 }  // namespace placegraph

@@ -14,6 +14,11 @@ std::optional<FrameId> ContradictedSteps::row() const {
   return row_ && row_->steps >= kSteps ? std::optional(row_->first) : std::nullopt;
 }
 
+std::optional<FrameId> ContradictedSteps::contradicted_from(FrameId begin) const {
+  const auto first = row();
+  return first && first->value() - begin.value() <= row_->steps ? std::optional(begin) : first;
+}
+
 void ContradictedSteps::end_row() {
   if (row()) found_.push_back(*row_);
   row_.reset();

@@ -16,6 +16,10 @@ class ContradictedSteps {
   void add(FrameId frame, bool contradicted);
   /// The first frame of the row that the newest frame continues, once it is long enough.
   std::optional<FrameId> row() const;
+  /// The first frame whose pose the row contradicts, in a map that begins with frame `begin`: that
+  /// of the row, or `begin` if the row is at least as long as what comes before it, as nothing
+  /// supports such a beginning.
+  std::optional<FrameId> contradicted_from(FrameId begin) const;
   /// Ends the row: the next frame is posed by another map.
   void end_row();
   std::optional<DataNote> note() const;

@@ -2,6 +2,7 @@
 #include <placegraph/pipeline/internal/slam/track_recovery.h>
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 
 namespace placegraph {
 
@@ -53,6 +54,7 @@ std::optional<LocatedFrame> TrackRecovery::by_rotation(const OdometryUpdate& upd
 std::optional<LocatedFrame> TrackRecovery::expect(const Frame& frame, const KnownMap& known,
                                                   Odometry& odometry) {
   continues_ = false;
+  apart_ = std::max(0, apart_ - 1);
   if (anchor_) {
     // A monocular camera that restarts within the map waits for its second view; until then every
     // frame is relocalized.
@@ -79,7 +81,7 @@ std::optional<LocatedFrame> TrackRecovery::locate(const std::optional<LocatedFra
 bool TrackRecovery::needed(const OdometryUpdate& update, const KnownMap& known) const {
   if (update.state == TrackingState::kLost) return true;
   const bool mapped = known.recorder.newest_keyframe().has_value();
-  return update.state == TrackingState::kInitializing && mapped && !anchor_;
+  return update.state == TrackingState::kInitializing && mapped && !anchor_ && apart_ == 0;
 }
 
 OdometryUpdate TrackRecovery::restart(const Frame& frame, std::optional<LocatedFrame> located,
@@ -122,6 +124,11 @@ void TrackRecovery::begin_component(FrameId frame, Odometry& odometry) {
   log(log_, LogLevel::kInfo, "frame {}: a new component of the map begins", frame);
   anchor_.reset();
   odometry.restart(T_map_last_);
+}
+
+void TrackRecovery::begin_apart(FrameId frame, Odometry& odometry) {
+  begin_component(frame, odometry);
+  apart_ = options_.max_lost_frames + 1;  // the next frame is the first
 }
 
 std::optional<LocatedFrame> TrackRecovery::pose_without_tracking(

@@ -56,6 +56,9 @@ class TrackRecovery {
                          const OdometryUpdate& update, const KnownMap& known, Odometry& odometry);
   /// Begins a new component of the map with the next frame.
   void begin_component(FrameId frame, Odometry& odometry);
+  /// The same where the newest keyframes are wrong: until the component has begun, frames are not
+  /// located at keyframes, for as long as a loss may last.
+  void begin_apart(FrameId frame, Odometry& odometry);
   /// Location of a frame that is not tracked; nothing if it is unknown.
   std::optional<LocatedFrame> pose_without_tracking(const Frame& frame,
                                                     const std::optional<LocatedFrame>& located,
@@ -63,7 +66,7 @@ class TrackRecovery {
                                                     const KnownMap& known,
                                                     const Odometry& odometry);
   /// Reports that the newest frame is tracked.
-  void tracked() { lost_in_a_row_ = 0; }
+  void tracked() { lost_in_a_row_ = apart_ = 0; }
   /// Sets the pose in the map of the newest frame that has one.
   void stands_at(const SE3& T_map_frame) { T_map_last_ = T_map_frame; }
   void rescale(double factor) { T_map_last_ = T_map_last_.scaled(factor); }
@@ -90,6 +93,7 @@ class TrackRecovery {
   bool continues_ = false;  // the anchor's keyframe is in the same segment
   SE3 T_map_last_;
   int lost_in_a_row_ = 0;
+  int apart_ = 0;  // number of frames that are still not located at keyframes
 };
 
 }  // namespace placegraph

@@ -27,6 +27,15 @@ TEST(ContradictedSteps, ThreeInARowAreARow) {
   EXPECT_FALSE(after("..xxx.").row());  // the newest frame agrees again
 }
 
+TEST(ContradictedSteps, ABeginningThatNothingSupportsIsContradictedToo) {
+  const ContradictedSteps contradicted = after("......xxx");
+  EXPECT_EQ(contradicted.contradicted_from(FrameId(0)), FrameId(6));
+  EXPECT_EQ(contradicted.contradicted_from(FrameId(2)), FrameId(6));
+  EXPECT_EQ(contradicted.contradicted_from(FrameId(3)), FrameId(3));
+  EXPECT_EQ(contradicted.contradicted_from(FrameId(5)), FrameId(5));
+  EXPECT_FALSE(after("...xx").contradicted_from(FrameId(3)));
+}
+
 TEST(ContradictedSteps, RowsAreReportedAlsoAfterTheyHaveEnded) {
   for (const char* steps : {".xxxx", ".xxxx...xx"}) {
     const auto note = after(steps).note();

@@ -153,5 +153,19 @@ TEST(TrackRecovery, AComponentCanBeginAtOnce) {
   EXPECT_FALSE(scene.recovery.take_link(scene.odometry.map(), scene.mapper));
 }
 
+TEST(TrackRecovery, AComponentApartWaitsForItsBeginning) {
+  Scene scene;
+  const OdometryUpdate waits;
+  scene.recovery.begin_apart(FrameId(1), scene.odometry);
+  for (int i = 1; i <= 4; ++i) {  // as long as a loss may last
+    (void)scene.recovery.expect(Scene::dark(i), scene.known(), scene.odometry);
+    EXPECT_EQ(scene.recovery.needed(waits, scene.known()), i > 3) << i;
+  }
+  scene.recovery.begin_apart(FrameId(5), scene.odometry);
+  EXPECT_TRUE(scene.recovery.needed(Scene::lost(), scene.known()));
+  scene.recovery.tracked();  // it has begun
+  EXPECT_TRUE(scene.recovery.needed(waits, scene.known()));
+}
+
 }  // namespace
 }  // namespace placegraph

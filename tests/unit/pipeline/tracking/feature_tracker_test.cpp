@@ -2,6 +2,8 @@
 #include <placegraph/pipeline/internal/cues/point_cue.h>
 #include <placegraph/pipeline/internal/tracking/feature_tracker.h>
 
+#include <algorithm>
+
 #include "tests/support/scenes/street.h"
 
 namespace placegraph {
@@ -31,18 +33,20 @@ struct Tracking {
   MotionModel motion{street_T_world_cam(0)};
 
   explicit Tracking(Sensor s = Sensor::kStereo, const std::string& cues = "points",
-                    double max_flow_share = KeyframeOptions().max_flow_share)
+                    double max_flow_share = KeyframeOptions().max_flow_share,
+                    int min_inliers = Pose3d2dOptions().ransac.min_inliers)
       : sensor(s),
         dataset(s == Sensor::kRgbd ? depth_drive() : stereo_drive()),
-        options(named(cues, max_flow_share)),
+        options(named(cues, max_flow_share, min_inliers)),
         calibration(dataset.calibration(s)),
         tracker(options, calibration, 1, {}, times),
         map(options.window, calibration.camera,
             s == Sensor::kMono ? Scale::kArbitrary : Scale::kMetric) {}
-  static OdometryOptions named(const std::string& cues, double max_flow_share) {
+  static OdometryOptions named(const std::string& cues, double max_flow_share, int min_inliers) {
     OdometryOptions options;
     options.cues = cues;
     options.keyframe.max_flow_share = max_flow_share;
+    options.points.pose.ransac.min_inliers = min_inliers;
     return options;
   }
   KeyframeImages images(int i) const {
@@ -186,7 +190,8 @@ TEST(FeatureTracker, ASingleCameraKnowsItsRotation) {
 
 /// A single camera whose map has begun with frames 0 to 2, at their true poses.
 struct MonocularTracking : Tracking {
-  MonocularTracking() : Tracking(Sensor::kMono) {
+  explicit MonocularTracking(int min_inliers = Pose3d2dOptions().ransac.min_inliers)
+      : Tracking(Sensor::kMono, "points", KeyframeOptions().max_flow_share, min_inliers) {
     for (int i = 0; i < 3; ++i) {
       if (i > 0) tracker.points().track(dataset.frame(i, sensor).image);
       (void)keyframe(i, street_T_world_cam(i));
@@ -207,11 +212,18 @@ TEST(FeatureTracker, ImagesContradictARotationThatTheyDoNotShow) {
 }
 
 TEST(FeatureTracker, AFrameWhosePointsLeaveItsRotationOpenIsLost) {
-  MonocularTracking t;
-  Image patch(t.calibration.camera.height, t.calibration.camera.width, CV_8UC1, cv::Scalar(0));
-  patch(cv::Rect(20, 90, 90, 90)).setTo(255);
-  t.tracker.drop_masked(patch, t.map);
-  ASSERT_GE(t.tracker.points_odom(t.map).size(), 15u);
+  constexpr int kFew = 5;
+  MonocularTracking t(kFew);
+  std::vector<Eigen::Vector2d> px;  // landmarks, the nearest to one of them first
+  for (const FrameView::Track& track : t.tracker.view(t.map, street_T_world_cam(2)).tracks)
+    if (track.px_projected) px.push_back(track.px);
+  ASSERT_GT(px.size(), 50u);
+  std::ranges::sort(px, {}, [first = px[0]](const auto& p) { return (p - first).norm(); });
+  Image few(t.calibration.camera.height, t.calibration.camera.width, CV_8UC1, cv::Scalar(0));
+  for (int i = 0; i < kFew + 1; ++i)
+    few(cv::Rect(static_cast<int>(px[i].x()) - 1, static_cast<int>(px[i].y()) - 1, 4, 4))
+        .setTo(255);
+  t.tracker.drop_masked(few, t.map);
   const TrackedFrame tracked = t.track(3);
   EXPECT_EQ(tracked.outcome.code, Outcome::Code::kDegenerate) << tracked.outcome.reason;
 }
