@@ -298,7 +298,7 @@ class SequenceRun {
         unposed_frames(result_.map.trajectory_optimized(), result_.map, result_.frame_health);
     if (inputs_.map_file) commit(slam, !result_.broken_off && !result_.stopped);
     result_.notes = slam.notes();
-    if (!dataset_.images_rectified() && is_clear(slam.lens(), options_.lens))
+    if (is_clear(slam.lens(), options_.lens))
       result_.notes.push_back(distortion_note(lens_.k1(), slam.lens()));
     result_.notes.insert(result_.notes.begin(), mask_.notes().begin(), mask_.notes().end());
     result_.environments = slam.environments();

@@ -236,6 +236,20 @@ TEST(SlamOnAStreet, MovesEvenlyFromOneKeyframeToTheNext) {
   EXPECT_LT(*most / *least, 1.04);
 }
 
+TEST(SlamOnAStreet, NotesALensThatItDoesNotCorrect) {
+  RunOptions options = run_as(SensorChoice::kMono);
+  options.slam.odometry.window.max_keyframes = 4;
+  options.lens.min_sigmas = options.lens.min_effect = 0;  // everything is clear
+  RunResult run = run_sequence(drive(), options);
+  EXPECT_EQ(run.lens_k1, 0);  // one stretch of motion proves nothing
+  const auto notes_distortion =
+      testing::Contains(testing::Field(&DataNote::cause, NoteCause::kDistortion));
+  EXPECT_THAT(run.notes, notes_distortion);
+  options.lens.enabled = false;
+  run = run_sequence(drive(), options);
+  EXPECT_THAT(run.notes, testing::Not(notes_distortion));
+}
+
 /// Eight degrees of turning on the spot are a tenth of the image's width, and no parallax.
 TEST(SlamOnAStreet, NeedsNoKeyframesToRotateWhereItsRotationIsRemoved) {
   std::vector<Frame> frames;
