@@ -76,6 +76,98 @@ void initialize_plain(PackedGraph<Group>& graph, RotationError rotation_error) {
   if (cost(chordal) < cost(graph)) graph.poses = std::move(chordal.poses);
 }
 
+/// Largest squared error of a loop that noise of this scale explains.
+template <class Group>
+double gate_of(double noise_scale, const RobustOptions& options) {
+  return options.growth.margin * noise_scale *
+         chi_squared_quantile(options.gate_probability, Group::kDof);
+}
+
+/// Loop set growth from the largest sets of loops that agree in pairs with the odometry.
+template <class Group>
+RobustSolution solve_pcm(PackedGraph<Group>& graph, const OdometryChain<Group>& chain,
+                         const LoopSupport& support, const LocalSolverOptions& solver,
+                         const RobustOptions& options) {
+  LoopSupport sets = support;
+  sets.clusters = consistent_loops(graph, chain, gate_of<Group>(support.noise_scale, options));
+  initialize_from_odometry(graph, chain);
+  const LoopSetGrowth growth =
+      extend_loop_set(graph, sets, options.gate_probability, solver, options.growth, options.gnc);
+  RobustSolution result;
+  result.local = growth.local;
+  result.noise_scale = growth.noise_scale;
+  return result;
+}
+
+/// Whether most of the rejected loops support each other in large groups, or the accepted ones need
+/// far more noise than the rings of neighbouring loops: of the sets of loops that agree among
+/// themselves, a false one may have been accepted.
+template <class Group>
+bool contested(const PackedGraph<Group>& graph, const LoopSupport& support,
+               const RobustSolution& solution) {
+  constexpr double kFarMore = 10;
+  constexpr std::ptrdiff_t kLarge = 10;  // loops; fewer agree by chance
+  if (!solution.local.outcome || solution.noise_scale > kFarMore * support.noise_scale) return true;
+  std::ptrdiff_t all = 0, in_large_groups = 0;
+  for (const auto& cluster : support.clusters) {
+    const auto rejected = std::count_if(cluster.begin(), cluster.end(),
+                                        [&](int edge) { return graph.edges[edge].weight == 0; });
+    all += rejected;
+    if (rejected >= kLarge) in_large_groups += rejected;
+  }
+  return 2 * in_large_groups > all;
+}
+
+/// The cost that graduated non-convexity minimizes: a loop counts at most `gate`.
+template <class Group>
+double truncated_cost(const PackedGraph<Group>& graph, double gate, RotationError rotation_error) {
+  const std::vector<double> chi2 = chi2_by_edge(graph, rotation_error);
+  double cost = 0;
+  for (std::size_t i = 0; i < chi2.size(); ++i)
+    cost += graph.edges[i].odometry ? chi2[i] : std::min(chi2[i], gate);
+  return cost;
+}
+
+/// Replaces a solution by that of the loops which agree with the odometry in pairs, from the poses
+/// `given`, if its truncated cost is lower. A group of false loops can bend the odometry until its
+/// own loops fit: the minimum that is found then is far from the lowest.
+template <class Group>
+void try_consistent_loops(const PackedGraph<Group>& given, const OdometryChain<Group>& chain,
+                          const LoopSupport& support, const LocalSolverOptions& solver,
+                          const RobustOptions& options, PackedGraph<Group>& graph,
+                          RobustSolution& solution) {
+  constexpr std::size_t kMostLoops = 10'000;  // every pair of loops is compared
+  constexpr double kLower = 1 - 1e-6;
+  if (support.loops() > kMostLoops) return;
+  const double gate = gate_of<Group>(support.noise_scale, options);
+  PackedGraph<Group> other = given;
+  RobustSolution second = solve_pcm(other, chain, support, solver, options);
+  const int iterations = solution.local.iterations + second.local.iterations;
+  const bool lower = truncated_cost(other, gate, solver.rotation_error) <
+                     kLower * truncated_cost(graph, gate, solver.rotation_error);
+  if (second.local.outcome && (lower || !solution.local.outcome)) {
+    graph = std::move(other);
+    solution = std::move(second);
+  }
+  solution.local.iterations = iterations;
+}
+
+template <class Group>
+RobustSolution solve_gnc(PackedGraph<Group>& graph, const OdometryChain<Group>& chain,
+                         const LoopSupport& support, const LocalSolverOptions& solver,
+                         const RobustOptions& options) {
+  const PackedGraph<Group> given = graph;
+  (void)graduated_non_convexity(graph, gate_of<Group>(support.noise_scale, options), solver,
+                                options.gnc);
+  const LoopSetGrowth settled =
+      settle_loops(graph, support, options.gate_probability, solver, options.growth, options.gnc);
+  RobustSolution result;
+  result.local = settled.local;
+  result.noise_scale = settled.noise_scale;
+  try_consistent_loops(given, chain, support, solver, options, graph, result);
+  return result;
+}
+
 template <class Group>
 RobustSolution solve_auto(PackedGraph<Group>& graph, const OdometryChain<Group>& chain,
                           const LoopSupport& support, const LocalSolverOptions& solver,
@@ -100,6 +192,7 @@ RobustSolution solve_auto(PackedGraph<Group>& graph, const OdometryChain<Group>&
       return result;
     }
   }
+  const PackedGraph<Group> given = graph;
   initialize_from_odometry(graph, chain);
   const LoopSetGrowth growth = extend_loop_set(graph, support, options.gate_probability, solver,
                                                options.growth, options.gnc);
@@ -113,6 +206,8 @@ RobustSolution solve_auto(PackedGraph<Group>& graph, const OdometryChain<Group>&
     graph = std::move(plain);
   else
     result.local = growth.local;
+  if (contested(graph, support, result))
+    try_consistent_loops(given, chain, support, solver, options, graph, result);
   return result;
 }
 
@@ -147,35 +242,20 @@ RobustSolution solve_rejecting(PackedGraph<Group>& graph, const LocalSolverOptio
                                const RobustOptions& options, bool free_start) {
   const OdometryChain<Group> chain(graph);
   const LoopSupport support = support_loops(graph, chain, options.support);
-  const double quantile = chi_squared_quantile(options.gate_probability, Group::kDof);
   RobustSolution result;
   if (!support.clusters.empty() && !support.scale_is_known) {
     result.judged = false;
     result.local = LocalSolver<Group>(solver).solve(graph);
     return result;
   }
-  if (options.method == RobustMethod::kAuto) {
+  if (options.method == RobustMethod::kPcm)
+    result = solve_pcm(graph, chain, support, solver, options);
+  else if (options.method == RobustMethod::kGnc)
+    result = solve_gnc(graph, chain, support, solver, options);
+  else
     result = solve_auto(graph, chain, support, solver, options, free_start);
-  } else if (options.method == RobustMethod::kPcm) {
-    const double gate = options.growth.margin * quantile * support.noise_scale;
-    LoopSupport sets = support;
-    sets.clusters = consistent_loops(graph, chain, gate);
-    initialize_from_odometry(graph, chain);
-    const LoopSetGrowth growth =
-        extend_loop_set(graph, sets, options.gate_probability, solver, options.growth, options.gnc);
-    result.local = growth.local;
-    result.noise_scale = growth.noise_scale;
-  } else {
-    const double gate = options.growth.margin * quantile * support.noise_scale;
-    (void)graduated_non_convexity(graph, gate, solver, options.gnc);
-    const LoopSetGrowth settled =
-        settle_loops(graph, support, options.gate_probability, solver, options.growth, options.gnc);
-    result.local = settled.local;
-    result.noise_scale = settled.noise_scale;
-  }
-  result.rejected = edges_without_weight(graph, chain, support,
-                                         options.growth.margin * quantile * result.noise_scale,
-                                         solver.rotation_error);
+  result.rejected = edges_without_weight(
+      graph, chain, support, gate_of<Group>(result.noise_scale, options), solver.rotation_error);
   return result;
 }
 

@@ -25,6 +25,9 @@ struct RobustSolution {
 ///   pcm    the largest set of pairwise consistent loops over all odometry between them (pcm.h),
 ///          then every loop tested against the resulting solution (loop_set_growth.h)
 ///   auto   the plain minimum if its errors show that no loop is false, else loop_set_growth.h
+/// The solution of gnc is compared with that of pcm, and so is that of auto if most of the loops it
+/// rejects support each other or if it needs far more noise than the rings of neighbouring loops:
+/// the one of lower truncated cost, with the gate of the rings, is kept.
 /// If too few loops agree to estimate the scale of the noise (LoopSupport::scale_is_known), gnc,
 /// pcm and auto test no loop: they return the plain minimum, with `judged` false.
 /// With `free_start` the plain descent of auto may start from the chordal initialization instead of

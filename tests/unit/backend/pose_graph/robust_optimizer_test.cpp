@@ -67,6 +67,18 @@ TEST(RobustOptimizer, GraduatedNonConvexityLeavesTheFalseLoopsOutAndSaysSo) {
   }
 }
 
+TEST(RobustOptimizer, GraduatedNonConvexityRejectsAGroupThatBendsTheOdometry) {
+  for (const std::uint64_t seed : {1, 2, 3, 4}) {
+    SCOPED_TRACE(seed);
+    const LoopedWalk<SE2> walk({.claimed = 0.02, .false_loops = 20, .cluster = 20, .seed = seed});
+    const PoseGraphReport report = optimize(walk.graph, RobustMethod::kGnc);
+    EXPECT_TRUE(report.outcome) << report.outcome.reason;
+    ASSERT_EQ(report.rejected.size(), 20u);
+    for (const RejectedEdge& edge : report.rejected)
+      EXPECT_GE(edge.constraint, static_cast<int>(walk.true_constraints));
+  }
+}
+
 TEST(RobustOptimizer, RefusesOptionsOutsideTheirRange) {
   PoseGraphOptions options;
   options.robust.gate_probability = 1;
