@@ -16,7 +16,7 @@ enum class SensorChoice { kAuto, kMono, kStereo, kRgbd };
 ///
 /// If the first images are found to be distorted, the run restarts with undistorted ones.
 /// Distortion that is found later is reported in RunResult::notes. Images that are stated to be
-/// rectified (Dataset::images_rectified) are not examined.
+/// rectified (Dataset::images_rectified) are not corrected.
 struct LensOptions {
   bool enabled = true;  ///< off: the images are assumed to be undistorted
   /// Number of frames within which a run may restart, or a fifth of the sequence if that is more:

@@ -42,7 +42,7 @@ class Dataset {
   /// Ground truth T_world_cam, one entry per frame (no pose where it is unknown), if any.
   virtual const std::optional<Trajectory>& ground_truth() const = 0;
   /// Whether the recording states that its images are rectified, as those of a stereo pair are.
-  /// run_sequence then estimates no lens distortion, whichever sensor it uses.
+  /// run_sequence then removes no lens distortion, whichever sensor it uses.
   virtual bool images_rectified() const { return false; }
   /// Notes about skipped data and implausible data, one line each.
   virtual std::vector<DataNote> notes() const { return {}; }
