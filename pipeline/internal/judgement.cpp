@@ -168,11 +168,12 @@ std::optional<DataNote> note_of_height(const RunResult& run) {
 std::string scale_text(const RunResult& run) {
   const std::optional<double>& height_m = run.calibration.camera_height_m;
   const char* unchecked = "; nothing in the recording checks it";
+  const char* roughly = "; the camera height checks it to 40 % only";  // odd_height
   if (run.sensor == Sensor::kStereo)
     return fmt::format("by the baseline of {:g} m{}", run.calibration.baseline_m,
-                       height_m ? "" : unchecked);
+                       height_m ? roughly : unchecked);
   if (run.sensor == Sensor::kRgbd)
-    return fmt::format("by the unit of the depth images{}", height_m ? "" : unchecked);
+    return fmt::format("by the unit of the depth images{}", height_m ? roughly : unchecked);
   if (!run.map.metric) return "one camera alone does not observe the scale";
   if (height_m)
     return fmt::format("by the camera height of {:g} m above the ground{}", *height_m, unchecked);

@@ -132,7 +132,8 @@ TEST(Judgement, SaysWhetherTheScaleIsChecked) {
   EXPECT_EQ(judge(run, {}, 0.2).why_metric,
             "by the baseline of 0.5 m; nothing in the recording checks it");
   run.calibration.camera_height_m = 1.65;
-  EXPECT_EQ(judge(run, {}, 0.2).why_metric, "by the baseline of 0.5 m");
+  EXPECT_EQ(judge(run, {}, 0.2).why_metric,
+            "by the baseline of 0.5 m; the camera height checks it to 40 % only");
 }
 
 TEST(Judgement, ListsLostSpansAndComponents) {
