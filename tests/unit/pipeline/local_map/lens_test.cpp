@@ -64,7 +64,7 @@ TEST(LensStretches, AreAsUncertainAsRecordingsShowedUntilThereAreMany) {
   LensStretches lens;
   lens.add(window_of(0.02, 1e-4));
   const double one = lens.estimate().sigma_k1;
-  EXPECT_GT(one, 0.008);
+  EXPECT_GT(one, 0.012);
   for (int i = 0; i < 3; ++i) lens.add(window_of(0.02, 1e-4));
   const double four = lens.estimate().sigma_k1;
   EXPECT_GT(four, 0.004);
@@ -202,12 +202,12 @@ SlidingWindow distorted_drive(double k1, bool depth, bool depth_of_pixel) {
   return window;
 }
 
-TEST(LensEstimator, FindsALargeDistortionToATenth) {
+TEST(LensEstimator, FindsALargeDistortion) {
   for (const bool depth : {false, true})
     for (const double k1 : {-0.08, 0.05}) {
       LensEstimator lens;
       lens.observe(distorted_drive(k1, depth, false));
-      EXPECT_NEAR(lens.estimate().k1, k1, 0.1 * std::abs(k1)) << depth;
+      EXPECT_NEAR(lens.estimate().k1, k1, 0.03 * std::abs(k1)) << depth;
     }
 }
 
