@@ -7,12 +7,10 @@
 
 namespace placegraph {
 
-Outcome determines_rotation(const Matrix6d& information) {
-  // Recordings in which every pose is right reach 0.3 degrees.
-  constexpr double kMostSigmaDeg = 0.5;
+Outcome determines_rotation(const Matrix6d& information, double most_sigma_deg) {
   const Matrix6d covariance = information.inverse();  // not finite if it is singular
   const double sigma_deg = rad_to_deg(std::sqrt(covariance.bottomRightCorner<3, 3>().trace()));
-  if (sigma_deg < kMostSigmaDeg) return Outcome::ok();
+  if (sigma_deg < most_sigma_deg) return Outcome::ok();
   return Outcome::failure(
       Outcome::Code::kDegenerate,
       std::isfinite(sigma_deg)

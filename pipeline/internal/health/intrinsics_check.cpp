@@ -127,6 +127,7 @@ IntrinsicsCheck::Estimate IntrinsicsCheck::estimate() const {
 
 std::vector<DataNote> IntrinsicsCheck::notes() const {
   constexpr double kSigmas = 2.8, kMostDispersion = 4;
+  constexpr std::size_t kFewest = 3;  // windows that can contradict each other
   std::vector<DataNote> notes;
   const Estimate found = estimate();
   Eigen::Index worst = 0;
@@ -139,7 +140,7 @@ std::vector<DataNote> IntrinsicsCheck::notes() const {
          depths ? "compare depths with distances that were measured otherwise"
                 : "calibrate the camera; its intrinsics must be those of images of this size"});
   }
-  if (found.dispersion > kMostDispersion)
+  if (windows_.size() >= kFewest && found.dispersion > kMostDispersion)
     notes.push_back(
         {fmt::format("{} stretches of the motion fit intrinsics that differ by {:.1f} times their "
                      "deviations: a rolling shutter, or points that move",

@@ -80,8 +80,9 @@ TrackedFrame FeatureTracker::track(const Frame& frame, const LocalMap& map,
       tracked.outcome.reason = points.outcome.reason + "; " + both.outcome.reason;
   }
   // Measured depths and Manhattan frames know more about the rotation.
+  constexpr double kMostSigmaDeg = 1;
   if (tracked.outcome && monocular_points() && !manhattan())
-    tracked.outcome = determines_rotation(information);
+    tracked.outcome = determines_rotation(information, kMostSigmaDeg);
   if (!tracked.outcome) {
     tracked.rotation = rotation_since(selector_.px_at_keyframe(), random);
     points_.restore(points_before);

@@ -95,12 +95,12 @@ Matrix6d information_of(int count, double width) {
 }
 
 TEST(RotationCheck, PointsInASmallPartOfTheImageLeaveTheRotationOpen) {
-  EXPECT_TRUE(determines_rotation(information_of(200, 0.4)));
-  EXPECT_TRUE(determines_rotation(information_of(15, 0.4)));
-  const Outcome open = determines_rotation(information_of(15, 0.02));
+  EXPECT_TRUE(determines_rotation(information_of(200, 0.4), 0.5));
+  EXPECT_TRUE(determines_rotation(information_of(15, 0.4), 0.5));
+  const Outcome open = determines_rotation(information_of(15, 0.02), 0.5);
   EXPECT_EQ(open.code, Outcome::Code::kDegenerate);
   EXPECT_NE(open.reason.find("degrees only"), std::string::npos) << open.reason;
-  EXPECT_EQ(determines_rotation(Matrix6d::Zero()).reason,
+  EXPECT_EQ(determines_rotation(Matrix6d::Zero(), 0.5).reason,
             "the points do not determine the rotation");
 }
 
