@@ -212,7 +212,7 @@ TEST(FeatureTracker, ImagesContradictARotationThatTheyDoNotShow) {
 }
 
 TEST(FeatureTracker, AFrameWhosePointsLeaveItsRotationOpenIsLost) {
-  constexpr int kFew = 5;
+  constexpr int kFew = 4;
   MonocularTracking t(kFew);
   std::vector<Eigen::Vector2d> px;  // landmarks, the nearest to one of them first
   for (const FrameView::Track& track : t.tracker.view(t.map, street_T_world_cam(2)).tracks)
