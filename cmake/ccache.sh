@@ -5,6 +5,9 @@
 #
 # GCC's precompiled header (.gch) is the same in every clone. An old one is removed before it is made anew,
 # because the compiler would read it first and its key would differ from that of a fresh build.
+# It is looked up by the text of its headers alone (depend mode). Preprocessed text leaves comments out, and
+# "#pragma once" knows a header again by its checksum: with a header made before a comment changed, the
+# compiler would read that header a second time.
 # Clang's (.pch) holds paths and times of its clone: each clone makes its own, and what is compiled with it
 # is keyed by the checksum beside it (.pch.sum), of the arguments and of the headers that went into it.
 set -eu
@@ -27,7 +30,9 @@ while [ "$count" -gt 0 ]; do
 done
 
 case $output in
-  *.gch) rm -f "$output" ;;
+  *.gch)
+    rm -f "$output"
+    export CCACHE_DEPEND=true ;;
   *.pch)
     rm -f "$output.sum"
     "$@"
