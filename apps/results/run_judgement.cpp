@@ -62,16 +62,6 @@ json judge_places(const Trajectory& truth, const RunResult& run) {
           {"adjacency_recall", check.adjacency_recall()}};
 }
 
-double path_length_m(const Trajectory& truth) {
-  double length = 0;
-  for (std::size_t i = 1; i < truth.size(); ++i)
-    if (truth.poses[i - 1].T_world_body && truth.poses[i].T_world_body)
-      length += (truth.poses[i].T_world_body->translation() -
-                 truth.poses[i - 1].T_world_body->translation())
-                    .norm();
-  return length;
-}
-
 /// True and estimated poses of the frames that have both.
 std::vector<std::pair<SE3, SE3>> known_pairs(const Trajectory& truth, const Map& map,
                                              const Trajectory& estimate) {
@@ -112,7 +102,7 @@ SE3 fit_by_positions(const Trajectory& truth, const Map& map, const Trajectory& 
 
 json judge_run(const Trajectory& truth, const RunResult& run, const Trajectory& optimized) {
   const Trajectory seen = truth_of_frames(truth, run.map);
-  json summary = {{"path_m", path_length_m(seen)},
+  json summary = {{"path_m", seen.path_length()},
                   {"evaluation",
                    {{"origin", judge_trajectory(seen, optimized, Alignment::kOrigin)},
                     {"se3", judge_trajectory(seen, optimized, Alignment::kSe3)},

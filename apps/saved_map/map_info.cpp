@@ -16,17 +16,6 @@ namespace {
 
 using nlohmann::json;
 
-double path_length(const Trajectory& trajectory) {
-  double length = 0;
-  const StampedPose* before = nullptr;
-  for (const StampedPose& pose : trajectory.poses) {
-    if (pose.T_world_body && before)
-      length += (pose.T_world_body->translation() - before->T_world_body->translation()).norm();
-    if (pose.T_world_body) before = &pose;
-  }
-  return length;
-}
-
 json describe_map(const std::string& path, const StoredMap& stored) {
   const Map& map = stored.map;
   const MapSizes sizes = map_sizes(path);
@@ -56,7 +45,7 @@ json describe_map(const std::string& path, const StoredMap& stored) {
                {"frames", map.frames.size()},
                {"posed", optimized.posed()},
                {"metric", map.metric},
-               {"path_length", path_length(optimized)},
+               {"path_length", optimized.path_length()},
                {"file_bytes", sizes.file_bytes},
                {"features_bytes", sizes.features_bytes},
                {"views_bytes", sizes.views_bytes},

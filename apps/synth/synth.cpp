@@ -49,15 +49,6 @@ SequenceWriterOptions writer_options(const SynthArguments& arguments, const Synt
   return writer;
 }
 
-double length_of(const Trajectory& truth) {
-  double length_m = 0;
-  for (std::size_t i = 1; i < truth.size(); ++i)
-    length_m += (truth.poses[i].T_world_body->translation() -
-                 truth.poses[i - 1].T_world_body->translation())
-                    .norm();
-  return length_m;
-}
-
 }  // namespace
 
 SynthResult synth(const SynthArguments& arguments) {
@@ -75,7 +66,7 @@ SynthResult synth(const SynthArguments& arguments) {
           arguments.difficulty,
           arguments.out,
           world.size(),
-          length_of(world.ground_truth()),
+          world.ground_truth().path_length(),
           writer.contents.right};
 }
 

@@ -26,6 +26,8 @@ struct Trajectory {
   std::size_t size() const { return poses.size(); }
   /// Number of frames that have a pose.
   std::size_t posed() const;
+  /// Length of the polyline through the positions of the posed frames, in the trajectory's unit.
+  double path_length() const;
 };
 
 /// Which poses of two trajectories count as simultaneous.

@@ -135,18 +135,6 @@ std::optional<double> drift_of(const PlaceGraph& places) {
   return std::sqrt(covariance.topLeftCorner<3, 3>().trace());
 }
 
-double length_of(const Trajectory& trajectory) {
-  double length = 0;
-  const StampedPose* before = nullptr;
-  for (const StampedPose& pose : trajectory.poses) {
-    if (!pose.T_world_body) continue;
-    if (before)
-      length += (pose.T_world_body->translation() - before->T_world_body->translation()).norm();
-    before = &pose;
-  }
-  return length;
-}
-
 std::optional<DataNote> note_of_drift(const std::optional<double>& drift, double length,
                                       bool metric) {
   constexpr double kMostShare = 0.03;
@@ -210,7 +198,7 @@ Judgement judge(const RunResult& run, const std::vector<DataNote>& notes, double
   for (const DataNote& note : run.notes) add(note);
   add(note_of_height(run));
   judgement.expected_drift_m = drift_of(run.map.place_graph);
-  add(note_of_drift(judgement.expected_drift_m, length_of(run.map.trajectory_optimized()),
+  add(note_of_drift(judgement.expected_drift_m, run.map.trajectory_optimized().path_length(),
                     run.map.metric));
   for (const MapComponent& component : run.map.components()) {
     const Trajectory trajectory = run.map.trajectory_optimized(component.number);

@@ -357,7 +357,8 @@ void Slam::Impl::close_loops(FrameResult& result) {
   const KnownMotions motions{
       [&](KeyframeId a, KeyframeId b) { return mapper.odometry(a, b); },
       [&](KeyframeId a, KeyframeId b) { return mapper.predicted(a, b); },
-      [&](KeyframeId a, KeyframeId b) { return mapper.scale_unknown(a, b); }};
+      [&](KeyframeId a, KeyframeId b) { return mapper.scale_unknown(a, b); },
+      [&](KeyframeId a, KeyframeId b) { return mapper.component_of(a) != mapper.component_of(b); }};
   const auto loops = [&] {
     const auto span = times.measure("loop closure");
     return closer.find_loops(motions, odometry.map().median_depth());

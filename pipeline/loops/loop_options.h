@@ -14,7 +14,9 @@ struct LoopOptions {
   DetectorOptions detector;       ///< features that describe a keyframe
   PlaceDatabaseOptions database;  ///< retrieval by visual words
   LoopVerifierOptions verifier;   ///< geometric verification of a loop candidate
-  int min_frame_gap = 40;         ///< minimum number of frames between two keyframes of a loop
+  /// Minimum number of frames between two keyframes of a loop, unless they are in different
+  /// components of the map.
+  int min_frame_gap = 40;
   int candidates = 5;             ///< maximum number of keyframes retrieved for one query
   /// Minimum similarity of a candidate, as a share of the similarity of the keyframe before the
   /// query.

@@ -48,6 +48,18 @@ std::size_t Trajectory::posed() const {
                        [](const StampedPose& pose) { return pose.T_world_body.has_value(); });
 }
 
+double Trajectory::path_length() const {
+  double length = 0;
+  const StampedPose* before = nullptr;
+  for (const StampedPose& pose : poses) {
+    if (!pose.T_world_body) continue;
+    if (before)
+      length += (pose.T_world_body->translation() - before->T_world_body->translation()).norm();
+    before = &pose;
+  }
+  return length;
+}
+
 std::vector<std::pair<int, int>> associate_by_time(const Trajectory& a, const Trajectory& b,
                                                    const AssociationOptions& options) {
   require(options.max_difference_s >= 0 && options.max_difference_s < 1e9,

@@ -32,6 +32,8 @@ struct KnownMotions {
   /// Whether the two keyframes have different scales, so that a loop between them must estimate the
   /// ratio.
   std::function<bool(KeyframeId a, KeyframeId b)> scale_differs;
+  /// Whether the two keyframes are in different components of the map, which a loop would join.
+  std::function<bool(KeyframeId a, KeyframeId b)> apart;
 };
 
 }  // namespace placegraph

@@ -46,8 +46,9 @@ void LoopCloser::add_view(KeyframeId keyframe, const Frame& frame,
   views_.push_back(std::move(view));
 }
 
-/// Older views similar to the newest one, the most similar first.
-std::vector<LoopCloser::Candidate> LoopCloser::retrieve() const {
+/// Older views similar to the newest one, the most similar first. In another component of the map
+/// the newest ones count too.
+std::vector<LoopCloser::Candidate> LoopCloser::retrieve(const KnownMotions& known) const {
   const View& query = views_.back();
   // Without a previous keyframe there is no reference for the similarity.
   const double similarity_to_last =
@@ -56,7 +57,8 @@ std::vector<LoopCloser::Candidate> LoopCloser::retrieve() const {
   std::vector<Candidate> candidates;
   for (const PlaceCandidate& candidate :
        database_.query(query.features, options_.candidates, [&](KeyframeId id) {
-         return query.frame.value() - view(id).frame.value() >= options_.min_frame_gap;
+         return query.frame.value() - view(id).frame.value() >= options_.min_frame_gap ||
+                (known.apart && known.apart(id, query.keyframe));
        }))
     candidates.push_back(
         {&view(candidate.id), similarity_to_last > 0 ? candidate.score / similarity_to_last : 1});
@@ -140,7 +142,7 @@ std::vector<Loop> LoopCloser::support(const MotionBetween& odometry, double medi
 
 std::vector<Loop> LoopCloser::find_loops(const KnownMotions& known, double median_depth_m) {
   std::vector<Loop> accepted;
-  for (const Candidate& candidate : retrieve()) {
+  for (const Candidate& candidate : retrieve(known)) {
     LoopRecord record;
     record.query_frame = views_.back().frame;
     record.match_frame = candidate.match->frame;

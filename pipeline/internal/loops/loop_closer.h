@@ -55,7 +55,7 @@ class LoopCloser {
     Loop loop;
     std::size_t record, view;
   };
-  std::vector<Candidate> retrieve() const;
+  std::vector<Candidate> retrieve(const KnownMotions& known) const;
   std::optional<Loop> verify(const View& match, bool free_scale, LoopRecord& record) const;
   std::optional<Loop> judge(const Candidate& candidate, const KnownMotions& known,
                             double median_depth_m, LoopRecord& record) const;

@@ -31,6 +31,16 @@ TEST(Trajectory, PosedCountsFramesThatAreNotLost) {
   EXPECT_EQ(trajectory.posed(), 2u);
 }
 
+TEST(Trajectory, PathLengthPassesLostFramesInAStraightLine) {
+  Trajectory trajectory = at_ms({0, 10, 20, 30, 40});
+  trajectory.poses[0].T_world_body.reset();
+  trajectory.poses[2].T_world_body->translation() = Eigen::Vector3d(3, 0, 0);
+  trajectory.poses[3].T_world_body.reset();
+  trajectory.poses[4].T_world_body->translation() = Eigen::Vector3d(3, 4, 0);
+  EXPECT_DOUBLE_EQ(trajectory.path_length(), 7);
+  EXPECT_DOUBLE_EQ(Trajectory().path_length(), 0);
+}
+
 TEST(AssociateByTime, PairsTheNearestWithinTheLimit) {
   const auto pairs = associate_by_time(at_ms({0, 100, 200, 300}), at_ms({10, 95, 150, 325}), {});
   EXPECT_EQ(pairs, (Pairs{{0, 0}, {1, 1}}));

@@ -77,11 +77,14 @@ class LoopCloserOnAStreet : public testing::Test {
       closer.add_view(KeyframeId(k), frame(k),
                       begins ? std::nullopt : std::optional(T_previous_this(k, unit)));
       const auto differ = [&](KeyframeId, KeyframeId) { return scale_differs; };
-      const auto found = closer.find_loops({odometry, {}, differ}, kDepth_m / unit);
+      const auto found = closer.find_loops({odometry, {}, differ, apart_}, kDepth_m / unit);
       loops.insert(loops.end(), found.begin(), found.end());
     }
     return loops;
   }
+
+  std::function<bool(KeyframeId, KeyframeId)>
+      apart_;  // whether two keyframes are in different components
 };
 
 TEST_F(LoopCloserOnAStreet, AcceptsARevisitWhenASecondOneAgrees) {
@@ -101,6 +104,17 @@ TEST_F(LoopCloserOnAStreet, AcceptsARevisitWhenASecondOneAgrees) {
   const auto accepted = std::count_if(closer.records().begin(), closer.records().end(),
                                       [](const LoopRecord& r) { return r.accepted(); });
   EXPECT_EQ(static_cast<std::size_t>(accepted), loops.size());
+}
+
+TEST_F(LoopCloserOnAStreet, ComparesANewComponentWithTheNewestFramesOfAnother) {
+  LoopOptions options = small_options();
+  options.min_frame_gap = 200;  // more than the two drives have
+  LoopCloser within(options, monocular(), 1);
+  EXPECT_TRUE(drive(within, 1, {}, true).empty());
+  EXPECT_TRUE(within.records().empty()) << stages(within);
+  apart_ = [](KeyframeId a, KeyframeId b) { return (a.value() < kFirst) != (b.value() < kFirst); };
+  LoopCloser across(options, monocular(), 1);
+  EXPECT_GE(drive(across, 1, {}, true).size(), 2u) << stages(across);
 }
 
 TEST_F(LoopCloserOnAStreet, LooksAtNoCandidateThatIsOutOfReachByOdometry) {
