@@ -1,5 +1,4 @@
 #pragma once
-#include <placegraph/backend/internal/window/distortion_evidence.h>
 #include <placegraph/backend/internal/window/window_information.h>
 #include <placegraph/backend/internal/window/window_measurements.h>
 #include <placegraph/backend/internal/window/window_observations.h>

@@ -1,7 +1,7 @@
 #pragma once
+#include <placegraph/backend/internal/window/intrinsics_evidence.h>
 #include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/measurements/data_note.h>
-#include <placegraph/pipeline/internal/health/intrinsics_evidence.h>
 
 #include <vector>
 

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/backend/internal/window/distortion_evidence.h>
+#include <placegraph/pipeline/internal/local_map/distortion_evidence.h>
 #include <placegraph/graph/geometry/se3.h>
 #include <placegraph/pipeline/slam.h>
 

@@ -1,8 +1,8 @@
 #include <placegraph/backend/factors/inverse_depth.h>
 #include <placegraph/backend/factors/reprojection.h>
+#include <placegraph/backend/internal/window/intrinsics_evidence.h>
 #include <placegraph/backend/internal/window/window_state.h>
 #include <placegraph/graph/core/robust_kernel.h>
-#include <placegraph/pipeline/internal/health/intrinsics_evidence.h>
 
 #include <Eigen/Dense>
 #include <cmath>
@@ -140,16 +140,19 @@ class IntrinsicsEquations {
 }  // namespace
 
 IntrinsicsEvidence intrinsics_evidence(const WindowState& state, bool depths_measured) {
-  constexpr std::size_t kViews = 3;
+  constexpr std::size_t kViews = 3;  // two views are consistent with nearly any intrinsics
   IntrinsicsEquations equations(state, depths_measured);
-  bool any = false;
+  int residuals = 0;
   for (const auto& [id, landmark] : state.landmarks) {
     const auto observations = usable_observations(state, landmark);
     if (observations.size() < kViews) continue;
     equations.add(observations, landmark.p_map);
-    any = true;
+    residuals += static_cast<int>(2 * observations.size());
   }
-  return any ? equations.evidence() : IntrinsicsEvidence();
+  if (residuals == 0) return {};
+  IntrinsicsEvidence result = equations.evidence();
+  result.residuals = residuals;
+  return result;
 }
 
 }  // namespace placegraph

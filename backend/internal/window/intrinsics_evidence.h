@@ -30,6 +30,7 @@ struct IntrinsicsEvidence {
 
   Vector gradient = Vector::Zero();
   Matrix information = Matrix::Zero();
+  int residuals = 0;  ///< residuals of points seen from at least three keyframes, two per pixel
 };
 
 /// Evaluates the evidence of the points that are seen from at least three keyframes, at the

@@ -17,7 +17,8 @@ struct DistortionEvidence {
   int residuals = 0;  ///< residuals of points seen from at least three keyframes, two per pixel
 };
 
-/// Evaluates the evidence of the window's points at its estimate, without its prior.
+/// Evaluates the evidence of the window's points at its estimate, without its prior: that of
+/// intrinsics_evidence if all intrinsics but k1 are as stated. Inverse depths count as measured.
 DistortionEvidence lens_evidence(const WindowState& state);
 
 }  // namespace placegraph
