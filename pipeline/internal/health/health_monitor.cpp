@@ -16,7 +16,11 @@ void HealthMonitor::add(const Frame& frame, const FrameResult& result, const Odo
   right_.add(frame, result.T_map_cam);
   range_.add(frame);
   flow_.add(frame, result.T_map_cam);
-  if (result.keyframe) examine(odometry.map().window());
+  if (!result.keyframe) return;
+  examine(odometry.map().window());
+  const std::optional<ScaleComparison>& compared = odometry.scale_compared();
+  if (compared && compared->keyframe == odometry.map().newest())
+    scale_.add(frame.id, compared->log_factor);
 }
 
 void HealthMonitor::examine(const SlidingWindow& window) {
@@ -39,6 +43,7 @@ std::vector<DataNote> HealthMonitor::notes() const {
   collect(right_.note());
   collect(range_.note());
   collect(flow_.note());
+  collect(scale_.note());
   for (const DataNote& note : intrinsics_.notes()) notes.push_back(note);
   for (const DataNote& note : residuals_.notes()) notes.push_back(note);
   return notes;

@@ -7,6 +7,7 @@
 #include <placegraph/pipeline/internal/health/intrinsics_check.h>
 #include <placegraph/pipeline/internal/health/repeated_images.h>
 #include <placegraph/pipeline/internal/health/right_image_time.h>
+#include <placegraph/pipeline/internal/health/scale_check.h>
 #include <placegraph/pipeline/internal/health/window_residuals.h>
 
 #include <optional>
@@ -38,6 +39,7 @@ class HealthMonitor {
   RightImageTime right_;
   DepthRange range_;
   FlowCheck flow_;
+  ScaleCheck scale_;
   IntrinsicsCheck intrinsics_;
   ResidualCheck residuals_;
   std::optional<KeyframeId> newest_;  // newest keyframe of the last window that was examined

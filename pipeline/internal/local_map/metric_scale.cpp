@@ -24,6 +24,7 @@ void MetricScale::use_motion(std::shared_ptr<const MeasuredMotion> motion_cam) {
 void MetricScale::reset() {
   stamps_ns_.clear();
   frames_.clear();
+  compared_.reset();
   if (floor_) floor_->reset();
 }
 
@@ -90,10 +91,11 @@ std::optional<Rescale> MetricScale::measure_ground(const KeyframeImages& images,
   std::optional<Rescale> rescale;
   if (!known) rescale = map.rescale(measured->factor);
   add_distance(window, {*old, current, distance_m, measured->sigma_relative * distance_m});
-  if (known)
-    log(log_, LogLevel::kDebug, "ground {} {} length {:f} measured {:f} +- {:f}", old_frame.id,
-        images.frame.id, length, distance_m, measured->sigma_relative * distance_m);
-  return rescale;
+  if (!known) return rescale;
+  compared_ = {current, std::log(measured->factor)};
+  log(log_, LogLevel::kDebug, "ground {} {} length {:f} measured {:f} +- {:f}", old_frame.id,
+      images.frame.id, length, distance_m, measured->sigma_relative * distance_m);
+  return std::nullopt;
 }
 
 std::optional<Rescale> MetricScale::measure_floor(const Cues& cues, LocalMap& map) {
@@ -119,6 +121,7 @@ std::optional<Rescale> MetricScale::measure_floor(const Cues& cues, LocalMap& ma
     if (length >= floor_->min_baseline_m() || (!known && !old && length > 0)) old = id;
   }
   if (!old) return rescale;
+  if (known) compared_ = {current, std::log(measured->factor)};
   const double distance_m =
       (known ? measured->factor : 1) * (window.pose(*old).translation() - here).norm();
   add_distance(window, {*old, current, distance_m, measured->sigma_relative * distance_m});

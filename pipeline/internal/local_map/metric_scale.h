@@ -15,6 +15,12 @@
 
 namespace placegraph {
 
+/// A length that the ground under the camera gives, compared with that of the tracked points.
+struct ScaleComparison {
+  KeyframeId keyframe;    ///< keyframe at which it was measured
+  double log_factor = 0;  ///< logarithm of the length by the ground over that by the points
+};
+
 /// Estimates the metric scale of a monocular map: from the ground plane or lines on the floor under
 /// a camera of known height, or from motion measured by another sensor. Until the scale is known, a
 /// measurement rescales the map; afterwards each one is a distance constraint in the window.
@@ -44,6 +50,8 @@ class MetricScale {
   /// Measures at the newest keyframe of the map. Returns the change of its lengths, if there is
   /// one.
   std::optional<Rescale> measure(const KeyframeImages& images, const Cues& cues, LocalMap& map);
+  /// The newest measurement by the ground of a map whose scale was known.
+  const std::optional<ScaleComparison>& compared() const { return compared_; }
   /// Outline in the image of the ground plane that is measured; empty if there is none.
   std::vector<Eigen::Vector2d> ground_outline_px() const;
 
@@ -61,6 +69,7 @@ class MetricScale {
   std::shared_ptr<const MeasuredMotion> motion_;
   bool height_trusted_ = true;
   std::map<KeyframeId, std::int64_t> stamps_ns_;  // time stamps of the segment's keyframes
+  std::optional<ScaleComparison> compared_;
   std::map<KeyframeId, Frame> frames_;  // frames of the window, where the ground is measured
 };
 

@@ -50,6 +50,10 @@ class Odometry {
 
   /// Keyframes and landmarks of the current track segment.
   const LocalMap& map() const { return map_; }
+  /// The newest comparison of the map's scale with the ground.
+  const std::optional<ScaleComparison>& scale_compared() const {
+    return mapping_.scale().compared();
+  }
   /// Whether a first frame has been taken since the last restart.
   bool started() const { return !map_.empty() || initializer_->started(); }
   /// Whether tracking uses an arbitrary scale that lines on the floor will replace by the metric
