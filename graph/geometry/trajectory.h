@@ -26,7 +26,7 @@ struct Trajectory {
   std::size_t size() const { return poses.size(); }
   /// Number of frames that have a pose.
   std::size_t posed() const;
-  /// Length of the polyline through the positions of the posed frames, in its unit of length.
+  /// Length of the polyline through the positions of the posed frames.
   double path_length() const;
 };
 
