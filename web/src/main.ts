@@ -1,0 +1,73 @@
+import "uplot/dist/uPlot.min.css";
+import "./page/style.css";
+import { loadReport } from "./data/load";
+import type { ReportData } from "./data/model";
+import { watchPlaying } from "./page/actions";
+import { el } from "./page/dom";
+import { header } from "./page/header";
+import { helpDialog } from "./page/help";
+import { bindings, watchKeys } from "./page/keys";
+import { startState } from "./page/start_state";
+import { Store } from "./page/state";
+import { preferredTheme, toggleTheme, watchTheme } from "./page/theme";
+import { comparePanel } from "./panels/compare_panel";
+import { framePanel } from "./panels/frame_panel";
+import { graphPanel } from "./panels/graph_panel";
+import { layersPanel, sceneTools } from "./panels/layers_panel";
+import { loopsPanel } from "./panels/loops_panel";
+import { overviewPanel } from "./panels/overview_panel";
+import { picturesPanel } from "./panels/pictures_panel";
+import { tabs } from "./panels/tabs";
+import { watchPointer } from "./scene/pointer";
+import { SceneView } from "./scene/scene_view";
+import { timelineControls } from "./timeline/controls";
+import { Timeline } from "./timeline/timeline";
+
+function showMessage(page: HTMLElement, text: string): void {
+  page.className = "message";
+  page.replaceChildren(el("p", { role: "alert" }, text));
+}
+
+function showReport(page: HTMLElement, report: ReportData): void {
+  document.title = `${report.title} – ${report.program}`;
+  const store = new Store(startState(report, preferredTheme()));
+  watchTheme(store);
+  const help = helpDialog();
+  const scene = new SceneView(report, store);
+  scene.element.append(sceneTools(report, store, scene));
+  page.className = "report";
+  page.append(header(report, store, help.toggle), scene.element);
+  if (report.runs.length > 0) {
+    scene.element.append(layersPanel(report, store));
+    watchPointer(scene, report, store);
+    const timeline = new Timeline(report, store);
+    page.append(el("section", { class: "timeline", "aria-label": "Time line" }, timelineControls(report, store, timeline), timeline.element));
+    watchPlaying(report, store);
+  }
+  const context = { report, store };
+  page.append(tabs(store, {
+    overview: overviewPanel(context), frame: framePanel(context), loops: loopsPanel(context),
+    compare: comparePanel(context), pictures: picturesPanel(context), graph: graphPanel(context),
+  }), help.element);
+  const list = bindings(report, store, scene, help.toggle, () => toggleTheme(store));
+  help.fill(list);
+  watchKeys(list);
+}
+
+function start(page: HTMLElement): void {
+  try {
+    const report = loadReport(document);
+    if (report === null) {
+      showMessage(page, "This page holds no report. The command \"placegraph report OUT -o report.html\" writes a page with the report of a run.");
+    } else if (report.runs.length === 0 && report.graphs.length === 0 && report.pictures.length === 0) {
+      showMessage(page, "The report in this page holds no run, no pose graph and no picture.");
+    } else {
+      showReport(page, report);
+    }
+  } catch (error) {
+    showMessage(page, `This report cannot be shown. ${error instanceof Error ? error.message : "The fault is unknown."}`);
+  }
+}
+
+const page = document.getElementById("page");
+if (page) start(page);

@@ -1,0 +1,75 @@
+/** Keys of the page and what they do; the help lists the same table. */
+import type { ReportData } from "../data/model";
+import type { SceneView } from "../scene/scene_view";
+import { moveCursor, moveToKeyframe } from "./actions";
+import { type LayerName, type Store, TABS } from "./state";
+
+export interface KeyBinding {
+  keys: string[];
+  shown: string;
+  text: string;
+  run(event: KeyboardEvent): void;
+}
+
+export const LAYER_KEYS: Record<LayerName, string> = {
+  trajectory: "j", truth: "t", online: "o", frusta: "k", images: "i", landmarks: "m", places: "p",
+  constraints: "c", loops: "l", refused: "r", planes: "n", others: "u", grid: "g",
+};
+
+export const LAYER_TITLES: Record<LayerName, string> = {
+  trajectory: "Trajectory", truth: "Ground truth", online: "Online trajectory", frusta: "Keyframes",
+  images: "Images of keyframes", landmarks: "Landmarks", places: "Places", constraints: "Constraints of places",
+  loops: "Loops accepted", refused: "Loops refused", planes: "Planes", others: "Other runs", grid: "Grid",
+};
+
+export function bindings(report: ReportData, store: Store, scene: SceneView, toggleHelp: () => void, toggleTheme: () => void): KeyBinding[] {
+  const step = (event: KeyboardEvent): number => (event.shiftKey ? 10 : 1);
+  const end = (): number => (report.runs[store.state.run]?.frames.count ?? 1) - 1;
+  const list: KeyBinding[] = [
+    { keys: [" "], shown: "Space", text: "Play or pause", run: () => store.set({ playing: !store.state.playing && report.runs.length > 0 }) },
+    { keys: ["ArrowLeft"], shown: "←", text: "One frame back (with Shift: ten)", run: (e) => moveCursor(report, store, -step(e)) },
+    { keys: ["ArrowRight"], shown: "→", text: "One frame on (with Shift: ten)", run: (e) => moveCursor(report, store, step(e)) },
+    { keys: ["["], shown: "[", text: "Previous keyframe", run: () => moveToKeyframe(report, store, -1) },
+    { keys: ["]"], shown: "]", text: "Next keyframe", run: () => moveToKeyframe(report, store, 1) },
+    { keys: ["Home"], shown: "Home", text: "First frame", run: () => moveCursor(report, store, -end()) },
+    { keys: ["End"], shown: "End", text: "Last frame", run: () => moveCursor(report, store, end()) },
+    { keys: ["f"], shown: "F", text: "Show all of the map", run: () => scene.fit() },
+    { keys: ["v"], shown: "V", text: "View from above", run: () => scene.top() },
+    { keys: ["h"], shown: "H", text: "Follow the camera", run: () => store.set({ follow: !store.state.follow }) },
+    { keys: ["s"], shown: "S", text: "Save the scene as PNG", run: () => scene.save() },
+    { keys: ["d"], shown: "D", text: "Dark or light", run: toggleTheme },
+    { keys: ["?"], shown: "?", text: "This help", run: toggleHelp },
+  ];
+  for (const [name, key] of Object.entries(LAYER_KEYS) as [LayerName, string][]) {
+    list.push({
+      keys: [key], shown: key.toUpperCase(), text: `Layer: ${LAYER_TITLES[name].toLowerCase()}`,
+      run: () => store.setLayer(name, !store.state.layers[name]),
+    });
+  }
+  TABS.forEach((tab, i) => list.push({
+    keys: [String(i + 1)], shown: String(i + 1), text: `Panel: ${tab}`,
+    run: () => document.getElementById(`tab-${tab}`)?.click(),
+  }));
+  return list;
+}
+
+/** Whether an element uses the keys itself. */
+function takesKeys(target: EventTarget | null, key: string): boolean {
+  if (!(target instanceof HTMLElement)) return false;
+  if (target.closest("dialog") !== null && key !== "?") return true;
+  if (target instanceof HTMLInputElement) return target.type !== "checkbox" || key === " ";
+  if (target instanceof HTMLSelectElement) return true;
+  return (key === " " || key === "Enter") && target.closest("button, summary, a") !== null;
+}
+
+export function watchKeys(list: KeyBinding[]): void {
+  const byKey = new Map(list.flatMap((binding) => binding.keys.map((key) => [key, binding] as const)));
+  document.addEventListener("keydown", (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented) return;
+    const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
+    const binding = byKey.get(key);
+    if (!binding || takesKeys(event.target, key)) return;
+    event.preventDefault();
+    binding.run(event);
+  });
+}

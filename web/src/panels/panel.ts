@@ -1,0 +1,15 @@
+import type { ReportData } from "../data/model";
+import type { State, Store } from "../page/state";
+
+export interface PanelContext {
+  report: ReportData;
+  store: Store;
+}
+
+/** One tab: its content and the parts of the state after which it is drawn again. */
+export interface Panel {
+  title: string;
+  available: boolean;
+  keys: (keyof State)[];
+  render(): Node;
+}

@@ -1,0 +1,224 @@
+/** All layers of the chosen run, built when first seen and rebuilt when what they show changes. */
+import { Group, type Object3D, type Sphere, Vector3 } from "three";
+import { apply } from "../data/align";
+import { compareRuns } from "../data/compare";
+import { type Rgb, robustRange } from "../data/colour_scale";
+import type { ReportData, RunData } from "../data/model";
+import { keyframeSpacing } from "../data/run_view";
+import { positionAt } from "../data/quaternion";
+import type { LayerName, State } from "../page/state";
+import { type LegendItem, frameColouring, runColour } from "./colouring";
+import { CursorLayer } from "./cursor_layer";
+import { frustaLines } from "./frusta_layer";
+import { cellSize, ground } from "./grid_layer";
+import { ImagesLayer } from "./images_layer";
+import { LandmarkLayer, sceneHeights } from "./landmark_layer";
+import { dispose } from "./lines";
+import { loopLines, loopRows, stageColour } from "./loops_layer";
+import { mapGroup, trajectorySphere } from "./map_frame";
+import { constraintColour, constraintLines, placePoints } from "./places_layer";
+import { planeShapes } from "./planes_layer";
+import { plainTrajectory, trajectoryLines, truthLines } from "./trajectory_layer";
+import type { Viewport } from "./viewport";
+
+const ONLINE: Rgb = [204, 121, 167];
+
+export class RunScene {
+  readonly group: Group;
+  readonly root = new Group();
+  readonly sphere: Sphere;
+  readonly cursor = new CursorLayer();
+  private readonly run: RunData;
+  private readonly built = new Map<LayerName, Object3D>();
+  private landmarks: LandmarkLayer | null = null;
+  private images: ImagesLayer | null = null;
+  private pointLegend: LegendItem | null = null;
+  private readonly spacing: number;
+  private readonly groundHeight: number;
+
+  constructor(private readonly report: ReportData, private state: Readonly<State>, private readonly viewport: Viewport) {
+    this.run = report.runs[state.run];
+    this.group = mapGroup(this.run, state.component);
+    this.sphere = trajectorySphere(this.run, state.component, this.group);
+    this.spacing = keyframeSpacing(this.run, state.component) || this.sphere.radius / 40;
+    this.groundHeight = this.findGround();
+    this.root.add(this.group);
+    this.group.add(this.cursor.object);
+    viewport.scene.add(this.root);
+    this.update(state);
+  }
+
+  /** Size of the frusta: about the distance between keyframes, but to be seen from afar. */
+  get frustumSize(): number {
+    const size = Math.min(Math.max(this.spacing * 0.7, this.sphere.radius / 120), this.sphere.radius / 12);
+    return size * this.state.frustumSize;
+  }
+
+  /** Shows what `state` asks for; layers in `changed` are built again. */
+  update(state: Readonly<State>, changed: LayerName[] = []): void {
+    this.state = state;
+    for (const name of changed) this.drop(name);
+    for (const [name, visible] of Object.entries(state.layers) as [LayerName, boolean][]) {
+      if (visible && !this.built.has(name)) this.add(name);
+      const object = this.built.get(name);
+      if (object) object.visible = visible;
+    }
+    this.showCursor(state);
+    this.viewport.request();
+  }
+
+  showCursor(state: Readonly<State>): void {
+    this.state = state;
+    this.cursor.show(this.run, state.row, state.loop, state.component, this.frustumSize);
+    this.viewport.request();
+  }
+
+  setMoving(moving: boolean): void {
+    this.landmarks?.setMoving(moving);
+    if (!moving && this.state.layers.images) void this.images?.update(this.viewport.camera);
+  }
+
+  setPointSize(pixels: number): void {
+    this.landmarks?.setSize(pixels);
+    this.viewport.request();
+  }
+
+  /** Position in the scene of a frame's optimized pose. */
+  framePosition(row: number, target = new Vector3()): Vector3 {
+    return target.fromArray(this.run.frames.pose, 7 * row).applyMatrix4(this.group.matrixWorld);
+  }
+
+  legend(): LegendItem[] {
+    const { state, run } = this;
+    const items: LegendItem[] = [];
+    if (state.layers.trajectory) items.push(frameColouring(run, state.run, state.colourBy).legend);
+    if (state.layers.landmarks && this.pointLegend) items.push(this.pointLegend);
+    items.push(...this.lineLegend());
+    if (state.layers.grid) {
+      const cell = `${cellSize(this.sphere.radius)} ${run.metric ? "m" : "map units"}`;
+      items.push({ kind: "category", title: `Grid cells of ${cell}`, entries: [] });
+    }
+    return items;
+  }
+
+  dispose(): void {
+    this.images?.dispose();
+    dispose(this.root);
+  }
+
+  private lineLegend(): LegendItem[] {
+    const { state, run, report } = this;
+    const entries: { text: string; colour: Rgb }[] = [];
+    if (state.layers.truth && run.frames.truth) entries.push({ text: "ground truth", colour: this.truthColour() });
+    if (state.layers.online) entries.push({ text: "online trajectory", colour: ONLINE });
+    if (state.layers.others) {
+      report.runs.forEach((other, i) => {
+        if (i !== state.run) entries.push({ text: other.name, colour: runColour(i) });
+      });
+    }
+    if (state.layers.loops && run.loops.count > 0) entries.push({ text: "loop accepted", colour: stageColour("accepted") });
+    if (state.layers.refused) {
+      for (const stage of run.loops.stage.table) {
+        if (stage !== "accepted") entries.push({ text: `loop refused: ${stage}`, colour: stageColour(stage) });
+      }
+    }
+    if (state.layers.constraints) {
+      for (const source of run.constraints.source.table) {
+        entries.push({ text: `constraint: ${source}`, colour: constraintColour(run, source) });
+      }
+    }
+    return entries.length > 0 ? [{ kind: "category", title: "Lines", entries }] : [];
+  }
+
+  private drop(name: LayerName): void {
+    const object = this.built.get(name);
+    if (!object) return;
+    if (name === "images") this.images?.dispose();
+    dispose(object);
+    this.built.delete(name);
+  }
+
+  private add(name: LayerName): void {
+    const object = this.build(name);
+    if (object === null) return;
+    this.built.set(name, object);
+    (name === "grid" ? this.root : this.group).add(object);
+  }
+
+  private build(name: LayerName): Object3D | null {
+    const { run, state } = this;
+    const { component } = state;
+    switch (name) {
+      case "trajectory":
+        return trajectoryLines(run, component, frameColouring(run, state.run, state.colourBy).colour);
+      case "truth":
+        return run.frames.truth ? truthLines(run.frames.truth, this.truthColour()) : null;
+      case "online":
+        return plainTrajectory(run, run.frames.online, component, ONLINE);
+      case "frusta":
+        return frustaLines(run, component, this.frustumSize, state.theme === "dark" ? [150, 175, 200] : [90, 115, 140]);
+      case "images":
+        return this.buildImages();
+      case "landmarks":
+        return this.buildLandmarks();
+      case "places":
+        return placePoints(run, component);
+      case "constraints":
+        return constraintLines(run, component);
+      case "loops":
+      case "refused":
+        return loopLines(run, component, loopRows(run, state.loopFilter, name === "loops"), name === "loops");
+      case "planes":
+        return planeShapes(run);
+      case "others":
+        return this.buildOthers();
+      case "grid":
+        return ground(this.sphere.radius, this.groundHeight, this.sphere.center.x, this.sphere.center.z, state.theme === "dark");
+    }
+  }
+
+  private buildImages(): Object3D {
+    this.images = new ImagesLayer(this.run, this.state.component, this.frustumSize, this.group, () => this.viewport.request());
+    void this.images.update(this.viewport.camera);
+    return this.images.object;
+  }
+
+  private buildLandmarks(): Object3D {
+    this.landmarks = new LandmarkLayer(this.run, this.state.component, this.group);
+    this.pointLegend = this.landmarks.setColour(this.state.pointColour);
+    this.landmarks.setSize(this.state.pointSize);
+    this.landmarks.setMoving(this.viewport.moving);
+    return this.landmarks.points;
+  }
+
+  private buildOthers(): Object3D {
+    const others = new Group();
+    this.report.runs.forEach((other, i) => {
+      if (i === this.state.run) return;
+      const comparison = compareRuns(this.run, other, this.state.alignOn);
+      if (comparison === null) return;
+      const poses = Float64Array.from(other.frames.pose);
+      for (let row = 0; row < other.frames.count; row++) poses.set(apply(comparison.alignment, positionAt(poses, row)), 7 * row);
+      others.add(plainTrajectory(other, poses, null, runColour(i)));
+    });
+    return others;
+  }
+
+  private truthColour(): Rgb {
+    return this.state.theme === "dark" ? [235, 235, 235] : [20, 20, 20];
+  }
+
+  /** Height of the ground: that of the lowest landmarks, of the trajectory without any. */
+  private findGround(): number {
+    if (this.run.landmarks.count >= 100) {
+      const [low] = robustRange(sceneHeights(this.run, this.group), 0.03, 0.97);
+      if (Math.abs(low - this.sphere.center.y) < 2 * this.sphere.radius) return low;
+    }
+    let lowest = Infinity;
+    for (let row = 0; row < this.run.frames.count; row++) {
+      const { y } = this.framePosition(row);
+      if (y < lowest) lowest = y;
+    }
+    return Number.isFinite(lowest) ? lowest : 0;
+  }
+}
