@@ -1,5 +1,5 @@
 import { defineConfig } from "vite";
-import { singleFile } from "./single_file";
+import { singleFile } from "./single_file.ts";
 
 export default defineConfig({
   base: "./",

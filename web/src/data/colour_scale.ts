@@ -2,14 +2,17 @@
 
 export type Rgb = [number, number, number];
 
-/** Samples of viridis (Smith, van der Walt 2015) and cividis (Nunez et al. 2018), sRGB in 0..255. */
+/**
+ * Samples of viridis (Smith, van der Walt 2015) and cividis (Nunez et al. 2018), sRGB in 0..255. Both
+ * ends are left out: the darkest is lost on a dark ground, the brightest on a light one.
+ */
 const VIRIDIS: Rgb[] = [
-  [68, 1, 84], [71, 44, 122], [59, 81, 139], [44, 113, 142], [33, 144, 141],
-  [39, 173, 129], [92, 200, 99], [170, 220, 50], [253, 231, 37],
+  [72, 36, 117], [66, 64, 134], [54, 93, 141], [43, 117, 142], [33, 144, 141],
+  [39, 173, 129], [78, 195, 107], [144, 215, 67], [218, 226, 25],
 ];
 const CIVIDIS: Rgb[] = [
-  [0, 34, 78], [26, 56, 111], [67, 78, 108], [98, 101, 112], [125, 124, 120],
-  [154, 148, 118], [185, 173, 108], [219, 201, 90], [254, 232, 56],
+  [18, 53, 112], [45, 68, 110], [73, 83, 109], [98, 101, 112], [125, 124, 120],
+  [154, 148, 118], [185, 173, 108], [212, 195, 94], [239, 219, 73],
 ];
 
 export const SCALES = { viridis: VIRIDIS, cividis: CIVIDIS } as const;

@@ -10,6 +10,7 @@ export function sceneTools(report: ReportData, store: Store, scene: SceneView): 
   const follow = button("Follow", "Follow the camera (H)", () => store.set({ follow: !store.state.follow }));
   const showFollow = (): void => follow.setAttribute("aria-pressed", String(store.state.follow));
   store.on(["follow"], showFollow);
+  store.on(["tab"], (state) => (follow.hidden = state.tab === "graph"));
   showFollow();
   const tools = el("div", { class: "tools" },
     button("Fit", "Show all of the map (F)", () => scene.fit()),

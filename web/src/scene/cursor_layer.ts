@@ -1,7 +1,8 @@
-import { BufferAttribute, BufferGeometry, Group, Matrix4, Points, PointsMaterial } from "three";
-import { type Rgb, cssColour } from "../data/colour_scale";
+import { Group, Matrix4 } from "three";
+import type { Rgb } from "../data/colour_scale";
 import type { RunData } from "../data/model";
-import { isPosed } from "../data/run_view";
+import { isPosed, keyframeAt } from "../data/run_view";
+import { discs } from "./discs";
 import { addFrustum, imageShape } from "./frusta_layer";
 import { SegmentList, dispose, wideLines } from "./lines";
 import { loopEnds } from "./loops_layer";
@@ -24,7 +25,21 @@ export class CursorLayer {
       this.object.add(wideLines(link, 5), this.camera(run, ends[1], size, MATCH), this.camera(run, ends[0], size, QUERY));
     }
     if (!isPosed(run, row, component)) return;
-    this.object.add(this.camera(run, row, 1.5 * size, CURSOR), pointAt(run, row));
+    const point = discs(run.frames.pose.slice(7 * row, 7 * row + 3), CURSOR, 11);
+    point.material.depthTest = false;
+    point.renderOrder = 10;
+    this.object.add(this.camera(run, row, 1.5 * size, CURSOR), point, this.landmarksOf(run, row));
+  }
+
+  /** The landmarks that the keyframe under the cursor has made. */
+  private landmarksOf(run: RunData, row: number): ReturnType<typeof discs> {
+    const keyframe = run.keyframes.id[keyframeAt(run, row)];
+    const { count, keyframe: owner, position } = run.landmarks;
+    const positions: number[] = [];
+    for (let i = 0; i < count; i++) {
+      if (owner[i] === keyframe) positions.push(position[3 * i], position[3 * i + 1], position[3 * i + 2]);
+    }
+    return discs(positions, CURSOR, 4);
   }
 
   private camera(run: RunData, row: number, size: number, colour: Rgb): ReturnType<typeof wideLines> {
@@ -32,14 +47,4 @@ export class CursorLayer {
     addFrustum(list, poseMatrix(run.frames.pose, row, new Matrix4()), imageShape(run), 2 * size, colour);
     return wideLines(list, 2.5);
   }
-}
-
-function pointAt(run: RunData, row: number): Points {
-  const geometry = new BufferGeometry();
-  geometry.setAttribute("position", new BufferAttribute(Float32Array.from(run.frames.pose.slice(7 * row, 7 * row + 3)), 3));
-  const size = 10 * Math.min(window.devicePixelRatio, 2);
-  const material = new PointsMaterial({ color: cssColour(CURSOR), sizeAttenuation: false, size, depthTest: false, transparent: true });
-  const points = new Points(geometry, material);
-  points.renderOrder = 10;
-  return points;
 }

@@ -6,9 +6,6 @@ import { componentOfKeyframe } from "../data/run_view";
 import type { PointColour } from "../page/state";
 import { type LegendItem, heightLegend, scaleLegend } from "./colouring";
 
-/** Points that are drawn while the camera moves. */
-const WHILE_MOVING = 30000;
-
 /** The landmarks in a shuffled order: any first part of them is a fair sample of all. */
 export class LandmarkLayer {
   readonly points: Points<BufferGeometry, PointsMaterial>;
@@ -30,12 +27,14 @@ export class LandmarkLayer {
     this.points.frustumCulled = false;
   }
 
-  setMoving(moving: boolean): void {
-    this.points.geometry.setDrawRange(0, moving ? Math.min(this.count, WHILE_MOVING) : this.count);
+  /** Draws at most `most` of the points. */
+  setMost(most: number): void {
+    this.points.geometry.setDrawRange(0, Math.min(this.count, most));
   }
 
-  setSize(pixels: number): void {
-    this.points.material.size = pixels * Math.min(window.devicePixelRatio, 2);
+  /** `ratio` is the number of pixels drawn for each pixel of the page. */
+  setSize(pixels: number, ratio: number): void {
+    this.points.material.size = Math.max(pixels * ratio, 1);
   }
 
   /** Colours the points; returns what the legend says, nothing for their own colours. */

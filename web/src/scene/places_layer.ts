@@ -1,7 +1,8 @@
-import { BufferAttribute, BufferGeometry, type Object3D, Points, PointsMaterial } from "three";
-import { categoryColour, cssColour } from "../data/colour_scale";
+import type { Object3D } from "three";
+import { categoryColour } from "../data/colour_scale";
 import type { RunData } from "../data/model";
 import { label } from "../data/model";
+import { discs } from "./discs";
 import { SegmentList, thinLines } from "./lines";
 
 export const PLACE_COLOUR = categoryColour(4);
@@ -13,10 +14,7 @@ export function placePoints(run: RunData, component: number | null): Object3D {
     if (component !== null && places.component[i] !== component) continue;
     positions.push(places.position[3 * i], places.position[3 * i + 1], places.position[3 * i + 2]);
   }
-  const geometry = new BufferGeometry();
-  geometry.setAttribute("position", new BufferAttribute(new Float32Array(positions), 3));
-  const size = 8 * Math.min(window.devicePixelRatio, 2);
-  return new Points(geometry, new PointsMaterial({ color: cssColour(PLACE_COLOUR), sizeAttenuation: false, size }));
+  return discs(positions, PLACE_COLOUR, 9);
 }
 
 /** Constraints between places, coloured by their source. */

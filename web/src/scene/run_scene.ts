@@ -1,7 +1,7 @@
 /** All layers of the chosen run, built when first seen and rebuilt when what they show changes. */
 import { Group, type Object3D, type Sphere, Vector3 } from "three";
 import { apply } from "../data/align";
-import { compareRuns } from "../data/compare";
+import { compareRuns, mainComponent } from "../data/compare";
 import { type Rgb, robustRange } from "../data/colour_scale";
 import type { ReportData, RunData } from "../data/model";
 import { keyframeSpacing } from "../data/run_view";
@@ -19,7 +19,8 @@ import { mapGroup, trajectorySphere } from "./map_frame";
 import { constraintColour, constraintLines, placePoints } from "./places_layer";
 import { planeShapes } from "./planes_layer";
 import { plainTrajectory, trajectoryLines, truthLines } from "./trajectory_layer";
-import type { Viewport } from "./viewport";
+import type { QualityLevel } from "./quality";
+import { type Viewport, pixelRatio } from "./viewport";
 
 const ONLINE: Rgb = [204, 121, 167];
 
@@ -33,6 +34,7 @@ export class RunScene {
   private landmarks: LandmarkLayer | null = null;
   private images: ImagesLayer | null = null;
   private pointLegend: LegendItem | null = null;
+  private cursorIsOld = true;
   private readonly spacing: number;
   private readonly groundHeight: number;
 
@@ -63,23 +65,38 @@ export class RunScene {
       const object = this.built.get(name);
       if (object) object.visible = visible;
     }
+    this.setQuality(this.viewport.level);
     this.showCursor(state);
-    this.viewport.request();
   }
 
   showCursor(state: Readonly<State>): void {
     this.state = state;
-    this.cursor.show(this.run, state.row, state.loop, state.component, this.frustumSize);
+    this.cursorIsOld = true;
     this.viewport.request();
   }
 
-  setMoving(moving: boolean): void {
-    this.landmarks?.setMoving(moving);
-    if (!moving && this.state.layers.images) void this.images?.update(this.viewport.camera);
+  /** The cursor may move several times between two pictures: it is drawn once. */
+  beforeDraw(): void {
+    if (!this.cursorIsOld) return;
+    this.cursorIsOld = false;
+    const { row, loop, component } = this.state;
+    this.cursor.show(this.run, row, loop, component, this.frustumSize);
   }
 
-  setPointSize(pixels: number): void {
-    this.landmarks?.setSize(pixels);
+  /** Draws less while something moves, all with null. */
+  setQuality(level: QualityLevel | null): void {
+    this.landmarks?.setMost(level?.points ?? Infinity);
+    this.landmarks?.setSize(this.state.pointSize, pixelRatio() * (level?.resolution ?? 1));
+    for (const name of ["frusta", "images", "planes"] as const) {
+      const object = this.built.get(name);
+      if (object) object.visible = this.state.layers[name] && (level?.details ?? true);
+    }
+    if (level === null && this.state.layers.images) void this.images?.update(this.viewport.camera);
+  }
+
+  setPointSize(state: Readonly<State>): void {
+    this.state = state;
+    this.setQuality(this.viewport.level);
     this.viewport.request();
   }
 
@@ -186,8 +203,6 @@ export class RunScene {
   private buildLandmarks(): Object3D {
     this.landmarks = new LandmarkLayer(this.run, this.state.component, this.group);
     this.pointLegend = this.landmarks.setColour(this.state.pointColour);
-    this.landmarks.setSize(this.state.pointSize);
-    this.landmarks.setMoving(this.viewport.moving);
     return this.landmarks.points;
   }
 
@@ -199,7 +214,8 @@ export class RunScene {
       if (comparison === null) return;
       const poses = Float64Array.from(other.frames.pose);
       for (let row = 0; row < other.frames.count; row++) poses.set(apply(comparison.alignment, positionAt(poses, row)), 7 * row);
-      others.add(plainTrajectory(other, poses, null, runColour(i)));
+      // Only the main component is aligned: the others have frames of their own.
+      others.add(plainTrajectory(other, poses, mainComponent(other), runColour(i)));
     });
     return others;
   }

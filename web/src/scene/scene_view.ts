@@ -38,7 +38,8 @@ export class SceneView {
   constructor(private readonly report: ReportData, private readonly store: Store) {
     this.viewport = new Viewport(this.element);
     this.element.append(this.legendBox);
-    this.viewport.onMoving = (moving) => this.run?.setMoving(moving);
+    this.viewport.onQuality = (level) => this.run?.setQuality(level);
+    this.viewport.beforeDraw = () => this.run?.beforeDraw();
     this.applyTheme();
     if (report.runs.length > 0) this.buildRun();
     this.showGraph();
@@ -100,9 +101,10 @@ export class SceneView {
     store.on(["layers", ...REBUILD.flatMap(([keys]) => keys)], () => this.refreshLegendSoon());
     store.on(["layers"], (state) => this.run?.update(state));
     for (const [keys, layers] of REBUILD) store.on(keys, (state) => this.run?.update(state, layers));
-    store.on(["pointSize"], (state) => this.run?.setPointSize(state.pointSize));
+    store.on(["pointSize"], (state) => this.run?.setPointSize(state));
     store.on(["row", "loop"], (state) => {
       this.run?.showCursor(state);
+      this.viewport.move();
       if (state.follow) this.follow(state.row);
     });
     store.on(["follow"], (state) => {
@@ -159,6 +161,7 @@ export class SceneView {
       this.viewport.scene.add(this.graph);
     }
     if (this.run) this.run.root.visible = graph === null;
+    this.element.parentElement?.toggleAttribute("data-graph", graph !== null);
     this.refreshLegend();
     this.viewport.request();
   }

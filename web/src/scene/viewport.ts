@@ -1,32 +1,36 @@
-import { ColorManagement, LinearSRGBColorSpace, PerspectiveCamera, Scene, Sphere, Vector3, WebGLRenderer } from "three";
+import { ColorManagement, LinearSRGBColorSpace, PerspectiveCamera, Scene, type Sphere, type Vector3, WebGLRenderer } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { Quality, type QualityLevel, isSoftware } from "./quality";
 
-const STILL_AFTER_MS = 160;
+const STILL_AFTER_MS = 200;
 
 /**
  * The canvas, the camera and its controls. Pictures are drawn on demand only: `request` draws one
- * in the next animation frame. While the camera moves, `moving` is true and layers draw less.
+ * in the next animation frame. While the camera or the cursor moves, less is drawn if the graphics
+ * are slow; when they are still, all is.
  */
 export class Viewport {
   readonly scene = new Scene();
   readonly camera = new PerspectiveCamera(50, 1, 0.1, 1000);
   readonly controls: OrbitControls;
   readonly canvas: HTMLCanvasElement;
-  moving = false;
-  /** Called when the camera begins or ends to move. */
-  onMoving: (moving: boolean) => void = () => undefined;
+  /** Called when a movement begins, slows down or ends; null: draw everything. */
+  onQuality: (level: QualityLevel | null) => void = () => undefined;
   /** Called before a picture is drawn. */
   beforeDraw: () => void = () => undefined;
-  /** Number of pictures drawn so far. */
-  drawn = 0;
   private readonly renderer: WebGLRenderer;
+  private readonly quality: Quality;
+  private moving = false;
+  private drawn = 0;
   private pending = false;
   private stillTimer = 0;
 
   constructor(private readonly parent: HTMLElement) {
     // Materials are unlit: colours pass from the tables to the screen unchanged.
     ColorManagement.enabled = false;
-    this.renderer = new WebGLRenderer({ antialias: true, powerPreference: "high-performance" });
+    const software = softwareGraphics();
+    this.quality = new Quality(software);
+    this.renderer = new WebGLRenderer({ antialias: !software });
     this.renderer.outputColorSpace = LinearSRGBColorSpace;
     this.canvas = this.renderer.domElement;
     this.canvas.tabIndex = 0;
@@ -35,18 +39,38 @@ export class Viewport {
     parent.append(this.canvas);
     this.controls = new OrbitControls(this.camera, this.canvas);
     this.controls.zoomToCursor = true;
-    this.controls.addEventListener("change", () => this.cameraMoved());
+    this.controls.addEventListener("change", () => this.move());
     new ResizeObserver(() => this.resize()).observe(parent);
     this.resize();
+  }
+
+  get level(): QualityLevel | null {
+    return this.moving ? this.quality.level : null;
   }
 
   request(): void {
     if (this.pending) return;
     this.pending = true;
-    requestAnimationFrame(() => {
+    requestAnimationFrame((now) => {
       this.pending = false;
+      if (this.moving && this.quality.note(now)) this.applyQuality();
       this.draw();
     });
+  }
+
+  /** Draws a picture of a movement: less until nothing has moved for a while. */
+  move(): void {
+    if (!this.moving) {
+      this.moving = true;
+      this.applyQuality();
+    }
+    window.clearTimeout(this.stillTimer);
+    this.stillTimer = window.setTimeout(() => {
+      this.moving = false;
+      this.applyQuality();
+      this.request();
+    }, STILL_AFTER_MS);
+    this.request();
   }
 
   setBackground(css: string): void {
@@ -65,7 +89,7 @@ export class Viewport {
     this.controls.target.copy(sphere.center);
     this.camera.position.copy(sphere.center).addScaledVector(direction.clone().normalize(), distance);
     this.controls.update();
-    this.cameraMoved();
+    this.move();
   }
 
   /** Moves the camera and its target by the same amount. */
@@ -73,18 +97,14 @@ export class Viewport {
     this.camera.position.add(by);
     this.controls.target.add(by);
     this.controls.update();
-    this.request();
+    this.move();
   }
 
-  /** Position in pixels of the canvas; nothing behind the camera. */
-  project(point: Vector3): { x: number; y: number } | null {
-    const p = point.clone().project(this.camera);
-    if (p.z > 1 || p.z < -1) return null;
-    return { x: ((p.x + 1) / 2) * this.parent.clientWidth, y: ((1 - p.y) / 2) * this.parent.clientHeight };
-  }
-
-  /** Draws now and returns the canvas, whose content is valid until this task ends. */
+  /** Draws all now and returns the canvas, whose content is valid until this task ends. */
   drawNow(): HTMLCanvasElement {
+    window.clearTimeout(this.stillTimer);
+    this.moving = false;
+    this.applyQuality();
     this.draw();
     return this.canvas;
   }
@@ -92,30 +112,35 @@ export class Viewport {
   private draw(): void {
     this.beforeDraw();
     this.renderer.render(this.scene, this.camera);
-    this.drawn++;
+    if (this.drawn++ === 0) performance.mark("first-picture");
   }
 
-  private cameraMoved(): void {
-    if (!this.moving) {
-      this.moving = true;
-      this.onMoving(true);
-    }
-    window.clearTimeout(this.stillTimer);
-    this.stillTimer = window.setTimeout(() => {
-      this.moving = false;
-      this.onMoving(false);
-      this.request();
-    }, STILL_AFTER_MS);
-    this.request();
+  private applyQuality(): void {
+    const ratio = pixelRatio() * (this.level?.resolution ?? 1);
+    if (ratio !== this.renderer.getPixelRatio()) this.renderer.setPixelRatio(ratio);
+    this.onQuality(this.level);
   }
 
   private resize(): void {
     const width = Math.max(this.parent.clientWidth, 1);
     const height = Math.max(this.parent.clientHeight, 1);
-    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    this.renderer.setPixelRatio(pixelRatio());
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
     this.request();
   }
+}
+
+/** Pixels drawn for each pixel of the page. */
+export function pixelRatio(): number {
+  return Math.min(window.devicePixelRatio, 2);
+}
+
+function softwareGraphics(): boolean {
+  const gl = document.createElement("canvas").getContext("webgl2");
+  if (gl === null) throw new Error("The browser has no WebGL 2, which the scene needs.");
+  const software = isSoftware(gl);
+  gl.getExtension("WEBGL_lose_context")?.loseContext();
+  return software;
 }

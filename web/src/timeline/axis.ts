@@ -4,7 +4,7 @@ import { times } from "../data/series";
 
 /** Pixels left and right of the axis: room for the values of the graph. */
 export const LEFT = 62;
-export const RIGHT = 14;
+export const RIGHT = 22;
 
 export class Axis {
   /** Ascending values, one a frame. */

@@ -24,7 +24,7 @@ export function timelineControls(report: ReportData, store: Store, timeline: Tim
     graphs.replaceChildren(select("Graph", choices, store.state.series, (value) => store.set({ series: value as SeriesName })));
   };
   const showPlaying = (): void => {
-    play.textContent = store.state.playing ? "⏸" : "▶";
+    play.textContent = store.state.playing ? "❚❚" : "▶";
     play.setAttribute("aria-label", store.state.playing ? "Pause" : "Play");
   };
   const showCursor = (): void => {
@@ -38,8 +38,8 @@ export function timelineControls(report: ReportData, store: Store, timeline: Tim
   showPlaying();
   showCursor();
   return el("div", { class: "controls" },
-    button("⏮", "One frame back (left arrow)", () => moveCursor(report, store, -1)), play,
-    button("⏭", "One frame on (right arrow)", () => moveCursor(report, store, 1)), rate, graphs, axis,
+    button("‹", "One frame back (left arrow)", () => moveCursor(report, store, -1)), play,
+    button("›", "One frame on (right arrow)", () => moveCursor(report, store, 1)), rate, graphs, axis,
     button("PNG", "Save the graph as PNG", () => timeline.savePng()),
     button("SVG", "Save the graph as SVG", () => timeline.saveSvg()), readout);
 }

@@ -1,0 +1,45 @@
+import { existsSync } from "node:fs";
+import { type Browser, type Page, chromium } from "playwright-core";
+
+export const CHROMIUM = "/usr/bin/chromium";
+
+export function hasChromium(): boolean {
+  return existsSync(CHROMIUM);
+}
+
+/** Chromium with graphics in software. */
+export function launch(): Promise<Browser> {
+  return chromium.launch({
+    executablePath: CHROMIUM,
+    args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
+  });
+}
+
+export interface Watched {
+  page: Page;
+  /** Everything that the page wrote to the console, and errors that nothing caught. */
+  messages: string[];
+}
+
+export interface PageOptions {
+  width?: number;
+  height?: number;
+  scheme?: "dark" | "light";
+  touch?: boolean;
+}
+
+/** Opens a page and waits until its first picture is drawn. */
+export async function open(browser: Browser, url: string, options: PageOptions = {}): Promise<Watched> {
+  const page = await browser.newPage({
+    viewport: { width: options.width ?? 1440, height: options.height ?? 900 },
+    colorScheme: options.scheme ?? "dark",
+    hasTouch: options.touch ?? false,
+  });
+  const messages: string[] = [];
+  page.on("console", (message) => messages.push(`${message.type()}: ${message.text()}`));
+  page.on("pageerror", (error) => messages.push(`error: ${error.message}`));
+  await page.goto(url);
+  await page.waitForSelector("#page.report, #page.message");
+  await page.waitForTimeout(700); // until the camera is still and thumbnails are decoded
+  return { page, messages };
+}
