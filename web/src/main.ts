@@ -33,14 +33,15 @@ function showReport(page: HTMLElement, report: ReportData): void {
   const store = new Store(startState(report, preferredTheme()));
   watchTheme(store);
   const help = helpDialog();
-  const scene = new SceneView(report, store);
-  scene.element.append(sceneTools(report, store, scene));
   page.className = "report";
-  page.append(header(report, store, help.toggle), scene.element);
+  page.append(header(report, store, help.toggle));
+  const scene = new SceneView(page, report, store);
+  scene.element.append(sceneTools(report, store, scene));
   if (report.runs.length > 0) {
     scene.element.append(layersPanel(report, store));
     watchPointer(scene, report, store);
     const timeline = new Timeline(report, store);
+    timeline.onHold = (held) => scene.viewport.hold(held);
     page.append(el("section", { class: "timeline", "aria-label": "Time line" }, timelineControls(report, store, timeline), timeline.element));
     watchPlaying(report, store);
   }
@@ -56,7 +57,9 @@ function showReport(page: HTMLElement, report: ReportData): void {
 
 function start(page: HTMLElement): void {
   try {
+    performance.mark("script");
     const report = loadReport(document);
+    performance.mark("decoded");
     if (report === null) {
       showMessage(page, "This page holds no report. The command \"placegraph report OUT -o report.html\" writes a page with the report of a run.");
     } else if (report.runs.length === 0 && report.graphs.length === 0 && report.pictures.length === 0) {

@@ -1,8 +1,6 @@
 import { BufferAttribute, BufferGeometry, LineBasicMaterial, LineSegments, Object3D } from "three";
-import { LineMaterial } from "three/addons/lines/LineMaterial.js";
-import { LineSegments2 } from "three/addons/lines/LineSegments2.js";
-import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js";
 import type { Rgb } from "../data/colour_scale";
+import { wideLineMesh } from "./wide_lines";
 
 /** Segments collected one by one, with a colour at each end. */
 export class SegmentList {
@@ -26,13 +24,7 @@ export function thinLines(list: SegmentList, opacity = 1): LineSegments {
 
 /** Lines of `width` pixels. */
 export function wideLines(list: SegmentList, width: number): Object3D {
-  if (list.positions.length === 0) return new Object3D();
-  const geometry = new LineSegmentsGeometry();
-  geometry.setPositions(new Float32Array(list.positions));
-  geometry.setColors(new Float32Array(list.colours));
-  const lines = new LineSegments2(geometry, new LineMaterial({ vertexColors: true, linewidth: width }));
-  lines.frustumCulled = false;
-  return lines;
+  return list.positions.length === 0 ? new Object3D() : wideLineMesh(list.positions, list.colours, width);
 }
 
 /** Frees what an object and its children hold on the graphics card. */

@@ -35,7 +35,8 @@ export class SceneView {
   private legendBox: HTMLElement = el("div");
   private readonly followed = new Vector3();
 
-  constructor(private readonly report: ReportData, private readonly store: Store) {
+  constructor(page: HTMLElement, private readonly report: ReportData, private readonly store: Store) {
+    page.append(this.element);
     this.viewport = new Viewport(this.element);
     this.element.append(this.legendBox);
     this.viewport.onQuality = (level) => this.run?.setQuality(level);
@@ -44,7 +45,7 @@ export class SceneView {
     if (report.runs.length > 0) this.buildRun();
     this.showGraph();
     this.watch();
-    requestAnimationFrame(() => this.fit());
+    this.fit();
   }
 
   fit(): void {

@@ -21,9 +21,12 @@ export class Viewport {
   private readonly renderer: WebGLRenderer;
   private readonly quality: Quality;
   private moving = false;
+  private held = false;
   private drawn = 0;
   private pending = false;
   private stillTimer = 0;
+  /** What the camera was fitted to, until the user moves it. */
+  private fitted: { sphere: Sphere; direction: Vector3 } | null = null;
 
   constructor(private readonly parent: HTMLElement) {
     // Materials are unlit: colours pass from the tables to the screen unchanged.
@@ -32,6 +35,8 @@ export class Viewport {
     this.quality = new Quality(software);
     this.renderer = new WebGLRenderer({ antialias: !software });
     this.renderer.outputColorSpace = LinearSRGBColorSpace;
+    // To ask for errors makes the page wait until each shader is compiled.
+    this.renderer.debug.checkShaderErrors = false;
     this.canvas = this.renderer.domElement;
     this.canvas.tabIndex = 0;
     this.canvas.setAttribute("role", "img");
@@ -40,6 +45,11 @@ export class Viewport {
     this.controls = new OrbitControls(this.camera, this.canvas);
     this.controls.zoomToCursor = true;
     this.controls.addEventListener("change", () => this.move());
+    this.controls.addEventListener("start", () => {
+      this.fitted = null;
+      this.hold(true);
+    });
+    this.controls.addEventListener("end", () => this.hold(false));
     new ResizeObserver(() => this.resize()).observe(parent);
     this.resize();
   }
@@ -65,12 +75,19 @@ export class Viewport {
       this.applyQuality();
     }
     window.clearTimeout(this.stillTimer);
+    if (this.held) return void this.request();
     this.stillTimer = window.setTimeout(() => {
       this.moving = false;
       this.applyQuality();
       this.request();
     }, STILL_AFTER_MS);
     this.request();
+  }
+
+  /** While the user holds the camera or the cursor, a pause is no end of the movement. */
+  hold(held: boolean): void {
+    this.held = held;
+    if (this.moving) this.move();
   }
 
   setBackground(css: string): void {
@@ -88,6 +105,7 @@ export class Viewport {
     this.camera.updateProjectionMatrix();
     this.controls.target.copy(sphere.center);
     this.camera.position.copy(sphere.center).addScaledVector(direction.clone().normalize(), distance);
+    this.fitted = { sphere, direction };
     this.controls.update();
     this.move();
   }
@@ -96,6 +114,7 @@ export class Viewport {
   shift(by: Vector3): void {
     this.camera.position.add(by);
     this.controls.target.add(by);
+    this.fitted = null;
     this.controls.update();
     this.move();
   }
@@ -128,6 +147,7 @@ export class Viewport {
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
+    if (this.fitted) this.fit(this.fitted.sphere, this.fitted.direction);
     this.request();
   }
 }

@@ -18,6 +18,8 @@ const GRAPH_HEIGHT = 118;
 /** Thumbnails, graph and bands over one axis, with a cursor that goes through all of them. */
 export class Timeline {
   readonly element = el("div", { class: "track", tabindex: "0", role: "slider", "aria-label": "Frame under the cursor" });
+  /** Called when the user takes and leaves the cursor. */
+  onHold: (held: boolean) => void = () => undefined;
   private readonly strip = new Strip();
   private readonly bands = new Bands();
   private readonly graphBox = el("div", { class: "graph" });
@@ -142,11 +144,13 @@ export class Timeline {
     this.element.addEventListener("pointerdown", (event) => {
       if (event.button !== 0) return;
       this.element.setPointerCapture(event.pointerId);
+      this.onHold(true);
       scrub(event);
     });
     this.element.addEventListener("pointermove", (event) => {
       if (this.element.hasPointerCapture(event.pointerId)) scrub(event);
     });
+    this.element.addEventListener("lostpointercapture", () => this.onHold(false));
     this.element.addEventListener("dblclick", () => this.store.set({ range: null }));
     this.element.addEventListener("wheel", (event) => {
       event.preventDefault();
