@@ -57,9 +57,7 @@ function showReport(page: HTMLElement, report: ReportData): void {
 
 function start(page: HTMLElement): void {
   try {
-    performance.mark("script");
     const report = loadReport(document);
-    performance.mark("decoded");
     if (report === null) {
       showMessage(page, "This page holds no report. The command \"placegraph report OUT -o report.html\" writes a page with the report of a run.");
     } else if (report.runs.length === 0 && report.graphs.length === 0 && report.pictures.length === 0) {

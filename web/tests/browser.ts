@@ -15,6 +15,15 @@ export function launch(): Promise<Browser> {
   });
 }
 
+/** Waits until an expression is true; unlike waitForFunction it works under the policy of the page. */
+export async function until(page: Page, expression: string): Promise<void> {
+  for (let tries = 0; tries < 300; tries++) {
+    if ((await page.evaluate(expression)) === true) return;
+    await page.waitForTimeout(100);
+  }
+  throw new Error(`never true: ${expression}`);
+}
+
 export interface Watched {
   page: Page;
   /** Everything that the page wrote to the console, and errors that nothing caught. */

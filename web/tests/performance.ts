@@ -3,7 +3,7 @@ import { mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from "node
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import type { Browser, Page } from "playwright-core";
-import { hasChromium, launch } from "./browser";
+import { hasChromium, launch, until } from "./browser";
 import { insertReport } from "./encode";
 import { sampleReport, sampleRun } from "./sample";
 
@@ -35,7 +35,7 @@ export async function main(): Promise<void> {
 async function measure(browser: Browser, file: string, frames: number): Promise<void> {
   const page = await browser.newPage({ viewport: { width: 1440, height: 900 } });
   await page.goto(`file://${file}`);
-  await page.waitForFunction("performance.getEntriesByName('first-picture').length > 0");
+  await until(page, "performance.getEntriesByName('first-picture').length > 0");
   const first = await page.evaluate("performance.getEntriesByName('first-picture')[0].startTime");
   await page.waitForTimeout(2500);
   const orbit = await rate(page, () => drag(page));

@@ -35,8 +35,16 @@ export function select(label: string, choices: Choice[], value: string, onChange
   const element = el("select", { "aria-label": label, title: label });
   for (const choice of choices) element.append(new Option(choice.text, choice.value));
   element.value = value;
-  element.addEventListener("change", () => onChange(element.value));
+  element.addEventListener("change", () => {
+    onChange(element.value);
+    leaveAfterPointer(element);
+  });
   return element;
+}
+
+/** After a choice with the mouse, the arrow keys move the cursor again. */
+function leaveAfterPointer(element: HTMLElement): void {
+  if (!element.matches(":focus-visible")) element.blur();
 }
 
 export function checkbox(text: string, checked: boolean, onChange: (checked: boolean) => void): HTMLLabelElement {
@@ -52,6 +60,7 @@ export function slider(
   const input = el("input", { type: "range", min: String(low), max: String(high), step: String(step), "aria-label": label });
   input.value = String(value);
   input.addEventListener("input", () => onInput(Number(input.value)));
+  input.addEventListener("change", () => leaveAfterPointer(input));
   return el("label", { class: "slider" }, el("span", {}, label), input);
 }
 

@@ -11,6 +11,8 @@ export function tabs(store: Store, panels: Record<Tab, Panel>): HTMLElement {
   for (const tab of shown) {
     const element = el("button", { type: "button", role: "tab", id: `tab-${tab}` }, panels[tab].title);
     element.addEventListener("click", () => store.set({ tab }));
+    // A click leaves the focus where it is: the arrow keys go on to move the cursor.
+    element.addEventListener("mousedown", (event) => event.preventDefault());
     buttons.set(tab, element);
     list.append(element);
   }

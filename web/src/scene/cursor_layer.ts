@@ -16,7 +16,7 @@ export const MATCH: Rgb = [86, 180, 233];
 export class CursorLayer {
   readonly object = new Group();
 
-  show(run: RunData, row: number, loop: number, component: number | null, size: number): void {
+  show(run: RunData, row: number, loop: number, component: number | null, size: number, landmarks: boolean): void {
     for (const child of [...this.object.children]) dispose(child);
     const ends = loop >= 0 ? loopEnds(run, loop, component) : null;
     if (ends !== null) {
@@ -28,7 +28,8 @@ export class CursorLayer {
     const point = discs(run.frames.pose.slice(7 * row, 7 * row + 3), CURSOR, 11);
     point.material.depthTest = false;
     point.renderOrder = 10;
-    this.object.add(this.camera(run, row, 1.5 * size, CURSOR), point, this.landmarksOf(run, row));
+    this.object.add(this.camera(run, row, 1.5 * size, CURSOR), point);
+    if (landmarks) this.object.add(this.landmarksOf(run, row));
   }
 
   /** The landmarks that the keyframe under the cursor has made. */
@@ -39,7 +40,7 @@ export class CursorLayer {
     for (let i = 0; i < count; i++) {
       if (owner[i] === keyframe) positions.push(position[3 * i], position[3 * i + 1], position[3 * i + 2]);
     }
-    return discs(positions, CURSOR, 4);
+    return discs(positions, CURSOR, 3.5);
   }
 
   private camera(run: RunData, row: number, size: number, colour: Rgb): ReturnType<typeof wideLines> {

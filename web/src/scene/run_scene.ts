@@ -79,8 +79,8 @@ export class RunScene {
   beforeDraw(): void {
     if (!this.cursorIsOld) return;
     this.cursorIsOld = false;
-    const { row, loop, component } = this.state;
-    this.cursor.show(this.run, row, loop, component, this.frustumSize);
+    const { row, loop, component, layers } = this.state;
+    this.cursor.show(this.run, row, loop, component, this.frustumSize, layers.landmarks);
   }
 
   /** Draws less while something moves, all with null. */

@@ -1,0 +1,40 @@
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { afterAll, afterEach, beforeAll, expect } from "vitest";
+import type { Browser } from "playwright-core";
+import { type PageOptions, type Watched, launch, open } from "../browser";
+import { insertReport } from "../encode";
+
+const built = readFileSync(join(import.meta.dirname, "../../dist/report.html"), "utf8");
+
+/** Opens pages with reports; after each test, none of them may have written to the console. */
+export function pages(): { show: (report: unknown, options?: PageOptions) => Promise<Watched>; raw: (html: string) => Promise<Watched> } {
+  const folder = mkdtempSync(join(tmpdir(), "placegraph-web-"));
+  const opened: Watched[] = [];
+  let browser: Browser;
+  let files = 0;
+  beforeAll(async () => {
+    browser = await launch();
+  });
+  afterEach(async () => {
+    for (const { page, messages } of opened.splice(0)) {
+      await page.close();
+      expect(messages).toEqual([]);
+    }
+  });
+  afterAll(async () => {
+    await browser.close();
+    rmSync(folder, { recursive: true });
+  });
+  const raw = async (html: string, options?: PageOptions): Promise<Watched> => {
+    const file = join(folder, `${files++}.html`);
+    writeFileSync(file, html);
+    const watched = await open(browser, `file://${file}`, options);
+    opened.push(watched);
+    return watched;
+  };
+  return { raw, show: (report, options) => raw(insertReport(built, report), options) };
+}
+
+export { built };
