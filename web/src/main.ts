@@ -7,6 +7,7 @@ import { el } from "./page/dom";
 import { header } from "./page/header";
 import { helpDialog } from "./page/help";
 import { bindings, watchKeys } from "./page/keys";
+import { splitter } from "./page/splitter";
 import { startState } from "./page/start_state";
 import { Store } from "./page/state";
 import { preferredTheme, toggleTheme, watchTheme } from "./page/theme";
@@ -49,7 +50,7 @@ function showReport(page: HTMLElement, report: ReportData): void {
   page.append(tabs(store, {
     overview: overviewPanel(context), frame: framePanel(context), loops: loopsPanel(context),
     compare: comparePanel(context), pictures: picturesPanel(context), graph: graphPanel(context),
-  }), help.element);
+  }), splitter(page), help.element);
   const list = bindings(report, store, scene, help.toggle, () => toggleTheme(store));
   help.fill(list);
   watchKeys(list);

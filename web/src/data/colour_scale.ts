@@ -18,10 +18,10 @@ const CIVIDIS: Rgb[] = [
 export const SCALES = { viridis: VIRIDIS, cividis: CIVIDIS } as const;
 export type ScaleName = keyof typeof SCALES;
 
-/** The colours of Okabe and Ito (2008), without black. */
+/** The colours of Okabe and Ito (2008), without black, with a yellow that is seen on white too. */
 export const CATEGORIES: Rgb[] = [
   [86, 180, 233], [230, 159, 0], [0, 158, 115], [204, 121, 167],
-  [240, 228, 66], [0, 114, 178], [213, 94, 0],
+  [214, 196, 20], [0, 114, 178], [213, 94, 0],
 ];
 
 /** Of values that are unknown. */

@@ -122,10 +122,12 @@ function readFrames(value: unknown, where: string): FrameTable {
 function readKeyframes(value: unknown, where: string): KeyframeTable {
   const table = new TableReader(value, where, "id");
   const id = table.column("id");
+  const frame = table.column("frame");
   return {
     count: table.rows,
     id,
-    frame: table.column("frame"),
+    frame,
+    byFrame: Int32Array.from(frame, (_, row) => row).sort((a, b) => frame[a] - frame[b]),
     place: table.column("place"),
     thumbnails: table.texts("thumbnails"),
     rowOf: rowsById(id),

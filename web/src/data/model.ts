@@ -34,6 +34,8 @@ export interface KeyframeTable {
   place: Values;
   thumbnails: string[];
   rowOf: Map<number, number>;
+  /** Rows in the order of their frames. */
+  byFrame: Int32Array;
 }
 
 export interface LandmarkTable {

@@ -17,15 +17,15 @@ export function frameRowOfKeyframe(run: RunData, keyframeRow: number): number {
 /** Row of the last keyframe at or before a frame; the first keyframe for frames before it; -1 without keyframes. */
 export function keyframeAt(run: RunData, row: number): number {
   const frameId = run.frames.id[row];
-  const { frame, count } = run.keyframes;
+  const { frame, count, byFrame } = run.keyframes;
   let low = 0;
   let high = count - 1;
   while (low < high) {
     const middle = (low + high + 1) >> 1;
-    if (frame[middle] <= frameId) low = middle;
+    if (frame[byFrame[middle]] <= frameId) low = middle;
     else high = middle - 1;
   }
-  return count === 0 ? -1 : low;
+  return count === 0 ? -1 : byFrame[low];
 }
 
 /** The component of the frame of each keyframe id. */
@@ -42,7 +42,7 @@ export function componentOfKeyframe(run: RunData): Map<number, number> {
 export function keyframeSpacing(run: RunData, component: number | null): number {
   const distances: number[] = [];
   let before = -1;
-  for (let k = 0; k < run.keyframes.count; k++) {
+  for (const k of run.keyframes.byFrame) {
     const row = frameRowOfKeyframe(run, k);
     if (row < 0 || !isPosed(run, row, component)) continue;
     if (before >= 0) {

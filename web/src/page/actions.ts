@@ -1,6 +1,6 @@
 /** Changes of the state that several views ask for. */
 import type { ReportData, RunData } from "../data/model";
-import type { State, Store } from "./state";
+import type { Follow, State, Store } from "./state";
 
 /** Selects a loop; the cursor goes to its query frame, the scene to the component of that frame. */
 export function loopSelection(report: ReportData, state: Readonly<State>, loop: number): Partial<State> {
@@ -21,6 +21,10 @@ export function clampRow(run: RunData, row: number): number {
 export function moveCursor(report: ReportData, store: Store, by: number): void {
   const run = report.runs[store.state.run];
   if (run) store.set({ row: clampRow(run, store.state.row + by), playing: false });
+}
+
+export function toggleFollow(store: Store, follow: Follow): void {
+  store.set({ follow: store.state.follow === follow ? "off" : follow });
 }
 
 /** Moves the cursor to the next or previous keyframe. */

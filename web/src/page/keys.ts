@@ -1,7 +1,7 @@
 /** Keys of the page and what they do; the help lists the same table. */
 import type { ReportData } from "../data/model";
 import type { SceneView } from "../scene/scene_view";
-import { moveCursor, moveToKeyframe } from "./actions";
+import { moveCursor, moveToKeyframe, toggleFollow } from "./actions";
 import { type LayerName, type Store, TABS } from "./state";
 
 export interface KeyBinding {
@@ -35,7 +35,8 @@ export function bindings(report: ReportData, store: Store, scene: SceneView, tog
     { keys: ["End"], shown: "End", text: "Last frame", run: () => moveCursor(report, store, end()) },
     { keys: ["f"], shown: "F", text: "Show all of the map", run: () => scene.fit() },
     { keys: ["v"], shown: "V", text: "View from above", run: () => scene.top() },
-    { keys: ["h"], shown: "H", text: "Follow the camera", run: () => store.set({ follow: !store.state.follow }) },
+    { keys: ["h"], shown: "H", text: "Follow the camera", run: () => toggleFollow(store, "along") },
+    { keys: ["e"], shown: "E", text: "Look through the camera", run: () => toggleFollow(store, "through") },
     { keys: ["s"], shown: "S", text: "Save the scene as PNG", run: () => scene.save() },
     { keys: ["d"], shown: "D", text: "Dark or light", run: toggleTheme },
     { keys: ["?"], shown: "?", text: "This help", run: toggleHelp },

@@ -23,7 +23,7 @@ export function startState(report: ReportData, theme: Theme): State {
     loopOrder: { column: "probability", descending: true },
     playing: false,
     rate: 4,
-    follow: false,
+    follow: "off",
     series: run ? availableSeries(run)[0] : "inliers",
     axis: "frame",
     range: null,

@@ -15,6 +15,8 @@ export type Tab = (typeof TABS)[number];
 export type ColourBy = Exclude<SeriesName, "rotation_error" | "inliers"> | "component" | "run";
 export type PointColour = "own" | "height" | "uncertainty";
 export type GraphShape = "before" | "after" | "both";
+/** What the view does when the cursor moves: nothing, move along, or look through the camera. */
+export type Follow = "off" | "along" | "through";
 export type Theme = "dark" | "light";
 
 export interface State {
@@ -34,7 +36,7 @@ export interface State {
   loopOrder: LoopOrder;
   playing: boolean;
   rate: number;
-  follow: boolean;
+  follow: Follow;
   series: SeriesName;
   axis: "frame" | "time";
   /** Part of the axis that the time line shows; null for all. */

@@ -76,7 +76,7 @@ function frameFacts(run: RunData, row: number): [string, string][] {
   rows.push(["Speed", formatWithUnit(series(run, "speed").values[row], `${unit}/s`)]);
   if (frames.environment) rows.push(["Environment", label(frames.environment, row) ?? "unknown"]);
   if (frames.component[row] >= 0) {
-    const p = [0, 1, 2].map((i) => formatNumber(frames.pose[7 * row + i], 4));
+    const p = [0, 1, 2].map((i) => frames.pose[7 * row + i].toFixed(3));
     rows.push(["Position in the map", `${p.join(", ")} ${unit}`]);
   }
   const geo = run.georeference;

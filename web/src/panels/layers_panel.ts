@@ -1,23 +1,31 @@
 /** What the scene shows: check boxes for the layers, colours and sizes. It lies over the scene. */
 import type { ReportData, RunData } from "../data/model";
 import { availableSeries, series } from "../data/series";
+import { toggleFollow } from "../page/actions";
 import { button, type Choice, el, select, slider } from "../page/dom";
 import { LAYER_KEYS, LAYER_TITLES } from "../page/keys";
-import { type ColourBy, LAYERS, type LayerName, type PointColour, type Store } from "../page/state";
+import { type ColourBy, type Follow, LAYERS, type LayerName, type PointColour, type Store } from "../page/state";
 import type { SceneView } from "../scene/scene_view";
 
 export function sceneTools(report: ReportData, store: Store, scene: SceneView): HTMLElement {
-  const follow = button("Follow", "Follow the camera (H)", () => store.set({ follow: !store.state.follow }));
-  const showFollow = (): void => follow.setAttribute("aria-pressed", String(store.state.follow));
-  store.on(["follow"], showFollow);
+  const follow = el("div", { class: "tools-part" },
+    followButton("Follow", "Follow the camera (H)", "along", store),
+    followButton("Through", "Look through the camera (E)", "through", store));
   store.on(["tab"], (state) => (follow.hidden = state.tab === "graph"));
-  showFollow();
   const tools = el("div", { class: "tools" },
     button("Fit", "Show all of the map (F)", () => scene.fit()),
     button("Top", "View from above (V)", () => scene.top()));
   if (report.runs.length > 0) tools.append(follow);
   tools.append(button("PNG", "Save the scene as PNG (S)", () => scene.save()));
   return tools;
+}
+
+function followButton(text: string, title: string, follow: Follow, store: Store): HTMLButtonElement {
+  const element = button(text, title, () => toggleFollow(store, follow));
+  const show = (): void => element.setAttribute("aria-pressed", String(store.state.follow === follow));
+  store.on(["follow"], show);
+  show();
+  return element;
 }
 
 export function layersPanel(report: ReportData, store: Store): HTMLElement {

@@ -23,8 +23,8 @@ export function picturesPanel({ report, store }: PanelContext): Panel {
 
 function plansOf(run: RunData): Picture[] {
   const pictures: Picture[] = [];
-  if (run.floorPlan.length > 0) pictures.push({ title: "Floor plan", caption: "Walls in the frame of the plan.", svg: planSvg(run.floorPlan) });
-  if (run.streetMap.length > 0) pictures.push({ title: "Street map", caption: "Borders of the street in the frame of the map.", svg: planSvg(run.streetMap) });
+  if (run.floorPlan.length > 0) pictures.push({ title: "Floor plan", caption: "Walls, in the frame of the plan.", svg: planSvg(run.floorPlan) });
+  if (run.streetMap.length > 0) pictures.push({ title: "Street map", caption: "Lines of the street map, in its own frame.", svg: planSvg(run.streetMap) });
   return pictures;
 }
 

@@ -22,13 +22,13 @@ export class CursorLayer {
     if (ends !== null) {
       const link = new SegmentList();
       link.add(run.frames.pose, 7 * ends[0], run.frames.pose, 7 * ends[1], QUERY, MATCH);
-      this.object.add(wideLines(link, 5), this.camera(run, ends[1], size, MATCH), this.camera(run, ends[0], size, QUERY));
+      this.object.add(wideLines(link, 5, 8), this.camera(run, ends[1], 1.5 * size, MATCH), this.camera(run, ends[0], 1.5 * size, QUERY));
     }
     if (!isPosed(run, row, component)) return;
     const point = discs(run.frames.pose.slice(7 * row, 7 * row + 3), CURSOR, 11);
     point.material.depthTest = false;
     point.renderOrder = 10;
-    this.object.add(this.camera(run, row, 1.5 * size, CURSOR), point);
+    this.object.add(this.camera(run, row, 1.7 * size, CURSOR), point);
     if (landmarks) this.object.add(this.landmarksOf(run, row));
   }
 
@@ -45,7 +45,7 @@ export class CursorLayer {
 
   private camera(run: RunData, row: number, size: number, colour: Rgb): ReturnType<typeof wideLines> {
     const list = new SegmentList();
-    addFrustum(list, poseMatrix(run.frames.pose, row, new Matrix4()), imageShape(run), 2 * size, colour);
-    return wideLines(list, 2.5);
+    addFrustum(list, poseMatrix(run.frames.pose, row, new Matrix4()), imageShape(run), size, colour);
+    return wideLines(list, 2.5, 9);
   }
 }

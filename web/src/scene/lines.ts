@@ -22,9 +22,9 @@ export function thinLines(list: SegmentList, opacity = 1): LineSegments {
   return new LineSegments(geometry, material);
 }
 
-/** Lines of `width` pixels. */
-export function wideLines(list: SegmentList, width: number): Object3D {
-  return list.positions.length === 0 ? new Object3D() : wideLineMesh(list.positions, list.colours, width);
+/** Lines of `width` pixels; those with a positive `order` are drawn over everything of a lower one. */
+export function wideLines(list: SegmentList, width: number, order = 0): Object3D {
+  return list.positions.length === 0 ? new Object3D() : wideLineMesh(list.positions, list.colours, width, order);
 }
 
 /** Frees what an object and its children hold on the graphics card. */

@@ -32,5 +32,5 @@ export function loopLines(run: RunData, component: number | null, rows: number[]
     if (ends === null) continue;
     list.add(run.frames.pose, 7 * ends[0], run.frames.pose, 7 * ends[1], stageColour(stageOf(run.loops, row)));
   }
-  return accepted ? wideLines(list, 2) : thinLines(list, 0.6);
+  return accepted ? wideLines(list, 2, 4) : thinLines(list, 0.6);
 }

@@ -8,21 +8,21 @@ import { keyframeSpacing } from "../data/run_view";
 import { positionAt } from "../data/quaternion";
 import type { LayerName, State } from "../page/state";
 import { type LegendItem, frameColouring, runColour } from "./colouring";
-import { CursorLayer } from "./cursor_layer";
+import { CURSOR, CursorLayer } from "./cursor_layer";
 import { frustaLines } from "./frusta_layer";
 import { cellSize, ground } from "./grid_layer";
 import { ImagesLayer } from "./images_layer";
 import { LandmarkLayer, sceneHeights } from "./landmark_layer";
 import { dispose } from "./lines";
 import { loopLines, loopRows, stageColour } from "./loops_layer";
-import { mapGroup, trajectorySphere } from "./map_frame";
+import { mapGroup, poseMatrix, trajectorySphere } from "./map_frame";
 import { constraintColour, constraintLines, placePoints } from "./places_layer";
 import { planeShapes } from "./planes_layer";
 import { plainTrajectory, trajectoryLines, truthLines } from "./trajectory_layer";
 import type { QualityLevel } from "./quality";
 import { type Viewport, pixelRatio } from "./viewport";
 
-const ONLINE: Rgb = [204, 121, 167];
+const ONLINE: Rgb = [170, 150, 255];
 
 export class RunScene {
   readonly group: Group;
@@ -105,6 +105,12 @@ export class RunScene {
     return target.fromArray(this.run.frames.pose, 7 * row).applyMatrix4(this.group.matrixWorld);
   }
 
+  /** A point that the camera of a frame looks at, in the scene. */
+  pointAhead(row: number): Vector3 {
+    const distance = Math.max(10 * this.spacing, this.sphere.radius / 20);
+    return new Vector3(0, 0, distance).applyMatrix4(poseMatrix(this.run.frames.pose, row)).applyMatrix4(this.group.matrixWorld);
+  }
+
   legend(): LegendItem[] {
     const { state, run } = this;
     const items: LegendItem[] = [];
@@ -126,6 +132,7 @@ export class RunScene {
   private lineLegend(): LegendItem[] {
     const { state, run, report } = this;
     const entries: { text: string; colour: Rgb }[] = [];
+    entries.push({ text: `frame under the cursor${state.layers.landmarks ? ", its landmarks" : ""}`, colour: CURSOR });
     if (state.layers.truth && run.frames.truth) entries.push({ text: "ground truth", colour: this.truthColour() });
     if (state.layers.online) entries.push({ text: "online trajectory", colour: ONLINE });
     if (state.layers.others) {
@@ -144,7 +151,7 @@ export class RunScene {
         entries.push({ text: `constraint: ${source}`, colour: constraintColour(run, source) });
       }
     }
-    return entries.length > 0 ? [{ kind: "category", title: "Lines", entries }] : [];
+    return entries.length > 0 ? [{ kind: "category", title: "Lines and points", entries }] : [];
   }
 
   private drop(name: LayerName): void {

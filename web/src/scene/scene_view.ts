@@ -106,11 +106,12 @@ export class SceneView {
     store.on(["row", "loop"], (state) => {
       this.run?.showCursor(state);
       this.viewport.move();
-      if (state.follow) this.follow(state.row);
+      if (state.follow !== "off") this.follow(state);
     });
     store.on(["follow"], (state) => {
-      if (state.follow) this.lookAtFrame(state.row);
+      if (state.follow === "along") this.lookAtFrame(state.row);
       this.rememberFollowed(state.row);
+      if (state.follow === "through") this.follow(state);
     });
     store.on(["theme"], () => this.applyTheme());
     store.on(["tab", "graph", "graphShape", "edge"], () => this.showGraph());
@@ -178,9 +179,13 @@ export class SceneView {
     this.legendBox = next;
   }
 
-  private follow(row: number): void {
+  private follow({ row, follow, component }: Readonly<State>): void {
     const run = this.currentRun();
-    if (!this.run || !run || !isPosed(run, row, this.store.state.component)) return;
+    if (!this.run || !run || !isPosed(run, row, component)) return;
+    if (follow === "through") {
+      this.viewport.lookFrom(this.run.framePosition(row), this.run.pointAhead(row));
+      return;
+    }
     const position = this.run.framePosition(row);
     this.viewport.shift(position.clone().sub(this.followed));
     this.followed.copy(position);

@@ -7,7 +7,7 @@ import { SegmentList, thinLines, wideLines } from "./lines";
 
 /** The optimized trajectory; it has gaps where frames are lost and between components. */
 export function trajectoryLines(run: RunData, component: number | null, colour: (row: number) => Rgb): Object3D {
-  return wideLines(segments(run, run.frames.pose, component, colour), 3.5);
+  return wideLines(segments(run, run.frames.pose, component, colour), 3.5, 5);
 }
 
 export function plainTrajectory(run: RunData, poses: Values, component: number | null, colour: Rgb, opacity = 1): Object3D {

@@ -119,6 +119,14 @@ export class Viewport {
     this.move();
   }
 
+  lookFrom(position: Vector3, target: Vector3): void {
+    this.fitted = null;
+    this.camera.position.copy(position);
+    this.controls.target.copy(target);
+    this.controls.update();
+    this.move();
+  }
+
   /** Draws all now and returns the canvas, whose content is valid until this task ends. */
   drawNow(): HTMLCanvasElement {
     window.clearTimeout(this.stillTimer);

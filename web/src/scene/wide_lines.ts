@@ -34,7 +34,7 @@ void main() { gl_FragColor = vec4(shade, 1.0); }`;
 const CORNERS: [number, number][] = [[0, -1], [0, 1], [1, -1], [1, 1]];
 
 /** `positions` and `colours` have six values a segment: those of its two ends. */
-export function wideLineMesh(positions: number[], colours: number[], width: number): Mesh {
+export function wideLineMesh(positions: number[], colours: number[], width: number, order: number): Mesh {
   const segments = positions.length / 6;
   const start = new Float32Array(12 * segments);
   const finish = new Float32Array(12 * segments);
@@ -59,15 +59,19 @@ export function wideLineMesh(positions: number[], colours: number[], width: numb
   geometry.setAttribute("corner", new BufferAttribute(corner, 2));
   geometry.setAttribute("tint", new BufferAttribute(tint, 3));
   geometry.setIndex(new BufferAttribute(index, 1));
-  return meshOf(geometry, width);
+  return meshOf(geometry, width, order);
 }
 
-function meshOf(geometry: BufferGeometry, width: number): Mesh {
+function meshOf(geometry: BufferGeometry, width: number, order: number): Mesh {
   const uniforms = { size: { value: new Vector2(1, 1) }, width: { value: width } };
   // The triangles have both windings, as segments point to either side.
   const material = new ShaderMaterial({ vertexShader: VERTEX, fragmentShader: FRAGMENT, uniforms, side: DoubleSide });
+  // Transparent materials are drawn last, in their order.
+  material.depthTest = order === 0;
+  material.transparent = order > 0;
   const mesh = new Mesh(geometry, material);
   mesh.frustumCulled = false;
+  mesh.renderOrder = order;
   mesh.onBeforeRender = (renderer) => {
     renderer.getDrawingBufferSize(uniforms.size.value);
     uniforms.width.value = Math.max(width * renderer.getPixelRatio(), 1);

@@ -59,7 +59,8 @@ function drawLoops(
   context: CanvasRenderingContext2D, run: RunData, axis: Axis, range: [number, number], width: number, y: number,
   filter: LoopFilter, selected: number,
 ): void {
-  for (const loop of filterLoops(run.loops, filter)) {
+  const rank = (loop: number): number => (loop === selected ? 2 : stageOf(run.loops, loop) === "accepted" ? 1 : 0);
+  for (const loop of filterLoops(run.loops, filter).sort((a, b) => rank(a) - rank(b))) {
     const row = run.frames.rowOf.get(run.loops.query[loop]);
     if (row === undefined) continue;
     const stage = stageOf(run.loops, loop);

@@ -199,6 +199,20 @@ describe("a pose graph", () => {
   });
 });
 
+describe("a run without any pose", () => {
+  it("is shown without a fault", async () => {
+    const none = sampleRun({ frames: 50, landmarks: 0, lost: [[0, 49]], loops: false });
+    const { page } = await show(sampleReport([none]));
+    await page.click("#tab-frame");
+    await page.getByText("The frame is lost").waitFor();
+    const empty = sampleRun({ frames: 0, landmarks: 0, loops: false, truth: false });
+    const second = await show(sampleReport([empty]));
+    await second.page.click("#tab-frame");
+    await second.page.getByText("This run has no frames.").waitFor();
+    await second.page.keyboard.press("ArrowRight");
+  });
+});
+
 describe("hostile texts", () => {
   it("do nothing", async () => {
     const evil = "<img src=x onerror=\"alert(1)\"></script><script>alert(2)</script>";
