@@ -1,4 +1,6 @@
 import { createHash } from "node:crypto";
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
 import type { Plugin } from "vite";
 
 /** placegraph replaces this by the script element with the report. */
@@ -20,6 +22,15 @@ function policy(script: string, style: string): string {
 /** Text of a script that may stand between <script> and </script>. */
 function embeddable(script: string): string {
   return script.replace(/<\/(script)/gi, "<\\/$1").replace(/<!--/g, "<\\!--");
+}
+
+/** The licences of the packages in the page, which ask to be kept with every copy. */
+function licences(): string {
+  const texts = ["three", "uplot"].map((name) => {
+    const text = readFileSync(join(import.meta.dirname, "node_modules", name, "LICENSE"), "utf8");
+    return `${name}\n${text.replace(/\r/g, "").replace(/--+/g, "-").trim()}`;
+  });
+  return `<!-- This page contains:\n\n${texts.join("\n\n")}\n-->`;
 }
 
 /** Puts scripts and styles into the page, after the marker, and adds the content security policy. */
@@ -48,6 +59,7 @@ export function singleFile(): Plugin {
       if (script.includes(MARKER)) throw new Error(`a script holds ${MARKER}`);
       page.source = html
         .replace("<head>", () => `<head>\n  <meta http-equiv="Content-Security-Policy" content="${policy(script, style)}">`)
+        .replace("</body>", () => `${licences()}\n</body>`)
         .replace("</head>", () => `  <style>${style}</style>\n</head>`)
         .replace(MARKER, () => `${MARKER}\n  <script type="module">${script}</script>`);
     },

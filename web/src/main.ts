@@ -21,12 +21,29 @@ import { picturesPanel } from "./panels/pictures_panel";
 import { tabs } from "./panels/tabs";
 import { watchPointer } from "./scene/pointer";
 import { SceneView } from "./scene/scene_view";
+import { graphics } from "./scene/viewport";
 import { timelineControls } from "./timeline/controls";
 import { Timeline } from "./timeline/timeline";
 
 function showMessage(page: HTMLElement, text: string): void {
   page.className = "message";
   page.replaceChildren(el("p", { role: "alert" }, text));
+}
+
+/** The scene with its tools; without WebGL 2 a sentence in its place, and the rest of the page works. */
+function showScene(page: HTMLElement, report: ReportData, store: Store): SceneView | null {
+  if (graphics() === "none") {
+    page.append(el("section", { class: "scene message" }, el("p", { role: "alert" },
+      "This browser has no WebGL 2, so the scene is not shown. Everything else of the report is.")));
+    return null;
+  }
+  const scene = new SceneView(page, report, store);
+  scene.element.append(sceneTools(report, store, scene));
+  if (report.runs.length > 0) {
+    scene.element.append(layersPanel(report, store));
+    watchPointer(scene, report, store);
+  }
+  return scene;
 }
 
 function showReport(page: HTMLElement, report: ReportData): void {
@@ -36,13 +53,10 @@ function showReport(page: HTMLElement, report: ReportData): void {
   const help = helpDialog();
   page.className = "report";
   page.append(header(report, store, help.toggle));
-  const scene = new SceneView(page, report, store);
-  scene.element.append(sceneTools(report, store, scene));
+  const scene = showScene(page, report, store);
   if (report.runs.length > 0) {
-    scene.element.append(layersPanel(report, store));
-    watchPointer(scene, report, store);
     const timeline = new Timeline(report, store);
-    timeline.onHold = (held) => scene.viewport.hold(held);
+    timeline.onHold = (held) => scene?.viewport.hold(held);
     page.append(el("section", { class: "timeline", "aria-label": "Time line" }, timelineControls(report, store, timeline), timeline.element));
     watchPlaying(report, store);
   }

@@ -35,6 +35,8 @@ export interface PageOptions {
   height?: number;
   scheme?: "dark" | "light";
   touch?: boolean;
+  /** A browser without WebGL. */
+  flat?: boolean;
 }
 
 /** Opens a page and waits until its first picture is drawn. */
@@ -44,6 +46,14 @@ export async function open(browser: Browser, url: string, options: PageOptions =
     colorScheme: options.scheme ?? "dark",
     hasTouch: options.touch ?? false,
   });
+  if (options.flat) {
+    await page.addInitScript(`{
+      const original = HTMLCanvasElement.prototype.getContext;
+      HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+        return kind.startsWith("webgl") ? null : original.call(this, kind, ...rest);
+      };
+    }`);
+  }
   const messages: string[] = [];
   page.on("console", (message) => messages.push(`${message.type()}: ${message.text()}`));
   page.on("pageerror", (error) => messages.push(`error: ${error.message}`));

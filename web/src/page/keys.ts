@@ -22,7 +22,7 @@ export const LAYER_TITLES: Record<LayerName, string> = {
   loops: "Loops accepted", refused: "Loops refused", planes: "Planes", others: "Other runs", grid: "Grid",
 };
 
-export function bindings(report: ReportData, store: Store, scene: SceneView, toggleHelp: () => void, toggleTheme: () => void): KeyBinding[] {
+export function bindings(report: ReportData, store: Store, scene: SceneView | null, toggleHelp: () => void, toggleTheme: () => void): KeyBinding[] {
   const step = (event: KeyboardEvent): number => (event.shiftKey ? 10 : 1);
   const end = (): number => (report.runs[store.state.run]?.frames.count ?? 1) - 1;
   const list: KeyBinding[] = [
@@ -33,11 +33,11 @@ export function bindings(report: ReportData, store: Store, scene: SceneView, tog
     { keys: ["]"], shown: "]", text: "Next keyframe", run: () => moveToKeyframe(report, store, 1) },
     { keys: ["Home"], shown: "Home", text: "First frame", run: () => moveCursor(report, store, -end()) },
     { keys: ["End"], shown: "End", text: "Last frame", run: () => moveCursor(report, store, end()) },
-    { keys: ["f"], shown: "F", text: "Show all of the map", run: () => scene.fit() },
-    { keys: ["v"], shown: "V", text: "View from above", run: () => scene.top() },
+    { keys: ["f"], shown: "F", text: "Show all of the map", run: () => scene?.fit() },
+    { keys: ["v"], shown: "V", text: "View from above", run: () => scene?.top() },
     { keys: ["h"], shown: "H", text: "Follow the camera", run: () => toggleFollow(store, "along") },
     { keys: ["e"], shown: "E", text: "Look through the camera", run: () => toggleFollow(store, "through") },
-    { keys: ["s"], shown: "S", text: "Save the scene as PNG", run: () => scene.save() },
+    { keys: ["s"], shown: "S", text: "Save the scene as PNG", run: () => scene?.save() },
     { keys: ["d"], shown: "D", text: "Dark or light", run: toggleTheme },
     { keys: ["?"], shown: "?", text: "This help", run: toggleHelp },
   ];

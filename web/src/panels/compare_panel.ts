@@ -2,8 +2,10 @@ import { type Comparison, compareRuns, defaultThreshold, firstParting, rms } fro
 import { formatCount, formatDuration, formatNumber, formatTime, formatWithUnit } from "../data/format";
 import type { ReportData, RunData } from "../data/model";
 import { lengthUnit, travelled } from "../data/series";
-import { button, el, facts, select } from "../page/dom";
+import { button, el, facts, select, svgUri } from "../page/dom";
 import type { Store } from "../page/state";
+import { graphSvg } from "../save/graph_svg";
+import { saveSvgAsPng, saveText } from "../save/save";
 import { distanceGraph } from "./distance_graph";
 import type { Panel, PanelContext } from "./panel";
 
@@ -48,11 +50,24 @@ function partingSection(run: RunData, other: RunData, store: Store): HTMLElement
       const nearest = comparison.ids.reduce((best, candidate) => (Math.abs(candidate - x) < Math.abs(best - x) ? candidate : best));
       store.set({ row: run.frames.rowOf.get(nearest) ?? store.state.row, playing: false });
     }),
+    saveButtons(run, other, comparison, unit),
     facts([
       ["Frames in common", formatCount(comparison.ids.length)],
       ["Distance, root mean square", formatWithUnit(rms(comparison.distance), unit)],
       ["Distance, largest", formatWithUnit(comparison.distance.reduce((a, b) => Math.max(a, b), 0), unit)],
     ]));
+}
+
+function saveButtons(run: RunData, other: RunData, comparison: Comparison, unit: string): HTMLElement {
+  const name = `${run.name}_${other.name}_distance`;
+  const svg = (): string => {
+    const title = `Distance of ${other.name} from ${run.name}`;
+    const range: [number, number] = [comparison.ids[0], comparison.ids[comparison.ids.length - 1]];
+    return graphSvg(title, "Frame", `Distance [${unit}]`, comparison.ids, [{ name: "", colour: "#d55e00", values: comparison.distance }], range);
+  };
+  return el("div", { class: "row" },
+    button("SVG", "Save the distances as SVG", () => saveText(svg(), "image/svg+xml", `${name}.svg`)),
+    button("PNG", "Save the distances as PNG", () => void saveSvgAsPng(svgUri(svg()), 1600, `${name}.png`)));
 }
 
 function choices(store: Store, limit: number, unit: string): HTMLElement {

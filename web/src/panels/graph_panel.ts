@@ -53,7 +53,7 @@ function worstTable(graph: GraphData, store: Store): HTMLElement {
   for (const edge of worstEdges(graph, WORST)) {
     const cells = [String(graph.edges[2 * edge]), String(graph.edges[2 * edge + 1]), label(graph.kind, edge) ?? "unknown", formatNumber(graph.chi2[edge])];
     if (graph.weight) cells.push(formatNumber(graph.weight[edge], 2));
-    const row = el("tr", { tabindex: "0", "aria-selected": String(edge === store.state.edge) },
+    const row = el("tr", { tabindex: "0", "aria-current": String(edge === store.state.edge) },
       ...cells.map((text, i) => el("td", { class: i === 2 ? "" : "number" }, text)));
     row.addEventListener("click", () => store.set({ edge }));
     row.addEventListener("keydown", (event) => {

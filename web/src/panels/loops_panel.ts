@@ -36,7 +36,7 @@ export function loopsPanel(context: PanelContext): Panel {
       const focused = rows.contains(document.activeElement) && document.activeElement?.tagName === "TR";
       detail.replaceChildren(selectedLoop(run, store));
       rows.replaceChildren(table(context, run));
-      if (focused) rows.querySelector<HTMLElement>('tr[aria-selected="true"]')?.focus();
+      if (focused) rows.querySelector<HTMLElement>('tr[aria-current="true"]')?.focus();
       return root;
     },
   };
@@ -125,7 +125,7 @@ function tableRow(run: RunData, row: number, selected: boolean, choose: () => vo
     String(loops.query[row]), String(loops.match[row]), stage, formatNumber(loops.probability[row], 2),
     formatNumber(loops.similarity[row], 2), formatNumber(loops.inliers[row]), formatNumber(loops.lines[row]),
   ];
-  const element = el("tr", { tabindex: "0", "aria-selected": String(selected), "data-loop": String(row), title: stageSentence(stage) });
+  const element = el("tr", { tabindex: "0", "aria-current": String(selected), "data-loop": String(row), title: stageSentence(stage) });
   cells.forEach((text, i) => element.append(el("td", { class: i === 2 ? "" : "number" }, text)));
   element.addEventListener("click", choose);
   element.addEventListener("keydown", (event) => {

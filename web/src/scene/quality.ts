@@ -19,14 +19,12 @@ const LEVELS: QualityLevel[] = [
 
 const SLOW_MS = 50;
 const FAST_MS = 20;
-const FAST_PICTURES = 20;
-/** Longer gaps are pauses of the user. */
-const PAUSE_MS = 2000;
+const FAST_FRAMES = 20;
 
-/** Follows the time between pictures: slow graphics get less to draw. */
+/** Follows the time between animation frames of a movement: slow graphics get less to draw. */
 export class Quality {
   private index: number;
-  private last = 0;
+  private last = NaN;
   private fast = 0;
 
   constructor(software: boolean) {
@@ -37,14 +35,18 @@ export class Quality {
     return LEVELS[this.index];
   }
 
-  /** Notes a picture drawn at `now` during a movement; returns whether the level has changed. */
+  /** A movement begins. */
+  begin(): void {
+    this.last = NaN;
+  }
+
+  /** Notes an animation frame at `now`; returns whether the level has changed. */
   note(now: number): boolean {
     const gap = now - this.last;
     this.last = now;
-    if (gap > PAUSE_MS) return false;
     this.fast = gap < FAST_MS ? this.fast + 1 : 0;
     if (gap > SLOW_MS && this.index + 1 < LEVELS.length) return this.change(1);
-    if (this.fast >= FAST_PICTURES && this.index > 0) return this.change(-1);
+    if (this.fast >= FAST_FRAMES && this.index > 0) return this.change(-1);
     return false;
   }
 

@@ -22,6 +22,7 @@ export class Viewport {
   private readonly quality: Quality;
   private moving = false;
   private held = false;
+  private watching = false;
   private drawn = 0;
   private pending = false;
   private stillTimer = 0;
@@ -31,7 +32,7 @@ export class Viewport {
   constructor(private readonly parent: HTMLElement) {
     // Materials are unlit: colours pass from the tables to the screen unchanged.
     ColorManagement.enabled = false;
-    const software = softwareGraphics();
+    const software = graphics() === "software";
     this.quality = new Quality(software);
     this.renderer = new WebGLRenderer({ antialias: !software });
     this.renderer.outputColorSpace = LinearSRGBColorSpace;
@@ -61,9 +62,8 @@ export class Viewport {
   request(): void {
     if (this.pending) return;
     this.pending = true;
-    requestAnimationFrame((now) => {
+    requestAnimationFrame(() => {
       this.pending = false;
-      if (this.moving && this.quality.note(now)) this.applyQuality();
       this.draw();
     });
   }
@@ -73,6 +73,9 @@ export class Viewport {
     if (!this.moving) {
       this.moving = true;
       this.applyQuality();
+      this.quality.begin();
+      if (!this.watching) requestAnimationFrame((now) => this.watchSpeed(now));
+      this.watching = true;
     }
     window.clearTimeout(this.stillTimer);
     if (this.held) return void this.request();
@@ -136,6 +139,14 @@ export class Viewport {
     return this.canvas;
   }
 
+  /** Follows the animation frames while something moves, whether or not they draw. */
+  private watchSpeed(now: number): void {
+    this.watching = this.moving;
+    if (!this.moving) return;
+    if (this.quality.note(now)) this.applyQuality();
+    requestAnimationFrame((next) => this.watchSpeed(next));
+  }
+
   private draw(): void {
     this.beforeDraw();
     this.renderer.render(this.scene, this.camera);
@@ -165,10 +176,11 @@ export function pixelRatio(): number {
   return Math.min(window.devicePixelRatio, 2);
 }
 
-function softwareGraphics(): boolean {
+/** What draws WebGL 2 in this browser, if anything does. */
+export function graphics(): "hardware" | "software" | "none" {
   const gl = document.createElement("canvas").getContext("webgl2");
-  if (gl === null) throw new Error("The browser has no WebGL 2, which the scene needs.");
+  if (gl === null) return "none";
   const software = isSoftware(gl);
   gl.getExtension("WEBGL_lose_context")?.loseContext();
-  return software;
+  return software ? "software" : "hardware";
 }

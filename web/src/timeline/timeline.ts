@@ -29,13 +29,16 @@ export class Timeline {
   private axis: Axis;
   private shown: Series;
   private curves: Curve[] = [];
+  private drawnWidth = -1;
 
   constructor(private readonly report: ReportData, private readonly store: Store) {
     this.axis = new Axis(this.run, store.state.axis);
     this.shown = series(this.run, store.state.series);
     this.element.append(this.strip.element, this.graphBox, this.bands.canvas, this.legend, this.line);
     this.watch();
-    new ResizeObserver(() => this.draw()).observe(this.element);
+    new ResizeObserver(() => {
+      if (this.element.clientWidth !== this.drawnWidth) this.draw();
+    }).observe(this.element);
     store.on(["run", "series", "axis", "theme"], () => this.draw());
     store.on(["range"], () => this.drawRange());
     store.on(["loopFilter", "loop"], () => this.drawBands());
@@ -72,7 +75,8 @@ export class Timeline {
     this.axis = new Axis(this.run, state.axis);
     this.shown = series(this.run, state.series);
     this.curves = this.makeCurves();
-    if (this.element.clientWidth === 0) return;
+    this.drawnWidth = this.element.clientWidth;
+    if (this.drawnWidth === 0) return;
     const size = { width: this.element.clientWidth, height: GRAPH_HEIGHT };
     this.graph.show(this.shown, this.curves, this.axis, this.range, size);
     const legend = bandsLegend(this.run);

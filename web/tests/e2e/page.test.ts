@@ -71,6 +71,19 @@ describe("the scene", () => {
     await page.locator(".legend").getByText("online trajectory").waitFor({ state: "detached" });
   });
 
+  it("shows the image of the pose under the pointer", async () => {
+    const { page } = await show(report);
+    await page.keyboard.press("v");
+    await page.waitForTimeout(600);
+    const canvas = await page.locator(".scene canvas").boundingBox();
+    if (!canvas) throw new Error("no canvas");
+    for (let x = canvas.width / 2 - 100; x > 280 && !(await page.locator(".tip").isVisible()); x -= 12) {
+      await page.mouse.move(canvas.x + x, canvas.y + canvas.height / 2);
+      await page.waitForTimeout(60);
+    }
+    expect(await page.locator(".tip img").isVisible()).toBe(true);
+  });
+
   it("moves the cursor to the pose that is clicked", async () => {
     const { page } = await show(report);
     await page.keyboard.press("v");
@@ -83,6 +96,16 @@ describe("the scene", () => {
       await page.mouse.click(canvas.x + x, canvas.y + canvas.height / 2);
     }
     expect(Number(await frameOf(page))).toBeGreaterThan(0);
+  });
+});
+
+describe("a browser without WebGL", () => {
+  it("shows everything but the scene", async () => {
+    const { page } = await show(report, { flat: true });
+    expect(await page.locator(".scene").textContent()).toContain("This browser has no WebGL 2");
+    await page.keyboard.press("f");
+    await page.keyboard.press("ArrowRight");
+    expect(await frameOf(page)).toBe("1");
   });
 });
 

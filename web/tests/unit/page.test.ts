@@ -24,6 +24,11 @@ describe("the built page", () => {
     expect(parts[1].trimStart().startsWith("<script type=\"module\">")).toBe(true);
   });
 
+  it("holds the licences of its packages", () => {
+    expect(built).toContain("three.js authors");
+    expect(built).toContain("Leon Sorokin");
+  });
+
   it("loads nothing and has a strict policy", () => {
     expect(built).toContain("default-src 'none'");
     expect(built).not.toContain("unsafe");

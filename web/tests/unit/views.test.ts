@@ -114,8 +114,10 @@ describe("small computations", () => {
   it("draw less where pictures are slow, and more again where they are fast", () => {
     const quality = new Quality(false);
     expect(quality.level.points).toBe(Infinity);
+    quality.begin();
     for (let now = 3000; now < 4000; now += 100) quality.note(now);
     expect(quality.level.points).toBe(3000);
+    quality.begin();
     for (let now = 10000; now < 13000; now += 10) quality.note(now);
     expect(quality.level.points).toBe(Infinity);
   });
