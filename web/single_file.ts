@@ -58,7 +58,10 @@ export function singleFile(): Plugin {
       if (html.split(MARKER).length !== 2) throw new Error(`report.html must hold ${MARKER} once`);
       if (script.includes(MARKER)) throw new Error(`a script holds ${MARKER}`);
       page.source = html
-        .replace("<head>", () => `<head>\n  <meta http-equiv="Content-Security-Policy" content="${policy(script, style)}">`)
+        .replace(
+          "<head>",
+          () => `<head>\n  <meta http-equiv="Content-Security-Policy" content="${policy(script, style)}">`,
+        )
         .replace("</body>", () => `${licences()}\n</body>`)
         .replace("</head>", () => `  <style>${style}</style>\n</head>`)
         .replace(MARKER, () => `${MARKER}\n  <script type="module">${script}</script>`);

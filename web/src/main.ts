@@ -33,8 +33,17 @@ function showMessage(page: HTMLElement, text: string): void {
 /** The scene with its tools; without WebGL 2 a sentence in its place, and the rest of the page works. */
 function showScene(page: HTMLElement, report: ReportData, store: Store): SceneView | null {
   if (graphics() === "none") {
-    page.append(el("section", { class: "scene message" }, el("p", { role: "alert" },
-      "This browser has no WebGL 2, so the scene is not shown. Everything else of the report is.")));
+    page.append(
+      el(
+        "section",
+        { class: "scene message" },
+        el(
+          "p",
+          { role: "alert" },
+          "This browser has no WebGL 2, so the scene is not shown. Everything else of the report is.",
+        ),
+      ),
+    );
     return null;
   }
   const scene = new SceneView(page, report, store);
@@ -57,14 +66,29 @@ function showReport(page: HTMLElement, report: ReportData): void {
   if (report.runs.length > 0) {
     const timeline = new Timeline(report, store);
     timeline.onHold = (held) => scene?.viewport.hold(held);
-    page.append(el("section", { class: "timeline", "aria-label": "Time line" }, timelineControls(report, store, timeline), timeline.element));
+    page.append(
+      el(
+        "section",
+        { class: "timeline", "aria-label": "Time line" },
+        timelineControls(report, store, timeline),
+        timeline.element,
+      ),
+    );
     watchPlaying(report, store);
   }
   const context = { report, store };
-  page.append(tabs(store, {
-    overview: overviewPanel(context), frame: framePanel(context), loops: loopsPanel(context),
-    compare: comparePanel(context), pictures: picturesPanel(context), graph: graphPanel(context),
-  }), splitter(page), help.element);
+  page.append(
+    tabs(store, {
+      overview: overviewPanel(context),
+      frame: framePanel(context),
+      loops: loopsPanel(context),
+      compare: comparePanel(context),
+      pictures: picturesPanel(context),
+      graph: graphPanel(context),
+    }),
+    splitter(page),
+    help.element,
+  );
   const list = bindings(report, store, scene, help.toggle, () => toggleTheme(store));
   help.fill(list);
   watchKeys(list);
@@ -74,14 +98,20 @@ function start(page: HTMLElement): void {
   try {
     const report = loadReport(document);
     if (report === null) {
-      showMessage(page, "This page holds no report. The command \"placegraph report OUT -o report.html\" writes a page with the report of a run.");
+      showMessage(
+        page,
+        'This page holds no report. The command "placegraph report OUT -o report.html" writes a page with the report of a run.',
+      );
     } else if (report.runs.length === 0 && report.graphs.length === 0 && report.pictures.length === 0) {
       showMessage(page, "The report in this page holds no run, no pose graph and no picture.");
     } else {
       showReport(page, report);
     }
   } catch (error) {
-    showMessage(page, `This report cannot be shown. ${error instanceof Error ? error.message : "The fault is unknown."}`);
+    showMessage(
+      page,
+      `This report cannot be shown. ${error instanceof Error ? error.message : "The fault is unknown."}`,
+    );
   }
 }
 

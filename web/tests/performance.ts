@@ -44,9 +44,11 @@ async function measure(browser: Browser, file: string, frames: number): Promise<
   await session.send("HeapProfiler.collectGarbage");
   const heap = (await session.send("Runtime.getHeapUsage")).usedSize;
   const megabytes = (bytes: number): string => (bytes / 1e6).toFixed(1);
-  console.log(`${frames} frames: file ${megabytes(statSync(file).size)} MB, first picture ${(Number(first) / 1000).toFixed(2)} s, `
-    + `orbit ${orbit.toFixed(0)} pictures/s, scrub ${scrub.toFixed(0)} pictures/s, JavaScript heap ${megabytes(heap)} MB, `
-    + `tab ${await residentMegabytes(browser)} MB`);
+  console.log(
+    `${frames} frames: file ${megabytes(statSync(file).size)} MB, first picture ${(Number(first) / 1000).toFixed(2)} s, ` +
+      `orbit ${orbit.toFixed(0)} pictures/s, scrub ${scrub.toFixed(0)} pictures/s, JavaScript heap ${megabytes(heap)} MB, ` +
+      `tab ${await residentMegabytes(browser)} MB`,
+  );
   await page.close();
 }
 
@@ -58,7 +60,11 @@ async function rate(page: Page, action: () => Promise<void>): Promise<number> {
     step();
   })()`);
   await action();
-  return Number(await page.evaluate("cancelAnimationFrame(window.counter), 1000 * window.counted / (performance.now() - window.countFrom)"));
+  return Number(
+    await page.evaluate(
+      "cancelAnimationFrame(window.counter), 1000 * window.counted / (performance.now() - window.countFrom)",
+    ),
+  );
 }
 
 /** 0, 1, 2, ... for some seconds. */
@@ -87,9 +93,11 @@ async function scrubbing(page: Page): Promise<void> {
 async function residentMegabytes(browser: Browser): Promise<string> {
   const session = await browser.newBrowserCDPSession();
   const { processInfo } = await session.send("SystemInfo.getProcessInfo");
-  const sizes = processInfo.filter((info) => info.type === "renderer").map((info) => {
-    const status = readFileSync(`/proc/${info.id}/status`, "utf8");
-    return Number(/VmRSS:\s+(\d+)/.exec(status)?.[1] ?? 0) / 1000;
-  });
+  const sizes = processInfo
+    .filter((info) => info.type === "renderer")
+    .map((info) => {
+      const status = readFileSync(`/proc/${info.id}/status`, "utf8");
+      return Number(/VmRSS:\s+(\d+)/.exec(status)?.[1] ?? 0) / 1000;
+    });
   return Math.max(...sizes).toFixed(0);
 }

@@ -55,16 +55,31 @@ export function sampleRun(options: Partial<SampleOptions> = {}): Run {
     sensor: "stereo",
     metric: o.metric,
     summary: {
-      frames: o.frames, posed, keyframes: keyframes.count, places: places.count, landmarks: o.landmarks,
-      loops_accepted: accepted, cpu_s: 0.061 * o.frames, wall_s: 0.034 * o.frames,
+      frames: o.frames,
+      posed,
+      keyframes: keyframes.count,
+      places: places.count,
+      landmarks: o.landmarks,
+      loops_accepted: accepted,
+      cpu_s: 0.061 * o.frames,
+      wall_s: 0.034 * o.frames,
     },
     judgement: {
       verdict: posed < o.frames ? "doubtful" : "good",
-      why_metric: o.metric ? "The baseline of the stereo pair gives the scale." : "One camera does not observe the scale.",
+      why_metric: o.metric
+        ? "The baseline of the stereo pair gives the scale."
+        : "One camera does not observe the scale.",
       expected_drift_m: 0.42,
-      findings: posed < o.frames
-        ? [{ cause: "blur", text: `${o.frames - posed} frames are lost: the images are blurred.`, advice: "Use a shorter exposure, or move more slowly in dark rooms." }]
-        : [],
+      findings:
+        posed < o.frames
+          ? [
+              {
+                cause: "blur",
+                text: `${o.frames - posed} frames are lost: the images are blurred.`,
+                advice: "Use a shorter exposure, or move more slowly in dark rooms.",
+              },
+            ]
+          : [],
     },
     notes: ["The last loop closed 3 s before the end of the sequence."],
     options: [{ name: "loops.min_similarity", value: "0.30", default_value: "0.25" }],
@@ -104,7 +119,12 @@ function figuresOf(path: Drive): Run["figures"] {
   return [
     { name: "ATE", value: ate, unit: "m", protocol: "se3 alignment, all posed frames, RMSE" },
     { name: "RPE", value: 0.021, unit: "m", protocol: "pairs one second apart, RMSE" },
-    { name: "Frames posed", value: (100 * errors.length) / path.error.length, unit: "%", protocol: "share of all input frames" },
+    {
+      name: "Frames posed",
+      value: (100 * errors.length) / path.error.length,
+      unit: "%",
+      protocol: "share of all input frames",
+    },
   ];
 }
 
@@ -124,17 +144,34 @@ function framesOf(o: SampleOptions, path: Drive, keyframe: number[]): Run["frame
   const lost = (i: number): boolean => path.component[i] < 0;
   return {
     id: column("i32", rows),
-    stamp_s: column("f64", rows.map((i) => 1.6e9 + i * 0.1)),
+    stamp_s: column(
+      "f64",
+      rows.map((i) => 1.6e9 + i * 0.1),
+    ),
     component: column("i32", path.component),
     keyframe: column("i32", keyframe),
     pose: column("f32", posesOf(path.estimate), 7),
     online: column("f32", posesOf(path.online), 7),
     truth: o.truth ? column("f32", posesOf(path.truth), 7) : null,
     error_m: o.truth ? column("f32", path.error) : null,
-    error_deg: o.truth ? column("f32", path.error.map((e) => e * 2)) : null,
-    sigma_m: column("f32", rows.map((i) => (lost(i) ? NaN : 0.02 + 0.08 * Math.abs(Math.sin((4 * Math.PI * i) / n))))),
-    confidence: column("f32", rows.map((i) => (lost(i) ? NaN : 0.8 + 0.19 * Math.cos(i / 40)))),
-    inliers: column("i32", rows.map((i) => (lost(i) ? 0 : Math.round(140 + 70 * Math.sin(i / 25) + 20 * Math.sin(i * 1.7))))),
+    error_deg: o.truth
+      ? column(
+          "f32",
+          path.error.map((e) => e * 2),
+        )
+      : null,
+    sigma_m: column(
+      "f32",
+      rows.map((i) => (lost(i) ? NaN : 0.02 + 0.08 * Math.abs(Math.sin((4 * Math.PI * i) / n)))),
+    ),
+    confidence: column(
+      "f32",
+      rows.map((i) => (lost(i) ? NaN : 0.8 + 0.19 * Math.cos(i / 40))),
+    ),
+    inliers: column(
+      "i32",
+      rows.map((i) => (lost(i) ? 0 : Math.round(140 + 70 * Math.sin(i / 25) + 20 * Math.sin(i * 1.7)))),
+    ),
     reason: labels(rows.map((i) => (lost(i) ? "too few points agree with the motion" : null))),
     environment: labels(rows.map((i) => (Math.floor((6 * i) / n) % 2 === 0 ? "street" : "yard"))),
   };
@@ -142,7 +179,16 @@ function framesOf(o: SampleOptions, path: Drive, keyframe: number[]): Run["frame
 
 function floorPlan(path: Drive): Run["floor_plan"] {
   const { halfWidth: w, halfDepth: d } = path;
-  const box = (scale: number): number[] => [-w * scale, 0, w * scale, 0, w * scale, 2 * d * scale, -w * scale, 2 * d * scale];
+  const box = (scale: number): number[] => [
+    -w * scale,
+    0,
+    w * scale,
+    0,
+    w * scale,
+    2 * d * scale,
+    -w * scale,
+    2 * d * scale,
+  ];
   return [
     { label: "outer wall", closed: true, points: column("f32", box(1.2), 2) },
     { label: "block", closed: true, points: column("f32", box(0.8), 2) },
@@ -151,7 +197,9 @@ function floorPlan(path: Drive): Run["floor_plan"] {
 
 function picture(title: string, path: Drive): Picture {
   const step = Math.max(1, Math.floor(path.truth.length / 300));
-  const points = path.truth.filter((_, i) => i % step === 0).map((pose) => `${pose.x.toFixed(2)},${(-pose.z).toFixed(2)}`);
+  const points = path.truth
+    .filter((_, i) => i % step === 0)
+    .map((pose) => `${pose.x.toFixed(2)},${(-pose.z).toFixed(2)}`);
   const { halfWidth: w, halfDepth: d } = path;
   const svg = `<svg xmlns="http://www.w3.org/2000/svg" viewBox="${-w - 3} ${-2 * d - 3} ${2 * w + 6} ${2 * d + 6}" width="640" height="480">
 <style>path { stroke-linejoin: round; }</style><rect x="-500" y="-500" width="1000" height="1000" fill="#ffffff"/>

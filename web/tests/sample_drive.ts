@@ -28,7 +28,7 @@ const LOST: Pose = { x: NaN, y: NaN, z: NaN, heading: NaN };
 /** Two laps and a bit around a block, so that the second lap closes loops with the first. */
 export function drive(o: SampleOptions, random: Random): Drive {
   const lap = o.frames / 2.1;
-  const halfWidth = (lap * STEP) / (2 * Math.PI) * 1.15;
+  const halfWidth = ((lap * STEP) / (2 * Math.PI)) * 1.15;
   const halfDepth = halfWidth * 0.72;
   const truth = Array.from({ length: o.frames }, (_, i) => around(i / lap, halfWidth, halfDepth));
   const lost = (i: number): boolean => o.lost.some(([from, to]) => i >= from && i <= to);
@@ -36,12 +36,20 @@ export function drive(o: SampleOptions, random: Random): Drive {
   const phase = random.between(0, 6);
   const estimate = truth.map((pose, i) => (lost(i) ? LOST : withError(pose, i, lap, phase, o)));
   const online = truth.map((pose, i) => {
-    const drift = 1.2 * Math.min(i, lap) / lap + 0.4 * Math.sin((3 * i) / lap);
-    return lost(i) ? LOST : { x: pose.x + drift, y: pose.y + random.normal(0.01), z: pose.z - 0.6 * drift, heading: pose.heading };
+    const drift = (1.2 * Math.min(i, lap)) / lap + 0.4 * Math.sin((3 * i) / lap);
+    return lost(i)
+      ? LOST
+      : { x: pose.x + drift, y: pose.y + random.normal(0.01), z: pose.z - 0.6 * drift, heading: pose.heading };
   });
   const error = estimate.map((pose, i) => Math.hypot(pose.x - truth[i].x, pose.y - truth[i].y, pose.z - truth[i].z));
   return {
-    truth, estimate, online, error, lap, halfWidth, halfDepth,
+    truth,
+    estimate,
+    online,
+    error,
+    lap,
+    halfWidth,
+    halfDepth,
     component: truth.map((_, i) => (lost(i) ? -1 : i > split ? 1 : 0)),
   };
 }
@@ -58,7 +66,9 @@ function around(laps: number, halfWidth: number, halfDepth: number): Pose {
   const after = at(laps + 0.002);
   const lane = Math.floor(laps) * 0.4;
   return {
-    x: here.x, y: -0.3 * Math.sin(2 * Math.PI * laps), z: here.z + lane,
+    x: here.x,
+    y: -0.3 * Math.sin(2 * Math.PI * laps),
+    z: here.z + lane,
     heading: Math.atan2(after.x - before.x, after.z - before.z),
   };
 }

@@ -33,7 +33,10 @@ export function sampleGraph(nodes = 800, seed = 3, name = "spiral.g2o"): Graph {
     edges: column("i32", edges, 2),
     edge_kind: labels(kinds),
     chi2: column("f32", chi2),
-    weight: column("f32", chi2.map((value) => 1 / (1 + value / 10))),
+    weight: column(
+      "f32",
+      chi2.map((value) => 1 / (1 + value / 10)),
+    ),
     figures: [
       { name: "chi2 before", value: 18234.2, unit: "", protocol: "sum over all edges" },
       { name: "chi2 after", value: chi2.reduce((a, b) => a + b, 0), unit: "", protocol: "sum over all edges" },

@@ -29,9 +29,15 @@ export function sampleKeyframes(o: SampleOptions, path: Drive): SampleKeyframes 
     frames,
     ofFrame,
     table: {
-      id: column("i32", frames.map((_, id) => id)),
+      id: column(
+        "i32",
+        frames.map((_, id) => id),
+      ),
       frame: column("i32", frames),
-      place: column("i32", frames.map((_, id) => Math.floor(id / PLACE_KEYFRAMES))),
+      place: column(
+        "i32",
+        frames.map((_, id) => Math.floor(id / PLACE_KEYFRAMES)),
+      ),
       thumbnails: frames.map((frame) => (o.thumbnails ? thumbnail(path.truth[frame].heading, frame * STEP) : "")),
     },
   };
@@ -52,7 +58,11 @@ export function sampleLandmarks(o: SampleOptions, path: Drive, random: Random): 
     const height = ground ? 1.5 + random.normal(0.03) : random.between(-4.5, 1.5);
     position.push(pose.x + across * Math.cos(pose.heading), height, pose.z - across * Math.sin(pose.heading));
     const tone = ground ? 90 : 130 + 60 * Math.sin(frame / 11);
-    colour.push(clamp(tone + random.normal(14)), clamp(tone * 0.9 + random.normal(10)), clamp(tone * (ground ? 1 : 0.7)));
+    colour.push(
+      clamp(tone + random.normal(14)),
+      clamp(tone * 0.9 + random.normal(10)),
+      clamp(tone * (ground ? 1 : 0.7)),
+    );
     sigma.push(0.02 + 0.02 * Math.abs(random.normal()));
     frames.push(Math.floor(frame / o.keyframeEvery));
   }
@@ -68,8 +78,13 @@ function clamp(value: number): number {
   return Math.min(255, Math.max(0, Math.round(value)));
 }
 
-export function samplePlaces(path: Drive, keyframes: SampleKeyframes): {
-  count: number; table: Run["places"]; constraints: Run["constraints"];
+export function samplePlaces(
+  path: Drive,
+  keyframes: SampleKeyframes,
+): {
+  count: number;
+  table: Run["places"];
+  constraints: Run["constraints"];
 } {
   const anchors = keyframes.frames.map((_, id) => id).filter((id) => id % PLACE_KEYFRAMES === 0);
   const frames = anchors.map((id) => keyframes.frames[id]);
@@ -85,10 +100,20 @@ export function samplePlaces(path: Drive, keyframes: SampleKeyframes): {
   return {
     count: anchors.length,
     table: {
-      id: column("i32", anchors.map((_, i) => i)),
+      id: column(
+        "i32",
+        anchors.map((_, i) => i),
+      ),
       keyframe: column("i32", anchors),
-      component: column("i32", frames.map((frame) => path.component[frame])),
-      position: column("f32", frames.flatMap((f) => [path.estimate[f].x, path.estimate[f].y, path.estimate[f].z]), 3),
+      component: column(
+        "i32",
+        frames.map((frame) => path.component[frame]),
+      ),
+      position: column(
+        "f32",
+        frames.flatMap((f) => [path.estimate[f].x, path.estimate[f].y, path.estimate[f].z]),
+        3,
+      ),
     },
     constraints: { from: column("i32", from), to: column("i32", to), source: labels(source) },
   };
@@ -97,14 +122,17 @@ export function samplePlaces(path: Drive, keyframes: SampleKeyframes): {
 const REFUSALS = ["retrieval", "reach", "geometry", "drift", "covariance", "support"];
 
 export function sampleLoops(o: SampleOptions, path: Drive, random: Random): { stages: string[]; table: Run["loops"] } {
-  const rows: { query: number; match: number; stage: string; probability: number; inliers: number; lines: number }[] = [];
+  const rows: { query: number; match: number; stage: string; probability: number; inliers: number; lines: number }[] =
+    [];
   for (let query = Math.ceil(path.lap) + 20; o.loops && query < o.frames; query += 15) {
     const accepted = random.uniform() < 0.45;
     const match = Math.round(query - path.lap) + (accepted ? 0 : Math.round(random.between(-40, 20)));
     if (match < 0 || path.component[query] < 0 || path.component[match] < 0) continue;
     const stage = accepted ? "accepted" : REFUSALS[Math.floor(random.uniform() * REFUSALS.length)];
     rows.push({
-      query, match, stage,
+      query,
+      match,
+      stage,
       probability: accepted ? random.between(0.85, 1) : random.between(0, 0.7),
       inliers: accepted ? Math.round(random.between(40, 160)) : Math.round(random.between(0, 25)),
       lines: Math.round(random.between(0, 12)),
@@ -113,13 +141,34 @@ export function sampleLoops(o: SampleOptions, path: Drive, random: Random): { st
   return {
     stages: rows.map((row) => row.stage),
     table: {
-      query_frame: column("i32", rows.map((row) => row.query)),
-      match_frame: column("i32", rows.map((row) => row.match)),
-      probability: column("f32", rows.map((row) => row.probability)),
-      similarity: column("f32", rows.map((row) => 0.2 + 0.6 * row.probability)),
-      inliers: column("i32", rows.map((row) => row.inliers)),
-      lines: column("i32", rows.map((row) => row.lines)),
-      stage: labels(rows.map((row) => row.stage), [...REFUSALS, "accepted"]),
+      query_frame: column(
+        "i32",
+        rows.map((row) => row.query),
+      ),
+      match_frame: column(
+        "i32",
+        rows.map((row) => row.match),
+      ),
+      probability: column(
+        "f32",
+        rows.map((row) => row.probability),
+      ),
+      similarity: column(
+        "f32",
+        rows.map((row) => 0.2 + 0.6 * row.probability),
+      ),
+      inliers: column(
+        "i32",
+        rows.map((row) => row.inliers),
+      ),
+      lines: column(
+        "i32",
+        rows.map((row) => row.lines),
+      ),
+      stage: labels(
+        rows.map((row) => row.stage),
+        [...REFUSALS, "accepted"],
+      ),
     },
   };
 }

@@ -7,12 +7,26 @@ export type Rgb = [number, number, number];
  * ends are left out: the darkest is lost on a dark ground, the brightest on a light one.
  */
 const VIRIDIS: Rgb[] = [
-  [72, 36, 117], [66, 64, 134], [54, 93, 141], [43, 117, 142], [33, 144, 141],
-  [39, 173, 129], [78, 195, 107], [144, 215, 67], [218, 226, 25],
+  [72, 36, 117],
+  [66, 64, 134],
+  [54, 93, 141],
+  [43, 117, 142],
+  [33, 144, 141],
+  [39, 173, 129],
+  [78, 195, 107],
+  [144, 215, 67],
+  [218, 226, 25],
 ];
 const CIVIDIS: Rgb[] = [
-  [18, 53, 112], [45, 68, 110], [73, 83, 109], [98, 101, 112], [125, 124, 120],
-  [154, 148, 118], [185, 173, 108], [212, 195, 94], [239, 219, 73],
+  [18, 53, 112],
+  [45, 68, 110],
+  [73, 83, 109],
+  [98, 101, 112],
+  [125, 124, 120],
+  [154, 148, 118],
+  [185, 173, 108],
+  [212, 195, 94],
+  [239, 219, 73],
 ];
 
 export const SCALES = { viridis: VIRIDIS, cividis: CIVIDIS } as const;
@@ -20,8 +34,13 @@ export type ScaleName = keyof typeof SCALES;
 
 /** The colours of Okabe and Ito (2008), without black, with a yellow that is seen on white too. */
 export const CATEGORIES: Rgb[] = [
-  [86, 180, 233], [230, 159, 0], [0, 158, 115], [204, 121, 167],
-  [214, 196, 20], [0, 114, 178], [213, 94, 0],
+  [86, 180, 233],
+  [230, 159, 0],
+  [0, 158, 115],
+  [204, 121, 167],
+  [214, 196, 20],
+  [0, 114, 178],
+  [213, 94, 0],
 ];
 
 /** Of values that are unknown. */

@@ -28,9 +28,7 @@ export function decodeColumn(column: Column, where: string): Numbers {
   }
   const rowBytes = BYTES[column.type] * column.width;
   if (bytes.length % rowBytes !== 0) {
-    throw new Error(
-      `${where} has ${bytes.length} bytes, which is no multiple of ${rowBytes} bytes a row.`,
-    );
+    throw new Error(`${where} has ${bytes.length} bytes, which is no multiple of ${rowBytes} bytes a row.`);
   }
   return { values: typed(bytes.buffer, column.type), width: column.width, rows: bytes.length / rowBytes };
 }

@@ -44,4 +44,3 @@ function decodeGraph(value: unknown, where: string): GraphData {
     figures: listOf(json["figures"], `${where}.figures`, readFigure),
   };
 }
-

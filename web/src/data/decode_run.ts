@@ -1,7 +1,18 @@
 import type { Values } from "./column";
 import { type Json, asBoolean, asNumber, asNumberOrNaN, asObject, asOneOf, asText, listOf, orNull } from "./fields";
 import { readFigure, readPicture } from "./figures";
-import type { ConstraintTable, FrameTable, GeoTrack, KeyframeTable, LandmarkTable, LoopTable, PlaceTable, PlaneShape, PlanShape, RunData } from "./model";
+import type {
+  ConstraintTable,
+  FrameTable,
+  GeoTrack,
+  KeyframeTable,
+  LandmarkTable,
+  LoopTable,
+  PlaceTable,
+  PlaneShape,
+  PlanShape,
+  RunData,
+} from "./model";
 import type { Camera, Component, Finding, Judgement, Option, Summary } from "./report";
 import { readColumn, TableReader } from "./table_reader";
 
@@ -42,7 +53,14 @@ function numbersOf<K extends string>(json: Json, where: string, names: readonly 
 
 function readSummary(value: unknown, where: string): Summary {
   const json = asObject(value, where);
-  const counts = numbersOf(json, where, ["frames", "posed", "keyframes", "places", "landmarks", "loops_accepted"] as const);
+  const counts = numbersOf(json, where, [
+    "frames",
+    "posed",
+    "keyframes",
+    "places",
+    "landmarks",
+    "loops_accepted",
+  ] as const);
   return {
     ...counts,
     cpu_s: orNull(json["cpu_s"], `${where}.cpu_s`, asNumber),

@@ -9,7 +9,9 @@ export function loadReport(from: Document): ReportData | null {
   try {
     json = JSON.parse(text);
   } catch (error) {
-    throw new Error(`The report in this page is not valid JSON: ${error instanceof Error ? error.message : "unknown fault"}.`);
+    throw new Error(
+      `The report in this page is not valid JSON: ${error instanceof Error ? error.message : "unknown fault"}.`,
+    );
   }
   return decodeReport(json);
 }

@@ -10,7 +10,9 @@ export interface Attributes {
 }
 
 export function el<K extends keyof HTMLElementTagNameMap>(
-  tag: K, attributes: Attributes = {}, ...children: Child[]
+  tag: K,
+  attributes: Attributes = {},
+  ...children: Child[]
 ): HTMLElementTagNameMap[K] {
   const element = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes)) {
@@ -31,7 +33,12 @@ export interface Choice {
   text: string;
 }
 
-export function select(label: string, choices: Choice[], value: string, onChange: (value: string) => void): HTMLSelectElement {
+export function select(
+  label: string,
+  choices: Choice[],
+  value: string,
+  onChange: (value: string) => void,
+): HTMLSelectElement {
   const element = el("select", { "aria-label": label, title: label });
   for (const choice of choices) element.append(new Option(choice.text, choice.value));
   element.value = value;
@@ -55,9 +62,20 @@ export function checkbox(text: string, checked: boolean, onChange: (checked: boo
 }
 
 export function slider(
-  label: string, low: number, high: number, step: number, value: number, onInput: (value: number) => void,
+  label: string,
+  low: number,
+  high: number,
+  step: number,
+  value: number,
+  onInput: (value: number) => void,
 ): HTMLLabelElement {
-  const input = el("input", { type: "range", min: String(low), max: String(high), step: String(step), "aria-label": label });
+  const input = el("input", {
+    type: "range",
+    min: String(low),
+    max: String(high),
+    step: String(step),
+    "aria-label": label,
+  });
   input.value = String(value);
   input.addEventListener("input", () => onInput(Number(input.value)));
   input.addEventListener("change", () => leaveAfterPointer(input));

@@ -11,8 +11,12 @@ const VERDICTS = { good: "good", doubtful: "doubtful", failed: "failed" };
 export function header(report: ReportData, store: Store, toggleHelp: () => void): HTMLElement {
   const verdict = el("span", { class: "verdict" });
   const mark = el("span", { class: "mark" });
-  const runs = select("Run", report.runs.map((run, i) => ({ value: String(i), text: run.name })), "0", (value) =>
-    store.set(chooseRun(report, store.state, Number(value))));
+  const runs = select(
+    "Run",
+    report.runs.map((run, i) => ({ value: String(i), text: run.name })),
+    "0",
+    (value) => store.set(chooseRun(report, store.state, Number(value))),
+  );
   runs.hidden = report.runs.length < 2;
   mark.hidden = runs.hidden;
   const show = (): void => {
@@ -26,6 +30,15 @@ export function header(report: ReportData, store: Store, toggleHelp: () => void)
   };
   store.on(["run"], show);
   show();
-  return el("header", {}, el("h1", {}, report.title), mark, runs, verdict, el("span", { class: "gap" }),
-    button("◐", "Dark or light (D)", () => toggleTheme(store)), button("?", "Keys and mouse (?)", toggleHelp));
+  return el(
+    "header",
+    {},
+    el("h1", {}, report.title),
+    mark,
+    runs,
+    verdict,
+    el("span", { class: "gap" }),
+    button("◐", "Dark or light (D)", () => toggleTheme(store)),
+    button("?", "Keys and mouse (?)", toggleHelp),
+  );
 }

@@ -5,18 +5,29 @@ export function helpDialog(): { element: HTMLDialogElement; fill: (list: KeyBind
   const body = el("div", { class: "keys" });
   const element = el("dialog", { class: "help", "aria-label": "Help" });
   element.append(
-    el("div", { class: "row" }, el("h2", {}, "Keys and mouse"), el("span", { class: "gap" }), button("Close", "Close the help", () => element.close())),
-    el("p", {}, "In the scene, drag with the left button to rotate, with the right button to pan, and use the wheel to zoom. "
-      + "Click a pose or a loop to select it; double-click a pose to rotate about it. "
-      + "In the time line, drag to move the cursor, use the wheel to zoom, double-click to see all of it."),
-    body);
+    el(
+      "div",
+      { class: "row" },
+      el("h2", {}, "Keys and mouse"),
+      el("span", { class: "gap" }),
+      button("Close", "Close the help", () => element.close()),
+    ),
+    el(
+      "p",
+      {},
+      "In the scene, drag with the left button to rotate, with the right button to pan, and use the wheel to zoom. " +
+        "Click a pose or a loop to select it; double-click a pose to rotate about it. " +
+        "In the time line, drag to move the cursor, use the wheel to zoom, double-click to see all of it.",
+    ),
+    body,
+  );
   element.addEventListener("click", (event) => {
     if (event.target === element) element.close();
   });
   return {
     element,
-    fill: (list) => body.replaceChildren(...list.map((binding) =>
-      el("div", {}, el("kbd", {}, binding.shown), ` ${binding.text}`))),
+    fill: (list) =>
+      body.replaceChildren(...list.map((binding) => el("div", {}, el("kbd", {}, binding.shown), ` ${binding.text}`))),
     toggle: () => (element.open ? element.close() : element.showModal()),
   };
 }

@@ -12,23 +12,65 @@ export interface KeyBinding {
 }
 
 export const LAYER_KEYS: Record<LayerName, string> = {
-  trajectory: "j", truth: "t", online: "o", frusta: "k", images: "i", landmarks: "m", places: "p",
-  constraints: "c", loops: "l", refused: "r", planes: "n", others: "u", grid: "g",
+  trajectory: "j",
+  truth: "t",
+  online: "o",
+  frusta: "k",
+  images: "i",
+  landmarks: "m",
+  places: "p",
+  constraints: "c",
+  loops: "l",
+  refused: "r",
+  planes: "n",
+  others: "u",
+  grid: "g",
 };
 
 export const LAYER_TITLES: Record<LayerName, string> = {
-  trajectory: "Trajectory", truth: "Ground truth", online: "Online trajectory", frusta: "Keyframes",
-  images: "Images of keyframes", landmarks: "Landmarks", places: "Places", constraints: "Constraints of places",
-  loops: "Loops accepted", refused: "Loops refused", planes: "Planes", others: "Other runs", grid: "Grid",
+  trajectory: "Trajectory",
+  truth: "Ground truth",
+  online: "Online trajectory",
+  frusta: "Keyframes",
+  images: "Images of keyframes",
+  landmarks: "Landmarks",
+  places: "Places",
+  constraints: "Constraints of places",
+  loops: "Loops accepted",
+  refused: "Loops refused",
+  planes: "Planes",
+  others: "Other runs",
+  grid: "Grid",
 };
 
-export function bindings(report: ReportData, store: Store, scene: SceneView | null, toggleHelp: () => void, toggleTheme: () => void): KeyBinding[] {
+export function bindings(
+  report: ReportData,
+  store: Store,
+  scene: SceneView | null,
+  toggleHelp: () => void,
+  toggleTheme: () => void,
+): KeyBinding[] {
   const step = (event: KeyboardEvent): number => (event.shiftKey ? 10 : 1);
   const end = (): number => (report.runs[store.state.run]?.frames.count ?? 1) - 1;
   const list: KeyBinding[] = [
-    { keys: [" "], shown: "Space", text: "Play or pause", run: () => store.set({ playing: !store.state.playing && report.runs.length > 0 }) },
-    { keys: ["ArrowLeft"], shown: "←", text: "One frame back (with Shift: ten)", run: (e) => moveCursor(report, store, -step(e)) },
-    { keys: ["ArrowRight"], shown: "→", text: "One frame on (with Shift: ten)", run: (e) => moveCursor(report, store, step(e)) },
+    {
+      keys: [" "],
+      shown: "Space",
+      text: "Play or pause",
+      run: () => store.set({ playing: !store.state.playing && report.runs.length > 0 }),
+    },
+    {
+      keys: ["ArrowLeft"],
+      shown: "←",
+      text: "One frame back (with Shift: ten)",
+      run: (e) => moveCursor(report, store, -step(e)),
+    },
+    {
+      keys: ["ArrowRight"],
+      shown: "→",
+      text: "One frame on (with Shift: ten)",
+      run: (e) => moveCursor(report, store, step(e)),
+    },
     { keys: ["["], shown: "[", text: "Previous keyframe", run: () => moveToKeyframe(report, store, -1) },
     { keys: ["]"], shown: "]", text: "Next keyframe", run: () => moveToKeyframe(report, store, 1) },
     { keys: ["Home"], shown: "Home", text: "First frame", run: () => moveCursor(report, store, -end()) },
@@ -43,14 +85,20 @@ export function bindings(report: ReportData, store: Store, scene: SceneView | nu
   ];
   for (const [name, key] of Object.entries(LAYER_KEYS) as [LayerName, string][]) {
     list.push({
-      keys: [key], shown: key.toUpperCase(), text: `Layer: ${LAYER_TITLES[name].toLowerCase()}`,
+      keys: [key],
+      shown: key.toUpperCase(),
+      text: `Layer: ${LAYER_TITLES[name].toLowerCase()}`,
       run: () => store.setLayer(name, !store.state.layers[name]),
     });
   }
-  TABS.forEach((tab, i) => list.push({
-    keys: [String(i + 1)], shown: String(i + 1), text: `Panel: ${tab}`,
-    run: () => document.getElementById(`tab-${tab}`)?.click(),
-  }));
+  TABS.forEach((tab, i) =>
+    list.push({
+      keys: [String(i + 1)],
+      shown: String(i + 1),
+      text: `Panel: ${tab}`,
+      run: () => document.getElementById(`tab-${tab}`)?.click(),
+    }),
+  );
   return list;
 }
 

@@ -4,7 +4,13 @@ import { el } from "./dom";
 const STEP = 20;
 
 export function splitter(page: HTMLElement): HTMLElement {
-  const element = el("div", { class: "splitter", role: "separator", tabindex: "0", "aria-orientation": "vertical", "aria-label": "Width of the panel" });
+  const element = el("div", {
+    class: "splitter",
+    role: "separator",
+    tabindex: "0",
+    "aria-orientation": "vertical",
+    "aria-label": "Width of the panel",
+  });
   let width = 400;
   const set = (wanted: number): void => {
     width = Math.min(Math.max(wanted, 280), Math.max(page.clientWidth - 360, 280));

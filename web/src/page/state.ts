@@ -4,8 +4,19 @@ import type { LoopFilter, LoopOrder } from "../data/loops";
 import type { SeriesName } from "../data/series";
 
 export const LAYERS = [
-  "trajectory", "truth", "online", "frusta", "images", "landmarks", "places", "constraints",
-  "loops", "refused", "planes", "others", "grid",
+  "trajectory",
+  "truth",
+  "online",
+  "frusta",
+  "images",
+  "landmarks",
+  "places",
+  "constraints",
+  "loops",
+  "refused",
+  "planes",
+  "others",
+  "grid",
 ] as const;
 export type LayerName = (typeof LAYERS)[number];
 

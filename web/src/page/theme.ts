@@ -15,5 +15,7 @@ export function watchTheme(store: Store): void {
   };
   store.on(["theme"], apply);
   apply();
-  window.matchMedia("(prefers-color-scheme: light)").addEventListener("change", () => store.set({ theme: preferredTheme() }));
+  window
+    .matchMedia("(prefers-color-scheme: light)")
+    .addEventListener("change", () => store.set({ theme: preferredTheme() }));
 }

@@ -17,15 +17,28 @@ export function comparePanel({ report, store }: PanelContext): Panel {
     render: () => {
       const { state } = store;
       const run = report.runs[state.run];
-      const index = state.compareWith === state.run || !report.runs[state.compareWith] ? (state.run + 1) % report.runs.length : state.compareWith;
+      const index =
+        state.compareWith === state.run || !report.runs[state.compareWith]
+          ? (state.run + 1) % report.runs.length
+          : state.compareWith;
       const other = report.runs[index];
-      const choices = report.runs.map((r, i) => ({ value: String(i), text: r.name })).filter(({ value }) => value !== String(state.run));
-      return el("div", {},
+      const choices = report.runs
+        .map((r, i) => ({ value: String(i), text: r.name }))
+        .filter(({ value }) => value !== String(state.run));
+      return el(
+        "div",
+        {},
         el("h2", {}, `${run.name} and ${other.name}`),
-        el("label", {}, "Compare with ", select("Run to compare with", choices, String(index), (value) => store.set({ compareWith: Number(value) }))),
+        el(
+          "label",
+          {},
+          "Compare with ",
+          select("Run to compare with", choices, String(index), (value) => store.set({ compareWith: Number(value) })),
+        ),
         partingSection(run, other, store),
         el("h3", {}, "Figures side by side"),
-        figuresTable(report));
+        figuresTable(report),
+      );
     },
   };
 }
@@ -34,28 +47,51 @@ function partingSection(run: RunData, other: RunData, store: Store): HTMLElement
   const { alignOn, threshold } = store.state;
   const comparison = compareRuns(run, other, alignOn);
   if (comparison === null) {
-    return el("p", {}, "The two runs have fewer than three posed frames in common, so their trajectories cannot be compared.");
+    return el(
+      "p",
+      {},
+      "The two runs have fewer than three posed frames in common, so their trajectories cannot be compared.",
+    );
   }
   const limit = threshold ?? defaultThreshold(travelled(run));
   const unit = lengthUnit(run);
   const id = firstParting(comparison, limit);
   const row = id === null ? -1 : (run.frames.rowOf.get(id) ?? -1);
-  return el("section", {},
+  return el(
+    "section",
+    {},
     choices(store, limit, unit),
     el("p", {}, alignmentSentence(comparison, other, alignOn)),
-    el("p", { class: "parting", "data-frame": id === null ? "" : String(id) }, partingSentence(run, comparison, id, limit, unit)),
-    row < 0 ? null : button(`Go to frame ${id}`, "Move the cursor to the first frame where the runs part", () => store.set({ row, playing: false })),
+    el(
+      "p",
+      { class: "parting", "data-frame": id === null ? "" : String(id) },
+      partingSentence(run, comparison, id, limit, unit),
+    ),
+    row < 0
+      ? null
+      : button(`Go to frame ${id}`, "Move the cursor to the first frame where the runs part", () =>
+          store.set({ row, playing: false }),
+        ),
     el("h4", {}, `Distance by frame [${unit}]`),
     distanceGraph(comparison.ids, comparison.distance, limit, 320, (x) => {
-      const nearest = comparison.ids.reduce((best, candidate) => (Math.abs(candidate - x) < Math.abs(best - x) ? candidate : best));
+      const nearest = comparison.ids.reduce((best, candidate) =>
+        Math.abs(candidate - x) < Math.abs(best - x) ? candidate : best,
+      );
       store.set({ row: run.frames.rowOf.get(nearest) ?? store.state.row, playing: false });
     }),
     saveButtons(run, other, comparison, unit),
     facts([
       ["Frames in common", formatCount(comparison.ids.length)],
       ["Distance, root mean square", formatWithUnit(rms(comparison.distance), unit)],
-      ["Distance, largest", formatWithUnit(comparison.distance.reduce((a, b) => Math.max(a, b), 0), unit)],
-    ]));
+      [
+        "Distance, largest",
+        formatWithUnit(
+          comparison.distance.reduce((a, b) => Math.max(a, b), 0),
+          unit,
+        ),
+      ],
+    ]),
+  );
 }
 
 function saveButtons(run: RunData, other: RunData, comparison: Comparison, unit: string): HTMLElement {
@@ -63,30 +99,61 @@ function saveButtons(run: RunData, other: RunData, comparison: Comparison, unit:
   const svg = (): string => {
     const title = `Distance of ${other.name} from ${run.name}`;
     const range: [number, number] = [comparison.ids[0], comparison.ids[comparison.ids.length - 1]];
-    return graphSvg(title, "Frame", `Distance [${unit}]`, comparison.ids, [{ name: "", colour: "#d55e00", values: comparison.distance }], range);
+    return graphSvg(
+      title,
+      "Frame",
+      `Distance [${unit}]`,
+      comparison.ids,
+      [{ name: "", colour: "#d55e00", values: comparison.distance }],
+      range,
+    );
   };
-  return el("div", { class: "row" },
+  return el(
+    "div",
+    { class: "row" },
     button("SVG", "Save the distances as SVG", () => saveText(svg(), "image/svg+xml", `${name}.svg`)),
-    button("PNG", "Save the distances as PNG", () => void saveSvgAsPng(svgUri(svg()), 1600, `${name}.png`)));
+    button("PNG", "Save the distances as PNG", () => void saveSvgAsPng(svgUri(svg()), 1600, `${name}.png`)),
+  );
 }
 
 function choices(store: Store, limit: number, unit: string): HTMLElement {
-  const input = el("input", { type: "number", min: "0", step: "any", value: String(limit), "aria-label": `Threshold in ${unit}` });
+  const input = el("input", {
+    type: "number",
+    min: "0",
+    step: "any",
+    value: String(limit),
+    "aria-label": `Threshold in ${unit}`,
+  });
   input.addEventListener("change", () => {
     const value = Number(input.value);
     store.set({ threshold: value > 0 ? value : null });
   });
-  return el("div", { class: "row" },
-    el("label", {}, "Align on ", select("Frames of the alignment", [
-      { value: "beginning", text: "the common beginning" }, { value: "whole", text: "all common frames" },
-    ], store.state.alignOn, (value) => store.set({ alignOn: value === "whole" ? "whole" : "beginning" }))),
-    el("label", {}, "Threshold ", input, ` ${unit}`));
+  return el(
+    "div",
+    { class: "row" },
+    el(
+      "label",
+      {},
+      "Align on ",
+      select(
+        "Frames of the alignment",
+        [
+          { value: "beginning", text: "the common beginning" },
+          { value: "whole", text: "all common frames" },
+        ],
+        store.state.alignOn,
+        (value) => store.set({ alignOn: value === "whole" ? "whole" : "beginning" }),
+      ),
+    ),
+    el("label", {}, "Threshold ", input, ` ${unit}`),
+  );
 }
 
 function alignmentSentence(comparison: Comparison, other: RunData, on: string): string {
-  const frames = on === "whole"
-    ? `all ${formatCount(comparison.alignedOn)} common frames`
-    : `the first ${formatCount(comparison.alignedOn)} common frames`;
+  const frames =
+    on === "whole"
+      ? `all ${formatCount(comparison.alignedOn)} common frames`
+      : `the first ${formatCount(comparison.alignedOn)} common frames`;
   const kind = comparison.withScale
     ? `a similarity: its scale ${formatNumber(comparison.alignment.scale, 4)} is fitted, because a run is not metric`
     : "a rigid motion: no scale is fitted";
@@ -111,7 +178,8 @@ function figuresTable(report: ReportData): HTMLElement {
   };
   report.runs.forEach((run, i) => {
     put("Verdict", i, run.judgement?.verdict ?? "none");
-    for (const figure of run.figures) put(`${figure.name} (${figure.protocol})`, i, formatWithUnit(figure.value, figure.unit));
+    for (const figure of run.figures)
+      put(`${figure.name} (${figure.protocol})`, i, formatWithUnit(figure.value, figure.unit));
     put("Frames posed", i, `${formatCount(run.summary.posed)} of ${formatCount(run.summary.frames)}`);
     put("Keyframes", i, formatCount(run.summary.keyframes));
     put("Loops accepted", i, formatCount(run.summary.loops_accepted));
@@ -120,8 +188,14 @@ function figuresTable(report: ReportData): HTMLElement {
     put("Run time (all cores)", i, formatDuration(run.summary.cpu_s));
     for (const option of run.options) put(`Option ${option.name}`, i, option.value);
   });
-  const head = el("tr", {}, el("th", {}, "Figure"), ...report.runs.map((run) => el("th", { class: "number" }, run.name)));
+  const head = el(
+    "tr",
+    {},
+    el("th", {}, "Figure"),
+    ...report.runs.map((run) => el("th", { class: "number" }, run.name)),
+  );
   const body = el("tbody");
-  for (const [name, texts] of rows) body.append(el("tr", {}, el("td", {}, name), ...texts.map((text) => el("td", { class: "number" }, text))));
+  for (const [name, texts] of rows)
+    body.append(el("tr", {}, el("td", {}, name), ...texts.map((text) => el("td", { class: "number" }, text))));
   return el("div", { class: "wide" }, el("table", { class: "compare" }, el("thead", {}, head), body));
 }

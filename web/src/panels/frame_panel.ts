@@ -17,14 +17,17 @@ export function framePanel({ report, store }: PanelContext): Panel {
       const { row } = store.state;
       if (run.frames.count === 0) return el("p", {}, "This run has no frames.");
       const id = run.frames.id[row];
-      return el("div", {},
+      return el(
+        "div",
+        {},
         el("h2", {}, `Frame ${id}`),
         el("p", {}, stateSentence(run, row)),
         componentNote(run, row, store.state.component, (component) => store.set({ component })),
         thumbnailOf(run, row),
         facts(frameFacts(run, row)),
         el("h3", {}, "Loops that start or end here"),
-        loopList(run, id, (loop) => store.set({ ...loopSelection(report, store.state, loop), tab: "loops" })));
+        loopList(run, id, (loop) => store.set({ ...loopSelection(report, store.state, loop), tab: "loops" })),
+      );
     },
   };
 }
@@ -41,11 +44,20 @@ export function stateSentence(run: RunData, row: number): string {
   return frames.keyframe[row] >= 0 ? `The frame is a keyframe${part}.` : `The frame has a pose${part}.`;
 }
 
-function componentNote(run: RunData, row: number, shown: number | null, show: (component: number) => void): HTMLElement | null {
+function componentNote(
+  run: RunData,
+  row: number,
+  shown: number | null,
+  show: (component: number) => void,
+): HTMLElement | null {
   const number = run.frames.component[row];
   if (number < 0 || shown === null || shown === number) return null;
-  return el("p", { class: "note" }, `The scene shows component ${shown}; this frame belongs to component ${number}. `,
-    button(`Show component ${number}`, "Show the component of this frame", () => show(number)));
+  return el(
+    "p",
+    { class: "note" },
+    `The scene shows component ${shown}; this frame belongs to component ${number}. `,
+    button(`Show component ${number}`, "Show the component of this frame", () => show(number)),
+  );
 }
 
 function thumbnailOf(run: RunData, row: number): HTMLElement | null {
@@ -93,7 +105,14 @@ function loopList(run: RunData, id: number, choose: (loop: number) => void): HTM
   for (const loop of rows.slice(0, 50)) {
     const other = run.loops.query[loop] === id ? run.loops.match[loop] : run.loops.query[loop];
     const stage = stageOf(run.loops, loop);
-    list.append(el("li", {}, button(`With frame ${other}`, "Select this loop", () => choose(loop)), ` ${stageSentence(stage)}`));
+    list.append(
+      el(
+        "li",
+        {},
+        button(`With frame ${other}`, "Select this loop", () => choose(loop)),
+        ` ${stageSentence(stage)}`,
+      ),
+    );
   }
   return list;
 }

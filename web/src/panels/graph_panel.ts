@@ -16,15 +16,26 @@ export function graphPanel({ report, store }: PanelContext): Panel {
       const { state } = store;
       const graph = report.graphs[state.graph];
       const names = report.graphs.map((g, i) => ({ value: String(i), text: g.name }));
-      return el("div", {},
+      return el(
+        "div",
+        {},
         el("h2", {}, graph.name),
         report.graphs.length > 1
-          ? select("Pose graph", names, String(state.graph), (value) => chooseGraph(store, report.graphs, Number(value))) : null,
-        graph.after ? shapeChoice(store) : el("p", { class: "soft" }, "The graph has not been optimized: its nodes are shown as they are."),
-        facts([["Nodes", formatCount(graph.nodes)], ["Edges", formatCount(graph.edgeCount)]]),
+          ? select("Pose graph", names, String(state.graph), (value) =>
+              chooseGraph(store, report.graphs, Number(value)),
+            )
+          : null,
+        graph.after
+          ? shapeChoice(store)
+          : el("p", { class: "soft" }, "The graph has not been optimized: its nodes are shown as they are."),
+        facts([
+          ["Nodes", formatCount(graph.nodes)],
+          ["Edges", formatCount(graph.edgeCount)],
+        ]),
         figuresSection(graph.figures),
         el("h3", {}, "Edges with the largest chi2"),
-        worstTable(graph, store));
+        worstTable(graph, store),
+      );
     },
   };
 }
@@ -34,11 +45,21 @@ function chooseGraph(store: Store, graphs: GraphData[], graph: number): void {
 }
 
 function shapeChoice(store: Store): HTMLElement {
-  return el("label", {}, "Show ", select("Shape of the graph", [
-    { value: "before", text: "before the optimization" },
-    { value: "after", text: "after the optimization" },
-    { value: "both", text: "both, the shape before in grey" },
-  ], store.state.graphShape, (value) => store.set({ graphShape: value as GraphShape })));
+  return el(
+    "label",
+    {},
+    "Show ",
+    select(
+      "Shape of the graph",
+      [
+        { value: "before", text: "before the optimization" },
+        { value: "after", text: "after the optimization" },
+        { value: "both", text: "both, the shape before in grey" },
+      ],
+      store.state.graphShape,
+      (value) => store.set({ graphShape: value as GraphShape }),
+    ),
+  );
 }
 
 export function worstEdges(graph: GraphData, count: number): number[] {
@@ -51,15 +72,28 @@ function worstTable(graph: GraphData, store: Store): HTMLElement {
   const titles = ["From", "To", "Kind", "chi2", ...(graph.weight ? ["Weight"] : [])];
   const body = el("tbody");
   for (const edge of worstEdges(graph, WORST)) {
-    const cells = [String(graph.edges[2 * edge]), String(graph.edges[2 * edge + 1]), label(graph.kind, edge) ?? "unknown", formatNumber(graph.chi2[edge])];
+    const cells = [
+      String(graph.edges[2 * edge]),
+      String(graph.edges[2 * edge + 1]),
+      label(graph.kind, edge) ?? "unknown",
+      formatNumber(graph.chi2[edge]),
+    ];
     if (graph.weight) cells.push(formatNumber(graph.weight[edge], 2));
-    const row = el("tr", { tabindex: "0", "aria-current": String(edge === store.state.edge) },
-      ...cells.map((text, i) => el("td", { class: i === 2 ? "" : "number" }, text)));
+    const row = el(
+      "tr",
+      { tabindex: "0", "aria-current": String(edge === store.state.edge) },
+      ...cells.map((text, i) => el("td", { class: i === 2 ? "" : "number" }, text)),
+    );
     row.addEventListener("click", () => store.set({ edge }));
     row.addEventListener("keydown", (event) => {
       if (event.key === "Enter") store.set({ edge });
     });
     body.append(row);
   }
-  return el("table", { class: "loops" }, el("thead", {}, el("tr", {}, ...titles.map((title) => el("th", {}, title)))), body);
+  return el(
+    "table",
+    { class: "loops" },
+    el("thead", {}, el("tr", {}, ...titles.map((title) => el("th", {}, title)))),
+    body,
+  );
 }

@@ -8,13 +8,19 @@ import { type ColourBy, type Follow, LAYERS, type LayerName, type PointColour, t
 import type { SceneView } from "../scene/scene_view";
 
 export function sceneTools(report: ReportData, store: Store, scene: SceneView): HTMLElement {
-  const follow = el("div", { class: "tools-part" },
+  const follow = el(
+    "div",
+    { class: "tools-part" },
     followButton("Follow", "Follow the camera (H)", "along", store),
-    followButton("Through", "Look through the camera (E)", "through", store));
+    followButton("Through", "Look through the camera (E)", "through", store),
+  );
   store.on(["tab"], (state) => (follow.hidden = state.tab === "graph"));
-  const tools = el("div", { class: "tools" },
+  const tools = el(
+    "div",
+    { class: "tools" },
     button("Fit", "Show all of the map (F)", () => scene.fit()),
-    button("Top", "View from above (V)", () => scene.top()));
+    button("Top", "View from above (V)", () => scene.top()),
+  );
   if (report.runs.length > 0) tools.append(follow);
   tools.append(button("PNG", "Save the scene as PNG (S)", () => scene.save()));
   return tools;
@@ -45,18 +51,32 @@ export function layersPanel(report: ReportData, store: Store): HTMLElement {
 function controls(report: ReportData, run: RunData, store: Store): Node[] {
   const { state } = store;
   const nodes: Node[] = [
-    el("label", {}, "Colour by ", select("Colour of the trajectory", colourChoices(report, run), state.colourBy, (value) =>
-      store.set({ colourBy: value as ColourBy }))),
+    el(
+      "label",
+      {},
+      "Colour by ",
+      select("Colour of the trajectory", colourChoices(report, run), state.colourBy, (value) =>
+        store.set({ colourBy: value as ColourBy }),
+      ),
+    ),
   ];
   if (run.components.length > 1) nodes.push(componentChoice(run, store));
   for (const name of LAYERS) if (layerExists(report, run, name)) nodes.push(layerBox(name, store));
   if (run.landmarks.count > 0) {
     nodes.push(
-      el("label", {}, "Landmarks by ", select("Colour of the landmarks", pointChoices(run), state.pointColour, (value) =>
-        store.set({ pointColour: value as PointColour }))),
-      slider("Landmark size", 1, 8, 0.5, state.pointSize, (pointSize) => store.set({ pointSize })));
+      el(
+        "label",
+        {},
+        "Landmarks by ",
+        select("Colour of the landmarks", pointChoices(run), state.pointColour, (value) =>
+          store.set({ pointColour: value as PointColour }),
+        ),
+      ),
+      slider("Landmark size", 1, 8, 0.5, state.pointSize, (pointSize) => store.set({ pointSize })),
+    );
   }
-  if (run.keyframes.count > 0) nodes.push(slider("Keyframe size", 0.3, 4, 0.1, state.frustumSize, (frustumSize) => store.set({ frustumSize })));
+  if (run.keyframes.count > 0)
+    nodes.push(slider("Keyframe size", 0.3, 4, 0.1, state.frustumSize, (frustumSize) => store.set({ frustumSize })));
   return nodes;
 }
 
@@ -72,10 +92,14 @@ function layerBox(name: LayerName, store: Store): HTMLElement {
 }
 
 function componentChoice(run: RunData, store: Store): HTMLElement {
-  const choices: Choice[] = run.components.map((c) => ({ value: String(c.number), text: `component ${c.number}${c.main ? " (main)" : ""}` }));
+  const choices: Choice[] = run.components.map((c) => ({
+    value: String(c.number),
+    text: `component ${c.number}${c.main ? " (main)" : ""}`,
+  }));
   choices.push({ value: "all", text: "all (their frames differ)" });
   const box = select("Component", choices, String(store.state.component ?? "all"), (value) =>
-    store.set({ component: value === "all" ? null : Number(value) }));
+    store.set({ component: value === "all" ? null : Number(value) }),
+  );
   store.on(["component"], (state) => (box.value = String(state.component ?? "all")));
   return el("label", {}, "Show ", box);
 }

@@ -12,8 +12,13 @@ import type { Panel, PanelContext } from "./panel";
 
 const ROWS = 300;
 const COLUMNS: [LoopColumn, string][] = [
-  ["query", "Query"], ["match", "Match"], ["stage", "Stage"], ["probability", "Prob."],
-  ["similarity", "Sim."], ["inliers", "Inliers"], ["lines", "Lines"],
+  ["query", "Query"],
+  ["match", "Match"],
+  ["stage", "Stage"],
+  ["probability", "Prob."],
+  ["similarity", "Sim."],
+  ["inliers", "Inliers"],
+  ["lines", "Lines"],
 ];
 
 export function loopsPanel(context: PanelContext): Panel {
@@ -47,8 +52,15 @@ function selectedLoop(run: RunData, store: Store): HTMLElement {
   if (loop < 0) return el("p", { class: "soft" }, "Select a loop in the table or in the scene.");
   const { loops } = run;
   const stage = stageOf(loops, loop);
-  return el("section", { class: "loop-detail", "aria-live": "polite" },
-    el("div", { class: "pair" }, view(run, loops.query[loop], "Query", QUERY, store), view(run, loops.match[loop], "Match", MATCH, store)),
+  return el(
+    "section",
+    { class: "loop-detail", "aria-live": "polite" },
+    el(
+      "div",
+      { class: "pair" },
+      view(run, loops.query[loop], "Query", QUERY, store),
+      view(run, loops.match[loop], "Match", MATCH, store),
+    ),
     el("p", {}, el("strong", {}, stageSentence(stage))),
     facts([
       ["Probability of the same place", formatPercent(loops.probability[loop])],
@@ -56,13 +68,16 @@ function selectedLoop(run: RunData, store: Store): HTMLElement {
       ["Inliers", formatNumber(loops.inliers[loop])],
       ["Lines", formatNumber(loops.lines[loop])],
       ["Time between the two", timeBetween(run, loop)],
-    ]));
+    ]),
+  );
 }
 
 function timeBetween(run: RunData, loop: number): string {
   const a = run.frames.rowOf.get(run.loops.query[loop]);
   const b = run.frames.rowOf.get(run.loops.match[loop]);
-  return a === undefined || b === undefined ? "unknown" : formatTime(Math.abs(run.frames.stamp[a] - run.frames.stamp[b]));
+  return a === undefined || b === undefined
+    ? "unknown"
+    : formatTime(Math.abs(run.frames.stamp[a] - run.frames.stamp[b]));
 }
 
 function view(run: RunData, frame: number, title: string, colour: [number, number, number], store: Store): HTMLElement {
@@ -72,7 +87,9 @@ function view(run: RunData, frame: number, title: string, colour: [number, numbe
     if (row !== undefined) store.set({ row });
   });
   go.style.borderColor = cssColour(colour);
-  const image = isPicture(uri) ? el("img", { src: uri, alt: `Image of frame ${frame}` }) : el("p", { class: "soft" }, "No image.");
+  const image = isPicture(uri)
+    ? el("img", { src: uri, alt: `Image of frame ${frame}` })
+    : el("p", { class: "soft" }, "No image.");
   return el("figure", {}, image, el("figcaption", {}, go));
 }
 
@@ -107,30 +124,57 @@ function table({ report, store }: PanelContext, run: RunData): HTMLElement {
   const head = el("tr");
   for (const [column, title] of COLUMNS) {
     const active = loopOrder.column === column;
-    const sort = button(active ? `${title} ${loopOrder.descending ? "▼" : "▲"}` : title, `Sort by ${title.toLowerCase()}`, () =>
-      store.set({ loopOrder: { column, descending: active ? !loopOrder.descending : column === "probability" } }));
+    const sort = button(
+      active ? `${title} ${loopOrder.descending ? "▼" : "▲"}` : title,
+      `Sort by ${title.toLowerCase()}`,
+      () => store.set({ loopOrder: { column, descending: active ? !loopOrder.descending : column === "probability" } }),
+    );
     head.append(el("th", { "aria-sort": active ? (loopOrder.descending ? "descending" : "ascending") : "none" }, sort));
   }
   const body = el("tbody");
-  for (const row of rows.slice(0, ROWS)) body.append(tableRow(run, row, row === loop, () => store.set(loopSelection(report, store.state, row))));
-  const more = rows.length > ROWS ? el("p", { class: "soft" }, `The first ${ROWS} are in the table; filter or sort to see others.`) : null;
-  return el("div", {}, el("p", {}, `${plural(rows.length, "loop candidate")} of ${formatCount(run.loops.count)}`),
-    el("table", { class: "loops" }, el("thead", {}, head), body), more);
+  for (const row of rows.slice(0, ROWS))
+    body.append(tableRow(run, row, row === loop, () => store.set(loopSelection(report, store.state, row))));
+  const more =
+    rows.length > ROWS
+      ? el("p", { class: "soft" }, `The first ${ROWS} are in the table; filter or sort to see others.`)
+      : null;
+  return el(
+    "div",
+    {},
+    el("p", {}, `${plural(rows.length, "loop candidate")} of ${formatCount(run.loops.count)}`),
+    el("table", { class: "loops" }, el("thead", {}, head), body),
+    more,
+  );
 }
 
 function tableRow(run: RunData, row: number, selected: boolean, choose: () => void): HTMLElement {
   const { loops } = run;
   const stage = stageOf(loops, row);
   const cells = [
-    String(loops.query[row]), String(loops.match[row]), stage, formatNumber(loops.probability[row], 2),
-    formatNumber(loops.similarity[row], 2), formatNumber(loops.inliers[row]), formatNumber(loops.lines[row]),
+    String(loops.query[row]),
+    String(loops.match[row]),
+    stage,
+    formatNumber(loops.probability[row], 2),
+    formatNumber(loops.similarity[row], 2),
+    formatNumber(loops.inliers[row]),
+    formatNumber(loops.lines[row]),
   ];
-  const element = el("tr", { tabindex: "0", "aria-current": String(selected), "data-loop": String(row), title: stageSentence(stage) });
+  const element = el("tr", {
+    tabindex: "0",
+    "aria-current": String(selected),
+    "data-loop": String(row),
+    title: stageSentence(stage),
+  });
   cells.forEach((text, i) => element.append(el("td", { class: i === 2 ? "" : "number" }, text)));
   element.addEventListener("click", choose);
   element.addEventListener("keydown", (event) => {
     if (event.key === "Enter") choose();
-    const next = event.key === "ArrowDown" ? element.nextElementSibling : event.key === "ArrowUp" ? element.previousElementSibling : null;
+    const next =
+      event.key === "ArrowDown"
+        ? element.nextElementSibling
+        : event.key === "ArrowUp"
+          ? element.previousElementSibling
+          : null;
     if (!(next instanceof HTMLElement)) return;
     event.preventDefault();
     event.stopPropagation();

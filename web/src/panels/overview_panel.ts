@@ -20,7 +20,9 @@ export function overviewPanel({ report, store }: PanelContext): Panel {
     keys: ["run"],
     render: () => {
       const run = report.runs[store.state.run];
-      return el("div", {},
+      return el(
+        "div",
+        {},
         el("h2", {}, run.name),
         el("p", { class: "soft" }, `${run.folder} · ${SENSORS[run.sensor]} · ${report.program}`),
         run.judgement ? judgementSection(run, run.judgement) : null,
@@ -30,20 +32,35 @@ export function overviewPanel({ report, store }: PanelContext): Panel {
         componentsSection(run),
         listSection("Notes", run.notes),
         optionsSection(run.options),
-        run.georeference ? georeferenceSection(run) : null);
+        run.georeference ? georeferenceSection(run) : null,
+      );
     },
   };
 }
 
 function judgementSection(run: RunData, judgement: Judgement): HTMLElement {
   const box = el("section", { class: `judgement ${judgement.verdict}` }, el("strong", {}, VERDICTS[judgement.verdict]));
-  if (judgement.why_metric !== "") box.append(el("p", {}, `${run.metric ? "Lengths are in metres. " : "The scale of the map is arbitrary. "}${judgement.why_metric}`));
+  if (judgement.why_metric !== "")
+    box.append(
+      el(
+        "p",
+        {},
+        `${run.metric ? "Lengths are in metres. " : "The scale of the map is arbitrary. "}${judgement.why_metric}`,
+      ),
+    );
   if (judgement.expected_drift_m !== null) {
     box.append(el("p", {}, `The expected drift at the end is ${formatWithUnit(judgement.expected_drift_m, "m")}.`));
   }
   for (const finding of judgement.findings) {
-    box.append(el("div", { class: "finding" }, el("strong", {}, finding.cause), el("p", {}, finding.text),
-      el("p", {}, el("em", {}, "Advice: "), finding.advice)));
+    box.append(
+      el(
+        "div",
+        { class: "finding" },
+        el("strong", {}, finding.cause),
+        el("p", {}, finding.text),
+        el("p", {}, el("em", {}, "Advice: "), finding.advice),
+      ),
+    );
   }
   return box;
 }
@@ -52,10 +69,21 @@ export function figuresSection(figures: Figure[]): HTMLElement | null {
   if (figures.length === 0) return null;
   const body = el("tbody");
   for (const figure of figures) {
-    body.append(el("tr", {}, el("td", {}, figure.name), el("td", { class: "number" }, formatWithUnit(figure.value, figure.unit)),
-      el("td", { class: "soft" }, figure.protocol)));
+    body.append(
+      el(
+        "tr",
+        {},
+        el("td", {}, figure.name),
+        el("td", { class: "number" }, formatWithUnit(figure.value, figure.unit)),
+        el("td", { class: "soft" }, figure.protocol),
+      ),
+    );
   }
-  const head = el("thead", {}, el("tr", {}, el("th", {}, "Figure"), el("th", { class: "number" }, "Value"), el("th", {}, "Protocol")));
+  const head = el(
+    "thead",
+    {},
+    el("tr", {}, el("th", {}, "Figure"), el("th", { class: "number" }, "Value"), el("th", {}, "Protocol")),
+  );
   return el("section", {}, el("h3", {}, "Figures"), el("table", { class: "figures" }, head, body));
 }
 
@@ -67,8 +95,12 @@ export function countsOf(run: RunData): HTMLElement {
     ["Frames posed", `${formatCount(summary.posed)} (${formatPercent(summary.posed / summary.frames)})`],
     ["Keyframes", formatCount(summary.keyframes)],
     ["Places", formatCount(summary.places)],
-    ["Landmarks", run.landmarks.count === summary.landmarks
-      ? formatCount(summary.landmarks) : `${formatCount(summary.landmarks)}, ${formatCount(run.landmarks.count)} of them in this page`],
+    [
+      "Landmarks",
+      run.landmarks.count === summary.landmarks
+        ? formatCount(summary.landmarks)
+        : `${formatCount(summary.landmarks)}, ${formatCount(run.landmarks.count)} of them in this page`,
+    ],
     ["Loops accepted", formatCount(summary.loops_accepted)],
     ["Path length", formatWithUnit(travelled(run), lengthUnit(run))],
     ["Length of the sequence", formatDuration(seconds)],
@@ -79,9 +111,20 @@ export function countsOf(run: RunData): HTMLElement {
 
 function componentsSection(run: RunData): HTMLElement | null {
   if (run.components.length < 2) return null;
-  const rows = run.components.map((c) => `Component ${c.number}${c.main ? " (main)" : ""}: ${formatCount(c.posed)} frames between frame ${c.first} and frame ${c.last}`);
-  return el("section", {}, listSection("Components", rows),
-    el("p", { class: "soft" }, "Each component has a coordinate frame of its own. Distances between components mean nothing."));
+  const rows = run.components.map(
+    (c) =>
+      `Component ${c.number}${c.main ? " (main)" : ""}: ${formatCount(c.posed)} frames between frame ${c.first} and frame ${c.last}`,
+  );
+  return el(
+    "section",
+    {},
+    listSection("Components", rows),
+    el(
+      "p",
+      { class: "soft" },
+      "Each component has a coordinate frame of its own. Distances between components mean nothing.",
+    ),
+  );
 }
 
 function listSection(title: string, texts: string[]): HTMLElement | null {
@@ -90,10 +133,19 @@ function listSection(title: string, texts: string[]): HTMLElement | null {
 }
 
 function optionsSection(options: Option[]): HTMLElement | null {
-  if (options.length === 0) return el("section", {}, el("h3", {}, "Options"), el("p", { class: "soft" }, "All options have their defaults."));
+  if (options.length === 0)
+    return el("section", {}, el("h3", {}, "Options"), el("p", { class: "soft" }, "All options have their defaults."));
   const body = el("tbody");
   for (const option of options) {
-    body.append(el("tr", {}, el("td", {}, el("code", {}, option.name)), el("td", {}, option.value), el("td", { class: "soft" }, option.default_value)));
+    body.append(
+      el(
+        "tr",
+        {},
+        el("td", {}, el("code", {}, option.name)),
+        el("td", {}, option.value),
+        el("td", { class: "soft" }, option.default_value),
+      ),
+    );
   }
   const head = el("thead", {}, el("tr", {}, el("th", {}, "Option"), el("th", {}, "Value"), el("th", {}, "Default")));
   return el("section", {}, el("h3", {}, "Options that differ from their defaults"), el("table", {}, head, body));
@@ -110,7 +162,14 @@ function georeferenceSection(run: RunData): HTMLElement | null {
     const line = { type: "Feature", properties: { name: run.name }, geometry: { type: "LineString", coordinates } };
     saveText(JSON.stringify(line), "application/geo+json", `${run.name}.geojson`);
   };
-  return el("section", {}, el("h3", {}, "Georeference"),
-    facts([["Latitude", `${georeference.latitude.toFixed(7)} deg`], ["Longitude", `${georeference.longitude.toFixed(7)} deg`]]),
-    button("Save the track as GeoJSON", "Save the track as GeoJSON", save));
+  return el(
+    "section",
+    {},
+    el("h3", {}, "Georeference"),
+    facts([
+      ["Latitude", `${georeference.latitude.toFixed(7)} deg`],
+      ["Longitude", `${georeference.longitude.toFixed(7)} deg`],
+    ]),
+    button("Save the track as GeoJSON", "Save the track as GeoJSON", save),
+  );
 }

@@ -8,7 +8,10 @@ import { planSvg } from "./plan_svg";
 const PNG_WIDTH = 1600;
 
 export function picturesPanel({ report, store }: PanelContext): Panel {
-  const of = (run: RunData | undefined): Picture[] => [...(run ? [...run.pictures, ...plansOf(run)] : []), ...report.pictures];
+  const of = (run: RunData | undefined): Picture[] => [
+    ...(run ? [...run.pictures, ...plansOf(run)] : []),
+    ...report.pictures,
+  ];
   return {
     title: "Pictures",
     available: report.pictures.length > 0 || report.runs.some((run) => of(run).length > 0),
@@ -23,8 +26,14 @@ export function picturesPanel({ report, store }: PanelContext): Panel {
 
 function plansOf(run: RunData): Picture[] {
   const pictures: Picture[] = [];
-  if (run.floorPlan.length > 0) pictures.push({ title: "Floor plan", caption: "Walls, in the frame of the plan.", svg: planSvg(run.floorPlan) });
-  if (run.streetMap.length > 0) pictures.push({ title: "Street map", caption: "Lines of the street map, in its own frame.", svg: planSvg(run.streetMap) });
+  if (run.floorPlan.length > 0)
+    pictures.push({ title: "Floor plan", caption: "Walls, in the frame of the plan.", svg: planSvg(run.floorPlan) });
+  if (run.streetMap.length > 0)
+    pictures.push({
+      title: "Street map",
+      caption: "Lines of the street map, in its own frame.",
+      svg: planSvg(run.streetMap),
+    });
   return pictures;
 }
 
@@ -35,12 +44,24 @@ function pictureElement(picture: Picture): HTMLElement {
   const fault = el("p", { class: "soft" });
   image.addEventListener("error", () => (fault.textContent = "This picture is no valid SVG, so it cannot be shown."));
   const savePng = (): void => {
-    saveSvgAsPng(uri, PNG_WIDTH, `${picture.title}.png`).catch(() => (fault.textContent = "This picture cannot be saved as PNG."));
+    saveSvgAsPng(uri, PNG_WIDTH, `${picture.title}.png`).catch(
+      () => (fault.textContent = "This picture cannot be saved as PNG."),
+    );
   };
-  return el("figure", { class: "picture" },
-    el("h3", {}, picture.title), image, fault,
+  return el(
+    "figure",
+    { class: "picture" },
+    el("h3", {}, picture.title),
+    image,
+    fault,
     el("figcaption", {}, picture.caption),
-    el("div", { class: "row" },
-      button("SVG", `Save "${picture.title}" as SVG`, () => saveText(picture.svg, "image/svg+xml", `${picture.title}.svg`)),
-      button("PNG", `Save "${picture.title}" as PNG`, savePng)));
+    el(
+      "div",
+      { class: "row" },
+      button("SVG", `Save "${picture.title}" as SVG`, () =>
+        saveText(picture.svg, "image/svg+xml", `${picture.title}.svg`),
+      ),
+      button("PNG", `Save "${picture.title}" as PNG`, savePng),
+    ),
+  );
 }

@@ -23,15 +23,22 @@ export function planSvg(lines: PlanShape[]): string {
     const points: string[] = [];
     for (let i = 0; i + 1 < line.points.length; i += 2) points.push(`${x(line.points[i])} ${y(line.points[i + 1])}`);
     if (points.length === 0) continue;
-    parts.push(`<path d="M${points.join("L")}${line.closed ? "Z" : ""}" fill="none" stroke="${colour(names.indexOf(line.label))}" stroke-width="2"/>`);
+    parts.push(
+      `<path d="M${points.join("L")}${line.closed ? "Z" : ""}" fill="none" stroke="${colour(names.indexOf(line.label))}" stroke-width="2"/>`,
+    );
   }
   const bar = cellSize(extent * 1.6);
   const base = height - 14 - 16 * names.length;
-  parts.push(`<path d="M${MARGIN} ${base - 6}V${base}H${(MARGIN + bar * scale).toFixed(1)}V${base - 6}" fill="none" stroke="#000000"/>`);
+  parts.push(
+    `<path d="M${MARGIN} ${base - 6}V${base}H${(MARGIN + bar * scale).toFixed(1)}V${base - 6}" fill="none" stroke="#000000"/>`,
+  );
   parts.push(`<text x="${MARGIN}" y="${base - 9}">${bar} m</text>`);
   names.forEach((name, i) => {
     const at = base + 16 * (i + 1);
-    parts.push(`<path d="M${MARGIN} ${at - 4}h18" stroke="${colour(i)}" stroke-width="3"/>`, `<text x="${MARGIN + 26}" y="${at}">${escapeXml(name)}</text>`);
+    parts.push(
+      `<path d="M${MARGIN} ${at - 4}h18" stroke="${colour(i)}" stroke-width="3"/>`,
+      `<text x="${MARGIN + 26}" y="${at}">${escapeXml(name)}</text>`,
+    );
   });
   return `${parts.join("\n")}\n</svg>\n`;
 }
@@ -50,5 +57,10 @@ function bounds(lines: PlanShape[]): [[number, number], [number, number]] {
       high[i % 2] = Math.max(high[i % 2], points[i]);
     }
   }
-  return low[0] <= high[0] ? [low, high] : [[0, 0], [1, 1]];
+  return low[0] <= high[0]
+    ? [low, high]
+    : [
+        [0, 0],
+        [1, 1],
+      ];
 }

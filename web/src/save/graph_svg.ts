@@ -11,10 +11,19 @@ const WIDTH = 900;
 const HEIGHT = 320;
 const BOX = { left: 70, right: 20, top: 34, bottom: 46 };
 
-export function graphSvg(title: string, xTitle: string, yTitle: string, xs: ArrayLike<number>, curves: SvgCurve[], range: [number, number]): string {
+export function graphSvg(
+  title: string,
+  xTitle: string,
+  yTitle: string,
+  xs: ArrayLike<number>,
+  curves: SvgCurve[],
+  range: [number, number],
+): string {
   const [low, high] = valueRange(xs, curves, range);
-  const x = (value: number): number => BOX.left + ((value - range[0]) / (range[1] - range[0])) * (WIDTH - BOX.left - BOX.right);
-  const y = (value: number): number => HEIGHT - BOX.bottom - ((value - low) / (high - low)) * (HEIGHT - BOX.top - BOX.bottom);
+  const x = (value: number): number =>
+    BOX.left + ((value - range[0]) / (range[1] - range[0])) * (WIDTH - BOX.left - BOX.right);
+  const y = (value: number): number =>
+    HEIGHT - BOX.bottom - ((value - low) / (high - low)) * (HEIGHT - BOX.top - BOX.bottom);
   const parts = [
     `<svg xmlns="http://www.w3.org/2000/svg" width="${WIDTH}" height="${HEIGHT}" viewBox="0 0 ${WIDTH} ${HEIGHT}" font-family="sans-serif" font-size="12">`,
     `<rect width="${WIDTH}" height="${HEIGHT}" fill="#ffffff"/>`,
@@ -23,11 +32,21 @@ export function graphSvg(title: string, xTitle: string, yTitle: string, xs: Arra
     `<g transform="translate(16 ${HEIGHT / 2}) rotate(-90)">${text(0, 0, yTitle, "middle")}</g>`,
   ];
   for (const tick of ticks(low, high)) {
-    parts.push(`<path d="M${BOX.left} ${y(tick).toFixed(1)}H${WIDTH - BOX.right}" stroke="#dddddd"/>`, text(BOX.left - 6, y(tick) + 4, formatNumber(tick), "end"));
+    parts.push(
+      `<path d="M${BOX.left} ${y(tick).toFixed(1)}H${WIDTH - BOX.right}" stroke="#dddddd"/>`,
+      text(BOX.left - 6, y(tick) + 4, formatNumber(tick), "end"),
+    );
   }
   for (const tick of ticks(...range)) parts.push(text(x(tick), HEIGHT - BOX.bottom + 16, formatNumber(tick), "middle"));
-  for (const curve of curves) parts.push(`<path d="${path(xs, curve.values, range, x, y)}" fill="none" stroke="${escapeXml(curve.colour)}" stroke-width="1.5"/>`);
-  curves.forEach((curve, i) => parts.push(`<g fill="${escapeXml(curve.colour)}">${text(WIDTH - BOX.right, BOX.top + 14 * i, curve.name, "end")}</g>`));
+  for (const curve of curves)
+    parts.push(
+      `<path d="${path(xs, curve.values, range, x, y)}" fill="none" stroke="${escapeXml(curve.colour)}" stroke-width="1.5"/>`,
+    );
+  curves.forEach((curve, i) =>
+    parts.push(
+      `<g fill="${escapeXml(curve.colour)}">${text(WIDTH - BOX.right, BOX.top + 14 * i, curve.name, "end")}</g>`,
+    ),
+  );
   return `${parts.join("\n")}\n</svg>\n`;
 }
 
@@ -59,11 +78,18 @@ export function ticks(low: number, high: number): number[] {
   const power = 10 ** Math.floor(Math.log10(target));
   const step = ([1, 2, 5, 10].find((factor) => factor * power >= target) ?? 10) * power;
   const result: number[] = [];
-  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + step * 1e-9; k++) result.push(Number((k * step).toPrecision(12)));
+  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + step * 1e-9; k++)
+    result.push(Number((k * step).toPrecision(12)));
   return result;
 }
 
-function path(xs: ArrayLike<number>, values: ArrayLike<number>, range: [number, number], x: (v: number) => number, y: (v: number) => number): string {
+function path(
+  xs: ArrayLike<number>,
+  values: ArrayLike<number>,
+  range: [number, number],
+  x: (v: number) => number,
+  y: (v: number) => number,
+): string {
   let result = "";
   let drawing = false;
   for (let i = 0; i < values.length; i++) {

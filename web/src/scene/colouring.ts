@@ -1,5 +1,13 @@
 /** The colour of each frame, and the legend that explains it. */
-import { type Rgb, UNKNOWN_COLOUR, categoryColour, robustRange, scaleColour, shareOf, type ScaleName } from "../data/colour_scale";
+import {
+  type Rgb,
+  UNKNOWN_COLOUR,
+  categoryColour,
+  robustRange,
+  scaleColour,
+  shareOf,
+  type ScaleName,
+} from "../data/colour_scale";
 import { formatNumber } from "../data/format";
 import type { RunData } from "../data/model";
 import { lengthUnit, series } from "../data/series";
@@ -14,8 +22,21 @@ export interface Colouring {
   legend: LegendItem;
 }
 
-export function scaleLegend(title: string, scale: ScaleName, [low, high]: [number, number], unit: string, above: boolean): LegendItem {
-  return { kind: "scale", title, scale, low: formatNumber(low), high: `${above ? "≥ " : ""}${formatNumber(high)}`, unit };
+export function scaleLegend(
+  title: string,
+  scale: ScaleName,
+  [low, high]: [number, number],
+  unit: string,
+  above: boolean,
+): LegendItem {
+  return {
+    kind: "scale",
+    title,
+    scale,
+    low: formatNumber(low),
+    high: `${above ? "≥ " : ""}${formatNumber(high)}`,
+    unit,
+  };
 }
 
 export function runColour(index: number): Rgb {
@@ -35,7 +56,8 @@ export function frameColouring(run: RunData, runIndex: number, by: ColourBy): Co
         kind: "category",
         title: "Component",
         entries: run.components.map((component, i) => ({
-          text: `${component.number}${component.main ? " (main)" : ""}`, colour: categoryColour(i),
+          text: `${component.number}${component.main ? " (main)" : ""}`,
+          colour: categoryColour(i),
         })),
       },
     };

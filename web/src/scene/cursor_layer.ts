@@ -22,7 +22,11 @@ export class CursorLayer {
     if (ends !== null) {
       const link = new SegmentList();
       link.add(run.frames.pose, 7 * ends[0], run.frames.pose, 7 * ends[1], QUERY, MATCH);
-      this.object.add(wideLines(link, 5, 8), this.camera(run, ends[1], 1.5 * size, MATCH), this.camera(run, ends[0], 1.5 * size, QUERY));
+      this.object.add(
+        wideLines(link, 5, 8),
+        this.camera(run, ends[1], 1.5 * size, MATCH),
+        this.camera(run, ends[0], 1.5 * size, QUERY),
+      );
     }
     if (!isPosed(run, row, component)) return;
     const point = discs(run.frames.pose.slice(7 * row, 7 * row + 3), CURSOR, 11);

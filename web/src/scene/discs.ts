@@ -20,14 +20,25 @@ function discTexture(): DataTexture {
 let shared: DataTexture | null = null;
 
 /** Round points of `pixels` pixels. */
-export function discs(positions: ArrayLike<number>, colour: Rgb, pixels: number): Points<BufferGeometry, PointsMaterial> {
+export function discs(
+  positions: ArrayLike<number>,
+  colour: Rgb,
+  pixels: number,
+): Points<BufferGeometry, PointsMaterial> {
   shared ??= discTexture();
   const geometry = new BufferGeometry();
   geometry.setAttribute("position", new BufferAttribute(Float32Array.from(positions), 3));
-  const points = new Points(geometry, new PointsMaterial({
-    color: cssColour(colour), map: shared, transparent: true, alphaTest: 0.3, sizeAttenuation: false,
-    size: pixels * Math.min(window.devicePixelRatio, 2),
-  }));
+  const points = new Points(
+    geometry,
+    new PointsMaterial({
+      color: cssColour(colour),
+      map: shared,
+      transparent: true,
+      alphaTest: 0.3,
+      sizeAttenuation: false,
+      size: pixels * Math.min(window.devicePixelRatio, 2),
+    }),
+  );
   points.frustumCulled = false;
   return points;
 }

@@ -26,7 +26,8 @@ export function imageShape(run: RunData): ImageShape {
 
 /** Adds the pyramid of one camera: its four edges, its image and a mark at the upper side. */
 export function addFrustum(list: SegmentList, pose: Matrix4, shape: ImageShape, size: number, colour: Rgb): void {
-  const at = (x: number, y: number, z: number): number[] => new Vector3(x, y, z).multiplyScalar(size).applyMatrix4(pose).toArray();
+  const at = (x: number, y: number, z: number): number[] =>
+    new Vector3(x, y, z).multiplyScalar(size).applyMatrix4(pose).toArray();
   const { halfWidth: w, halfHeight: h, x, y } = shape;
   const apex = at(0, 0, 0);
   const corners = [at(x - w, y - h, 1), at(x + w, y - h, 1), at(x + w, y + h, 1), at(x - w, y + h, 1)];
@@ -44,7 +45,8 @@ export function frustaLines(run: RunData, component: number | null, size: number
   const shape = imageShape(run);
   for (let k = 0; k < run.keyframes.count; k++) {
     const row = frameRowOfKeyframe(run, k);
-    if (row >= 0 && isPosed(run, row, component)) addFrustum(list, poseMatrix(run.frames.pose, row), shape, size, colour);
+    if (row >= 0 && isPosed(run, row, component))
+      addFrustum(list, poseMatrix(run.frames.pose, row), shape, size, colour);
   }
   return thinLines(list, 0.55);
 }

@@ -21,8 +21,19 @@ export function graphLines(graph: GraphData, shape: GraphShape, edge: number): G
   const range = chi2Range(graph);
   const after = graph.after ?? graph.before;
   const nodes = shape === "before" ? graph.before : after;
-  if (shape === "both") group.add(thinLines(edgeSegments(graph, graph.before, () => BEFORE), 0.5));
-  group.add(wideLines(edgeSegments(graph, nodes, (i) => scaleColour("viridis", shareOf(graph.chi2[i], range, true))), 2));
+  if (shape === "both")
+    group.add(
+      thinLines(
+        edgeSegments(graph, graph.before, () => BEFORE),
+        0.5,
+      ),
+    );
+  group.add(
+    wideLines(
+      edgeSegments(graph, nodes, (i) => scaleColour("viridis", shareOf(graph.chi2[i], range, true))),
+      2,
+    ),
+  );
   if (edge >= 0 && edge < graph.edgeCount) {
     const list = new SegmentList();
     list.add(nodes, 3 * graph.edges[2 * edge], nodes, 3 * graph.edges[2 * edge + 1], SELECTED);
@@ -66,7 +77,9 @@ function boundsOf(graph: GraphData): Box3 {
 export function graphSphere(graph: GraphData): Sphere {
   const box = boundsOf(graph);
   if (box.isEmpty()) return new Sphere(new Vector3(), 1);
-  return box.getBoundingSphere(new Sphere()).applyMatrix4(new Group().matrix.makeRotationFromQuaternion(upright(graph)));
+  return box
+    .getBoundingSphere(new Sphere())
+    .applyMatrix4(new Group().matrix.makeRotationFromQuaternion(upright(graph)));
 }
 
 /** The middle of an edge in the scene. */

@@ -1,4 +1,17 @@
-import { BufferAttribute, BufferGeometry, DoubleSide, Frustum, Group, Matrix4, Mesh, MeshBasicMaterial, type Object3D, type PerspectiveCamera, Texture, Vector3 } from "three";
+import {
+  BufferAttribute,
+  BufferGeometry,
+  DoubleSide,
+  Frustum,
+  Group,
+  Matrix4,
+  Mesh,
+  MeshBasicMaterial,
+  type Object3D,
+  type PerspectiveCamera,
+  Texture,
+  Vector3,
+} from "three";
 import { bytesFromBase64 } from "../data/column";
 import type { RunData } from "../data/model";
 import { frameRowOfKeyframe, isPosed } from "../data/run_view";
@@ -20,8 +33,11 @@ export class ImagesLayer {
   private choice = 0;
 
   constructor(
-    private readonly run: RunData, component: number | null, private readonly size: number,
-    parent: Object3D, private readonly request: () => void,
+    private readonly run: RunData,
+    component: number | null,
+    private readonly size: number,
+    parent: Object3D,
+    private readonly request: () => void,
   ) {
     this.object = new Group();
     const geometry = quad(run, size);

@@ -12,7 +12,11 @@ export class LandmarkLayer {
   readonly count: number;
   private readonly rows: Uint32Array;
 
-  constructor(private readonly run: RunData, component: number | null, private readonly group: Group) {
+  constructor(
+    private readonly run: RunData,
+    component: number | null,
+    private readonly group: Group,
+  ) {
     this.rows = shuffled(visibleRows(run, component));
     this.count = this.rows.length;
     const { position } = run.landmarks;

@@ -12,7 +12,13 @@ function scaleElement(item: Extract<LegendItem, { kind: "scale" }>): HTMLElement
   const bar = el("div", { class: "scale-bar" });
   bar.style.background = `linear-gradient(to right, ${SCALES[item.scale].map((c) => cssColour(c)).join(", ")})`;
   const title = item.unit === "" ? item.title : `${item.title} [${item.unit}]`;
-  return el("div", {}, el("div", {}, title), bar, el("div", { class: "scale-ends" }, el("span", {}, item.low), el("span", {}, item.high)));
+  return el(
+    "div",
+    {},
+    el("div", {}, title),
+    bar,
+    el("div", { class: "scale-ends" }, el("span", {}, item.low), el("span", {}, item.high)),
+  );
 }
 
 function categoryElement(item: Extract<LegendItem, { kind: "category" }>): HTMLElement {
@@ -28,7 +34,12 @@ function categoryElement(item: Extract<LegendItem, { kind: "category" }>): HTMLE
 const LINE = 16;
 
 /** Draws the legend into a saved picture, in its lower left corner. */
-export function drawLegend(context: CanvasRenderingContext2D, items: LegendItem[], height: number, dark: boolean): void {
+export function drawLegend(
+  context: CanvasRenderingContext2D,
+  items: LegendItem[],
+  height: number,
+  dark: boolean,
+): void {
   const lines = items.reduce((sum, item) => sum + (item.kind === "scale" ? 3 : 1 + item.entries.length), 0);
   let y = height - 12 - lines * LINE;
   context.fillStyle = dark ? "rgba(13, 17, 23, 0.75)" : "rgba(255, 255, 255, 0.8)";

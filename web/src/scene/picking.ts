@@ -11,7 +11,14 @@ export interface Screen {
   matrix: Matrix4;
 }
 
-export function nearestFrame(run: RunData, component: number | null, screen: Screen, x: number, y: number, radius: number): number {
+export function nearestFrame(
+  run: RunData,
+  component: number | null,
+  screen: Screen,
+  x: number,
+  y: number,
+  radius: number,
+): number {
   let best = -1;
   let bestDistance = radius;
   for (let row = 0; row < run.frames.count; row++) {
@@ -27,7 +34,15 @@ export function nearestFrame(run: RunData, component: number | null, screen: Scr
   return best;
 }
 
-export function nearestLoop(run: RunData, component: number | null, rows: number[], screen: Screen, x: number, y: number, radius: number): number {
+export function nearestLoop(
+  run: RunData,
+  component: number | null,
+  rows: number[],
+  screen: Screen,
+  x: number,
+  y: number,
+  radius: number,
+): number {
   let best = -1;
   let bestDistance = radius;
   for (const loop of rows) {

@@ -1,4 +1,17 @@
-import { BufferAttribute, BufferGeometry, Color, DoubleSide, Group, LineBasicMaterial, LineLoop, Mesh, MeshBasicMaterial, Vector2, Vector3, ShapeUtils } from "three";
+import {
+  BufferAttribute,
+  BufferGeometry,
+  Color,
+  DoubleSide,
+  Group,
+  LineBasicMaterial,
+  LineLoop,
+  Mesh,
+  MeshBasicMaterial,
+  Vector2,
+  Vector3,
+  ShapeUtils,
+} from "three";
 import type { PlaneShape, RunData } from "../data/model";
 
 export function planeShapes(run: RunData): Group {
@@ -15,7 +28,10 @@ function shapesOf(plane: PlaneShape): [Mesh, LineLoop] {
   geometry.setIndex(triangles(points));
   const color = colourOf(plane.rgb);
   const fill = new MeshBasicMaterial({ color, transparent: true, opacity: 0.16, side: DoubleSide, depthWrite: false });
-  return [new Mesh(geometry, fill), new LineLoop(geometry, new LineBasicMaterial({ color, transparent: true, opacity: 0.7 }))];
+  return [
+    new Mesh(geometry, fill),
+    new LineLoop(geometry, new LineBasicMaterial({ color, transparent: true, opacity: 0.7 })),
+  ];
 }
 
 /** Colours in 0..255; those in 0..1 are accepted too. */

@@ -38,7 +38,11 @@ export class RunScene {
   private readonly spacing: number;
   private readonly groundHeight: number;
 
-  constructor(private readonly report: ReportData, private state: Readonly<State>, private readonly viewport: Viewport) {
+  constructor(
+    private readonly report: ReportData,
+    private state: Readonly<State>,
+    private readonly viewport: Viewport,
+  ) {
     this.run = report.runs[state.run];
     this.group = mapGroup(this.run, state.component);
     this.sphere = trajectorySphere(this.run, state.component, this.group);
@@ -108,7 +112,9 @@ export class RunScene {
   /** A point that the camera of a frame looks at, in the scene. */
   pointAhead(row: number): Vector3 {
     const distance = Math.max(10 * this.spacing, this.sphere.radius / 20);
-    return new Vector3(0, 0, distance).applyMatrix4(poseMatrix(this.run.frames.pose, row)).applyMatrix4(this.group.matrixWorld);
+    return new Vector3(0, 0, distance)
+      .applyMatrix4(poseMatrix(this.run.frames.pose, row))
+      .applyMatrix4(this.group.matrixWorld);
   }
 
   legend(): LegendItem[] {
@@ -140,7 +146,8 @@ export class RunScene {
         if (i !== state.run) entries.push({ text: other.name, colour: runColour(i) });
       });
     }
-    if (state.layers.loops && run.loops.count > 0) entries.push({ text: "loop accepted", colour: stageColour("accepted") });
+    if (state.layers.loops && run.loops.count > 0)
+      entries.push({ text: "loop accepted", colour: stageColour("accepted") });
     if (state.layers.refused) {
       for (const stage of run.loops.stage.table) {
         if (stage !== "accepted") entries.push({ text: `loop refused: ${stage}`, colour: stageColour(stage) });
@@ -197,12 +204,20 @@ export class RunScene {
       case "others":
         return this.buildOthers();
       case "grid":
-        return ground(this.sphere.radius, this.groundHeight, this.sphere.center.x, this.sphere.center.z, state.theme === "dark");
+        return ground(
+          this.sphere.radius,
+          this.groundHeight,
+          this.sphere.center.x,
+          this.sphere.center.z,
+          state.theme === "dark",
+        );
     }
   }
 
   private buildImages(): Object3D {
-    this.images = new ImagesLayer(this.run, this.state.component, this.frustumSize, this.group, () => this.viewport.request());
+    this.images = new ImagesLayer(this.run, this.state.component, this.frustumSize, this.group, () =>
+      this.viewport.request(),
+    );
     void this.images.update(this.viewport.camera);
     return this.images.object;
   }
@@ -220,7 +235,8 @@ export class RunScene {
       const comparison = compareRuns(this.run, other, this.state.alignOn);
       if (comparison === null) return;
       const poses = Float64Array.from(other.frames.pose);
-      for (let row = 0; row < other.frames.count; row++) poses.set(apply(comparison.alignment, positionAt(poses, row)), 7 * row);
+      for (let row = 0; row < other.frames.count; row++)
+        poses.set(apply(comparison.alignment, positionAt(poses, row)), 7 * row);
       // Only the main component is aligned: the others have frames of their own.
       others.add(plainTrajectory(other, poses, mainComponent(other), runColour(i)));
     });

@@ -35,7 +35,11 @@ export class SceneView {
   private legendBox: HTMLElement = el("div");
   private readonly followed = new Vector3();
 
-  constructor(page: HTMLElement, private readonly report: ReportData, private readonly store: Store) {
+  constructor(
+    page: HTMLElement,
+    private readonly report: ReportData,
+    private readonly store: Store,
+  ) {
     page.append(this.element);
     this.viewport = new Viewport(this.element);
     this.element.append(this.legendBox);
@@ -224,6 +228,14 @@ export class SceneView {
 }
 
 const EMPTY_GRAPH: GraphData = {
-  name: "", nodes: 0, before: new Float32Array(), after: null, edgeCount: 0, edges: new Int32Array(),
-  kind: { table: [], index: new Int32Array() }, chi2: new Float32Array(), weight: null, figures: [],
+  name: "",
+  nodes: 0,
+  before: new Float32Array(),
+  after: null,
+  edgeCount: 0,
+  edges: new Int32Array(),
+  kind: { table: [], index: new Int32Array() },
+  chi2: new Float32Array(),
+  weight: null,
+  figures: [],
 };

@@ -10,8 +10,17 @@ export function trajectoryLines(run: RunData, component: number | null, colour: 
   return wideLines(segments(run, run.frames.pose, component, colour), 3.5, 5);
 }
 
-export function plainTrajectory(run: RunData, poses: Values, component: number | null, colour: Rgb, opacity = 1): Object3D {
-  return thinLines(segments(run, poses, component, () => colour), opacity);
+export function plainTrajectory(
+  run: RunData,
+  poses: Values,
+  component: number | null,
+  colour: Rgb,
+  opacity = 1,
+): Object3D {
+  return thinLines(
+    segments(run, poses, component, () => colour),
+    opacity,
+  );
 }
 
 /** Ground truth has poses for lost frames too. */

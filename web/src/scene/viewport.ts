@@ -1,4 +1,12 @@
-import { ColorManagement, LinearSRGBColorSpace, PerspectiveCamera, Scene, type Sphere, type Vector3, WebGLRenderer } from "three";
+import {
+  ColorManagement,
+  LinearSRGBColorSpace,
+  PerspectiveCamera,
+  Scene,
+  type Sphere,
+  type Vector3,
+  WebGLRenderer,
+} from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { Quality, type QualityLevel, isSoftware } from "./quality";
 

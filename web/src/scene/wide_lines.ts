@@ -31,7 +31,12 @@ const FRAGMENT = `
 varying vec3 shade;
 void main() { gl_FragColor = vec4(shade, 1.0); }`;
 
-const CORNERS: [number, number][] = [[0, -1], [0, 1], [1, -1], [1, 1]];
+const CORNERS: [number, number][] = [
+  [0, -1],
+  [0, 1],
+  [1, -1],
+  [1, 1],
+];
 
 /** `positions` and `colours` have six values a segment: those of its two ends. */
 export function wideLineMesh(positions: number[], colours: number[], width: number, order: number): Mesh {
@@ -51,7 +56,10 @@ export function wideLineMesh(positions: number[], colours: number[], width: numb
       }
       corner.set([end, side], 2 * vertex);
     });
-    index.set([0, 1, 2, 2, 1, 3].map((c) => 4 * s + c), 6 * s);
+    index.set(
+      [0, 1, 2, 2, 1, 3].map((c) => 4 * s + c),
+      6 * s,
+    );
   }
   const geometry = new BufferGeometry();
   geometry.setAttribute("position", new BufferAttribute(start, 3));

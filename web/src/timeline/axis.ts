@@ -11,7 +11,10 @@ export class Axis {
   readonly values: Float64Array;
   readonly full: [number, number];
 
-  constructor(run: RunData, readonly kind: "frame" | "time") {
+  constructor(
+    run: RunData,
+    readonly kind: "frame" | "time",
+  ) {
     this.values = kind === "time" ? times(run) : Float64Array.from(run.frames.id);
     const last = this.values.length - 1;
     this.full = last > 0 && this.values[last] > this.values[0] ? [this.values[0], this.values[last]] : [0, 1];

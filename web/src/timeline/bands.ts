@@ -30,7 +30,8 @@ export class Bands {
     const { environment } = run.frames;
     if (environment) {
       drawSpans(context, run, axis, range, width, ROW, (row) =>
-        label(environment, row) === null ? "transparent" : cssColour(categoryColour(environment.index[row] + 3), 0.75));
+        label(environment, row) === null ? "transparent" : cssColour(categoryColour(environment.index[row] + 3), 0.75),
+      );
     }
     drawLoops(context, run, axis, range, width, (rows - 1) * ROW, filter, selected);
   }
@@ -38,7 +39,12 @@ export class Bands {
 
 /** A row of spans in which `colour` is the same; null is drawn as lost. */
 function drawSpans(
-  context: CanvasRenderingContext2D, run: RunData, axis: Axis, range: [number, number], width: number, y: number,
+  context: CanvasRenderingContext2D,
+  run: RunData,
+  axis: Axis,
+  range: [number, number],
+  width: number,
+  y: number,
   colour: (row: number) => string | null,
 ): void {
   const { count } = run.frames;
@@ -56,8 +62,14 @@ function drawSpans(
 }
 
 function drawLoops(
-  context: CanvasRenderingContext2D, run: RunData, axis: Axis, range: [number, number], width: number, y: number,
-  filter: LoopFilter, selected: number,
+  context: CanvasRenderingContext2D,
+  run: RunData,
+  axis: Axis,
+  range: [number, number],
+  width: number,
+  y: number,
+  filter: LoopFilter,
+  selected: number,
 ): void {
   const rank = (loop: number): number => (loop === selected ? 2 : stageOf(run.loops, loop) === "accepted" ? 1 : 0);
   for (const loop of filterLoops(run.loops, filter).sort((a, b) => rank(a) - rank(b))) {

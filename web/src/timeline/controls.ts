@@ -11,9 +11,18 @@ export function timelineControls(report: ReportData, store: Store, timeline: Tim
   const play = button("▶", "Play or pause (space)", () => store.set({ playing: !store.state.playing }));
   const readout = el("output", { class: "readout" });
   const rates = ["1", "2", "4", "10", "30"].map((value) => ({ value, text: `${value}×` }));
-  const rate = select("Speed of playback", rates, String(store.state.rate), (value) => store.set({ rate: Number(value) }));
-  const axis = select("Horizontal axis", [{ value: "frame", text: "by frame" }, { value: "time", text: "by time" }], store.state.axis, (value) =>
-    store.set({ axis: value === "time" ? "time" : "frame", range: null }));
+  const rate = select("Speed of playback", rates, String(store.state.rate), (value) =>
+    store.set({ rate: Number(value) }),
+  );
+  const axis = select(
+    "Horizontal axis",
+    [
+      { value: "frame", text: "by frame" },
+      { value: "time", text: "by time" },
+    ],
+    store.state.axis,
+    (value) => store.set({ axis: value === "time" ? "time" : "frame", range: null }),
+  );
   const graphs = el("span");
   const showGraphs = (): void => {
     const run = report.runs[store.state.run];
@@ -21,7 +30,9 @@ export function timelineControls(report: ReportData, store: Store, timeline: Tim
       const { title, unit } = series(run, name);
       return { value: name, text: unit === "" ? title : `${title} [${unit}]` };
     });
-    graphs.replaceChildren(select("Graph", choices, store.state.series, (value) => store.set({ series: value as SeriesName })));
+    graphs.replaceChildren(
+      select("Graph", choices, store.state.series, (value) => store.set({ series: value as SeriesName })),
+    );
   };
   const showPlaying = (): void => {
     play.textContent = store.state.playing ? "❚❚" : "▶";
@@ -37,9 +48,17 @@ export function timelineControls(report: ReportData, store: Store, timeline: Tim
   showGraphs();
   showPlaying();
   showCursor();
-  return el("div", { class: "controls" },
-    button("‹", "One frame back (left arrow)", () => moveCursor(report, store, -1)), play,
-    button("›", "One frame on (right arrow)", () => moveCursor(report, store, 1)), rate, graphs, axis,
+  return el(
+    "div",
+    { class: "controls" },
+    button("‹", "One frame back (left arrow)", () => moveCursor(report, store, -1)),
+    play,
+    button("›", "One frame on (right arrow)", () => moveCursor(report, store, 1)),
+    rate,
+    graphs,
+    axis,
     button("PNG", "Save the graph as PNG", () => timeline.savePng()),
-    button("SVG", "Save the graph as SVG", () => timeline.saveSvg()), readout);
+    button("SVG", "Save the graph as SVG", () => timeline.saveSvg()),
+    readout,
+  );
 }

@@ -17,7 +17,13 @@ export class Graph {
   constructor(private readonly parent: HTMLElement) {}
 
   /** Draws `curves`, each with one value a frame of the axis. */
-  show(shown: Series, curves: Curve[], axis: Axis, range: [number, number], size: { width: number; height: number }): void {
+  show(
+    shown: Series,
+    curves: Curve[],
+    axis: Axis,
+    range: [number, number],
+    size: { width: number; height: number },
+  ): void {
     this.plot?.destroy();
     const style = getComputedStyle(this.parent);
     const ink = style.getPropertyValue("--ink-soft").trim() || "#888";
@@ -30,10 +36,26 @@ export class Graph {
       padding: [8, RIGHT, 0, 0],
       scales: { x: { time: false, min: range[0], max: range[1] } },
       axes: [
-        { stroke: ink, grid, ticks: grid, size: 26, values: (_, ticks) => ticks.map((t) => (axis.kind === "time" ? `${formatNumber(t)} s` : formatNumber(t))) },
-        { stroke: ink, grid, ticks: grid, size: LEFT, space: 24, values: (_, ticks) => ticks.map((t) => formatNumber(t)) },
+        {
+          stroke: ink,
+          grid,
+          ticks: grid,
+          size: 26,
+          values: (_, ticks) => ticks.map((t) => (axis.kind === "time" ? `${formatNumber(t)} s` : formatNumber(t))),
+        },
+        {
+          stroke: ink,
+          grid,
+          ticks: grid,
+          size: LEFT,
+          space: 24,
+          values: (_, ticks) => ticks.map((t) => formatNumber(t)),
+        },
       ],
-      series: [{}, ...curves.map((curve) => ({ label: curve.name, stroke: curve.colour, width: 1.5, points: { show: false } }))],
+      series: [
+        {},
+        ...curves.map((curve) => ({ label: curve.name, stroke: curve.colour, width: 1.5, points: { show: false } })),
+      ],
     };
     const data: uPlot.AlignedData = [axis.values, ...curves.map((curve) => nulls(curve.values))];
     this.plot = new uPlot(options, data, this.parent);

@@ -17,7 +17,12 @@ const GRAPH_HEIGHT = 118;
 
 /** Thumbnails, graph and bands over one axis, with a cursor that goes through all of them. */
 export class Timeline {
-  readonly element = el("div", { class: "track", tabindex: "0", role: "slider", "aria-label": "Frame under the cursor" });
+  readonly element = el("div", {
+    class: "track",
+    tabindex: "0",
+    role: "slider",
+    "aria-label": "Frame under the cursor",
+  });
   /** Called when the user takes and leaves the cursor. */
   onHold: (held: boolean) => void = () => undefined;
   private readonly strip = new Strip();
@@ -31,7 +36,10 @@ export class Timeline {
   private curves: Curve[] = [];
   private drawnWidth = -1;
 
-  constructor(private readonly report: ReportData, private readonly store: Store) {
+  constructor(
+    private readonly report: ReportData,
+    private readonly store: Store,
+  ) {
     this.axis = new Axis(this.run, store.state.axis);
     this.shown = series(this.run, store.state.series);
     this.element.append(this.strip.element, this.graphBox, this.bands.canvas, this.legend, this.line);
@@ -135,7 +143,10 @@ export class Timeline {
   cursorText(): string {
     const { row } = this.store.state;
     const { id, stamp, component } = this.run.frames;
-    const value = component[row] < 0 ? "lost" : `${this.shown.title.toLowerCase()} ${formatWithUnit(this.shown.values[row], this.shown.unit)}`;
+    const value =
+      component[row] < 0
+        ? "lost"
+        : `${this.shown.title.toLowerCase()} ${formatWithUnit(this.shown.values[row], this.shown.unit)}`;
     return `Frame ${id[row]}, ${formatTime(stamp[row] - stamp[0])}, ${value}`;
   }
 
@@ -156,12 +167,16 @@ export class Timeline {
     });
     this.element.addEventListener("lostpointercapture", () => this.onHold(false));
     this.element.addEventListener("dblclick", () => this.store.set({ range: null }));
-    this.element.addEventListener("wheel", (event) => {
-      event.preventDefault();
-      const x = event.clientX - this.element.getBoundingClientRect().left - LEFT;
-      const centre = this.axis.value(x, this.range, this.width);
-      this.store.set({ range: this.axis.zoomed(this.range, centre, event.deltaY > 0 ? 1.25 : 0.8) });
-    }, { passive: false });
+    this.element.addEventListener(
+      "wheel",
+      (event) => {
+        event.preventDefault();
+        const x = event.clientX - this.element.getBoundingClientRect().left - LEFT;
+        const centre = this.axis.value(x, this.range, this.width);
+        this.store.set({ range: this.axis.zoomed(this.range, centre, event.deltaY > 0 ? 1.25 : 0.8) });
+      },
+      { passive: false },
+    );
   }
 }
 

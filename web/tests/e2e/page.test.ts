@@ -26,7 +26,9 @@ describe("a page without a report", () => {
 
   it("or with a damaged one says what is wrong", async () => {
     const { page } = await show({ ...report, runs: [{ ...run, sensor: 7 }] });
-    expect(await page.locator("[role=alert]").textContent()).toBe("This report cannot be shown. runs[0].sensor is 7; it must be one of mono, stereo, rgbd.");
+    expect(await page.locator("[role=alert]").textContent()).toBe(
+      "This report cannot be shown. runs[0].sensor is 7; it must be one of mono, stereo, rgbd.",
+    );
   });
 });
 
@@ -34,7 +36,15 @@ describe("the overview", () => {
   it("holds the verdict, its findings with advice, and the figures with their protocols", async () => {
     const { page } = await show(report);
     const text = (await page.locator(".panel").textContent()) ?? "";
-    for (const part of ["The run is doubtful.", "21 frames are lost", "Use a shorter exposure", "ATE", "se3 alignment, all posed frames, RMSE", "loops.min_similarity", "0.30"]) {
+    for (const part of [
+      "The run is doubtful.",
+      "21 frames are lost",
+      "Use a shorter exposure",
+      "ATE",
+      "se3 alignment, all posed frames, RMSE",
+      "loops.min_similarity",
+      "0.30",
+    ]) {
       expect(text).toContain(part);
     }
     expect(await page.locator(".verdict").textContent()).toBe("doubtful");
@@ -184,7 +194,10 @@ describe("the loops", () => {
     const { page } = await show(report);
     await page.click("#tab-loops");
     const count = await page.locator("tr[data-loop]").count();
-    await page.locator(".filters").getByText(/^accepted/).click();
+    await page
+      .locator(".filters")
+      .getByText(/^accepted/)
+      .click();
     await until(page, `document.querySelectorAll("tr[data-loop]").length < ${count}`);
     expect(await page.locator("tr[data-loop] td:text-is('accepted')").count()).toBe(0);
   });
@@ -193,7 +206,10 @@ describe("the loops", () => {
 describe("two runs", () => {
   it("are compared, and the first frame where they part is right", async () => {
     const options = { frames: 400, landmarks: 500 };
-    const two = sampleReport([sampleRun({ ...options, name: "a", partsAt: 100000 }), sampleRun({ ...options, name: "b", partsAt: 200 })]);
+    const two = sampleReport([
+      sampleRun({ ...options, name: "a", partsAt: 100000 }),
+      sampleRun({ ...options, name: "b", partsAt: 200 }),
+    ]);
     const { page } = await show(two);
     await page.click("#tab-compare");
     const threshold = page.getByRole("spinbutton");
@@ -238,16 +254,30 @@ describe("a run without any pose", () => {
 
 describe("hostile texts", () => {
   it("do nothing", async () => {
-    const evil = "<img src=x onerror=\"alert(1)\"></script><script>alert(2)</script>";
+    const evil = '<img src=x onerror="alert(1)"></script><script>alert(2)</script>';
     const hostile = {
-      ...run, name: evil, folder: evil, notes: [evil],
+      ...run,
+      name: evil,
+      folder: evil,
+      notes: [evil],
       options: [{ name: evil, value: evil, default_value: evil }],
       figures: [{ name: evil, value: 1, unit: evil, protocol: evil }],
-      judgement: { verdict: "failed", why_metric: evil, expected_drift_m: null, findings: [{ cause: evil, text: evil, advice: evil }] },
+      judgement: {
+        verdict: "failed",
+        why_metric: evil,
+        expected_drift_m: null,
+        findings: [{ cause: evil, text: evil, advice: evil }],
+      },
       frames: { ...run.frames, reason: { ...run.frames.reason, table: [evil] } },
       keyframes: { ...run.keyframes, thumbnails: run.keyframes.thumbnails.map(() => "javascript:alert(3)") },
       loops: { ...run.loops, stage: { ...run.loops.stage, table: run.loops.stage.table.map(() => evil) } },
-      pictures: [{ title: evil, caption: evil, svg: `<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9" onload="alert(4)"><script>alert(5)</script></svg>` }],
+      pictures: [
+        {
+          title: evil,
+          caption: evil,
+          svg: `<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9" onload="alert(4)"><script>alert(5)</script></svg>`,
+        },
+      ],
     };
     const { page } = await show({ ...sampleReport([]), title: evil, runs: [hostile] });
     let dialogs = 0;
@@ -267,7 +297,11 @@ describe("hostile texts", () => {
 
 describe("on a phone", () => {
   it("nothing is wider than the screen", async () => {
-    const { page } = await show(sampleReport([run, sampleRun({ seed: 2, name: "a rather long name of a run" })]), { width: 390, height: 844, touch: true });
+    const { page } = await show(sampleReport([run, sampleRun({ seed: 2, name: "a rather long name of a run" })]), {
+      width: 390,
+      height: 844,
+      touch: true,
+    });
     for (const tab of ["overview", "frame", "loops", "compare", "pictures"]) {
       await page.click(`#tab-${tab}`);
       const width = await page.evaluate("document.documentElement.scrollWidth");

@@ -9,7 +9,10 @@ import { insertReport } from "../encode";
 const built = readFileSync(join(import.meta.dirname, "../../dist/report.html"), "utf8");
 
 /** Opens pages with reports; after each test, none of them may have written to the console. */
-export function pages(): { show: (report: unknown, options?: PageOptions) => Promise<Watched>; raw: (html: string) => Promise<Watched> } {
+export function pages(): {
+  show: (report: unknown, options?: PageOptions) => Promise<Watched>;
+  raw: (html: string) => Promise<Watched>;
+} {
   const folder = mkdtempSync(join(tmpdir(), "placegraph-web-"));
   const opened: Watched[] = [];
   let browser: Browser;

@@ -8,7 +8,9 @@ import { Random } from "../random";
 import { sampleReport, sampleRun, type SampleOptions } from "../sample";
 
 function runOf(options: Partial<SampleOptions>): RunData {
-  return decodeReport(sampleReport([sampleRun({ frames: 400, landmarks: 0, thumbnails: false, loops: false, ...options })])).runs[0];
+  return decodeReport(
+    sampleReport([sampleRun({ frames: 400, landmarks: 0, thumbnails: false, loops: false, ...options })]),
+  ).runs[0];
 }
 
 function unit(q: Quat): Quat {
@@ -21,7 +23,10 @@ const MOTION = { rotation: unit([0.3, -0.2, 0.5, 0.7]), translation: [4, -2, 9] 
 function pairs(points: Vec3[], scale: number): PosePair[] {
   return points.map((position) => {
     const rotation: Quat = [0, 0, 0, 1];
-    return { from: { position, rotation }, to: { position: apply({ ...MOTION, scale }, position), rotation: multiply(MOTION.rotation, rotation) } };
+    return {
+      from: { position, rotation },
+      to: { position: apply({ ...MOTION, scale }, position), rotation: multiply(MOTION.rotation, rotation) },
+    };
   });
 }
 
@@ -47,7 +52,13 @@ describe("the alignment", () => {
   });
 
   it("of a straight path has the rotation about it from the orientations", () => {
-    const found = align(pairs(Array.from({ length: 20 }, (_, i): Vec3 => [i, 0, 0]), 1), false);
+    const found = align(
+      pairs(
+        Array.from({ length: 20 }, (_, i): Vec3 => [i, 0, 0]),
+        1,
+      ),
+      false,
+    );
     expectNear(rotate(found?.rotation ?? [0, 0, 0, 1], [0, 0, 1]), rotate(MOTION.rotation, [0, 0, 1]));
   });
 

@@ -17,7 +17,9 @@ describe("a column", () => {
   });
 
   it("with a part of a row is an error that names it", () => {
-    expect(() => decodeColumn(column("f32", [1, 2, 3, 4], 3), "runs[0].pose")).toThrow("runs[0].pose has 16 bytes, which is no multiple of 12 bytes a row.");
+    expect(() => decodeColumn(column("f32", [1, 2, 3, 4], 3), "runs[0].pose")).toThrow(
+      "runs[0].pose has 16 bytes, which is no multiple of 12 bytes a row.",
+    );
   });
 
   it("that is no base64 is an error", () => {
@@ -27,7 +29,11 @@ describe("a column", () => {
 
 describe("a report", () => {
   it("is decoded with all its tables", () => {
-    const report = decodeReport(JSON.parse(JSON.stringify(sampleReport([sampleRun({ ...small, lost: [[20, 24]], components: 2 })], [sampleGraph(150)]))));
+    const report = decodeReport(
+      JSON.parse(
+        JSON.stringify(sampleReport([sampleRun({ ...small, lost: [[20, 24]], components: 2 })], [sampleGraph(150)])),
+      ),
+    );
     const [run] = report.runs;
     expect(run.frames.count).toBe(60);
     expect(run.frames.rowOf.get(59)).toBe(59);
@@ -40,36 +46,53 @@ describe("a report", () => {
   });
 
   it("of another format is refused", () => {
-    expect(() => decodeReport({ format: "placegraph-report-2" })).toThrow("The report has the format \"placegraph-report-2\"; this page shows placegraph-report-1.");
+    expect(() => decodeReport({ format: "placegraph-report-2" })).toThrow(
+      'The report has the format "placegraph-report-2"; this page shows placegraph-report-1.',
+    );
     expect(() => decodeReport(null)).toThrow("The report is missing or is no object.");
   });
 
   it("without a column, or with one of another size, names the column", () => {
     const run = sampleRun(small);
     const without = { ...run, frames: { ...run.frames, inliers: undefined } };
-    expect(() => decodeReport(sampleReport([without as never]))).toThrow("runs[0].frames.inliers is missing or is no object.");
+    expect(() => decodeReport(sampleReport([without as never]))).toThrow(
+      "runs[0].frames.inliers is missing or is no object.",
+    );
     const short = { ...run, frames: { ...run.frames, inliers: column("i32", [1, 2]) } };
     expect(() => decodeReport(sampleReport([short]))).toThrow("runs[0].frames.inliers has 2 rows; it must have 60.");
     const narrow = { ...run, frames: { ...run.frames, pose: column("f32", [1, 2, 3], 3) } };
-    expect(() => decodeReport(sampleReport([narrow]))).toThrow("runs[0].frames.pose has 3 values a row; it must have 7.");
+    expect(() => decodeReport(sampleReport([narrow]))).toThrow(
+      "runs[0].frames.pose has 3 values a row; it must have 7.",
+    );
     const images = { ...run, keyframes: { ...run.keyframes, thumbnails: [] } };
-    expect(() => decodeReport(sampleReport([images]))).toThrow(/runs\[0\]\.keyframes\.thumbnails has 0 rows; it must have \d+\./);
+    expect(() => decodeReport(sampleReport([images]))).toThrow(
+      /runs\[0\]\.keyframes\.thumbnails has 0 rows; it must have \d+\./,
+    );
   });
 
   it("with an unknown word where a choice is needed names the choices", () => {
     const run = { ...sampleRun(small), sensor: "sonar" };
-    expect(() => decodeReport(sampleReport([run as never]))).toThrow("runs[0].sensor is \"sonar\"; it must be one of mono, stereo, rgbd.");
+    expect(() => decodeReport(sampleReport([run as never]))).toThrow(
+      'runs[0].sensor is "sonar"; it must be one of mono, stereo, rgbd.',
+    );
   });
 
   it("with an edge to a node that is not there is refused", () => {
     const graph = { ...sampleGraph(150), before: column("f32", [0, 0, 0], 3), after: null };
-    expect(() => decodeReport(sampleReport([], [graph]))).toThrow("graphs[0].edges names node 1, but there are 1 nodes.");
+    expect(() => decodeReport(sampleReport([], [graph]))).toThrow(
+      "graphs[0].edges names node 1, but there are 1 nodes.",
+    );
   });
 
   it("may lack what is optional", () => {
     const run = sampleRun({ ...small, truth: false });
-    const bare = { ...run, judgement: null, camera: null, frames: { ...run.frames, sigma_m: null, confidence: null, environment: null },
-      landmarks: { ...run.landmarks, colour: null, sigma_m: null } };
+    const bare = {
+      ...run,
+      judgement: null,
+      camera: null,
+      frames: { ...run.frames, sigma_m: null, confidence: null, environment: null },
+      landmarks: { ...run.landmarks, colour: null, sigma_m: null },
+    };
     const decoded = decodeReport(sampleReport([bare])).runs[0];
     expect(decoded.frames.truth).toBeNull();
     expect(decoded.landmarks.colour).toBeNull();

@@ -36,7 +36,11 @@ describe("loops", () => {
   });
 
   it("are counted by stage in the order of the tests", () => {
-    expect(stageCounts(loops)).toEqual([["retrieval", 1], ["geometry", 1], ["accepted", 1]]);
+    expect(stageCounts(loops)).toEqual([
+      ["retrieval", 1],
+      ["geometry", 1],
+      ["accepted", 1],
+    ]);
     expect(stageOf(loops, 1)).toBe("accepted");
   });
 
@@ -47,6 +51,6 @@ describe("loops", () => {
 
   it("have a sentence for each stage and one for unknown stages", () => {
     for (const stage of STAGES) expect(stageSentence(stage)).toMatch(/^(Refused|Accepted): .*\.$/);
-    expect(stageSentence("<b>")).toBe("Decided by the test \"<b>\".");
+    expect(stageSentence("<b>")).toBe('Decided by the test "<b>".');
   });
 });

@@ -11,7 +11,13 @@ describe("the built page", () => {
   it("is what its sources build, byte by byte", async () => {
     const folder = mkdtempSync(join(tmpdir(), "placegraph-web-"));
     try {
-      await build({ root, configFile: join(root, "vite.config.ts"), mode: "production", logLevel: "error", build: { outDir: folder } });
+      await build({
+        root,
+        configFile: join(root, "vite.config.ts"),
+        mode: "production",
+        logLevel: "error",
+        build: { outDir: folder },
+      });
       expect(readFileSync(join(folder, "report.html"), "utf8") === built, "run npm run build").toBe(true);
     } finally {
       rmSync(folder, { recursive: true });
@@ -21,7 +27,7 @@ describe("the built page", () => {
   it("holds the marker of the report once, before its script", () => {
     const parts = built.split("<!--placegraph-report-->");
     expect(parts).toHaveLength(2);
-    expect(parts[1].trimStart().startsWith("<script type=\"module\">")).toBe(true);
+    expect(parts[1].trimStart().startsWith('<script type="module">')).toBe(true);
   });
 
   it("holds the licences of its packages", () => {

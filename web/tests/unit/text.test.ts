@@ -1,5 +1,13 @@
 import { describe, expect, it } from "vitest";
-import { formatCount, formatDuration, formatNumber, formatPercent, formatTime, formatWithUnit, plural } from "../../src/data/format";
+import {
+  formatCount,
+  formatDuration,
+  formatNumber,
+  formatPercent,
+  formatTime,
+  formatWithUnit,
+  plural,
+} from "../../src/data/format";
 import { isPicture, svgUri } from "../../src/page/dom";
 import { fileName } from "../../src/save/save";
 import { escapeXml, graphSvg, ticks } from "../../src/save/graph_svg";
@@ -42,14 +50,16 @@ describe("times", () => {
 
 describe("texts of a report", () => {
   it("cannot end the script element that holds them", () => {
-    const page = insertReport("<body><!--placegraph-report--></body>", { title: "</script><img src=x onerror=alert(1)>" });
+    const page = insertReport("<body><!--placegraph-report--></body>", {
+      title: "</script><img src=x onerror=alert(1)>",
+    });
     expect(page).not.toContain("</script><img");
     expect(page.match(/<\/script>/g)).toHaveLength(1);
   });
 
   it("are escaped in pictures", () => {
     expect(escapeXml(`<a b="c">&'`)).toBe("&#60;a b=&#34;c&#34;&#62;&#38;&#39;");
-    const svg = graphSvg("<script>", "x", "y", [0, 1], [{ name: "<b>", colour: "\"red", values: [0, 1] }], [0, 1]);
+    const svg = graphSvg("<script>", "x", "y", [0, 1], [{ name: "<b>", colour: '"red', values: [0, 1] }], [0, 1]);
     expect(svg).not.toMatch(/<script>|<b>|""red/);
   });
 
@@ -62,7 +72,7 @@ describe("texts of a report", () => {
     expect(isPicture("data:image/jpeg;base64,/9j/4AAQ")).toBe(true);
     expect(isPicture("data:image/svg+xml;base64,PHN2Zz4=")).toBe(false);
     expect(isPicture("https://example.org/a.jpg")).toBe(false);
-    expect(isPicture("data:image/png;base64,AA\" onerror=\"x")).toBe(false);
+    expect(isPicture('data:image/png;base64,AA" onerror="x')).toBe(false);
     expect(isPicture(undefined)).toBe(false);
     expect(svgUri("<svg># %</svg>")).toBe("data:image/svg+xml;charset=utf-8,%3Csvg%3E%23%20%25%3C%2Fsvg%3E");
   });

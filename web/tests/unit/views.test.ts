@@ -74,7 +74,12 @@ describe("a run", () => {
 });
 
 describe("the state", () => {
-  const report = decodeReport(sampleReport([sampleRun({ frames: 50, landmarks: 0, thumbnails: false }), sampleRun({ frames: 80, landmarks: 0, truth: false, thumbnails: false })]));
+  const report = decodeReport(
+    sampleReport([
+      sampleRun({ frames: 50, landmarks: 0, thumbnails: false }),
+      sampleRun({ frames: 80, landmarks: 0, truth: false, thumbnails: false }),
+    ]),
+  );
 
   it("keeps the frame when another run is chosen", () => {
     const state = { ...startState(report, "dark"), row: 30 };
