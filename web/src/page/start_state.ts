@@ -47,6 +47,7 @@ export function startState(report: ReportData, theme: Theme): State {
     threshold: null,
     graph: 0,
     graphShape: report.graphs[0]?.after ? "after" : "before",
+    edgeKind: null,
     edge: -1,
     theme,
   };

@@ -59,6 +59,8 @@ export interface State {
   threshold: number | null;
   graph: number;
   graphShape: GraphShape;
+  /** The kind of edges that are shown; null for all. */
+  edgeKind: string | null;
   /** Selected edge of the graph, or -1. */
   edge: number;
   theme: Theme;

@@ -8,6 +8,7 @@ import { button, el, facts, isPicture } from "../page/dom";
 import type { Panel, PanelContext } from "./panel";
 
 export function framePanel({ report, store }: PanelContext): Panel {
+  let figure: HTMLElement | null = null;
   return {
     title: "Frame",
     available: report.runs.length > 0,
@@ -17,13 +18,14 @@ export function framePanel({ report, store }: PanelContext): Panel {
       const { row } = store.state;
       if (run.frames.count === 0) return el("p", {}, "This run has no frames.");
       const id = run.frames.id[row];
+      figure = thumbnailOf(run, row, figure);
       return el(
         "div",
         {},
         el("h2", {}, `Frame ${id}`),
         el("p", {}, stateSentence(run, row)),
         componentNote(run, row, store.state.component, (component) => store.set({ component })),
-        thumbnailOf(run, row),
+        figure,
         facts(frameFacts(run, row)),
         el("h3", {}, "Loops that start or end here"),
         loopList(run, id, (loop) => store.set({ ...loopSelection(report, store.state, loop), tab: "loops" })),
@@ -60,13 +62,20 @@ function componentNote(
   );
 }
 
-function thumbnailOf(run: RunData, row: number): HTMLElement | null {
+/** `shown` is the figure in the page: it stays there while the keyframe is the same, without flicker. */
+function thumbnailOf(run: RunData, row: number, shown: HTMLElement | null): HTMLElement | null {
   const k = keyframeAt(run, row);
   const uri = run.keyframes.thumbnails[k];
   if (!isPicture(uri)) return null;
   const frame = run.keyframes.frame[k];
   const id = run.keyframes.id[k];
   const caption = frame === run.frames.id[row] ? `Keyframe ${id}` : `Keyframe ${id}, of frame ${frame}`;
+  const image = shown?.querySelector("img");
+  if (image?.src === uri) {
+    image.alt = caption;
+    shown?.querySelector("figcaption")?.replaceChildren(caption);
+    return shown;
+  }
   return el("figure", {}, el("img", { src: uri, alt: caption }), el("figcaption", {}, caption));
 }
 

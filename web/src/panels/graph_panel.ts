@@ -11,7 +11,7 @@ export function graphPanel({ report, store }: PanelContext): Panel {
   return {
     title: "Graph",
     available: report.graphs.length > 0,
-    keys: ["graph", "graphShape", "edge"],
+    keys: ["graph", "graphShape", "edge", "edgeKind"],
     render: () => {
       const { state } = store;
       const graph = report.graphs[state.graph];
@@ -28,6 +28,7 @@ export function graphPanel({ report, store }: PanelContext): Panel {
         graph.after
           ? shapeChoice(store)
           : el("p", { class: "soft" }, "The graph has not been optimized: its nodes are shown as they are."),
+        graph.kind.table.length > 1 ? kindChoice(graph, store) : null,
         facts([
           ["Nodes", formatCount(graph.nodes)],
           ["Edges", formatCount(graph.edgeCount)],
@@ -41,7 +42,7 @@ export function graphPanel({ report, store }: PanelContext): Panel {
 }
 
 function chooseGraph(store: Store, graphs: GraphData[], graph: number): void {
-  store.set({ graph, edge: -1, graphShape: graphs[graph].after ? "after" : "before" });
+  store.set({ graph, edge: -1, edgeKind: null, graphShape: graphs[graph].after ? "after" : "before" });
 }
 
 function shapeChoice(store: Store): HTMLElement {
@@ -62,8 +63,23 @@ function shapeChoice(store: Store): HTMLElement {
   );
 }
 
-export function worstEdges(graph: GraphData, count: number): number[] {
-  const edges = Array.from({ length: graph.edgeCount }, (_, i) => i);
+function kindChoice(graph: GraphData, store: Store): HTMLElement {
+  const kinds = graph.kind.table.map((kind) => ({ value: kind, text: kind }));
+  const choices = [{ value: "", text: "all kinds" }, ...kinds];
+  return el(
+    "label",
+    {},
+    "Edges of ",
+    select("Kind of edges", choices, store.state.edgeKind ?? "", (value) =>
+      store.set({ edgeKind: value === "" ? null : value, edge: -1 }),
+    ),
+  );
+}
+
+/** The edges with the largest chi2, of one kind or (null) of all. */
+export function worstEdges(graph: GraphData, count: number, kind: string | null): number[] {
+  const all = Array.from({ length: graph.edgeCount }, (_, i) => i);
+  const edges = all.filter((edge) => kind === null || label(graph.kind, edge) === kind);
   const size = (i: number): number => (Number.isNaN(graph.chi2[i]) ? -Infinity : graph.chi2[i]);
   return edges.sort((a, b) => size(b) - size(a) || a - b).slice(0, count);
 }
@@ -71,7 +87,7 @@ export function worstEdges(graph: GraphData, count: number): number[] {
 function worstTable(graph: GraphData, store: Store): HTMLElement {
   const titles = ["From", "To", "Kind", "chi2", ...(graph.weight ? ["Weight"] : [])];
   const body = el("tbody");
-  for (const edge of worstEdges(graph, WORST)) {
+  for (const edge of worstEdges(graph, WORST, store.state.edgeKind)) {
     const cells = [
       String(graph.edges[2 * edge]),
       String(graph.edges[2 * edge + 1]),
@@ -93,7 +109,7 @@ function worstTable(graph: GraphData, store: Store): HTMLElement {
   return el(
     "table",
     { class: "loops" },
-    el("thead", {}, el("tr", {}, ...titles.map((title) => el("th", {}, title)))),
+    el("thead", {}, el("tr", {}, ...titles.map((title, i) => el("th", { class: i === 2 ? "" : "number" }, title)))),
     body,
   );
 }

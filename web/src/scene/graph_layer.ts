@@ -1,6 +1,6 @@
 import { Box3, Group, Quaternion, Sphere, Vector3 } from "three";
 import { type Rgb, robustRange, scaleColour, shareOf } from "../data/colour_scale";
-import type { GraphData } from "../data/model";
+import { type GraphData, label } from "../data/model";
 import type { GraphShape } from "../page/state";
 import { type LegendItem, scaleLegend } from "./colouring";
 import { SegmentList, thinLines, wideLines } from "./lines";
@@ -15,7 +15,7 @@ export function chi2Range(graph: GraphData): [number, number] {
 }
 
 /** The edges of a pose graph before and after its optimization, coloured by chi2. */
-export function graphLines(graph: GraphData, shape: GraphShape, edge: number): Group {
+export function graphLines(graph: GraphData, shape: GraphShape, kind: string | null, edge: number): Group {
   const group = new Group();
   group.quaternion.copy(upright(graph));
   const range = chi2Range(graph);
@@ -24,20 +24,20 @@ export function graphLines(graph: GraphData, shape: GraphShape, edge: number): G
   if (shape === "both")
     group.add(
       thinLines(
-        edgeSegments(graph, graph.before, () => BEFORE),
+        edgeSegments(graph, graph.before, kind, () => BEFORE),
         0.5,
       ),
     );
   group.add(
     wideLines(
-      edgeSegments(graph, nodes, (i) => scaleColour("viridis", shareOf(graph.chi2[i], range, true))),
+      edgeSegments(graph, nodes, kind, (i) => scaleColour("viridis", shareOf(graph.chi2[i], range, true))),
       2,
     ),
   );
   if (edge >= 0 && edge < graph.edgeCount) {
     const list = new SegmentList();
     list.add(nodes, 3 * graph.edges[2 * edge], nodes, 3 * graph.edges[2 * edge + 1], SELECTED);
-    group.add(wideLines(list, 6));
+    group.add(wideLines(list, 6, 5));
   }
   group.updateMatrixWorld(true);
   return group;
@@ -47,9 +47,15 @@ export function graphLegend(graph: GraphData): LegendItem {
   return scaleLegend("chi2 of edges, logarithmic", "viridis", chi2Range(graph), "", true);
 }
 
-function edgeSegments(graph: GraphData, nodes: ArrayLike<number>, colour: (edge: number) => Rgb): SegmentList {
+function edgeSegments(
+  graph: GraphData,
+  nodes: ArrayLike<number>,
+  kind: string | null,
+  colour: (edge: number) => Rgb,
+): SegmentList {
   const list = new SegmentList();
   for (let i = 0; i < graph.edgeCount; i++) {
+    if (kind !== null && label(graph.kind, i) !== kind) continue;
     list.add(nodes, 3 * graph.edges[2 * i], nodes, 3 * graph.edges[2 * i + 1], colour(i));
   }
   return list;

@@ -22,7 +22,7 @@ function scaleElement(item: Extract<LegendItem, { kind: "scale" }>): HTMLElement
 }
 
 function categoryElement(item: Extract<LegendItem, { kind: "category" }>): HTMLElement {
-  const box = el("div", {}, el("div", {}, item.title));
+  const box = el("div", { class: item.entries.length > 0 ? "lines" : "" }, el("div", {}, item.title));
   for (const entry of item.entries) {
     const mark = el("span", { class: "mark" });
     mark.style.background = cssColour(entry.colour);

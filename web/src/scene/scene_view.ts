@@ -118,7 +118,7 @@ export class SceneView {
       if (state.follow === "through") this.follow(state);
     });
     store.on(["theme"], () => this.applyTheme());
-    store.on(["tab", "graph", "graphShape", "edge"], () => this.showGraph());
+    store.on(["tab", "graph", "graphShape", "edgeKind", "edge"], () => this.showGraph());
     store.on(["tab", "graph"], (state) => {
       const shown = state.tab === "graph" && this.report.graphs.length > 0;
       if (shown || this.wasGraph) this.fit();
@@ -163,7 +163,7 @@ export class SceneView {
     this.graph = null;
     const graph = this.shownGraph();
     if (graph) {
-      this.graph = graphLines(graph, this.store.state.graphShape, this.store.state.edge);
+      this.graph = graphLines(graph, this.store.state.graphShape, this.store.state.edgeKind, this.store.state.edge);
       this.viewport.scene.add(this.graph);
     }
     if (this.run) this.run.root.visible = graph === null;

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { decodeReport } from "../../src/data/decode";
-import type { RunData } from "../../src/data/model";
+import { type RunData, label } from "../../src/data/model";
 import { isPosed, keyframeAt, keyframeSpacing } from "../../src/data/run_view";
 import { availableSeries, speeds, travelled } from "../../src/data/series";
 import { Store } from "../../src/page/state";
@@ -105,8 +105,9 @@ describe("the state", () => {
 describe("small computations", () => {
   it("order edges by chi2", () => {
     const graph = decodeReport(sampleReport([], [sampleGraph(200)])).graphs[0];
-    const [worst] = worstEdges(graph, 3);
+    const [worst] = worstEdges(graph, 3, null);
     expect(graph.chi2[worst]).toBeCloseTo(412.5, 3);
+    expect(label(graph.kind, worstEdges(graph, 3, "odometry")[0])).toBe("odometry");
   });
 
   it("measure distances from segments and round cells", () => {
