@@ -162,15 +162,20 @@ export class Viewport {
   }
 
   private applyQuality(): void {
+    this.setRatio();
+    this.onQuality(this.level);
+  }
+
+  /** Every change of the size waits for the graphics: none is made without need. */
+  private setRatio(): void {
     const ratio = pixelRatio() * (this.level?.resolution ?? 1);
     if (ratio !== this.renderer.getPixelRatio()) this.renderer.setPixelRatio(ratio);
-    this.onQuality(this.level);
   }
 
   private resize(): void {
     const width = Math.max(this.parent.clientWidth, 1);
     const height = Math.max(this.parent.clientHeight, 1);
-    this.renderer.setPixelRatio(pixelRatio());
+    this.setRatio();
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
@@ -184,8 +189,16 @@ export function pixelRatio(): number {
   return Math.min(window.devicePixelRatio, 2);
 }
 
+type Graphics = "hardware" | "software" | "none";
+let known: Graphics | null = null;
+
 /** What draws WebGL 2 in this browser, if anything does. */
-export function graphics(): "hardware" | "software" | "none" {
+export function graphics(): Graphics {
+  known ??= findGraphics();
+  return known;
+}
+
+function findGraphics(): Graphics {
   const gl = document.createElement("canvas").getContext("webgl2");
   if (gl === null) return "none";
   const software = isSoftware(gl);

@@ -175,6 +175,23 @@ describe("the time line", () => {
   });
 });
 
+describe("the pictures", () => {
+  it("are saved as SVG and as PNG", async () => {
+    const { page } = await show(report);
+    await page.click("#tab-pictures");
+    const picture = page.locator(".picture").first();
+    for (const [kind, begin] of [
+      ["SVG", "<svg"],
+      ["PNG", "\u0089PNG"],
+    ]) {
+      const waiting = page.waitForEvent("download");
+      await picture.getByRole("button", { name: kind }).click();
+      const file = readFileSync(await (await waiting).path());
+      expect(file.toString("latin1", 0, begin.length)).toBe(begin);
+    }
+  });
+});
+
 describe("the loops", () => {
   it("show their reason and move the cursor when they are clicked", async () => {
     const { page } = await show(report);
