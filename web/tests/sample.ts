@@ -44,7 +44,7 @@ export function sampleRun(options: Partial<SampleOptions> = {}): Run {
   const random = new Random(o.seed);
   const path = drive(o, random);
   const keyframes = sampleKeyframes(o, path);
-  const landmarks = sampleLandmarks(o, path, random);
+  const landmarks = sampleLandmarks(o, path, keyframes, random);
   const places = samplePlaces(path, keyframes);
   const loops = sampleLoops(o, path, random);
   const accepted = loops.stages.filter((stage) => stage === "accepted").length;

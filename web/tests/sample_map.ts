@@ -44,11 +44,18 @@ export function sampleKeyframes(o: SampleOptions, path: Drive): SampleKeyframes 
 }
 
 /** Points of walls on both sides of the path, on the ground, and a few far ones. */
-export function sampleLandmarks(o: SampleOptions, path: Drive, random: Random): Run["landmarks"] {
+export function sampleLandmarks(
+  o: SampleOptions,
+  path: Drive,
+  taken: SampleKeyframes,
+  random: Random,
+): Run["landmarks"] {
   const position: number[] = [];
   const colour: number[] = [];
   const sigma: number[] = [];
   const frames: number[] = [];
+  const lastKeyframe: number[] = [];
+  taken.ofFrame.forEach((id, frame) => lastKeyframe.push(id >= 0 ? id : (lastKeyframe[frame - 1] ?? 0)));
   for (let k = 0; k < o.landmarks; k++) {
     const frame = Math.floor(random.uniform() * Math.min(o.frames, path.lap));
     const pose = path.truth[frame];
@@ -64,7 +71,7 @@ export function sampleLandmarks(o: SampleOptions, path: Drive, random: Random): 
       clamp(tone * (ground ? 1 : 0.7)),
     );
     sigma.push(0.02 + 0.02 * Math.abs(random.normal()));
-    frames.push(Math.floor(frame / o.keyframeEvery));
+    frames.push(lastKeyframe[frame]);
   }
   return {
     position: column("f32", position, 3),

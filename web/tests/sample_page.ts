@@ -1,4 +1,4 @@
-/** npm run sample -- [--frames N] [--landmarks N] [--runs N] [--lost A-B] [--components 2] [--no-truth] [--graph] -o FILE */
+/** npm run sample -- [--frames N] [--landmarks N] [--runs N] [--lost A-B] [--components 2] [--no-truth] [--no-scale] [--graph] -o FILE */
 import { readFileSync, writeFileSync } from "node:fs";
 import { resolve } from "node:path";
 import { insertReport } from "./encode";
@@ -20,6 +20,7 @@ export function main(args: string[]): void {
     components: value(args, "--components") === "2" ? 2 : 1,
     lost: lost ? [[lost[0], lost[1]]] : [],
     truth: !args.includes("--no-truth"),
+    metric: !args.includes("--no-scale"),
   };
   const count = Number(value(args, "--runs") ?? 1);
   const runs = Array.from({ length: count }, (_, i) =>

@@ -1,4 +1,5 @@
 /** Changes of the state that several views ask for. */
+import { filterLoops, sortLoops } from "../data/loops";
 import type { ReportData, RunData } from "../data/model";
 import type { Follow, State, Store } from "./state";
 
@@ -12,6 +13,21 @@ export function loopSelection(report: ReportData, state: Readonly<State>, loop: 
   const component = run.frames.component[row];
   if (state.component !== null && component >= 0 && component !== state.component) change.component = component;
   return change;
+}
+
+/** Selects the next or previous loop, by query frame, of those that pass the filter. */
+export function moveToLoop(report: ReportData, store: Store, direction: 1 | -1): void {
+  const { state } = store;
+  const run = report.runs[state.run];
+  if (!run) return;
+  const order = { column: "query" as const, descending: false };
+  const loops = sortLoops(run.loops, filterLoops(run.loops, state.loopFilter), order);
+  const selected = loops.indexOf(state.loop);
+  const id = run.frames.id[state.row];
+  const after = loops.findIndex((loop) => run.loops.query[loop] > id);
+  const here = after < 0 ? loops.length : after;
+  const next = selected >= 0 ? selected + direction : direction > 0 ? here : here - 1;
+  if (loops[next] !== undefined) store.set({ ...loopSelection(report, state, loops[next]), tab: "loops" });
 }
 
 export function clampRow(run: RunData, row: number): number {

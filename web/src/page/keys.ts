@@ -1,7 +1,7 @@
 /** Keys of the page and what they do; the help lists the same table. */
 import type { ReportData } from "../data/model";
 import type { SceneView } from "../scene/scene_view";
-import { moveCursor, moveToKeyframe, toggleFollow } from "./actions";
+import { moveCursor, moveToKeyframe, moveToLoop, toggleFollow } from "./actions";
 import { type LayerName, type Store, TABS } from "./state";
 
 export interface KeyBinding {
@@ -73,6 +73,8 @@ export function bindings(
     },
     { keys: ["["], shown: "[", text: "Previous keyframe", run: () => moveToKeyframe(report, store, -1) },
     { keys: ["]"], shown: "]", text: "Next keyframe", run: () => moveToKeyframe(report, store, 1) },
+    { keys: [","], shown: ",", text: "Previous loop", run: () => moveToLoop(report, store, -1) },
+    { keys: ["."], shown: ".", text: "Next loop", run: () => moveToLoop(report, store, 1) },
     { keys: ["Home"], shown: "Home", text: "First frame", run: () => moveCursor(report, store, -end()) },
     { keys: ["End"], shown: "End", text: "Last frame", run: () => moveCursor(report, store, end()) },
     { keys: ["f"], shown: "F", text: "Show all of the map", run: () => scene?.fit() },
@@ -83,23 +85,25 @@ export function bindings(
     { keys: ["d"], shown: "D", text: "Dark or light", run: toggleTheme },
     { keys: ["?"], shown: "?", text: "This help", run: toggleHelp },
   ];
-  for (const [name, key] of Object.entries(LAYER_KEYS) as [LayerName, string][]) {
-    list.push({
-      keys: [key],
-      shown: key.toUpperCase(),
-      text: `Layer: ${LAYER_TITLES[name].toLowerCase()}`,
-      run: () => store.setLayer(name, !store.state.layers[name]),
-    });
-  }
-  TABS.forEach((tab, i) =>
-    list.push({
-      keys: [String(i + 1)],
-      shown: String(i + 1),
-      text: `Panel: ${tab}`,
-      run: () => document.getElementById(`tab-${tab}`)?.click(),
-    }),
-  );
-  return list;
+  return [...list, ...layerBindings(store), ...tabBindings()];
+}
+
+function layerBindings(store: Store): KeyBinding[] {
+  return (Object.entries(LAYER_KEYS) as [LayerName, string][]).map(([name, key]) => ({
+    keys: [key],
+    shown: key.toUpperCase(),
+    text: `Layer: ${LAYER_TITLES[name].toLowerCase()}`,
+    run: () => store.setLayer(name, !store.state.layers[name]),
+  }));
+}
+
+function tabBindings(): KeyBinding[] {
+  return TABS.map((tab, i) => ({
+    keys: [String(i + 1)],
+    shown: String(i + 1),
+    text: `Panel: ${tab}`,
+    run: () => document.getElementById(`tab-${tab}`)?.click(),
+  }));
 }
 
 /** Whether an element uses the keys itself. */

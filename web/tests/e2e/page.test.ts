@@ -207,6 +207,18 @@ describe("the loops", () => {
     expect(await page.locator(".pair img").count()).toBe(2);
   });
 
+  it("are stepped through by key", async () => {
+    const { page } = await show(report);
+    await page.keyboard.press(".");
+    const first = await frameOf(page);
+    await page.keyboard.press(".");
+    const second = await frameOf(page);
+    expect(Number(second)).toBeGreaterThan(Number(first));
+    await page.keyboard.press(",");
+    expect(await frameOf(page)).toBe(first);
+    expect(await page.locator("tr[aria-current=true]").count()).toBe(1);
+  });
+
   it("are filtered by stage", async () => {
     const { page } = await show(report);
     await page.click("#tab-loops");
