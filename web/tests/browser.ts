@@ -26,7 +26,7 @@ export async function until(page: Page, expression: string): Promise<void> {
 
 export interface Watched {
   page: Page;
-  /** Everything that the page wrote to the console, and errors that nothing caught. */
+  /** Everything that the page wrote to the console, errors that nothing caught, and dialogs. */
   messages: string[];
 }
 
@@ -57,6 +57,10 @@ export async function open(browser: Browser, url: string, options: PageOptions =
   const messages: string[] = [];
   page.on("console", (message) => messages.push(`${message.type()}: ${message.text()}`));
   page.on("pageerror", (error) => messages.push(`error: ${error.message}`));
+  page.on("dialog", (dialog) => {
+    messages.push(`dialog: ${dialog.message()}`);
+    void dialog.dismiss();
+  });
   await page.goto(url);
   await page.waitForSelector("#page.report, #page.message");
   await page.waitForTimeout(700); // until the camera is still and thumbnails are decoded

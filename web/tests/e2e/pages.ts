@@ -8,7 +8,7 @@ import { insertReport } from "../encode";
 
 const built = readFileSync(join(import.meta.dirname, "../../dist/report.html"), "utf8");
 
-/** Opens pages with reports; after each test, none of them may have written to the console. */
+/** Opens pages with reports; after each test, none of them may have written to the console or opened a dialog. */
 export function pages(): {
   show: (report: unknown, options?: PageOptions) => Promise<Watched>;
   raw: (html: string) => Promise<Watched>;
