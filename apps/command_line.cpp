@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 
 #include "apps/eval/cmd_eval.h"
 #include "apps/eval/cmd_eval_edges.h"
@@ -27,6 +28,9 @@
 #include "apps/planes/cmd_planes.h"
 #include "apps/planes/cmd_planes_cloud.h"
 #include "apps/planes/cmd_track_plane.h"
+#include "apps/report/cmd_report.h"
+#include "apps/report/report.h"
+#include "apps/report/report_graph.h"
 #include "apps/run/cmd_config.h"
 #include "apps/run/cmd_inspect.h"
 #include "apps/run/cmd_run.h"
@@ -63,10 +67,30 @@ void add_map_group(CLI::App& app) {
   add_georeference_command(map);
 }
 
+constexpr const char* kProgram = "placegraph " PLACEGRAPH_VERSION;
+
+void write_optimized_graph(const OptimizeArguments& arguments, const OptimizeResult& result) {
+  GraphPage page{std::filesystem::path(arguments.in).filename().string(),
+                 result.start,
+                 result.solution.graph,
+                 result.solution.chi2_by_constraint,
+                 {},
+                 {}};
+  for (const RejectedEdge& edge : result.solution.rejected)
+    page.rejected.push_back(edge.constraint);
+  page.figures = {{"chi2 (logarithm), before", result.before.log},
+                  {"chi2 (logarithm)", result.after.log},
+                  {"chi2 (g2o), before", result.before.g2o},
+                  {"chi2 (g2o)", result.after.g2o},
+                  {"iterations", result.solution.iterations},
+                  {"rejected constraints", static_cast<double>(page.rejected.size())}};
+  write_graph_page(arguments.report, page, kProgram);
+}
+
 void add_graph_group(CLI::App& app) {
   CLI::App& graph =
       add_group(app, "graph", "Pose graphs and bundles", "optimize sphere.g2o -o optimized.g2o");
-  add_optimize_command(graph);
+  add_optimize_command(graph, write_optimized_graph);
   add_bundle_command(graph);
   add_convert_command(graph);
 }
@@ -158,10 +182,13 @@ std::unique_ptr<CLI::App> make_command_line() {
                                         "placegraph");
   app->formatter(std::make_shared<ExampleFormatter>());
   app->footer("placegraph run kitti/sequences/00 --out out/00");
-  app->set_version_flag("--version", "placegraph " PLACEGRAPH_VERSION);
+  app->set_version_flag("--version", kProgram);
   app->require_subcommand(1);
-  add_run_command(*app);
+  add_run_command(*app, [](const std::string& folder, const std::string& file) {
+    write_run_page(folder, file, kProgram);
+  });
   add_inspect_command(*app);
+  add_report_command(*app);
   add_config_command(*app);
   add_map_group(*app);
   add_eval_group(*app);

@@ -7,6 +7,7 @@ endif()
 # brings ATLAS, and the first library on the link line gets CHOLMOD's BLAS calls.
 find_package(Threads REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(ZLIB REQUIRED)
 find_package(PNG 1.6 REQUIRED)
 find_package(JPEG REQUIRED)
 find_package(OpenCV 4.5 REQUIRED COMPONENTS core imgproc imgcodecs calib3d features2d video videoio aruco line_descriptor ml ximgproc)

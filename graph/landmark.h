@@ -32,13 +32,25 @@ struct Feature {
   std::optional<Eigen::Vector3f> point_cam;
 };
 
+/// Where a keyframe's image shows a landmark.
+struct LandmarkObservation {
+  LandmarkId landmark;                           ///< the landmark
+  Eigen::Vector2f px = Eigen::Vector2f::Zero();  ///< position in the undistorted image [px]
+  int camera = 0;                                ///< 0: the (left) camera
+};
+
 /// A point of the scene, stored relative to its anchor keyframe.
 struct PointLandmark {
   LandmarkId id;        ///< id of the point and of its track
   KeyframeId keyframe;  ///< the anchor keyframe
   /// Position in the anchor keyframe's camera frame, at that keyframe's scale.
   Eigen::Vector3d point_cam = Eigen::Vector3d::Zero();
-  int observations = 0;  ///< number of keyframes that observed it
+  int observations = 0;  ///< number of keyframes that observed it in its last window
+  /// Covariance of `point_cam` given the poses of the keyframes, by all observations of the window
+  /// that it left last; nothing if they do not determine the point.
+  std::optional<Eigen::Matrix3d> covariance = {};
+  /// Red, green and blue of its image in a keyframe, equal in a grey one; nothing if unknown.
+  std::optional<std::array<std::uint8_t, 3>> rgb = {};
 };
 
 }  // namespace placegraph

@@ -6,6 +6,7 @@
 #include <placegraph/graph/place_view.h>
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 namespace [[gnu::visibility("default")]] placegraph {
@@ -20,6 +21,10 @@ struct Keyframe {
   std::vector<Feature> features;  ///< image features for place recognition and loop verification
   double scale = 1;               ///< scale: lengths at the place over lengths at the keyframe
   PlaceView view;                 ///< descriptors of its image in all cues; empty if not stored
+  /// Image points of landmarks, ascending by landmark. A landmark that is not in the map was
+  /// refused after this keyframe.
+  std::vector<LandmarkObservation> observations = {};
+  std::string thumbnail = {};  ///< its image as a small JPEG file; empty if not stored
 };
 
 /// The pose of an input frame relative to its keyframe; no pose if the frame is lost.
@@ -31,6 +36,10 @@ struct FrameRecord {
   /// Number of landmarks whose observations agreed with the pose in tracking; 0 if the pose was not
   /// estimated from landmarks.
   int inliers = 0;
+  /// Share of the tracked landmarks that agree with the pose, less where they are few, in [0, 1];
+  /// nothing without a pose from landmarks.
+  std::optional<double> confidence = {};
+  std::string reason = {};  ///< why the frame has no pose of its own; empty if it was tracked
 };
 
 /// A loop candidate and the result of its tests.

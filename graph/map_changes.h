@@ -19,9 +19,12 @@ struct MapChanges {
   std::vector<Place> places;  ///< all places of the map, with members, without appearances
   std::vector<std::pair<PlaceId, Appearance>> appearances;  ///< new or changed appearances
   std::vector<ConstraintChange> constraints;                ///< new, changed or removed constraints
-  /// Keyframes that are new or whose features have changed; their view is empty if it is unchanged.
-  /// The places of all other keyframes are in `places`.
+  /// Keyframes that are new or whose features have changed; their view and thumbnail are empty if
+  /// unchanged, their observations are in `observations`. The places of all other keyframes are in
+  /// `places`.
   std::vector<Keyframe> keyframes;
+  /// All observations of keyframes that have new ones.
+  std::vector<std::pair<KeyframeId, std::vector<LandmarkObservation>>> observations;
   std::size_t first_frame = 0;      ///< frames and online poses before this position are unchanged
   std::vector<FrameRecord> frames;  ///< from `first_frame` on
   std::vector<StampedPose> online;  ///< T_map_cam from `first_frame` on

@@ -1,5 +1,6 @@
 #pragma once
 #include <placegraph/graph/core/ids.h>
+#include <placegraph/graph/measurements/data_note.h>
 #include <placegraph/io/datasets/dataset.h>
 #include <placegraph/pipeline/run_options.h>
 #include <placegraph/pipeline/slam.h>
@@ -24,13 +25,6 @@ struct UnposedFrames {
   int count = 0;  ///< number of frames, at least 1
 };
 
-/// How one frame was tracked.
-struct FrameHealth {
-  FrameId frame;                     ///< FrameResult::frame
-  std::string reason;                ///< FrameResult::outcome's; empty if that is ok
-  std::optional<double> confidence;  ///< as in FrameResult
-};
-
 /// Result of run_sequence.
 struct RunResult {
   Sensor sensor = Sensor::kMono;  ///< sensor configuration of the run
@@ -53,32 +47,10 @@ struct RunResult {
   /// Reasons why frames have no pose, the most frequent first. Reasons that differ only in numbers
   /// are merged. Frames before a resumed run are not counted.
   std::vector<UnposedFrames> unposed;
-  /// Reason or confidence of each frame, ascending. Frames before a resumed run are missing.
-  std::vector<FrameHealth> frame_health;
   /// Doubts about the images, the calibration and the motion that the frames show (Slam::notes).
   std::vector<DataNote> notes;
   /// Environment of each keyframe; empty unless `context` is enabled.
   std::vector<EnvironmentObservation> environments;
-};
-
-/// How far the result of a run can be trusted.
-enum class Verdict {
-  kGood,      ///< nothing contradicts the result
-  kDoubtful,  ///< a finding limits what the result can be used for
-  kFailed     ///< too few frames have a pose
-};
-/// "good", "doubtful" or "failed".
-const char* to_string(Verdict verdict);
-
-/// Judgement of a run by its own evidence, without ground truth.
-struct Judgement {
-  Verdict verdict = Verdict::kGood;  ///< how far the result can be trusted
-  bool metric = false;               ///< whether lengths are in metres, as far as the run shows
-  std::string why_metric;            ///< what gives the map its scale, or why it has none
-  std::vector<DataNote> findings;    ///< what is in doubt, each with its cause and what to try next
-  /// Standard deviation of the position of the last place relative to the first one of its
-  /// component, by the covariances of the place graph; nothing where it is not determined.
-  std::optional<double> expected_drift_m;
 };
 
 /// Judges a run by its map, by RunResult::notes and by `notes` on its data and options.

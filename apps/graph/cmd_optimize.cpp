@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "apps/graph/optimize.h"
 #include "apps/support/option_texts.h"
 #include "apps/support/output.h"
 
@@ -13,6 +12,7 @@ namespace {
 struct OptimizeCommand {
   OptimizeArguments arguments;
   bool json = false, quiet = false;
+  std::function<void(const OptimizeArguments&, const OptimizeResult&)> write_page;
 };
 
 void run(const OptimizeCommand& command) {
@@ -21,12 +21,16 @@ void run(const OptimizeCommand& command) {
   };
   const OptimizeResult result = optimize(command.arguments, sink);
   print(command.json ? to_json(result) : to_text(result));
+  if (!command.arguments.report.empty()) command.write_page(command.arguments, result);
 }
 
 }  // namespace
 
-void add_optimize_command(CLI::App& graph) {
+void add_optimize_command(
+    CLI::App& graph,
+    const std::function<void(const OptimizeArguments&, const OptimizeResult&)>& write_page) {
   auto optimize_command = std::make_shared<OptimizeCommand>();
+  optimize_command->write_page = write_page;
   OptimizeArguments& a = optimize_command->arguments;
   CLI::App* command = graph.add_subcommand(
       "optimize", "Optimize a pose graph in g2o, TORO or iSAM format (short: optimize)");
@@ -63,6 +67,7 @@ void add_optimize_command(CLI::App& graph) {
                     "optimize each component of a disconnected graph separately");
   command->add_flag("--drop-rejected", a.drop_rejected, "leave rejected constraints out of OUT");
   command->add_option("--plot", a.plot, kPlotText);
+  command->add_option("--report", a.report, kReportText);
   command->add_flag("--json", optimize_command->json, kJsonText);
   command->add_flag("--quiet", optimize_command->quiet, "print warnings and errors only");
   command->add_flag("--force", a.force, kForceText);

@@ -197,7 +197,11 @@ PoseGraphOptions checked_options(const OptimizeArguments& arguments) {
   require(arguments.plot.empty() || arguments.plot != arguments.out,
           "--plot: " + arguments.plot + " is where the graph is to be written");
   require_free(arguments.out, arguments.force);
-  if (!arguments.plot.empty()) require_free(arguments.plot, arguments.force);
+  for (const std::string& path : {arguments.plot, arguments.report})
+    if (!path.empty()) require_free(path, arguments.force);
+  require(arguments.report.empty() ||
+              (arguments.report != arguments.out && arguments.report != arguments.plot),
+          "--report: " + arguments.report + " is where the graph or its plot is to be written");
   return options;
 }
 
@@ -205,15 +209,16 @@ PoseGraphOptions checked_options(const OptimizeArguments& arguments) {
 void require_for_landmarks(const OptimizeArguments& arguments, const GraphTask& task,
                            const LandmarkGraph& graph) {
   const PoseGraphOptions& options = task.options;
-  require(options.robust.method == RobustMethod::kNone && !task.incremental && !task.split &&
-              !task.certify &&
-              (options.initialization == PoseGraphInitialization::kAuto ||
-               options.initialization == PoseGraphInitialization::kFile) &&
-              arguments.plot.empty(),
-          arguments.in +
-              ": has priors or point landmarks, which --robust, --incremental, "
-              "--components, --certify, --plot and --initialization odometry, chordal and "
-              "certified do not take");
+  require(
+      options.robust.method == RobustMethod::kNone && !task.incremental && !task.split &&
+          !task.certify &&
+          (options.initialization == PoseGraphInitialization::kAuto ||
+           options.initialization == PoseGraphInitialization::kFile) &&
+          arguments.plot.empty() && arguments.report.empty(),
+      arguments.in +
+          ": has priors or point landmarks, which --robust, --incremental, "
+          "--components, --certify, --plot, --report and --initialization odometry, chordal and "
+          "certified do not take");
   require(
       options.rotation_error == RotationError::kLog ||
           std::ranges::none_of(graph.priors, &PosePriorConstraint::beside_node),
@@ -244,6 +249,7 @@ void optimize_poses(const OptimizeArguments& arguments, const GraphTask& task, P
   if (!std::isfinite(result.before.g2o + result.before.log))
     throw FileError(arguments.in, "the cost at the given poses is not finite: numbers too large");
   const PoseGraph drawn = arguments.plot.empty() ? PoseGraph() : start;
+  if (!arguments.report.empty()) result.start = start;
   GraphSolution& solution = result.solution;
   try {
     solution = solve(std::move(start), task, sink);

@@ -21,13 +21,14 @@ const std::vector<std::string>& optimize_costs();
 struct OptimizeArguments {
   std::string in, out;  ///< graph to read (g2o, TORO or iSAM) and to write (g2o)
   std::string plot;     ///< .png or .svg of the poses before and after; empty: none
+  std::string report;   ///< page that shows the graph, which the caller writes; empty: none
   std::string cost = "log";
   std::string engine = pose_graph_option("engine").value;
   std::string initialization = pose_graph_option("initialization").value;
   std::string robust = pose_graph_option("robust.method").value;
   GraphTask task;              ///< its options with a name above are set by that name
   bool drop_rejected = false;  ///< leave rejected constraints out of `out`
-  bool force = false;          ///< overwrite `out` and `plot`
+  bool force = false;          ///< overwrite `out`, `plot` and `report`
 };
 
 /// chi2 of a graph in both conventions, over the constraints that were not rejected.
@@ -39,6 +40,7 @@ struct OptimizeResult {
   std::string in, out, cost, engine, robust;  ///< as in the arguments
   GraphCosts before, after;
   GraphSolution solution;
+  PoseGraph start;  ///< the graph as it was read, if a report is asked for
   std::optional<LandmarkSolution>
       landmarks;  ///< replaces `before`, `after` and `solution` for a graph with landmarks
 };

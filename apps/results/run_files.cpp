@@ -129,9 +129,9 @@ json describe_motion(const PlaceGraph& graph) {
 }
 
 /// Confidence of each frame, rounded, and the reasons of those without a pose.
-json describe_frames(const std::vector<FrameHealth>& frames) {
+json describe_frames(const std::vector<FrameRecord>& frames) {
   json confidence = json::array(), reasons = json::array();
-  for (const FrameHealth& frame : frames) {
+  for (const FrameRecord& frame : frames) {
     confidence.push_back(frame.confidence ? json(std::round(100 * *frame.confidence) / 100)
                                           : json());
     if (!frame.reason.empty())
@@ -154,7 +154,7 @@ json describe_run(const RunResult& run, const Trajectory& optimized) {
           {"posed_online", map.trajectory_online.posed()},
           {"lost_frames", lost_frames(map, optimized)},
           {"lost_frames_online", lost_frames(map, map.trajectory_online)},
-          {"frame_health", describe_frames(run.frame_health)},
+          {"frame_health", describe_frames(map.frames)},
           {"keyframes", map.keyframes.size()},
           {"places", map.place_graph.places.size()},
           {"components", components.size()},

@@ -3,6 +3,7 @@
 #include <placegraph/graph/core/error.h>
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <memory>
 
 #include "apps/run/run.h"
@@ -15,12 +16,17 @@ namespace {
 struct RunCommand {
   RunArguments arguments;
   bool json = false, profile = false;
+  std::string page;  // file of the page that shows the run; empty: none
+  std::function<void(const std::string& folder, const std::string& file)> write_page;
 };
 
 void run_and_print(const RunCommand& command) {
+  if (!command.page.empty() && std::filesystem::exists(command.page))
+    require_free(command.page, command.arguments.force);
   const RunReport report = run(command.arguments);
   print(command.json ? to_json(report) : to_text(report));
   if (command.profile && !command.json) print(stages_text(report));
+  if (!command.page.empty() && !report.broken_off) command.write_page(report.out, command.page);
   if (report.broken_off) throw Error(*report.broken_off);
   if (report.interrupted) throw Interrupted(*report.interrupted);
   if (report.no_result) throw NoResult(*report.no_result);
@@ -54,8 +60,11 @@ void add_old_scene(CLI::App& command, std::optional<std::string>& scene) {
 
 }  // namespace
 
-void add_run_command(CLI::App& app) {
+void add_run_command(
+    CLI::App& app,
+    const std::function<void(const std::string& folder, const std::string& file)>& write_page) {
   auto run_command = std::make_shared<RunCommand>();
+  run_command->write_page = write_page;
   RunArguments& a = run_command->arguments;
   CLI::App* command =
       app.add_subcommand("run", "Estimate the trajectory and the place graph of a sequence");
@@ -92,6 +101,7 @@ void add_run_command(CLI::App& app) {
   command->add_flag("--force", a.force, kForceText);
   command->add_option("--draw", a.draw, "folder for the images, drawn with tracks and residuals");
   command->add_flag("--profile", run_command->profile, kProfileText);
+  command->add_option("--report", run_command->page, kReportText);
   add_verbosity(*command, a.verbosity);
   command->callback([run_command] { run_and_print(*run_command); });
 }

@@ -8,6 +8,7 @@
 #include <placegraph/io/datasets/open_dataset.h>
 #include <placegraph/io/graphs/g2o.h>
 #include <placegraph/io/graphs/place_graph_export.h>
+#include <placegraph/io/map/map_database.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 #include <sys/resource.h>
 
@@ -260,6 +261,8 @@ RunReport run(const RunArguments& asked) {
   if (truth) summary.update(judge_run(*truth, run, optimized));
   const Judgement judgement = judge(run, prepared.notes, arguments.min_posed);
   summary["judgement"] = describe_judgement(judgement);
+  const std::string map_path = run_map_path(arguments.out);
+  if (!run.stopped && !run.broken_off && fs::exists(map_path)) write_judgement(map_path, judgement);
   write_results(arguments.out, run, optimized, truth, dataset.name(), summary);
   if (run.broken_off)
     report.broken_off = *run.broken_off + " (results of the " + std::to_string(optimized.size()) +

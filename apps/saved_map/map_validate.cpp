@@ -47,6 +47,7 @@ MapValidateResult map_validate(const MapValidateArguments& arguments) {
       throw FileError(path, std::string("tables link, part, place: ") + error.what());
     }
   }
+  check_map_checksums(path);
   return {path, stored.finished, map.place_graph.places.size(), map.frames.size()};
 }
 

@@ -18,6 +18,7 @@ namespace {
 constexpr std::pair<std::string_view, std::string_view> kPages[] = {
     {"run", "first_run.md"},
     {"inspect", "datasets.md"},
+    {"report", "report.md"},
     {"config", "options.md"},
     {"eval labels", "scene.md"},
     {"eval loops", "evaluation.md#loops"},

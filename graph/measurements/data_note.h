@@ -1,5 +1,8 @@
 #pragma once
+#include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace [[gnu::visibility("default")]] placegraph {
 
@@ -29,6 +32,8 @@ enum class NoteCause {
 };
 /// The code of a cause in result.json, such as "static_overlay".
 const char* to_string(NoteCause cause);
+/// The cause with that code; nothing for another text.
+std::optional<NoteCause> note_cause_of(std::string_view code);
 
 /// A remark about input data or about a run.
 /// It names the data that were left out and the reason, or the numbers that are suspicious and a
@@ -38,6 +43,28 @@ struct DataNote {
   bool doubts_scale = false;           ///< lengths may be wrong: results must not be called metric
   NoteCause cause = NoteCause::kNone;  ///< what is in doubt
   std::string advice = {};             ///< what to try next, if the text does not say it
+};
+
+/// How far the result of a run can be trusted.
+enum class Verdict {
+  kGood,      ///< nothing contradicts the result
+  kDoubtful,  ///< a finding limits what the result can be used for
+  kFailed     ///< too few frames have a pose
+};
+/// "good", "doubtful" or "failed".
+const char* to_string(Verdict verdict);
+/// The verdict of that name; nothing for another text.
+std::optional<Verdict> verdict_of(std::string_view name);
+
+/// Judgement of a run by its own evidence, without ground truth.
+struct Judgement {
+  Verdict verdict = Verdict::kGood;  ///< how far the result can be trusted
+  bool metric = false;               ///< whether lengths are in metres, as far as the run shows
+  std::string why_metric;            ///< what gives the map its scale, or why it has none
+  std::vector<DataNote> findings;    ///< what is in doubt, each with its cause and what to try next
+  /// Standard deviation of the position of the last place relative to the first one of its
+  /// component, by the covariances of the place graph; nothing where it is not determined.
+  std::optional<double> expected_drift_m;
 };
 
 }  // namespace placegraph

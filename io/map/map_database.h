@@ -49,6 +49,11 @@ class MapDatabase {
 /// then by id; FileError if the file cannot be written.
 void write_map(const std::string& path, const StoredMap& stored);
 
+/// Writes the judgement of the finished run of a saved map; replaces an earlier one.
+///
+/// Throws FileError for a file that is not a saved map or cannot be written.
+void write_judgement(const std::string& path, const Judgement& judgement);
+
 /// Reads a saved map and checks everything: every reference, size and number.
 ///
 /// Throws FileError, one line with file, table and row, for a map that is damaged; with its version
@@ -62,6 +67,12 @@ MapOrigin read_map_origin(const std::string& path);
 ///
 /// Throws FileError for a file that is not a saved map.
 std::string check_map_file(const std::string& path);
+
+/// Compares every row of a saved map with its checksum.
+///
+/// Throws FileError, with table and row, where a byte of a row has changed since it was written.
+/// Maps of schema 1 and 2 have no checksums.
+void check_map_checksums(const std::string& path);
 
 /// Whether a file of this name is the saved map of an interrupted run.
 ///

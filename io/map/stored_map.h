@@ -1,6 +1,7 @@
 #pragma once
 #include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/map_changes.h>
+#include <placegraph/graph/measurements/data_note.h>
 
 #include <optional>
 #include <string>
@@ -8,7 +9,7 @@
 namespace [[gnu::visibility("default")]] placegraph {
 
 /// Version of the tables (`PRAGMA user_version`); newer versions are rejected.
-constexpr int kMapSchema = 2;
+constexpr int kMapSchema = 3;
 
 /// The recording, sensor and options from which a map was made.
 struct MapOrigin {
@@ -28,6 +29,8 @@ struct StoredMap {
   Map map;               ///< the map itself
   PlaceHistory history;  ///< input of Slam::resume; empty if no run can continue the map
   bool finished = true;  ///< false: the run that made it was interrupted
+  /// Judgement of the run; nothing if it was not written (write_judgement).
+  std::optional<Judgement> judgement = {};
 };
 
 }  // namespace placegraph

@@ -66,25 +66,25 @@ std::optional<DataNote> note_of_components(const Map& map) {
 }
 
 /// Share of the tracked landmarks that agrees with the poses of most frames; 0 without one.
-double usual_confidence(const std::vector<FrameHealth>& frames) {
+double usual_confidence(const std::vector<FrameRecord>& frames) {
   std::vector<double> confidences;
-  for (const FrameHealth& frame : frames)
+  for (const FrameRecord& frame : frames)
     if (frame.confidence) confidences.push_back(*frame.confidence);
   return confidences.empty() ? 0 : median_of(confidences);
 }
 
 /// Frames in which far fewer of the tracked landmarks agree with the pose than usual.
-std::optional<DataNote> note_of_confidence(const std::vector<FrameHealth>& frames) {
+std::optional<DataNote> note_of_confidence(const std::vector<FrameRecord>& frames) {
   constexpr double kOfUsual = 0.5, kShare = 0.01;
   const double usual = usual_confidence(frames);
-  const auto low = [&](const FrameHealth& frame) {
+  const auto low = [&](const FrameRecord& frame) {
     return frame.confidence && *frame.confidence < kOfUsual * usual;
   };
   const auto count = static_cast<double>(std::ranges::count_if(frames, low));
   const auto posed = static_cast<double>(
-      std::ranges::count_if(frames, [](const FrameHealth& f) { return f.confidence.has_value(); }));
+      std::ranges::count_if(frames, [](const FrameRecord& f) { return f.confidence.has_value(); }));
   if (count < 2 || count < kShare * posed) return std::nullopt;
-  const FrameHealth& first = *std::ranges::find_if(frames, low);
+  const FrameRecord& first = *std::ranges::find_if(frames, low);
   return DataNote{
       fmt::format("in {} frames less than half of the usual share of the tracked points "
                   "agrees with the pose; the first is frame {}",
@@ -94,7 +94,7 @@ std::optional<DataNote> note_of_confidence(const std::vector<FrameHealth>& frame
 }
 
 /// Spans of frames in which fewer of the tracked landmarks agree with the pose than usual.
-std::optional<DataNote> note_of_spans(const std::vector<FrameHealth>& frames) {
+std::optional<DataNote> note_of_spans(const std::vector<FrameRecord>& frames) {
   constexpr std::size_t kFrames = 10;
   constexpr double kOfUsual = 2.0 / 3;
   const double usual = usual_confidence(frames);
@@ -170,18 +170,6 @@ std::string scale_text(const RunResult& run) {
 
 }  // namespace
 
-const char* to_string(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::kGood:
-      return "good";
-    case Verdict::kDoubtful:
-      return "doubtful";
-    case Verdict::kFailed:
-      return "failed";
-  }
-  return "failed";
-}
-
 Judgement judge(const RunResult& run, const std::vector<DataNote>& notes, double min_posed) {
   Judgement judgement;
   const std::size_t frames = run.map.frames.size(), posed = tracked_frames(run.map);
@@ -205,8 +193,8 @@ Judgement judge(const RunResult& run, const std::vector<DataNote>& notes, double
     add(odd_steps(trajectory));
     add(odd_order(trajectory));
   }
-  add(note_of_confidence(run.frame_health));
-  add(note_of_spans(run.frame_health));
+  add(note_of_confidence(run.map.frames));
+  add(note_of_spans(run.map.frames));
   add(note_of_components(run.map));
   add(note_of_lost(run.map));
   if (!judgement.findings.empty() && judgement.verdict == Verdict::kGood)

@@ -155,19 +155,14 @@ std::string without_numbers(std::string text) {
   return text;
 }
 
-std::vector<UnposedFrames> unposed_frames(const Trajectory& optimized, const Map& map,
-                                          const std::vector<FrameHealth>& frames) {
+std::vector<UnposedFrames> unposed_frames(const Trajectory& optimized, const Map& map) {
   std::map<std::string, UnposedFrames> kinds;
   for (std::size_t i = 0; i < map.frames.size() && i < optimized.size(); ++i) {
-    const auto health =
-        std::ranges::lower_bound(frames, map.frames[i].frame, {}, &FrameHealth::frame);
-    if (optimized.poses[i].T_world_body || health == frames.end() ||
-        health->frame != map.frames[i].frame)
-      continue;
-    const std::string reason = !health->reason.empty() ? health->reason
-                               : map.frames[i].T_keyframe_frame
-                                   ? "not connected to the first component of the map"
-                                   : "the images contradict its pose";
+    const FrameRecord& frame = map.frames[i];
+    const bool posed_apart = frame.T_keyframe_frame.has_value();
+    if (optimized.poses[i].T_world_body || (frame.reason.empty() && !posed_apart)) continue;
+    const std::string reason =
+        posed_apart ? "not connected to the first component of the map" : frame.reason;
     UnposedFrames& kind = kinds[without_numbers(reason)];
     if (kind.count++ == 0) kind.reason = reason;
   }
@@ -262,7 +257,6 @@ class SequenceRun {
     if (database_ && stored.map.keyframes.empty()) database_->clear(origin());
     if (inputs_.events) inputs_.events->run_began();
     Slam slam(options_.slam, result_.calibration, slam_inputs(dataset_, options_, inputs_));
-    result_.frame_health.clear();
     const std::size_t first = go_on(stored, slam);
     FrameReader reader = this->reader();
     for (std::size_t i = first; i < end_; ++i) {
@@ -278,7 +272,6 @@ class SequenceRun {
         break;
       }
       const FrameResult done = slam.add_frame(frame);
-      result_.frame_health.push_back({frame.id, done.outcome.reason, done.confidence});
       if (inputs_.observer) inputs_.observer(frame, done, slam.view());
       if (inputs_.progress) inputs_.progress(i + 1 - begin_, end_ - begin_, done);
       if (restarts_without_overlay(slam)) return false;
@@ -294,8 +287,7 @@ class SequenceRun {
     }
     result_.lens_k1 = lens_.k1();
     result_.map = slam.finish();
-    result_.unposed =
-        unposed_frames(result_.map.trajectory_optimized(), result_.map, result_.frame_health);
+    result_.unposed = unposed_frames(result_.map.trajectory_optimized(), result_.map);
     if (inputs_.map_file) commit(slam, !result_.broken_off && !result_.stopped);
     result_.notes = slam.notes();
     if (is_clear(slam.lens(), options_.lens))

@@ -169,7 +169,7 @@ void Slam::Impl::leave_contradicted_map(FrameId frame) {
   const FrameId begin = recorder.frame_of(odometry.map().first());
   const FrameId first = contradicted.contradicted_from(begin).value();
   log(log_sink, LogLevel::kInfo, "frames from {} on: the images contradict their poses", first);
-  recorder.remove_poses(first);
+  recorder.remove_poses(first, "the images contradict its pose");
   contradicted.end_row();
   recovery.begin_apart(frame, odometry);
 }
@@ -199,6 +199,7 @@ FrameResult Slam::Impl::add_frame(const Frame& given) {
   // 4. The frame's pose, relative to a keyframe and as currently estimated.
   place(frame, located, update, result);
   recorder.finish(result.T_map_cam, result.component);
+  recorder.explain(result.confidence, result.outcome ? std::string() : result.outcome.reason);
   contradicted.add(frame.id, update.contradicted);
   health.add(frame, result, odometry);
   events.frame_done(result);
@@ -300,7 +301,7 @@ void Slam::Impl::add_keyframe(const NewKeyframe& keyframe, FrameResult& result) 
   }
   if (options.views.enabled) {
     const auto inner = times.measure("views of keyframes");
-    feed.keep_view(keyframe.id, keyframe.frame);
+    feed.keep_view(keyframe.id, keyframe.frame, odometry.map());
   }
   if (options.loops.enabled) close_loops(result);
 }

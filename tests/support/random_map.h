@@ -94,6 +94,9 @@ inline StoredMap random_map(Random& random, int places = 4, bool scaled = false)
                         random_features(random, random.index(20)),
                         1,
                         random_view(random)};
+      for (int l = random.index(3); l < 2500; l += 300 + random.index(200))
+        keyframe.observations.push_back({LandmarkId(l), Eigen::Vector2f::Random(), l % 2});
+      keyframe.thumbnail = std::string("\xff\xd8") + std::string(static_cast<std::size_t>(k), 'x');
       place.members.push_back({KeyframeId(id), keyframe.T_place_keyframe, keyframe.scale});
       PlaceHistory::Keyframe link{KeyframeId(id), anchor, p == 3 ? 1 : 0, {}};
       if (k > 0 || (p > 0 && p != 3))
@@ -127,15 +130,23 @@ inline StoredMap random_map(Random& random, int places = 4, bool scaled = false)
   for (std::int64_t f = 0; f < 3 * id; ++f) {
     FrameRecord record{FrameId(f), 100 * f, KeyframeId(f / 3), random_pose(random),
                        static_cast<int>(17 * f)};
-    if (f % 7 == 5) record = {FrameId(f), 100 * f, std::nullopt, std::nullopt, 0};
+    record.confidence = random.uniform();
+    if (f % 7 == 5) {
+      record = {FrameId(f), 100 * f, std::nullopt, std::nullopt, 0};
+      record.reason = "only 'few' points";
+    }
     map.frames.push_back(record);
     StampedPose& online = map.trajectory_online.poses.emplace_back();
     online.stamp_ns = 100 * f;
     if (record.T_keyframe_frame) online.T_world_body = random_pose(random).isometry();
   }
-  for (int l = 0; l < 2500; ++l)
-    map.landmarks.push_back({LandmarkId(l), KeyframeId(random.index(static_cast<int>(id))),
-                             Eigen::Vector3d::Random(), random.index(9)});
+  for (int l = 0; l < 2500; ++l) {
+    PointLandmark& landmark = map.landmarks.emplace_back();
+    landmark = {LandmarkId(l), KeyframeId(random.index(static_cast<int>(id))),
+                Eigen::Vector3d::Random(), random.index(9)};
+    if (l % 3 > 0) landmark.rgb = {static_cast<std::uint8_t>(l % 256), 7, 255};
+    if (l % 5 > 0) landmark.covariance = random_information<3>(random).cast<float>().cast<double>();
+  }
   map.loops.push_back({FrameId(9), FrameId(1), 33, LoopStage::kAccepted, random_pose(random),
                        LoopModel::kPoints3d2d, 4, 0.7, 0.9});
   map.loops.push_back({FrameId(10), FrameId(2), 0, LoopStage::kGeometry, {}});
@@ -149,6 +160,13 @@ inline StoredMap random_map(Random& random, int places = 4, bool scaled = false)
   if (places > 1)
     stored.history.motions.push_back({KeyframeId(0), stored.history.segments[1].anchor,
                                       random_pose(random), random_information<6>(random)});
+  Judgement& judgement = stored.judgement.emplace();
+  judgement.verdict = Verdict::kDoubtful;
+  judgement.why_metric = "by the baseline";
+  judgement.expected_drift_m = random.uniform();
+  judgement.findings.push_back(
+      {"the 'lens' is \xc3\xa4", true, NoteCause::kDistortion, "measure it"});
+  judgement.findings.push_back({"a jump", false, NoteCause::kJump});
   return stored;
 }
 

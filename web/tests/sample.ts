@@ -66,9 +66,8 @@ export function sampleRun(options: Partial<SampleOptions> = {}): Run {
     },
     judgement: {
       verdict: posed < o.frames ? "doubtful" : "good",
-      why_metric: o.metric
-        ? "The baseline of the stereo pair gives the scale."
-        : "One camera does not observe the scale.",
+      metric: o.metric,
+      why_metric: o.metric ? "by the baseline of 0.54 m" : "one camera alone does not observe the scale",
       expected_drift_m: 0.42,
       findings:
         posed < o.frames

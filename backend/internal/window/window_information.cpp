@@ -182,6 +182,34 @@ std::optional<Eigen::Matrix3d> plane_covariance(const SlidingWindow& window, Pla
   return Eigen::Matrix3d(root * root.transpose());
 }
 
+std::optional<Eigen::Matrix3d> landmark_covariance(const SlidingWindow& window,
+                                                   LandmarkId landmark) {
+  constexpr double kLeastCondition = 1e-12;
+  const WindowState& state = window.state();
+  const auto found = state.landmarks.find(landmark);
+  if (found == state.landmarks.end()) return std::nullopt;
+  Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
+  for (const WindowObservation& o : found->second.observations) {
+    const SE3& T_map_cam = state.keyframes.at(o.keyframe);
+    const Eigen::Matrix3d R_cam_map = T_map_cam.rotation().matrix().transpose();
+    const PointInCamera point(T_map_cam.rotation().matrix(), T_map_cam.translation(),
+                              found->second.p_map);
+    if (!point.projectable()) continue;
+    const Eigen::Matrix<double, 2, 3> J =
+        reprojection_of(state.camera, o).derivative(point.p_cam) * R_cam_map;
+    H += J.transpose() * J;
+    if (!o.inverse_depth) continue;
+    // d (1 / z) / dp
+    const double z = point.p_cam.z();
+    const Eigen::RowVector3d of_depth = -R_cam_map.row(2) / (z * z * o.sigma_inverse_depth);
+    H += of_depth.transpose() * of_depth;
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(H);
+  if (!(eigen.eigenvalues()[0] > kLeastCondition * eigen.eigenvalues()[2])) return std::nullopt;
+  return eigen.eigenvectors() * eigen.eigenvalues().cwiseInverse().asDiagonal() *
+         eigen.eigenvectors().transpose();
+}
+
 double sigma_log_length_ratio(const SlidingWindow& window, KeyframeId first, KeyframeId middle,
                               KeyframeId last) {
   const WindowState& state = window.state();

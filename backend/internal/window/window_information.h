@@ -48,6 +48,11 @@ std::optional<Eigen::Matrix3d> manhattan_covariance(const SlidingWindow& window,
 std::optional<Eigen::Matrix3d> plane_covariance(const SlidingWindow& window, PlaneId plane,
                                                 KeyframeId keyframe);
 
+/// Covariance of a landmark's position in the map, given the keyframes of the window.
+/// Empty if its observations in the window do not determine it.
+std::optional<Eigen::Matrix3d> landmark_covariance(const SlidingWindow& window,
+                                                   LandmarkId landmark);
+
 /// Standard deviation of log(|t_middle_last| / |t_first_middle|) of three keyframes.
 /// It measures the drift of the scale within the window if no measurement determines the scale, and
 /// is independent of the gauge. Infinite if two of the three have the same position. Throws

@@ -1,3 +1,4 @@
+#include <placegraph/graph/core/error.h>
 #include <placegraph/graph/internal/image/jpeg_codec.h>
 #include <placegraph/graph/internal/image/picture_size.h>
 
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <csetjmp>
 #include <cstdint>
+#include <cstdlib>
 #include <vector>
 
 namespace placegraph {
@@ -120,6 +122,48 @@ class JpegReader {
   jpeg_decompress_struct info_{};
 };
 
+/// Encodes an image into a buffer of its own.
+class JpegWriter {
+ public:
+  JpegWriter() {
+    info_.err = jpeg_std_error(&errors_.base);
+    errors_.base.error_exit = leave_jpeg;
+    errors_.base.output_message = ignore_jpeg_message;
+  }
+  ~JpegWriter() {
+    jpeg_destroy_compress(&info_);
+    std::free(bytes_);
+  }
+  JpegWriter(const JpegWriter&) = delete;
+  JpegWriter& operator=(const JpegWriter&) = delete;
+
+  bool encode(const Image& image, int quality) noexcept {
+    if (setjmp(errors_.jump)) return false;
+    jpeg_create_compress(&info_);
+    jpeg_mem_dest(&info_, &bytes_, &size_);
+    info_.image_width = static_cast<JDIMENSION>(image.cols);
+    info_.image_height = static_cast<JDIMENSION>(image.rows);
+    info_.input_components = image.channels();
+    info_.in_color_space = image.channels() == 1 ? JCS_GRAYSCALE : JCS_EXT_BGR;
+    jpeg_set_defaults(&info_);
+    jpeg_set_quality(&info_, quality, TRUE);
+    jpeg_start_compress(&info_, TRUE);
+    while (info_.next_scanline < info_.image_height) {
+      auto* row = const_cast<JSAMPROW>(image.ptr(static_cast<int>(info_.next_scanline)));
+      (void)jpeg_write_scanlines(&info_, &row, 1);
+    }
+    jpeg_finish_compress(&info_);
+    return true;
+  }
+  std::string_view bytes() const { return {reinterpret_cast<const char*>(bytes_), size_}; }
+
+ private:
+  JpegErrors errors_{};
+  jpeg_compress_struct info_{};
+  unsigned char* bytes_ = nullptr;
+  unsigned long size_ = 0;  // NOLINT(google-runtime-int): libjpeg's type
+};
+
 /// Whether that number of bytes can contain that number of pixels: a block of 8x8 takes one bit at
 /// least.
 bool can_hold_blocks(std::size_t file_bytes, const JpegReader& reader) {
@@ -159,6 +203,15 @@ Image decode_jpeg(std::string_view bytes) {
     if (!inks.empty()) inks_to_bgr(inks, image.ptr(v));
   }
   return reader.finish() ? image : Image();
+}
+
+std::string encode_jpeg(const Image& image, int quality) {
+  require(!image.empty() && (image.type() == CV_8UC1 || image.type() == CV_8UC3),
+          "encode_jpeg: the image must be CV_8UC1 or CV_8UC3");
+  require(quality >= 1 && quality <= 100, "encode_jpeg: quality must be from 1 to 100");
+  JpegWriter writer;
+  require(writer.encode(image, quality), "encode_jpeg: the image is too large");
+  return std::string(writer.bytes());
 }
 
 }  // namespace placegraph

@@ -1,6 +1,7 @@
 #pragma once
 #include <placegraph/graph/image/image.h>
 
+#include <string>
 #include <string_view>
 
 namespace placegraph {
@@ -18,5 +19,9 @@ bool is_truncated_jpeg(std::string_view bytes);
 /// are converted to colours. The pixels are those of OpenCV's imdecode; the EXIF orientation is not
 /// applied.
 Image decode_jpeg(std::string_view bytes);
+
+/// The bytes of a JPEG file, baseline, of a CV_8UC1 or CV_8UC3 BGR image; `quality` from 1 to 100.
+/// Throws ArgumentError for another type or an empty image.
+std::string encode_jpeg(const Image& image, int quality);
 
 }  // namespace placegraph

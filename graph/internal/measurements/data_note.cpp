@@ -50,4 +50,28 @@ const char* to_string(NoteCause cause) {
   return "none";
 }
 
+std::optional<NoteCause> note_cause_of(std::string_view code) {
+  for (int cause = 0; cause <= static_cast<int>(NoteCause::kDrift); ++cause)
+    if (code == to_string(static_cast<NoteCause>(cause))) return static_cast<NoteCause>(cause);
+  return std::nullopt;
+}
+
+const char* to_string(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kGood:
+      return "good";
+    case Verdict::kDoubtful:
+      return "doubtful";
+    case Verdict::kFailed:
+      return "failed";
+  }
+  return "failed";
+}
+
+std::optional<Verdict> verdict_of(std::string_view name) {
+  for (const Verdict verdict : {Verdict::kGood, Verdict::kDoubtful, Verdict::kFailed})
+    if (name == to_string(verdict)) return verdict;
+  return std::nullopt;
+}
+
 }  // namespace placegraph

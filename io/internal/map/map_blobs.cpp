@@ -46,6 +46,31 @@ void BlobWriter::landmarks(const PointLandmark* begin, std::size_t count) {
   }
 }
 
+void BlobWriter::colours(const PointLandmark* begin, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::optional<std::array<std::uint8_t, 3>>& rgb = begin[i].rgb;
+    for (std::size_t k = 0; k < 3; ++k) number(rgb ? (*rgb)[k] : std::uint8_t{0});
+    number(static_cast<std::uint8_t>(rgb.has_value()));
+  }
+}
+
+void BlobWriter::covariances(const PointLandmark* begin, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const Eigen::Matrix3d covariance = begin[i].covariance.value_or(Eigen::Matrix3d::Zero());
+    for (int j = 0; j < 3; ++j)
+      for (int k = j; k < 3; ++k) number(static_cast<float>(covariance(j, k)));
+  }
+}
+
+void BlobWriter::observations(const std::vector<LandmarkObservation>& observations) {
+  for (const LandmarkObservation& observation : observations) {
+    number(observation.landmark.value());
+    number(observation.px.x());
+    number(observation.px.y());
+    number(static_cast<std::uint8_t>(observation.camera));
+  }
+}
+
 void BlobWriter::words(const Appearance& appearance) {
   for (const auto& [word, weight] : appearance.words) {
     number(word);
@@ -157,6 +182,39 @@ std::vector<PointLandmark> BlobReader::landmarks(std::size_t count) {
     landmark.observations = number<std::int32_t>();
   }
   return landmarks;
+}
+
+void BlobReader::colours(std::vector<PointLandmark>& landmarks) {
+  for (PointLandmark& landmark : landmarks) {
+    std::array<std::uint8_t, 3> rgb{};
+    for (std::uint8_t& value : rgb) value = number<std::uint8_t>();
+    if (number<std::uint8_t>() != 0) landmark.rgb = rgb;
+  }
+}
+
+void BlobReader::covariances(std::vector<PointLandmark>& landmarks) {
+  for (PointLandmark& landmark : landmarks) {
+    Eigen::Matrix3d covariance;
+    for (int j = 0; j < 3; ++j)
+      for (int k = j; k < 3; ++k)
+        covariance(j, k) = covariance(k, j) = finite<float>("a landmark's covariance");
+    if (!covariance.isZero(0)) landmark.covariance = covariance;
+  }
+}
+
+std::vector<LandmarkObservation> BlobReader::observations(std::size_t count) {
+  require_left(count, kObservationBytes);
+  std::vector<LandmarkObservation> observations(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    LandmarkObservation& observation = observations[i];
+    observation.landmark = LandmarkId(number<std::int64_t>());
+    observation.px.x() = finite<float>("an observation's pixel");
+    observation.px.y() = finite<float>("an observation's pixel");
+    observation.camera = number<std::uint8_t>();
+    if (i > 0 && observations[i - 1].landmark >= observation.landmark)
+      throw ArgumentError("its landmarks are not in ascending order");
+  }
+  return observations;
 }
 
 Appearance BlobReader::words(std::size_t count) {

@@ -27,6 +27,9 @@ class BlobWriter {
   }
   void features(const std::vector<Feature>& features);  ///< kFeatureBytes each
   void landmarks(const PointLandmark* begin, std::size_t count);
+  void colours(const PointLandmark* begin, std::size_t count);
+  void covariances(const PointLandmark* begin, std::size_t count);
+  void observations(const std::vector<LandmarkObservation>& observations);
   void words(const Appearance& appearance);
   void view(const PlaceView& view);
 
@@ -36,7 +39,8 @@ class BlobWriter {
 };
 
 constexpr std::size_t kPoseBytes = 56, kSimilarityBytes = 64, kMatrixBytes = 96;
-constexpr std::size_t kFeatureBytes = 60, kLandmarkBytes = 44, kWordBytes = 8;
+constexpr std::size_t kFeatureBytes = 60, kLandmarkBytes = 44, kWordBytes = 8, kColourBytes = 4,
+                      kCovarianceBytes = 24, kObservationBytes = 17;
 
 class BlobReader {
  public:
@@ -47,6 +51,10 @@ class BlobReader {
   Information symmetric(int size);
   std::vector<Feature> features(std::size_t count);
   std::vector<PointLandmark> landmarks(std::size_t count);
+  /// Sets the colours, or covariances, of landmarks that have been read.
+  void colours(std::vector<PointLandmark>& landmarks);
+  void covariances(std::vector<PointLandmark>& landmarks);
+  std::vector<LandmarkObservation> observations(std::size_t count);
   Appearance words(std::size_t count);
   PlaceView view();
   /// Throws unless all bytes have been read.

@@ -33,8 +33,7 @@ void replace(const std::string& fresh, const std::string& path) {
 }
 
 void insert_camera(SqliteDatabase& database, std::int64_t id, const Camera& camera) {
-  SqliteStatement put(database,
-                      "INSERT INTO camera VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  SqliteStatement put(database, MapTable::put_sql("camera", 13));
   put << id << std::int64_t{camera.width} << std::int64_t{camera.height} << camera.fx << camera.fy
       << camera.cx << camera.cy << static_cast<std::int64_t>(camera.distortion);
   for (const double coefficient : camera.coefficients) put << coefficient;
@@ -46,7 +45,7 @@ void write_origin(SqliteDatabase& database, const MapOrigin& origin) {
   database.execute("DELETE FROM origin");
   database.execute("DELETE FROM camera");
   SqliteStatement put(
-      database, "INSERT INTO origin VALUES (1, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, 0, 10, 0, 0, 0)");
+      database, "INSERT INTO origin VALUES (1, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, 0, 10, 0, 0, 0, 0)");
   put.text(origin.sequence) << static_cast<std::int64_t>(origin.sensor);
   put.text(origin.options).text(origin.view_options);
   put << origin.lens_k1 << std::int64_t{origin.lens_pass};
@@ -61,6 +60,7 @@ void write_origin(SqliteDatabase& database, const MapOrigin& origin) {
     put.null().null();
   }
   put.run();
+  update_checksums(database, "origin");
   if (!calibration) return;
   insert_camera(database, 1, calibration->camera);
   if (calibration->depth) insert_camera(database, 2, calibration->depth->camera);
@@ -119,6 +119,26 @@ void MapDatabase::finish(const MapChanges& changes) {
 
 void MapDatabase::close() { writer_.reset(); }
 
+void write_judgement(const std::string& path, const Judgement& judgement) {
+  SqliteDatabase database(path, SqliteDatabase::Access::kWrite);
+  check_map_schema(database);
+  upgrade_map_schema(database);
+  database.execute("BEGIN IMMEDIATE; DELETE FROM judgement; DELETE FROM finding");
+  MapRow row;
+  row.text(to_string(judgement.verdict)).integer(judgement.metric).text(judgement.why_metric);
+  judgement.expected_drift_m ? row.real(*judgement.expected_drift_m) : row.null();
+  MapTable(database, "judgement", "id", 5).write(1, row);
+  MapTable findings(database, "finding", "number", 5);
+  std::int64_t number = 0;
+  for (const DataNote& finding : judgement.findings)
+    findings.write(number++, MapRow()
+                                 .text(to_string(finding.cause))
+                                 .text(finding.text)
+                                 .integer(finding.doubts_scale)
+                                 .text(finding.advice));
+  database.execute("COMMIT");
+}
+
 void write_map(const std::string& path, const StoredMap& stored) {
   const Map& map = stored.map;
   MapChanges changes;
@@ -130,6 +150,9 @@ void write_map(const std::string& path, const StoredMap& stored) {
   for (const RelativePoseConstraint& constraint : map.place_graph.constraints)
     changes.constraints.push_back({0, number++, constraint});
   changes.keyframes = map.keyframes;
+  for (const Keyframe& keyframe : map.keyframes)
+    if (!keyframe.observations.empty())
+      changes.observations.emplace_back(keyframe.id, keyframe.observations);
   changes.frames = map.frames;
   changes.online = map.trajectory_online.poses;
   changes.landmarks = map.landmarks;
@@ -142,6 +165,7 @@ void write_map(const std::string& path, const StoredMap& stored) {
     MapDatabase database(MapDatabase::made(fresh, stored.origin, true));
     if (stored.finished) {
       database.finish(changes);
+      if (stored.judgement) write_judgement(fresh, *stored.judgement);
     } else {
       database.commit(changes);
       database.close();

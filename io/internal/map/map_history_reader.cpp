@@ -10,20 +10,21 @@ namespace {
 void read_links(SqliteDatabase& database, StoredMap& stored) {
   {
     auto& measured = stored.history.scale_measured;
-    SqliteRows track_segments(database, "run", "number, unit_measured");
+    SqliteRows track_segments(database, "track_segment", "number, scale_measured");
     while (track_segments.next()) {
       require_next(track_segments, measured.size());
       measured.push_back(track_segments.integer(1, 0, 1) == 1);
     }
   }
   const auto track_segments = static_cast<std::int64_t>(stored.history.scale_measured.size());
-  SqliteRows rows(database, "link",
-                  "keyframe, part, run, from_keyframe, T_from_this, information, source, "
-                  "sigma_log_scale, scale");
+  SqliteRows rows(
+      database, "link",
+      "keyframe, segment, track_segment, from_keyframe, T_from_this, information, source, "
+      "sigma_log_scale, scale");
   while (rows.next()) {
     PlaceHistory::Keyframe keyframe;
     keyframe.id = keyframe_of(stored, rows, rows.integer(0), "keyframe").id;
-    keyframe.segment = keyframe_of(stored, rows, rows.integer(1), "part").id;
+    keyframe.segment = keyframe_of(stored, rows, rows.integer(1), "segment").id;
     keyframe.track_segment = static_cast<int>(rows.integer(2, 0, track_segments - 1));
     if (!rows.is_null(3)) {
       KeyframeLink& link = keyframe.link.emplace();
@@ -39,15 +40,16 @@ void read_links(SqliteDatabase& database, StoredMap& stored) {
   }
 }
 
-std::set<KeyframeId> read_parts(SqliteDatabase& database, StoredMap& stored) {
+std::set<KeyframeId> read_segments(SqliteDatabase& database, StoredMap& stored) {
   std::set<KeyframeId> segments;
   PlaceHistory& history = stored.history;
-  SqliteRows rows(database, "part", "anchor, place, S_place_part, covariance, motion_covariance");
+  SqliteRows rows(database, "segment",
+                  "anchor, place, S_place_segment, covariance, motion_covariance");
   while (rows.next()) {
     PlaceHistory::Segment& segment = history.segments.emplace_back();
     segment.anchor = keyframe_of(stored, rows, rows.integer(0), "anchor").id;
     segment.place = place_of(stored, rows, rows.integer(1), "place").id;
-    segment.S_place_segment = similarity_column(rows, 2, "S_place_part");
+    segment.S_place_segment = similarity_column(rows, 2, "S_place_segment");
     segment.covariance = symmetric_column(rows, 3, "covariance", 7);
     if (!rows.is_null(4))
       segment.motion_covariance = symmetric_column(rows, 4, "motion_covariance", 6);
@@ -57,28 +59,28 @@ std::set<KeyframeId> read_parts(SqliteDatabase& database, StoredMap& stored) {
   if (!history.keyframes.empty() && history.keyframes.size() != keyframes)
     throw FileError(database.path(), "table link: " + std::to_string(history.keyframes.size()) +
                                          " rows for " + std::to_string(keyframes) + " keyframes");
-  SqliteRows links(database, "link", "keyframe, part");
+  SqliteRows links(database, "link", "keyframe, segment");
   while (links.next())
     if (!segments.count(KeyframeId(links.integer(1))))
-      links.refuse("part " + std::to_string(links.integer(1)) + " is not a part of the map");
+      links.refuse("segment " + std::to_string(links.integer(1)) + " is not a segment of the map");
   return segments;
 }
 
 void read_motions(SqliteDatabase& database, StoredMap& stored,
                   const std::set<KeyframeId>& segments) {
   PlaceHistory& history = stored.history;
-  SqliteRows motions(database, "motion", "number, from_part, to_part, T_from_to, covariance");
+  SqliteRows motions(database, "motion", "number, from_segment, to_segment, T_from_to, covariance");
   while (motions.next()) {
     require_next(motions, history.motions.size());
     PlaceHistory::Motion& motion = history.motions.emplace_back();
     motion.from = KeyframeId(motions.integer(1));
     motion.to = KeyframeId(motions.integer(2));
     if (!segments.count(motion.from) || !segments.count(motion.to))
-      motions.refuse("its ends are not parts of the map");
+      motions.refuse("its ends are not segments of the map");
     motion.T_from_to = pose_column(motions, 3, "T_from_to");
     motion.covariance = symmetric_column(motions, 4, "covariance", 6);
   }
-  SqliteRows rows(database, "revisit", "number, query, match, S_match_query, information");
+  SqliteRows rows(database, "loop_constraint", "number, query, match, S_match_query, information");
   while (rows.next()) {
     require_next(rows, history.loops.size());
     Loop& loop = history.loops.emplace_back();
@@ -100,19 +102,19 @@ void read_mergers(SqliteDatabase& database, StoredMap& stored,
       require_next(rows, history.merged.size());
       const KeyframeId anchor(rows.integer(1));
       history.merged.push_back({anchor, {}});
-      if (!segments.count(anchor)) rows.refuse("anchor is not a part of the map");
+      if (!segments.count(anchor)) rows.refuse("anchor is not a segment of the map");
     }
   }
   const auto mergers = static_cast<std::int64_t>(history.merged.size());
-  SqliteRows rows(database, "merged_part", "number, merged, part, covariance");
+  SqliteRows rows(database, "merged_segment", "number, merged, segment, covariance");
   while (rows.next()) {
     const KeyframeId segment(rows.integer(2));
     if (!segments.count(segment))
-      rows.refuse("part " + to_string(segment) + " is not a part of the map");
+      rows.refuse("segment " + to_string(segment) + " is not a segment of the map");
     history.merged[static_cast<std::size_t>(rows.integer(1, 0, mergers - 1))]
         .covariance_of_segment[segment] = symmetric_column(rows, 3, "covariance", 7);
   }
-  SqliteRows separated(database, "parted", "number, one, other");
+  SqliteRows separated(database, "separated", "number, one, other");
   while (separated.next())
     history.separated.emplace(keyframe_of(stored, separated, separated.integer(1), "one").id,
                               keyframe_of(stored, separated, separated.integer(2), "other").id);
@@ -122,7 +124,7 @@ void read_mergers(SqliteDatabase& database, StoredMap& stored,
 
 void read_history(SqliteDatabase& database, StoredMap& stored) {
   read_links(database, stored);
-  const std::set<KeyframeId> segments = read_parts(database, stored);
+  const std::set<KeyframeId> segments = read_segments(database, stored);
   read_motions(database, stored, segments);
   read_mergers(database, stored, segments);
 }

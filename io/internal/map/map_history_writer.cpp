@@ -6,15 +6,15 @@ namespace placegraph {
 
 MapHistoryWriter::MapHistoryWriter(SqliteDatabase& database)
     : links_(database, "link", "keyframe", 9),
-      segments_(database, "part", "anchor", 5),
+      segments_(database, "segment", "anchor", 5),
       motions_(database, "motion", "number", 5),
-      revisits_(database, "revisit", "number", 5),
-      track_segments_(database, "run", "number", 2),
+      revisits_(database, "loop_constraint", "number", 5),
+      track_segments_(database, "track_segment", "number", 2),
       merged_(database, "merged", "number", 2),
-      merged_segments_(database, "merged_part", "number", 4),
-      separated_(database, "parted", "number", 3) {
+      merged_segments_(database, "merged_segment", "number", 4),
+      separated_(database, "separated", "number", 3) {
   merged_.take_keys(database, "number merged");
-  merged_segments_.take_keys(database, "number merged_part");
+  merged_segments_.take_keys(database, "number merged_segment");
 }
 
 void MapHistoryWriter::put(const PlaceHistory& history) {

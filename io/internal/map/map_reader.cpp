@@ -168,6 +168,22 @@ void MapReader::read_views() {
   }
 }
 
+void MapReader::read_thumbnails() {
+  SqliteRows rows(database_, "thumbnail", "keyframe, data");
+  while (rows.next())
+    keyframe_of(stored_, rows, rows.integer(0), "keyframe").thumbnail = rows.blob(1);
+}
+
+void MapReader::read_observations() {
+  SqliteRows rows(database_, "observations", "keyframe, count, data");
+  while (rows.next()) {
+    const auto count = static_cast<std::size_t>(rows.integer(1, 0, kMost));
+    keyframe_of(stored_, rows, rows.integer(0), "keyframe").observations =
+        decoded(rows, rows.blob(2, count * kObservationBytes), "data",
+                [&](BlobReader& reader) { return reader.observations(count); });
+  }
+}
+
 void MapReader::read_edges() {
   SqliteRows rows(database_, "edge",
                   "kind || ':' || number, from_place, to_place, source, kernel, kernel_width, "
@@ -200,8 +216,8 @@ void MapReader::read_edges() {
 void MapReader::read_frames() {
   Map& map = stored_.map;
   SqliteRows rows(database_, "frame",
-                  std::string("number, frame, stamp_ns, keyframe, T_keyframe_frame, ") +
-                      (schema_ >= 2 ? "inliers" : "0"));
+                  "number, frame, stamp_ns, keyframe, T_keyframe_frame, inliers, confidence, "
+                  "reason");
   while (rows.next()) {
     require_next(rows, map.frames.size());
     FrameRecord record;
@@ -210,6 +226,8 @@ void MapReader::read_frames() {
     if (const std::int64_t keyframe = rows.integer(3, -1); keyframe >= 0)
       record.keyframe = KeyframeId(keyframe);
     record.inliers = static_cast<int>(rows.integer(5, 0, kMost));
+    if (!rows.is_null(6)) record.confidence = rows.real(6);
+    record.reason = rows.text(7);
     if (!rows.is_null(4)) {
       record.T_keyframe_frame = pose_column(rows, 4, "T_keyframe_frame");
       (void)keyframe_of(stored_, rows, rows.integer(3), "keyframe");
@@ -237,8 +255,8 @@ void MapReader::read_frames() {
 void MapReader::read_loops() {
   SqliteRows rows(
       database_, "loop",
-      std::string("number, query_frame, match_frame, inliers, accepted, stage, T_match_query, ") +
-          (schema_ >= 2 ? "model, lines, likeness, probability" : "'none', 0, 0.0, 0.0"));
+      "number, query_frame, match_frame, inliers, accepted, stage, T_match_query, model, lines, "
+      "similarity, probability");
   while (rows.next()) {
     require_next(rows, stored_.map.loops.size());
     LoopRecord& loop = stored_.map.loops.emplace_back();
@@ -258,22 +276,52 @@ void MapReader::read_loops() {
     loop.similarity = rows.real(9);
     loop.probability = rows.real(10);
     if (loop.similarity < 0 || loop.probability < 0 || loop.probability > 1)
-      rows.refuse("likeness or probability: out of range");
+      rows.refuse("similarity or probability: out of range");
   }
 }
 
 void MapReader::read_landmarks() {
   auto& landmarks = stored_.map.landmarks;
-  SqliteRows rows(database_, "landmarks", "number, count, data");
+  SqliteRows rows(database_, "landmarks", "number, count, data, colours, covariances");
   std::size_t number = 0;
   while (rows.next()) {
     require_next(rows, number++);
     const auto count = static_cast<std::size_t>(rows.integer(1, 0, kMost));
-    const auto more = decoded(rows, rows.blob(2, count * kLandmarkBytes), "data",
-                              [&](BlobReader& reader) { return reader.landmarks(count); });
+    auto more = decoded(rows, rows.blob(2, count * kLandmarkBytes), "data",
+                        [&](BlobReader& reader) { return reader.landmarks(count); });
+    if (!rows.is_null(3))
+      decoded(rows, rows.blob(3, count * kColourBytes), "colours", [&](BlobReader& reader) {
+        reader.colours(more);
+        return true;
+      });
+    if (!rows.is_null(4))
+      decoded(rows, rows.blob(4, count * kCovarianceBytes), "covariances", [&](BlobReader& reader) {
+        reader.covariances(more);
+        return true;
+      });
     for (const PointLandmark& landmark : more)
       (void)keyframe_of(stored_, rows, landmark.keyframe.value(), "keyframe");
     landmarks.insert(landmarks.end(), more.begin(), more.end());
+  }
+}
+
+void MapReader::read_judgement() {
+  SqliteRows rows(database_, "judgement", "id, verdict, metric, why_metric, expected_drift_m");
+  if (!rows.next()) return;
+  Judgement& judgement = stored_.judgement.emplace();
+  const auto verdict = verdict_of(rows.text(1));
+  if (!verdict) rows.refuse("verdict: not a verdict: " + std::string(rows.text(1)));
+  judgement.verdict = *verdict;
+  judgement.metric = rows.integer(2, 0, 1) == 1;
+  judgement.why_metric = rows.text(3);
+  if (!rows.is_null(4)) judgement.expected_drift_m = rows.real(4);
+  SqliteRows findings(database_, "finding", "number, cause, text, doubts_scale, advice");
+  while (findings.next()) {
+    require_next(findings, judgement.findings.size());
+    const auto cause = note_cause_of(findings.text(1));
+    if (!cause) findings.refuse("cause: not a cause: " + std::string(findings.text(1)));
+    judgement.findings.push_back({std::string(findings.text(2)), findings.integer(3, 0, 1) == 1,
+                                  *cause, std::string(findings.text(4))});
   }
 }
 
@@ -289,6 +337,12 @@ std::string check_map_file(const std::string& path) {
   constexpr std::size_t kMost = 200;  // characters
   if (found.size() > kMost) found = found.substr(0, kMost) + " ...";
   return found;
+}
+
+void check_map_checksums(const std::string& path) {
+  SqliteDatabase database(path, SqliteDatabase::Access::kRead);
+  check_map_schema(database);
+  if (database.integer("PRAGMA user_version") >= 3) check_checksums(database);
 }
 
 bool is_unfinished_map(const std::string& path) {

@@ -5,16 +5,14 @@
 #include <placegraph/io/map/stored_map.h>
 
 #include <limits>
+#include <memory>
 
 namespace placegraph {
 
 /// Reads the tables in turn; references to other tables are checked against the rows already read.
 class MapReader {
  public:
-  explicit MapReader(const std::string& path) : database_(path, SqliteDatabase::Access::kRead) {
-    check_map_schema(database_);
-    schema_ = database_.integer("PRAGMA user_version");
-  }
+  explicit MapReader(const std::string& path) : opened_(open_present_schema(path)) {}
 
   StoredMap read() {
     read_origin();
@@ -23,11 +21,14 @@ class MapReader {
     read_members();
     read_appearances();
     read_views();
+    read_thumbnails();
+    read_observations();
     read_edges();
     read_frames();
     read_loops();
     read_landmarks();
     read_history(database_, stored_);
+    read_judgement();
     return std::move(stored_);
   }
   MapOrigin origin() {
@@ -44,14 +45,17 @@ class MapReader {
   void read_members();
   void read_appearances();
   void read_views();
+  void read_thumbnails();
+  void read_observations();
   void read_edges();
   void read_frames();
   void read_loops();
   void read_landmarks();
+  void read_judgement();
 
   static constexpr std::int64_t kMost = std::numeric_limits<int>::max();
-  SqliteDatabase database_;
-  std::int64_t schema_ = 0;
+  std::unique_ptr<SqliteDatabase> opened_;
+  SqliteDatabase& database_ = *opened_;
   StoredMap stored_;
 };
 

@@ -116,12 +116,15 @@ class MapTable {
   }
   void forget() { written_.clear(); }
 
- private:
+  /// The last column of a table is the checksum of the others.
   static std::string put_sql(const std::string& name, int columns) {
-    std::string sql = "INSERT OR REPLACE INTO " + name + " VALUES (?";
-    for (int i = 1; i < columns; ++i) sql += ", ?";
-    return sql + ")";
+    std::string values = "?1";
+    for (int i = 2; i <= columns; ++i) values += ", ?" + std::to_string(i);
+    return "INSERT OR REPLACE INTO " + name + " VALUES (" + values + ", row_checksum(" + values +
+           "))";
   }
+
+ private:
   SqliteStatement put_, erase_;
   std::map<std::int64_t, MapRow> written_;
 };

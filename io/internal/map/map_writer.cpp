@@ -55,6 +55,8 @@ void MapWriter::put_keyframes(const MapChanges& changes) {
     features.write(
         keyframe.id.value(),
         MapRow().integer(static_cast<std::int64_t>(keyframe.features.size())).blob(bytes));
+    if (!keyframe.thumbnail.empty())
+      thumbnails.write(keyframe.id.value(), MapRow().blob(keyframe.thumbnail));
     if (keyframe.view.empty()) continue;
     bytes.clear();
     BlobWriter(bytes).view(keyframe.view);
@@ -75,6 +77,15 @@ void MapWriter::put_keyframes(const MapChanges& changes) {
     }
 }
 
+void MapWriter::put_observations(const MapChanges& changes) {
+  for (const auto& [keyframe, seen] : changes.observations) {
+    std::string bytes;
+    BlobWriter(bytes).observations(seen);
+    observations.write(keyframe.value(),
+                       MapRow().integer(static_cast<std::int64_t>(seen.size())).blob(bytes));
+  }
+}
+
 void MapWriter::put_frames(const MapChanges& changes) {
   auto number = static_cast<std::int64_t>(changes.first_frame);
   for (const FrameRecord& record : changes.frames) {
@@ -83,6 +94,8 @@ void MapWriter::put_frames(const MapChanges& changes) {
     row.integer(record.keyframe ? record.keyframe->value() : -1);
     record.T_keyframe_frame ? row.pose(*record.T_keyframe_frame) : row.null();
     row.integer(record.inliers);
+    record.confidence ? row.real(*record.confidence) : row.null();
+    row.text(record.reason);
     frames.write(number++, row);
   }
   number = static_cast<std::int64_t>(changes.first_frame);
@@ -137,10 +150,17 @@ void MapWriter::put_landmarks(const MapChanges& changes) {
   require(first % kLandmarksARow == 0, "map: landmarks begin within a row");
   for (std::size_t i = 0; i < changes.landmarks.size(); i += kLandmarksARow) {
     const std::size_t count = std::min(kLandmarksARow, changes.landmarks.size() - i);
-    std::string bytes;
-    BlobWriter(bytes).landmarks(changes.landmarks.data() + i, count);
+    const PointLandmark* begin = changes.landmarks.data() + i;
+    std::string positions, colours, covariances;
+    BlobWriter(positions).landmarks(begin, count);
+    BlobWriter(colours).colours(begin, count);
+    BlobWriter(covariances).covariances(begin, count);
     landmarks.write(static_cast<std::int64_t>((first + i) / kLandmarksARow),
-                    MapRow().integer(static_cast<std::int64_t>(count)).blob(bytes));
+                    MapRow()
+                        .integer(static_cast<std::int64_t>(count))
+                        .blob(positions)
+                        .blob(colours)
+                        .blob(covariances));
   }
   const std::size_t end = first + changes.landmarks.size();
   const auto rows = static_cast<std::int64_t>((end + kLandmarksARow - 1) / kLandmarksARow);
@@ -151,6 +171,7 @@ void MapWriter::commit(const MapChanges& changes, bool finished) {
   database.execute("BEGIN IMMEDIATE");
   try {
     put_keyframes(changes);
+    put_observations(changes);
     put_places(changes);
     put_frames(changes);
     put_constraints(changes);
@@ -163,6 +184,7 @@ void MapWriter::commit(const MapChanges& changes, bool finished) {
            << changes.history.founded << static_cast<std::int64_t>(changes.history.judged_loops)
            << std::int64_t{finished};
     origin.run();
+    update_checksums(database, "origin");
     database.execute("COMMIT");
   } catch (...) {
     try {

@@ -23,12 +23,14 @@ struct MapWriter {
         keyframes(database, "keyframe", "id", 6),
         features(database, "features", "keyframe", 3),
         views(database, "view", "keyframe", 2),
-        frames(database, "frame", "number", 6),
+        thumbnails(database, "thumbnail", "keyframe", 2),
+        observations(database, "observations", "keyframe", 3),
+        frames(database, "frame", "number", 8),
         online(database, "online", "number", 3),
         loops(database, "loop", "number", 11),
-        landmarks(database, "landmarks", "number", 3),
+        landmarks(database, "landmarks", "number", 5),
         history(database),
-        put_edge(database, "INSERT OR REPLACE INTO edge VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)"),
+        put_edge(database, MapTable::put_sql("edge", 9)),
         erase_edge(database, "DELETE FROM edge WHERE kind = ? AND number = ?") {
     places.take_keys(database, "id place");
     SqliteRows known(database, "keyframe", "id, frame, stamp_ns");
@@ -52,13 +54,14 @@ struct MapWriter {
   void commit(const MapChanges& changes, bool finished);
   void put_places(const MapChanges& changes);
   void put_keyframes(const MapChanges& changes);
+  void put_observations(const MapChanges& changes);
   void put_frames(const MapChanges& changes);
   void put_constraints(const MapChanges& changes);
   void put_landmarks(const MapChanges& changes);
 
   SqliteDatabase database;
-  MapTable places, labels, appearances, keyframes, features, views, frames, online, loops,
-      landmarks;
+  MapTable places, labels, appearances, keyframes, features, views, thumbnails, observations,
+      frames, online, loops, landmarks;
   MapHistoryWriter history;
   SqliteStatement put_edge, erase_edge;
   std::map<KeyframeId, std::pair<FrameId, std::int64_t>> keyframe_times;  // frame, stamp

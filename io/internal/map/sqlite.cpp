@@ -1,14 +1,51 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/internal/map/sqlite.h>
 #include <sqlite3.h>
+#include <zlib.h>
 
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 namespace placegraph {
 namespace {
 
 constexpr int kBusyTimeoutMs = 200;  // for another program that has the file
+
+/// Adds type, length and bytes of a value to a CRC-32.
+uLong add_to_checksum(uLong crc, sqlite3_value* value) {
+  const int type = sqlite3_value_type(value);
+  const auto add = [&](const void* bytes, std::size_t size) {
+    crc = crc32_z(crc, static_cast<const Bytef*>(bytes), size);
+  };
+  const auto kind = static_cast<std::uint8_t>(type);
+  add(&kind, sizeof(kind));
+  if (type == SQLITE_INTEGER) {
+    const std::int64_t number = sqlite3_value_int64(value);
+    add(&number, sizeof(number));
+  } else if (type == SQLITE_FLOAT) {
+    const double number = sqlite3_value_double(value);
+    add(&number, sizeof(number));
+  } else if (type != SQLITE_NULL) {
+    const void* bytes = type == SQLITE_TEXT ? sqlite3_value_text(value) : sqlite3_value_blob(value);
+    const auto size = static_cast<std::uint64_t>(sqlite3_value_bytes(value));
+    add(&size, sizeof(size));
+    if (size > 0) add(bytes, size);
+  }
+  return crc;
+}
+
+void row_checksum(sqlite3_context* context, int count, sqlite3_value** values) {
+  uLong crc = crc32_z(0, nullptr, 0);
+  for (int i = 0; i < count; ++i) crc = add_to_checksum(crc, values[i]);
+  sqlite3_result_int64(context, static_cast<std::int64_t>(crc));
+}
+
+void add_functions(sqlite3* database) {
+  sqlite3_create_function(database, "row_checksum", -1,
+                          SQLITE_UTF8 | SQLITE_DETERMINISTIC | SQLITE_INNOCUOUS, nullptr,
+                          row_checksum, nullptr, nullptr);
+}
 
 }  // namespace
 
@@ -30,6 +67,26 @@ SqliteDatabase::SqliteDatabase(const std::string& path, Access access) : path_(p
     throw FileError(path, "cannot be opened: " + message);
   }
   sqlite3_busy_timeout(handle_, kBusyTimeoutMs);
+  add_functions(handle_);
+}
+
+SqliteDatabase::SqliteDatabase(std::string path, sqlite3* handle)
+    : path_(std::move(path)), handle_(handle) {
+  add_functions(handle_);
+}
+
+std::unique_ptr<SqliteDatabase> SqliteDatabase::copy_in_memory() {
+  sqlite3* memory = nullptr;
+  if (sqlite3_open(":memory:", &memory) != SQLITE_OK) {
+    sqlite3_close(memory);
+    throw FileError(path_, "cannot be copied: out of memory");
+  }
+  std::unique_ptr<SqliteDatabase> copy(new SqliteDatabase(path_, memory));
+  sqlite3_backup* backup = sqlite3_backup_init(memory, "main", handle_, "main");
+  const bool done = backup && sqlite3_backup_step(backup, -1) == SQLITE_DONE;
+  sqlite3_backup_finish(backup);
+  if (!done) fail("copying it");
+  return copy;
 }
 
 SqliteDatabase::~SqliteDatabase() { sqlite3_close(handle_); }
@@ -62,6 +119,15 @@ std::string SqliteDatabase::text(const std::string& sql) {
   if (!statement.next()) return {};
   const auto* text = sqlite3_column_text(statement.handle(), 0);
   return text ? reinterpret_cast<const char*>(text) : "";
+}
+
+std::vector<std::string> SqliteDatabase::columns(const std::string& table) {
+  SqliteStatement statement(*this,
+                            "SELECT name FROM pragma_table_info('" + table + "') ORDER BY cid");
+  std::vector<std::string> names;
+  while (statement.next())
+    names.emplace_back(reinterpret_cast<const char*>(sqlite3_column_text(statement.handle(), 0)));
+  return names;
 }
 
 SqliteStatement::SqliteStatement(SqliteDatabase& database, const std::string& sql)

@@ -1,9 +1,11 @@
 #pragma once
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 struct sqlite3;
 struct sqlite3_stmt;
@@ -11,6 +13,7 @@ struct sqlite3_stmt;
 namespace placegraph {
 
 /// An open SQLite database. Every failure is a FileError that names the file.
+/// Its statements can use the function row_checksum(value, ...): the CRC-32 of all values.
 class SqliteDatabase {
  public:
   enum class Access { kRead, kWrite, kCreate };
@@ -19,16 +22,22 @@ class SqliteDatabase {
   SqliteDatabase(const SqliteDatabase&) = delete;
   SqliteDatabase& operator=(const SqliteDatabase&) = delete;
 
+  /// A copy in memory, which no other program sees.
+  std::unique_ptr<SqliteDatabase> copy_in_memory();
   /// One or more statements without results.
   void execute(const std::string& sql);
   /// The first column of a pragma's first row.
   std::int64_t integer(const std::string& sql);
   std::string text(const std::string& sql);
+  /// Names of the columns of a table, in its order.
+  std::vector<std::string> columns(const std::string& table);
   [[noreturn]] void fail(const std::string& doing) const;
   const std::string& path() const { return path_; }
   sqlite3* handle() const { return handle_; }
 
  private:
+  SqliteDatabase(std::string path, sqlite3* handle);
+
   std::string path_;
   sqlite3* handle_ = nullptr;
 };

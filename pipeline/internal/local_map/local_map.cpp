@@ -12,6 +12,8 @@ LocalMap::LocalMap(const SlidingWindowOptions& options, const Camera& camera, Sc
 
 void LocalMap::restart(Scale scale, const std::optional<double>& median_depth) {
   past_landmarks_ = landmarks();
+  for (const WindowObservation& observation : window_observations()) keep_observation(observation);
+  observed_before_.clear();
   window_ = SlidingWindow(options_, camera_);
   scale_ = scale;
   median_depth_ = median_depth.value_or(median_depth_);
@@ -31,6 +33,8 @@ KeyframeId LocalMap::add_keyframe(const SE3& T_odom_cam) {
 }
 
 void LocalMap::discard(double median_depth) {
+  past_observations_.erase(past_observations_.lower_bound(first_), past_observations_.end());
+  observed_before_.clear();
   window_ = SlidingWindow(options_, camera_);
   poses_.clear();
   links_.clear();
@@ -68,12 +72,45 @@ void LocalMap::marginalize() {
   if (keyframes.size() <= size) return;
   for (std::size_t i = 0; i + 1 < keyframes.size() && keyframes.size() - i > size; ++i)
     links_[keyframes[i]] = {motion_information(keyframes[i], keyframes[i + 1]), scale_drift()};
-  std::vector<PointLandmark> before;
-  for (const LandmarkId id : window_.landmarks())
-    if (window_.observations(id).size() > 1) before.push_back(describe(id));
+  std::map<LandmarkId, PointLandmark> before;  // those that are in the map if they leave
+  for (const LandmarkId id : window_.landmarks()) {
+    const std::vector<WindowObservation>& observations = window_.observations(id);
+    if (observations.empty() || (observations.size() == 1 && !observed_before_.contains(id)))
+      continue;
+    before[id] = describe(id);
+    // Those that the newest keyframe observes stay.
+    if (observations.back().keyframe < keyframes.back())
+      before[id].covariance = covariance_of(before[id]);
+  }
+  const std::vector<WindowObservation> observed = window_observations();
   window_.marginalize();
-  for (const PointLandmark& landmark : before)
-    if (!window_.landmark(landmark.id)) past_landmarks_.push_back(landmark);
+  const KeyframeId oldest = window_.keyframes().front();
+  for (const WindowObservation& observation : observed) {
+    const bool stays = window_.landmark(observation.landmark).has_value();
+    if (stays && observation.keyframe >= oldest) continue;
+    if (!stays && !before.contains(observation.landmark)) continue;
+    keep_observation(observation);
+    if (stays) observed_before_.insert(observation.landmark);
+  }
+  for (const auto& [id, landmark] : before) {
+    if (window_.landmark(id)) continue;
+    past_landmarks_.push_back(landmark);
+    observed_before_.erase(id);
+  }
+}
+
+std::vector<WindowObservation> LocalMap::window_observations() const {
+  std::vector<WindowObservation> result;
+  for (const LandmarkId id : window_.landmarks()) {
+    const std::vector<WindowObservation>& observations = window_.observations(id);
+    result.insert(result.end(), observations.begin(), observations.end());
+  }
+  return result;
+}
+
+void LocalMap::keep_observation(const WindowObservation& observation) {
+  past_observations_[observation.keyframe].push_back(
+      {observation.landmark, observation.px.cast<float>()});
 }
 
 Rescale LocalMap::rescale(double factor) {
@@ -141,14 +178,37 @@ PointLandmark LocalMap::describe(LandmarkId id) const {
   return landmark;
 }
 
+std::optional<Eigen::Matrix3d> LocalMap::covariance_of(const PointLandmark& landmark) const {
+  const auto covariance = landmark_covariance(window_, landmark.id);
+  if (!covariance) return std::nullopt;
+  const Eigen::Matrix3d R_keyframe_map =
+      window_.pose(landmark.keyframe).rotation().matrix().transpose();
+  return R_keyframe_map * *covariance * R_keyframe_map.transpose();
+}
+
 std::vector<PointLandmark> LocalMap::landmarks(std::size_t first) const {
   require(first <= past_landmarks_.size(),
           "LocalMap::landmarks: landmarks of the window have no order");
   std::vector<PointLandmark> result(past_landmarks_.begin() + static_cast<std::ptrdiff_t>(first),
                                     past_landmarks_.end());
   for (const LandmarkId id : window_.landmarks())
-    if (!window_.observations(id).empty()) result.push_back(describe(id));
+    if (!window_.observations(id).empty()) {
+      result.push_back(describe(id));
+      result.back().covariance = covariance_of(result.back());
+    }
   return result;
+}
+
+std::vector<std::pair<KeyframeId, std::vector<LandmarkObservation>>> LocalMap::observations(
+    KeyframeId from) const {
+  std::map<KeyframeId, std::vector<LandmarkObservation>> all(past_observations_.lower_bound(from),
+                                                             past_observations_.end());
+  for (const WindowObservation& observation : window_observations())
+    if (observation.keyframe >= from)
+      all[observation.keyframe].push_back({observation.landmark, observation.px.cast<float>()});
+  for (auto& [keyframe, observations] : all)
+    std::ranges::sort(observations, {}, &LandmarkObservation::landmark);
+  return {all.begin(), all.end()};
 }
 
 }  // namespace placegraph

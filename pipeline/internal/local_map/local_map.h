@@ -5,6 +5,8 @@
 
 #include <map>
 #include <optional>
+#include <set>
+#include <utility>
 #include <vector>
 
 namespace placegraph {
@@ -91,6 +93,11 @@ class LocalMap {
   /// index `first` on. Those that have left the window come first (settled_landmarks()), and keep
   /// their index.
   std::vector<PointLandmark> landmarks(std::size_t first = 0) const;
+  /// Image points of landmarks in the keyframes from `from` on, of all segments, ascending by
+  /// landmark; keyframes without any are left out. Landmarks that were refused later are not among
+  /// landmarks().
+  std::vector<std::pair<KeyframeId, std::vector<LandmarkObservation>>> observations(
+      KeyframeId from) const;
   std::size_t settled_landmarks() const { return past_landmarks_.size(); }
 
   SlidingWindow& window() { return window_; }
@@ -99,7 +106,10 @@ class LocalMap {
  private:
   /// The id of the keyframe `keyframes` before the next one.
   KeyframeId back(int keyframes) const { return KeyframeId(next_.value() - keyframes); }
-  PointLandmark describe(LandmarkId landmark) const;
+  PointLandmark describe(LandmarkId landmark) const;  // without its covariance
+  std::optional<Eigen::Matrix3d> covariance_of(const PointLandmark& landmark) const;
+  std::vector<WindowObservation> window_observations() const;
+  void keep_observation(const WindowObservation& observation);
   double scale_drift() const;
   void widen_link_to_oldest();
 
@@ -112,6 +122,10 @@ class LocalMap {
   std::map<KeyframeId, SE3> poses_;
   std::map<KeyframeId, Link> links_;           // links of keyframes that left the window
   std::vector<PointLandmark> past_landmarks_;  // landmarks that left the window
+  // Observations that left the window, with their keyframe or their landmark, and the landmarks of
+  // the window that have some.
+  std::map<KeyframeId, std::vector<LandmarkObservation>> past_observations_;
+  std::set<LandmarkId> observed_before_;
 };
 
 }  // namespace placegraph

@@ -1,6 +1,8 @@
+#include <placegraph/graph/internal/image/jpeg_codec.h>
 #include <placegraph/pipeline/internal/slam/map_feed.h>
 
 #include <algorithm>
+#include <opencv2/imgproc.hpp>
 
 namespace placegraph {
 namespace {
@@ -15,9 +17,37 @@ int main_component(const MapSources& sources) {
   return most == frames.end() ? 0 : most->first;
 }
 
+/// A JPEG of the image, of at most 160 pixels at its longer side.
+std::string thumbnail_of(const Image& image) {
+  constexpr int kLongest = 160, kQuality = 80;
+  const double scale = static_cast<double>(kLongest) / std::max(image.cols, image.rows);
+  if (!(scale < 1)) return encode_jpeg(image, kQuality);
+  Image small;
+  cv::resize(image, small, {}, scale, scale, cv::INTER_AREA);
+  return encode_jpeg(small, kQuality);
+}
+
+/// Red, green and blue of a pixel of a grey or BGR image.
+std::array<std::uint8_t, 3> colour_at(const Image& image, const Eigen::Vector2f& px) {
+  const int u = std::clamp(static_cast<int>(std::lround(px.x())), 0, image.cols - 1);
+  const int v = std::clamp(static_cast<int>(std::lround(px.y())), 0, image.rows - 1);
+  if (image.channels() == 1) {
+    const std::uint8_t grey = image.at<std::uint8_t>(v, u);
+    return {grey, grey, grey};
+  }
+  const cv::Vec3b& bgr = image.at<cv::Vec3b>(v, u);
+  return {bgr[2], bgr[1], bgr[0]};
+}
+
 }  // namespace
 
-void MapFeed::keep_view(KeyframeId keyframe, const Frame& frame) {
+void MapFeed::keep_view(KeyframeId keyframe, const Frame& frame, const LocalMap& map) {
+  const Image& image = frame.colour.empty() ? frame.image : frame.colour;
+  thumbnails_[keyframe] = thumbnail_of(image);
+  for (const auto& [seen_in, observations] : map.observations(keyframe))
+    if (seen_in == keyframe)
+      for (const LandmarkObservation& seen : observations)
+        colours_.try_emplace(seen.landmark, colour_at(image, seen.px));
   if (!views_in_colour_) views_in_colour_ = !frame.colour.empty();
   if (*views_in_colour_ && frame.colour.empty()) return;
   views_[keyframe] = describe_place(*views_in_colour_ ? frame.colour : frame.image, cues_, false);
@@ -35,6 +65,8 @@ Keyframe MapFeed::keyframe_of(const LoopCloser::View& view,
   keyframe.features = view.features;
   if (const auto kept = views_.find(view.keyframe); kept != views_.end())
     keyframe.view = kept->second;
+  if (const auto kept = thumbnails_.find(view.keyframe); kept != thumbnails_.end())
+    keyframe.thumbnail = kept->second;
   return keyframe;
 }
 
@@ -43,9 +75,20 @@ std::vector<PointLandmark> MapFeed::landmarks(const Odometry& odometry, std::siz
   std::vector<PointLandmark> result(
       earlier_landmarks_.begin() + static_cast<std::ptrdiff_t>(earlier), earlier_landmarks_.end());
   for (PointLandmark landmark : odometry.map().landmarks(first - earlier)) {
+    if (const auto rgb = colours_.find(landmark.id); rgb != colours_.end())
+      landmark.rgb = rgb->second;
     landmark.id = LandmarkId(landmark.id.value() + first_landmark_id_);
     result.push_back(landmark);
   }
+  return result;
+}
+
+std::vector<std::pair<KeyframeId, std::vector<LandmarkObservation>>> MapFeed::observations(
+    const LocalMap& map, KeyframeId from) const {
+  auto result = map.observations(from);
+  for (auto& [keyframe, observations] : result)
+    for (LandmarkObservation& observation : observations)
+      observation.landmark = LandmarkId(observation.landmark.value() + first_landmark_id_);
   return result;
 }
 
@@ -66,6 +109,12 @@ Map MapFeed::snapshot(const MapSources& sources) const {
     keyframe.scale = member.scale;
   }
   map.landmarks = landmarks(sources.odometry, 0);
+  auto seen = earlier_observations_;
+  for (auto& [keyframe, observed] : observations(sources.odometry.map(), KeyframeId()))
+    seen[keyframe] = std::move(observed);
+  for (Keyframe& keyframe : map.keyframes)
+    if (const auto found = seen.find(keyframe.id); found != seen.end())
+      keyframe.observations = std::move(found->second);
   map.frames = sources.recorder.records();
   map.loops = sources.closer.records();
   map.metric = sources.mapper.metric();
@@ -89,6 +138,10 @@ MapChanges MapFeed::take_changes(const MapSources& sources) {
   for (std::size_t i = first_view_; i < views.size(); ++i)
     changes.keyframes.push_back(keyframe_of(views[i], recorder));
   views_.clear();
+  thumbnails_.clear();
+  const LocalMap& local = sources.odometry.map();
+  changes.observations = observations(local, first_observed_);
+  first_observed_ = local.window_begin().value_or(first_observed_);
   // The online poses of another component take the place of those that were reported.
   const int main = main_component(sources);
   changes.first_frame = main == reported_component_ ? recorder.first_changed() : 0;
@@ -116,6 +169,8 @@ void MapFeed::take_up(const Map& map, const LoopCloser& closer) {
       views_in_colour_ = !keyframe.view.colour.empty();
   for (const Place& place : map.place_graph.places) described_places_.insert(place.id);
   earlier_landmarks_ = map.landmarks;
+  for (const Keyframe& keyframe : map.keyframes)
+    earlier_observations_[keyframe.id] = keyframe.observations;
   for (const PointLandmark& landmark : map.landmarks)
     first_landmark_id_ = std::max(first_landmark_id_, landmark.id.value() + 1);
   first_view_ = map.keyframes.size();

@@ -25,6 +25,12 @@ void TrajectoryRecorder::finish(const std::optional<SE3>& T_map_cam, int compone
   online_component_.push_back(component);
 }
 
+void TrajectoryRecorder::explain(const std::optional<double>& confidence,
+                                 const std::string& reason) {
+  records_.back().confidence = confidence;
+  records_.back().reason = reason;
+}
+
 std::vector<StampedPose> TrajectoryRecorder::online(int component, std::size_t first) const {
   std::vector<StampedPose> poses(online_.begin() + static_cast<std::ptrdiff_t>(first),
                                  online_.end());
@@ -70,11 +76,13 @@ void TrajectoryRecorder::rescale(KeyframeId first_keyframe, double factor) {
   first_changed_ = 0;
 }
 
-void TrajectoryRecorder::remove_poses(FrameId first) {
+void TrajectoryRecorder::remove_poses(FrameId first, const std::string& reason) {
   const FrameRecord* from = record_of(first);
   for (auto i = static_cast<std::size_t>(from - records_.data()); i < records_.size(); ++i) {
     records_[i].keyframe.reset();
     records_[i].T_keyframe_frame.reset();
+    records_[i].confidence.reset();
+    records_[i].reason = reason;
   }
 }
 

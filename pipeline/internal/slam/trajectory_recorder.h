@@ -22,6 +22,8 @@ class TrajectoryRecorder {
   void record(KeyframeId keyframe, const SE3& T_keyframe_frame, int inliers);
   /// Ends the newest frame, with its pose in the frame of a component of the map, if it has one.
   void finish(const std::optional<SE3>& T_map_cam, int component);
+  /// Sets how far the newest frame's pose can be trusted, or why it has none.
+  void explain(const std::optional<double>& confidence, const std::string& reason);
 
   /// Adds a frame that has become a keyframe.
   void add_keyframe(const NewKeyframe& keyframe);
@@ -31,8 +33,8 @@ class TrajectoryRecorder {
   /// Multiplies all lengths relative to keyframes from `first_keyframe` on by `factor`.
   void rescale(KeyframeId first_keyframe, double factor);
 
-  /// Removes the poses of the frames from `first` on.
-  void remove_poses(FrameId first);
+  /// Removes the poses of the frames from `first` on, for this reason.
+  void remove_poses(FrameId first, const std::string& reason);
   /// Makes the newest frame the origin of the map, as the first view of a monocular camera that
   /// waits for its second view. `rotated`: the camera has only rotated since the previous first
   /// view, whose pose remains valid. Otherwise the poses of earlier frames are removed.

@@ -1,10 +1,13 @@
 // `placegraph run` saves its map as it goes, `run --resume` goes on from it, `placegraph map` reads
 // it.
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/graph/internal/image/jpeg_codec.h>
 #include <placegraph/io/map/map_database.h>
 
 #include <placegraph/io/trajectories/trajectory_file.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgproc.hpp>
 #include <sstream>
@@ -81,6 +84,65 @@ TEST_F(MapCli, ARunLeavesOneFileThatHoldsItsMap) {
   EXPECT_EQ(map["views"], map["keyframes"]);
   EXPECT_TRUE(map["finished"].get<bool>());
   EXPECT_EQ(run("map validate " + whole()).code, 0);
+}
+
+TEST_F(MapCli, ItsLandmarksAreWhereItsImagesShowThem) {
+  const StoredMap stored = read_map(whole() + "/map.db");
+  const Map& map = stored.map;
+  const Camera& camera = stored.origin.calibration->camera;
+  std::map<LandmarkId, const PointLandmark*> landmarks;
+  std::size_t coloured = 0, certain = 0;
+  for (const PointLandmark& landmark : map.landmarks) {
+    landmarks[landmark.id] = &landmark;
+    coloured += landmark.rgb.has_value();
+    certain += landmark.covariance.has_value();
+  }
+  EXPECT_GT(coloured, map.landmarks.size() * 9 / 10);
+  EXPECT_GT(certain, map.landmarks.size() * 9 / 10);
+  std::vector<double> errors_px;
+  std::map<LandmarkId, int> views;
+  std::size_t unknown = 0;
+  for (const Keyframe& keyframe : map.keyframes) {
+    EXPECT_EQ(decode_jpeg(keyframe.thumbnail).cols, 160);
+    const Sim3 S_keyframe_map = map.S_map_keyframe(keyframe.id).inverse();
+    for (const LandmarkObservation& observation : keyframe.observations) {
+      const auto landmark = landmarks.find(observation.landmark);
+      if (landmark == landmarks.end()) {
+        ++unknown;
+        continue;
+      }
+      ++views[observation.landmark];
+      const auto px = camera.project(S_keyframe_map * map.position(*landmark->second));
+      ASSERT_TRUE(px);
+      errors_px.push_back((*px - observation.px.cast<double>()).norm());
+    }
+  }
+  ASSERT_GT(errors_px.size(), 1000u);
+  EXPECT_LT(unknown, errors_px.size() / 5);
+  EXPECT_LT(median_of(errors_px), 0.7);
+  const auto often = std::ranges::count_if(views, [](const auto& of) { return of.second >= 3; });
+  EXPECT_GT(static_cast<std::size_t>(often), views.size() / 3);
+  const auto confident = std::ranges::count_if(
+      map.frames, [](const FrameRecord& frame) { return frame.confidence.has_value(); });
+  EXPECT_GT(static_cast<std::size_t>(confident), map.frames.size() * 3 / 4);
+  ASSERT_TRUE(stored.judgement);
+  EXPECT_EQ(stored.judgement->verdict, Verdict::kGood);
+}
+
+TEST_F(MapCli, AReportShowsTheRun) {
+  const CommandResult result = run("report " + whole() + " -o page.html");
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("page.html: 1 run"));
+  const std::string page = read_file(dir / "page.html");
+  const std::string begin = "type=\"application/json\">";
+  const std::size_t first = page.find(begin) + begin.size();
+  const json report = json::parse(page.substr(first, page.find("</script>", first) - first));
+  const json& shown = report["runs"][0];
+  EXPECT_EQ(shown["judgement"]["verdict"], "good");
+  EXPECT_EQ(shown["summary"]["frames"], 40);
+  EXPECT_FALSE(shown["frames"]["error_m"].is_null());
+  EXPECT_THAT(shown["figures"].dump(), HasSubstr("align se3"));
+  EXPECT_EQ(run("report " + whole() + " -o page.html").code, 2);  // it exists
 }
 
 TEST_F(MapCli, ExportsAreWhatTheRunWrote) {

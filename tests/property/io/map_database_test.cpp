@@ -25,8 +25,24 @@ TEST(MapDatabaseProperty, ReadAfterWriteIsIdentity) {
     EXPECT_EQ(test::read_file(dir / "a.db"), test::read_file(dir / "b.db"));
     ASSERT_EQ(read.map.landmarks.size(), stored.map.landmarks.size());
     EXPECT_EQ(read.map.landmarks[1234].point_cam, stored.map.landmarks[1234].point_cam);
+    EXPECT_EQ(read.map.landmarks[1234].rgb, stored.map.landmarks[1234].rgb);
+    EXPECT_EQ(read.map.landmarks[1233].rgb, std::nullopt);
+    EXPECT_EQ(read.map.landmarks[1234].covariance, stored.map.landmarks[1234].covariance);
+    EXPECT_EQ(read.map.landmarks[1235].covariance, std::nullopt);
+    ASSERT_EQ(read.map.frames.size(), stored.map.frames.size());
+    EXPECT_EQ(read.map.frames[5].reason, "only 'few' points");
+    EXPECT_EQ(read.map.frames[4].confidence, stored.map.frames[4].confidence);
+    EXPECT_EQ(read.judgement.has_value(), stored.finished);
     for (std::size_t i = 0; i < stored.map.keyframes.size(); ++i) {
       EXPECT_EQ(read.map.keyframes[i].view.thumbnail, stored.map.keyframes[i].view.thumbnail);
+      EXPECT_EQ(read.map.keyframes[i].thumbnail, stored.map.keyframes[i].thumbnail);
+      ASSERT_EQ(read.map.keyframes[i].observations.size(),
+                stored.map.keyframes[i].observations.size());
+      for (std::size_t k = 0; k < read.map.keyframes[i].observations.size(); ++k) {
+        const LandmarkObservation &a = read.map.keyframes[i].observations[k],
+                                  &b = stored.map.keyframes[i].observations[k];
+        EXPECT_TRUE(a.landmark == b.landmark && a.px == b.px && a.camera == b.camera);
+      }
       EXPECT_EQ(read.map.keyframes[i].view.gabor.values, stored.map.keyframes[i].view.gabor.values);
       EXPECT_EQ(read.map.keyframes[i].view.colour.energy,
                 stored.map.keyframes[i].view.colour.energy);
@@ -53,8 +69,10 @@ TEST(MapDatabaseProperty, CommitsAddUpToTheWholeMap) {
             whole.map.place_graph.places.begin() + static_cast<std::ptrdiff_t>(step));
         const Place& place = changes.places.back();
         changes.appearances.emplace_back(place.id, place.appearance);
-        for (const PlaceMember& member : place.members)
+        for (const PlaceMember& member : place.members) {
           changes.keyframes.push_back(*whole.map.find_keyframe(member.keyframe));
+          changes.observations.emplace_back(member.keyframe, changes.keyframes.back().observations);
+        }
         if (last) {
           for (std::size_t i = 0; i < whole.map.place_graph.constraints.size(); ++i)
             changes.constraints.push_back(

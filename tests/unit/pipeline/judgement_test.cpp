@@ -100,12 +100,12 @@ TEST(Judgement, FailsBelowTheShareOfFramesWithAPose) {
 
 TEST(Judgement, NamesFramesOfLowConfidence) {
   RunResult run = run_of("0000000000");
-  for (int i = 0; i < 10; ++i) run.frame_health.push_back({FrameId(i), "", 0.8});
-  run.frame_health[3].confidence = 0.45;
-  run.frame_health[5].confidence = 0.2;
+  for (FrameRecord& frame : run.map.frames) frame.confidence = 0.8;
+  run.map.frames[3].confidence = 0.45;
+  run.map.frames[5].confidence = 0.2;
   EXPECT_THAT(causes_of(judge(run, {}, 0.2)), IsEmpty());
-  run.frame_health[6].confidence = 0.1;
-  run.frame_health[7].confidence.reset();
+  run.map.frames[6].confidence = 0.1;
+  run.map.frames[7].confidence.reset();
   const Judgement judgement = judge(run, {}, 0.2);
   ASSERT_THAT(causes_of(judgement), testing::ElementsAre("jump"));
   EXPECT_THAT(judgement.findings[0].text, HasSubstr("in 2 frames"));
@@ -114,10 +114,10 @@ TEST(Judgement, NamesFramesOfLowConfidence) {
 
 TEST(Judgement, NamesSpansOfLowConfidence) {
   RunResult run = run_of(std::string(40, '0'));
-  for (int i = 0; i < 40; ++i) run.frame_health.push_back({FrameId(i), "", i < 20 ? 0.8 : 0.81});
-  for (std::size_t i = 12; i < 17; ++i) run.frame_health[i].confidence = 0.5;
+  for (std::size_t i = 0; i < 40; ++i) run.map.frames[i].confidence = i < 20 ? 0.8 : 0.81;
+  for (std::size_t i = 12; i < 17; ++i) run.map.frames[i].confidence = 0.5;
   EXPECT_THAT(causes_of(judge(run, {}, 0.2)), IsEmpty());  // too short
-  for (std::size_t i = 17; i < 22; ++i) run.frame_health[i].confidence = 0.5;
+  for (std::size_t i = 17; i < 22; ++i) run.map.frames[i].confidence = 0.5;
   const Judgement judgement = judge(run, {}, 0.2);
   ASSERT_THAT(causes_of(judgement), testing::ElementsAre("drift_large"));
   EXPECT_THAT(judgement.findings[0].text, HasSubstr("less than two thirds of the usual share"));

@@ -72,6 +72,7 @@ function readJudgement(value: unknown, where: string): Judgement {
   const json = asObject(value, where);
   return {
     verdict: asOneOf(json["verdict"], ["good", "doubtful", "failed"] as const, `${where}.verdict`),
+    metric: asBoolean(json["metric"], `${where}.metric`),
     why_metric: asText(json["why_metric"], `${where}.why_metric`),
     expected_drift_m: orNull(json["expected_drift_m"], `${where}.expected_drift_m`, asNumber),
     findings: listOf(json["findings"], `${where}.findings`, readFinding),

@@ -66,6 +66,7 @@ export interface Summary {
 
 export interface Judgement {
   verdict: Verdict;
+  metric: boolean;
   why_metric: string;
   expected_drift_m: number | null;
   findings: Finding[];

@@ -25,7 +25,7 @@ export function overviewPanel({ report, store }: PanelContext): Panel {
         {},
         el("h2", {}, run.name),
         el("p", { class: "soft" }, `${run.folder} · ${SENSORS[run.sensor]} · ${report.program}`),
-        run.judgement ? judgementSection(run, run.judgement) : null,
+        run.judgement ? judgementSection(run.judgement) : null,
         figuresSection(run.figures),
         el("h3", {}, "Counts"),
         countsOf(run),
@@ -38,16 +38,14 @@ export function overviewPanel({ report, store }: PanelContext): Panel {
   };
 }
 
-function judgementSection(run: RunData, judgement: Judgement): HTMLElement {
+function scaleSentence(judgement: Judgement): string {
+  const scale = judgement.metric ? "Lengths are in metres" : "The scale is unknown";
+  return judgement.why_metric === "" ? `${scale}.` : `${scale}, ${judgement.why_metric}.`;
+}
+
+function judgementSection(judgement: Judgement): HTMLElement {
   const box = el("section", { class: `judgement ${judgement.verdict}` }, el("strong", {}, VERDICTS[judgement.verdict]));
-  if (judgement.why_metric !== "")
-    box.append(
-      el(
-        "p",
-        {},
-        `${run.metric ? "Lengths are in metres. " : "The scale of the map is arbitrary. "}${judgement.why_metric}`,
-      ),
-    );
+  box.append(el("p", {}, scaleSentence(judgement)));
   if (judgement.expected_drift_m !== null) {
     box.append(el("p", {}, `The expected drift at the end is ${formatWithUnit(judgement.expected_drift_m, "m")}.`));
   }

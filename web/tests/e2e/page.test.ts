@@ -293,6 +293,7 @@ describe("hostile texts", () => {
       figures: [{ name: evil, value: 1, unit: evil, protocol: evil }],
       judgement: {
         verdict: "failed",
+        metric: false,
         why_metric: evil,
         expected_drift_m: null,
         findings: [{ cause: evil, text: evil, advice: evil }],

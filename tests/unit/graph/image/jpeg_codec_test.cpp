@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <placegraph/graph/core/error.h>
 #include <placegraph/graph/internal/image/jpeg_codec.h>
 #include <placegraph/graph/internal/image/picture_plugin.h>
 
@@ -35,6 +36,27 @@ TEST(JpegCodec, DecodesEveryKindOfEverySizeToTheBitsOfOpenCv) {
           same_image(image, picture_plugin("a test").decode(bytes, DecodedPixels::kAsStored)))
           << name_of(kind);
     }
+}
+
+TEST(JpegCodec, EncodesWhatItDecodes) {
+  for (const int type : {CV_8UC1, CV_8UC3}) {
+    Image image(48, 160, type);
+    for (int v = 0; v < image.rows; ++v)
+      for (int u = 0; u < image.cols * image.channels(); ++u)
+        image.ptr(v)[u] = static_cast<std::uint8_t>(40 + v + u / image.channels() / 2 +
+                                                    30 * (u % image.channels()));
+    const std::string bytes = encode_jpeg(image, 90);
+    EXPECT_TRUE(is_jpeg(bytes));
+    EXPECT_FALSE(is_truncated_jpeg(bytes));
+    const Image decoded = decode_jpeg(bytes);
+    ASSERT_EQ(decoded.type(), type);
+    ASSERT_EQ(decoded.size(), image.size());
+    EXPECT_LT(cv::norm(image, decoded, cv::NORM_INF), 12);
+    EXPECT_LT(encode_jpeg(image, 10).size(), bytes.size());
+  }
+  EXPECT_THROW((void)encode_jpeg(Image(), 80), ArgumentError);
+  EXPECT_THROW((void)encode_jpeg(Image(4, 4, CV_16UC1), 80), ArgumentError);
+  EXPECT_THROW((void)encode_jpeg(Image(4, 4, CV_8UC1), 101), ArgumentError);
 }
 
 TEST(JpegCodec, AFileCutAnywhereIsReportedAndGivesNoImageWhereRowsAreMissing) {

@@ -89,14 +89,14 @@ TEST_F(MapDatabaseFaults, AMissingTableIsSaid) {
 
 TEST_F(MapDatabaseFaults, ANewerSchemaIsRefusedByItsVersion) {
   change("PRAGMA user_version = 99");
-  EXPECT_THAT(refusal(), HasSubstr("is a map of schema 99; this program reads up to 2"));
+  EXPECT_THAT(refusal(), HasSubstr("is a map of schema 99; this program reads up to 3"));
 }
 
 TEST_F(MapDatabaseFaults, ALoopModelThatThereIsNotIsNamed) {
   change("UPDATE loop SET model = 'guess' WHERE number = 0");
   EXPECT_THAT(refusal(), HasSubstr("table loop, row 0: model"));
   change("UPDATE loop SET model = 'none', probability = 1.5 WHERE number = 0");
-  EXPECT_THAT(refusal(), HasSubstr("table loop, row 0: likeness or probability"));
+  EXPECT_THAT(refusal(), HasSubstr("table loop, row 0: similarity or probability"));
 }
 
 TEST_F(MapDatabaseFaults, ALoopStageThatThereIsNotIsNamed) {
@@ -107,22 +107,109 @@ TEST_F(MapDatabaseFaults, ALoopStageThatThereIsNotIsNamed) {
   EXPECT_THAT(refusal(), HasSubstr("table loop, row 1: accepted"));
 }
 
+/// SQL that turns a map of the present schema into one of schema 2.
+std::string to_schema_2(const std::string& path) {
+  std::string sql =
+      "PRAGMA foreign_keys = OFF; BEGIN; DROP VIEW component; DROP VIEW frame_component;";
+  for (const char* table : {"observations", "thumbnail", "inertial_state", "judgement", "finding"})
+    sql += std::string("DROP TABLE ") + table + ";";
+  {
+    SqliteDatabase database(path, SqliteDatabase::Access::kRead);
+    SqliteRows tables(database, "sqlite_master", "name", "WHERE type = 'table'");
+    while (tables.next())
+      if (sql.find("DROP TABLE " + std::string(tables.text(0)) + ";") == std::string::npos)
+        sql += "ALTER TABLE " + std::string(tables.text(0)) + " DROP COLUMN checksum;";
+  }
+  return sql +
+         "ALTER TABLE landmarks DROP COLUMN colours; ALTER TABLE landmarks DROP COLUMN covariances;"
+         "ALTER TABLE frame DROP COLUMN confidence; ALTER TABLE frame DROP COLUMN reason;"
+         "ALTER TABLE loop RENAME COLUMN similarity TO likeness;"
+         "ALTER TABLE separated RENAME TO parted;"
+         "ALTER TABLE merged_segment RENAME COLUMN segment TO part;"
+         "ALTER TABLE merged_segment RENAME TO merged_part;"
+         "ALTER TABLE loop_constraint RENAME TO revisit;"
+         "ALTER TABLE motion RENAME COLUMN from_segment TO from_part;"
+         "ALTER TABLE motion RENAME COLUMN to_segment TO to_part;"
+         "ALTER TABLE link RENAME COLUMN segment TO part;"
+         "ALTER TABLE link RENAME COLUMN track_segment TO run;"
+         "ALTER TABLE track_segment RENAME COLUMN scale_measured TO unit_measured;"
+         "ALTER TABLE track_segment RENAME TO run;"
+         "ALTER TABLE segment RENAME COLUMN S_place_segment TO S_place_part;"
+         "ALTER TABLE segment RENAME TO part; PRAGMA user_version = 2; COMMIT;";
+}
+
 // Schema 1 had no more columns of loops than these.
-TEST_F(MapDatabaseFaults, AMapOfTheFirstSchemaIsReadAndUpgradedWhenWritten) {
-  change(
-      "BEGIN; ALTER TABLE frame DROP COLUMN inliers; ALTER TABLE loop DROP COLUMN model; ALTER "
-      "TABLE loop DROP COLUMN lines;"
-      "ALTER TABLE loop DROP COLUMN likeness; ALTER TABLE loop DROP COLUMN probability;"
-      "PRAGMA user_version = 1; COMMIT");
-  const Map old = read_map(path).map;
-  ASSERT_EQ(old.loops.size(), 2u);
-  EXPECT_EQ(old.loops[0].inliers, 33);
-  EXPECT_EQ(old.loops[0].probability, 0);
-  MapDatabase::open(path).close();
-  EXPECT_EQ(SqliteDatabase(path, SqliteDatabase::Access::kRead).integer("PRAGMA user_version"), 2);
-  const Map upgraded = read_map(path).map;
-  EXPECT_EQ(upgraded.loops[0].inliers, 33);
-  EXPECT_EQ(upgraded.frames.size(), old.frames.size());
+const std::string kToSchema1 =
+    "BEGIN; ALTER TABLE frame DROP COLUMN inliers; ALTER TABLE loop DROP COLUMN model; ALTER "
+    "TABLE loop DROP COLUMN lines;"
+    "ALTER TABLE loop DROP COLUMN likeness; ALTER TABLE loop DROP COLUMN probability;"
+    "PRAGMA user_version = 1; COMMIT";
+
+TEST_F(MapDatabaseFaults, AMapOfAnOlderSchemaIsReadAndUpgradedWhenWritten) {
+  const StoredMap present = read_map(path);
+  for (const int schema : {2, 1}) {
+    write_map(path, present);
+    change(to_schema_2(path));
+    if (schema == 1) change(kToSchema1);
+    const std::string bytes = test::read_file(path);
+    const StoredMap old = read_map(path);
+    EXPECT_EQ(test::read_file(path), bytes);  // reading leaves the file as it is
+    ASSERT_EQ(old.map.loops.size(), 2u);
+    EXPECT_EQ(old.map.loops[0].inliers, 33);
+    EXPECT_EQ(old.map.loops[0].probability, schema == 1 ? 0 : 0.9);
+    EXPECT_EQ(old.history.loops.size(), present.history.loops.size());
+    EXPECT_EQ(old.map.landmarks.size(), present.map.landmarks.size());
+    EXPECT_FALSE(old.map.landmarks[1].rgb || old.judgement);
+    EXPECT_NO_THROW(check_map_checksums(path));
+    MapDatabase::open(path).close();
+    EXPECT_EQ(SqliteDatabase(path, SqliteDatabase::Access::kRead).integer("PRAGMA user_version"),
+              kMapSchema);
+    EXPECT_NO_THROW(check_map_checksums(path));
+    const Map upgraded = read_map(path).map;
+    EXPECT_EQ(upgraded.loops[0].inliers, 33);
+    EXPECT_EQ(upgraded.frames.size(), old.map.frames.size());
+  }
+}
+
+TEST_F(MapDatabaseFaults, AChangedRowIsFoundByItsChecksum) {
+  EXPECT_NO_THROW(check_map_checksums(path));
+  for (const auto& [sql, row] : std::vector<std::pair<std::string, std::string>>{
+           {"UPDATE keyframe SET stamp_ns = stamp_ns + 1 WHERE id = 2", "table keyframe, row 2"},
+           {"UPDATE origin SET sequence = '/data/elsewhere'", "table origin, row 1"},
+           {"UPDATE frame SET confidence = 0.123 WHERE number = 3", "table frame, row 3"},
+           {"UPDATE finding SET advice = '' WHERE number = 0", "table finding, row 0"},
+           {"UPDATE edge SET kernel_width = 4 WHERE number = 1", "table edge, row 0"},
+           {"UPDATE camera SET fx = fx + 1e-9", "table camera, row 1"}}) {
+    write_map(path, read_map(path));
+    change(sql);
+    EXPECT_NO_THROW((void)read_map(path)) << sql;
+    EXPECT_THAT(test::message_of([&] { check_map_checksums(path); }),
+                AllOf(HasSubstr("map.db: " + row), HasSubstr("checksum")))
+        << sql;
+  }
+}
+
+// Bytes of the file that no row uses may change.
+TEST_F(MapDatabaseFaults, AChangedByteIsRefusedOrChangesNothing) {
+  const std::string whole = test::read_file(path);
+  Random random(11);
+  int refused = 0;
+  for (int i = 0; i < 60; ++i) {
+    std::string changed = whole;
+    const auto at = static_cast<std::size_t>(random.uniform() * static_cast<double>(whole.size()));
+    changed[at] = static_cast<char>(changed[at] ^ (1 << random.index(8)));
+    std::ofstream(path, std::ios::binary | std::ios::trunc) << changed;
+    try {
+      if (check_map_file(path) != "ok") throw FileError(path, "damaged");
+      const StoredMap read = read_map(path);
+      check_map_checksums(path);
+      write_map(dir / "again.db", read);
+      EXPECT_EQ(test::read_file(dir / "again.db"), whole) << "byte " << at;
+    } catch (const FileError&) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 10);
 }
 
 TEST_F(MapDatabaseFaults, AnotherDatabaseIsNoMap) {

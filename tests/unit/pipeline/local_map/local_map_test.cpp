@@ -1,6 +1,10 @@
 #include <gtest/gtest.h>
 #include <placegraph/pipeline/internal/local_map/local_map.h>
 
+#include <algorithm>
+#include <map>
+#include <set>
+
 #include "tests/support/scenes/window_world.h"
 
 namespace placegraph {
@@ -147,6 +151,68 @@ TEST(LocalMap, LandmarksStandWhereTheKeyframeThatFirstSawThemHasThem) {
               1e-9);
     EXPECT_EQ(landmark.observations, 5);
   }
+}
+
+/// The observations of a drive by keyframe, ascending by landmark.
+std::map<KeyframeId, std::map<LandmarkId, Eigen::Vector2f>> seen_in(
+    const LocalMap& map, KeyframeId from = KeyframeId(0)) {
+  std::map<KeyframeId, std::map<LandmarkId, Eigen::Vector2f>> seen;
+  for (const auto& [keyframe, observations] : map.observations(from))
+    for (const LandmarkObservation& o : observations) seen[keyframe][o.landmark] = o.px;
+  return seen;
+}
+
+TEST(LocalMap, KeepsTheObservationsOfWhatLeavesTheWindow) {
+  Drive drive(Scale::kMetric, 8, 4);
+  drive.add_all();
+  const auto before = seen_in(drive.map);
+  EXPECT_EQ(before.size(), 8u);
+  std::size_t count = 0;
+  for (const auto& [keyframe, observations] : before) count += observations.size();
+  EXPECT_EQ(count, drive.world.observations.size());
+  drive.map.marginalize();
+  EXPECT_EQ(drive.map.window().keyframes().size(), 4u);
+  EXPECT_EQ(seen_in(drive.map), before);
+  EXPECT_EQ(seen_in(drive.map, KeyframeId(6)).size(), 2u);
+  // All of them are in the map.
+  std::set<LandmarkId> landmarks;
+  for (const PointLandmark& landmark : drive.map.landmarks()) landmarks.insert(landmark.id);
+  for (const auto& [keyframe, observations] : before)
+    for (const auto& [landmark, px] : observations) EXPECT_TRUE(landmarks.contains(landmark));
+  drive.map.restart(Scale::kMetric, std::nullopt);
+  EXPECT_EQ(seen_in(drive.map), before);
+}
+
+TEST(LocalMap, ForgetsTheObservationsOfADiscardedSegment) {
+  Drive drive(Scale::kMetric, 8, 4);
+  drive.add_all();
+  drive.map.marginalize();
+  drive.map.discard(4);
+  EXPECT_TRUE(seen_in(drive.map).empty());
+}
+
+TEST(LocalMap, AFartherLandmarkIsLessCertain) {
+  Drive drive(Scale::kMetric);
+  drive.add_all();
+  std::vector<std::pair<double, double>> depth_and_sigma;
+  for (const PointLandmark& landmark : drive.map.landmarks()) {
+    ASSERT_TRUE(landmark.covariance);
+    const Eigen::Matrix3d& covariance = *landmark.covariance;
+    EXPECT_TRUE(covariance.isApprox(covariance.transpose(), 1e-9));
+    EXPECT_GT(covariance.determinant(), 0);
+    // The direction of the ray is the least certain one.
+    const Eigen::Vector3d ray = landmark.point_cam.normalized();
+    EXPECT_GT(ray.dot(covariance * ray), covariance.trace() / 3);
+    depth_and_sigma.emplace_back(landmark.point_cam.z(), std::sqrt(covariance.trace()));
+  }
+  std::ranges::sort(depth_and_sigma);
+  const std::size_t third = depth_and_sigma.size() / 3;
+  double near = 0, far = 0;
+  for (std::size_t i = 0; i < third; ++i) {
+    near += depth_and_sigma[i].second;
+    far += depth_and_sigma[depth_and_sigma.size() - 1 - i].second;
+  }
+  EXPECT_LT(near, far);
 }
 
 TEST(LocalMap, KeepsWhatIsKnownOfAMotionWhenItsKeyframeLeaves) {

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <placegraph/graph/internal/image/jpeg_codec.h>
 #include <placegraph/pipeline/internal/slam/map_feed.h>
 
 #include "tests/support/scenes/street.h"
@@ -55,7 +56,7 @@ struct System {
     mapper.add_keyframe(id, link, SE3(), odometry.map().median_depth());
     recorder.record(id, SE3(), update.inliers);
     recorder.finish(update.T_odom_cam, 0);
-    feed.keep_view(id, frame);
+    feed.keep_view(id, frame, odometry.map());
   }
 };
 
@@ -111,6 +112,34 @@ TEST(MapFeed, ChangesAreTheNewFramesAndKeyframes) {
   EXPECT_EQ(more.first_frame, 3u);
   EXPECT_EQ(more.frames.size(), 1u);
   EXPECT_EQ(more.online.size(), 1u);
+}
+
+TEST(MapFeed, KeepsThumbnailsObservationsAndColours) {
+  System run;
+  for (int i = 0; i < 3; ++i) run.add(true);
+  const Map map = run.feed.snapshot(run.sources());
+  for (const Keyframe& keyframe : map.keyframes) {
+    const Image thumbnail = decode_jpeg(keyframe.thumbnail);
+    ASSERT_EQ(thumbnail.type(), CV_8UC3);
+    EXPECT_EQ(std::max(thumbnail.cols, thumbnail.rows), 160);
+    EXPECT_GT(keyframe.observations.size(), 20u);
+  }
+  for (const PointLandmark& landmark : map.landmarks) {
+    ASSERT_TRUE(landmark.rgb);
+    EXPECT_EQ(*landmark.rgb, (std::array<std::uint8_t, 3>{160, 90, 20}));
+  }
+  const MapChanges all = run.feed.take_changes(run.sources());
+  ASSERT_EQ(all.observations.size(), 3u);
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_EQ(all.observations[k].first, map.keyframes[k].id);
+    EXPECT_EQ(all.observations[k].second.size(), map.keyframes[k].observations.size());
+  }
+  EXPECT_EQ(all.keyframes[0].thumbnail, map.keyframes[0].thumbnail);
+  run.add(true);
+  const MapChanges more = run.feed.take_changes(run.sources());
+  EXPECT_TRUE(more.keyframes[0].thumbnail.empty());  // it is known
+  EXPECT_FALSE(more.keyframes[1].thumbnail.empty());
+  EXPECT_EQ(more.observations.back().first, KeyframeId(3));
 }
 
 TEST(MapFeed, NothingNewIsTheLastKeyframeAlone) {

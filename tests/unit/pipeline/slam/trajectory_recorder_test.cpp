@@ -54,12 +54,22 @@ TEST(TrajectoryRecorder, FramesMustBeInOrder) {
   EXPECT_FALSE(r.recorder.accepts(late));
 }
 
+TEST(TrajectoryRecorder, TheNewestFrameIsExplained) {
+  Recorded r;
+  r.recorder.explain(0.75, "");
+  EXPECT_EQ(r.recorder.newest().confidence, 0.75);
+  r.recorder.explain(std::nullopt, "too few points");
+  EXPECT_EQ(r.recorder.newest().confidence, std::nullopt);
+  EXPECT_EQ(r.recorder.newest().reason, "too few points");
+}
+
 TEST(TrajectoryRecorder, PosesAreRemovedFromAFrameOn) {
   Recorded r;
-  r.recorder.remove_poses(FrameId(2));
+  r.recorder.remove_poses(FrameId(2), "contradicted");
   for (std::size_t i = 0; i < 5; ++i) {
     EXPECT_EQ(r.recorder.records()[i].T_keyframe_frame.has_value(), i < 2) << i;
     EXPECT_EQ(r.recorder.records()[i].keyframe.has_value(), i < 2) << i;
+    EXPECT_EQ(r.recorder.records()[i].reason, i < 2 ? "" : "contradicted") << i;
   }
   EXPECT_EQ(r.recorder.first_changed(), 2u);
   EXPECT_EQ(r.recorder.online(0).size(), 5u);  // as they were when the frames were processed

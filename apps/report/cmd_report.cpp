@@ -1,0 +1,26 @@
+#include "apps/report/cmd_report.h"
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "apps/report/report.h"
+#include "apps/support/option_texts.h"
+#include "apps/support/output.h"
+
+namespace placegraph::apps {
+
+void add_report_command(CLI::App& app) {
+  auto arguments = std::make_shared<ReportArguments>();
+  ReportArguments& a = *arguments;
+  a.program = "placegraph " PLACEGRAPH_VERSION;
+  CLI::App* command = app.add_subcommand("report", "Write a page that shows runs, for a browser");
+  command->footer("placegraph report out/town-run -o report.html");
+  command->add_option("RUN", a.runs, "folders that `placegraph run` wrote, or their map.db")
+      ->required();
+  command->add_option("-o,--out", a.out, "the page, one file")->required();
+  command->add_option("--title", a.title, "its title; default: the names of the runs");
+  command->add_flag("--force", a.force, kForceText);
+  command->callback([arguments] { print(to_text(report(*arguments))); });
+}
+
+}  // namespace placegraph::apps

@@ -1,0 +1,70 @@
+#include "apps/report/column.h"
+
+#include <placegraph/graph/core/error.h>
+
+#include <bit>
+#include <map>
+#include <nlohmann/json.hpp>
+
+namespace placegraph::apps {
+namespace {
+
+using nlohmann::json;
+
+static_assert(std::endian::native == std::endian::little, "columns are little-endian");
+
+template <class Value>
+json column_of(const char* type, const std::vector<Value>& values, int width) {
+  require(width > 0 && values.size() % static_cast<std::size_t>(width) == 0,
+          "column: the values are no whole number of rows");
+  const std::string_view bytes(reinterpret_cast<const char*>(values.data()),
+                               values.size() * sizeof(Value));
+  return {{"type", type}, {"width", width}, {"data", base64(bytes)}};
+}
+
+}  // namespace
+
+std::string base64(std::string_view bytes) {
+  constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
+    std::uint32_t group = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      group = group << 8 | (k < count ? static_cast<std::uint8_t>(bytes[i + k]) : 0u);
+    for (std::size_t k = 0; k < 4; ++k)
+      text += k <= count ? kDigits[group >> (18 - 6 * k) & 63] : '=';
+  }
+  return text;
+}
+
+json column(const std::vector<float>& values, int width) { return column_of("f32", values, width); }
+json column(const std::vector<double>& values, int width) {
+  return column_of("f64", values, width);
+}
+json column(const std::vector<std::int32_t>& values, int width) {
+  return column_of("i32", values, width);
+}
+json column(const std::vector<std::uint8_t>& values, int width) {
+  return column_of("u8", values, width);
+}
+
+json text_column(const std::vector<std::string>& texts) {
+  std::map<std::string, std::int32_t> numbers;
+  json table = json::array();
+  std::vector<std::int32_t> index;
+  for (const std::string& text : texts) {
+    if (text.empty()) {
+      index.push_back(-1);
+      continue;
+    }
+    const auto [number, added] =
+        numbers.try_emplace(text, static_cast<std::int32_t>(numbers.size()));
+    if (added) table.push_back(text);
+    index.push_back(number->second);
+  }
+  return {{"table", table}, {"index", column(index)}};
+}
+
+}  // namespace placegraph::apps

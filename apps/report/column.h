@@ -1,0 +1,24 @@
+#pragma once
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace placegraph::apps {
+
+/// The bytes in base64 (RFC 4648), padded.
+std::string base64(std::string_view bytes);
+
+/// A column of a report: {"type", "width", "data"} with little-endian values in base64, `width` of
+/// them a row. Throws ArgumentError if the values are no whole number of rows.
+nlohmann::json column(const std::vector<float>& values, int width = 1);
+nlohmann::json column(const std::vector<double>& values, int width = 1);
+nlohmann::json column(const std::vector<std::int32_t>& values, int width = 1);
+nlohmann::json column(const std::vector<std::uint8_t>& values, int width = 1);
+
+/// A column of texts: {"table": the different texts, "index": a column with a position in it for
+/// every row, -1 for an empty text}.
+nlohmann::json text_column(const std::vector<std::string>& texts);
+
+}  // namespace placegraph::apps

@@ -1,0 +1,52 @@
+#include "apps/report/report.h"
+
+#include <fmt/format.h>
+#include <placegraph/graph/core/error.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "apps/report/page.h"
+#include "apps/report/report_run.h"
+#include "apps/support/output.h"
+
+namespace placegraph::apps {
+
+using nlohmann::json;
+
+ReportResult report(const ReportArguments& arguments) {
+  require_free(arguments.out, arguments.force);
+  json runs = json::array();
+  std::string names;
+  for (const std::string& run : arguments.runs) {
+    runs.push_back(describe_run_for_report(run));
+    names += (names.empty() ? "" : ", ") + runs.back()["name"].get<std::string>();
+  }
+  const json data = {{"format", "placegraph-report-1"},
+                     {"program", arguments.program},
+                     {"title", arguments.title.empty() ? names : arguments.title},
+                     {"runs", std::move(runs)},
+                     {"pictures", json::array()},
+                     {"graphs", json::array()}};
+  const std::string page = page_with(data);
+  write_file(arguments.out, page);
+  return {arguments.out, arguments.runs.size(), page.size()};
+}
+
+void write_run_page(const std::string& folder, const std::string& file,
+                    const std::string& program) {
+  if (!std::filesystem::exists(std::filesystem::path(folder) / "map.db")) return;
+  ReportArguments arguments;
+  arguments.runs = {folder};
+  arguments.out = file;
+  arguments.program = program;
+  arguments.force = true;
+  (void)report(arguments);
+}
+
+std::string to_text(const ReportResult& result) {
+  return fmt::format("{}: {} run{}, {:.1f} MB\n", result.file, result.runs,
+                     result.runs == 1 ? "" : "s", 1e-6 * static_cast<double>(result.bytes));
+}
+
+}  // namespace placegraph::apps

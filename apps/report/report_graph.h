@@ -1,0 +1,23 @@
+#pragma once
+#include <placegraph/graph/pose_graph/pose_graph.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace placegraph::apps {
+
+/// A pose graph before and after its optimization.
+struct GraphPage {
+  std::string name;           ///< name of the graph
+  PoseGraph before, after;    ///< the same nodes and constraints
+  std::vector<double> chi2;   ///< one for every constraint, at the solution; empty: unknown
+  std::vector<int> rejected;  ///< positions of the constraints that were rejected
+  std::vector<std::pair<std::string, double>> figures;  ///< names and values of costs
+};
+
+/// Writes a page that shows the graph; `program`: name and version of the program.
+/// Throws FileError if it cannot be written.
+void write_graph_page(const std::string& file, const GraphPage& graph, const std::string& program);
+
+}  // namespace placegraph::apps
