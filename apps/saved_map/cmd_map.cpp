@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "apps/saved_map/cmd_map_import.h"
 #include "apps/saved_map/cmd_map_label.h"
 #include "apps/saved_map/cmd_map_learn.h"
 #include "apps/saved_map/cmd_map_plan.h"
@@ -34,6 +35,19 @@ std::pair<CLI::App*, Arguments*> add_report(CLI::App& map, const std::string& na
   return {command, arguments.get()};
 }
 
+/// Help of a form's option.
+std::string help_of(const MapExportForm& form) {
+  switch (form.target) {
+    case MapExportTarget::kFile:
+      break;
+    case MapExportTarget::kFolder:
+      return "folder for " + form.what;
+    case MapExportTarget::kImage:
+      return "name without .pgm and .yaml for " + form.what;
+  }
+  return "file for " + form.what;
+}
+
 void add_export_command(CLI::App& map) {
   auto arguments = std::make_shared<MapExportArguments>();
   CLI::App* command = map.add_subcommand("export", "Export parts of a saved map");
@@ -42,11 +56,17 @@ void add_export_command(CLI::App& map) {
   const std::vector<MapExportForm> forms = map_export_forms();
   arguments->paths.resize(forms.size());
   for (std::size_t i = 0; i < forms.size(); ++i)
-    command->add_option(forms[i].flag, arguments->paths[i], "file for " + forms[i].what);
+    command->add_option(forms[i].flag, arguments->paths[i], help_of(forms[i]));
   command->add_option("--component", arguments->component,
-                      "component whose trajectory is written; default: the main one");
+                      "component whose trajectory and geometry are written; default: the main one");
+  command->add_flag("--ascii", arguments->ascii, "--ply and --colmap as text");
+  command->add_option("--resolution", arguments->resolution_m, "side of a cell of --occupancy [m]")
+      ->check(CLI::Range(0.001, 10.0))
+      ->capture_default_str();
+  command->add_flag("--walls", arguments->walls,
+                    "--occupancy with the walls of the floor plan, from the images");
   command->add_flag("--force", arguments->force, kForceText);
-  command->callback([arguments] { map_export(*arguments); });
+  command->callback([arguments] { print(to_text(map_export(*arguments))); });
 }
 
 }  // namespace
@@ -57,6 +77,7 @@ void add_map_commands(CLI::App& map) {
                  "list the places too: number, component, frame, keyframes, position, labels");
   add_report(map, "validate", "Check a saved map: every row, reference and number", map_validate);
   add_export_command(map);
+  add_map_import_command(map);
   add_map_learn_command(map);
   add_map_label_command(map);
   add_map_plan_command(map);

@@ -11,8 +11,14 @@
 #include <placegraph/io/trajectories/trajectory_file.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <functional>
 
+#include "apps/exports/gltf_export.h"
+#include "apps/exports/mcap_export.h"
+#include "apps/exports/nerf_export.h"
+#include "apps/exports/occupancy_export.h"
+#include "apps/exports/ply_export.h"
 #include "apps/results/map_file.h"
 #include "apps/results/run_files.h"
 #include "apps/support/output.h"
@@ -20,57 +26,127 @@
 namespace placegraph::apps {
 namespace {
 
-/// A form with its writer. A new form is one more entry here.
+/// The map, and what of it is written how.
+struct MapExportInput {
+  const StoredMap& stored;
+  int component = 0;     ///< number of the component
+  NumberForm numbers{};  ///< form of the numbers where there is a choice
+  double cell_m = 0.05;  ///< side of a cell of an occupancy grid
+  bool walls = false;    ///< an occupancy grid with the walls of the floor plan
+};
+
+/// A form with its writer. A new form is one more entry in one of the two tables.
 struct WrittenForm {
   MapExportForm form;
   bool needs_poses = false;  ///< rejected for a map without a camera
-  /// Trajectories are those of the component with the given number.
-  std::function<void(const std::string& path, const StoredMap& stored, int component)> write;
+  std::function<void(const std::string& path, const MapExportInput& input, MapExportResult& result)>
+      write;
 };
 
-std::vector<WrittenForm> written_forms() {
+std::string extension_of(const std::string& path) {
+  return std::filesystem::path(path).extension().string();
+}
+
+/// Graphs, trajectories and places.
+std::vector<WrittenForm> graph_forms() {
+  const auto trajectory = [](TrajectoryFormat format) {
+    return [format](const std::string& path, const MapExportInput& input, MapExportResult&) {
+      write_trajectory(path, input.stored.map.trajectory_optimized(input.component), format);
+    };
+  };
+  const auto text = [](std::string (*text_of)(const Map& map)) {
+    return [text_of](const std::string& path, const MapExportInput& input, MapExportResult&) {
+      write_file(path, text_of(input.stored.map));
+    };
+  };
   return {
       {{"--g2o", "the place graph"},
        true,
-       [](const std::string& path, const StoredMap& stored, int) {
-         write_g2o(path, stored.map.place_graph.pose_graph());
+       [](const std::string& path, const MapExportInput& input, MapExportResult&) {
+         write_g2o(path, input.stored.map.place_graph.pose_graph());
        }},
       {{"--g2o-se3", "the same without the scales of places, for programs without similarities"},
        true,
-       [](const std::string& path, const StoredMap& stored, int) {
-         write_g2o(path, rigid_graph(stored.map.place_graph.pose_graph()));
+       [](const std::string& path, const MapExportInput& input, MapExportResult&) {
+         write_g2o(path, rigid_graph(input.stored.map.place_graph.pose_graph()));
        }},
-      {{"--places", "places, members, edges and loops as JSON"},
-       false,
-       [](const std::string& path, const StoredMap& stored, int) {
-         write_file(path, places_json(stored.map));
-       }},
-      {{"--tum", "the optimized trajectory, TUM's form"},
-       true,
-       [](const std::string& path, const StoredMap& stored, int component) {
-         write_trajectory(path, stored.map.trajectory_optimized(component), TrajectoryFormat::kTum);
-       }},
+      {{"--places", "places, members, edges and loops as JSON"}, false, text(places_json)},
+      {{"--tum", "the optimized trajectory, TUM's form"}, true, trajectory(TrajectoryFormat::kTum)},
       {{"--kitti", "the optimized trajectory, KITTI's form"},
        true,
-       [](const std::string& path, const StoredMap& stored, int component) {
-         write_trajectory(path, stored.map.trajectory_optimized(component),
-                          TrajectoryFormat::kKitti);
-       }},
+       trajectory(TrajectoryFormat::kKitti)},
       {{"--graphml", "the topological map: places, transitions, loops; GraphML"},
        true,
-       [](const std::string& path, const StoredMap& stored, int) {
-         write_file(path, to_graphml(stored.map.place_graph, place_transitions(stored.map)));
-       }},
-      {{"--dot", "the same for Graphviz"},
-       true,
-       [](const std::string& path, const StoredMap& stored, int) {
-         write_file(path, to_dot(stored.map.place_graph, place_transitions(stored.map)));
-       }},
+       text([](const Map& map) { return to_graphml(map.place_graph, place_transitions(map)); })},
+      {{"--dot", "the same for Graphviz"}, true, text([](const Map& map) {
+         return to_dot(map.place_graph, place_transitions(map));
+       })},
       {{"--revisits", "the nearest older frame of every frame, for `placegraph eval loops`"},
        true,
-       [](const std::string& path, const StoredMap& stored, int) {
-         write_loop_predictions(path, map_revisits(stored.map));
+       [](const std::string& path, const MapExportInput& input, MapExportResult&) {
+         write_loop_predictions(path, map_revisits(input.stored.map));
        }}};
+}
+
+/// Landmarks and keyframes.
+std::vector<WrittenForm> geometry_forms() {
+  return {
+      {{"--ply", "the landmarks with colours and standard deviations, PLY"},
+       true,
+       [](const std::string& path, const MapExportInput& input, MapExportResult&) {
+         write_file(path, landmarks_ply(input.stored, input.component, input.numbers));
+       }},
+      {{"--colmap", "keyframes and landmarks after a bundle adjustment, COLMAP's model",
+        MapExportTarget::kFolder},
+       true,
+       [](const std::string& path, const MapExportInput& input, MapExportResult& result) {
+         result.colmap = write_colmap(path, input.stored, input.component, input.numbers);
+       }},
+      {{"--nerf", "the keyframes for radiance fields, transforms.json"},
+       true,
+       [](const std::string& path, const MapExportInput& input, MapExportResult&) {
+         write_file(path, nerf_transforms(path, input.stored, input.component));
+       }},
+      {{"--occupancy", "an occupancy grid as map_server of ROS reads it", MapExportTarget::kImage},
+       true,
+       [](const std::string& path, const MapExportInput& input, MapExportResult&) {
+         write_occupancy(path, input.stored, input.component, input.cell_m, input.walls);
+       }},
+      {{"--gltf", "trajectory, landmarks and keyframes for 3D viewers, .glb or .gltf"},
+       true,
+       [](const std::string& path, const MapExportInput& input, MapExportResult&) {
+         const GltfForm form = extension_of(path) == ".glb" ? GltfForm::kGlb : GltfForm::kGltf;
+         write_file(path, map_gltf(input.stored, input.component, form));
+       }},
+      {{"--mcap", "trajectory and landmarks as messages of Foxglove's types, MCAP"},
+       true,
+       [](const std::string& path, const MapExportInput& input, MapExportResult&) {
+         write_file(path, map_mcap(input.stored, input.component));
+       }}};
+}
+
+std::vector<WrittenForm> written_forms() {
+  std::vector<WrittenForm> forms = graph_forms();
+  for (WrittenForm& form : geometry_forms()) forms.push_back(std::move(form));
+  return forms;
+}
+
+/// Checks that a form can be written to a path.
+void require_free_target(const MapExportForm& form, const std::string& path, bool force) {
+  switch (form.target) {
+    case MapExportTarget::kFile:
+      require_free(path, force);
+      break;
+    case MapExportTarget::kFolder:
+      require_free_folder(path, force);
+      break;
+    case MapExportTarget::kImage:
+      require_free(path + ".pgm", force);
+      require_free(path + ".yaml", force);
+      break;
+  }
+  require(form.flag != "--gltf" || extension_of(path) == ".glb" || extension_of(path) == ".gltf",
+          "--gltf: " + path + ": the extension is .glb or .gltf");
 }
 
 int component_of(const MapExportArguments& arguments, const Map& map) {
@@ -98,10 +174,13 @@ MapExportResult map_export(const MapExportArguments& arguments) {
   require(std::any_of(arguments.paths.begin(), arguments.paths.end(),
                       [](const std::string& path) { return !path.empty(); }),
           "map export: nothing to write; see --help for the forms");
-  for (const std::string& path : arguments.paths)
-    if (!path.empty()) require_free(path, arguments.force);
+  for (std::size_t i = 0; i < forms.size(); ++i)
+    if (!arguments.paths[i].empty())
+      require_free_target(forms[i].form, arguments.paths[i], arguments.force);
   const StoredMap stored = read_stored_map(arguments.map);
-  const int component = component_of(arguments, stored.map);
+  const MapExportInput input{stored, component_of(arguments, stored.map),
+                             arguments.ascii ? NumberForm::kText : NumberForm::kBinary,
+                             arguments.resolution_m, arguments.walls};
   MapExportResult result;
   for (std::size_t i = 0; i < forms.size(); ++i) {
     if (arguments.paths[i].empty()) continue;
@@ -109,10 +188,14 @@ MapExportResult map_export(const MapExportArguments& arguments) {
       throw NoResult(arguments.map +
                      ": a map of images without a camera has no poses to write to " +
                      arguments.paths[i]);
-    forms[i].write(arguments.paths[i], stored, component);
+    forms[i].write(arguments.paths[i], input, result);
     result.written.push_back(arguments.paths[i]);
   }
   return result;
+}
+
+std::string to_text(const MapExportResult& result) {
+  return result.colmap ? to_text(*result.colmap) : "";
 }
 
 }  // namespace placegraph::apps

@@ -3,12 +3,22 @@
 #include <string>
 #include <vector>
 
+#include "apps/exports/colmap_export.h"
+
 namespace placegraph::apps {
+
+/// What the path of a form names.
+enum class MapExportTarget {
+  kFile,    ///< the file
+  kFolder,  ///< a folder of several files
+  kImage    ///< a picture and its description, without their extensions .pgm and .yaml
+};
 
 /// File form of a map or of a part of it.
 struct MapExportForm {
-  std::string flag;  ///< flag of the command line
-  std::string what;  ///< description of the content
+  std::string flag;                                 ///< flag of the command line
+  std::string what;                                 ///< description of the content
+  MapExportTarget target = MapExportTarget::kFile;  ///< what its path names
 };
 
 /// All forms.
@@ -18,18 +28,26 @@ struct MapExportArguments {
   std::string map;  ///< map.db, or a folder written by `placegraph run`
   std::vector<std::string>
       paths;  ///< one path per form, in the order of map_export_forms(); empty: none
-  /// Component whose trajectory is written; nothing: the main one.
+  /// Component whose trajectory and geometry are written; nothing: the main one.
   std::optional<int> component;
-  bool force = false;  ///< overwrite existing files
+  bool ascii = false;          ///< numbers as text, of the forms that have both
+  double resolution_m = 0.05;  ///< side of a cell of an occupancy grid
+  bool walls = false;          ///< an occupancy grid with the walls of the floor plan
+  bool force = false;          ///< overwrite existing files
 };
 
 struct MapExportResult {
-  std::vector<std::string> written;  ///< paths of the written files
+  std::vector<std::string> written;     ///< paths of the written forms, as in the arguments
+  std::optional<ColmapSummary> colmap;  ///< figures of the model for COLMAP, if it was written
 };
 
 /// Writes parts of a saved map as separate files: `placegraph map export`.
 /// Warns on stderr of a map whose run was broken off. Throws ArgumentError if nothing is to be
-/// written or a file exists, FileError, and NoResult if a form needs poses and the map has none.
+/// written, a file exists or has an unknown extension, FileError, and NoResult if a form needs
+/// poses or a metric map and the map is another.
 MapExportResult map_export(const MapExportArguments& arguments);
+
+/// One line for COLMAP's model; empty without one.
+std::string to_text(const MapExportResult& result);
 
 }  // namespace placegraph::apps

@@ -27,6 +27,8 @@ constexpr std::pair<std::string_view, std::string_view> kPages[] = {
     {"map plan", "indoor.md"},
     {"map street", "urban_map.md"},
     {"map georeference", "georeference.md"},
+    {"map export", "exports.md"},
+    {"map import", "exports.md#models-of-colmap-as-maps"},
     {"map label", "map.md#labels"},
     {"map localize", "map.md#placing-images"},
     {"map explain", "map.md#one-frame"},

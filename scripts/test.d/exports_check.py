@@ -1,4 +1,4 @@
-"""exports_check.py PROGRAM FOLDER: what the program writes, read by evo, gtsam and networkx.
+"""exports_check.py PROGRAM FOLDER: what the program writes, read by evo, gtsam and networkx; by others in exports_geometry.py.
 
 Renders and runs small sequences in FOLDER. Prints one line a check; exits 1 where one fails.
 """
@@ -16,6 +16,7 @@ import networkx
 import numpy
 from evo.core import metrics
 from evo.tools import file_interface
+from exports_geometry import check_geometry
 
 FRAMES = 40
 failures = 0
@@ -145,6 +146,7 @@ def main():
     check_graphs(placegraph)
     check_places(placegraph)
     check_map_exports(placegraph)
+    check_geometry(placegraph, check, "stereo", "drive")
     print(f"exports_check: {'FAILED: ' + str(failures) + ' checks' if failures else 'passed'}")
     return 1 if failures else 0
 

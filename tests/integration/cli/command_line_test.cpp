@@ -173,7 +173,7 @@ TEST_F(Misspelled, CommandsFlagsAndKeysGetSuggestions) {
       "--help)");
   expect_usage_error("run s --max-frames 20 --out o",
                      "no option '--max-frames'; `--set max_frames=...` sets it");
-  expect_usage_error("map export m --ply a.ply", "(see placegraph map export --help)");
+  expect_usage_error("map export m --obj a.obj", "(see placegraph map export --help)");
   test::write_file(dir / "c.yaml", "loops:\n  enabeld: true\n");
   expect_usage_error("config --config c.yaml",
                      "c.yaml:2: loops.enabeld: unknown key; did you mean enabled?");

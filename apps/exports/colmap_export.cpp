@@ -1,0 +1,75 @@
+#include "apps/exports/colmap_export.h"
+
+#include <fmt/format.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/io/internal/exports/colmap_model.h>
+#include <placegraph/pipeline/internal/map/map_bundle.h>
+
+#include <filesystem>
+
+#include "apps/exports/keyframe_images.h"
+#include "apps/support/output.h"
+
+namespace placegraph::apps {
+namespace {
+
+/// Ids of images and points are those of keyframes and landmarks plus one: COLMAP's begin at 1.
+ColmapModel colmap_model_of(const MapBundle& bundle, const KeyframeImages& images,
+                            const Camera& camera) {
+  ColmapModel model;
+  model.camera = camera;
+  for (const MapBundle::View& view : bundle.views) {
+    ColmapModel::Image& image = model.images.emplace_back();
+    image.id = static_cast<std::uint32_t>(view.keyframe->id.value() + 1);
+    image.name = images.name(view.keyframe->frame);
+    image.T_world_cam = view.T_map_cam;
+    for (const MapBundle::Observation& observation : view.observations)
+      image.observations.push_back({observation.px, observation.point});
+  }
+  for (const MapBundle::Point& point : bundle.points)
+    model.points.push_back({static_cast<std::uint64_t>(point.landmark.id.value() + 1),
+                            point.landmark.p_map, point.landmark.rgb.value_or(kUnknownColour),
+                            point.error_px});
+  return model;
+}
+
+}  // namespace
+
+ColmapSummary write_colmap(const std::string& folder, const StoredMap& stored, int component,
+                           NumberForm form) {
+  namespace fs = std::filesystem;
+  const KeyframeImages images(stored.origin);
+  const Camera& camera = stored.origin.calibration.value().camera;
+  const MapBundle bundle = adjust_map(stored.map, component, camera);
+  if (!bundle.outcome) throw NoResult(folder + ": nothing to write: " + bundle.outcome.reason);
+  const ColmapFiles files = to_colmap(colmap_model_of(bundle, images, camera), form);
+
+  const OutputFolder made(folder);
+  const bool binary = form == NumberForm::kBinary;
+  for (const auto& [name, content] :
+       {std::pair("cameras", &files.cameras), std::pair("images", &files.images),
+        std::pair("points3D", &files.points)}) {
+    const fs::path path = fs::path(folder) / name;
+    write_file(path.string() + (binary ? ".bin" : ".txt"), *content);
+    std::error_code ignored;
+    fs::remove(path.string() + (binary ? ".txt" : ".bin"), ignored);
+  }
+  return {.keyframes = bundle.views.size(),
+          .points = bundle.points.size(),
+          .kept = bundle.kept,
+          .observations = bundle.offered,
+          .error_before_px = bundle.error_before_px,
+          .error_px = bundle.error_px,
+          .views = static_cast<double>(bundle.kept) / static_cast<double>(bundle.points.size())};
+}
+
+std::string to_text(const ColmapSummary& summary) {
+  return fmt::format(
+      "COLMAP: {} keyframes, {} points, {} of {} observations kept ({:.1f} %), mean reprojection "
+      "error {:.2f} px ({:.2f} px before the adjustment), {:.1f} views a point\n",
+      summary.keyframes, summary.points, summary.kept, summary.observations,
+      100.0 * static_cast<double>(summary.kept) / static_cast<double>(summary.observations),
+      summary.error_px, summary.error_before_px, summary.views);
+}
+
+}  // namespace placegraph::apps

@@ -1,0 +1,45 @@
+#include "apps/exports/keyframe_images.h"
+
+#include <fmt/format.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/io/datasets/open_dataset.h>
+
+#include <filesystem>
+
+#include "apps/support/output.h"
+
+namespace placegraph::apps {
+
+namespace fs = std::filesystem;
+
+KeyframeImages::KeyframeImages(const MapOrigin& origin)
+    : sequence_(origin.sequence), dataset_(open_dataset(origin.sequence)) {
+  if (origin.lens_k1 != 0)
+    warn(
+        fmt::format("{}: the exported camera is that of images without the lens distortion that "
+                    "the run removed (k1 = {:.4f}); the images still have it",
+                    sequence_, origin.lens_k1));
+}
+
+std::string KeyframeImages::path(FrameId frame) const {
+  const std::int64_t index = frame.value();
+  if (index < 0 || index >= static_cast<std::int64_t>(dataset_->size()))
+    throw ArgumentError(
+        fmt::format("{}: it has no frame {}, which is a keyframe of the map", sequence_, index));
+  const std::string path = dataset_->image_path(static_cast<std::size_t>(index));
+  if (!path.empty()) return path;
+  const fs::path folder =
+      fs::is_directory(sequence_) ? fs::path(sequence_) : fs::path(sequence_).parent_path();
+  return (folder / fmt::format("frame_{:06}.png", index)).string();
+}
+
+std::string KeyframeImages::name(FrameId frame) const {
+  const fs::path image(path(frame));
+  const fs::path folder =
+      fs::is_directory(sequence_) ? fs::path(sequence_) : fs::path(sequence_).parent_path();
+  const fs::path inside = fs::absolute(image).lexically_normal().lexically_relative(
+      fs::absolute(folder / "").lexically_normal());
+  return inside.empty() || *inside.begin() == ".." ? image.filename().string() : inside.string();
+}
+
+}  // namespace placegraph::apps

@@ -1,0 +1,30 @@
+#pragma once
+#include <placegraph/graph/core/ids.h>
+#include <placegraph/io/datasets/dataset.h>
+#include <placegraph/io/map/stored_map.h>
+
+#include <memory>
+#include <string>
+
+namespace placegraph::apps {
+
+/// Where the images of a map's keyframes are.
+class KeyframeImages {
+ public:
+  /// Opens the sequence of the map. Warns if the run removed a lens distortion that the images
+  /// still have. Throws FileError if the sequence is no longer there.
+  explicit KeyframeImages(const MapOrigin& origin);
+
+  /// The image of a frame; frame_NUMBER.png in the folder of the sequence for a video.
+  /// Throws ArgumentError for a frame beyond the end of the sequence.
+  std::string path(FrameId frame) const;
+  /// The same from the folder of the sequence.
+  std::string name(FrameId frame) const;
+  const Dataset& dataset() const { return *dataset_; }
+
+ private:
+  std::string sequence_;
+  std::unique_ptr<Dataset> dataset_;
+};
+
+}  // namespace placegraph::apps

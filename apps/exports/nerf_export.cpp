@@ -1,0 +1,26 @@
+#include "apps/exports/nerf_export.h"
+
+#include <placegraph/io/internal/exports/nerf_transforms.h>
+#include <placegraph/pipeline/internal/map/map_geometry.h>
+
+#include <filesystem>
+
+#include "apps/exports/keyframe_images.h"
+
+namespace placegraph::apps {
+
+std::string nerf_transforms(const std::string& path, const StoredMap& stored, int component) {
+  namespace fs = std::filesystem;
+  const KeyframeImages images(stored.origin);
+  const fs::path folder = fs::absolute(path).lexically_normal().parent_path();
+  std::vector<NerfImage> frames;
+  for (const PosedKeyframe& posed : geometry_of(stored.map, component).keyframes)
+    frames.push_back({fs::absolute(images.path(posed.keyframe->frame))
+                          .lexically_normal()
+                          .lexically_relative(folder)
+                          .string(),
+                      posed.T_map_cam});
+  return to_nerf_transforms(stored.origin.calibration.value().camera, frames);
+}
+
+}  // namespace placegraph::apps

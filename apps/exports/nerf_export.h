@@ -1,0 +1,12 @@
+#pragma once
+#include <placegraph/io/map/stored_map.h>
+
+#include <string>
+
+namespace placegraph::apps {
+
+/// The transforms.json of the keyframes of a component of a map, for a file at `path`, from whose
+/// folder the paths of the images are. Throws FileError if the sequence is no longer there.
+std::string nerf_transforms(const std::string& path, const StoredMap& stored, int component);
+
+}  // namespace placegraph::apps

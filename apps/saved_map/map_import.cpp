@@ -1,0 +1,32 @@
+#include "apps/saved_map/map_import.h"
+
+#include <fmt/format.h>
+#include <placegraph/io/internal/exports/colmap_reader.h>
+#include <placegraph/io/map/map_database.h>
+
+#include "apps/exports/colmap_import.h"
+#include "apps/support/output.h"
+
+namespace placegraph::apps {
+
+MapImportResult map_import(const MapImportArguments& arguments) {
+  require_free(arguments.out, arguments.force);
+  const ColmapModel model = read_colmap(arguments.colmap);
+  if (model.images.empty()) throw NoResult(arguments.colmap + ": the model has no image");
+  const StoredMap stored = map_of_colmap(model, arguments.images, arguments.metric);
+  write_map(arguments.out, stored);
+  MapImportResult result{.out = arguments.out,
+                         .keyframes = stored.map.keyframes.size(),
+                         .frames = stored.map.frames.size(),
+                         .landmarks = stored.map.landmarks.size()};
+  for (const Keyframe& keyframe : stored.map.keyframes)
+    result.observations += keyframe.observations.size();
+  return result;
+}
+
+std::string to_text(const MapImportResult& result) {
+  return fmt::format("{}: {} keyframes of {} frames, {} landmarks, {} observations\n", result.out,
+                     result.keyframes, result.frames, result.landmarks, result.observations);
+}
+
+}  // namespace placegraph::apps

@@ -1,0 +1,27 @@
+#pragma once
+#include <cstddef>
+#include <string>
+
+namespace placegraph::apps {
+
+struct MapImportArguments {
+  std::string colmap;   ///< folder of a COLMAP model
+  std::string images;   ///< the sequence of its images
+  std::string out;      ///< file for the map
+  bool metric = false;  ///< lengths of the model are metres
+  bool force = false;   ///< overwrite an existing file
+};
+
+struct MapImportResult {
+  std::string out;
+  std::size_t keyframes = 0, frames = 0, landmarks = 0, observations = 0;
+};
+
+/// Makes a map of the model of another program: `placegraph map import`.
+/// Throws ArgumentError and FileError as map_of_colmap, and NoResult if the model has no image.
+MapImportResult map_import(const MapImportArguments& arguments);
+
+/// One line.
+std::string to_text(const MapImportResult& result);
+
+}  // namespace placegraph::apps

@@ -1,0 +1,46 @@
+#pragma once
+#include <placegraph/graph/geometry/camera.h>
+#include <placegraph/io/internal/exports/ply_points.h>
+
+#include <string>
+#include <vector>
+
+namespace placegraph {
+
+/// A sparse reconstruction as COLMAP stores it: a camera, posed images, points with their tracks.
+struct ColmapModel {
+  /// An image point of a point.
+  struct Observation {
+    Eigen::Vector2d px = Eigen::Vector2d::Zero();  ///< (0, 0): centre of the first pixel
+    int point = 0;                                 ///< position in `points`
+  };
+  /// An image with its pose.
+  struct Image {
+    std::uint32_t id = 0;                   ///< unique, from 1
+    std::string name;                       ///< path within the folder of the images
+    SE3 T_world_cam;                        ///< pose of its camera
+    std::vector<Observation> observations;  ///< in any order
+  };
+  /// A point in the world.
+  struct Point {
+    std::uint64_t id = 0;                               ///< unique, from 1
+    Eigen::Vector3d p_world = Eigen::Vector3d::Zero();  ///< position
+    std::array<std::uint8_t, 3> rgb{};                  ///< red, green, blue
+    double error_px = 0;                                ///< mean reprojection error
+  };
+  Camera camera;              ///< camera of all images, without distortion
+  std::vector<Image> images;  ///< images, in any order
+  std::vector<Point> points;  ///< points, in any order
+};
+
+/// Contents of the files of a model.
+struct ColmapFiles {
+  std::string cameras, images, points;  ///< cameras, images and points3D, .bin or .txt
+};
+
+/// The files of a model, with poses T_cam_world and pixels from the corner of the first pixel.
+/// Throws ArgumentError if the camera has a distortion, an observation refers to a missing point,
+/// ids are not unique or not positive, or a name is empty, or has a blank in a text.
+ColmapFiles to_colmap(const ColmapModel& model, NumberForm form);
+
+}  // namespace placegraph

@@ -1,0 +1,51 @@
+#include <placegraph/pipeline/internal/map/map_geometry.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+namespace placegraph {
+namespace {
+
+/// The largest standard deviation of a covariance.
+double worst_sigma(const Eigen::Matrix3d& covariance) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(covariance, Eigen::EigenvaluesOnly);
+  return std::sqrt(std::max(0.0, eigen.eigenvalues()[2]));
+}
+
+}  // namespace
+
+MapGeometry geometry_of(const Map& map, int component) {
+  const std::vector<int> joined = map.place_graph.joined_components();
+  std::unordered_map<PlaceId, const Place*> places;
+  for (std::size_t i = 0; i < joined.size(); ++i)
+    if (joined[i] == component)
+      places.emplace(map.place_graph.places[i].id, &map.place_graph.places[i]);
+
+  MapGeometry geometry;
+  std::unordered_map<KeyframeId, Sim3> S_map_keyframe;
+  for (const Keyframe& keyframe : map.keyframes) {
+    const auto place = places.find(keyframe.place);
+    if (place == places.end()) continue;
+    const Sim3 S =
+        place->second->S_map_place() *
+        PlaceMember{keyframe.id, keyframe.T_place_keyframe, keyframe.scale}.S_place_keyframe();
+    S_map_keyframe.emplace(keyframe.id, S);
+    geometry.keyframes.push_back({&keyframe, rigid_part(S)});
+  }
+  for (const PointLandmark& landmark : map.landmarks) {
+    const auto anchor = S_map_keyframe.find(landmark.keyframe);
+    if (anchor == S_map_keyframe.end()) continue;
+    PlacedLandmark& placed = geometry.landmarks.emplace_back();
+    placed.id = landmark.id;
+    placed.keyframe = landmark.keyframe;
+    placed.p_map = anchor->second * landmark.point_cam;
+    placed.rgb = landmark.rgb;
+    if (landmark.covariance)
+      placed.sigma = anchor->second.scale() * worst_sigma(*landmark.covariance);
+  }
+  return geometry;
+}
+
+}  // namespace placegraph

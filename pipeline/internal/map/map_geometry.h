@@ -1,0 +1,41 @@
+#pragma once
+#include <placegraph/graph/map.h>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace placegraph {
+
+/// Colour that exports give a landmark whose own is unknown.
+inline constexpr std::array<std::uint8_t, 3> kUnknownColour = {128, 128, 128};
+
+/// A keyframe of a map with its pose.
+struct PosedKeyframe {
+  const Keyframe* keyframe = nullptr;  ///< keyframe of the map, which must outlive this
+  SE3 T_map_cam;                       ///< pose of its camera, at the map's scale
+};
+
+/// A landmark of a map with its position.
+struct PlacedLandmark {
+  LandmarkId id;                                    ///< id in the map
+  KeyframeId keyframe;                              ///< its anchor keyframe
+  Eigen::Vector3d p_map = Eigen::Vector3d::Zero();  ///< position, at the map's scale
+  std::optional<std::array<std::uint8_t, 3>> rgb;   ///< red, green, blue; nothing if unknown
+  /// Standard deviation of the position in its worst direction, given the poses of the keyframes,
+  /// at the map's scale; nothing if the map has no covariance of it.
+  std::optional<double> sigma;
+};
+
+/// Keyframes and landmarks of one component of a map, in the frame of that component.
+struct MapGeometry {
+  std::vector<PosedKeyframe> keyframes;   ///< by ascending id
+  std::vector<PlacedLandmark> landmarks;  ///< in the order of the map
+};
+
+/// The geometry of the component with this MapComponent::number.
+/// Throws ArgumentError as Map::components.
+MapGeometry geometry_of(const Map& map, int component);
+
+}  // namespace placegraph
