@@ -215,6 +215,21 @@ TEST(LocalMap, AFartherLandmarkIsLessCertain) {
   EXPECT_LT(near, far);
 }
 
+TEST(LocalMap, LawTheCovarianceOfALandmarkDoesNotDependOnTheFrameOfTheMap) {
+  Drive drive(Scale::kMetric), rotated(Scale::kMetric);
+  const SE3 T_rotated_map = pose({0.4, -1.1, 0.7}, {3, 2, 1});
+  for (SE3& T : rotated.world.T_map_cam) T = T_rotated_map * T;
+  for (Eigen::Vector3d& p : rotated.world.points) p = T_rotated_map * p;
+  drive.add_all();
+  rotated.add_all();
+  const auto all = drive.map.landmarks(), same = rotated.map.landmarks();
+  ASSERT_EQ(all.size(), same.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    ASSERT_TRUE(all[i].covariance && same[i].covariance);
+    EXPECT_TRUE(all[i].covariance->isApprox(*same[i].covariance, 1e-6)) << i;
+  }
+}
+
 TEST(LocalMap, KeepsWhatIsKnownOfAMotionWhenItsKeyframeLeaves) {
   Drive drive(Scale::kMetric, 8, 4);
   drive.add_all();
