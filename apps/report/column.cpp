@@ -1,6 +1,7 @@
 #include "apps/report/column.h"
 
 #include <placegraph/graph/core/error.h>
+#include <placegraph/io/internal/exports/base64.h>
 
 #include <bit>
 #include <map>
@@ -19,25 +20,10 @@ json column_of(const char* type, const std::vector<Value>& values, int width) {
           "column: the values are no whole number of rows");
   const std::string_view bytes(reinterpret_cast<const char*>(values.data()),
                                values.size() * sizeof(Value));
-  return {{"type", type}, {"width", width}, {"data", base64(bytes)}};
+  return {{"type", type}, {"width", width}, {"data", to_base64(bytes)}};
 }
 
 }  // namespace
-
-std::string base64(std::string_view bytes) {
-  constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      group = group << 8 | (k < count ? static_cast<std::uint8_t>(bytes[i + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k)
-      text += k <= count ? kDigits[group >> (18 - 6 * k) & 63] : '=';
-  }
-  return text;
-}
 
 json column(const std::vector<float>& values, int width) { return column_of("f32", values, width); }
 json column(const std::vector<double>& values, int width) {

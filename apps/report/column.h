@@ -2,13 +2,9 @@
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace placegraph::apps {
-
-/// The bytes in base64 (RFC 4648), padded.
-std::string base64(std::string_view bytes);
 
 /// A column of a report: {"type", "width", "data"} with little-endian values in base64, `width` of
 /// them a row. Throws ArgumentError if the values are no whole number of rows.

@@ -6,6 +6,7 @@
 #include <placegraph/graph/pose_graph/constraint_source.h>
 #include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/datasets/open_dataset.h>
+#include <placegraph/io/internal/exports/base64.h>
 #include <placegraph/pipeline/run.h>
 
 #include <array>
@@ -43,7 +44,7 @@ json describe_keyframes(const Map& map) {
     frame.push_back(static_cast<std::int32_t>(keyframe.frame.value()));
     place.push_back(static_cast<std::int32_t>(keyframe.place.value()));
     thumbnails.push_back(
-        keyframe.thumbnail.empty() ? "" : "data:image/jpeg;base64," + base64(keyframe.thumbnail));
+        keyframe.thumbnail.empty() ? "" : "data:image/jpeg;base64," + to_base64(keyframe.thumbnail));
   }
   return {{"id", column(id)},
           {"frame", column(frame)},

@@ -5,7 +5,7 @@
 
 namespace placegraph {
 
-std::string to_base64(const std::string& bytes) {
+std::string to_base64(std::string_view bytes) {
   constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;
   text.reserve((bytes.size() + 2) / 3 * 4);

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/io/internal/exports/base64.h>
 
 #include <filesystem>
 #include <fstream>
@@ -81,7 +82,7 @@ TEST_F(ReportCommand, HasWhatTheMapHas) {
   EXPECT_EQ(run["figures"], json::array());
   EXPECT_THAT(run["options"].dump(), HasSubstr("\"seed\""));
   EXPECT_EQ(run["keyframes"]["thumbnails"][0],
-            "data:image/jpeg;base64," + base64(map.keyframes[0].thumbnail));
+            "data:image/jpeg;base64," + to_base64(map.keyframes[0].thumbnail));
   std::vector<std::int32_t> matches;
   for (const LoopRecord& loop : map.loops)
     matches.push_back(static_cast<std::int32_t>(loop.match_frame.value()));
