@@ -153,7 +153,7 @@ TEST_F(LoopCloserOnAStreet, WaitsForASecondLoopThatAgrees) {
     };
     closer.add_view(KeyframeId(k), frame(k),
                     k == 0 || k == kFirst ? std::nullopt : std::optional(T_previous_this(k, 1)));
-    loops += closer.find_loops({odometry, {}, {}}, kDepth_m).size();
+    loops += closer.find_loops({odometry, {}, {}, {}}, kDepth_m).size();
   }
   EXPECT_EQ(loops, 0u);
   const auto pending =
