@@ -22,6 +22,7 @@
 #include "apps/map/cmd_georeference.h"
 #include "apps/map/cmd_localize.h"
 #include "apps/map/cmd_route.h"
+#include "apps/map_edit/cmd_map_loops.h"
 #include "apps/places/cmd_match.h"
 #include "apps/places/cmd_places.h"
 #include "apps/places/cmd_vocabulary.h"
@@ -43,6 +44,8 @@
 #include "apps/synth/cmd_synth.h"
 #include "apps/synth/cmd_synth_graph.h"
 #include "apps/train/cmd_train.h"
+#include "apps/viewer/cmd_view.h"
+#include "apps/viewer/run_view.h"
 #include "apps/views/cmd_flow.h"
 #include "apps/views/cmd_markers.h"
 #include "apps/views/cmd_motion.h"
@@ -61,6 +64,7 @@ CLI::App& add_group(CLI::App& app, const std::string& name, const std::string& w
 void add_map_group(CLI::App& app) {
   CLI::App& map = add_group(app, "map", "Saved maps", "info out/town-run");
   add_map_commands(map);
+  add_map_loops_commands(map);
   add_localize_command(map);
   add_explain_command(map);
   add_route_command(map);
@@ -184,11 +188,17 @@ std::unique_ptr<CLI::App> make_command_line() {
   app->footer("placegraph run kitti/sequences/00 --out out/00");
   app->set_version_flag("--version", kProgram);
   app->require_subcommand(1);
-  add_run_command(*app, [](const std::string& folder, const std::string& file) {
+  RunPresentation presentation;
+  presentation.write_page = [](const std::string& folder, const std::string& file) {
     write_run_page(folder, file, kProgram);
-  });
+  };
+  presentation.show = [](const ViewerOptions& options, const std::string& title) {
+    return std::make_unique<RunView>(options, title, kProgram);
+  };
+  add_run_command(*app, presentation);
   add_inspect_command(*app);
   add_report_command(*app);
+  add_view_command(*app);
   add_config_command(*app);
   add_map_group(*app);
   add_eval_group(*app);

@@ -27,14 +27,15 @@ enum class LoopStage {
   kCovariance,  ///< the relative pose contradicts that of the map, given the map's covariance
   kSupport,     ///< no second loop agrees (yet)
   kAccepted,    ///< the loop became a constraint of the map
+  kManual,      ///< no test: a person refused the loop in the saved map
 };
-/// Number of stages.
+/// Number of stages that a run can decide: all but kManual.
 inline constexpr int kLoopStageCount = static_cast<int>(LoopStage::kAccepted) + 1;
 
 /// The name of a stage in files.
 /// In the order of LoopStage: "retrieval", "drift", "geometry", "drift", "covariance", "support",
-/// "accepted". Both tests by odometry are called "drift": kReach is tested before a relative pose
-/// is computed, kDrift afterwards.
+/// "accepted", "manual". Both tests by odometry are called "drift": kReach is tested before a
+/// relative pose is computed, kDrift afterwards.
 const char* to_string(LoopStage stage);
 /// The stage with the given name; nothing for any other text.
 /// `model` distinguishes the two stages with the name "drift": kNone means kReach.

@@ -46,7 +46,7 @@ struct FrameRecord {
 struct LoopRecord {
   FrameId query_frame, match_frame;         ///< the frames of the later and the earlier keyframe
   int inliers = 0;                          ///< points that agree with the relative pose
-  LoopStage stage = LoopStage::kRetrieval;  ///< the test that refused it, or kAccepted
+  LoopStage stage = LoopStage::kRetrieval;  ///< the test that refused it, or kAccepted, kManual
   SE3 T_match_query;                   ///< relative pose of an accepted loop, at the match's scale
   LoopModel model = LoopModel::kNone;  ///< model by which the relative pose was found
   int lines = 0;                       ///< lines that agree with the relative pose

@@ -79,6 +79,9 @@ using RunProgress = std::function<void(std::size_t done, std::size_t total, cons
 using FrameObserver =
     std::function<void(const Frame& frame, const FrameResult& result, const FrameView& view)>;
 
+/// Callback after each frame, with the CPU time that reading and the stages of Slam took so far.
+using StagesObserver = std::function<void(const std::vector<StageTimes::Stage>& stages)>;
+
 /// Optional inputs of a run besides the sequence and its options.
 struct RunInputs {
   /// Trained model that labels surfaces; required if `semantics` or `context` is enabled.
@@ -88,6 +91,7 @@ struct RunInputs {
   std::optional<MapFile> map_file = std::nullopt;
   RunProgress progress = {};    ///< progress callback; may be empty
   FrameObserver observer = {};  ///< callback with the images and tracks; may be empty
+  StagesObserver stages = {};   ///< callback with the times so far; may be empty
   /// Event listener; not owned. run_began is called at each start of the run, including a restart
   /// with undistorted images.
   SlamEvents* events = nullptr;

@@ -4,6 +4,7 @@
 #include <placegraph/pipeline/slam/frame_result.h>
 
 #include <optional>
+#include <vector>
 
 namespace [[gnu::visibility("default")]] placegraph {
 
@@ -29,6 +30,12 @@ struct PlacesMerged {
   PlaceId gone;  ///< younger place, which no longer exists
 };
 
+/// The present pose of a place.
+struct PlacePose {
+  PlaceId place;     ///< id of the place
+  Sim3 S_map_place;  ///< current estimate; its scale: lengths in the map over lengths at the place
+};
+
 /// Change of the poses of places, after which earlier snapshots are out of date.
 struct MapMoved {
   /// Factor applied to all lengths of the newest track segment because its scale has become known;
@@ -37,6 +44,7 @@ struct MapMoved {
   int places = 0;           ///< number of places that have moved
   double translation = 0;   ///< largest translation of a place [m, or in the scale of the map]
   double rotation_rad = 0;  ///< largest rotation of a place
+  std::vector<PlacePose> poses = {};  ///< new poses of the places that have moved, by id
 };
 
 /// A component of the map that was joined to another one.

@@ -1,5 +1,6 @@
 #include "apps/report/page.h"
 
+#include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 
 #include <nlohmann/json.hpp>
@@ -27,18 +28,39 @@ std::string_view empty_page() {
           static_cast<std::size_t>(placegraph_page_end - placegraph_page_begin)};
 }
 
-std::string page_with(const nlohmann::json& data) {
+namespace {
+
+/// The page with data in a script element that has an id.
+std::string page_with_script(const char* id, const nlohmann::json& data) {
   constexpr std::string_view kMarker = "<!--placegraph-report-->";
   const std::string_view page = empty_page();
   const std::size_t at = page.find(kMarker);
   require(at != std::string_view::npos, "the page has no place for its data");
   std::string result(page.substr(0, at));
-  result += "<script id=\"placegraph-report\" type=\"application/json\">";
+  result += fmt::format("<script id=\"{}\" type=\"application/json\">", id);
   for (const char c : data.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace))
     c == '<' ? result += "\\u003c" : result += c;
   result += "</script>";
   result += page.substr(at + kMarker.size());
   return result;
+}
+
+}  // namespace
+
+std::string page_with(const nlohmann::json& data) {
+  return page_with_script("placegraph-report", data);
+}
+
+std::string page_served(const nlohmann::json& start, const std::string& nonce) {
+  constexpr std::string_view kPolicy = "<meta http-equiv=\"Content-Security-Policy\"";
+  constexpr std::string_view kNonce = "placegraph-nonce";
+  std::string page = page_with_script("placegraph-live", start);
+  const std::size_t policy = page.find(kPolicy);
+  require(policy != std::string::npos, "the page has no content security policy");
+  page.erase(policy, page.find('>', policy) + 1 - policy);
+  for (std::size_t at = page.find(kNonce); at != std::string::npos; at = page.find(kNonce, at))
+    page.replace(at, kNonce.size(), nonce);
+  return page;
 }
 
 }  // namespace placegraph::apps

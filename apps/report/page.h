@@ -12,4 +12,8 @@ std::string_view empty_page();
 /// is escaped, and bytes that are no UTF-8 are replaced.
 std::string page_with(const nlohmann::json& data);
 
+/// The page for a server; `start` says what it shows. Only scripts with `nonce`, a random text
+/// of letters and digits, run in it, by the content security policy that the server sends.
+std::string page_served(const nlohmann::json& start, const std::string& nonce);
+
 }  // namespace placegraph::apps

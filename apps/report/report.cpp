@@ -14,6 +14,12 @@ namespace placegraph::apps {
 
 using nlohmann::json;
 
+json report_data(const std::string& title, const std::string& program, json runs) {
+  return {
+      {"format", "placegraph-report-1"}, {"program", program},        {"title", title},
+      {"runs", std::move(runs)},         {"pictures", json::array()}, {"graphs", json::array()}};
+}
+
 ReportResult report(const ReportArguments& arguments) {
   require_free(arguments.out, arguments.force);
   json runs = json::array();
@@ -22,13 +28,8 @@ ReportResult report(const ReportArguments& arguments) {
     runs.push_back(describe_run_for_report(run));
     names += (names.empty() ? "" : ", ") + runs.back()["name"].get<std::string>();
   }
-  const json data = {{"format", "placegraph-report-1"},
-                     {"program", arguments.program},
-                     {"title", arguments.title.empty() ? names : arguments.title},
-                     {"runs", std::move(runs)},
-                     {"pictures", json::array()},
-                     {"graphs", json::array()}};
-  const std::string page = page_with(data);
+  const std::string page = page_with(report_data(arguments.title.empty() ? names : arguments.title,
+                                                 arguments.program, std::move(runs)));
   write_file(arguments.out, page);
   return {arguments.out, arguments.runs.size(), page.size()};
 }

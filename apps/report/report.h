@@ -1,4 +1,5 @@
 #pragma once
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,10 @@ struct ReportResult {
   std::size_t runs = 0;   ///< number of runs in it
   std::size_t bytes = 0;  ///< its size
 };
+
+/// What a page shows: `runs` as describe_run_for_report() gives them.
+nlohmann::json report_data(const std::string& title, const std::string& program,
+                           nlohmann::json runs);
 
 /// Writes a page with the runs that opens from disk without a network.
 ReportResult report(const ReportArguments& arguments);

@@ -15,6 +15,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/report/column.h"
+#include "apps/report/landmark_rows.h"
 #include "apps/report/report_frames.h"
 #include "apps/report/report_pictures.h"
 #include "apps/results/judgement_text.h"
@@ -29,9 +30,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-/// Landmarks beyond this number are left out evenly: no screen shows more.
-constexpr std::size_t kMostLandmarks = 200'000;
-
 void put_position(std::vector<float>& column, const Eigen::Vector3d& p) {
   for (int i = 0; i < 3; ++i) column.push_back(static_cast<float>(p[i]));
 }
@@ -43,8 +41,9 @@ json describe_keyframes(const Map& map) {
     id.push_back(static_cast<std::int32_t>(keyframe.id.value()));
     frame.push_back(static_cast<std::int32_t>(keyframe.frame.value()));
     place.push_back(static_cast<std::int32_t>(keyframe.place.value()));
-    thumbnails.push_back(
-        keyframe.thumbnail.empty() ? "" : "data:image/jpeg;base64," + to_base64(keyframe.thumbnail));
+    thumbnails.push_back(keyframe.thumbnail.empty()
+                             ? ""
+                             : "data:image/jpeg;base64," + to_base64(keyframe.thumbnail));
   }
   return {{"id", column(id)},
           {"frame", column(frame)},
@@ -53,7 +52,7 @@ json describe_keyframes(const Map& map) {
 }
 
 json describe_landmarks(const Map& map) {
-  const std::size_t step = map.landmarks.size() / kMostLandmarks + 1;
+  const std::size_t step = LandmarkRows(map.landmarks.size()).step();
   std::vector<float> position, sigma;
   std::vector<std::uint8_t> colour;
   std::vector<std::int32_t> keyframe;
@@ -230,9 +229,17 @@ json components_of(const Map& map) {
 
 }  // namespace
 
+std::string name_of_run(const std::string& map_path) {
+  const fs::path path = fs::absolute(fs::path(map_path)).lexically_normal();
+  return path.filename() == "map.db" ? path.parent_path().filename().string()
+                                     : path.stem().string();
+}
+
 json describe_run_for_report(const std::string& file_or_folder) {
-  const std::string path = map_path_of(file_or_folder);
-  const StoredMap stored = read_stored_map(file_or_folder);
+  return describe_run_for_report(read_stored_map(file_or_folder), map_path_of(file_or_folder));
+}
+
+json describe_run_for_report(const StoredMap& stored, const std::string& path) {
   const Map& map = stored.map;
   const json result = read_result(path);
   json figures = json::array();
@@ -240,7 +247,7 @@ json describe_run_for_report(const std::string& file_or_folder) {
   const auto posed = std::ranges::count_if(
       map.frames, [](const FrameRecord& frame) { return frame.T_keyframe_frame.has_value(); });
   const fs::path folder = fs::absolute(fs::path(path)).lexically_normal().parent_path();
-  return {{"name", folder.filename().string()},
+  return {{"name", name_of_run(path)},
           {"folder", folder.string()},
           {"sensor", to_string(stored.origin.sensor)},
           {"metric", map.metric},

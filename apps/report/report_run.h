@@ -1,4 +1,6 @@
 #pragma once
+#include <placegraph/io/map/stored_map.h>
+
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
@@ -9,5 +11,10 @@ namespace placegraph::apps {
 /// Where the recording is at its path and has ground truth, errors and figures are those of the
 /// optimized trajectory against it. Throws FileError as read_map.
 nlohmann::json describe_run_for_report(const std::string& file_or_folder);
+/// The same for a map that was read; `path`: its file, beside which are the other results.
+nlohmann::json describe_run_for_report(const StoredMap& stored, const std::string& path);
+
+/// Name of a run by the file of its map: that of the folder, or of a map with another name.
+std::string name_of_run(const std::string& map_path);
 
 }  // namespace placegraph::apps

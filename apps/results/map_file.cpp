@@ -1,5 +1,8 @@
 #include "apps/results/map_file.h"
 
+#include <placegraph/io/config/yaml_config.h>
+#include <placegraph/pipeline/run.h>
+
 #include <filesystem>
 
 #include "apps/support/output.h"
@@ -17,6 +20,12 @@ StoredMap read_stored_map(const std::string& file_or_folder) {
   if (!stored.finished)
     warn(path + ": its run was broken off; `placegraph run --resume` continues it");
   return stored;
+}
+
+RunOptions options_of_run(const std::string& path, const MapOrigin& origin) {
+  RunOptions options;
+  if (!origin.options.empty()) read_options_text(path, origin.options, options);
+  return options;
 }
 
 }  // namespace placegraph::apps

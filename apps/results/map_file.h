@@ -1,5 +1,6 @@
 #pragma once
 #include <placegraph/io/map/map_database.h>
+#include <placegraph/pipeline/run_options.h>
 
 #include <string>
 
@@ -10,5 +11,9 @@ std::string map_path_of(const std::string& file_or_folder);
 
 /// Reads a saved map; warns if its run was broken off.
 StoredMap read_stored_map(const std::string& file_or_folder);
+
+/// The options of the run that made a map; the defaults for a map of no run. `path`: its file, for
+/// messages. Throws FileError for options that this program does not know.
+RunOptions options_of_run(const std::string& path, const MapOrigin& origin);
 
 }  // namespace placegraph::apps

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "apps/run/run.h"
+#include "apps/server/cmd_viewer_options.h"
 #include "apps/support/option_texts.h"
 #include "apps/support/output.h"
 
@@ -16,17 +17,39 @@ namespace {
 struct RunCommand {
   RunArguments arguments;
   bool json = false, profile = false;
-  std::string page;  // file of the page that shows the run; empty: none
-  std::function<void(const std::string& folder, const std::string& file)> write_page;
+  std::string page;   // file of the page that shows the run; empty: none
+  bool view = false;  // whether the run is shown while it goes on
+  ViewerOptions viewer;
+  RunPresentation presentation;
 };
+
+/// A name for a run before its sequence is opened.
+std::string title_of(const RunArguments& arguments) {
+  const std::filesystem::path path(arguments.sequence.empty() ? arguments.resume
+                                                              : arguments.sequence);
+  return (path.has_filename() ? path : path.parent_path()).filename().string();
+}
+
+std::string verdict_of(const RunReport& report) {
+  const auto found = report.summary.find("judgement");
+  return found == report.summary.end() ? "" : found->value("verdict", "");
+}
 
 void run_and_print(const RunCommand& command) {
   if (!command.page.empty() && std::filesystem::exists(command.page))
     require_free(command.page, command.arguments.force);
-  const RunReport report = run(command.arguments);
+  RunArguments arguments = command.arguments;
+  std::unique_ptr<RunDisplay> display;
+  if (command.view) {
+    display = command.presentation.show(command.viewer, title_of(arguments));
+    arguments.watcher = &display->watcher();
+  }
+  const RunReport report = run(arguments);
   print(command.json ? to_json(report) : to_text(report));
   if (command.profile && !command.json) print(stages_text(report));
-  if (!command.page.empty() && !report.broken_off) command.write_page(report.out, command.page);
+  if (!command.page.empty() && !report.broken_off)
+    command.presentation.write_page(report.out, command.page);
+  if (display && !report.interrupted) display->finish(report.out, verdict_of(report));
   if (report.broken_off) throw Error(*report.broken_off);
   if (report.interrupted) throw Interrupted(*report.interrupted);
   if (report.no_result) throw NoResult(*report.no_result);
@@ -60,11 +83,9 @@ void add_old_scene(CLI::App& command, std::optional<std::string>& scene) {
 
 }  // namespace
 
-void add_run_command(
-    CLI::App& app,
-    const std::function<void(const std::string& folder, const std::string& file)>& write_page) {
+void add_run_command(CLI::App& app, const RunPresentation& presentation) {
   auto run_command = std::make_shared<RunCommand>();
-  run_command->write_page = write_page;
+  run_command->presentation = presentation;
   RunArguments& a = run_command->arguments;
   CLI::App* command =
       app.add_subcommand("run", "Estimate the trajectory and the place graph of a sequence");
@@ -102,6 +123,8 @@ void add_run_command(
   command->add_option("--draw", a.draw, "folder for the images, drawn with tracks and residuals");
   command->add_flag("--profile", run_command->profile, kProfileText);
   command->add_option("--report", run_command->page, kReportText);
+  command->add_flag("--view", run_command->view, "show the run in a browser while it goes on");
+  add_viewer_options(*command, run_command->viewer);
   add_verbosity(*command, a.verbosity);
   command->callback([run_command] { run_and_print(*run_command); });
 }

@@ -160,20 +160,34 @@ RunResult run_prepared(const PreparedRun& prepared, const Interruption& interrup
   const RunArguments& arguments = prepared.arguments;
   const Dataset& dataset = *prepared.dataset;
   RunInputs inputs;
-  if (!arguments.draw.empty())
-    inputs.observer = [&](const Frame& frame, const FrameResult& result, const FrameView& view) {
-      write_frame_drawing(arguments.draw, frame, result, view);
-    };
+  RunWatcher* watcher = arguments.watcher;
   const Verbosity verbosity = arguments.verbosity;
   Progress progress("running " + dataset.name(), frames_to_run(dataset, prepared.options));
+  SlamEventsGroup events;
+  if (watcher) {
+    watcher->begin(dataset.name(),
+                   static_cast<std::size_t>(frames_to_run(dataset, prepared.options)));
+    events.add(watcher);
+    inputs.stages = [&](const auto& stages) { watcher->stages_measured(stages); };
+  }
+  if (watcher || !arguments.draw.empty())
+    inputs.observer = [&](const Frame& frame, const FrameResult& result, const FrameView& view) {
+      if (watcher) watcher->frame_seen(frame, result, view);
+      if (!arguments.draw.empty()) write_frame_drawing(arguments.draw, frame, result, view);
+    };
   if (verbosity != Verbosity::kQuiet)
     inputs.progress = [&](std::size_t done, std::size_t, const FrameResult&) {
       progress.update(static_cast<std::int64_t>(done));
     };
   RunMessages messages(verbosity, [&](const std::string& line) { progress.print(line); });
   inputs.log = messages.log();
-  if (verbosity != Verbosity::kQuiet) inputs.events = &messages;
-  inputs.stop = [&] { return interruption.requested(); };
+  if (verbosity != Verbosity::kQuiet) events.add(&messages);
+  if (!events.empty()) inputs.events = &events;
+  inputs.stop = [&] {
+    const auto requested = [&] { return interruption.requested(); };
+    if (watcher) watcher->await_permission(requested);
+    return requested();
+  };
   inputs.map_file = {run_map_path(arguments.out), fs::absolute(arguments.sequence).string(),
                      !arguments.resume.empty()};
   inputs.surfaces = prepared.surfaces;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/run/run_messages.h"
+#include "apps/run/run_watcher.h"
 
 namespace placegraph::apps {
 
@@ -25,7 +26,8 @@ struct RunArguments {
   double min_posed = 0.2;  ///< share of the frames that must have a pose, else exit code 1
   bool no_loops = false;
   Verbosity verbosity = Verbosity::kNormal;
-  bool force = false;  ///< write into folders that are not empty
+  bool force = false;             ///< write into folders that are not empty
+  RunWatcher* watcher = nullptr;  ///< watches the run; not owned
 };
 
 /// map.db of a folder of results.

@@ -35,6 +35,8 @@ const char* to_string(LoopStage stage) {
       return "support";
     case LoopStage::kAccepted:
       return "accepted";
+    case LoopStage::kManual:
+      return "manual";
     case LoopStage::kReach:
     case LoopStage::kDrift:
       break;
@@ -44,8 +46,9 @@ const char* to_string(LoopStage stage) {
 
 std::optional<LoopStage> loop_stage(std::string_view name, LoopModel model) {
   const LoopStage drift = model == LoopModel::kNone ? LoopStage::kReach : LoopStage::kDrift;
-  for (const auto stage : {LoopStage::kRetrieval, LoopStage::kGeometry, drift,
-                           LoopStage::kCovariance, LoopStage::kSupport, LoopStage::kAccepted})
+  for (const auto stage :
+       {LoopStage::kRetrieval, LoopStage::kGeometry, drift, LoopStage::kCovariance,
+        LoopStage::kSupport, LoopStage::kAccepted, LoopStage::kManual})
     if (name == to_string(stage)) return stage;
   return std::nullopt;
 }

@@ -21,6 +21,9 @@ struct FrameView {
     /// Projection of the track's landmark [px]; nothing without a landmark or if it cannot be
     /// projected.
     std::optional<Eigen::Vector2d> px_projected;
+    /// The landmark in the frame of the camera, in the scale of the track segment; nothing without
+    /// a landmark.
+    std::optional<Eigen::Vector3d> point_cam;
   };
   std::vector<Track> tracks;  ///< every tracked point, with or without a landmark
   /// A tracked straight edge.
@@ -35,8 +38,9 @@ struct FrameView {
   std::vector<Line> lines;  ///< empty where lines are not among the cues
   /// An edge that was examined for the directions of Manhattan frames.
   struct DirectedLine {
-    LineSegment segment;                    ///< segment in the image [px]
-    std::optional<ManhattanFrameId> manhattan_frame;  ///< Manhattan frame to which the edge belongs, if any
+    LineSegment segment;  ///< segment in the image [px]
+    std::optional<ManhattanFrameId>
+        manhattan_frame;      ///< Manhattan frame to which the edge belongs, if any
     std::optional<int> axis;  ///< 0, 1 or 2: axis of that frame to which the edge is parallel
   };
   /// Edges of a keyframe; empty for other frames and where Manhattan frames are not among the cues.

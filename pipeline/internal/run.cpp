@@ -121,6 +121,12 @@ bool learn_lens(const LensDistortion& seen, int pass, const LensOptions& options
   return true;
 }
 
+std::vector<StageTimes::Stage> joined(std::vector<StageTimes::Stage> stages,
+                                      const std::vector<StageTimes::Stage>& more) {
+  stages.insert(stages.end(), more.begin(), more.end());
+  return stages;
+}
+
 }  // namespace
 
 const char* to_string(Sensor sensor) {
@@ -273,6 +279,7 @@ class SequenceRun {
       }
       const FrameResult done = slam.add_frame(frame);
       if (inputs_.observer) inputs_.observer(frame, done, slam.view());
+      if (inputs_.stages) inputs_.stages(joined(times_.stages(), slam.stages()));
       if (inputs_.progress) inputs_.progress(i + 1 - begin_, end_ - begin_, done);
       if (restarts_without_overlay(slam)) return false;
       if (i - begin_ < frames_to_restart(end_ - begin_, options_.lens) &&
@@ -294,8 +301,7 @@ class SequenceRun {
       result_.notes.push_back(distortion_note(lens_.k1(), slam.lens()));
     result_.notes.insert(result_.notes.begin(), mask_.notes().begin(), mask_.notes().end());
     result_.environments = slam.environments();
-    result_.stages = times_.stages();
-    result_.stages.insert(result_.stages.end(), slam.stages().begin(), slam.stages().end());
+    result_.stages = joined(times_.stages(), slam.stages());
     return true;
   }
 

@@ -3,6 +3,7 @@
 #include <placegraph/pipeline/run.h>
 #include <placegraph/pipeline/slam_events.h>
 
+#include <map>
 #include <regex>
 
 #include "tests/support/map_bits.h"
@@ -48,6 +49,7 @@ struct Listener final : SlamEvents {
   std::vector<FrameResult> done;
   std::vector<KeyframeAdded> keyframes;
   std::set<PlaceId> places;
+  std::map<PlaceId, SE3> poses;
   std::size_t accepted = 0, refused = 0;
   void frame_posed(const FrameResult& frame) override { order += 'F', done.push_back(frame); }
   void frame_lost(const FrameResult& frame) override { order += 'F', done.push_back(frame); }
@@ -59,6 +61,7 @@ struct Listener final : SlamEvents {
   void place_added(const PlaceAdded& place) override {
     order += 'P';
     EXPECT_TRUE(places.insert(place.place).second);
+    poses[place.place] = place.T_map_place;
   }
   void places_merged(const PlacesMerged& merged) override {
     order += 'M';
@@ -69,6 +72,9 @@ struct Listener final : SlamEvents {
   void map_moved(const MapMoved& move) override {
     order += 'V';
     EXPECT_GT(move.places, 0);
+    EXPECT_EQ(move.poses.size(), static_cast<std::size_t>(move.places));
+    for (const PlacePose& pose : move.poses)
+      poses[pose.place] = SE3(pose.S_map_place.rotation(), pose.S_map_place.translation());
   }
 };
 
@@ -98,6 +104,8 @@ TEST(SlamEventsOfARun, ComeInTheOrderThatIsSaidAndTellTheWholeMap) {
   std::set<PlaceId> places;
   for (const Place& place : map.place_graph.places) places.insert(place.id);
   EXPECT_EQ(listener.places, places);
+  for (const Place& place : map.place_graph.places)
+    EXPECT_EQ(listener.poses.at(place.id).matrix(), place.T_map_place.matrix()) << place.id.value();
   const auto accepted = std::ranges::count_if(map.loops, &LoopRecord::accepted);
   EXPECT_EQ(listener.accepted, static_cast<std::size_t>(accepted));
   EXPECT_GE(listener.accepted + listener.refused, map.loops.size());

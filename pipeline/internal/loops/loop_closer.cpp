@@ -46,14 +46,17 @@ void LoopCloser::add_view(KeyframeId keyframe, const Frame& frame,
   views_.push_back(std::move(view));
 }
 
+/// Similarity of a view to the one before it; 0 for the first, which has no reference.
+double LoopCloser::similarity_to_previous(std::size_t number) const {
+  return number == 0 ? 0
+                     : database_.similarity(views_[number].features, views_[number - 1].keyframe);
+}
+
 /// Older views similar to the newest one, the most similar first. In another component of the map
 /// the newest ones count too.
 std::vector<LoopCloser::Candidate> LoopCloser::retrieve(const KnownMotions& known) const {
   const View& query = views_.back();
-  // Without a previous keyframe there is no reference for the similarity.
-  const double similarity_to_last =
-      views_.size() < 2 ? 0
-                        : database_.similarity(query.features, views_[views_.size() - 2].keyframe);
+  const double similarity_to_last = similarity_to_previous(views_.size() - 1);
   std::vector<Candidate> candidates;
   for (const PlaceCandidate& candidate :
        database_.query(query.features, options_.candidates, [&](KeyframeId id) {
@@ -65,10 +68,9 @@ std::vector<LoopCloser::Candidate> LoopCloser::retrieve(const KnownMotions& know
   return candidates;
 }
 
-/// The relative pose of the newest view and an older one from their features.
-std::optional<Loop> LoopCloser::verify(const View& match, bool free_scale,
+/// The relative pose of a view and an older one from their features.
+std::optional<Loop> LoopCloser::verify(const View& query, const View& match, bool free_scale,
                                        LoopRecord& record) const {
-  const View& query = views_.back();
   Random random(seed_, static_cast<std::uint64_t>(query.frame.value()) << 20 |
                            static_cast<std::uint64_t>(match.keyframe.value()));
   const LoopVerification verified =
@@ -81,6 +83,22 @@ std::optional<Loop> LoopCloser::verify(const View& match, bool free_scale,
   record.T_match_query = verified.T_match_query;
   return Loop{query.keyframe, match.keyframe, verified.T_match_query,
               options_.information_scale * verified.information, verified.scale_match_query};
+}
+
+std::optional<Loop> LoopCloser::measure(KeyframeId query, KeyframeId match, bool free_scale,
+                                        LoopRecord& record) const {
+  const auto position = std::ranges::lower_bound(views_, query, {}, &View::keyframe);
+  require(match < query && position != views_.end() && position->keyframe == query &&
+              view(match).keyframe == match,
+          "LoopCloser::measure: two known keyframes needed, the later one first");
+  record = LoopRecord();
+  record.query_frame = position->frame;
+  record.match_frame = view(match).frame;
+  const double reference =
+      similarity_to_previous(static_cast<std::size_t>(position - views_.begin()));
+  record.similarity =
+      reference > 0 ? database_.similarity(position->features, match) / reference : 1;
+  return verify(*position, view(match), free_scale, record);
 }
 
 /// The loop to a candidate if it passes all tests except support; the record's stage is the
@@ -99,7 +117,7 @@ std::optional<Loop> LoopCloser::judge(const Candidate& candidate, const KnownMot
     return std::nullopt;
 
   record.stage = LoopStage::kGeometry;
-  const std::optional<Loop> loop = verify(*candidate.match, free_scale, record);
+  const std::optional<Loop> loop = verify(views_.back(), *candidate.match, free_scale, record);
   if (!loop) return std::nullopt;
 
   record.stage = LoopStage::kDrift;

@@ -32,6 +32,11 @@ class LoopCloser {
                 std::vector<LineFeature> lines = {});
   /// Returns the loops that the newest view completes.
   std::vector<Loop> find_loops(const KnownMotions& known, double median_depth_m);
+  /// Measures the loop between two keyframes, without the other tests; nothing if their
+  /// features agree with no relative pose. `record` receives frames and evidence, no stage.
+  /// Throws ArgumentError for an unknown keyframe, or unless the match is the earlier one.
+  std::optional<Loop> measure(KeyframeId query, KeyframeId match, bool free_scale,
+                              LoopRecord& record) const;
   /// Pose of a frame relative to a known keyframe. The last views are tried first, because most
   /// losses are short.
   std::optional<LocatedFrame> relocalize(const Frame& frame, std::size_t last_views = 3) const;
@@ -56,7 +61,9 @@ class LoopCloser {
     std::size_t record, view;
   };
   std::vector<Candidate> retrieve(const KnownMotions& known) const;
-  std::optional<Loop> verify(const View& match, bool free_scale, LoopRecord& record) const;
+  double similarity_to_previous(std::size_t number) const;
+  std::optional<Loop> verify(const View& query, const View& match, bool free_scale,
+                             LoopRecord& record) const;
   std::optional<Loop> judge(const Candidate& candidate, const KnownMotions& known,
                             double median_depth_m, LoopRecord& record) const;
   std::vector<Loop> support(const MotionBetween& odometry, double median_depth_m);

@@ -1,8 +1,10 @@
 #include <placegraph/pipeline/internal/places/place_components.h>
+#include <placegraph/pipeline/internal/places/shortest_path.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 namespace placegraph {
 
@@ -18,6 +20,29 @@ void join_components(const KeyframeChain& chain, const std::vector<Loop>& loops,
         query > match ? S_map_match * loop.S_match_query() * S_map_query.inverse()
                       : S_map_query * loop.S_match_query().inverse() * S_map_match.inverse();
     partition.move_component(std::max(match, query), std::min(match, query), S_new_old);
+  }
+}
+
+void split_components(const KeyframeChain& chain, const std::vector<Loop>& loops,
+                      PlacePartition& partition) {
+  const auto neighbours = place_neighbours(chain, partition, loops);
+  int unused = 0;
+  for (const auto& [number, place] : partition.places())
+    unused = std::max(unused, place.component + 1);
+  std::set<PlaceId> reached;
+  std::set<int> begun;  // components whose first place has been reached
+  for (const auto& [number, place] : partition.places()) {
+    if (reached.count(number)) continue;
+    const int component = begun.insert(place.component).second ? place.component : unused++;
+    std::vector<PlaceId> open = {number};
+    while (!open.empty()) {
+      const PlaceId at = open.back();
+      open.pop_back();
+      if (!reached.insert(at).second) continue;
+      partition.set_component(at, component);
+      if (const auto next = neighbours.find(at); next != neighbours.end())
+        open.insert(open.end(), next->second.begin(), next->second.end());
+    }
   }
 }
 

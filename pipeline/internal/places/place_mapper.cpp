@@ -112,6 +112,14 @@ void PlaceMapper::add_loop(const Loop& loop) {
   changed(std::max(loop.match, loop.query));
 }
 
+void PlaceMapper::reconsider() {
+  for (std::size_t number = partition_.merged().size(); number > 0; --number)
+    changed(partition_.separate(number - 1, false));
+  split_components(chain_, loops_, partition_);
+  optimizer_.reset();
+  unpublished_from_ = kBeforeAll;
+}
+
 void PlaceMapper::rescale(KeyframeId first, double factor) {
   partition_.rescale(chain_, first, factor);
   chain_.rescale(first, factor);

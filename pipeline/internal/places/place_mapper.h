@@ -43,6 +43,9 @@ class PlaceMapper {
   void add_motion(KeyframeId previous, KeyframeId anchor, const SE3& T_previous_anchor,
                   const Matrix6d& covariance);
   void add_loop(const Loop& loop);  ///< adds a loop closure
+  /// Undoes all mergers, which finish() may make again, and gives a component of their own to
+  /// places that nothing connects any more: after loops were removed from the history.
+  void reconsider();
   /// Multiplies all lengths of the track segment that begins with keyframe `first` by `factor`,
   /// after its scale has been measured. A component that consists of this segment is scaled about
   /// its first keyframe; if the segment is linked to others, its places keep their positions.

@@ -91,12 +91,12 @@ KeyframeId PlacePartition::merge(PlaceId older, PlaceId younger, const Matrix7d&
   return first;
 }
 
-KeyframeId PlacePartition::separate(std::size_t number) {
+KeyframeId PlacePartition::separate(std::size_t number, bool for_good) {
   const PlaceHistory::Merged merged = merged_.at(number);
   const PlaceId former = segments_.at(merged.anchor).place, again(founded_++);
   const Sim3 S_former_place = segments_.at(merged.anchor).S_place_segment;
   PlaceState place = places_.at(former);
-  separated_.insert({place.anchor_keyframe, merged.anchor});
+  if (for_good) separated_.insert({place.anchor_keyframe, merged.anchor});
   place.anchor_keyframe = merged.anchor;
   place.S_map_place = place.S_map_place * S_former_place;
   place.reach /= S_former_place.scale();
@@ -126,6 +126,10 @@ bool PlacePartition::were_separated(PlaceId one, PlaceId other) const {
 
 void PlacePartition::set_pose(PlaceId place, const Sim3& S_map_place) {
   places_.at(place).S_map_place = S_map_place;
+}
+
+void PlacePartition::set_component(PlaceId place, int component) {
+  places_.at(place).component = component;
 }
 
 void PlacePartition::move_component(int from, int to, const Sim3& S_new_old) {

@@ -49,12 +49,13 @@ class PlacePartition {
   /// has changed its place. Throws ArgumentError if the two places are the same.
   KeyframeId merge(PlaceId older, PlaceId younger, const Matrix7d& covariance);
   /// Undoes entry `number` of merged(): its segments become a place again, at their current poses
-  /// in the map. Returns as merge().
-  KeyframeId separate(std::size_t number);
+  /// in the map. `for_good`: the two must not be merged again. Returns as merge().
+  KeyframeId separate(std::size_t number, bool for_good = true);
   /// Whether the two places contain segments whose merger was undone.
   bool were_separated(PlaceId one, PlaceId other) const;
 
   void set_pose(PlaceId place, const Sim3& S_map_place);
+  void set_component(PlaceId place, int component);
   /// Moves the places of component `from` by `S_new_old` and joins them to component `to`.
   void move_component(int from, int to, const Sim3& S_new_old);
   /// Sets all scales to 1: those of places, and those of segments in their places.

@@ -7,8 +7,9 @@
 
 namespace placegraph {
 
-double shortest_path(const KeyframeChain& chain, const PlacePartition& partition,
-                     const std::vector<Loop>& loops, PlaceId from, PlaceId to) {
+std::map<PlaceId, std::vector<PlaceId>> place_neighbours(const KeyframeChain& chain,
+                                                         const PlacePartition& partition,
+                                                         const std::vector<Loop>& loops) {
   std::map<PlaceId, std::vector<PlaceId>> neighbours;
   const auto join = [&](PlaceId a, PlaceId b) {
     if (a == b) return;
@@ -20,7 +21,12 @@ double shortest_path(const KeyframeChain& chain, const PlacePartition& partition
       join(segment.place, partition.place_of(link->from));
   for (const Loop& loop : loops)
     join(partition.place_of(loop.match), partition.place_of(loop.query));
+  return neighbours;
+}
 
+double shortest_path(const KeyframeChain& chain, const PlacePartition& partition,
+                     const std::vector<Loop>& loops, PlaceId from, PlaceId to) {
+  auto neighbours = place_neighbours(chain, partition, loops);
   const auto position = [&](PlaceId place) -> const Eigen::Vector3d& {
     return partition.places().at(place).S_map_place.translation();
   };

@@ -48,6 +48,8 @@ void EventFeed::places_changed(const PlaceMapper& mapper, double scale) {
                  rotation = T_before_now.rotation().log().norm();
     if (translation == 0 && rotation == 0 && before.scale == place->second.scale) continue;
     ++moved.places;
+    const SE3& T = place->second.T_map_place;
+    moved.poses.push_back({id, Sim3(T.rotation(), T.translation(), place->second.scale)});
     moved.translation = std::max(moved.translation, translation);
     moved.rotation_rad = std::max(moved.rotation_rad, rotation);
   }

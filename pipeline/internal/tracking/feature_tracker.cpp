@@ -266,8 +266,10 @@ FrameView FeatureTracker::view(const LocalMap& map, const SE3& T_odom_cam) const
     seen.id = track.id;
     seen.px = track.px.cast<double>();
     seen.px_previous = track.px_previous.cast<double>();
-    if (const auto point = map.window().landmark(track.id))
-      seen.px_projected = calibration_.camera.project(T_cam_odom * *point);
+    if (const auto point = map.window().landmark(track.id)) {
+      seen.point_cam = T_cam_odom * *point;
+      seen.px_projected = calibration_.camera.project(*seen.point_cam);
+    }
   }
   if (lines_) view.lines = lines_->view(map.window(), T_odom_cam);
   if (manhattan_ && selector_.frames() == 0) view.directed = manhattan_->view();

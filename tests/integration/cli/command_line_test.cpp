@@ -52,8 +52,8 @@ TEST_F(CommandLine, HasTenGroupsAndASmallNumberOfCommandsBesideThem) {
     (commands_of(*command).empty() ? others : groups).push_back(command->get_name());
   EXPECT_THAT(groups, ElementsAre("map", "eval", "graph", "places", "image", "track", "flight",
                                   "synth", "train"));
-  EXPECT_THAT(others, ElementsAre("run", "inspect", "report", "config", "completion", "help",
-                                  "version", "man"));
+  EXPECT_THAT(others, ElementsAre("run", "inspect", "report", "view", "config", "completion",
+                                  "help", "version", "man"));
 }
 
 TEST_F(CommandLine, EveryCommandHasADescriptionAndAnExampleOfItself) {

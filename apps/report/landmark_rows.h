@@ -1,0 +1,27 @@
+#pragma once
+#include <cstddef>
+#include <optional>
+
+namespace placegraph::apps {
+
+/// Which landmarks of a map a report has: all of them, or every n-th of very many.
+class LandmarkRows {
+ public:
+  /// Landmarks beyond this number are left out evenly: no screen shows more.
+  static constexpr std::size_t kMost = 200'000;
+
+  explicit LandmarkRows(std::size_t landmarks) : step_(landmarks / kMost + 1) {}
+
+  /// Distance of the positions in the map of landmarks in two rows that follow each other.
+  std::size_t step() const { return step_; }
+  /// Row of the landmark at a position in the map; nothing if it is left out.
+  std::optional<std::size_t> row_of(std::size_t position) const {
+    if (position % step_ != 0) return std::nullopt;
+    return position / step_;
+  }
+
+ private:
+  std::size_t step_;
+};
+
+}  // namespace placegraph::apps

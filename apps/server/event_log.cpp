@@ -1,0 +1,80 @@
+#include "apps/server/event_log.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+
+namespace placegraph::apps {
+namespace {
+
+constexpr std::size_t kMostEvents = 4096;
+/// By a comment after this time the server notices a browser that has gone.
+constexpr std::chrono::seconds kHeartbeat(2);
+
+}  // namespace
+
+class EventLog::Reader : public HttpStream {
+ public:
+  Reader(std::shared_ptr<EventLog> log, std::int64_t next) : log_(std::move(log)), next_(next) {}
+  ~Reader() override {
+    const std::lock_guard lock(log_->mutex_);
+    --log_->readers_;
+  }
+  std::optional<std::string> next() override {
+    std::unique_lock lock(log_->mutex_);
+    const auto end = [&] { return log_->first_ + static_cast<std::int64_t>(log_->events_.size()); };
+    if (!begun_) {
+      begun_ = true;
+      return ": events\n\n";  // the browser learns that it is connected
+    }
+    log_->changed_.wait_for(lock, kHeartbeat, [&] { return next_ < end() || log_->closed_; });
+    if (next_ == end()) {
+      if (log_->closed_) return std::nullopt;
+      return ": alive\n\n";
+    }
+    std::string text;
+    if (next_ < log_->first_) {
+      text = "event: reset\ndata: {}\n\n";
+      next_ = log_->first_;
+    }
+    for (; next_ < end(); ++next_)
+      text += log_->events_[static_cast<std::size_t>(next_ - log_->first_)];
+    return text;
+  }
+
+ private:
+  std::shared_ptr<EventLog> log_;
+  std::int64_t next_;
+  bool begun_ = false;
+};
+
+void EventLog::add(const std::string& name, const std::string& data) {
+  const std::lock_guard lock(mutex_);
+  const std::int64_t number = first_ + static_cast<std::int64_t>(events_.size());
+  events_.push_back(fmt::format("id: {}\nevent: {}\ndata: {}\n\n", number, name, data));
+  if (events_.size() > kMostEvents) {
+    events_.pop_front();
+    ++first_;
+  }
+  changed_.notify_all();
+}
+
+void EventLog::close() {
+  const std::lock_guard lock(mutex_);
+  closed_ = true;
+  changed_.notify_all();
+}
+
+std::shared_ptr<HttpStream> EventLog::reader() {
+  const std::lock_guard lock(mutex_);
+  ++readers_;
+  return std::make_shared<Reader>(shared_from_this(),
+                                  first_ + static_cast<std::int64_t>(events_.size()));
+}
+
+int EventLog::readers() const {
+  const std::lock_guard lock(mutex_);
+  return readers_;
+}
+
+}  // namespace placegraph::apps

@@ -1,0 +1,40 @@
+#pragma once
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "apps/server/http_server.h"
+
+namespace placegraph::apps {
+
+/// Server-sent events for any number of browsers.
+///
+/// Adding an event never waits for a reader. A bounded number of events is kept: a reader that
+/// falls behind gets an event "reset" in place of those that it missed.
+class EventLog : public std::enable_shared_from_this<EventLog> {
+ public:
+  /// Adds an event: its name and its data in one line.
+  void add(const std::string& name, const std::string& data);
+  /// Ends all readers after the events that they have not read.
+  void close();
+  /// A reader of the events from now on.
+  std::shared_ptr<HttpStream> reader();
+  /// Number of readers.
+  int readers() const;
+
+ private:
+  class Reader;
+  friend class Reader;
+
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<std::string> events_;
+  std::int64_t first_ = 0;  // number of the oldest event that is kept
+  int readers_ = 0;
+  bool closed_ = false;
+};
+
+}  // namespace placegraph::apps

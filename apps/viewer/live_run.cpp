@@ -1,0 +1,251 @@
+#include "apps/viewer/live_run.h"
+
+#include <placegraph/graph/internal/image/jpeg_codec.h>
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "apps/report/column.h"
+#include "apps/viewer/jpeg_url.h"
+
+namespace placegraph::apps {
+namespace {
+
+using nlohmann::json;
+
+/// The newest places move with every keyframe: browsers need not follow each of these motions.
+constexpr std::chrono::seconds kBetweenAnnouncements(1);
+constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+
+const char* state_name(TrackingState state) {
+  switch (state) {
+    case TrackingState::kInitializing:
+      return "initializing";
+    case TrackingState::kTracking:
+      return "tracking";
+    case TrackingState::kLost:
+      return "lost";
+  }
+  return "";
+}
+
+/// x y z qx qy qz qw.
+std::array<double, 7> numbers_of(const SE3& T) {
+  const Eigen::Quaterniond q = T.rotation().quaternion();
+  const Eigen::Vector3d& t = T.translation();
+  return {t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()};
+}
+
+json loop_json(const LoopRecord& loop) {
+  return {{"query_frame", loop.query_frame.value()}, {"match_frame", loop.match_frame.value()},
+          {"stage", to_string(loop.stage)},          {"accepted", loop.accepted()},
+          {"probability", loop.probability},         {"inliers", loop.inliers}};
+}
+
+json positions_json(const std::vector<Eigen::Vector3d>& points) {
+  std::vector<float> values;
+  for (const Eigen::Vector3d& p : points)
+    for (int i = 0; i < 3; ++i) values.push_back(static_cast<float>(p[i]));
+  return column(values, 3);
+}
+
+std::string one_line(const json& data) {
+  return data.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+}  // namespace
+
+void LiveRun::begin(const std::string& /*sequence*/, std::size_t frames) {
+  const std::lock_guard lock(mutex_);
+  total_ = frames;
+}
+
+void LiveRun::await_permission(const std::function<bool()>& stop) {
+  constexpr std::chrono::milliseconds kBetweenChecks(100);
+  std::unique_lock lock(mutex_);
+  while (paused_ && steps_ == 0 && !stop()) permission_.wait_for(lock, kBetweenChecks);
+  if (steps_ > 0) --steps_;
+}
+
+void LiveRun::frame_seen(const Frame& frame, const FrameResult& result, const FrameView& view) {
+  json event = {{"frame", frame.id.value()},
+                {"stamp_s", 1e-9 * static_cast<double>(frame.stamp_ns)},
+                {"state", state_name(result.state)},
+                {"component", result.component},
+                {"inliers", result.inliers},
+                {"confidence", result.confidence ? json(*result.confidence) : json()},
+                {"pose", result.T_map_cam ? json(numbers_of(*result.T_map_cam)) : json()},
+                {"keyframe", result.keyframe},
+                {"reason", result.outcome.reason}};
+  std::vector<Eigen::Vector3d> added;
+  {
+    const std::lock_guard lock(mutex_);
+    added = map_.add_frame(result, view);
+    frame_ = frame;
+    view_ = view;
+    event["index"] = map_.frame_count() - 1;
+    event["total"] = total_;
+  }
+  if (!added.empty()) event["landmarks"] = positions_json(added);
+  events_->add("frame", one_line(event));
+  const std::lock_guard lock(mutex_);
+  announce_poses();
+}
+
+void LiveRun::stages_measured(const std::vector<StageTimes::Stage>& stages) {
+  constexpr std::chrono::milliseconds kBetween(500);
+  const auto now = std::chrono::steady_clock::now();
+  if (now - stages_sent_ < kBetween) return;
+  stages_sent_ = now;
+  json data = json::array();
+  for (const StageTimes::Stage& stage : stages)
+    data.push_back({{"name", stage.name}, {"cpu_s", stage.cpu_s}, {"calls", stage.calls}});
+  events_->add("stages", one_line(data));
+}
+
+void LiveRun::run_began() {
+  const std::lock_guard lock(mutex_);
+  const bool again = map_.frame_count() > 0;
+  map_.clear();
+  loops_.clear();
+  ++version_;
+  announced_ = version_;
+  if (again) events_->add("reset", one_line({{"version", version_}}));
+}
+
+void LiveRun::keyframe_added(const KeyframeAdded& keyframe) {
+  const std::lock_guard lock(mutex_);
+  map_.add_keyframe(keyframe);
+}
+
+void LiveRun::loop_decided(const LoopRecord& loop) {
+  {
+    const std::lock_guard lock(mutex_);
+    loops_.push_back(loop);
+  }
+  events_->add("loop", one_line(loop_json(loop)));
+}
+
+void LiveRun::loop_accepted(const LoopRecord& loop) { loop_decided(loop); }
+void LiveRun::loop_refused(const LoopRecord& loop) { loop_decided(loop); }
+
+void LiveRun::place_added(const PlaceAdded& place) {
+  const std::lock_guard lock(mutex_);
+  map_.add_place(place);
+}
+
+/// Announces new poses, if the last announcement is some time ago; the caller has locked.
+void LiveRun::announce_poses() {
+  const auto now = std::chrono::steady_clock::now();
+  if (announced_ == version_ || now - announced_at_ < kBetweenAnnouncements) return;
+  announced_ = version_;
+  announced_at_ = now;
+  events_->add("moved", one_line({{"version", version_}}));
+}
+
+void LiveRun::places_merged(const PlacesMerged& places) {
+  const std::lock_guard lock(mutex_);
+  map_.merge(places);
+}
+
+void LiveRun::component_joined(const ComponentJoined& component) {
+  const std::lock_guard lock(mutex_);
+  map_.join(component);
+  ++version_;
+}
+
+void LiveRun::map_moved(const MapMoved& move) {
+  const std::lock_guard lock(mutex_);
+  map_.move(move);
+  ++version_;
+}
+
+json LiveRun::state() const {
+  json state;
+  std::vector<LiveMap::PosedFrame> frames;
+  std::vector<Eigen::Vector3d> landmarks;
+  {
+    const std::lock_guard lock(mutex_);
+    frames = map_.frames();
+    landmarks = map_.landmarks();
+    json loops = json::array();
+    for (const LoopRecord& loop : loops_) loops.push_back(loop_json(loop));
+    state = {{"version", version_},
+             {"total", total_},
+             {"done", map_.frame_count()},
+             {"paused", paused_},
+             {"loops", std::move(loops)}};
+  }
+  std::vector<std::int32_t> ids, components;
+  std::vector<float> poses;
+  for (const LiveMap::PosedFrame& frame : frames) {
+    ids.push_back(static_cast<std::int32_t>(frame.frame.value()));
+    components.push_back(frame.component);
+    if (!frame.pose) {
+      poses.insert(poses.end(), 7, kUnknown);
+      continue;
+    }
+    for (const double number : numbers_of(*frame.pose)) poses.push_back(static_cast<float>(number));
+  }
+  state["frame_ids"] = column(ids);
+  state["component"] = column(components);
+  state["pose"] = column(poses, 7);
+  state["landmarks"] = positions_json(landmarks);
+  return state;
+}
+
+std::optional<json> LiveRun::image() const {
+  Frame frame;
+  FrameView view;
+  {
+    const std::lock_guard lock(mutex_);
+    if (frame_.image.empty()) return std::nullopt;
+    frame = frame_;
+    view = view_;
+  }
+  std::vector<float> points, lines;
+  for (const FrameView::Track& track : view.tracks) {
+    points.push_back(static_cast<float>(track.px.x()));
+    points.push_back(static_cast<float>(track.px.y()));
+    points.push_back(track.px_projected
+                         ? static_cast<float>((*track.px_projected - track.px).norm())
+                         : kUnknown);
+  }
+  for (const FrameView::Line& line : view.lines) {
+    for (const Eigen::Vector2d& end : {line.segment.start, line.segment.end})
+      for (int i = 0; i < 2; ++i) lines.push_back(static_cast<float>(end[i]));
+    lines.push_back(line.off_px ? static_cast<float>(*line.off_px) : kUnknown);
+  }
+  const Image& image = frame.colour.empty() ? frame.image : frame.colour;
+  return json{{"frame", frame.id.value()},   {"image", jpeg_url(image)},
+              {"width", image.cols},         {"height", image.rows},
+              {"points", column(points, 3)}, {"lines", column(lines, 5)}};
+}
+
+void LiveRun::pause(bool paused) {
+  {
+    const std::lock_guard lock(mutex_);
+    paused_ = paused;
+    steps_ = 0;
+  }
+  permission_.notify_all();
+  events_->add("control", one_line({{"paused", paused}}));
+}
+
+void LiveRun::step() {
+  {
+    const std::lock_guard lock(mutex_);
+    paused_ = true;
+    ++steps_;
+  }
+  permission_.notify_all();
+  events_->add("control", one_line({{"paused", true}}));
+}
+
+bool LiveRun::paused() const {
+  const std::lock_guard lock(mutex_);
+  return paused_;
+}
+
+}  // namespace placegraph::apps

@@ -1,0 +1,32 @@
+#pragma once
+#include <placegraph/graph/core/ids.h>
+#include <placegraph/io/datasets/dataset.h>
+#include <placegraph/io/map/stored_map.h>
+#include <placegraph/pipeline/internal/lens_correction.h>
+
+#include <memory>
+#include <mutex>
+#include <string>
+
+namespace placegraph::apps {
+
+/// The images of a map, as its run used them, from the recording where that is still at its place.
+class MapImages {
+ public:
+  explicit MapImages(const MapOrigin& origin);
+
+  /// The (left) image of a frame as a JPEG file. Any thread may call this function.
+  ///
+  /// Throws ArgumentError for a frame that the recording does not have, Error if the recording or
+  /// the image cannot be read.
+  std::string jpeg(FrameId frame);
+
+ private:
+  std::string sequence_;
+  Sensor sensor_;
+  LensCorrection lens_;
+  std::mutex mutex_;  // of the recording
+  std::unique_ptr<Dataset> dataset_;
+};
+
+}  // namespace placegraph::apps

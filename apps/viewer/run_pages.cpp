@@ -1,0 +1,140 @@
+#include "apps/viewer/run_pages.h"
+
+#include <fmt/format.h>
+#include <placegraph/graph/core/error.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <unordered_map>
+
+#include "apps/report/column.h"
+#include "apps/report/landmark_rows.h"
+#include "apps/report/report.h"
+#include "apps/report/report_run.h"
+#include "apps/results/map_file.h"
+
+namespace placegraph::apps {
+namespace {
+
+using nlohmann::json;
+
+/// "runs/R/frames/F/REST".
+struct FramePath {
+  std::size_t run = 0;
+  std::int64_t frame = 0;
+  std::string rest;
+};
+
+std::optional<std::int64_t> number_of(std::string_view text) {
+  std::int64_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size() || number < 0) return std::nullopt;
+  return number;
+}
+
+std::optional<FramePath> frame_path(std::string_view path) {
+  std::vector<std::string_view> parts;
+  for (std::size_t begin = 0; begin <= path.size();) {
+    const std::size_t end = std::min(path.find('/', begin), path.size());
+    parts.push_back(path.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  if (parts.size() != 5 || parts[0] != "runs" || parts[2] != "frames") return std::nullopt;
+  const auto run = number_of(parts[1]), frame = number_of(parts[3]);
+  if (!run || !frame) return std::nullopt;
+  return FramePath{static_cast<std::size_t>(*run), *frame, std::string(parts[4])};
+}
+
+/// Pixels of the keyframe's landmarks, with the row of each in the report.
+json observations_of(const Map& map, const Keyframe& keyframe) {
+  const LandmarkRows rows(map.landmarks.size());
+  std::unordered_map<std::int64_t, std::size_t> positions;
+  for (std::size_t i = 0; i < map.landmarks.size(); ++i) positions[map.landmarks[i].id.value()] = i;
+  std::vector<float> points;
+  for (const LandmarkObservation& seen : keyframe.observations) {
+    const auto found = positions.find(seen.landmark.value());
+    const std::optional<std::size_t> row =
+        found == positions.end() ? std::nullopt : rows.row_of(found->second);
+    points.push_back(seen.px.x());
+    points.push_back(seen.px.y());
+    points.push_back(row ? static_cast<float>(*row) : -1.0F);
+  }
+  return {{"points", column(points, 3)}};
+}
+
+}  // namespace
+
+HttpResponse json_response(const json& data, int status) {
+  HttpResponse response;
+  response.status = status;
+  response.type = "application/json";
+  response.body = data.dump(-1, ' ', false, json::error_handler_t::replace);
+  return response;
+}
+
+RunPages::RunPages(const std::vector<std::string>& runs, std::string program)
+    : program_(std::move(program)) {
+  for (const std::string& run : runs) {
+    auto stored = std::make_shared<const StoredMap>(read_stored_map(run));
+    auto images = std::make_unique<MapImages>(stored->origin);
+    const std::string path = map_path_of(run);
+    runs_.push_back({path, name_of_run(path), std::move(stored), std::move(images)});
+  }
+}
+
+std::string RunPages::title() const {
+  std::string title;
+  for (const Run& run : runs_) title += (title.empty() ? "" : ", ") + run.name;
+  return title;
+}
+
+std::shared_ptr<const StoredMap> RunPages::stored(std::size_t run) const {
+  const std::lock_guard lock(mutex_);
+  return runs_[run].stored;
+}
+
+std::shared_ptr<const StoredMap> RunPages::first() const { return stored(0); }
+
+void RunPages::show(std::shared_ptr<const StoredMap> stored) {
+  const std::lock_guard lock(mutex_);
+  runs_.front().stored = std::move(stored);
+}
+
+HttpResponse RunPages::report() const {
+  json runs = json::array();
+  for (std::size_t i = 0; i < runs_.size(); ++i)
+    runs.push_back(describe_run_for_report(*stored(i), runs_[i].path));
+  return json_response(report_data(title(), program_, std::move(runs)));
+}
+
+HttpResponse RunPages::of_frame(const std::string& path) {
+  const std::optional<FramePath> at = frame_path(path);
+  if (!at || at->run >= runs_.size()) return text_response(404, "no such page");
+  if (at->rest == "image.jpg") {
+    HttpResponse response;
+    response.type = "image/jpeg";
+    response.body = runs_[at->run].images->jpeg(FrameId(at->frame));
+    return response;
+  }
+  if (at->rest != "observations.json") return text_response(404, "no such page");
+  const auto map = stored(at->run);
+  const auto& keyframes = map->map.keyframes;
+  const auto keyframe =
+      std::ranges::find(keyframes, FrameId(at->frame), [](const Keyframe& k) { return k.frame; });
+  if (keyframe == keyframes.end()) return text_response(404, "the frame is no keyframe");
+  return json_response(observations_of(map->map, *keyframe));
+}
+
+HttpResponse RunPages::answer(const std::string& path) {
+  try {
+    if (path == "report.json") return report();
+    return of_frame(path);
+  } catch (const Error& error) {
+    return text_response(404, error.what());
+  }
+}
+
+}  // namespace placegraph::apps

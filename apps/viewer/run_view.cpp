@@ -1,0 +1,102 @@
+#include "apps/viewer/run_view.h"
+
+#include <placegraph/graph/core/error.h>
+
+#include <chrono>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "apps/support/interruption.h"
+#include "apps/support/output.h"
+
+namespace placegraph::apps {
+namespace {
+
+using nlohmann::json;
+
+/// More browsers than these get no events: each holds a thread of the server.
+constexpr int kMostReaders = 8;
+/// A browser that shows the page again after this time at the latest is still there.
+constexpr std::chrono::seconds kAbsence(5);
+
+}  // namespace
+
+RunView::RunView(const ViewerOptions& options, const std::string& title, std::string program)
+    : program_(std::move(program)),
+      events_(std::make_shared<EventLog>()),
+      live_(std::make_unique<LiveRun>(events_)) {
+  viewer_ = std::make_unique<Viewer>(options,
+                                     json{{"format", "placegraph-live-1"},
+                                          {"kind", "run"},
+                                          {"program", program_},
+                                          {"title", title},
+                                          {"editable", false}},
+                                     [this](const HttpRequest& request, const std::string& path) {
+                                       return answer(request, path);
+                                     });
+  note("the run is shown at " + viewer_->address());
+}
+
+RunView::~RunView() { events_->close(); }
+
+HttpResponse RunView::control(const std::string& body) {
+  const json request = json::parse(body, nullptr, false);
+  const std::string action =
+      request.is_object() && request.contains("action") && request["action"].is_string()
+          ? request["action"].get<std::string>()
+          : "";
+  if (action == "pause" || action == "resume")
+    live_->pause(action == "pause");
+  else if (action == "step")
+    live_->step();
+  else
+    return text_response(400, "action: pause, resume or step");
+  return json_response({{"paused", live_->paused()}});
+}
+
+HttpResponse RunView::answer(const HttpRequest& request, const std::string& path) {
+  if (request.method == "POST")
+    return path == "control" ? control(request.body)
+                             : text_response(405, "only GET is answered here");
+  const std::shared_ptr<RunPages> pages = [&] {
+    const std::lock_guard lock(mutex_);
+    return pages_;
+  }();
+  if (path == "live/state.json") {
+    json state = live_->state();
+    state["finished"] = pages != nullptr;
+    return json_response(state);
+  }
+  if (path == "live/image.json") {
+    const auto image = live_->image();
+    return image ? json_response(*image) : HttpResponse{204, "", ""};
+  }
+  if (path == "events") {
+    if (events_->readers() >= kMostReaders) return text_response(503, "too many browsers");
+    HttpResponse response;
+    response.type = "text/event-stream";
+    response.stream = events_->reader();
+    return response;
+  }
+  return pages ? pages->answer(path) : text_response(404, "no such page while the run goes on");
+}
+
+void RunView::finish(const std::string& folder, const std::string& verdict) {
+  if (std::filesystem::exists(std::filesystem::path(folder) / "map.db")) {
+    auto pages = std::make_shared<RunPages>(std::vector{folder}, program_);
+    const std::lock_guard lock(mutex_);
+    pages_ = std::move(pages);
+  }
+  events_->add("done", json{{"verdict", verdict.empty() ? json() : json(verdict)}}.dump());
+  if (events_->readers() == 0) return;
+  note("the run has ended; its page is served until it is closed, or Ctrl-C");
+  const Interruption interruption;
+  auto seen = std::chrono::steady_clock::now();
+  while (!interruption.requested() && std::chrono::steady_clock::now() - seen < kAbsence) {
+    if (events_->readers() > 0) seen = std::chrono::steady_clock::now();
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+}
+
+}  // namespace placegraph::apps

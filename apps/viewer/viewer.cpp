@@ -1,0 +1,68 @@
+#include "apps/viewer/viewer.h"
+
+#include <spawn.h>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/report/page.h"
+#include "apps/support/output.h"
+
+namespace placegraph::apps {
+namespace {
+
+/// The page, whose scripts alone may run: they carry a number that is new for every answer.
+HttpResponse page_response(const nlohmann::json& start) {
+  const std::string nonce = new_token();
+  HttpResponse response;
+  response.type = "text/html; charset=utf-8";
+  response.body = page_served(start, nonce);
+  response.headers = {
+      {"Content-Security-Policy",
+       "default-src 'none'; script-src 'nonce-" + nonce +
+           "'; style-src 'unsafe-inline'; img-src 'self' data: blob:; connect-src 'self'; "
+           "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"}};
+  return response;
+}
+
+/// What every answer says: nothing is kept, guessed, embedded or told to others.
+HttpResponse with_headers(HttpResponse response) {
+  response.headers.insert(response.headers.end(), {{"Cache-Control", "no-store"},
+                                                   {"X-Content-Type-Options", "nosniff"},
+                                                   {"X-Frame-Options", "DENY"},
+                                                   {"Referrer-Policy", "no-referrer"},
+                                                   {"Cross-Origin-Resource-Policy", "same-origin"},
+                                                   {"Cross-Origin-Opener-Policy", "same-origin"}});
+  return response;
+}
+
+}  // namespace
+
+Viewer::Viewer(const ViewerOptions& options, nlohmann::json start, Answer answer) {
+  identity_.token = new_token();
+  HttpHandlers handlers;
+  handlers.refuse = [this](const HttpRequest& request) -> std::optional<HttpResponse> {
+    auto refused = refusal_of(request, identity_);
+    if (!refused) return std::nullopt;
+    return with_headers(std::move(*refused));
+  };
+  handlers.answer = [this, start = std::move(start),
+                     answer = std::move(answer)](const HttpRequest& request) {
+    const std::string path = path_of(request, identity_);
+    if (path.empty() && request.method == "GET") return with_headers(page_response(start));
+    return with_headers(answer(request, path));
+  };
+  server_ = bind_http(options.port, std::move(handlers));
+  identity_.port = server_->port();
+  server_->start();
+  if (options.open) open_in_browser(address());
+}
+
+void open_in_browser(const std::string& address) {
+  std::string program = "xdg-open", argument = address;
+  char* arguments[] = {program.data(), argument.data(), nullptr};
+  pid_t process = 0;
+  if (posix_spawnp(&process, program.c_str(), nullptr, nullptr, arguments, environ) != 0)
+    warn("--open: xdg-open cannot be started; open the address yourself");
+}
+
+}  // namespace placegraph::apps
