@@ -5,7 +5,7 @@ namespace placegraph {
 namespace {
 
 TEST(LoopStage, IsReadBackFromItsNameAndTheModelOfTheLoop) {
-  for (int i = 0; i < kLoopStageCount; ++i) {
+  for (int i = 0; i <= kLoopStageCount; ++i) {  // with kManual
     const auto stage = static_cast<LoopStage>(i);
     // A relative pose stands behind every stage after geometry, and behind none before.
     const LoopModel model = stage < LoopStage::kDrift ? LoopModel::kNone : LoopModel::kPoints3d2d;
