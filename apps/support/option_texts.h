@@ -15,7 +15,7 @@ inline constexpr const char* kSequenceText =
 inline constexpr const char* kSensorText = "sensor to assume; auto takes the best that is recorded";
 inline constexpr const char* kTimesText = "file of times, one per line [s]";
 inline constexpr const char* kReportText = "file for a page that shows the result in a browser";
-inline constexpr const char* kPlotText = "draw the result as .png or .svg";
+inline constexpr const char* kPlotText = "draw the result as .png, .svg or .pdf";
 inline constexpr const char* kConfigText =
     "YAML file of options, or the name of an installed one; see `placegraph config`";
 inline constexpr const char* kModelText = "model to use instead of the installed one";
