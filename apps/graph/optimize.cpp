@@ -172,9 +172,7 @@ void draw(const std::string& path, const PoseGraph& before, const GraphSolution&
   Plot plot = plot_of(before, solution.graph, rejected);
   plot.title = fmt::format("{} poses, {} constraints", solution.graph.nodes.size(),
                            solution.graph.constraints.size());
-  plot.notes = {fmt::format("chi2 {:.5g} (log), {:.5g} (g2o); positions in the frame of the graph, "
-                            "not aligned",
-                            costs.log, costs.g2o)};
+  plot.notes = {fmt::format("chi2 {:.5g} (log), {:.5g} (g2o); not aligned", costs.log, costs.g2o)};
   write_plot(path, to_svg(plot));
 }
 

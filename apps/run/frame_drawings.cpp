@@ -1,8 +1,9 @@
 #include "apps/run/frame_drawings.h"
 
 #include <fmt/format.h>
+#include <placegraph/eval/internal/drawing/picture_bytes.h>
+#include <placegraph/eval/internal/drawing/picture_legend.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/image/drawing_plugin.h>
 #include <placegraph/graph/internal/image/jpeg_codec.h>
 #include <placegraph/graph/internal/image/picture_plugin.h>
 #include <placegraph/io/internal/files/atomic_file.h>
@@ -15,7 +16,6 @@
 
 #include "apps/run/draw_frame.h"
 #include "apps/support/output.h"
-#include "apps/support/picture_legend.h"
 #include "apps/support/write_png.h"
 
 namespace placegraph::apps {
@@ -94,7 +94,8 @@ class SheetDrawings : public FrameDrawings {
   void add(const Frame& frame, const FrameResult& result, const FrameView& view) override {
     // The k-th picture is the frame nearest to k / (count - 1) of the way.
     const std::int64_t count = std::min(kPictures, frames_), next = std::ssize(pictures_);
-    const std::int64_t wanted = count > 1 ? (next * (frames_ - 1) + (count - 1) / 2) / (count - 1) : 0;
+    const std::int64_t wanted =
+        count > 1 ? (next * (frames_ - 1) + (count - 1) / 2) / (count - 1) : 0;
     if (seen_++ != wanted || next == count) return;
     const Image drawing = draw_frame(frame, result, view);
     const double scale = std::min(1.0, kWidth_px / drawing.cols);
@@ -109,8 +110,8 @@ class SheetDrawings : public FrameDrawings {
     Image sheet(rows * (height + kGap) - kGap, columns * (width + kGap) - kGap, CV_8UC3,
                 cv::Scalar::all(255));
     for (int i = 0; i < static_cast<int>(pictures_.size()); ++i)
-      pictures_[static_cast<std::size_t>(i)].copyTo(sheet(cv::Rect(
-          i % columns * (width + kGap), i / columns * (height + kGap), width, height)));
+      pictures_[static_cast<std::size_t>(i)].copyTo(sheet(
+          cv::Rect(i % columns * (width + kGap), i / columns * (height + kGap), width, height)));
     sheet = with_legend(sheet, frame_legend(), path_);
     constexpr int kQuality = 90;
     write_file(path_, extension_of(path_) == ".png" ? encode_png(sheet, {.level = 6})
@@ -140,7 +141,7 @@ void require_free_drawings(const std::string& path, bool force) {
     require_free(path, force);
   else
     require_free_folder(path, force);
-  drawing_plugin(path);
+  require_drawings(path);
   if (is_video(path)) picture_plugin(path);
 }
 

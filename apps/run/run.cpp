@@ -24,7 +24,7 @@
 #include "apps/results/run_files.h"
 #include "apps/results/run_judgement.h"
 #include "apps/results/semantic_map_files.h"
-#include "apps/run/draw_frame.h"
+#include "apps/run/frame_drawings.h"
 #include "apps/run/run_messages.h"
 #include "apps/run/run_notes.h"
 #include "apps/shipped/scene_models.h"
@@ -142,7 +142,7 @@ PreparedRun prepare(RunArguments arguments) {
     check_urban_models(options.scene.urban,
                        {options.scene.urban_model, options.scene.surfaces_model});
   if (!arguments.draw.empty()) {
-    require_free_folder(arguments.draw, arguments.force);
+    require_free_drawings(arguments.draw, arguments.force);
     require(fs::weakly_canonical(arguments.draw) != fs::weakly_canonical(arguments.out),
             "--draw: must be another folder than --out");
   }
@@ -157,13 +157,14 @@ PreparedRun prepare(RunArguments arguments) {
 }
 
 /// Runs the sequence with progress and messages on stderr.
-RunResult run_prepared(const PreparedRun& prepared, const Interruption& interruption) {
+RunResult run_prepared(const PreparedRun& prepared, const Interruption& interruption,
+                       FrameDrawings* drawings) {
   const RunArguments& arguments = prepared.arguments;
   const Dataset& dataset = *prepared.dataset;
   RunInputs inputs;
-  if (!arguments.draw.empty())
+  if (drawings)
     inputs.observer = [&](const Frame& frame, const FrameResult& result, const FrameView& view) {
-      write_frame_drawing(arguments.draw, frame, result, view);
+      drawings->add(frame, result, view);
     };
   const Verbosity verbosity = arguments.verbosity;
   Progress progress("running " + dataset.name(), frames_to_run(dataset, prepared.options));
@@ -232,15 +233,17 @@ RunReport run(const RunArguments& asked) {
   const RunOptions& options = prepared.options;
   const Dataset& dataset = *prepared.dataset;
   const OutputFolder folder(arguments.out);
-  std::optional<OutputFolder> drawings;
-  if (!arguments.draw.empty()) drawings.emplace(arguments.draw);
+  std::unique_ptr<FrameDrawings> drawings;
+  if (!arguments.draw.empty())
+    drawings = frame_drawings(arguments.draw, frames_to_run(dataset, options));
   cv::setNumThreads(options.threads);
 
   RunClock clock;
   const Interruption interruption;  // until the results are written
-  RunResult run = run_prepared(prepared, interruption);
+  RunResult run = run_prepared(prepared, interruption, drawings.get());
   if (run.stopped && run.map.frames.empty())
     throw Interrupted("interrupted before the first frame; nothing was written");
+  if (drawings) drawings->finish();
   json floor_plan, semantic_map;
   if (options.scene.geometry && !run.stopped)
     floor_plan = map_scene(arguments, options, dataset, run);

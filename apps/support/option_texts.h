@@ -5,6 +5,8 @@ namespace placegraph::apps {
 // Descriptions of flags that several commands share.
 inline constexpr const char* kJsonText = "print the result as JSON";
 inline constexpr const char* kForceText = "overwrite existing outputs";
+inline constexpr const char* kIdsText =
+    "write the numbers of classes, planes or axes, not colours with a legend";
 inline constexpr const char* kSeedText = "seed of the random numbers";
 inline constexpr const char* kSetText = "set one option, key=value; may be repeated";
 inline constexpr const char* kThreadsText = "number of threads; the result does not depend on it";

@@ -2,7 +2,6 @@
 
 #include <placegraph/eval/internal/drawing/picture_bytes.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/image/drawing_plugin.h>
 
 #include "apps/support/output.h"
 
@@ -10,7 +9,7 @@ namespace placegraph::apps {
 
 void require_plot_name(const std::string& path) {
   require(path.empty() || is_plot_name(path), path + ": a plot ends in .png, .svg or .pdf");
-  if (!path.empty() && !path.ends_with(".svg")) drawing_plugin(path);
+  if (!path.empty() && !path.ends_with(".svg")) require_drawings(path);
 }
 
 void write_plot(const std::string& path, const std::string& svg) {

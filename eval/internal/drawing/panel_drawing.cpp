@@ -36,7 +36,8 @@ struct View {
 AxisTicks ticks_of(const FigureAxis& axis, double size_px, double room_px) {
   if (!axis.categories.empty()) return {};
   if (axis.logarithmic) return log_ticks(axis.range, size_px / axis.range.size(), room_px);
-  return linear_ticks(axis.range, std::max(2, static_cast<int>(size_px / room_px)));
+  constexpr int kMost = 10;
+  return linear_ticks(axis.range, std::clamp(static_cast<int>(size_px / room_px), 2, kMost));
 }
 
 void draw_x_axis(SvgCanvas& canvas, const FigureAxis& axis, const View& view) {
@@ -184,6 +185,7 @@ void draw_scale(SvgCanvas& canvas, const FigureScale& scale, const View& view) {
                   {corner[0], top + part + (i > 0 ? 0.5 : 0)}}},
                 scale_colour((i + 0.5) / kParts), 1);
   }
+  double width = 0;
   const AxisTicks ticks =
       linear_ticks(scale.range, std::max(2, static_cast<int>(view.size[1] / 56)));
   for (const AxisTick& tick : ticks.ticks) {
@@ -191,8 +193,10 @@ void draw_scale(SvgCanvas& canvas, const FigureScale& scale, const View& view) {
         view.bottom() - (tick.at - scale.range.min) / scale.range.size() * view.size[1];
     canvas.line({{corner[0] + kWidth, at}, {corner[0] + kWidth + 5, at}}, {kFrame});
     canvas.text({corner[0] + kWidth + 8, at + 5}, tick.text, kTickPx, kInk, TextAnchor::kLeft);
+    width = std::max(width, text_width(tick.text, kTickPx));
   }
-  canvas.text({corner[0] + kBarMargin - 22, view.corner[1] + view.size[1] / 2},
+  canvas.text({corner[0] + kWidth + std::min(width + 26, kBarMargin - 36),
+               view.corner[1] + view.size[1] / 2},
               fitted(ticks.label(scale.label), kTextPx, view.size[1] + kTopMargin), kTextPx, kInk,
               TextAnchor::kMiddle, true);
 }

@@ -16,6 +16,8 @@ Image svg_pixels(const std::string& svg, double scale, const std::string& wanted
   return bgr;
 }
 
+void require_drawings(const std::string& wanted) { drawing_plugin(wanted); }
+
 bool is_plot_name(const std::string& path) {
   return path.ends_with(".png") || path.ends_with(".svg") || path.ends_with(".pdf");
 }

@@ -10,6 +10,9 @@ namespace placegraph {
 /// the text is no SVG.
 Image svg_pixels(const std::string& svg, double scale, const std::string& wanted);
 
+/// Throws FileError, which names what is wanted, if the module that draws is missing.
+void require_drawings(const std::string& wanted);
+
 /// True if the name of a file ends in .png, .svg or .pdf.
 bool is_plot_name(const std::string& path);
 

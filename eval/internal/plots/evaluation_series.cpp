@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 namespace placegraph {
 namespace {
@@ -42,10 +41,51 @@ double time_of(const EvaluationResult& result, std::int64_t begin_ns, const Fram
   return result.has_times ? 1e-9 * static_cast<double>(pair.stamp_ns - begin_ns) : pair.frame;
 }
 
-/// The frames of both trajectories as values over time.
-void draw_over_time(const std::vector<EvaluationResult>& results, const std::string (&labels)[3],
-                    const std::function<Vector3d(const Eigen::Isometry3d&)>& values_of,
-                    const std::function<void(Series&)>& finish, Figure& figure) {
+/// Adds turns of 360 degrees so that neighbours differ by at most half a turn.
+void unwrap(Series& series) {
+  std::optional<double> last;
+  for (auto& p : series) {
+    if (!p) continue;
+    if (last) (*p)[1] += 360 * std::round((*last - (*p)[1]) / 360);
+    last = (*p)[1];
+  }
+}
+
+/// Adds turns so that every value differs from that of the reference by at most half a turn.
+void unwrap(Series& series, const Series& reference) {
+  for (std::size_t i = 0; i < series.size(); ++i)
+    if (series[i])
+      (*series[i])[1] += 360 * std::round(((*reference[i])[1] - (*series[i])[1]) / 360);
+}
+
+/// Three values of a pose, and how they are drawn.
+struct PoseValues {
+  const char* labels[3];
+  Vector3d (*of)(const Eigen::Isometry3d& pose);
+  bool angles;
+};
+
+/// A value of the true and of the estimated poses over time.
+std::pair<Series, Series> series_of(const EvaluationResult& result, std::int64_t begin_ns,
+                                    const PoseValues& values, int row) {
+  Series truth, estimate;
+  for (const FramePair& pair : result.aligned_pairs) {
+    const double at = time_of(result, begin_ns, pair);
+    truth.emplace_back(Vector2d(at, values.of(pair.T_world_truth)[row]));
+    estimate.emplace_back();
+    if (pair.T_world_estimate)
+      estimate.back() = Vector2d(at, values.of(*pair.T_world_estimate)[row]);
+  }
+  if (values.angles) {
+    unwrap(truth);
+    unwrap(estimate, truth);
+  }
+  return {std::move(truth), std::move(estimate)};
+}
+
+/// The frames of both trajectories over time, a panel for each of three values.
+void draw_over_time(const std::vector<EvaluationResult>& results, const PoseValues& values,
+                    Figure& figure) {
   const FigureAxis x{results.front().has_times ? "time [s]" : "frame", {}, false, {}};
   std::int64_t begin_ns = results.front().aligned_pairs.front().stamp_ns;
   std::size_t longest = 0;  // its truth is drawn: others may have fewer frames of it
@@ -54,25 +94,16 @@ void draw_over_time(const std::vector<EvaluationResult>& results, const std::str
     if (results[r].aligned_pairs.size() > results[longest].aligned_pairs.size()) longest = r;
   }
   const Stroke truth_stroke{kReference, 4};
-  figure.legend.push_back({"ground truth", truth_stroke});
   for (int row = 0; row < 3; ++row) {
-    std::vector<FigureShape> lines;
-    const auto add = [&](const EvaluationResult& result, const Stroke& stroke, bool truth) {
-      Series series;
-      for (const FramePair& pair : result.aligned_pairs) {
-        series.emplace_back();
-        if (truth || pair.T_world_estimate)
-          series.back() =
-              Vector2d(time_of(result, begin_ns, pair),
-                       values_of(truth ? pair.T_world_truth : *pair.T_world_estimate)[row]);
-      }
-      finish(series);
-      lines.emplace_back(FigureLine{std::move(series), stroke, {}});
-    };
-    add(results[longest], truth_stroke, true);
-    for (std::size_t r = 0; r < results.size(); ++r) add(results[r], curve_stroke(r), false);
-    add_panel(x, labels[row], std::move(lines), false, figure);
+    std::vector<FigureShape> lines = {FigureLine{{}, truth_stroke, {}}};
+    for (std::size_t r = 0; r < results.size(); ++r) {
+      auto [truth, estimate] = series_of(results[r], begin_ns, values, row);
+      if (r == longest) std::get<FigureLine>(lines.front()).points = std::move(truth);
+      lines.emplace_back(FigureLine{std::move(estimate), curve_stroke(r), {}});
+    }
+    add_panel(x, values.labels[row], std::move(lines), false, figure);
   }
+  figure.legend.push_back({"ground truth", truth_stroke});
   for (std::size_t r = 0; r < results.size(); ++r)
     figure.legend.push_back({plot_name(results[r].name), curve_stroke(r)});
 }
@@ -85,16 +116,6 @@ Vector3d roll_pitch_yaw_deg(const Eigen::Isometry3d& T) {
           rad_to_deg(std::atan2(R(1, 0), R(0, 0)))};
 }
 
-/// Adds turns of 360 degrees so that neighbours differ by less than half a turn.
-void unwrap(Series& series) {
-  std::optional<double> last;
-  for (auto& p : series) {
-    if (!p) continue;
-    if (last) (*p)[1] += 360 * std::round((*last - (*p)[1]) / 360);
-    last = (*p)[1];
-  }
-}
-
 }  // namespace
 
 std::string plot_name(const std::string& name) {
@@ -105,14 +126,15 @@ std::string plot_name(const std::string& name) {
 }
 
 void draw_coordinates(const std::vector<EvaluationResult>& results, Figure& figure) {
-  draw_over_time(
-      results, {"x [m]", "y [m]", "z [m]"},
-      [](const Eigen::Isometry3d& T) -> Vector3d { return T.translation(); }, [](Series&) {},
-      figure);
+  draw_over_time(results,
+                 {{"x [m]", "y [m]", "z [m]"},
+                  [](const Eigen::Isometry3d& T) -> Vector3d { return T.translation(); },
+                  false},
+                 figure);
 }
 
 void draw_angles(const std::vector<EvaluationResult>& results, Figure& figure) {
-  draw_over_time(results, {"roll [deg]", "pitch [deg]", "yaw [deg]"}, roll_pitch_yaw_deg, unwrap,
+  draw_over_time(results, {{"roll [deg]", "pitch [deg]", "yaw [deg]"}, roll_pitch_yaw_deg, true},
                  figure);
   figure.notes.emplace_back("R = Rz(yaw) Ry(pitch) Rx(roll)");
 }

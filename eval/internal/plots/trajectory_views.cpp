@@ -59,7 +59,7 @@ FigureLine lines_of(const PlotLinks& links, const Stroke& stroke,
 
 /// Thin and pale where there are many.
 Stroke link_stroke(Colour colour, std::size_t count) {
-  return {colour, count > 60 ? 0.8 : 1.4, count > 600 ? 0.15 : count > 60 ? 0.4 : 0.8, ""};
+  return {colour, count > 60 ? 0.8 : 1.4, count > 600 ? 0.3 : count > 60 ? 0.5 : 0.8, ""};
 }
 
 std::vector<FigureShape> shapes_of(const Plot& plot,
@@ -133,9 +133,10 @@ ThirdAxis third_axis(FigureAxis& axis, double px_per_unit, double most_px) {
   const double factor = size_px / equal_px;
   // A factor that needs more digits says less than that there is one.
   if (factor < 1.05 && factor > 0.95) return {size_px, "from the side"};
+  const char axis_name = axis.label.front();
   if (factor > 99 || factor < 1)
-    return {size_px, fmt::format("from the side, {} not to scale", axis.label.front())};
-  return {size_px, fmt::format("from the side, {} x {:.2g}", axis.label.front(), factor)};
+    return {size_px, fmt::format("from the side, {} not to scale", axis_name)};
+  return {size_px, fmt::format("from the side, {} stretched {:.2g} times", axis_name, factor)};
 }
 
 }  // namespace
@@ -178,7 +179,7 @@ TrajectoryViews trajectory_views(const Plot& plot, const Vector2d& most_px) {
   FigurePanel side = below ? panel_of(plot, horizontal, depth) : panel_of(plot, depth, vertical);
   side.labels.clear();
   side.scale.reset();
-  constexpr double kMostSide_px = 460;
+  constexpr double kMostSide_px = 640;
   const ThirdAxis third = third_axis(below ? side.y : side.x, px_per_unit, kMostSide_px);
   side.heading = third.heading;
   if (below) {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace placegraph::apps {
+namespace placegraph {
 
 /// A strip of this width with notes above a legend, on white: CV_8UC3. `wanted` names the purpose.
 /// Throws FileError if the module that draws is missing.
@@ -25,4 +25,4 @@ Image with_legend(const Image& bgr, const std::vector<LegendEntry>& entries,
 /// A colour for the n-th of many areas, such as planes; neighbours in number differ in hue.
 Colour area_colour(std::size_t number);
 
-}  // namespace placegraph::apps
+}  // namespace placegraph

@@ -1,13 +1,12 @@
-#include "apps/support/picture_legend.h"
-
 #include <placegraph/eval/internal/drawing/figure.h>
 #include <placegraph/eval/internal/drawing/picture_bytes.h>
+#include <placegraph/eval/internal/drawing/picture_legend.h>
 
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-namespace placegraph::apps {
+namespace placegraph {
 namespace {
 
 constexpr int kLeastWidth_px = 320;
@@ -28,8 +27,7 @@ LegendEntry area_entry(const std::string& text, Colour colour) {
 }
 
 Image stacked(const Image& bgr, const Image& strip) {
-  Image whole(bgr.rows + strip.rows, std::max(bgr.cols, strip.cols), CV_8UC3,
-              cv::Scalar::all(255));
+  Image whole(bgr.rows + strip.rows, std::max(bgr.cols, strip.cols), CV_8UC3, cv::Scalar::all(255));
   bgr.copyTo(whole(cv::Rect(0, 0, bgr.cols, bgr.rows)));
   strip.copyTo(whole(cv::Rect(0, bgr.rows, strip.cols, strip.rows)));
   return whole;
@@ -47,10 +45,10 @@ Colour area_colour(std::size_t number) {
   const double value = number % 2 == 0 ? 0.92 : 0.72;
   const auto channel = [&](double phase) {
     const double distance = std::abs(std::fmod(hue + phase, 1.0) * 6 - 3) - 1;
-    return static_cast<int>(std::lround(
-        255 * value * (1 - kSaturation * (1 - std::clamp(distance, 0.0, 1.0)))));
+    return static_cast<int>(
+        std::lround(255 * value * (1 - kSaturation * (1 - std::clamp(distance, 0.0, 1.0)))));
   };
   return {channel(0), channel(2.0 / 3), channel(1.0 / 3)};
 }
 
-}  // namespace placegraph::apps
+}  // namespace placegraph
