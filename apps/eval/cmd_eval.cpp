@@ -1,5 +1,7 @@
 #include "apps/eval/cmd_eval.h"
 
+#include <placegraph/eval/internal/plots/evaluation_plot.h>
+
 #include <CLI/CLI.hpp>
 #include <memory>
 
@@ -16,6 +18,17 @@ void run(const EvalArguments& arguments, bool json) {
   // A single estimate that cannot be evaluated is reported once, by the error.
   if (json || !refused || !result.single()) print(json ? to_json(result) : to_text(result));
   if (refused) throw NoResult(refused->name + ": " + refused->outcome.reason);
+}
+
+void add_plot_options(CLI::App& command, EvalArguments& a) {
+  command.add_option("--plot", a.plot, kPlotText);
+  command
+      .add_option("--plot-kind", a.plot_kinds,
+                  "figures of --plot, joined by commas: overview, xyz, rpy, rpe, lengths, box, "
+                  "violin; several go to FILE_KIND")
+      ->delimiter(',')
+      ->check(CLI::IsMember(evaluation_plot_names()))
+      ->capture_default_str();
 }
 
 }  // namespace
@@ -71,7 +84,7 @@ void add_eval_trajectory_command(CLI::App& eval_group) {
   command->add_flag("--json", *json, kJsonText);
   command->add_option("--csv", a.csv, "write the details as CSV");
   command->add_option("--latex", a.latex, "write the figures as a LaTeX table");
-  command->add_option("--plot", a.plot, kPlotText);
+  add_plot_options(*command, a);
   command->add_flag("--force", a.force, kForceText);
   command->callback([arguments, json] { run(*arguments, *json); });
 }

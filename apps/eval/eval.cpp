@@ -1,5 +1,7 @@
 #include "apps/eval/eval.h"
 
+#include <fmt/format.h>
+#include <placegraph/eval/internal/plots/evaluation_plot.h>
 #include <placegraph/eval/trajectory/report.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/datasets/open_dataset.h>
@@ -141,18 +143,47 @@ PairingResult pair(const Job& job, const EvalArguments& arguments,
   return pair_trajectories(truth, estimate, options.association, options.time);
 }
 
+/// A figure to write.
+struct PlotFile {
+  EvaluationPlot kind;
+  std::string path;
+};
+
+/// One figure into the file itself, several into files beside it, of which the names end in the
+/// kind: "e_xyz.png".
+std::vector<PlotFile> plot_files(const EvalArguments& arguments) {
+  if (arguments.plot.empty()) return {};
+  const std::vector<std::string>& kinds = arguments.plot_kinds;
+  require(!kinds.empty(), "--plot-kind: names no figure");
+  std::vector<PlotFile> files;
+  for (const std::string& kind : kinds) {
+    fs::path path = arguments.plot;
+    if (kinds.size() > 1)
+      path.replace_filename(
+          fmt::format("{}_{}{}", path.stem().string(), kind, path.extension().string()));
+    files.push_back(
+        {choice<EvaluationPlot>("--plot-kind", evaluation_plot_names(), kind), path.string()});
+  }
+  return files;
+}
+
 void check_outputs(const EvalArguments& arguments) {
-  for (const std::string& path : {arguments.csv, arguments.latex, arguments.plot})
-    if (!path.empty()) require_free(path, arguments.force);
   require_plot_name(arguments.plot);
+  for (const std::string& path : {arguments.csv, arguments.latex})
+    if (!path.empty()) require_free(path, arguments.force);
+  for (const PlotFile& file : plot_files(arguments)) require_free(file.path, arguments.force);
   require(arguments.times.size() <= 2, "--times: one file for all, or two: ground truth, estimate");
 }
 
-void write_outputs(const EvalArguments& arguments, const std::vector<EvaluationResult>& results) {
-  if (!arguments.csv.empty()) write_file(arguments.csv, to_csv(results));
-  if (!arguments.latex.empty()) write_file(arguments.latex, to_latex(results));
-  if (arguments.plot.empty()) return;
-  write_plot(arguments.plot, plot_of(results));
+void write_outputs(const EvalArguments& arguments, const EvalResult& result) {
+  const EvaluatedTruth truth = result.folders ? EvaluatedTruth::kOwn : EvaluatedTruth::kShared;
+  std::vector<std::string> figures;  // all of them before the first file: one may be impossible
+  const std::vector<PlotFile> files = plot_files(arguments);
+  for (const PlotFile& file : files)
+    figures.push_back(to_svg(figure_of(result.results, truth, file.kind)));
+  if (!arguments.csv.empty()) write_file(arguments.csv, to_csv(result.results));
+  if (!arguments.latex.empty()) write_file(arguments.latex, to_latex(result.results));
+  for (std::size_t i = 0; i < files.size(); ++i) write_plot(files[i].path, figures[i]);
 }
 
 }  // namespace
@@ -189,7 +220,7 @@ EvalResult eval(const EvalArguments& arguments) {
     for (const std::string& warning : result.results.back().warnings)
       warn(job.name + ": " + warning);
   }
-  if (!result.refused()) write_outputs(arguments, result.results);
+  if (!result.refused()) write_outputs(arguments, result);
   return result;
 }
 

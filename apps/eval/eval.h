@@ -19,6 +19,9 @@ struct EvalArguments {
   std::string associate = "auto";  ///< one of eval_associations()
   EvaluationOptions options;       ///< alignment and association are chosen by the two names above
   std::string csv, latex, plot;    ///< files to write; empty: none
+  /// Kinds of figures for `plot`, of evaluation_plot_names(); several go to files of their own, of
+  /// which the names end in _KIND.
+  std::vector<std::string> plot_kinds = {"overview"};
   bool force = false;              ///< overwrite them
 };
 

@@ -159,10 +159,10 @@ void write_outputs(const LoopsArguments& arguments, const std::vector<LoopJudgem
   if (!arguments.csv.empty()) write_file(arguments.csv, to_log(judgements));
   if (arguments.plot.empty()) return;
   PrecisionRecallPlot plot;
-  plot.title = protocol;
+  plot.protocol = protocol;
   for (const LoopJudgement& judgement : judgements)
     plot.curves.push_back({judgement.name, judgement.benchmark.curve});
-  write_file(arguments.plot, arguments.plot.ends_with(".svg") ? to_svg(plot) : to_png(plot));
+  write_plot(arguments.plot, to_svg(plot));
 }
 
 void check(const LoopsArguments& arguments) {

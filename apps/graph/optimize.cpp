@@ -170,10 +170,10 @@ void draw(const std::string& path, const PoseGraph& before, const GraphSolution&
   std::vector<int> rejected;
   for (const RejectedEdge& edge : solution.rejected) rejected.push_back(edge.constraint);
   Plot plot = plot_of(before, solution.graph, rejected);
-  plot.title = fmt::format("{} poses, {} constraints, chi2 {:.5g} (log), {:.5g} (g2o)",
-                           solution.graph.nodes.size(), solution.graph.constraints.size(),
-                           costs.log, costs.g2o);
-  write_plot(path, plot);
+  plot.title = fmt::format("{} poses, {} constraints", solution.graph.nodes.size(),
+                           solution.graph.constraints.size());
+  plot.notes = {fmt::format("chi2 {:.5g} (log), {:.5g} (g2o); not aligned", costs.log, costs.g2o)};
+  write_plot(path, to_svg(plot));
 }
 
 /// Checks all arguments and returns the options that their names stand for.

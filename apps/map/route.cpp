@@ -62,7 +62,8 @@ Plot route_plot(const Route& route, const RunMap& map) {
   plot.title = fmt::format("from place {} to place {}: {:.1f} {}", route.steps.front().place,
                            route.steps.back().place, route.length_m(), map.unit());
   plot.unit = map.unit();
-  PlotCurve all{"map", {}, true}, path{"path", {}, false};
+  plot.notes = {"positions and numbers of the places, in the frame of the map"};
+  PlotCurve all{"map", {}, true}, path{"path", {}, false, 4};
   for (const Place& place : map.graph.places)
     all.positions_m.emplace_back(place.T_map_place.translation());
   for (const Place& place : places_by_rank(route, map.graph)) {
@@ -90,7 +91,7 @@ RouteResult route(const RouteArguments& arguments) {
   if (!result.route.outcome) throw NoResult(result.route.outcome.reason);
   if (arguments.backtrack) result.route = backtracked(result.route);
   if (!arguments.out.empty()) write_file(arguments.out, to_json(result));
-  if (!arguments.plot.empty()) write_plot(arguments.plot, route_plot(result.route, result.map));
+  if (!arguments.plot.empty()) write_plot(arguments.plot, to_svg(route_plot(result.route, result.map)));
   return result;
 }
 

@@ -25,8 +25,9 @@ void add_planes_command(CLI::App& image) {
       ->required()
       ->check(CLI::ExistingFile);
   planes.add_option("-o,--out", a.out,
-                    "plane of each pixel as 8-bit PNG, or of each point a line: 0 none, 1 the "
-                    "largest");
+                    "PNG in the colours of the planes, with a legend, or for a cloud the plane of "
+                    "each point a line: 0 none, 1 the largest");
+  planes.add_flag("--ids", a.ids, std::string(kIdsText) + ": 8 bits, 16 from plane 256 on");
   CLI::Option* cuboids = planes.add_option(
       "--cuboids", a.cuboids,
       "JSON file for boxes and rooms of orthogonal planes; the cloud must have been taken from "

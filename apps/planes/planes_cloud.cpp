@@ -1,6 +1,8 @@
 #include "apps/planes/planes_cloud.h"
 
 #include <fmt/format.h>
+#include <placegraph/eval/internal/drawing/picture_bytes.h>
+#include <placegraph/eval/internal/drawing/picture_legend.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/internal/core/json_text.h>
 #include <placegraph/io/files/image_file.h>
@@ -23,8 +25,6 @@ namespace placegraph::apps {
 namespace {
 
 using nlohmann::ordered_json;
-
-constexpr int kMostLabels = 255;  ///< largest label of an 8-bit image
 
 bool is_image(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
@@ -51,8 +51,11 @@ std::vector<int> read_truth(const PlanesCloudArguments& arguments, std::size_t p
   std::vector<int> labels;
   if (is_image(arguments.truth)) {
     const Image image = read_image_as_stored(arguments.truth);
-    if (image.type() != CV_8UC1) throw FileError(arguments.truth, "not an 8-bit grey image");
-    labels.assign(image.begin<unsigned char>(), image.end<unsigned char>());
+    if (image.type() != CV_8UC1 && image.type() != CV_16UC1)
+      throw FileError(arguments.truth, "no grey image of 8 or 16 bits (--ids writes one)");
+    Image numbers;
+    image.convertTo(numbers, CV_32S);
+    labels.assign(numbers.begin<int>(), numbers.end<int>());
   } else {
     labels = read_point_labels(arguments.truth);
   }
@@ -70,19 +73,49 @@ std::vector<int> read_truth(const PlanesCloudArguments& arguments, std::size_t p
   return labels;
 }
 
+/// The pixels in the colours of their planes, grey where there is none, and the largest planes in a
+/// legend.
+Image draw_planes(const Image& numbers, const std::vector<CloudPlane>& planes,
+                  const std::string& wanted) {
+  constexpr int kNone = 225;
+  Image drawing(numbers.size(), CV_8UC3);
+  for (int v = 0; v < numbers.rows; ++v)
+    for (int u = 0; u < numbers.cols; ++u) {
+      const int plane = numbers.at<int>(v, u);
+      const Colour c = plane > 0 ? area_colour(static_cast<std::size_t>(plane - 1))
+                                 : Colour{kNone, kNone, kNone};
+      drawing.at<cv::Vec3b>(v, u) = cv::Vec3b(
+          static_cast<uchar>(c.blue), static_cast<uchar>(c.green), static_cast<uchar>(c.red));
+    }
+  std::vector<LegendEntry> legend;
+  constexpr std::size_t kListed = 12;
+  for (std::size_t k = 0; k < std::min(planes.size(), kListed); ++k)
+    legend.push_back(
+        area_entry(fmt::format("plane {}: {} points", k + 1, planes[k].points), area_colour(k)));
+  if (planes.size() > kListed)
+    legend.push_back(
+        area_entry(fmt::format("{} smaller planes", planes.size() - kListed), {255, 255, 255}));
+  legend.push_back(area_entry("no plane, or no depth", {kNone, kNone, kNone}));
+  return with_legend(drawing, legend, wanted);
+}
+
 void write_labels(const PlanesCloudArguments& arguments, const PointCloud& cloud,
-                  const std::vector<int>& labels) {
+                  const CloudPlanesResult& found) {
+  const std::vector<int>& labels = found.labels;
   if (!cloud.organised()) {
     std::string text;
     for (const int label : labels) text += std::to_string(label) + '\n';
     write_file(arguments.out, text);
     return;
   }
-  Image image(cloud.height, cloud.width, CV_8UC1);
-  std::transform(labels.begin(), labels.end(), image.begin<unsigned char>(), [](int label) {
-    return static_cast<unsigned char>(label <= kMostLabels ? label : 0);
-  });
-  write_png(arguments.out, image);
+  const Image numbers(cloud.height, cloud.width, CV_32SC1, const_cast<int*>(labels.data()));
+  if (arguments.ids) {
+    Image ids;  // 65535 planes are more than an image has room for
+    numbers.convertTo(ids, found.planes.size() > 255 ? CV_16U : CV_8U);
+    write_png(arguments.out, ids);
+  } else {
+    write_png(arguments.out, draw_planes(numbers, found.planes, arguments.out));
+  }
 }
 
 ordered_json plane_json(int id, const CloudPlane& plane) {
@@ -143,6 +176,7 @@ CloudPlanesOptions checked_options(const PlanesCloudArguments& arguments) {
   options.check();
   arguments.cuboid_options.check();
   require_free(arguments.out, arguments.force);
+  if (is_image(arguments.in) && !arguments.ids) require_drawings(arguments.out);
   if (!arguments.cuboids.empty()) {
     require(arguments.cuboids != arguments.out, "--cuboids: the same file as --out");
     require_free(arguments.cuboids, arguments.force);
@@ -184,16 +218,13 @@ PlanesCloudResult planes_cloud(const PlanesCloudArguments& arguments) {
   result.cpu_ms = watch.cpu_ms();
   const CloudPlanesResult& found = result.found;
   if (!found.outcome) throw FileError(arguments.in, found.outcome.reason);
-  if (cloud.organised() && found.planes.size() > kMostLabels)
-    warn(fmt::format("{} planes: an 8-bit image can number {}, the others are 0",
-                     found.planes.size(), kMostLabels));
   result.points = std::count_if(cloud.points.begin(), cloud.points.end(),
                                 [](const Eigen::Vector3d& p) { return p.allFinite(); });
   result.on_planes =
       std::count_if(found.labels.begin(), found.labels.end(), [](int label) { return label > 0; });
   if (!truth.empty()) result.check = check_planes(truth, found.labels, arguments.check);
   if (!arguments.cuboids.empty()) result.cuboids = cuboids_of(arguments, cloud, found);
-  write_labels(arguments, cloud, found.labels);
+  write_labels(arguments, cloud, found);
   if (result.cuboids) write_file(arguments.cuboids, json_text(cuboids_json(*result.cuboids), 2));
   return result;
 }

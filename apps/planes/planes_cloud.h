@@ -14,9 +14,10 @@ namespace placegraph::apps {
 const std::vector<std::string>& cloud_planes_method_names();
 
 struct PlanesCloudArguments {
-  std::string in;     ///< 16-bit depth image, PLY, KITTI's .bin, or text with `x y z` per line [m]
-  std::string out;    ///< plane of each pixel as 8-bit PNG, or of each point, one per line: 0 none
-  std::string calib;  ///< calibration of the camera of a depth image
+  std::string in;    ///< 16-bit depth image, PLY, KITTI's .bin, or text with `x y z` per line [m]
+  std::string out;   ///< planes of the pixels as PNG, or number of each point's, one a line: 0 none
+  bool ids = false;  ///< the PNG has the numbers in 8 or 16 bits, not colours with a legend
+  std::string calib;            ///< calibration of the camera of a depth image
   double depth_scale = 0.001;   ///< metres per step of a depth image; from 1 up: steps per metre
   std::string method = "cuts";  ///< one of cloud_planes_method_names()
   CloudPlanesOptions options;   ///< the method is set by `method`
@@ -42,7 +43,7 @@ struct PlanesCloudResult {
 
 /// Labels the points of a cloud by their planes: `placegraph image planes`.
 /// On demand finds boxes and rooms of orthogonal planes. Throws ArgumentError, FileError. A cloud
-/// without planes is a valid result. Warns if there are more planes than an 8-bit image can number.
+/// without planes is a valid result.
 PlanesCloudResult planes_cloud(const PlanesCloudArguments& arguments);
 
 /// Some lines.

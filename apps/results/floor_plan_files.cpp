@@ -14,6 +14,7 @@
 
 #include "apps/results/run_judgement.h"
 #include "apps/support/output.h"
+#include "apps/support/plot_file.h"
 
 namespace placegraph::apps {
 namespace {
@@ -82,8 +83,9 @@ void write_floor_plan(const std::string& folder, const IndoorMap& plan, const Ma
   picture.title = title;
   picture.path = path_of(plan, map.trajectory_optimized());
   write_file(path("floor_plan.json"), to_json(plan));
-  write_file(path("floor_plan.svg"), floor_plan_svg(plan, picture));
-  write_file(path("floor_plan.png"), floor_plan_png(plan, picture));
+  const std::string svg = floor_plan_svg(plan, picture);
+  write_file(path("floor_plan.svg"), svg);
+  write_plot_beside(path("floor_plan.png"), svg);
 }
 
 double walled_share(const IndoorMap& plan) {

@@ -1,5 +1,6 @@
 #include "apps/results/run_files.h"
 
+#include <placegraph/eval/internal/plots/evaluation_plot.h>
 #include <placegraph/eval/trajectory/evaluate.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/internal/core/json_text.h>
@@ -36,6 +37,53 @@ PlotCurve curve_of(const Trajectory& trajectory, const std::string& name) {
     if (pose.T_world_body) curve.positions_m.back() = pose.T_world_body->translation();
   }
   return curve;
+}
+
+/// The trajectories compared with the truth: online, optimized, and those of other components.
+/// Those that cannot be compared are left out.
+std::vector<EvaluationResult> evaluated(const RunResult& run, const Trajectory& optimized,
+                                        const Trajectory& ground_truth) {
+  EvaluationOptions options;
+  options.association = Association::kIndex;
+  options.alignment = run.map.metric ? Alignment::kOrigin : Alignment::kSim3;
+  const Trajectory truth = truth_of_frames(ground_truth, run.map);
+  std::vector<EvaluationResult> results;
+  const auto add = [&](const Trajectory& trajectory, const std::string& name) {
+    EvaluationResult result = evaluate(truth, trajectory, options, name);
+    if (result.outcome) results.push_back(std::move(result));
+  };
+  add(run.map.trajectory_online, "online");
+  add(optimized, "optimized");
+  if (results.empty()) return results;
+  for (const MapComponent& component : run.map.components())
+    if (!component.main)
+      add(run.map.trajectory_optimized(component.number),
+          "component " + std::to_string(component.number));
+  return results;
+}
+
+/// The alignment of the optimized trajectory, else of the other one.
+AlignmentResult main_alignment(const std::vector<EvaluationResult>& results) {
+  const auto optimized = std::ranges::find(results, "optimized", &EvaluationResult::name);
+  return optimized != results.end() ? optimized->alignment : results.front().alignment;
+}
+
+/// Adds the accepted loops between the optimized poses of their frames.
+void add_loops(const Map& map, const Trajectory& optimized, const AlignmentResult& alignment,
+               Plot& plot) {
+  const auto position_of = [&](FrameId frame) -> std::optional<Eigen::Vector3d> {
+    const auto record = std::ranges::find(map.frames, frame, &FrameRecord::frame);
+    if (record == map.frames.end()) return std::nullopt;
+    const auto& pose =
+        optimized.poses[static_cast<std::size_t>(record - map.frames.begin())].T_world_body;
+    if (!pose) return std::nullopt;
+    return alignment.apply(*pose).translation();
+  };
+  for (const LoopRecord& loop : map.loops) {
+    if (!loop.accepted()) continue;
+    const auto query = position_of(loop.query_frame), match = position_of(loop.match_frame);
+    if (query && match) plot.links_m.emplace_back(*query, *match);
+  }
 }
 
 /// Adds the places that are in the frame of the map, with their numbers.
@@ -168,49 +216,22 @@ json describe_run(const RunResult& run, const Trajectory& optimized) {
 Plot run_plot(const RunResult& run, const Trajectory& optimized, const Trajectory* ground_truth,
               const std::string& title) {
   Plot plot;
-  std::string aligned;
+  AlignmentResult alignment;
   if (ground_truth) {
-    EvaluationOptions options;
-    options.association = Association::kIndex;
-    options.alignment = run.map.metric ? Alignment::kOrigin : Alignment::kSim3;
-    std::vector<EvaluationResult> results;
-    for (const auto& [trajectory, name] :
-         {std::pair(&run.map.trajectory_online, "online"), std::pair(&optimized, "optimized")}) {
-      EvaluationResult result =
-          evaluate(truth_of_frames(*ground_truth, run.map), *trajectory, options, name);
-      if (result.outcome) results.push_back(std::move(result));
-    }
-    const AlignmentResult main_alignment =
-        results.empty() ? AlignmentResult() : results.back().alignment;
-    for (const MapComponent& component : run.map.components()) {
-      if (component.main || results.empty()) continue;
-      EvaluationResult result = evaluate(truth_of_frames(*ground_truth, run.map),
-                                         run.map.trajectory_optimized(component.number), options,
-                                         "component " + std::to_string(component.number));
-      if (result.outcome) results.push_back(std::move(result));
-    }
+    const std::vector<EvaluationResult> results = evaluated(run, optimized, *ground_truth);
     if (!results.empty()) {
       plot = plot_of(results);
-      aligned = std::string(", align ") + (run.map.metric ? "origin" : "sim3");
-      add_places(run.map, main_alignment, plot);
+      alignment = main_alignment(results);
     }
   }
   if (plot.curves.empty()) {
     plot.curves = {curve_of(run.map.trajectory_online, "online"), curve_of(optimized, "optimized")};
     plot.unit = unit_of(run.map.metric);
-    add_places(run.map, {}, plot);
-    const PlotCurve& curve = plot.curves.back();
-    for (const LoopRecord& loop : run.map.loops) {
-      if (!loop.accepted()) continue;
-      std::optional<Eigen::Vector3d> ends[2];
-      for (std::size_t i = 0; i < run.map.frames.size(); ++i) {
-        if (run.map.frames[i].frame == loop.query_frame) ends[0] = curve.positions_m[i];
-        if (run.map.frames[i].frame == loop.match_frame) ends[1] = curve.positions_m[i];
-      }
-      if (ends[0] && ends[1]) plot.links_m.emplace_back(*ends[0], *ends[1]);
-    }
+    plot.notes = {"no ground truth: positions in the frame of the map, not aligned"};
   }
-  plot.title = title + aligned;
+  add_places(run.map, alignment, plot);
+  add_loops(run.map, optimized, alignment, plot);
+  plot.title = title;
   return plot;
 }
 

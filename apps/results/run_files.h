@@ -15,8 +15,8 @@ std::string loops_csv(const Map& map);  ///< columns query,match,inliers,accepte
 nlohmann::json describe_motion(const PlaceGraph& graph);
 /// Members of result.json for the map and its trajectories; the caller adds the times.
 nlohmann::json describe_run(const RunResult& run, const Trajectory& optimized);
-/// Top view of the trajectories, the places with their numbers, and the loops.
-/// With `ground_truth` (may be nullptr) it also shows the errors.
+/// The trajectories, the places with their numbers, and the accepted loops.
+/// With `ground_truth` (may be nullptr) it also shows the errors. The notes name the alignment.
 Plot run_plot(const RunResult& run, const Trajectory& optimized, const Trajectory* ground_truth,
               const std::string& title);
 

@@ -19,6 +19,7 @@
 #include "apps/shipped/scene_models.h"
 #include "apps/support/json_file.h"
 #include "apps/support/output.h"
+#include "apps/support/plot_file.h"
 #include "apps/support/progress.h"
 
 namespace placegraph::apps {
@@ -142,7 +143,7 @@ void write_semantic_map(const std::string& folder, const SemanticMap& semantic,
   }
   write_file(path("semantic_map.ply"), to_ply(semantic));
   write_file(path("semantic_map.json"), to_json(semantic, shares_by_place(mapper, map)));
-  write_file(path("semantic_map.png"), semantic_map_png(semantic, picture));
+  write_plot_beside(path("semantic_map.png"), semantic_map_svg(semantic, picture));
   if (origin) write_file(path("semantic_map.geojson"), to_geojson(semantic, *origin));
 }
 

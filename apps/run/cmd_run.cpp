@@ -120,7 +120,10 @@ void add_run_command(CLI::App& app, const RunPresentation& presentation) {
   command->add_option("--threads", a.threads, kThreadsText);
   command->add_flag("--json", run_command->json, kJsonText);
   command->add_flag("--force", a.force, kForceText);
-  command->add_option("--draw", a.draw, "folder for the images, drawn with tracks and residuals");
+  command->add_option(
+      "--draw", a.draw,
+      "folder for the images, drawn with tracks and residuals; a video of them (.avi, "
+      ".mp4), or a contact sheet (.jpg, .png)");
   command->add_flag("--profile", run_command->profile, kProfileText);
   command->add_option("--report", run_command->page, kReportText);
   command->add_flag("--view", run_command->view, "show the run in a browser while it goes on");

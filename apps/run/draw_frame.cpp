@@ -3,12 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <filesystem>
 #include <opencv2/imgproc.hpp>
 
 #include "apps/support/subpixel.h"
-#include "apps/support/write_png.h"
 
 namespace placegraph::apps {
 namespace {
@@ -81,12 +78,17 @@ Image draw_frame(const Frame& frame, const FrameResult& result, const FrameView&
   return canvas;
 }
 
-void write_frame_drawing(const std::string& folder, const Frame& frame, const FrameResult& result,
-                         const FrameView& view) {
-  char name[32];
-  std::snprintf(name, sizeof name, "%06lld.png", static_cast<long long>(frame.id.value()));
-  write_png((std::filesystem::path(folder) / name).string(), draw_frame(frame, result, view),
-            {.level = 3});
+std::vector<LegendEntry> frame_legend() {
+  const auto line = [](const char* text, Colour colour) {
+    return LegendEntry{text, {colour, 2.5}, LegendMark::kLine};
+  };
+  return {line("landmark, as predicted", {0, 255, 0}),
+          line("1.5 px off", {255, 255, 0}),
+          line("3 px off or more", {255, 0, 0}),
+          area_entry("white: track without a landmark", {255, 255, 255}),
+          line("ground", {0, 128, 255}),
+          line("aligned surfaces: green 0, red 3 sigma", {170, 220, 0}),
+          line("Manhattan axes: red, green, blue; grey: none", {128, 128, 128})};
 }
 
 }  // namespace placegraph::apps

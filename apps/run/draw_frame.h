@@ -1,9 +1,10 @@
 #pragma once
+#include <placegraph/eval/internal/drawing/picture_legend.h>
 #include <placegraph/graph/image/frame.h>
 #include <placegraph/pipeline/cues/frame_view.h>
 #include <placegraph/pipeline/slam.h>
 
-#include <string>
+#include <vector>
 
 namespace placegraph::apps {
 
@@ -13,8 +14,7 @@ namespace placegraph::apps {
 /// of aligned surfaces go from green to red (3 standard deviations). BGR, of the frame's size.
 Image draw_frame(const Frame& frame, const FrameResult& result, const FrameView& view);
 
-/// Writes the drawing as `folder`/NNNNNN.png, by the frame's number. Throws FileError.
-void write_frame_drawing(const std::string& folder, const Frame& frame, const FrameResult& result,
-                         const FrameView& view);
+/// What the colours of these drawings mean.
+std::vector<LegendEntry> frame_legend();
 
 }  // namespace placegraph::apps

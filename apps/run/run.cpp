@@ -24,12 +24,13 @@
 #include "apps/results/run_files.h"
 #include "apps/results/run_judgement.h"
 #include "apps/results/semantic_map_files.h"
-#include "apps/run/draw_frame.h"
+#include "apps/run/frame_drawings.h"
 #include "apps/run/run_messages.h"
 #include "apps/run/run_notes.h"
 #include "apps/shipped/scene_models.h"
 #include "apps/support/interruption.h"
 #include "apps/support/output.h"
+#include "apps/support/plot_file.h"
 #include "apps/support/progress.h"
 #include "apps/support/usage.h"
 
@@ -76,7 +77,7 @@ void write_results(const std::string& folder, const RunResult& run, const Trajec
   write_file(path("places.graphml"), to_graphml(run.map.place_graph, transitions));
   write_file(path("places.dot"), to_dot(run.map.place_graph, transitions));
   write_file(path("loops.csv"), loops_csv(run.map));
-  write_file(path("plot.png"), to_png(run_plot(run, optimized, truth, title)));
+  write_plot_beside(path("plot.png"), to_svg(run_plot(run, optimized, truth, title)));
   write_file(path("result.json"), json_text(summary, 1));
 }
 
@@ -141,7 +142,7 @@ PreparedRun prepare(RunArguments arguments) {
     check_urban_models(options.scene.urban,
                        {options.scene.urban_model, options.scene.surfaces_model});
   if (!arguments.draw.empty()) {
-    require_free_folder(arguments.draw, arguments.force);
+    require_free_drawings(arguments.draw, arguments.force);
     require(fs::weakly_canonical(arguments.draw) != fs::weakly_canonical(arguments.out),
             "--draw: must be another folder than --out");
   }
@@ -156,7 +157,8 @@ PreparedRun prepare(RunArguments arguments) {
 }
 
 /// Runs the sequence with progress and messages on stderr.
-RunResult run_prepared(const PreparedRun& prepared, const Interruption& interruption) {
+RunResult run_prepared(const PreparedRun& prepared, const Interruption& interruption,
+                       FrameDrawings* drawings) {
   const RunArguments& arguments = prepared.arguments;
   const Dataset& dataset = *prepared.dataset;
   RunInputs inputs;
@@ -170,10 +172,10 @@ RunResult run_prepared(const PreparedRun& prepared, const Interruption& interrup
     events.add(watcher);
     inputs.stages = [&](const auto& stages) { watcher->stages_measured(stages); };
   }
-  if (watcher || !arguments.draw.empty())
+  if (watcher || drawings)
     inputs.observer = [&](const Frame& frame, const FrameResult& result, const FrameView& view) {
       if (watcher) watcher->frame_seen(frame, result, view);
-      if (!arguments.draw.empty()) write_frame_drawing(arguments.draw, frame, result, view);
+      if (drawings) drawings->add(frame, result, view);
     };
   if (verbosity != Verbosity::kQuiet)
     inputs.progress = [&](std::size_t done, std::size_t, const FrameResult&) {
@@ -245,15 +247,17 @@ RunReport run(const RunArguments& asked) {
   const RunOptions& options = prepared.options;
   const Dataset& dataset = *prepared.dataset;
   const OutputFolder folder(arguments.out);
-  std::optional<OutputFolder> drawings;
-  if (!arguments.draw.empty()) drawings.emplace(arguments.draw);
+  std::unique_ptr<FrameDrawings> drawings;
+  if (!arguments.draw.empty())
+    drawings = frame_drawings(arguments.draw, frames_to_run(dataset, options));
   cv::setNumThreads(options.threads);
 
   RunClock clock;
   const Interruption interruption;  // until the results are written
-  RunResult run = run_prepared(prepared, interruption);
+  RunResult run = run_prepared(prepared, interruption, drawings.get());
   if (run.stopped && run.map.frames.empty())
     throw Interrupted("interrupted before the first frame; nothing was written");
+  if (drawings) drawings->finish();
   json floor_plan, semantic_map;
   if (options.scene.geometry && !run.stopped)
     floor_plan = map_scene(arguments, options, dataset, run);

@@ -18,7 +18,7 @@ struct RunArguments {
   std::vector<std::string> settings;  ///< "key=value"
   std::string odometry;               ///< file of the motion by other sensors; empty: none
   std::string mask;                   ///< file of the mask of all images; empty: none
-  std::string draw;                   ///< folder for every frame drawn; empty: none
+  std::string draw;                   ///< folder, video or sheet of drawn frames; empty: none
   std::optional<std::string> sensor, cues, scene, elements;
   std::optional<double> camera_height_m;
   std::optional<std::int64_t> seed;

@@ -8,7 +8,9 @@ namespace placegraph::apps {
 void add_scene_image_options(CLI::App& command, SceneImageArguments& a, bool& json) {
   command.add_option("INPUT", a.input, "an image, or a folder of them (or with them in images/)")
       ->required();
-  command.add_option("-o,--out", a.out, "folder for NAME.png with the class number of every pixel")
+  command
+      .add_option("-o,--out", a.out,
+                  "folder for NAME.png in the colours of the classes, with a legend")
       ->required();
   command.add_option("--model", a.model, kModelText);
   command
@@ -19,7 +21,8 @@ void add_scene_image_options(CLI::App& command, SceneImageArguments& a, bool& js
   command.add_flag("--relations", a.relations,
                    "use the table of spatial relations between classes");
   command.add_flag("--confidence", a.confidence, "also write NAME.confidence.png, 255 = certain");
-  command.add_flag("--draw", a.draw, "also write NAME.drawn.png, the classes in colours");
+  command.add_flag("--ids", a.ids, kIdsText);
+  command.add_flag("--draw", a.draw, "as --ids, and write NAME.drawn.png in colours beside it");
   command.add_option("--threads", a.threads, kThreadsText)
       ->check(CLI::Range(1, 64))
       ->capture_default_str();

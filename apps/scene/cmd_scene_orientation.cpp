@@ -22,8 +22,9 @@ void add_image_orientation_command(CLI::App& image) {
       ->required()
       ->check(CLI::ExistingPath);
   add_calib_option(*command, a.camera, kCalibFile);
-  command->add_option("-o,--out", a.out,
-                      "8-bit PNG: 0 none, else 1 + axis of the surface's normal");
+  command->add_option("-o,--out", a.out, "surfaces in the colours of their normals, with a legend");
+  command->add_flag("--ids", a.ids,
+                    std::string(kIdsText) + ": 8 bits, 0 none, else 1 + axis of the normal");
   command->add_option("--draw", a.drawing,
                       "PNG file, or folder for a sequence: the input, drawn with its surfaces");
   command->add_option("--every", a.every, "use every n-th image")->capture_default_str();

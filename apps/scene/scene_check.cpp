@@ -47,7 +47,10 @@ LabelCheck compare(const SceneCheckArguments& a, const LabelledSet& set,
     if (!fs::exists(path)) throw FileError(path.string(), "missing: the labels of " + image.image);
     const Image labels = read_image_as_stored(path.string());
     if (labels.type() != CV_8UC1)
-      throw FileError(path.string(), "no label image: one channel of 8 bits is needed");
+      throw FileError(
+          path.string(),
+          "no label image: one channel of 8 bits is needed (--ids of `image labels` and "
+          "`image surfaces` writes it)");
     const Image truth = read_class_image(image.labels, set.classes, names, a.surfaces);
     require_size(path.string(), labels, truth.cols, truth.rows);
     check.add(truth, labels,

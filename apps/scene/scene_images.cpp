@@ -1,13 +1,15 @@
 #include "apps/scene/scene_images.h"
 
 #include <fmt/format.h>
+#include <placegraph/eval/internal/drawing/picture_bytes.h>
+#include <placegraph/eval/internal/drawing/picture_legend.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/internal/core/json_text.h>
 #include <placegraph/graph/internal/core/parallel.h>
+#include <placegraph/graph/scene/semantic_map.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/internal/files/image_list.h>
 
-#include <array>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <opencv2/core/utility.hpp>
@@ -27,8 +29,16 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Number of pixels of each class, then of unknown ones.
+std::vector<std::int64_t> pixels_by_class(const Image& labels, std::size_t classes) {
+  std::vector<std::int64_t> pixels(classes + 1, 0);
+  for (int v = 0; v < labels.rows; ++v)
+    for (int u = 0; u < labels.cols; ++u) ++pixels[labels.at<std::uint8_t>(v, u)];
+  return pixels;
+}
+
+/// Labels an image and writes its files; as pixels_by_class().
 std::vector<std::int64_t> label_image(const std::string& path, const SceneImageArguments& a,
-                                      std::size_t classes,
+                                      const std::vector<std::string>& classes,
                                       const std::function<SceneLabels(const SceneView&)>& label) {
   const GreyAndColour read = read_image(path);
   const Image image = read.colour.empty() ? read.grey : read.colour;
@@ -38,23 +48,21 @@ std::vector<std::int64_t> label_image(const std::string& path, const SceneImageA
   } catch (const ArgumentError& error) {
     throw FileError(path, error.what());
   }
-  std::vector<std::int64_t> pixels(classes + 1, 0);
-  for (int v = 0; v < found.labels.rows; ++v)
-    for (int u = 0; u < found.labels.cols; ++u) ++pixels[found.labels.at<std::uint8_t>(v, u)];
-  const fs::path out = fs::path(a.out) / fs::path(path).stem();
-  write_png(out.string() + ".png", found.labels);
+  const std::string out = (fs::path(a.out) / fs::path(path).stem()).string();
+  const bool ids = a.ids || a.draw;
+  if (ids) write_png(out + ".png", found.labels);
   if (a.confidence) {
     Image bytes;
     found.confidence.convertTo(bytes, CV_8U, 255);
-    write_png(out.string() + ".confidence.png", bytes);
+    write_png(out + ".confidence.png", bytes);
   }
-  if (a.draw) {
+  if (!ids || a.draw) {
+    const std::string file = out + (ids ? ".drawn.png" : ".png");
     Image bgr = image;
     if (bgr.channels() == 1) cv::cvtColor(image, bgr, cv::COLOR_GRAY2BGR);
-    write_png(out.string() + ".drawn.png",
-              draw_labels(bgr, found.labels, static_cast<int>(classes)));
+    write_png(file, draw_labels(bgr, found.labels, classes, file));
   }
-  return pixels;
+  return pixels_by_class(found.labels, classes.size());
 }
 
 /// Number of all pixels by class, then of unknown ones.
@@ -75,18 +83,30 @@ std::vector<std::string> image_paths_of(const std::string& input) {
   return {input};
 }
 
-Image draw_labels(const Image& bgr, const Image& labels, int classes) {
-  Image table(1, 256, CV_8UC3, cv::Scalar::all(0));
-  for (int c = 0; c < classes; ++c) {
-    Image colour(1, 1, CV_8UC3, cv::Scalar(c * 180.0 / classes, 200, 230));
-    cv::cvtColor(colour, colour, cv::COLOR_HSV2BGR);
-    table.at<cv::Vec3b>(0, c) = colour.at<cv::Vec3b>(0, 0);
+Image draw_labels(const Image& bgr, const Image& labels, const std::vector<std::string>& classes,
+                  const std::string& wanted) {
+  const std::vector<std::int64_t> pixels = pixels_by_class(labels, classes.size());
+  Image drawn = bgr.clone();
+  std::vector<LegendEntry> legend;
+  const auto add_entry = [&](const std::string& name, std::int64_t count, Colour colour) {
+    const double share = 100.0 * static_cast<double>(count) / static_cast<double>(labels.total());
+    if (count > 0) legend.push_back(area_entry(fmt::format("{} {:.0f} %", name, share), colour));
+  };
+  for (std::size_t c = 0; c < classes.size(); ++c) {
+    const auto rgb = class_colour(classes[c], static_cast<int>(c));
+    const cv::Vec3b colour(rgb[2], rgb[1], rgb[0]);
+    for (int v = 0; v < labels.rows; ++v)
+      for (int u = 0; u < labels.cols; ++u)
+        if (labels.at<std::uint8_t>(v, u) == c) {
+          constexpr double kShare = 0.6;
+          auto& pixel = drawn.at<cv::Vec3b>(v, u);
+          for (int k = 0; k < 3; ++k)
+            pixel[k] = cv::saturate_cast<uchar>(kShare * colour[k] + (1 - kShare) * pixel[k]);
+        }
+    add_entry(classes[c], pixels[c], {rgb[0], rgb[1], rgb[2]});
   }
-  Image three, colours, drawn;
-  cv::merge(std::array<Image, 3>{labels, labels, labels}, three);
-  cv::LUT(three, table, colours);
-  cv::addWeighted(bgr, 0.5, colours, 0.5, 0, drawn);
-  return drawn;
+  add_entry("unknown (not coloured)", pixels.back(), {255, 255, 255});
+  return with_legend(drawn, legend, wanted);
 }
 
 SceneImageResult label_images(const SceneImageArguments& a, const std::vector<std::string>& classes,
@@ -98,6 +118,7 @@ SceneImageResult label_images(const SceneImageArguments& a, const std::vector<st
     if (!names.insert(fs::path(path).stem().string()).second)
       throw FileError(path, "another image has the same name");
   require_free_folder(a.out, a.force);
+  if (!a.ids || a.draw) require_drawings(a.out);
   const OutputFolder folder(a.out);
   const Stopwatch watch;
   std::vector<std::vector<std::int64_t>> pixels(images.size());
@@ -107,13 +128,13 @@ SceneImageResult label_images(const SceneImageArguments& a, const std::vector<st
     const std::size_t count = std::min(part, images.size() - begin);
     parallel_for(static_cast<int>(count), a.threads, [&](int k) {
       const std::size_t at = begin + static_cast<std::size_t>(k);
-      pixels[at] = label_image(images[at], a, classes.size(),
+      pixels[at] = label_image(images[at], a, classes,
                                [&](const SceneView& view) { return label(at, view); });
     });
     progress.update(static_cast<std::int64_t>(begin + count));
   }
-  SceneImageResult result{a.out, classes, std::vector<std::int64_t>(classes.size() + 1, 0),
-                          images.size()};
+  SceneImageResult result{a.out, a.ids || a.draw, classes,
+                          std::vector<std::int64_t>(classes.size() + 1, 0), images.size()};
   for (const std::vector<std::int64_t>& of_image : pixels)
     for (std::size_t c = 0; c < of_image.size(); ++c) result.pixels[c] += of_image[c];
   result.cpu_ms_an_image = watch.cpu_ms() / static_cast<double>(images.size());
@@ -125,8 +146,8 @@ std::string to_text(const SceneImageResult& result) {
       fmt::format("{} images, {:.0f} ms CPU each:", result.images, result.cpu_ms_an_image);
   for (const auto& [name, share] : shares_of(result))
     if (share > 0) text += fmt::format(" {} {:.3f}", name, share);
-  return fmt::format("{}, written to {} as class numbers (dark images; --draw: in colours)\n", text,
-                     result.out);
+  return fmt::format("{}, written to {} {}\n", text, result.out,
+                     result.ids ? "as class numbers (dark images)" : "in colours (--ids: numbers)");
 }
 
 std::string to_json(const SceneImageResult& result) {

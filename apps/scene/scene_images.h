@@ -23,12 +23,14 @@ struct SceneImageArguments {
   int threads = 1;          ///< number of threads
   bool relations = false;   ///< use the table of spatial relations between classes
   bool confidence = false;  ///< also write NAME.confidence.png
-  bool draw = false;        ///< also write NAME.drawn.png
+  bool ids = false;         ///< NAME.png has the numbers of the classes, not their colours
+  bool draw = false;        ///< as `ids`, and the colours in NAME.drawn.png
   bool force = false;       ///< write into a folder that is not empty
 };
 
 struct SceneImageResult {
   std::string out;
+  bool ids = false;  ///< the files have numbers
   std::vector<std::string> classes;
   std::vector<std::int64_t> pixels;  ///< number of pixels of each class, then of unknown ones
   std::size_t images = 0;
@@ -42,7 +44,8 @@ std::vector<std::string> image_paths_of(const std::string& input);
 using ImageLabeller = std::function<SceneLabels(std::size_t image, const SceneView& view)>;
 
 /// Labels one image or every image of a folder by `label`.
-/// Writes OUT/NAME.png of class numbers, and on demand NAME.confidence.png and NAME.drawn.png.
+/// Writes OUT/NAME.png, the image in the colours of its classes with a legend below, or their
+/// numbers; on demand NAME.confidence.png and NAME.drawn.png.
 /// Progress goes to stderr. Throws ArgumentError, and FileError also if two images would have the
 /// same name.
 SceneImageResult label_images(const SceneImageArguments& arguments,
@@ -52,7 +55,9 @@ SceneImageResult label_images(const SceneImageArguments& arguments,
 std::string to_text(const SceneImageResult& result);
 std::string to_json(const SceneImageResult& result);
 
-/// The image in the colour of each pixel's class; black if it is unknown.
-Image draw_labels(const Image& bgr, const Image& labels, int classes);
+/// The image in the colour of each pixel's class, as it is where that is unknown, and below it the
+/// classes that it shows with their shares. `wanted` names the purpose.
+Image draw_labels(const Image& bgr, const Image& labels, const std::vector<std::string>& classes,
+                  const std::string& wanted);
 
 }  // namespace placegraph::apps

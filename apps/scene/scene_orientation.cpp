@@ -1,6 +1,8 @@
 #include "apps/scene/scene_orientation.h"
 
 #include <fmt/format.h>
+#include <placegraph/eval/internal/drawing/picture_bytes.h>
+#include <placegraph/eval/internal/drawing/picture_legend.h>
 #include <placegraph/frontend/internal/segments/segment_detector.h>
 #include <placegraph/frontend/internal/vanishing/scene_directions.h>
 #include <placegraph/graph/core/error.h>
@@ -50,29 +52,62 @@ SeenOrientation see(const Image& image, const Camera& camera,
   return seen;
 }
 
-/// The labels in pale red, green and blue by their axis (the vertical one green), the edges in full
-/// colour, without the photograph.
-Image draw(const SeenOrientation& seen, const Camera& camera) {
-  const int vertical = seen.map.vertical_axis;
-  cv::Mat3b drawing(camera.height, camera.width, cv::Vec3b(255, 255, 255));
-  const auto colour = [&](int axis, int full, int rest) {
-    const int channel = axis == vertical ? 1 : axis == (vertical + 1) % 3 ? 2 : 0;
-    cv::Vec3b c(static_cast<uchar>(rest), static_cast<uchar>(rest), static_cast<uchar>(rest));
-    c[channel] = static_cast<uchar>(full);
-    return c;
-  };
+/// The colour of an axis of the Manhattan frame: the vertical one green, the others red and blue.
+cv::Vec3b axis_colour(int axis, int vertical, int full, int rest) {
+  const int channel = axis == vertical ? 1 : axis == (vertical + 1) % 3 ? 2 : 0;
+  cv::Vec3b c(static_cast<uchar>(rest), static_cast<uchar>(rest), static_cast<uchar>(rest));
+  c[channel] = static_cast<uchar>(full);
+  return c;
+}
+
+constexpr int kPale = 190;
+
+/// The labels in pale colours of their axes, white where there is none.
+Image coloured(const OrientationMap& map) {
+  cv::Mat3b drawing(map.labels.size(), cv::Vec3b(255, 255, 255));
   for (int v = 0; v < drawing.rows; ++v)
     for (int u = 0; u < drawing.cols; ++u)
-      if (const int label = seen.map.labels.at<uchar>(v, u))
-        drawing(v, u) = colour(label - 1, 255, 190);
+      if (const int label = map.labels.at<uchar>(v, u))
+        drawing(v, u) = axis_colour(label - 1, map.vertical_axis, 255, kPale);
+  return drawing;
+}
+
+std::vector<LegendEntry> surface_legend(int vertical) {
+  const auto entry = [&](int axis, const char* text) {
+    const cv::Vec3b c = axis_colour(axis, vertical, 255, kPale);
+    return area_entry(text, {c[2], c[1], c[0]});
+  };
+  return {entry(vertical, "floor, ceiling"), entry((vertical + 1) % 3, "walls of one direction"),
+          entry((vertical + 2) % 3, "walls of the other direction")};
+}
+
+/// The surfaces and, in full colour, the edges that show them, without the photograph.
+Image draw(const SeenOrientation& seen, const std::string& wanted) {
+  const int vertical = seen.map.vertical_axis;
+  Image drawing = coloured(seen.map);
   for (std::size_t i = 0; i < seen.segments.size(); ++i) {
     const LineSegment& s = seen.segments[i];
-    const cv::Vec3b c = seen.axis[i] < 0 ? cv::Vec3b(170, 170, 170) : colour(seen.axis[i], 200, 0);
+    const cv::Vec3b c =
+        seen.axis[i] < 0 ? cv::Vec3b(170, 170, 170) : axis_colour(seen.axis[i], vertical, 200, 0);
     cv::line(drawing, cv::Point(cvRound(s.start[0]), cvRound(s.start[1])),
              cv::Point(cvRound(s.end[0]), cvRound(s.end[1])), cv::Scalar(c[0], c[1], c[2]), 1,
              cv::LINE_AA);
   }
-  return drawing;
+  std::vector<LegendEntry> legend = surface_legend(vertical);
+  legend.push_back({"edge, in the colour of its axis", {{0, 200, 0}, 1.5}});
+  legend.push_back({"edge along no axis", {{170, 170, 170}, 1.5}});
+  return with_legend(drawing, legend, wanted);
+}
+
+void write_map(const std::string& path, const OrientationMap& map, bool ids) {
+  write_image(
+      path, ids ? map.labels : with_legend(coloured(map), surface_legend(map.vertical_axis), path));
+}
+
+/// Throws FileError if the module that draws legends is missing.
+void require_legends(const SceneOrientationArguments& arguments) {
+  if (!arguments.drawing.empty()) require_drawings(arguments.drawing);
+  if (!arguments.out.empty() && !arguments.ids) require_drawings(arguments.out);
 }
 
 SceneOrientationResult orientation_of_image(const SceneOrientationArguments& arguments) {
@@ -87,8 +122,8 @@ SceneOrientationResult orientation_of_image(const SceneOrientationArguments& arg
   const double cpu_ms = watch.cpu_ms();
   if (!seen.map.outcome) throw NoResult(arguments.in + ": " + seen.map.outcome.reason);
   const Image surfaces = indoor_surfaces(seen.map, camera, seen.R_cam_manhattan);
-  if (!arguments.out.empty()) write_image(arguments.out, seen.map.labels);
-  if (!arguments.drawing.empty()) write_image(arguments.drawing, draw(seen, camera));
+  if (!arguments.out.empty()) write_map(arguments.out, seen.map, arguments.ids);
+  if (!arguments.drawing.empty()) write_image(arguments.drawing, draw(seen, arguments.drawing));
   const auto share = [&](IndoorSurface surface) {
     return cv::countNonZero(surfaces == static_cast<int>(surface)) /
            static_cast<double>(surfaces.total());
@@ -154,9 +189,9 @@ SceneOrientationResult orientation_of_sequence(const SceneOrientationArguments& 
     found.coverage += seen.map.coverage;
     const std::string name = fmt::format("{:06d}.png", i);
     if (!arguments.out.empty())
-      write_image((fs::path(arguments.out) / name).string(), seen.map.labels);
+      write_map((fs::path(arguments.out) / name).string(), seen.map, arguments.ids);
     if (!arguments.drawing.empty() && seen.map.outcome)
-      write_image((fs::path(arguments.drawing) / name).string(), draw(seen, camera));
+      write_image((fs::path(arguments.drawing) / name).string(), draw(seen, arguments.drawing));
     if (truth.known()) truth.check(i, seen, check);
   }
   found.coverage /= std::max(1, found.images);
@@ -201,6 +236,7 @@ std::string text_of(const SequenceOrientation& found) {
 SceneOrientationResult scene_orientation(const SceneOrientationArguments& arguments) {
   arguments.options.check();
   require(arguments.every >= 1, "--every: must be at least 1");
+  require_legends(arguments);
   return fs::is_directory(arguments.in) ? orientation_of_sequence(arguments)
                                         : orientation_of_image(arguments);
 }

@@ -13,6 +13,7 @@ struct SceneOrientationArguments {
   std::string in;          ///< image, or folder of a sequence
   std::string camera;      ///< calibration file; empty: the calibration of the sequence
   std::string out;         ///< file for the map, or folder for the maps; empty: none
+  bool ids = false;        ///< the maps have numbers, not colours with a legend
   std::string drawing;     ///< file for a drawing of surfaces and edges, or folder; empty: none
   int every = 1;           ///< use every n-th image of a sequence
   std::uint64_t seed = 1;  ///< seed of the random samples

@@ -5,6 +5,8 @@ namespace placegraph::apps {
 // Descriptions of flags that several commands share.
 inline constexpr const char* kJsonText = "print the result as JSON";
 inline constexpr const char* kForceText = "overwrite existing outputs";
+inline constexpr const char* kIdsText =
+    "write the numbers of classes, planes or axes, not colours with a legend";
 inline constexpr const char* kSeedText = "seed of the random numbers";
 inline constexpr const char* kSetText = "set one option, key=value; may be repeated";
 inline constexpr const char* kThreadsText = "number of threads; the result does not depend on it";
@@ -15,7 +17,7 @@ inline constexpr const char* kSequenceText =
 inline constexpr const char* kSensorText = "sensor to assume; auto takes the best that is recorded";
 inline constexpr const char* kTimesText = "file of times, one per line [s]";
 inline constexpr const char* kReportText = "file for a page that shows the result in a browser";
-inline constexpr const char* kPlotText = "draw the result as .png or .svg";
+inline constexpr const char* kPlotText = "draw the result as .png, .svg or .pdf";
 inline constexpr const char* kConfigText =
     "YAML file of options, or the name of an installed one; see `placegraph config`";
 inline constexpr const char* kModelText = "model to use instead of the installed one";

@@ -1,5 +1,6 @@
 #include "apps/support/plot_file.h"
 
+#include <placegraph/eval/internal/drawing/picture_bytes.h>
 #include <placegraph/graph/core/error.h>
 
 #include "apps/support/output.h"
@@ -7,12 +8,22 @@
 namespace placegraph::apps {
 
 void require_plot_name(const std::string& path) {
-  require(path.empty() || path.ends_with(".png") || path.ends_with(".svg"),
-          path + ": a plot ends in .png or .svg");
+  require(path.empty() || is_plot_name(path), path + ": a plot ends in .png, .svg or .pdf");
+  if (!path.empty() && !path.ends_with(".svg")) require_drawings(path);
 }
 
-void write_plot(const std::string& path, const Plot& plot) {
-  write_file(path, path.ends_with(".svg") ? to_svg(plot) : to_png(plot));
+void write_plot(const std::string& path, const std::string& svg) {
+  write_file(path, picture_bytes(svg, path));
+}
+
+void write_plot_beside(const std::string& path, const std::string& svg) {
+  std::string bytes;
+  try {
+    bytes = picture_bytes(svg, path);
+  } catch (const FileError& error) {
+    return warn(error.what());
+  }
+  write_file(path, bytes);
 }
 
 }  // namespace placegraph::apps

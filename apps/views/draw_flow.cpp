@@ -1,5 +1,8 @@
 #include "apps/views/draw_flow.h"
 
+#include <fmt/format.h>
+#include <placegraph/eval/internal/drawing/picture_legend.h>
+
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
@@ -41,9 +44,29 @@ cv::Vec3b colour_of(const cv::Vec2f& d, double full_px, double grey) {
   return colour;
 }
 
+/// A wheel of the colours, and beside it what they mean.
+Image wheel_strip(double full_px, int width, const std::string& wanted) {
+  constexpr int kSide = 108, kMargin = 8;
+  constexpr double kRadius = kSide / 2.0 - kMargin;
+  const Image text = legend_strip(
+      {},
+      {"Hue: the direction of the flow", "Centre: no motion",
+       fmt::format("Rim: {:.{}f} px or more", full_px, full_px < 10 ? 1 : 0), "Grey: unknown"},
+      std::max(width - kSide, 0), wanted);
+  Image strip(std::max(kSide, text.rows), kSide + text.cols, CV_8UC3, cv::Scalar::all(255));
+  text.copyTo(strip(cv::Rect(kSide, 0, text.cols, text.rows)));
+  for (int v = 0; v < kSide; ++v)
+    for (int u = 0; u < kSide; ++u) {
+      const cv::Vec2f d(static_cast<float>((u - kSide / 2) * full_px / kRadius),
+                        static_cast<float>((v - kSide / 2) * full_px / kRadius));
+      if (std::hypot(d[0], d[1]) <= full_px) strip.at<cv::Vec3b>(v, u) = colour_of(d, full_px, 255);
+    }
+  return strip;
+}
+
 }  // namespace
 
-Image draw_flow(const Image& grey, const Image& flow) {
+Image draw_flow(const Image& grey, const Image& flow, const std::string& wanted) {
   Image drawing;
   cv::cvtColor(grey, drawing, cv::COLOR_GRAY2BGR);
   const Extent extent = extent_of(flow);
@@ -63,7 +86,7 @@ Image draw_flow(const Image& grey, const Image& flow) {
       }
     }
   }
-  return drawing;
+  return stacked(drawing, wheel_strip(extent.size_px, drawing.cols, wanted));
 }
 
 }  // namespace placegraph::apps

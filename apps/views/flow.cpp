@@ -1,6 +1,7 @@
 #include "apps/views/flow.h"
 
 #include <fmt/format.h>
+#include <placegraph/eval/internal/drawing/picture_bytes.h>
 #include <placegraph/frontend/internal/flow/optical_flow.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/internal/core/json_text.h>
@@ -73,7 +74,7 @@ std::int64_t known_pixels(const Image& flow) {
 void write_flow_files(const FlowArguments& arguments, const Image& from, const Image& flow) {
   if (!arguments.out.empty()) write_flow(arguments.out, flow);
   if (arguments.drawing.empty()) return;
-  write_png(arguments.drawing, draw_flow(from, flow));
+  write_png(arguments.drawing, draw_flow(from, flow, arguments.drawing));
 }
 
 }  // namespace
@@ -82,6 +83,7 @@ FlowResult flow(const FlowArguments& arguments) {
   for (const std::string& file : {arguments.out, arguments.drawing})
     if (!file.empty()) require_free(file, arguments.force);
   if (!arguments.out.empty()) require_flow_extension(arguments.out);
+  if (!arguments.drawing.empty()) require_drawings(arguments.drawing);
   const FlowOptions options = flow_options(arguments);
   std::optional<CueSetting> cues;
   if (arguments.cues) cues = cue_setting(arguments);

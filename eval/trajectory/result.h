@@ -40,6 +40,7 @@ struct EvaluationResult {
   SegmentResult segments;     ///< t_rel and r_rel
   std::vector<std::string> warnings;     ///< one line each: a suspicious property and a remedy
   std::vector<FramePair> aligned_pairs;  ///< the evaluated frames, with aligned estimates
+  bool has_times = false;                ///< their stamps are times, not indices
   std::vector<double> travelled_m;       ///< length of the true path up to each of them
 };
 

@@ -5,15 +5,15 @@ s=$data/scene/camvid
 heading "$title"
 rendered="--rendered 11,12,13 --rendered-frames 25" # as for the models that come with the program
 command_line "placegraph train surfaces|urban \$DATA/scene/camvid --holdout SEQUENCE $rendered --ablation --out MODEL"
-command_line "placegraph image surfaces|labels SEQUENCE --model MODEL --confidence --out LABELS"
+command_line "placegraph image surfaces|labels SEQUENCE --model MODEL --ids --confidence --out LABELS"
 command_line "placegraph eval labels LABELS SEQUENCE [--surfaces]"
 
 # labelled NAME FOLDER ARGUMENTS...: surfaces and classes of a folder, judged
 labelled() {
   part=$out/camvid-$1; folder=$2; shift 2
   say "labelling $part"
-  $placegraph image surfaces "$folder" --out "$part-surfaces" --confidence --force --json ${1:+--model "$1"} > "$part-surfaces.json" 2> "$part.log"
-  $placegraph image labels "$folder" --out "$part-urban" --confidence --force --json ${1:+--model "$2" --surfaces-model "$1"} > "$part-urban.json" 2>> "$part.log"
+  $placegraph image surfaces "$folder" --out "$part-surfaces" --ids --confidence --force --json ${1:+--model "$1"} > "$part-surfaces.json" 2> "$part.log"
+  $placegraph image labels "$folder" --out "$part-urban" --ids --confidence --force --json ${1:+--model "$2" --surfaces-model "$1"} > "$part-urban.json" 2>> "$part.log"
   $placegraph eval labels "$part-surfaces" "$folder" --surfaces --json > "$part-surfaces.check.json"
   $placegraph eval labels "$part-urban" "$folder" --json > "$part-urban.check.json"
 }

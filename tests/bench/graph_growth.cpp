@@ -3,6 +3,7 @@
 //   bench_graph_growth OUT.png|OUT.svg [POSES...]        (default 1000 3000 10000 30000 100000)
 #include <placegraph/backend/internal/solver/normal_equations.h>
 #include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
+#include <placegraph/eval/internal/drawing/picture_bytes.h>
 #include <placegraph/eval/internal/plots/growth_plot.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/internal/synthetic/graphs/graph_world.h>
@@ -112,7 +113,7 @@ int run(int argc, char** argv) {
     std::fflush(stdout);
   }
   const GrowthPlot plot = plot_of(costs);
-  std::ofstream(out, std::ios::binary) << (out.ends_with(".svg") ? to_svg(plot) : to_png(plot));
+  std::ofstream(out, std::ios::binary) << picture_bytes(to_svg(plot), out);
   return 0;
 }
 

@@ -2,6 +2,7 @@
 // filter over past images; and the memory of a view. bench_place_study FOLDER [--plot FILE] [N...]
 // How the tiny image stands zoom and shift: bench_place_study FOLDER --robustness
 #include <fmt/format.h>
+#include <placegraph/eval/internal/drawing/picture_bytes.h>
 #include <placegraph/eval/internal/plots/growth_plot.h>
 #include <placegraph/frontend/internal/places/cues/cue_grid.h>
 #include <placegraph/frontend/internal/places/place_view.h>
@@ -162,9 +163,11 @@ void study(const std::string& folder, const std::vector<int>& sizes, const std::
   }
   if (!plot.empty()) {
     AtomicFile file(plot);
-    file.stream() << to_png({"What recognizing a place costs",
-                             "stored views",
-                             {{"CPU time of an image [ms]", {all, looking, past}}}});
+    const std::string svg =
+        to_svg(GrowthPlot{"What recognizing a place costs",
+                          "stored views",
+                          {{"CPU time of an image [ms]", {all, looking, past}}}});
+    file.stream() << picture_bytes(svg, plot);
     file.commit();
   }
 }

@@ -16,7 +16,7 @@ struct RatePanel {
 };
 
 /// Panels in rows of `columns`, all with the axes of the first: from nothing to the greatest `at`,
-/// from 0 to 100 %. PNG or SVG, as the path ends.
+/// from 0 to 100 %. PNG, SVG or PDF, as the path ends.
 void write_rate_plot(const std::string& path, const std::string& title, const std::string& label,
                      const std::vector<RatePanel>& panels, int columns);
 

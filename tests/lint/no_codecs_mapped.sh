@@ -1,6 +1,6 @@
 #!/bin/sh
-# no_codecs_mapped.sh FILE|FOLDER...: no program maps OpenCV's imgcodecs, videoio or ximgproc, nor what they
-# bring along, when it starts. Of a folder all programs below it are looked at.
+# no_codecs_mapped.sh FILE|FOLDER...: no program maps OpenCV's imgcodecs, videoio or ximgproc, librsvg or cairo,
+# nor what they bring along, when it starts. Of a folder all programs below it are looked at.
 set -eu
 status=0
 count=0
@@ -11,7 +11,7 @@ done | LC_ALL=C sort); do
   libraries=$(ldd "$program" 2> /dev/null) || continue  # a script
   count=$((count + 1))
   if found=$(printf '%s\n' "$libraries" |
-    grep -E 'lib(opencv_(imgcodecs|videoio|ximgproc|highgui)|gdal|gstreamer[^ ]*|avcodec)[.-]'); then
+    grep -E 'lib(opencv_(imgcodecs|videoio|ximgproc|highgui)|rsvg|cairo|gdal|gstreamer[^ ]*|avcodec)[.-]'); then
     printf '%s maps\n%s\n' "$program" "$found"
     status=1
   fi

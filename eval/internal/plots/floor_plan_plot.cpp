@@ -1,72 +1,83 @@
 #include <fmt/format.h>
+#include <placegraph/eval/internal/drawing/figure.h>
+#include <placegraph/eval/internal/drawing/plot_style.h>
 #include <placegraph/eval/internal/plots/floor_plan_plot.h>
-#include <placegraph/eval/internal/plots/plot_canvas.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace placegraph {
 namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kPlanMargin_px = 40, kPlanTitle_px = 40;
-constexpr Colour kWall{30, 30, 30}, kOpen{40, 150, 60}, kClosed{200, 110, 20},
-    kPlanPath{90, 130, 220}, kTruth{235, 150, 150}, kPlanText{60, 60, 60};
-constexpr Colour kRooms[] = {{120, 160, 200}, {190, 150, 90},  {120, 180, 130},
-                             {180, 120, 170}, {150, 150, 150}, {200, 120, 110}};
+constexpr Colour kWall{30, 30, 30}, kDoor{213, 94, 0}, kPlanPath{0, 114, 178},
+    kTruth{204, 121, 167};
+constexpr Colour kRooms[] = {{214, 226, 240}, {240, 228, 204}, {216, 236, 218},
+                             {234, 218, 234}, {228, 228, 228}, {244, 220, 214}};
 
-/// From the plan to the picture.
-struct PlanScale {
-  Vector2d low = Vector2d::Constant(1e9), high = Vector2d::Constant(-1e9);
-  double px_per_m = 1;
-  int width = 0, height = 0;
-
-  void take(const Vector2d& p) { low = low.cwiseMin(p), high = high.cwiseMax(p); }
-  void settle() {
-    if (low[0] > high[0]) low = Vector2d::Zero(), high = Vector2d::Ones();
-    const Vector2d extent = (high - low).cwiseMax(Vector2d::Constant(1));
-    px_per_m = std::min(1100 / extent[0], 900 / extent[1]);
-    width = static_cast<int>(extent[0] * px_per_m + 2 * kPlanMargin_px);
-    height = static_cast<int>(extent[1] * px_per_m + 2 * kPlanMargin_px + kPlanTitle_px);
-  }
-  Vector2d operator()(const Vector2d& p) const {
-    return {kPlanMargin_px + (p[0] - low[0]) * px_per_m,
-            height - kPlanMargin_px - (p[1] - low[1]) * px_per_m};
-  }
-};
-
-PlanScale scale_of(const IndoorMap& plan, const FloorPlanPicture& picture) {
-  PlanScale scale;
-  for (const IndoorWall& wall : plan.walls) scale.take(wall.a), scale.take(wall.b);
-  for (const IndoorRoom& room : plan.rooms)
-    for (const Vector2d& p : room.outline) scale.take(p);
-  for (const Vector2d& p : picture.path) scale.take(p);
-  if (picture.truth)
-    for (const BuildingPlan::Wall& wall : picture.truth->walls)
-      scale.take(wall.a), scale.take(wall.b);
-  scale.settle();
-  return scale;
+FigureLine line_through(const std::vector<Vector2d>& points, const Stroke& stroke) {
+  return {{points.begin(), points.end()}, stroke, {}};
 }
 
-void draw_ring(PlotCanvas& canvas, const PlanScale& scale, const std::vector<Vector2d>& ring,
-               Colour colour) {
-  if (ring.empty()) return;
-  std::vector<Vector2d> points;
-  for (const Vector2d& p : ring) points.push_back(scale(p));
-  points.push_back(points.front());
-  canvas.line(points, colour, 2.5);
-}
-
-void draw_truth(PlotCanvas& canvas, const PlanScale& scale, const BuildingPlan& truth) {
+void add_truth(const BuildingPlan& truth, std::vector<FigureShape>& shapes) {
   for (const BuildingPlan::Wall& wall : truth.walls) {
     const Vector2d axis = (wall.b - wall.a).normalized(),
                    off = 0.5 * wall.thickness_m * Vector2d(-axis[1], axis[0]);
     for (const double side : {-1.0, 1.0})
-      canvas.line({scale(wall.a + side * off), scale(wall.b + side * off)}, kTruth, 1);
+      shapes.emplace_back(line_through({wall.a + side * off, wall.b + side * off}, {kTruth}));
   }
   for (const BuildingPlan::Door& door : truth.doors)
-    canvas.line({scale(door.a), scale(door.b)}, kTruth, 5);
+    shapes.emplace_back(line_through({door.a, door.b}, {kTruth, 5}));
+}
+
+/// The fill of a room, widened by a stroke to the walls that bound it.
+void add_room(const IndoorRoom& room, Colour colour, std::vector<FigureShape>& shapes) {
+  if (room.outline.empty()) return;
+  FigureArea area{{room.outline}, colour, 1};
+  area.rings.insert(area.rings.end(), room.holes.begin(), room.holes.end());
+  for (std::vector<Vector2d> ring : area.rings) {
+    ring.push_back(ring.front());
+    shapes.emplace_back(line_through(ring, {kFrame, 1, 0.55}));
+  }
+  shapes.emplace_back(std::move(area));
+}
+
+double area_of(const IndoorMap& plan, const std::optional<int>& room) {
+  if (!room || *room < 0 || static_cast<std::size_t>(*room) >= plan.rooms.size()) return 0;
+  return plan.rooms[static_cast<std::size_t>(*room)].area_m2;
+}
+
+Vector2d middle_of(const std::vector<Vector2d>& outline) {
+  Vector2d sum = Vector2d::Zero();
+  for (const Vector2d& p : outline) sum += p;
+  return sum / std::max<double>(1, static_cast<double>(outline.size()));
+}
+
+/// The unit normal of a door towards the larger of its rooms, where a leaf has room.
+Vector2d swing_side(const IndoorMap& plan, const IndoorDoor& door) {
+  const Vector2d axis = (door.b - door.a).normalized(), normal(-axis[1], axis[0]);
+  const std::optional<int>& larger =
+      area_of(plan, door.rooms[0]) >= area_of(plan, door.rooms[1]) ? door.rooms[0] : door.rooms[1];
+  if (area_of(plan, larger) == 0) return normal;
+  const Vector2d middle = middle_of(plan.rooms[static_cast<std::size_t>(*larger)].outline);
+  return normal.dot(middle - door.a) < 0 ? Vector2d(-normal) : normal;
+}
+
+void add_door(const IndoorMap& plan, const IndoorDoor& door, std::vector<FigureShape>& shapes) {
+  const Vector2d across = door.b - door.a;
+  if (!(across.norm() > 0)) return;
+  const Vector2d leaf = across.norm() * swing_side(plan, door);
+  constexpr int kParts = 16;
+  std::vector<Vector2d> arc = {door.a};
+  for (int i = 0; i <= kParts; ++i) {
+    const double angle = std::numbers::pi / 2 * i / kParts;
+    arc.emplace_back(door.a + std::sin(angle) * across + std::cos(angle) * leaf);
+  }
+  shapes.emplace_back(line_through({door.a, door.b}, {kWhite, 5}));
+  shapes.emplace_back(line_through(arc, {kDoor, 1.3}));
+  if (door.closed) shapes.emplace_back(line_through({door.a, door.b}, {kDoor, 4}));
 }
 
 /// A point of the room for its name: the middle of its outline, or of its longest edge moved inside
@@ -78,44 +89,63 @@ Vector2d name_at(const IndoorRoom& room) {
   return {0.5 * (low[0] + high[0]), low[1] + 0.5};
 }
 
-std::string draw(const IndoorMap& plan, const FloorPlanPicture& picture, bool svg) {
-  const PlanScale scale = scale_of(plan, picture);
-  const auto canvas =
-      svg ? svg_canvas(scale.width, scale.height) : png_canvas(scale.width, scale.height);
-  canvas->rectangle({0, 0}, {static_cast<double>(scale.width), static_cast<double>(scale.height)},
-                    {255, 255, 255}, {255, 255, 255});
-  if (picture.truth) draw_truth(*canvas, scale, *picture.truth);
-  for (std::size_t i = 0; i < plan.rooms.size(); ++i) {
-    const Colour colour = kRooms[i % std::size(kRooms)];
-    draw_ring(*canvas, scale, plan.rooms[i].outline, colour);
-    for (const auto& hole : plan.rooms[i].holes) draw_ring(*canvas, scale, hole, colour);
-  }
-  std::vector<Vector2d> path;
-  for (const Vector2d& p : picture.path) path.push_back(scale(p));
-  if (path.size() > 1) canvas->line(path, kPlanPath, 1);
-  for (const IndoorWall& wall : plan.walls) canvas->line({scale(wall.a), scale(wall.b)}, kWall, 3);
-  for (const IndoorDoor& door : plan.doors)
-    canvas->line({scale(door.a), scale(door.b)}, door.closed ? kClosed : kOpen, 5);
-  for (const IndoorRoom& room : plan.rooms)
-    if (!room.outline.empty())
-      canvas->text(scale(name_at(room)), fmt::format("{}, {:.1f} m2", room.label, room.area_m2), 13,
-                   kPlanText, TextAnchor::kMiddle);
-  canvas->text({kPlanMargin_px, 24}, picture.title, 16, kPlanText, TextAnchor::kLeft);
-  // One metre, or five.
-  const double metres = (scale.high - scale.low).maxCoeff() > 15 ? 5 : 1;
-  const double right = scale.width - kPlanMargin_px;
-  canvas->line({{right - metres * scale.px_per_m, 20}, {right, 20}}, kPlanText, 2);
-  canvas->text({right, 36}, fmt::format("{:.0f} m", metres), 12, kPlanText, TextAnchor::kRight);
-  return canvas->encode();
+void set_ranges(const IndoorMap& plan, const FloorPlanPicture& picture, FigurePanel& panel) {
+  Interval x, z;
+  const auto take = [&](const Vector2d& p) { x.add(p[0]), z.add(p[1]); };
+  for (const IndoorWall& wall : plan.walls) take(wall.a), take(wall.b);
+  for (const IndoorRoom& room : plan.rooms) std::ranges::for_each(room.outline, take);
+  std::ranges::for_each(picture.path, take);
+  if (picture.truth)
+    for (const BuildingPlan::Wall& wall : picture.truth->walls) take(wall.a), take(wall.b);
+  panel.x = {"x [m]", with_margin(x, 0.03, 1), false, {}};
+  panel.y = {"z [m]", with_margin(z, 0.03, 1), false, {}};
+  const Vector2d content(panel.x.range.size(), panel.y.range.size()), most(1000, 800);
+  panel.size = (content * (most.array() / content.array()).minCoeff()).cwiseMax(280);
+  make_equal(panel);
+}
+
+std::vector<LegendEntry> legend_of(const IndoorMap& plan, const FloorPlanPicture& picture) {
+  std::vector<LegendEntry> legend = {{"wall", {kWall, 4}}};
+  if (!plan.rooms.empty()) legend.push_back({"room", {kRooms[0]}, LegendMark::kArea});
+  const auto closed = [](const IndoorDoor& door) { return door.closed; };
+  if (!std::ranges::all_of(plan.doors, closed))
+    legend.push_back({"doorway (its hinges are not observed)", {kDoor, 1.3}});
+  if (std::ranges::any_of(plan.doors, closed)) legend.push_back({"closed door", {kDoor, 4}});
+  if (picture.path.size() > 1) legend.push_back({"path of the camera", {kPlanPath, 1.3}});
+  if (picture.truth) legend.push_back({"ground truth", {kTruth, 1.5}});
+  return legend;
 }
 
 }  // namespace
 
 std::string floor_plan_svg(const IndoorMap& plan, const FloorPlanPicture& picture) {
-  return draw(plan, picture, true);
-}
-std::string floor_plan_png(const IndoorMap& plan, const FloorPlanPicture& picture) {
-  return draw(plan, picture, false);
+  FigurePanel panel;
+  set_ranges(plan, picture, panel);
+  panel.corner = {kLeftMargin, 14};
+  std::vector<FigureShape>& shapes = panel.shapes;
+  double area_m2 = 0;
+  for (std::size_t i = 0; i < plan.rooms.size(); ++i) {
+    add_room(plan.rooms[i], kRooms[i % std::size(kRooms)], shapes);
+    area_m2 += plan.rooms[i].area_m2;
+  }
+  if (picture.truth) add_truth(*picture.truth, shapes);
+  for (const IndoorWall& wall : plan.walls)
+    shapes.emplace_back(line_through({wall.a, wall.b}, {kWall, 4}));
+  for (const IndoorDoor& door : plan.doors) add_door(plan, door, shapes);
+  if (picture.path.size() > 1)
+    shapes.emplace_back(line_through(picture.path, {kPlanPath, 1.3, 0.8}));
+  for (const IndoorRoom& room : plan.rooms)
+    if (!room.outline.empty())
+      shapes.emplace_back(
+          FigureText{name_at(room), fmt::format("{}\n{:.1f} m²", room.label, room.area_m2)});
+  Figure figure;
+  figure.title = picture.title;
+  figure.notes = {fmt::format("{} rooms, {:.1f} m²; floor plan, z up", plan.rooms.size(), area_m2)};
+  figure.legend = legend_of(plan, picture);
+  figure.width_px = kLeftMargin + panel.size[0] + kRightMargin;
+  figure.height_px = 14 + panel.size[1] + kBottomMargin;
+  figure.panels.push_back(std::move(panel));
+  return to_svg(figure);
 }
 
 }  // namespace placegraph

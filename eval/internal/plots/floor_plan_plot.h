@@ -3,6 +3,7 @@
 #include <placegraph/graph/scene/indoor_map.h>
 
 #include <string>
+#include <vector>
 
 namespace placegraph {
 
@@ -13,9 +14,9 @@ struct FloorPlanPicture {
   const BuildingPlan* truth = nullptr;
 };
 
-/// Draws rooms, walls, doors (open: a gap without the arc of the leaf, closed: a bar), the camera's
-/// path and a scale bar, x to the right and z up. The picture is SVG text or PNG bytes.
+/// Rooms, walls, doors, the camera's path and a scale bar as SVG text, x to the right and z up.
+/// A doorway has the sign of a door, an arc on the side of the larger room; the side of its hinges
+/// is not observed. A closed door has a bar in it.
 std::string floor_plan_svg(const IndoorMap& plan, const FloorPlanPicture& picture);
-std::string floor_plan_png(const IndoorMap& plan, const FloorPlanPicture& picture);
 
 }  // namespace placegraph

@@ -22,9 +22,7 @@ struct GrowthPlot {
   std::vector<GrowthPanel> panels;
 };
 
-/// A picture 800 px wide a panel. Throws ArgumentError for a curve that is empty, not positive or
-/// of unequal lengths.
+/// Throws ArgumentError for a curve that is empty, not positive or of unequal lengths.
 std::string to_svg(const GrowthPlot& plot);
-std::string to_png(const GrowthPlot& plot);
 
 }  // namespace placegraph

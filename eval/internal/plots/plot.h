@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/eval/trajectory/result.h>
+#include <placegraph/eval/internal/drawing/figure.h>
 
 #include <Eigen/Core>
 #include <optional>
@@ -11,39 +11,49 @@ namespace placegraph {
 
 /// A trajectory in a top view; a lost frame has no position and leaves a gap in the line.
 struct PlotCurve {
-  std::string name;  ///< in the legend; curves of the same name share a line of it
+  std::string name;  ///< in the legend
   std::vector<std::optional<Eigen::Vector3d>> positions_m;
   bool reference = false;  ///< ground truth: grey, below the others; determines the axes
+  double width_px = 2;
+  /// Error at each position [m], 0 where there is none, which then colours the line; may be empty.
+  std::vector<double> error_m = {};
 };
 
-/// A position error over the distance travelled, drawn in the colour of the estimate it belongs to.
+/// A position error over the distance travelled and over time, drawn in the colour of the estimate
+/// it belongs to.
 struct PlotError {
   int estimate = 0;  ///< index among the curves that are no reference
   std::vector<double> distance_m;
+  std::vector<double> time_s;                  ///< since the first frame; empty: not known
   std::vector<std::optional<double>> error_m;  ///< one for each distance
 };
 
-/// The content of a figure. Left: the top view, on the two axes of largest extent of the first
-/// reference (else of the first curve), in equal scale. Right: the errors, if there are any.
+using PlotLinks = std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>>;
+
+/// Trajectories with what belongs to them.
 struct Plot {
   std::string title;
-  std::string unit = "m";  ///< unit of the positions; "units" if their scale is unknown
+  std::vector<std::string> notes;  ///< lines below the title
+  std::string unit = "m";          ///< unit of the positions; "units" if their scale is unknown
   std::vector<PlotCurve> curves;
   std::vector<PlotError> errors;
-  std::string error_label = "position error";
   std::vector<Eigen::Vector3d> places_m;  ///< nodes of the map
   /// Names of the places, written where there is room, the first ones first; empty: none.
   std::vector<std::string> place_names;
-  std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> links_m;           ///< loop closures
-  std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> rejected_links_m;  ///< false ones
+  PlotLinks links_m;           ///< loop closures
+  PlotLinks rejected_links_m;  ///< false ones
 };
 
-/// Ground truth, aligned estimates and their errors; failed results are left out.
-Plot plot_of(const std::vector<EvaluationResult>& results);
-
-/// A picture of 1600x800 (1000x800 without errors) as SVG text or PNG bytes.
+/// Views from above and from the side, and beside them the errors, if there are any.
+/// The view from above shows the two axes of largest extent of the first reference (else of the
+/// first curve) in equal scale. The view from the side shows the third axis, stretched if it is
+/// small, and shares the longer axis of the other view. There is none if all lies in a plane.
+Figure figure_of(const Plot& plot);
 std::string to_svg(const Plot& plot);
-std::string to_png(const Plot& plot);
+
+/// Views from above of several sequences, each with its title and its own axes.
+Figure figure_of(const std::vector<Plot>& sequences, const std::string& title,
+                 const std::vector<std::string>& notes);
 
 /// The two axes (0 = x, 1 = y, 2 = z) of largest extent of the positions, ascending; x and z for a
 /// drive along z with a lateral extent of less than a tenth.

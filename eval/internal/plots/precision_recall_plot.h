@@ -14,12 +14,11 @@ struct PrecisionRecallCurve {
 /// Precision over recall, both from 0 to 1: a curve per system, a disc at the last threshold
 /// without a false prediction. Recall increases in steps, one per threshold.
 struct PrecisionRecallPlot {
-  std::string title;
   std::vector<PrecisionRecallCurve> curves;
+  std::string protocol;  ///< how predictions were judged
 };
 
-/// A picture of 900x800. Throws ArgumentError if there is no curve.
+/// Throws ArgumentError if there is no curve.
 std::string to_svg(const PrecisionRecallPlot& plot);
-std::string to_png(const PrecisionRecallPlot& plot);
 
 }  // namespace placegraph

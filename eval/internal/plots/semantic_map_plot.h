@@ -14,8 +14,8 @@ struct SemanticMapPicture {
   std::vector<std::optional<Eigen::Vector2d>> path;
 };
 
-/// The top view in the colours of its classes as PNG bytes: x to the right, z up, with a legend, a
-/// bar of 10 m and the path of the camera. Unknown cells are white.
-std::string semantic_map_png(const SemanticMap& map, const SemanticMapPicture& picture);
+/// The top view in the colours of its classes as SVG text: x to the right, z up, with a legend and
+/// the path of the camera. Unknown cells are white.
+std::string semantic_map_svg(const SemanticMap& map, const SemanticMapPicture& picture);
 
 }  // namespace placegraph

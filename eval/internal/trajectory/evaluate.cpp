@@ -134,6 +134,7 @@ EvaluationResult evaluate(PairingResult paired, const EvaluationOptions& options
   r.estimate_frames = paired.estimate_frames;
   r.estimate_without_truth = paired.estimate_without_truth;
   r.outcome = paired.outcome;
+  r.has_times = paired.has_times;
   const bool by_first_pose =
       options.alignment == Alignment::kOrigin || options.alignment == Alignment::kScale;
   if (r.outcome && by_first_pose && !paired.has_orientation)

@@ -26,6 +26,16 @@ class VideoReader {
   virtual double announced_frames() const = 0;
 };
 
+/// A video that is written frame by frame.
+class VideoWriter {
+ public:
+  virtual ~VideoWriter() = default;
+  /// Appends a frame (CV_8UC3, of the video's size); false if that fails.
+  virtual bool write(const Image& frame) = 0;
+  /// Completes the file; false if that fails. The last call.
+  virtual bool finish() = 0;
+};
+
 /// Interface of the module libplacegraph_opencv_plugin.so. Only the module links OpenCV's
 /// imgcodecs, videoio and ximgproc, which depend on 200 libraries. No function throws.
 struct PicturePlugin {
@@ -41,6 +51,10 @@ struct PicturePlugin {
   /// Writes frames (CV_8UC3 of one size) as a Motion JPEG video; false if that fails.
   virtual bool write_video(const std::string& path, const std::vector<Image>& frames,
                            double rate_hz) const = 0;
+  /// Begins a video of frames of this size: Motion JPEG in .avi, H.264 in .mp4, of which both sides
+  /// are even. Null if the file cannot be opened or has another extension.
+  virtual std::unique_ptr<VideoWriter> create_video(const std::string& path, int width, int height,
+                                                    double rate_hz) const = 0;
   /// SLIC superpixels of a CV_8UC3 picture in the Lab space: `index` becomes CV_32SC1, the result
   /// is their number (0: failure).
   virtual int cut_superpixels(const Image& lab, int side_px, float ruler, int iterations,
@@ -50,7 +64,7 @@ struct PicturePlugin {
 /// The version of PicturePlugin, and that of the OpenCV whose images it takes. It changes with
 /// every change of the declarations above.
 constexpr std::int64_t kPicturePluginVersion =
-    1'000'000 + 1'000 * CV_VERSION_MAJOR + CV_VERSION_MINOR;
+    2'000'000 + 1'000 * CV_VERSION_MAJOR + CV_VERSION_MINOR;
 
 constexpr const char* kPicturePluginFile = "libplacegraph_opencv_plugin.so";
 

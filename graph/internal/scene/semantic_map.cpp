@@ -215,10 +215,11 @@ TopView top_view(const SemanticMap& map, double standing_m) {
 
 std::array<std::uint8_t, 3> class_colour(const std::string& name, int number) {
   static const std::map<std::string, std::array<std::uint8_t, 3>> kNamed = {
-      {"Sky", {128, 128, 128}},      {"Building", {128, 0, 0}},   {"Pole", {192, 192, 128}},
-      {"Road", {128, 64, 128}},      {"Pavement", {60, 40, 222}}, {"Tree", {128, 128, 0}},
-      {"Sign", {192, 128, 128}},     {"Fence", {64, 64, 128}},    {"Car", {64, 0, 128}},
-      {"Pedestrian", {200, 120, 0}}, {"Bicyclist", {0, 128, 192}}};
+      {"Sky", {128, 128, 128}},      {"Building", {128, 0, 0}},    {"Pole", {192, 192, 128}},
+      {"Road", {128, 64, 128}},      {"Pavement", {60, 40, 222}},  {"Tree", {128, 128, 0}},
+      {"Sign", {192, 128, 128}},     {"Fence", {64, 64, 128}},     {"Car", {64, 0, 128}},
+      {"Pedestrian", {200, 120, 0}}, {"Bicyclist", {0, 128, 192}}, {"sky", {86, 180, 233}},
+      {"ground", {0, 158, 115}},     {"vertical", {213, 94, 0}},   {"object", {240, 228, 66}}};
   const auto found = kNamed.find(name);
   if (found != kNamed.end()) return found->second;
   const auto byte = [&](int factor) {

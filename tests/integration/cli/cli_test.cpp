@@ -227,7 +227,7 @@ TEST_F(Cli, EvalRefusesBadOptions) {
   expect_usage_error("eval gt.txt est.txt --lengths 10,-5", "segments.lengths_m");
   expect_usage_error("eval gt.txt est.txt --lengths ten", "--lengths");
   expect_usage_error("eval gt.txt est.txt --step 0", "segments.step");
-  expect_usage_error("eval gt.txt est.txt --plot a.gif", ".png or .svg");
+  expect_usage_error("eval gt.txt est.txt --plot a.gif", ".png, .svg or .pdf");
   expect_usage_error("eval gt.txt .", "is a folder");
   expect_usage_error("eval gt.txt est.txt --csv no/such/folder.csv", "folder.csv");
 }

@@ -64,7 +64,7 @@ class CloudPlanesCli : public test::CliTest {
 TEST_F(CloudPlanesCli, LabelsTheThreePlanesOfADepthImage) {
   const test::SeenCloud seen = write_corner();
   const CommandResult result =
-      run("planes depth.png --calib K.txt --depth-scale 0.001 --out labels.png --json");
+      run("planes depth.png --calib K.txt --depth-scale 0.001 --out labels.png --ids --json");
   ASSERT_EQ(result.code, 0) << result.err;
   const cv::Mat labels = test::read_picture(dir / "labels.png", DecodedPixels::kAsStored);
   ASSERT_EQ(labels.type(), CV_8UC1);
@@ -81,7 +81,7 @@ TEST_F(CloudPlanesCli, LabelsTheThreePlanesOfADepthImage) {
   EXPECT_GT(plane["probability"], 0.3);
   EXPECT_GT(plane["points"], report["planes"][1]["points"]);
   // The same in steps a metre.
-  ASSERT_EQ(run("planes depth.png --calib K.txt --depth-scale 1000 --out again.png").code, 0);
+  ASSERT_EQ(run("planes depth.png --calib K.txt --depth-scale 1000 --out again.png --ids").code, 0);
   EXPECT_EQ(read_file(dir / "again.png"), read_file(dir / "labels.png"));
 }
 

@@ -77,7 +77,7 @@ TEST_F(Loops, RefusesBrokenInputWithItsLine) {
   expect_usage_error("loops --predictions theirs.txt --truth gt.txt --format other", "other");
   expect_usage_error("loops --predictions none.txt --truth gt.txt", "none.txt");
   write_file(dir / "gt.txt", "10 0 5 1\n");
-  expect_usage_error("loops --predictions theirs.txt --truth gt.txt --plot pr.pdf", "pr.pdf");
+  expect_usage_error("loops --predictions theirs.txt --truth gt.txt --plot pr.gif", "pr.gif");
   expect_usage_error("loops --predictions theirs.txt --truth gt.txt --systems a b", "--systems");
 }
 

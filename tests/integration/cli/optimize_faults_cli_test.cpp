@@ -106,7 +106,7 @@ TEST_F(OptimizeFaults, RefusesBadOptions) {
   expect_usage_error("optimize in.g2o -o out.g2o --iterations 0",
                      "--iterations: Value 0 not in range");
   expect_usage_error("optimize in.g2o -o out.g2o --iterations many", "--iterations");
-  expect_usage_error("optimize in.g2o -o out.g2o --plot out.gif", ".png or .svg");
+  expect_usage_error("optimize in.g2o -o out.g2o --plot out.gif", ".png, .svg or .pdf");
   expect_usage_error("optimize in.g2o -o out.png --plot out.png", "--plot");
   expect_usage_error("optimize in.g2o -o no/such/folder.g2o", "folder.g2o");
   EXPECT_FALSE(fs::exists(dir / "out.g2o"));

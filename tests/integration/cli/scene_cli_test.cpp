@@ -65,9 +65,14 @@ TEST_F(SceneCli, TrainsLabelsAndJudges) {
   EXPECT_EQ(report["confusion"]["Road"].size(), 5u);
 
   ASSERT_EQ(
-      run("image surfaces set/val/images/one_4.png --out layout --model surfaces.pgscene").code, 0);
+      run("image surfaces set/val/images/one_4.png --out layout --ids --model surfaces.pgscene").code,
+      0);
   const CommandResult layout = run("eval labels layout set/val --surfaces");
   EXPECT_THAT(layout.out, HasSubstr("vertical"));
+  // The colours that are written without --ids are no numbers.
+  ASSERT_EQ(
+      run("image surfaces set/val/images/one_4.png --out seen --model surfaces.pgscene").code, 0);
+  expect_usage_error("eval labels seen set/val --surfaces", "--ids");
 }
 
 TEST_F(SceneCli, LearnsFromRenderedStreetsToo) {
@@ -128,10 +133,10 @@ TEST_F(SceneCli, TheModelsThatCameWithTheProgramKnowAStreet) {
     fs::copy(camvid + "/val/images/" + name + ".jpg", dir / "few/images");
     fs::copy(camvid + "/val/labels/" + name + ".png", dir / "few/labels");
   }
-  ASSERT_EQ(run("image labels few --out labels --confidence").code, 0);
+  ASSERT_EQ(run("image labels few --out labels --ids --confidence").code, 0);
   const json classes = json::parse(run("eval labels labels few --json").out);
   EXPECT_GT(classes["pixel_accuracy"], 0.8);
-  ASSERT_EQ(run("image surfaces few --out surfaces").code, 0);
+  ASSERT_EQ(run("image surfaces few --out surfaces --ids").code, 0);
   const json surfaces = json::parse(run("eval labels surfaces few --surfaces --json").out);
   EXPECT_GT(surfaces["pixel_accuracy"], 0.88);
 }

@@ -41,6 +41,30 @@ class CaptureReader : public VideoReader {
   cv::VideoCapture capture_;
 };
 
+class FileWriter : public VideoWriter {
+ public:
+  FileWriter(const std::string& path, int codec, cv::Size size, double rate_hz)
+      : writer_(path, cv::CAP_FFMPEG, codec, rate_hz, size), size_(size) {}
+  bool opened() const { return writer_.isOpened(); }
+  bool write(const Image& frame) override {
+    if (frame.size() != size_ || frame.type() != CV_8UC3) return false;
+    try {
+      writer_.write(frame);
+      return true;
+    } catch (const cv::Exception&) {
+      return false;
+    }
+  }
+  bool finish() override {
+    writer_.release();
+    return true;
+  }
+
+ private:
+  cv::VideoWriter writer_;
+  cv::Size size_;
+};
+
 /// Damaged files are reported by the caller, which knows their names.
 void silence_libraries() {
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
@@ -96,6 +120,20 @@ struct OpenCvPlugin : PicturePlugin {
       return true;
     } catch (const cv::Exception&) {
       return false;
+    }
+  }
+
+  std::unique_ptr<VideoWriter> create_video(const std::string& path, int width, int height,
+                                            double rate_hz) const override {
+    const bool mp4 = path.ends_with(".mp4");
+    if (!mp4 && !path.ends_with(".avi")) return nullptr;
+    const int codec = mp4 ? cv::VideoWriter::fourcc('a', 'v', 'c', '1')
+                          : cv::VideoWriter::fourcc('M', 'J', 'P', 'G');
+    try {
+      auto writer = std::make_unique<FileWriter>(path, codec, cv::Size(width, height), rate_hz);
+      return writer->opened() ? std::move(writer) : nullptr;
+    } catch (const cv::Exception&) {
+      return nullptr;
     }
   }
 

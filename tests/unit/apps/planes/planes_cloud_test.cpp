@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -49,8 +50,28 @@ class PlanesCloudCommand : public testing::Test {
   PlanesCloudArguments arguments;
 };
 
+TEST_F(PlanesCloudCommand, DrawsThePlanesWithALegendUnlessNumbersAreAsked) {
+  take_depth();
+  const PlanesCloudResult result = planes_cloud(arguments);
+  const Image drawn = read_image_as_stored(arguments.out);
+  ASSERT_EQ(drawn.type(), CV_8UC3);
+  EXPECT_GT(drawn.rows, 96);  // the legend is below
+  EXPECT_GE(drawn.cols, 128);
+  std::map<int, cv::Vec3b> colours;
+  for (int v = 0; v < 96; ++v)
+    for (int u = 0; u < 128; ++u) {
+      const auto [colour, added] =
+          colours.emplace(result.found.labels[128 * v + u], drawn.at<cv::Vec3b>(v, u));
+      EXPECT_EQ(colour->second, drawn.at<cv::Vec3b>(v, u));
+    }
+  EXPECT_GE(colours.size(), 3u);
+  for (const auto& [a, colour_a] : colours)
+    for (const auto& [b, colour_b] : colours) EXPECT_TRUE(a == b || colour_a != colour_b);
+}
+
 TEST_F(PlanesCloudCommand, LabelsThePixelsOfADepthImageByTheirPlane) {
   take_depth();
+  arguments.ids = true;
   const PlanesCloudResult result = planes_cloud(arguments);
   EXPECT_EQ(result.points, 128 * 96);
   ASSERT_EQ(result.found.planes.size(), 3u);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/image/picture_plugin.h>
+#include <placegraph/io/files/image_file.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 
 #include "tests/support/message_of.h"
@@ -45,11 +47,51 @@ TEST_F(RunCommandFunction, DrawsEveryFrameIfAsked) {
   test::StreetFiles(folder, 3).write_kitti(true);
   arguments.draw = folder / "drawn";
   run(arguments);
-  EXPECT_TRUE(fs::exists(folder / "drawn/000002.png"));
+  const Image drawn = read_image_as_stored(folder / "drawn/000002.png");
+  const Image frame = read_image_as_stored(folder / "s/image_0/000002.png");
+  EXPECT_GT(drawn.rows, frame.rows);  // a legend is below
   arguments.out = arguments.draw;
   arguments.force = true;
   EXPECT_THAT(message_of<ArgumentError>([&] { run(arguments); }),
               HasSubstr("--draw: must be another folder than --out"));
+}
+
+TEST_F(RunCommandFunction, DrawsTheFramesAsAVideoOrASheet) {
+  test::StreetFiles(folder, 3).write_kitti(true);
+  const Image frame = read_image_as_stored(folder / "s/image_0/000002.png");
+  arguments.force = true;
+  for (const char* name : {"frames.avi", "frames.mp4"}) {
+    arguments.draw = folder / name;
+    run(arguments);
+    const auto video = picture_plugin(name).open_video(arguments.draw);
+    ASSERT_NE(video, nullptr) << name;
+    int frames = 0;
+    for (Image drawn; video->read(drawn); ++frames) EXPECT_GT(drawn.rows, frame.rows);
+    EXPECT_EQ(frames, 3) << name;
+  }
+  for (const char* name : {"frames.png", "frames.jpg"}) {
+    arguments.draw = folder / name;
+    run(arguments);
+    const Image sheet = read_image(arguments.draw).colour;
+    EXPECT_GT(sheet.cols, 2.9 * std::min(frame.cols, 480)) << name;
+  }
+  arguments.force = false;
+  arguments.out = folder / "other";
+  EXPECT_THAT(message_of<ArgumentError>([&] { run(arguments); }), HasSubstr("exists already"));
+  EXPECT_FALSE(fs::exists(arguments.out));
+}
+
+TEST_F(RunCommandFunction, ARunThatFailsLeavesNoVideo) {
+  test::StreetFiles(folder, 2).write_kitti(true);
+  arguments.draw = folder / "frames.avi";
+  folder.write("s/image_0/000000.png", "no image");
+  folder.write("s/image_0/000001.png", "no image");
+  try {
+    run(arguments);
+  } catch (const Error&) {  // it may report it either way
+  }
+  for (const auto& entry : fs::directory_iterator(folder / "."))
+    EXPECT_NE(entry.path().extension(), ".avi") << entry.path();
 }
 
 TEST_F(RunCommandFunction, KeepsTheResultsBeforeAFrameThatCannotBeRead) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/scene/semantic_map.h>
 #include <placegraph/io/files/image_file.h>
 
 #include <nlohmann/json.hpp>
@@ -51,22 +52,36 @@ TEST_F(LabelPictures, CountsThePixelsOfEveryClassOverAllPictures) {
   EXPECT_EQ(label().pixels, result.pixels);
 }
 
-TEST_F(LabelPictures, WritesTheLabelsAndWhatElseIsAskedFor) {
+TEST_F(LabelPictures, DrawsTheClassesWithALegend) {
+  label();
+  const Image drawn = read_image_as_stored(folder / "out/b.png");
+  ASSERT_EQ(drawn.type(), CV_8UC3);
+  EXPECT_GT(drawn.rows, 48);
+  const Image picture = test::tiny_grey(64, 48, 2);
+  const auto sky = class_colour("Sky", 0);
+  EXPECT_NEAR(drawn.at<cv::Vec3b>(10, 3)[2], 0.6 * sky[0] + 0.4 * picture.at<std::uint8_t>(10, 3),
+              1.5);
+  // What is unknown is the picture.
+  EXPECT_EQ(drawn.at<cv::Vec3b>(10, 63)[1], picture.at<std::uint8_t>(10, 63));
+  EXPECT_FALSE(fs::exists(folder / "out/b.drawn.png"));
+}
+
+TEST_F(LabelPictures, WritesTheNumbersAndWhatElseIsAskedFor) {
+  arguments.ids = true;
   label();
   const Image labels = read_image_as_stored(folder / "out/b.png");
+  ASSERT_EQ(labels.type(), CV_8UC1);
   EXPECT_EQ(labels.at<std::uint8_t>(10, 31), 0);
   EXPECT_EQ(labels.at<std::uint8_t>(10, 32), 1);
   EXPECT_EQ(labels.at<std::uint8_t>(10, 63), 2);
   EXPECT_FALSE(fs::exists(folder / "out/b.confidence.png"));
   EXPECT_FALSE(fs::exists(folder / "out/b.drawn.png"));
+  arguments.ids = false;
   arguments.confidence = arguments.draw = arguments.force = true;
   label();
+  EXPECT_EQ(read_image_as_stored(folder / "out/b.png").type(), CV_8UC1);
   EXPECT_EQ(read_image_as_stored(folder / "out/b.confidence.png").at<std::uint8_t>(0, 0), 51);
-  const Image drawn = read_image_as_stored(folder / "out/b.drawn.png");
-  EXPECT_EQ(drawn.size(), labels.size());
-  // What is unknown is the picture, half as bright.
-  const Image picture = test::tiny_grey(64, 48, 2);
-  EXPECT_NEAR(drawn.at<cv::Vec3b>(10, 63)[1], picture.at<std::uint8_t>(10, 63) / 2.0, 1);
+  EXPECT_EQ(read_image_as_stored(folder / "out/b.drawn.png").type(), CV_8UC3);
 }
 
 TEST_F(LabelPictures, TakesOnePicture) {
@@ -90,10 +105,12 @@ TEST_F(LabelPictures, NamesThePictureThatCannotBeLabelled) {
 }
 
 TEST(ScenePictureText, LeavesOutClassesThatAreNowhere) {
-  const SceneImageResult result{"out", {"Sky", "Road"}, {30, 0, 10}, 4, 12.4};
+  SceneImageResult result{"out", false, {"Sky", "Road"}, {30, 0, 10}, 4, 12.4};
   EXPECT_EQ(to_text(result),
-            "4 images, 12 ms CPU each: Sky 0.750 unknown 0.250, written to out as class numbers "
-            "(dark images; --draw: in colours)\n");
+            "4 images, 12 ms CPU each: Sky 0.750 unknown 0.250, written to out in colours (--ids: "
+            "numbers)\n");
+  result.ids = true;
+  EXPECT_THAT(to_text(result), HasSubstr("written to out as class numbers (dark images)\n"));
 }
 
 }  // namespace

@@ -24,6 +24,7 @@ class SceneLabelCommand : public testing::Test {
   SceneLabelCommand() {
     test::write_image(folder, "street.png", street.bgr);
     arguments.input = folder / "street.png";
+    arguments.ids = true;
     arguments.out = folder / "out";
     arguments.model = models->folder / "urban.pgscene";
     arguments.surfaces_model = models->folder / "surfaces.pgscene";

@@ -47,6 +47,7 @@ test::TemporaryFolder* SceneOrientationCommand::made = nullptr;
 
 TEST_F(SceneOrientationCommand, TellsTheFloorAndTheWallsOfAnImage) {
   arguments.out = folder / "map.png";
+  arguments.ids = true;
   arguments.drawing = folder / "drawn.png";
   const SceneOrientationResult result = scene_orientation(arguments);
   const auto& found = std::get<ImageOrientation>(result.found);
@@ -59,7 +60,13 @@ TEST_F(SceneOrientationCommand, TellsTheFloorAndTheWallsOfAnImage) {
   const Image map = read_image_as_stored(arguments.out);
   EXPECT_EQ(map.size(), cv::Size(320, 240));
   EXPECT_NEAR(cv::countNonZero(map) / static_cast<double>(map.total()), found.coverage, 1e-6);
-  EXPECT_EQ(read_image_as_stored(arguments.drawing).type(), CV_8UC3);
+  const Image drawn = read_image_as_stored(arguments.drawing);
+  EXPECT_EQ(drawn.type(), CV_8UC3);
+  EXPECT_GT(drawn.rows, 240);  // the legend is below
+  arguments.ids = false;
+  arguments.force = true;
+  scene_orientation(arguments);
+  EXPECT_EQ(read_image_as_stored(arguments.out).type(), CV_8UC3);
 }
 
 TEST_F(SceneOrientationCommand, HoldsASequenceAgainstItsSurfaces) {

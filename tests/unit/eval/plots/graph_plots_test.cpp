@@ -1,16 +1,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <placegraph/eval/internal/drawing/label_room.h>
 #include <placegraph/eval/internal/plots/growth_plot.h>
-#include <placegraph/eval/internal/plots/label_room.h>
 #include <placegraph/eval/internal/plots/pose_graph_plot.h>
 #include <placegraph/graph/core/error.h>
+
+#include "../drawing/svg_check.h"
 
 namespace placegraph {
 namespace {
 
 using testing::HasSubstr;
 using testing::Not;
-using testing::StartsWith;
 
 /// Poses 0 .. 3 along x, odometry but between 1 and 2, loops 0 -> 2 and 0 -> 3.
 PoseGraph chain(double step_m) {
@@ -49,6 +50,29 @@ TEST(PoseGraphPlot, NamesLoopsAndRejectedOnesInItsLegend) {
   EXPECT_THAT(some, HasSubstr(">1 loop closure<"));
   EXPECT_THAT(some, HasSubstr(">1 rejected<"));
   EXPECT_THAT(to_svg(plot_of(chain(1), chain(2), {})), Not(HasSubstr("rejected")));
+}
+
+TEST(PoseGraphPlot, ShowsAGraphInSpaceFromTheSideToo) {
+  EXPECT_EQ(figure_of(plot_of(chain(1), chain(2), {})).panels.size(), 1u);
+  PoseGraph climbing = chain(1);
+  for (PoseNode& node : climbing.nodes) {
+    const double x = std::get<SE2>(node.T_world_node).translation().x();
+    node.T_world_node = SE3(SO3(), {x, 0.5 * x * x, 0.3 * x});
+  }
+  const Figure figure = figure_of(plot_of(climbing, climbing, {}));
+  ASSERT_EQ(figure.panels.size(), 2u);
+  EXPECT_THAT(figure.panels[1].heading, HasSubstr("from the side"));
+  test::expect_good_svg(to_svg(figure));
+}
+
+TEST(PoseGraphPlot, DrawsLoopsBelowTheEstimate) {
+  const Figure figure = figure_of(plot_of(chain(1), chain(2), {}));
+  std::vector<Colour> order;
+  for (const FigureShape& shape : figure.panels.at(0).shapes)
+    if (const auto* line = std::get_if<FigureLine>(&shape); line && !line->points.empty())
+      order.push_back(line->stroke.colour);
+  ASSERT_EQ(order.size(), 3u);  // before, loops, after
+  EXPECT_EQ(order[1], (Colour{0, 158, 115}));
 }
 
 TEST(PoseGraphPlot, HasNoMetresIfTheGraphHasScales) {
@@ -117,7 +141,7 @@ TEST(GrowthPlot, DrawsEveryPanelAndCurveWithItsName) {
   for (const char* text : {"how it grows", ">poses<", "CPU [s]", "memory [MB]", ">grid<",
                            ">process<", ">factor<", ">in proportion<", ">100000<"})
     EXPECT_THAT(svg, HasSubstr(text));
-  EXPECT_THAT(to_png(growth()), StartsWith("\x89PNG"));
+  test::expect_good_svg(svg);
 }
 
 TEST(GrowthPlot, RefusesWhatHasNoLogarithm) {

@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -8,6 +9,7 @@
 #include <placegraph/io/internal/measurements/plane_truth.h>
 #include <placegraph/io/internal/scene/indoor_map_file.h>
 
+#include "../drawing/svg_check.h"
 #include "tests/support/ids.h"
 #include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
@@ -96,13 +98,18 @@ TEST(FloorPlanFile, ReadsWhatItWrites) {
   EXPECT_THROW((void)read_building_plan(dir / "none.json"), FileError);
 }
 
-TEST(FloorPlanPlot, DrawsBothForms) {
+TEST(FloorPlanPlot, HasALegendForAllThatItShows) {
   FloorPlanPicture picture;
   picture.title = "a room";
+  picture.path = {{0, 0}, {1, 1}};
   const BuildingPlan truth = one_room();
   picture.truth = &truth;
-  EXPECT_NE(floor_plan_svg(estimated_plan(), picture).find("room 1, 21.5 m2"), std::string::npos);
-  EXPECT_EQ(floor_plan_png(estimated_plan(), picture).substr(1, 3), "PNG");
+  const std::string svg = floor_plan_svg(estimated_plan(), picture);
+  test::expect_good_svg(svg);
+  for (const char* text : {"room 1", "21.5 m²", "wall", "room", "path of the camera",
+                           "ground truth", "x [m]", "z [m]"})
+    EXPECT_THAT(test::texts_of(svg), testing::Contains(text));
+  test::expect_good_svg(floor_plan_svg({}, {}));
 }
 
 TEST(PlaneTruth, RefusesWhatIsNoPlane) {

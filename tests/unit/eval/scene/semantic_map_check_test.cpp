@@ -1,7 +1,10 @@
+#include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <placegraph/eval/internal/plots/semantic_map_plot.h>
 #include <placegraph/eval/internal/scene/semantic_map_check.h>
-#include <placegraph/graph/internal/image/png_codec.h>
+
+#include "../drawing/svg_check.h"
 
 namespace placegraph {
 namespace {
@@ -77,19 +80,15 @@ TEST(SemanticMapCheck, DoesNotJudgeWhereTheMapHasNoClass) {
 TEST(SemanticMapPlot, DrawsCellsInTheirColours) {
   SemanticMapPicture picture;
   picture.path = {Eigen::Vector2d(1, 1), std::nullopt, Eigen::Vector2d(2, 2)};
-  const std::string png =
-      semantic_map_png(map_of({{{2, 3, 2}, 0}, {{3, 3, 2}, 0}, {{2, 3, 3}, 2}}), picture);
-  const cv::Mat drawn = decode_png(png, DecodedPixels::kEightBits);
-  ASSERT_FALSE(drawn.empty());
+  const std::string svg =
+      semantic_map_svg(map_of({{{2, 3, 2}, 0}, {{3, 3, 2}, 0}, {{2, 3, 3}, 2}}), picture);
+  test::expect_good_svg(svg);
+  for (const char* text : {"Road", "path of the camera", "x [m]", "z [m]"})
+    EXPECT_THAT(test::texts_of(svg), testing::Contains(text));
   const auto colour = class_colour("Road", 0);
-  int road = 0;
-  for (int v = 0; v < drawn.rows; ++v)
-    for (int u = 0; u < drawn.cols; ++u)
-      road += drawn.at<cv::Vec3b>(v, u) == cv::Vec3b(colour[2], colour[1], colour[0]);
-  // Two cells of eight pixels and the entry of the legend.
-  EXPECT_GT(road, 200);
-  EXPECT_LT(road, 500);
-  EXPECT_FALSE(semantic_map_png(map_of({}), {}).empty());
+  const std::string fill = fmt::format("fill=\"#{:02x}{:02x}{:02x}\"", colour[0], colour[1], colour[2]);
+  EXPECT_NE(svg.find("<path " + fill), std::string::npos);
+  test::expect_good_svg(semantic_map_svg(map_of({}), {}));
 }
 
 }  // namespace

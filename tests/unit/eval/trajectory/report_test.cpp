@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <placegraph/eval/internal/plots/plot.h>
+#include <placegraph/eval/internal/drawing/picture_bytes.h>
+#include <placegraph/eval/internal/plots/evaluation_plot.h>
 #include <placegraph/eval/trajectory/evaluate.h>
 #include <placegraph/eval/trajectory/report.h>
 #include <placegraph/graph/internal/image/png_codec.h>
@@ -101,27 +102,30 @@ TEST(Plot, ChoosesTheTwoAxesOfGreatestExtent) {
 }
 
 TEST(Plot, SvgNamesAxesAndCurvesAndBreaksTheLineAtLostFrames) {
-  const std::string svg = to_svg(plot_of({judged("a<b")}));
+  const std::string svg = to_svg(plot_of({judged("a<b", true), judged("c")}));
   EXPECT_THAT(svg, StartsWith("<svg "));
   EXPECT_THAT(svg, HasSubstr("z [m]"));
   EXPECT_THAT(svg, HasSubstr("ground truth"));
   EXPECT_THAT(svg, HasSubstr("a&lt;b: ATE"));
   EXPECT_THAT(svg, HasSubstr("distance travelled [m]"));
-  // Two pieces of the estimate in the top view, two in the error panel, one line in the legend.
-  const std::string blue = "stroke=\"#0072b2\"";
-  int strokes = 0;
-  for (std::size_t at = svg.find(blue); at != std::string::npos; at = svg.find(blue, at + 1))
-    ++strokes;
-  EXPECT_EQ(strokes, 5);
+  // A lost frame cuts the estimate in two in every panel; one line more is in the legend.
+  const std::size_t panels = figure_of(plot_of({judged("a<b", true), judged("c")})).panels.size();
+  const auto strokes_of = [&](const std::string& stroke) {
+    std::size_t strokes = 0;
+    for (std::size_t at = svg.find(stroke); at != std::string::npos; at = svg.find(stroke, at + 1))
+      ++strokes;
+    return strokes;
+  };
+  EXPECT_EQ(strokes_of("stroke=\"#0072b2\""), 2 * panels + 1);
 }
 
 TEST(Plot, PngIsAPictureWithColouredLines) {
-  const std::string bytes = to_png(plot_of({judged("a")}));
-  const cv::Mat picture = decode_png(bytes, DecodedPixels::kEightBits);
-  ASSERT_EQ(picture.size(), cv::Size(1600, 800));
+  const std::string svg = to_svg(plot_of({judged("a"), judged("b")}));
+  const cv::Mat picture = decode_png(picture_bytes(svg, "a.png"), DecodedPixels::kEightBits);
+  ASSERT_FALSE(picture.empty());
   cv::Mat blue;
   cv::inRange(picture, cv::Scalar(178, 114, 0), cv::Scalar(178, 114, 0), blue);
-  EXPECT_GT(cv::countNonZero(blue), 300);
+  EXPECT_GT(cv::countNonZero(blue), 30);
 }
 
 TEST(Plot, DrawsACurveAloneWithoutGroundTruthAndALoop) {

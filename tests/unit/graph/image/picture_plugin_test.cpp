@@ -127,5 +127,30 @@ TEST(PicturePlugin, ReadsTheFramesOfAVideoInTheirOrder) {
   EXPECT_FALSE(video->read(frame));
 }
 
+TEST(PicturePlugin, WritesAVideoFrameByFrame) {
+  const PicturePlugin& plugin = picture_plugin("a test");
+  const TemporaryFolder folder;
+  for (const char* name : {"v.avi", "v.mp4"}) {
+    const auto writer = plugin.create_video(folder / name, 64, 48, 10);
+    ASSERT_NE(writer, nullptr) << name;
+    for (int i = 0; i < 5; ++i)
+      EXPECT_TRUE(writer->write(Image(48, 64, CV_8UC3, cv::Scalar::all(40 * i + 20))));
+    EXPECT_FALSE(writer->write(Image(48, 62, CV_8UC3)));
+    EXPECT_FALSE(writer->write(Image()));
+    EXPECT_TRUE(writer->finish());
+    const auto video = plugin.open_video(folder / name);
+    ASSERT_NE(video, nullptr) << name;
+    EXPECT_NEAR(video->rate_hz(), 10, 1e-6);
+    Image frame;
+    for (int i = 0; i < 5; ++i) {
+      ASSERT_TRUE(video->read(frame)) << name << ' ' << i;
+      EXPECT_NEAR(cv::mean(frame)[0], 40 * i + 20, 5) << name;
+    }
+    EXPECT_FALSE(video->read(frame));
+  }
+  EXPECT_EQ(plugin.create_video(folder / "v.txt", 64, 48, 10), nullptr);
+  EXPECT_EQ(plugin.create_video(folder / "none/v.avi", 64, 48, 10), nullptr);
+}
+
 }  // namespace
 }  // namespace placegraph

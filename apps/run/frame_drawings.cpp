@@ -1,0 +1,154 @@
+#include "apps/run/frame_drawings.h"
+
+#include <fmt/format.h>
+#include <placegraph/eval/internal/drawing/picture_bytes.h>
+#include <placegraph/eval/internal/drawing/picture_legend.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/image/jpeg_codec.h>
+#include <placegraph/graph/internal/image/picture_plugin.h>
+#include <placegraph/io/internal/files/atomic_file.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <opencv2/imgproc.hpp>
+#include <optional>
+#include <vector>
+
+#include "apps/run/draw_frame.h"
+#include "apps/support/output.h"
+#include "apps/support/write_png.h"
+
+namespace placegraph::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string extension_of(const std::string& path) { return fs::path(path).extension().string(); }
+
+bool is_video(const std::string& path) {
+  const std::string extension = extension_of(path);
+  return extension == ".avi" || extension == ".mp4";
+}
+
+/// Frames with the legend below, which is drawn once.
+class Legended {
+ public:
+  explicit Legended(std::string wanted) : wanted_(std::move(wanted)) {}
+  Image operator()(const Image& drawing) {
+    if (strip_.empty()) strip_ = legend_strip(frame_legend(), {}, drawing.cols, wanted_);
+    return stacked(drawing, strip_);
+  }
+
+ private:
+  std::string wanted_;
+  Image strip_;
+};
+
+class FolderDrawings : public FrameDrawings {
+ public:
+  explicit FolderDrawings(const std::string& path) : path_(path), folder_(path), legended_(path) {}
+  void add(const Frame& frame, const FrameResult& result, const FrameView& view) override {
+    const auto file = fs::path(path_) / fmt::format("{:06d}.png", frame.id.value());
+    write_png(file.string(), legended_(draw_frame(frame, result, view)), {.level = 3});
+  }
+  void finish() override {}
+
+ private:
+  std::string path_;
+  OutputFolder folder_;
+  Legended legended_;
+};
+
+class VideoDrawings : public FrameDrawings {
+ public:
+  explicit VideoDrawings(const std::string& path) : path_(path), file_(path), legended_(path) {}
+  void add(const Frame& frame, const FrameResult& result, const FrameView& view) override {
+    Image drawing = legended_(draw_frame(frame, result, view));
+    // H.264 has a colour for every second pixel.
+    cv::copyMakeBorder(drawing, drawing, 0, drawing.rows % 2, 0, drawing.cols % 2,
+                       cv::BORDER_CONSTANT, cv::Scalar::all(255));
+    constexpr double kRate_hz = 10;
+    if (!video_)
+      video_ = picture_plugin(path_).create_video(file_.temporary_path(), drawing.cols,
+                                                  drawing.rows, kRate_hz);
+    if (!video_) throw FileError(path_, "no video can be written there");
+    if (!video_->write(drawing)) throw FileError(path_, "a frame of the video cannot be written");
+  }
+  void finish() override {
+    if (!video_) return;
+    if (!video_->finish()) throw FileError(path_, "the video cannot be written");
+    video_.reset();
+    file_.commit();
+  }
+
+ private:
+  std::string path_;
+  AtomicFile file_;  ///< closed after the video
+  std::unique_ptr<VideoWriter> video_;
+  Legended legended_;
+};
+
+class SheetDrawings : public FrameDrawings {
+ public:
+  SheetDrawings(std::string path, std::int64_t frames) : path_(std::move(path)), frames_(frames) {}
+  void add(const Frame& frame, const FrameResult& result, const FrameView& view) override {
+    // The k-th picture is the frame nearest to k / (count - 1) of the way.
+    const std::int64_t count = std::min(kPictures, frames_), next = std::ssize(pictures_);
+    const std::int64_t wanted =
+        count > 1 ? (next * (frames_ - 1) + (count - 1) / 2) / (count - 1) : 0;
+    if (seen_++ != wanted || next == count) return;
+    const Image drawing = draw_frame(frame, result, view);
+    const double scale = std::min(1.0, kWidth_px / drawing.cols);
+    pictures_.emplace_back();
+    cv::resize(drawing, pictures_.back(), {}, scale, scale, cv::INTER_AREA);
+  }
+  void finish() override {
+    if (pictures_.empty()) return;
+    const int width = pictures_.front().cols, height = pictures_.front().rows;
+    const int columns = std::min<int>(kColumns, static_cast<int>(pictures_.size()));
+    const int rows = (static_cast<int>(pictures_.size()) + columns - 1) / columns;
+    Image sheet(rows * (height + kGap) - kGap, columns * (width + kGap) - kGap, CV_8UC3,
+                cv::Scalar::all(255));
+    for (int i = 0; i < static_cast<int>(pictures_.size()); ++i)
+      pictures_[static_cast<std::size_t>(i)].copyTo(sheet(
+          cv::Rect(i % columns * (width + kGap), i / columns * (height + kGap), width, height)));
+    sheet = with_legend(sheet, frame_legend(), path_);
+    constexpr int kQuality = 90;
+    write_file(path_, extension_of(path_) == ".png" ? encode_png(sheet, {.level = 6})
+                                                    : encode_jpeg(sheet, kQuality));
+  }
+
+ private:
+  static constexpr std::int64_t kPictures = 24;
+  static constexpr int kColumns = 4, kGap = 4;
+  static constexpr double kWidth_px = 480;
+
+  std::string path_;
+  std::int64_t frames_ = 0, seen_ = 0;
+  std::vector<Image> pictures_;
+};
+
+}  // namespace
+
+bool is_drawing_file(const std::string& path) {
+  const std::string extension = extension_of(path);
+  return is_video(path) || extension == ".png" || extension == ".jpg" || extension == ".jpeg";
+}
+
+void require_free_drawings(const std::string& path, bool force) {
+  const std::string extension = extension_of(path);
+  if (is_drawing_file(path))
+    require_free(path, force);
+  else
+    require_free_folder(path, force);
+  require_drawings(path);
+  if (is_video(path)) picture_plugin(path);
+}
+
+std::unique_ptr<FrameDrawings> frame_drawings(const std::string& path, std::int64_t frames) {
+  if (is_video(path)) return std::make_unique<VideoDrawings>(path);
+  if (is_drawing_file(path)) return std::make_unique<SheetDrawings>(path, frames);
+  return std::make_unique<FolderDrawings>(path);
+}
+
+}  // namespace placegraph::apps

@@ -1,0 +1,47 @@
+#include <placegraph/eval/internal/drawing/figure.h>
+#include <placegraph/eval/internal/drawing/panel_drawing.h>
+#include <placegraph/eval/internal/drawing/plot_style.h>
+#include <placegraph/eval/internal/drawing/text_width.h>
+
+#include <algorithm>
+
+namespace placegraph {
+namespace {
+
+constexpr double kSide = 24, kTitleLine = 28, kNoteLine = 21;
+
+}  // namespace
+
+void make_equal(FigurePanel& panel) {
+  const double unit_per_px =
+      std::max({panel.x.range.size() / panel.size[0], panel.y.range.size() / panel.size[1], 1e-12});
+  panel.x.range = resized(panel.x.range, unit_per_px * panel.size[0]);
+  panel.y.range = resized(panel.y.range, unit_per_px * panel.size[1]);
+}
+
+std::string to_svg(const Figure& figure) {
+  const double room = figure.width_px - 2 * kSide;
+  const std::vector<std::string> title = wrapped(figure.title, kTitlePx, room);
+  std::vector<std::string> notes;
+  for (const std::string& note : figure.notes)
+    for (std::string& line : wrapped(note, kTextPx, room)) notes.push_back(std::move(line));
+  const Legend legend(figure.legend, room);
+  const double above = 12 + kTitleLine * static_cast<double>(title.size()) +
+                       kNoteLine * static_cast<double>(notes.size()),
+               legend_px = legend.height_px() > 0 ? legend.height_px() + 10 : 0;
+  SvgCanvas canvas(figure.width_px, above + legend_px + figure.height_px);
+  double y = 12;
+  for (const std::string& line : title) {
+    canvas.text({kSide, y + 0.75 * kTitleLine}, line, kTitlePx, kInk, TextAnchor::kLeft);
+    y += kTitleLine;
+  }
+  for (const std::string& line : notes) {
+    canvas.text({kSide, y + 0.75 * kNoteLine}, line, kTextPx, kFaint, TextAnchor::kLeft);
+    y += kNoteLine;
+  }
+  legend.draw(canvas, {kSide, above + 6});
+  for (const FigurePanel& panel : figure.panels) draw_panel(canvas, panel, {0, above + legend_px});
+  return canvas.finish();
+}
+
+}  // namespace placegraph

@@ -1,0 +1,226 @@
+#include <placegraph/eval/internal/drawing/colour_scale.h>
+#include <placegraph/eval/internal/drawing/label_room.h>
+#include <placegraph/eval/internal/drawing/panel_drawing.h>
+#include <placegraph/eval/internal/drawing/plot_style.h>
+#include <placegraph/eval/internal/drawing/text_width.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace placegraph {
+namespace {
+
+using Eigen::Vector2d;
+
+/// The panel in the picture.
+struct View {
+  Vector2d corner, size;
+  Interval x, y;
+  bool downwards;  ///< categories are counted from the top
+
+  View(const FigurePanel& panel, const Vector2d& origin)
+      : corner(origin + panel.corner),
+        size(panel.size),
+        x(panel.x.range),
+        y(panel.y.range),
+        downwards(!panel.y.categories.empty()) {}
+  Vector2d operator()(const Vector2d& p) const {
+    const double up = (p[1] - y.min) / y.size();
+    return {corner[0] + (p[0] - x.min) / x.size() * size[0],
+            corner[1] + (downwards ? up : 1 - up) * size[1]};
+  }
+  double right() const { return corner[0] + size[0]; }
+  double bottom() const { return corner[1] + size[1]; }
+};
+
+AxisTicks ticks_of(const FigureAxis& axis, double size_px, double room_px) {
+  if (!axis.categories.empty()) return {};
+  if (axis.logarithmic) return log_ticks(axis.range, size_px / axis.range.size(), room_px);
+  constexpr int kMost = 10;
+  return linear_ticks(axis.range, std::clamp(static_cast<int>(size_px / room_px), 2, kMost));
+}
+
+void draw_x_axis(SvgCanvas& canvas, const FigureAxis& axis, const View& view) {
+  const AxisTicks ticks = ticks_of(axis, view.size[0], 72);
+  for (const AxisTick& tick : ticks.ticks) {
+    const double at = view({tick.at, view.y.min})[0];
+    canvas.line({{at, view.corner[1]}, {at, view.bottom()}}, {kGrid});
+    canvas.line({{at, view.bottom()}, {at, view.bottom() + 5}}, {kFrame});
+    canvas.text({at, view.bottom() + 20}, tick.text, kTickPx, kInk, TextAnchor::kMiddle);
+  }
+  canvas.text({view.corner[0] + view.size[0] / 2, view.bottom() + 43},
+              fitted(ticks.label(axis.label), kTextPx, view.size[0] + kRightMargin), kTextPx, kInk,
+              TextAnchor::kMiddle);
+}
+
+void draw_categories(SvgCanvas& canvas, const FigureAxis& axis, const View& view) {
+  for (std::size_t i = 0; i < axis.categories.size(); ++i)
+    canvas.text(view({view.x.min, static_cast<double>(i)}) + Vector2d(-10, 5),
+                fitted(axis.categories[i], kTickPx, view.corner[0] - 20), kTickPx, kInk,
+                TextAnchor::kRight);
+}
+
+void draw_y_axis(SvgCanvas& canvas, const FigureAxis& axis, const View& view) {
+  const AxisTicks ticks = ticks_of(axis, view.size[1], 46);
+  double width = 0;
+  for (const AxisTick& tick : ticks.ticks) {
+    const double at = view({view.x.min, tick.at})[1];
+    canvas.line({{view.corner[0], at}, {view.right(), at}}, {kGrid});
+    canvas.line({{view.corner[0] - 5, at}, {view.corner[0], at}}, {kFrame});
+    canvas.text({view.corner[0] - 9, at + 5}, tick.text, kTickPx, kInk, TextAnchor::kRight);
+    width = std::max(width, text_width(tick.text, kTickPx));
+  }
+  const double left = view.corner[0] - std::min(kLeftMargin - 20, 9 + width + 12);
+  canvas.text({left, view.corner[1] + view.size[1] / 2},
+              fitted(ticks.label(axis.label), kTextPx, view.size[1] + kTopMargin), kTextPx, kInk,
+              TextAnchor::kMiddle, true);
+}
+
+/// Calls `emit` with every stretch of points of one colour; stretches of a line meet in a point.
+template <typename Emit>
+void for_stretches(const FigureLine& line, const View& view, const Emit& emit) {
+  constexpr double kLevels = 24, kNear_px = 0.3;
+  const auto level_at = [&](std::size_t i) {
+    return line.shares.empty() ? 0 : std::lround(std::clamp(line.shares[i], 0.0, 1.0) * kLevels);
+  };
+  std::vector<Vector2d> stretch;
+  long level = 0;
+  const auto end = [&] {
+    if (stretch.size() == 1) stretch.push_back(stretch.front() + Vector2d(0.5, 0));
+    if (!stretch.empty()) emit(stretch, level / kLevels);
+    stretch.clear();
+  };
+  for (std::size_t i = 0; i < line.points.size(); ++i) {
+    if (!line.points[i] || !line.points[i]->allFinite()) {
+      end();
+      continue;
+    }
+    const Vector2d px = view(*line.points[i]);
+    if (!stretch.empty() && level_at(i) != level) {
+      stretch.push_back(px);
+      end();
+    }
+    const bool last = i + 1 == line.points.size() || !line.points[i + 1];
+    if (stretch.empty()) level = level_at(i);
+    if (stretch.empty() || last || (stretch.back() - px).norm() > kNear_px) stretch.push_back(px);
+  }
+  end();
+}
+
+void draw(SvgCanvas& canvas, const FigureLine& line, const View& view) {
+  for_stretches(line, view, [&](const std::vector<Vector2d>& points, double share) {
+    Stroke stroke = line.stroke;
+    if (!line.shares.empty()) stroke.colour = scale_colour(share);
+    canvas.line(points, stroke);
+  });
+}
+
+void draw(SvgCanvas& canvas, const FigureDots& dots, const View& view) {
+  for (const Vector2d& point : dots.points)
+    canvas.disc(view(point), dots.radius_px, dots.fill, dots.edge, dots.radius_px < 4 ? 1.5 : 2);
+}
+
+void draw(SvgCanvas& canvas, const FigureArea& area, const View& view) {
+  std::vector<std::vector<Vector2d>> rings = area.rings;
+  for (std::vector<Vector2d>& ring : rings)
+    for (Vector2d& p : ring) p = view(p);
+  canvas.area(rings, area.fill, area.opacity);
+}
+
+/// In several lines if it contains line breaks.
+void draw(SvgCanvas& canvas, const FigureText& text, const View& view) {
+  constexpr double kLine = 1.25 * kTickPx;
+  std::vector<std::string> lines = {""};
+  for (const char c : text.text) {
+    if (c == '\n')
+      lines.emplace_back();
+    else
+      lines.back() += c;
+  }
+  double width = 0;
+  for (const std::string& line : lines) width = std::max(width, text_width(line, kTickPx));
+  const double height = kLine * static_cast<double>(lines.size());
+  const Vector2d most = view.corner + view.size - Vector2d(width / 2 + 5, height / 2 + 3),
+                 least = view.corner + Vector2d(width / 2 + 5, height / 2 + 3);
+  const Vector2d at = view(text.at).cwiseMin(most).cwiseMax(least);
+  canvas.area(
+      {{at + Vector2d(-width / 2 - 3, -height / 2), at + Vector2d(width / 2 + 3, -height / 2),
+        at + Vector2d(width / 2 + 3, height / 2), at + Vector2d(-width / 2 - 3, height / 2)}},
+      kWhite, 0.75);
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    canvas.text(at + Vector2d(0, kLine * (static_cast<double>(i) + 0.78) - height / 2), lines[i],
+                kTickPx, kInk, TextAnchor::kMiddle);
+}
+
+void draw_labels(SvgCanvas& canvas, const FigurePanel& panel, const View& view) {
+  if (panel.labels.empty()) return;
+  constexpr double kLabelPx = 12.5, kDisc_px = 3.5;
+  LabelRoom room(view.corner, view.size);
+  for (const FigureShape& shape : panel.shapes) {
+    if (const auto* line = std::get_if<FigureLine>(&shape))
+      for (std::size_t i = 1; i < line->points.size(); ++i)
+        if (line->points[i - 1] && line->points[i])
+          room.occupy_line(view(*line->points[i - 1]), view(*line->points[i]));
+    if (const auto* dots = std::get_if<FigureDots>(&shape))
+      for (const Vector2d& point : dots->points)
+        room.occupy(view(point) - Vector2d(kDisc_px, kDisc_px), {2 * kDisc_px, 2 * kDisc_px});
+  }
+  for (const FigureText& label : panel.labels) {
+    const Vector2d size(text_width(label.text, kLabelPx), 0.78 * kLabelPx);
+    if (const auto corner = room.place_beside(view(label.at), size))
+      canvas.text(*corner + Vector2d(0, size[1]), label.text, kLabelPx, kInk, TextAnchor::kLeft);
+  }
+}
+
+void draw_scale(SvgCanvas& canvas, const FigureScale& scale, const View& view) {
+  constexpr double kWidth = 14;
+  constexpr int kParts = 48;
+  const Vector2d corner(view.right() + 16, view.corner[1]);
+  const double part = view.size[1] / kParts;
+  for (int i = 0; i < kParts; ++i) {
+    const double top = view.bottom() - (i + 1) * part;
+    canvas.area({{{corner[0], top},
+                  {corner[0] + kWidth, top},
+                  {corner[0] + kWidth, top + part + (i > 0 ? 0.5 : 0)},
+                  {corner[0], top + part + (i > 0 ? 0.5 : 0)}}},
+                scale_colour((i + 0.5) / kParts), 1);
+  }
+  double width = 0;
+  const AxisTicks ticks =
+      linear_ticks(scale.range, std::max(2, static_cast<int>(view.size[1] / 56)));
+  for (const AxisTick& tick : ticks.ticks) {
+    const double at =
+        view.bottom() - (tick.at - scale.range.min) / scale.range.size() * view.size[1];
+    canvas.line({{corner[0] + kWidth, at}, {corner[0] + kWidth + 5, at}}, {kFrame});
+    canvas.text({corner[0] + kWidth + 8, at + 5}, tick.text, kTickPx, kInk, TextAnchor::kLeft);
+    width = std::max(width, text_width(tick.text, kTickPx));
+  }
+  canvas.text({corner[0] + kWidth + std::min(width + 26, kBarMargin - 36),
+               view.corner[1] + view.size[1] / 2},
+              fitted(ticks.label(scale.label), kTextPx, view.size[1] + kTopMargin), kTextPx, kInk,
+              TextAnchor::kMiddle, true);
+}
+
+}  // namespace
+
+void draw_panel(SvgCanvas& canvas, const FigurePanel& panel, const Vector2d& origin) {
+  const View view(panel, origin);
+  canvas.text(view.corner + Vector2d(0, -11),
+              fitted(panel.heading, kHeadingPx, view.size[0] + kRightMargin - 6), kHeadingPx, kInk,
+              TextAnchor::kLeft);
+  draw_x_axis(canvas, panel.x, view);
+  if (panel.y.categories.empty())
+    draw_y_axis(canvas, panel.y, view);
+  else
+    draw_categories(canvas, panel.y, view);
+  canvas.begin_clip(view.corner, view.size);
+  for (const FigureShape& shape : panel.shapes)
+    std::visit([&](const auto& s) { draw(canvas, s, view); }, shape);
+  canvas.end_clip();
+  draw_labels(canvas, panel, view);
+  const Vector2d a = view.corner, b = view.corner + view.size;
+  canvas.line({a, {b[0], a[1]}, b, {a[0], b[1]}, a}, {kFrame});
+  if (panel.scale) draw_scale(canvas, *panel.scale, view);
+}
+
+}  // namespace placegraph

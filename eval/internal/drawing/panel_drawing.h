@@ -1,0 +1,9 @@
+#pragma once
+#include <placegraph/eval/internal/drawing/figure.h>
+
+namespace placegraph {
+
+/// Draws a panel of which the area begins at `origin`.
+void draw_panel(SvgCanvas& canvas, const FigurePanel& panel, const Eigen::Vector2d& origin);
+
+}  // namespace placegraph

@@ -1,0 +1,48 @@
+#pragma once
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+namespace placegraph {
+
+struct Colour {
+  int red = 0, green = 0, blue = 0;
+  bool operator==(const Colour&) const = default;
+};
+
+struct Stroke {
+  Colour colour;
+  double width_px = 1;
+  double opacity = 1;
+  std::string dash = {};  ///< lengths of dashes and gaps [px], as "6 4"; empty: a whole line
+};
+
+enum class TextAnchor { kLeft, kMiddle, kRight };
+
+/// A picture in SVG, of which the strokes lie above each other in the order of the calls.
+/// Coordinates in pixels, y down; the ground is white. Points that are not finite are left out.
+class SvgCanvas {
+ public:
+  SvgCanvas(double width_px, double height_px);
+  void line(const std::vector<Eigen::Vector2d>& points, const Stroke& stroke);
+  /// Fills rings; what lies in a ring within another one is a hole.
+  void area(const std::vector<std::vector<Eigen::Vector2d>>& rings, Colour fill, double opacity);
+  void rectangle(const Eigen::Vector2d& corner, const Eigen::Vector2d& size, Colour fill,
+                 Colour edge);
+  void disc(const Eigen::Vector2d& centre, double radius_px, Colour fill, Colour edge,
+            double edge_px = 2);
+  /// `at` is on the baseline; `size_px` is the height of the font. A rotated text reads upwards.
+  void text(const Eigen::Vector2d& at, const std::string& text, double size_px, Colour colour,
+            TextAnchor anchor, bool rotated = false);
+  /// Strokes between these two calls are clipped to the rectangle.
+  void begin_clip(const Eigen::Vector2d& corner, const Eigen::Vector2d& size);
+  void end_clip();
+  /// The whole document.
+  std::string finish() const;
+
+ private:
+  std::string out_;
+  int clips_ = 0;
+};
+
+}  // namespace placegraph
