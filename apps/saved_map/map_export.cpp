@@ -15,6 +15,7 @@
 #include <functional>
 
 #include "apps/exports/gltf_export.h"
+#include "apps/exports/keyframe_frames.h"
 #include "apps/exports/mcap_export.h"
 #include "apps/exports/nerf_export.h"
 #include "apps/exports/occupancy_export.h"
@@ -33,6 +34,7 @@ struct MapExportInput {
   NumberForm numbers{};           ///< form of the numbers where there is a choice
   double cell_m = 0.05;           ///< side of a cell of an occupancy grid
   bool walls = false;             ///< an occupancy grid with the walls of the floor plan
+  std::string undistorted{};      ///< folder for the undistorted images; empty: none
   DenseOutputs* dense = nullptr;  ///< cloud and mesh, which are made at once
 };
 
@@ -101,12 +103,20 @@ std::vector<WrittenForm> geometry_forms() {
         MapExportTarget::kFolder},
        true,
        [](const std::string& path, const MapExportInput& input, MapExportResult& result) {
-         result.colmap = write_colmap(path, input.stored, input.component, input.numbers);
+         result.colmap =
+             write_colmap(path, input.stored, input.component, input.numbers, input.undistorted);
        }},
       {{"--nerf", "the keyframes for radiance fields, transforms.json"},
        true,
        [](const std::string& path, const MapExportInput& input, MapExportResult&) {
-         write_file(path, nerf_transforms(path, input.stored, input.component));
+         write_file(path, nerf_transforms(path, input.stored, input.component, input.undistorted));
+       }},
+      {{"--undistorted",
+        "the images of the keyframes without distortion, which --colmap and --nerf then name",
+        MapExportTarget::kFolder},
+       true,
+       [](const std::string& path, const MapExportInput& input, MapExportResult&) {
+         write_undistorted(path, input.stored, input.component);
        }},
       {{"--occupancy", "an occupancy grid as map_server of ROS reads it", MapExportTarget::kImage},
        true,
@@ -193,9 +203,15 @@ MapExportResult map_export(const MapExportArguments& arguments) {
   const StoredMap stored = read_stored_map(arguments.map);
   const NumberForm numbers = arguments.ascii ? NumberForm::kText : NumberForm::kBinary;
   DenseOutputs dense{"", "", arguments.voxel, numbers};
-  const MapExportInput input{stored,          component_of(arguments, stored.map),
-                             numbers,         arguments.resolution_m,
-                             arguments.walls, &dense};
+  MapExportInput input{.stored = stored,
+                       .component = component_of(arguments, stored.map),
+                       .numbers = numbers,
+                       .cell_m = arguments.resolution_m,
+                       .walls = arguments.walls,
+                       .undistorted = {},
+                       .dense = &dense};
+  for (std::size_t i = 0; i < forms.size(); ++i)
+    if (forms[i].form.flag == "--undistorted") input.undistorted = arguments.paths[i];
   MapExportResult result;
   for (std::size_t i = 0; i < forms.size(); ++i) {
     if (arguments.paths[i].empty()) continue;

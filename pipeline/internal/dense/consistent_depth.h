@@ -13,7 +13,7 @@ struct ConsistencyOptions {
   int least_agreeing = 2;     ///< number of other keyframes that must see a like depth
   double sigmas = 2;          ///< largest difference of like depths, in standard deviations
   double pose_share = 0.005;  ///< and beyond these, as a share of the depth: errors of the poses
-  double most_sigma = 0.02;   ///< largest standard deviation of a depth that is used, as a share
+  double most_sigma = 0.03;   ///< largest standard deviation of a depth that is used, as a share
   double bend = 0.02;         ///< as in remove_edges
   int radius_px = 3;          ///< as in estimate_normals
   double least_cosine = 0.1;  ///< as in estimate_normals

@@ -108,7 +108,6 @@ class SweepDepth final : public DepthFromImages {
     // The sweep's options are in metres: its unit is a tenth of the median depth.
     options_.min_depth_m = 0.5 * range.near / unit();
     options_.max_depth_m = 2 * range.far / unit();
-    options_.max_width_px = 640;
   }
   KeyframeDepth of(std::size_t index) override {
     std::vector<SweptView> views;

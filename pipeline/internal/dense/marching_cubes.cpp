@@ -59,7 +59,7 @@ Triangles triangles_of(unsigned inside) {
       polygon.push_back(static_cast<std::uint8_t>(edge));
     }
     for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
-      triangles.push_back({polygon[0], polygon[i], polygon[i + 1]});
+      triangles.push_back({polygon[0], polygon[i + 1], polygon[i]});
   }
   return triangles;
 }
