@@ -85,7 +85,9 @@ DenseSummary write_dense(const DenseOutputs& outputs, const StoredMap& stored, i
   const Stopwatch stopwatch;
   const MapGeometry geometry = geometry_of(stored.map, component);
   const DepthRange range = depth_range_of(geometry);
-  if (range.near == 0) throw NoResult("no landmark was observed: the range of depths is unknown");
+  if (range.near == 0)
+    throw NoResult((outputs.cloud.empty() ? outputs.mesh : outputs.cloud) +
+                   ": the range of depths is unknown: no landmark was observed");
   const double side = voxel_side(outputs, stored, range);
   check_voxel(side, stored.origin.calibration.value().camera, range);
 

@@ -108,6 +108,10 @@ class SweepDepth final : public DepthFromImages {
     // The sweep's options are in metres: its unit is a tenth of the median depth.
     options_.min_depth_m = 0.5 * range.near / unit();
     options_.max_depth_m = 2 * range.far / unit();
+    constexpr int kMostPixels = 150'000;
+    int width = calibration().camera.width, height = calibration().camera.height;
+    while (width * height > kMostPixels) width /= 2, height /= 2;
+    options_.max_width_px = std::max(width, 32);
   }
   KeyframeDepth of(std::size_t index) override {
     std::vector<SweptView> views;
@@ -133,7 +137,7 @@ class SweepDepth final : public DepthFromImages {
 
   /// The keyframes on one side whose images are compared.
   std::vector<std::size_t> views_towards(std::size_t index, int direction) const {
-    constexpr double kNear = 0.04, kFar = 0.12, kMost = 0.3;  // of the median depth
+    constexpr double kNear = 0.05, kFar = 0.15, kMost = 0.3;  // of the median depth
     const double most_rad = deg_to_rad(20);
     std::vector<std::size_t> views;
     double wanted = kNear;

@@ -37,7 +37,7 @@ std::unique_ptr<DepthOfKeyframe> depth_by_sensor(PosedImages images);
 std::unique_ptr<DepthOfKeyframe> depth_by_stereo(PosedImages images, const DepthRange& range);
 
 /// Depth of one camera by planes that are swept between neighbouring keyframes: before and after,
-/// one at about 4 % of the median depth and one at 12 %, which see the same.
+/// one at a distance of about 5 % of the median depth and one at 15 %, which see the same.
 std::unique_ptr<DepthOfKeyframe> depth_by_sweep(PosedImages images, const DepthRange& range);
 
 }  // namespace placegraph

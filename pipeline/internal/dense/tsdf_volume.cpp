@@ -92,10 +92,12 @@ void TsdfVolume::update(const KeyframeDepth& depth, const VoxelIndex& index, Blo
         const auto& n = depth.normal.at<cv::Vec3f>(v, u);
         const Eigen::Vector3d surface(seen * (u - camera.cx) / camera.fx,
                                       seen * (v - camera.cy) / camera.fy, seen);
-        const double distance = Eigen::Vector3d(n[0], n[1], n[2]).dot(p - surface);
+        const Eigen::Vector3d normal(n[0], n[1], n[2]);
+        const double distance = normal.dot(p - surface);
         if (distance < -truncated) continue;
         const double sigma = depth.sigma_inverse.at<float>(v, u) * seen * seen / grid_.side();
-        const auto weight = static_cast<float>(1 / (sigma * sigma + 1e-6));
+        const double cosine = normal.dot(surface) / surface.norm();
+        const auto weight = static_cast<float>(cosine * cosine / (sigma * sigma + 1e-6));
         blend(block[in_block(x, y, z)], static_cast<float>(std::min(distance, truncated)), weight,
               depth.colour.at<cv::Vec3b>(v, u));
       }

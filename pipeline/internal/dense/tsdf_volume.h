@@ -24,7 +24,8 @@ struct TsdfVoxel {
 ///
 /// Voxels exist in blocks near surfaces alone (Niessner et al. 2013, "Real-time 3D reconstruction
 /// at scale using voxel hashing"). The distance of a voxel is that to the plane of the pixel which
-/// shows it, and is weighted by the information of the pixel's depth.
+/// shows it, and is weighted by the information of the pixel's depth and the squared cosine between
+/// ray and normal.
 class TsdfVolume {
  public:
   static constexpr int kBlock = 8;  ///< voxels along the side of a block

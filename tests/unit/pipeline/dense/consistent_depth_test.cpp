@@ -23,9 +23,9 @@ TEST(ConsistentDepth, KeepsWhatThreeViewsSee) {
   const KeyframeDepth seen = depth.of(1);
   EXPECT_GT(cv::countNonZero(seen.depth), 0.9 * seen.depth.total());
   EXPECT_NEAR(seen.depth.at<float>(60, 80), 2, 1e-5);
-  EXPECT_LT((Eigen::Vector3f(seen.normal.at<cv::Vec3f>(60, 80).val) - Eigen::Vector3f(0, 0, -1))
-                .norm(),
-            1e-4);
+  EXPECT_LT(
+      (Eigen::Vector3f(seen.normal.at<cv::Vec3f>(60, 80).val) - Eigen::Vector3f(0, 0, -1)).norm(),
+      1e-4);
 }
 
 TEST(ConsistentDepth, TwoViewsAreTooFew) {

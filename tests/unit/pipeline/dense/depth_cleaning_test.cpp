@@ -10,9 +10,8 @@ using test::rendered_depth;
 
 /// A plane at depth 1 in columns below 80, at depth 2 from there on.
 KeyframeDepth step() {
-  KeyframeDepth depth = rendered_depth(SE3(), 0.001, [](const auto&, const auto& ray) {
-    return ray[0] < 0 ? 1.0 : 2.0;
-  });
+  KeyframeDepth depth = rendered_depth(
+      SE3(), 0.001, [](const auto&, const auto& ray) { return ray[0] < 0 ? 1.0 : 2.0; });
   return depth;
 }
 
@@ -28,8 +27,7 @@ TEST(RemoveEdges, RemovesWhatIsBesideAnEdgeAlone) {
   KeyframeDepth depth = step();
   depth.depth.col(79).setTo(1.4F);  // a depth between the two surfaces
   remove_edges(depth, 0.02);
-  for (int u = 0; u < 160; ++u)
-    EXPECT_EQ(depth.depth.at<float>(60, u) > 0, u < 77 || u > 81) << u;
+  for (int u = 0; u < 160; ++u) EXPECT_EQ(depth.depth.at<float>(60, u) > 0, u < 77 || u > 81) << u;
 }
 
 TEST(RemoveEdges, KeepsSlantedPlanes) {
@@ -44,8 +42,8 @@ TEST(RemoveEdges, KeepsSlantedPlanes) {
 
 TEST(EstimateNormals, AreThoseOfAPlaneTowardsTheCamera) {
   const Eigen::Vector3d plane(0.3, -0.2, 0.5);  // plane . p = 1
-  KeyframeDepth depth =
-      rendered_depth(SE3(), 0.001, [&](const auto&, const auto& ray) { return 1 / plane.dot(ray); });
+  KeyframeDepth depth = rendered_depth(
+      SE3(), 0.001, [&](const auto&, const auto& ray) { return 1 / plane.dot(ray); });
   estimate_normals(depth, 3, 0.1);
   const auto& n = depth.normal.at<cv::Vec3f>(60, 80);
   EXPECT_LT((Eigen::Vector3d(n[0], n[1], n[2]) + plane.normalized()).norm(), 1e-3);

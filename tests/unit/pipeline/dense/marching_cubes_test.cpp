@@ -42,7 +42,8 @@ TEST(MarchingCubes, EveryCutEdgeHasAVertex) {
       if ((inside >> cube_edges()[static_cast<std::size_t>(e)].from & 1U) !=
           (inside >> cube_edges()[static_cast<std::size_t>(e)].to & 1U))
         cut.insert(e);
-    for (const auto& triangle : cube_triangles(inside)) used.insert(triangle.begin(), triangle.end());
+    for (const auto& triangle : cube_triangles(inside))
+      used.insert(triangle.begin(), triangle.end());
     EXPECT_EQ(used, cut) << inside;
   }
 }
@@ -74,8 +75,7 @@ TEST(MarchingCubes, NeighboursFitTogether) {
       for (unsigned high = 0; high < 256; ++high) {
         bool shared = true;
         for (int i = 0; i < 8; ++i)
-          if (!(i & (1 << axis)))
-            shared &= (low >> (i | (1 << axis)) & 1U) == (high >> i & 1U);
+          if (!(i & (1 << axis))) shared &= (low >> (i | (1 << axis)) & 1U) == (high >> i & 1U);
         if (!shared) continue;
         auto of_low = border(low, axis, 1), of_high = border(high, axis, 0);
         ASSERT_EQ(of_low.size(), of_high.size()) << low << " " << high;

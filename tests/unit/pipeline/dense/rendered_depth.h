@@ -2,6 +2,7 @@
 #include <placegraph/pipeline/internal/dense/depth_cleaning.h>
 
 #include <cmath>
+#include <opencv2/core.hpp>
 #include <optional>
 #include <utility>
 #include <vector>

@@ -64,10 +64,14 @@ TEST(VoxelCloud, RefusesVoxelsThatAreNoneOrTooMany) {
     EXPECT_THAT(message_of<ArgumentError>([&] { VoxelCloud cloud(side); }),
                 HasSubstr("the side must be positive"));
   VoxelCloud small(0.001, 10000);
-  EXPECT_THAT(message_of<ArgumentError>([&] { small.add(sphere_from(SE3(SO3(), {0, 0, -3}))); }),
+  EXPECT_THAT(message_of<ArgumentError>([&] {
+                small.add(sphere_from(SE3(SO3(), {0, 0, -3})));
+              }),
               HasSubstr("too small for the memory"));
   VoxelCloud tiny(1e-12);
-  EXPECT_THAT(message_of<ArgumentError>([&] { tiny.add(sphere_from(SE3(SO3(), {0, 0, -3}))); }),
+  EXPECT_THAT(message_of<ArgumentError>([&] {
+                tiny.add(sphere_from(SE3(SO3(), {0, 0, -3})));
+              }),
               HasSubstr("too small for the extent"));
 }
 

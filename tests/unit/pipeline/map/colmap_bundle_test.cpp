@@ -28,8 +28,7 @@ class ColmapBundleTest : public testing::Test {
           image.observations.push_back({*px, static_cast<int>(k)});
       image.T_world_cam = image.T_world_cam * test::random_motion(random, 0.01, 0.004);
     }
-    for (ColmapModel::Point& point : model.points)
-      point.p_world *= 1 + random.normal(0, 0.01);
+    for (ColmapModel::Point& point : model.points) point.p_world *= 1 + random.normal(0, 0.01);
     return model;
   }
   Random random{7};
