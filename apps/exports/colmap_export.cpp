@@ -5,9 +5,8 @@
 #include <placegraph/io/internal/exports/colmap_model.h>
 #include <placegraph/pipeline/internal/map/map_bundle.h>
 
-#include <filesystem>
-
 #include "apps/exports/keyframe_images.h"
+#include "apps/support/colmap_folder.h"
 #include "apps/support/output.h"
 
 namespace placegraph::apps {
@@ -36,40 +35,32 @@ ColmapModel colmap_model_of(const MapBundle& bundle, const KeyframeImages& image
 }  // namespace
 
 ColmapSummary write_colmap(const std::string& folder, const StoredMap& stored, int component,
-                           NumberForm form) {
-  namespace fs = std::filesystem;
-  const KeyframeImages images(stored.origin);
+                           NumberForm form, const std::string& undistorted) {
+  const KeyframeImages images(stored.origin, undistorted);
   const Camera& camera = stored.origin.calibration.value().camera;
   const MapBundle bundle = adjust_map(stored.map, component, camera);
   if (!bundle.outcome) throw NoResult(folder + ": nothing to write: " + bundle.outcome.reason);
-  const ColmapFiles files = to_colmap(colmap_model_of(bundle, images, camera), form);
-
-  const OutputFolder made(folder);
-  const bool binary = form == NumberForm::kBinary;
-  for (const auto& [name, content] :
-       {std::pair("cameras", &files.cameras), std::pair("images", &files.images),
-        std::pair("points3D", &files.points)}) {
-    const fs::path path = fs::path(folder) / name;
-    write_file(path.string() + (binary ? ".bin" : ".txt"), *content);
-    std::error_code ignored;
-    fs::remove(path.string() + (binary ? ".txt" : ".bin"), ignored);
-  }
+  write_colmap_folder(folder, colmap_model_of(bundle, images, camera), form);
   return {.keyframes = bundle.views.size(),
           .points = bundle.points.size(),
           .kept = bundle.kept,
           .observations = bundle.offered,
           .error_before_px = bundle.error_before_px,
           .error_px = bundle.error_px,
-          .views = static_cast<double>(bundle.kept) / static_cast<double>(bundle.points.size())};
+          .views = static_cast<double>(bundle.kept) / static_cast<double>(bundle.points.size()),
+          .lens_k1 = undistorted.empty() ? stored.origin.lens_k1 : 0};
 }
 
 std::string to_text(const ColmapSummary& summary) {
   return fmt::format(
       "COLMAP: {} keyframes, {} points, {} of {} observations kept ({:.1f} %), mean reprojection "
-      "error {:.2f} px ({:.2f} px before the adjustment), {:.1f} views a point\n",
+      "error {:.2f} px ({:.2f} px before the adjustment), {:.1f} views a point{}\n",
       summary.keyframes, summary.points, summary.kept, summary.observations,
       100.0 * static_cast<double>(summary.kept) / static_cast<double>(summary.observations),
-      summary.error_px, summary.error_before_px, summary.views);
+      summary.error_px, summary.error_before_px, summary.views,
+      summary.lens_k1 == 0
+          ? ""
+          : fmt::format("; the named images are distorted by k1 = {:.4f}", summary.lens_k1));
 }
 
 }  // namespace placegraph::apps

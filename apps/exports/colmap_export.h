@@ -16,13 +16,14 @@ struct ColmapSummary {
   double error_before_px = 0;    ///< mean reprojection error before the adjustment
   double error_px = 0;           ///< mean reprojection error of what was kept
   double views = 0;              ///< mean number of observations of a point
+  double lens_k1 = 0;            ///< distortion of the named images that the camera does not have
 };
 
 /// Adjusts a component of a map and writes cameras, images and points3D into a folder.
-/// Files of the other form there are removed. Throws FileError if the sequence or the folder cannot
-/// be used, NoResult if no point is left.
+/// Files of the other form there are removed. `undistorted`: as KeyframeImages. Throws FileError if
+/// the sequence or the folder cannot be used, NoResult if no point is left.
 ColmapSummary write_colmap(const std::string& folder, const StoredMap& stored, int component,
-                           NumberForm form);
+                           NumberForm form, const std::string& undistorted = "");
 
 /// One line.
 std::string to_text(const ColmapSummary& summary);

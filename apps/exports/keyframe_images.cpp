@@ -12,16 +12,19 @@ namespace placegraph::apps {
 
 namespace fs = std::filesystem;
 
-KeyframeImages::KeyframeImages(const MapOrigin& origin)
-    : sequence_(origin.sequence), dataset_(open_dataset(origin.sequence)) {
-  if (origin.lens_k1 != 0)
+KeyframeImages::KeyframeImages(const MapOrigin& origin, std::string undistorted)
+    : sequence_(origin.sequence),
+      undistorted_(std::move(undistorted)),
+      dataset_(open_dataset(origin.sequence)) {
+  if (origin.lens_k1 != 0 && undistorted_.empty())
     warn(
         fmt::format("{}: the exported camera is that of images without the lens distortion that "
-                    "the run removed (k1 = {:.4f}); the images still have it",
+                    "the run removed (k1 = {:.4f}); the images still have it, --undistorted writes "
+                    "them without it",
                     sequence_, origin.lens_k1));
 }
 
-std::string KeyframeImages::path(FrameId frame) const {
+std::string KeyframeImages::sequence_path(FrameId frame) const {
   const std::int64_t index = frame.value();
   if (index < 0 || index >= static_cast<std::int64_t>(dataset_->size()))
     throw ArgumentError(
@@ -33,13 +36,20 @@ std::string KeyframeImages::path(FrameId frame) const {
   return (folder / fmt::format("frame_{:06}.png", index)).string();
 }
 
+std::string KeyframeImages::path(FrameId frame) const {
+  return undistorted_.empty() ? sequence_path(frame)
+                              : (fs::path(undistorted_) / name(frame)).string();
+}
+
 std::string KeyframeImages::name(FrameId frame) const {
-  const fs::path image(path(frame));
+  const fs::path image(sequence_path(frame));
   const fs::path folder =
       fs::is_directory(sequence_) ? fs::path(sequence_) : fs::path(sequence_).parent_path();
   const fs::path inside = fs::absolute(image).lexically_normal().lexically_relative(
       fs::absolute(folder / "").lexically_normal());
-  return inside.empty() || *inside.begin() == ".." ? image.filename().string() : inside.string();
+  fs::path name = inside.empty() || *inside.begin() == ".." ? image.filename() : inside;
+  if (!undistorted_.empty()) name.replace_extension(".png");
+  return name.string();
 }
 
 }  // namespace placegraph::apps

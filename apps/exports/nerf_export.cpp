@@ -9,9 +9,10 @@
 
 namespace placegraph::apps {
 
-std::string nerf_transforms(const std::string& path, const StoredMap& stored, int component) {
+std::string nerf_transforms(const std::string& path, const StoredMap& stored, int component,
+                            const std::string& undistorted) {
   namespace fs = std::filesystem;
-  const KeyframeImages images(stored.origin);
+  const KeyframeImages images(stored.origin, undistorted);
   const fs::path folder = fs::absolute(path).lexically_normal().parent_path();
   std::vector<NerfImage> frames;
   for (const PosedKeyframe& posed : geometry_of(stored.map, component).keyframes)

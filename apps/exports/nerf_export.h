@@ -6,7 +6,9 @@
 namespace placegraph::apps {
 
 /// The transforms.json of the keyframes of a component of a map, for a file at `path`, from whose
-/// folder the paths of the images are. Throws FileError if the sequence is no longer there.
-std::string nerf_transforms(const std::string& path, const StoredMap& stored, int component);
+/// folder the paths of the images are; `undistorted`: as KeyframeImages. Throws FileError if the
+/// sequence is no longer there.
+std::string nerf_transforms(const std::string& path, const StoredMap& stored, int component,
+                            const std::string& undistorted = "");
 
 }  // namespace placegraph::apps

@@ -6,8 +6,8 @@
 namespace placegraph::apps {
 
 struct BundleArguments {
-  std::string in;               ///< problem in BAL format
-  std::string out;              ///< file for the adjusted problem; empty: none
+  std::string in;               ///< problem in BAL format, or folder of a COLMAP model
+  std::string out;              ///< file or folder for the adjusted problem; empty: none
   std::string kernel = "none";  ///< one of robust_kernel_names()
   BundleOptions options;        ///< the kind of the kernel is set by `kernel`
   bool force = false;           ///< overwrite `out`

@@ -1,9 +1,11 @@
 #include "apps/graph/cmd_bundle.h"
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <memory>
 
 #include "apps/graph/bundle.h"
+#include "apps/graph/colmap_bundle.h"
 #include "apps/support/option_texts.h"
 #include "apps/support/output.h"
 
@@ -14,10 +16,12 @@ void add_bundle_command(CLI::App& graph) {
   auto json = std::make_shared<bool>(false);
   BundleArguments& a = *arguments;
   CLI::App* command =
-      graph.add_subcommand("bundle", "Adjust a bundle of cameras and points in BAL format");
+      graph.add_subcommand("bundle", "Adjust a bundle of cameras and points: BAL or COLMAP");
   command->footer("placegraph graph bundle problem-49-7776-pre.txt -o adjusted.txt --json");
-  command->add_option("IN", a.in, "problem to read")->required()->check(CLI::ExistingFile);
-  command->add_option("-o,--out", a.out, "file for the adjusted problem");
+  command->add_option("IN", a.in, "problem in BAL format, or folder of a COLMAP model")
+      ->required()
+      ->check(CLI::ExistingPath);
+  command->add_option("-o,--out", a.out, "file or folder for the adjusted problem");
   command->add_option("--kernel", a.kernel, "robust kernel of the reprojection errors")
       ->check(CLI::IsMember(robust_kernel_names()))
       ->capture_default_str();
@@ -30,6 +34,11 @@ void add_bundle_command(CLI::App& graph) {
   command->add_flag("--json", *json, kJsonText);
   command->add_flag("--force", a.force, kForceText);
   command->callback([arguments, json] {
+    if (std::filesystem::is_directory(arguments->in)) {
+      const ColmapBundleResult result = colmap_bundle(*arguments);
+      print(*json ? to_json(result) : to_text(result));
+      return;
+    }
     const BundleResult result = bundle(*arguments);
     print(*json ? to_json(result) : to_text(result));
   });

@@ -59,12 +59,17 @@ void add_export_command(CLI::App& map) {
     command->add_option(forms[i].flag, arguments->paths[i], help_of(forms[i]));
   command->add_option("--component", arguments->component,
                       "component whose trajectory and geometry are written; default: the main one");
-  command->add_flag("--ascii", arguments->ascii, "--ply and --colmap as text");
+  command->add_flag("--ascii", arguments->ascii, "--ply, --colmap, --cloud and --mesh as text");
   command->add_option("--resolution", arguments->resolution_m, "side of a cell of --occupancy [m]")
       ->check(CLI::Range(0.001, 10.0))
       ->capture_default_str();
   command->add_flag("--walls", arguments->walls,
                     "--occupancy with the walls of the floor plan, from the images");
+  command
+      ->add_option("--voxel", arguments->voxel,
+                   "side of the voxels of --cloud and --mesh, in the map's unit; default: 0.02 m "
+                   "for depth images, else 1 % of the median depth of the landmarks")
+      ->check(CLI::PositiveNumber);
   command->add_flag("--force", arguments->force, kForceText);
   command->callback([arguments] { print(to_text(map_export(*arguments))); });
 }

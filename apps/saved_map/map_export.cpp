@@ -15,6 +15,7 @@
 #include <functional>
 
 #include "apps/exports/gltf_export.h"
+#include "apps/exports/keyframe_frames.h"
 #include "apps/exports/mcap_export.h"
 #include "apps/exports/nerf_export.h"
 #include "apps/exports/occupancy_export.h"
@@ -29,10 +30,12 @@ namespace {
 /// The map, and what of it is written how.
 struct MapExportInput {
   const StoredMap& stored;
-  int component = 0;     ///< number of the component
-  NumberForm numbers{};  ///< form of the numbers where there is a choice
-  double cell_m = 0.05;  ///< side of a cell of an occupancy grid
-  bool walls = false;    ///< an occupancy grid with the walls of the floor plan
+  int component = 0;              ///< number of the component
+  NumberForm numbers{};           ///< form of the numbers where there is a choice
+  double cell_m = 0.05;           ///< side of a cell of an occupancy grid
+  bool walls = false;             ///< an occupancy grid with the walls of the floor plan
+  std::string undistorted{};      ///< folder for the undistorted images; empty: none
+  DenseOutputs* dense = nullptr;  ///< cloud and mesh, which are made at once
 };
 
 /// A form with its writer. A new form is one more entry in one of the two tables.
@@ -100,12 +103,20 @@ std::vector<WrittenForm> geometry_forms() {
         MapExportTarget::kFolder},
        true,
        [](const std::string& path, const MapExportInput& input, MapExportResult& result) {
-         result.colmap = write_colmap(path, input.stored, input.component, input.numbers);
+         result.colmap =
+             write_colmap(path, input.stored, input.component, input.numbers, input.undistorted);
        }},
       {{"--nerf", "the keyframes for radiance fields, transforms.json"},
        true,
        [](const std::string& path, const MapExportInput& input, MapExportResult&) {
-         write_file(path, nerf_transforms(path, input.stored, input.component));
+         write_file(path, nerf_transforms(path, input.stored, input.component, input.undistorted));
+       }},
+      {{"--undistorted",
+        "the images of the keyframes without distortion, which --colmap and --nerf then name",
+        MapExportTarget::kFolder},
+       true,
+       [](const std::string& path, const MapExportInput& input, MapExportResult&) {
+         write_undistorted(path, input.stored, input.component);
        }},
       {{"--occupancy", "an occupancy grid as map_server of ROS reads it", MapExportTarget::kImage},
        true,
@@ -122,6 +133,16 @@ std::vector<WrittenForm> geometry_forms() {
        true,
        [](const std::string& path, const MapExportInput& input, MapExportResult&) {
          write_file(path, map_mcap(input.stored, input.component));
+       }},
+      {{"--cloud", "the dense cloud of the surfaces in the images, PLY"},
+       true,
+       [](const std::string& path, const MapExportInput& input, MapExportResult&) {
+         input.dense->cloud = path;
+       }},
+      {{"--mesh", "the surfaces in the images as triangles, .ply or .glb"},
+       true,
+       [](const std::string& path, const MapExportInput& input, MapExportResult&) {
+         input.dense->mesh = path;
        }}};
 }
 
@@ -147,6 +168,8 @@ void require_free_target(const MapExportForm& form, const std::string& path, boo
   }
   require(form.flag != "--gltf" || extension_of(path) == ".glb" || extension_of(path) == ".gltf",
           "--gltf: " + path + ": the extension is .glb or .gltf");
+  require(form.flag != "--mesh" || extension_of(path) == ".ply" || extension_of(path) == ".glb",
+          "--mesh: " + path + ": the extension is .ply or .glb");
 }
 
 int component_of(const MapExportArguments& arguments, const Map& map) {
@@ -178,9 +201,17 @@ MapExportResult map_export(const MapExportArguments& arguments) {
     if (!arguments.paths[i].empty())
       require_free_target(forms[i].form, arguments.paths[i], arguments.force);
   const StoredMap stored = read_stored_map(arguments.map);
-  const MapExportInput input{stored, component_of(arguments, stored.map),
-                             arguments.ascii ? NumberForm::kText : NumberForm::kBinary,
-                             arguments.resolution_m, arguments.walls};
+  const NumberForm numbers = arguments.ascii ? NumberForm::kText : NumberForm::kBinary;
+  DenseOutputs dense{"", "", arguments.voxel, numbers};
+  MapExportInput input{.stored = stored,
+                       .component = component_of(arguments, stored.map),
+                       .numbers = numbers,
+                       .cell_m = arguments.resolution_m,
+                       .walls = arguments.walls,
+                       .undistorted = {},
+                       .dense = &dense};
+  for (std::size_t i = 0; i < forms.size(); ++i)
+    if (forms[i].form.flag == "--undistorted") input.undistorted = arguments.paths[i];
   MapExportResult result;
   for (std::size_t i = 0; i < forms.size(); ++i) {
     if (arguments.paths[i].empty()) continue;
@@ -191,11 +222,14 @@ MapExportResult map_export(const MapExportArguments& arguments) {
     forms[i].write(arguments.paths[i], input, result);
     result.written.push_back(arguments.paths[i]);
   }
+  if (!dense.cloud.empty() || !dense.mesh.empty())
+    result.dense = write_dense(dense, stored, input.component);
   return result;
 }
 
 std::string to_text(const MapExportResult& result) {
-  return result.colmap ? to_text(*result.colmap) : "";
+  return (result.colmap ? to_text(*result.colmap) : "") +
+         (result.dense ? to_text(*result.dense) : "");
 }
 
 }  // namespace placegraph::apps

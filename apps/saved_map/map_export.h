@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "apps/exports/colmap_export.h"
+#include "apps/exports/dense_export.h"
 
 namespace placegraph::apps {
 
@@ -30,15 +31,17 @@ struct MapExportArguments {
       paths;  ///< one path per form, in the order of map_export_forms(); empty: none
   /// Component whose trajectory and geometry are written; nothing: the main one.
   std::optional<int> component;
-  bool ascii = false;          ///< numbers as text, of the forms that have both
-  double resolution_m = 0.05;  ///< side of a cell of an occupancy grid
-  bool walls = false;          ///< an occupancy grid with the walls of the floor plan
-  bool force = false;          ///< overwrite existing files
+  bool ascii = false;           ///< numbers as text, of the forms that have both
+  double resolution_m = 0.05;   ///< side of a cell of an occupancy grid
+  bool walls = false;           ///< an occupancy grid with the walls of the floor plan
+  std::optional<double> voxel;  ///< side of the voxels of cloud and mesh; nothing: see docs
+  bool force = false;           ///< overwrite existing files
 };
 
 struct MapExportResult {
   std::vector<std::string> written;     ///< paths of the written forms, as in the arguments
   std::optional<ColmapSummary> colmap;  ///< figures of the model for COLMAP, if it was written
+  std::optional<DenseSummary> dense;    ///< figures of cloud and mesh, if one was written
 };
 
 /// Writes parts of a saved map as separate files: `placegraph map export`.
@@ -47,7 +50,7 @@ struct MapExportResult {
 /// poses or a metric map and the map is another.
 MapExportResult map_export(const MapExportArguments& arguments);
 
-/// One line for COLMAP's model; empty without one.
+/// A line for COLMAP's model, and one for cloud and mesh; empty without them.
 std::string to_text(const MapExportResult& result);
 
 }  // namespace placegraph::apps

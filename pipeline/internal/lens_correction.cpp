@@ -56,6 +56,10 @@ void LensCorrection::apply(Frame& frame) const {
   if (!frame.mask.empty()) frame.mask = undistorted_.remap.nearest(frame.mask);
 }
 
+Image LensCorrection::corrected(const Image& image) const {
+  return k1_ == 0 ? image : undistorted_.remap.bilinear(image);
+}
+
 Image LensCorrection::mask_as_taken(const Image& mask) const {
   if (k1_ == 0) return mask;
   Camera camera = as_given_.camera;

@@ -41,6 +41,8 @@ class LensCorrection {
   /// Calibration of the corrected images.
   Calibration calibration() const;
   void apply(Frame& frame) const;
+  /// A corrected image, of any type.
+  Image corrected(const Image& image) const;
   /// Mask of the given images (CV_8UC1) with the pixels that `mask` marks in corrected ones.
   Image mask_as_taken(const Image& mask) const;
 

@@ -1,4 +1,4 @@
-"""exports_check.py PROGRAM FOLDER: what the program writes, read by evo, gtsam and networkx; by others in exports_geometry.py.
+"""exports_check.py PROGRAM FOLDER: what the program writes, read by evo, gtsam and networkx; by others in exports_geometry.py and exports_dense.py.
 
 Renders and runs small sequences in FOLDER. Prints one line a check; exits 1 where one fails.
 """
@@ -16,7 +16,8 @@ import networkx
 import numpy
 from evo.core import metrics
 from evo.tools import file_interface
-from exports_geometry import check_geometry
+from exports_dense import check_bundle, check_dense
+from exports_geometry import check_geometry, package
 
 FRAMES = 40
 failures = 0
@@ -147,6 +148,9 @@ def main():
     check_places(placegraph)
     check_map_exports(placegraph)
     check_geometry(placegraph, check, "stereo", "drive")
+    if pycolmap := package("pycolmap"):
+        check_bundle(placegraph, check, pycolmap, "model")
+    check_dense(placegraph, check, package)
     print(f"exports_check: {'FAILED: ' + str(failures) + ' checks' if failures else 'passed'}")
     return 1 if failures else 0
 

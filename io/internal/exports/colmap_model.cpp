@@ -11,7 +11,6 @@ namespace placegraph {
 namespace {
 
 constexpr std::uint32_t kColmapCamera = 1;  ///< number of the only camera
-constexpr std::int32_t kColmapPinhole = 1;  ///< number of the camera model PINHOLE
 constexpr double kToCorner_px = 0.5;        ///< pixels count from the corner of the first one
 
 /// An entry of a track: an image and the position of the observation in it.
@@ -21,7 +20,9 @@ struct ColmapTrackEntry {
 
 void check_model(const ColmapModel& model, NumberForm form) {
   model.camera.check();
-  require(model.camera.distortion == Distortion::kNone, "COLMAP: the camera has a distortion");
+  require(
+      model.camera.distortion != Distortion::kRadialTangential || model.camera.coefficients[4] == 0,
+      "COLMAP: the camera has a distortion that OPENCV has not, k3");
   std::set<std::uint64_t> ids;
   for (const ColmapModel::Image& image : model.images) {
     require(image.id > 0 && ids.insert(image.id).second,
@@ -61,18 +62,33 @@ std::array<double, 7> colmap_pose(const SE3& T_world_cam) {
   return pose;
 }
 
-std::array<double, 4> colmap_intrinsics(const Camera& camera) {
-  return {camera.fx, camera.fy, camera.cx + kToCorner_px, camera.cy + kToCorner_px};
+/// The model of a camera: name, number and parameters.
+struct ColmapCamera {
+  std::string name;
+  std::int32_t id = 0;
+  std::vector<double> parameters;
+};
+
+ColmapCamera colmap_camera_of(const Camera& camera) {
+  ColmapCamera result{
+      "PINHOLE", 1, {camera.fx, camera.fy, camera.cx + kToCorner_px, camera.cy + kToCorner_px}};
+  if (camera.distortion == Distortion::kNone) return result;
+  const bool fisheye = camera.distortion == Distortion::kEquidistant;
+  result.name = fisheye ? "OPENCV_FISHEYE" : "OPENCV";
+  result.id = fisheye ? 5 : 4;
+  for (std::size_t i = 0; i < 4; ++i) result.parameters.push_back(camera.coefficients[i]);
+  return result;
 }
 
 ColmapFiles binary_colmap(const ColmapModel& model) {
+  const ColmapCamera camera = colmap_camera_of(model.camera);
   ColmapFiles files;
   append_number(files.cameras, std::uint64_t{1});
   append_number(files.cameras, kColmapCamera);
-  append_number(files.cameras, kColmapPinhole);
+  append_number(files.cameras, camera.id);
   append_number(files.cameras, static_cast<std::uint64_t>(model.camera.width));
   append_number(files.cameras, static_cast<std::uint64_t>(model.camera.height));
-  for (const double value : colmap_intrinsics(model.camera)) append_number(files.cameras, value);
+  for (const double value : camera.parameters) append_number(files.cameras, value);
 
   append_number(files.images, static_cast<std::uint64_t>(model.images.size()));
   for (const ColmapModel::Image& image : model.images) {
@@ -105,10 +121,11 @@ ColmapFiles binary_colmap(const ColmapModel& model) {
 }
 
 ColmapFiles text_colmap(const ColmapModel& model) {
+  const ColmapCamera camera = colmap_camera_of(model.camera);
   ColmapFiles files;
-  files.cameras = fmt::format("# CAMERA_ID, MODEL, WIDTH, HEIGHT, PARAMS[]\n{} PINHOLE {} {} {}\n",
-                              kColmapCamera, model.camera.width, model.camera.height,
-                              fmt::join(colmap_intrinsics(model.camera), " "));
+  files.cameras = fmt::format("# CAMERA_ID, MODEL, WIDTH, HEIGHT, PARAMS[]\n{} {} {} {} {}\n",
+                              kColmapCamera, camera.name, model.camera.width, model.camera.height,
+                              fmt::join(camera.parameters, " "));
 
   files.images =
       "# IMAGE_ID, QW, QX, QY, QZ, TX, TY, TZ, CAMERA_ID, NAME\n"

@@ -28,7 +28,7 @@ struct ColmapModel {
     std::array<std::uint8_t, 3> rgb{};                  ///< red, green, blue
     double error_px = 0;                                ///< mean reprojection error
   };
-  Camera camera;              ///< camera of all images, without distortion
+  Camera camera;              ///< camera of all images
   std::vector<Image> images;  ///< images, in any order
   std::vector<Point> points;  ///< points, in any order
 };
@@ -39,8 +39,9 @@ struct ColmapFiles {
 };
 
 /// The files of a model, with poses T_cam_world and pixels from the corner of the first pixel.
-/// Throws ArgumentError if the camera has a distortion, an observation refers to a missing point,
-/// ids are not unique or not positive, or a name is empty, or has a blank in a text.
+/// The camera is PINHOLE, OPENCV or OPENCV_FISHEYE.
+/// Throws ArgumentError if the camera has a third radial coefficient, an observation refers to a
+/// missing point, ids are not unique or not positive, or a name is empty, or has a blank in a text.
 ColmapFiles to_colmap(const ColmapModel& model, NumberForm form);
 
 }  // namespace placegraph

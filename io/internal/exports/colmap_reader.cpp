@@ -70,27 +70,54 @@ class ColmapBytes {
   std::size_t at_ = 0;
 };
 
-/// The camera of a PINHOLE (fx fy cx cy) or SIMPLE_PINHOLE (f cx cy).
-Camera colmap_camera(const std::string& path, std::uint64_t width, std::uint64_t height,
-                     const std::vector<double>& parameters) {
+/// A model of cameras: its parameters are one or two focal lengths, cx, cy, and coefficients.
+struct ColmapLens {
+  const char* name;
+  int id;                  ///< number in binary files
+  std::size_t focal;       ///< number of focal lengths
+  std::size_t parameters;  ///< number of all
+  Distortion distortion;
+};
+
+constexpr ColmapLens kColmapLenses[] = {{"SIMPLE_PINHOLE", 0, 1, 3, Distortion::kNone},
+                                        {"PINHOLE", 1, 2, 4, Distortion::kNone},
+                                        {"SIMPLE_RADIAL", 2, 1, 4, Distortion::kRadialTangential},
+                                        {"RADIAL", 3, 1, 5, Distortion::kRadialTangential},
+                                        {"OPENCV", 4, 2, 8, Distortion::kRadialTangential},
+                                        {"OPENCV_FISHEYE", 5, 2, 8, Distortion::kEquidistant}};
+
+/// The model of a name or number; `what` is how a message names it.
+template <class Matches>
+const ColmapLens& find_colmap_lens(const std::string& path, const std::string& what,
+                                   ColmapLenses lenses, Matches matches) {
+  for (const ColmapLens& lens : kColmapLenses)
+    if (matches(lens) && (lenses == ColmapLenses::kAny || lens.distortion == Distortion::kNone))
+      return lens;
+  throw FileError(path, "camera model " + what +
+                            (lenses == ColmapLenses::kAny
+                                 ? ": PINHOLE, SIMPLE_PINHOLE, SIMPLE_RADIAL, RADIAL, OPENCV and "
+                                   "OPENCV_FISHEYE are read"
+                                 : ": PINHOLE and SIMPLE_PINHOLE are read; undistort the images "
+                                   "before"));
+}
+
+Camera colmap_camera(const std::string& path, const ColmapLens& lens, std::uint64_t width,
+                     std::uint64_t height, const std::vector<double>& parameters) {
   constexpr std::uint64_t kMost = 1 << 20;
   if (width == 0 || height == 0 || width > kMost || height > kMost)
     throw FileError(path, fmt::format("{} x {} is not the size of an image", width, height));
   Camera camera;
   camera.width = static_cast<int>(width);
   camera.height = static_cast<int>(height);
-  const bool simple = parameters.size() == 3;
   camera.fx = parameters[0];
-  camera.fy = parameters[simple ? 0 : 1];
-  camera.cx = parameters[simple ? 1 : 2] - kColmapCorner_px;
-  camera.cy = parameters[simple ? 2 : 3] - kColmapCorner_px;
+  camera.fy = parameters[lens.focal - 1];
+  camera.cx = parameters[lens.focal] - kColmapCorner_px;
+  camera.cy = parameters[lens.focal + 1] - kColmapCorner_px;
+  camera.distortion = lens.distortion;
+  for (std::size_t i = lens.focal + 2; i < parameters.size(); ++i)
+    camera.coefficients[i - lens.focal - 2] = parameters[i];
   if (!(camera.fx > 0) || !(camera.fy > 0)) throw FileError(path, "a focal length is not positive");
   return camera;
-}
-
-[[noreturn]] void refuse_colmap_camera(const std::string& path, const std::string& name) {
-  throw FileError(path, "camera model " + name +
-                            ": PINHOLE and SIMPLE_PINHOLE are read; undistort the images before");
 }
 
 SE3 pose_from_colmap(const std::string& path, const std::array<double, 7>& numbers) {
@@ -99,18 +126,19 @@ SE3 pose_from_colmap(const std::string& path, const std::array<double, 7>& numbe
   return SE3(SO3(q.normalized()), {numbers[4], numbers[5], numbers[6]}).inverse();
 }
 
-Camera read_binary_camera(const std::string& path) {
+Camera read_binary_camera(const std::string& path, ColmapLenses lenses) {
   ColmapBytes bytes(path);
   if (const auto count = bytes.next<std::uint64_t>(); count != 1)
     throw FileError(path, fmt::format("{} cameras, one is read", count));
   bytes.next<std::uint32_t>();
-  const auto model = bytes.next<std::int32_t>();
-  if (model != 0 && model != 1) refuse_colmap_camera(path, std::to_string(model));
+  const auto id = bytes.next<std::int32_t>();
+  const ColmapLens& lens = find_colmap_lens(path, std::to_string(id), lenses,
+                                            [id](const ColmapLens& one) { return one.id == id; });
   const auto width = bytes.next<std::uint64_t>(), height = bytes.next<std::uint64_t>();
   std::vector<double> parameters;
-  for (int i = 0; i < 3 + model; ++i) parameters.push_back(bytes.next_finite());
+  for (std::size_t i = 0; i < lens.parameters; ++i) parameters.push_back(bytes.next_finite());
   bytes.end();
-  return colmap_camera(path, width, height, parameters);
+  return colmap_camera(path, lens, width, height, parameters);
 }
 
 void read_binary_images(const std::string& path, ColmapParts& parts) {
@@ -151,17 +179,18 @@ void read_binary_points(const std::string& path, ColmapParts& parts) {
   bytes.end();
 }
 
-Camera read_text_camera(const std::string& path) {
+Camera read_text_camera(const std::string& path, ColmapLenses lenses) {
   TextFile file(path);
   std::string_view line;
   std::vector<std::string_view> fields;
   if (!file.next_data(line)) throw FileError(path, "no camera in it");
   split_blank(line, fields);
   if (fields.size() < 4) file.fail("not a camera");
-  const std::size_t parameters = fields[1] == "PINHOLE" ? 4 : 3;
-  if (fields[1] != "PINHOLE" && fields[1] != "SIMPLE_PINHOLE")
-    refuse_colmap_camera(path, std::string(fields[1]));
-  if (fields.size() != 4 + parameters) file.fail("not the parameters of a pinhole camera");
+  const std::string name(fields[1]);
+  const ColmapLens& lens = find_colmap_lens(
+      path, name, lenses, [&name](const ColmapLens& one) { return one.name == name; });
+  if (fields.size() != 4 + lens.parameters)
+    file.fail(fmt::format("{} has {} parameters", name, lens.parameters));
   std::vector<double> values;
   for (std::size_t i = 4; i < fields.size(); ++i)
     values.push_back(file.number(fields[i], "camera"));
@@ -169,8 +198,8 @@ Camera read_text_camera(const std::string& path) {
   const std::int64_t height = file.integer(fields[3], "height");
   if (width < 1 || height < 1) file.fail("the size of the image is not positive");
   if (file.next_data(line)) file.fail("a second camera, one is read");
-  return colmap_camera(path, static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height),
-                       values);
+  return colmap_camera(path, lens, static_cast<std::uint64_t>(width),
+                       static_cast<std::uint64_t>(height), values);
 }
 
 void read_text_images(const std::string& path, ColmapParts& parts) {
@@ -222,15 +251,19 @@ void read_text_points(const std::string& path, ColmapParts& parts) {
 
 }  // namespace
 
-ColmapModel read_colmap(const std::string& folder) {
+NumberForm colmap_form(const std::string& folder) {
   namespace fs = std::filesystem;
-  const bool binary = fs::exists(fs::path(folder) / "cameras.bin");
+  return fs::exists(fs::path(folder) / "cameras.bin") ? NumberForm::kBinary : NumberForm::kText;
+}
+
+ColmapModel read_colmap(const std::string& folder, ColmapLenses lenses) {
+  namespace fs = std::filesystem;
+  const bool binary = colmap_form(folder) == NumberForm::kBinary;
   const auto path = [&](const char* name) {
     return (fs::path(folder) / name).string() + (binary ? ".bin" : ".txt");
   };
   ColmapParts parts;
-  parts.model.camera =
-      binary ? read_binary_camera(path("cameras")) : read_text_camera(path("cameras"));
+  parts.model.camera = (binary ? read_binary_camera : read_text_camera)(path("cameras"), lenses);
   (binary ? read_binary_images : read_text_images)(path("images"), parts);
   (binary ? read_binary_points : read_text_points)(path("points3D"), parts);
   std::unordered_map<std::uint64_t, int> points;

@@ -5,10 +5,19 @@
 
 namespace placegraph {
 
-/// Reads a model of one camera without distortion (PINHOLE or SIMPLE_PINHOLE) from a folder with
-/// cameras, images and points3D, .bin or otherwise .txt. Image points without a point are left out.
+/// Which models of cameras are read.
+enum class ColmapLenses {
+  kPinhole,  ///< PINHOLE and SIMPLE_PINHOLE
+  kAny       ///< these, SIMPLE_RADIAL, RADIAL, OPENCV and OPENCV_FISHEYE
+};
+
+/// Whether the model in a folder has files .bin or .txt.
+NumberForm colmap_form(const std::string& folder);
+
+/// Reads a model of one camera from a folder with cameras, images and points3D, .bin or otherwise
+/// .txt. Image points without a point are left out.
 /// Throws FileError, with the line in text, if a file is missing, truncated or malformed, if there
 /// is another number or model of cameras, or an observation of a missing point.
-ColmapModel read_colmap(const std::string& folder);
+ColmapModel read_colmap(const std::string& folder, ColmapLenses lenses = ColmapLenses::kPinhole);
 
 }  // namespace placegraph

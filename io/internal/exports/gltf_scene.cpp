@@ -11,9 +11,11 @@ namespace {
 using GltfJson = nlohmann::ordered_json;
 
 // Numbers of the format, glTF 2.0 specification.
-constexpr int kGltfFloat = 5126, kGltfByte = 5121;              ///< accessor.componentType
-constexpr int kGltfPoints = 0, kGltfLines = 1, kGltfStrip = 3;  ///< primitive.mode
-constexpr int kGltfVertices = 34962;                            ///< bufferView.target
+constexpr int kGltfFloat = 5126, kGltfByte = 5121;  ///< accessor.componentType
+constexpr int kGltfIndex = 5125;
+constexpr int kGltfPoints = 0, kGltfLines = 1, kGltfStrip = 3,
+              kGltfTriangles = 4;                           ///< primitive.mode
+constexpr int kGltfVertices = 34962, kGltfIndices = 34963;  ///< bufferView.target
 
 /// The JSON part and the bytes that it refers to.
 class GltfDocument {
@@ -53,6 +55,24 @@ class GltfDocument {
                              {"min", {low[0], low[1], low[2]}},
                              {"max", {high[0], high[1], high[2]}}});
   }
+  int add_normals(const std::vector<Eigen::Vector3f>& normals) {
+    const std::size_t begin = bytes_.size();
+    for (const Eigen::Vector3f& normal : normals)
+      for (int i = 0; i < 3; ++i) append_number(bytes_, float{normal[i]});
+    return add("accessors", {{"bufferView", add_view(begin, 0)},
+                             {"componentType", kGltfFloat},
+                             {"count", normals.size()},
+                             {"type", "VEC3"}});
+  }
+  int add_faces(const std::vector<std::array<std::int32_t, 3>>& faces) {
+    const std::size_t begin = bytes_.size();
+    for (const auto& face : faces)
+      for (const std::int32_t corner : face) append_number(bytes_, corner);
+    return add("accessors", {{"bufferView", add_view(begin, 0, kGltfIndices)},
+                             {"componentType", kGltfIndex},
+                             {"count", 3 * faces.size()},
+                             {"type", "SCALAR"}});
+  }
   int add_colours(const std::vector<std::array<std::uint8_t, 3>>& colours) {
     const std::size_t begin = bytes_.size();
     for (const auto& rgb : colours) {
@@ -89,11 +109,11 @@ class GltfDocument {
     json_[part].push_back(std::move(value));
     return static_cast<int>(json_[part].size()) - 1;
   }
-  int add_view(std::size_t begin, int stride) {
+  int add_view(std::size_t begin, int stride, int target = kGltfVertices) {
     GltfJson view = {{"buffer", 0},
                      {"byteOffset", begin},
                      {"byteLength", bytes_.size() - begin},
-                     {"target", kGltfVertices}};
+                     {"target", target}};
     if (stride > 0) view["byteStride"] = stride;
     return add("bufferViews", std::move(view));
   }
@@ -137,6 +157,22 @@ void add_gltf_lines(const GltfScene::Lines& lines, GltfDocument& document) {
   document.add_mesh(lines.name, std::move(primitives));
 }
 
+void add_gltf_surface(const TriangleMesh& surface, GltfDocument& document) {
+  if (surface.faces.empty()) return;
+  const int material = document.add_material("surface", {1, 1, 1});
+  const int positions = document.add_positions(surface.positions);
+  const int normals = document.add_normals(surface.normals);
+  const int colours = document.add_colours(surface.rgb);
+  const int faces = document.add_faces(surface.faces);
+  document.add_mesh(
+      "surface",
+      GltfJson::array(
+          {{{"attributes", {{"POSITION", positions}, {"NORMAL", normals}, {"COLOR_0", colours}}},
+            {"indices", faces},
+            {"mode", kGltfTriangles},
+            {"material", material}}}));
+}
+
 }  // namespace
 
 std::string to_gltf(const GltfScene& scene, GltfForm form) {
@@ -154,6 +190,7 @@ std::string to_gltf(const GltfScene& scene, GltfForm form) {
                           {"material", material}}}));
   }
   for (const GltfScene::Lines& lines : scene.lines) add_gltf_lines(lines, document);
+  add_gltf_surface(scene.surface, document);
   return document.text(form);
 }
 

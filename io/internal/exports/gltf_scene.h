@@ -1,4 +1,6 @@
 #pragma once
+#include <placegraph/io/internal/exports/surface_ply.h>
+
 #include <Eigen/Core>
 
 #include <array>
@@ -8,7 +10,8 @@
 
 namespace placegraph {
 
-/// A scene of points and lines for 3D viewers, in coordinates with x right, y down, z forward.
+/// A scene of points, lines and surfaces for 3D viewers, in coordinates with x right, y down, z
+/// forward.
 struct GltfScene {
   /// Points of one colour each.
   struct Points {
@@ -25,6 +28,7 @@ struct GltfScene {
   std::string title;         ///< name of the scene
   Points points;             ///< points; may be empty
   std::vector<Lines> lines;  ///< lines; those without a strip and a pair are left out
+  TriangleMesh surface;      ///< a surface; may be empty
 };
 
 /// Whether the numbers of a glTF file stand in the same file as bytes or as text.

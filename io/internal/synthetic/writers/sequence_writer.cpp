@@ -73,8 +73,8 @@ std::string readme(const SyntheticWorld& world, const SyntheticContents& content
         depth_unit_m(world));
   if (contents.labels)
     text +=
-        "labels_0: 8-bit, index into `classes` of world.yaml; CLASSES.txt: which class of a street "
-        "each is.\n"
+        "labels_0: 8-bit, index into `classes` of world.yaml; CLASSES.txt, outdoors: which class of "
+        "a street each is.\n"
         "scene.ply: what stands still, polygons with a class each, in the frame of poses.txt.\n";
   if (contents.planes)
     text +=
@@ -120,10 +120,8 @@ void write_texts(const SyntheticWorld& world, const SequenceFolder& folder,
   folder.write("world.yaml", world_yaml(world));
   folder.write("README.txt", readme(world, contents));
   if (!world.floor_plan().empty()) folder.write("floorplan.json", world.floor_plan());
-  if (contents.labels && !world.is_indoor()) {
-    folder.write("CLASSES.txt", class_list());
-    folder.write("scene.ply", to_ply(world.static_mesh()));
-  }
+  if (contents.labels) folder.write("scene.ply", to_ply(world.static_mesh()));
+  if (contents.labels && !world.is_indoor()) folder.write("CLASSES.txt", class_list());
   if (contents.planes) {
     std::string text;
     for (const Eigen::Vector4d& p : world.planes())

@@ -3,6 +3,7 @@
 #include <placegraph/io/internal/measurements/point_cloud_file.h>
 #include <placegraph/io/map/map_database.h>
 
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
@@ -272,6 +273,62 @@ TEST_F(GeometryExports, AreThoseOfTheComponent) {
   map_export(arguments);
   EXPECT_EQ(read_point_cloud(folder / "other.ply").points.size(), 1u);
   EXPECT_EQ(json::parse(test::read_file(folder / "other.json"))["frames"].size(), 2u);
+}
+
+TEST_F(GeometryExports, UndistortedImagesReplaceTheDistortedOnes) {
+  stored.origin.lens_k1 = -0.2;
+  save();
+  cv::Mat taken(48, 64, CV_8UC1);
+  for (int u = 0; u < 64; ++u) taken.col(u).setTo(4 * u);
+  test::write_picture(folder / "seq/image_0/000000.png", taken);
+  path("--colmap") = folder / "model";
+  path("--nerf") = folder / "t.json";
+  EXPECT_THAT(to_text(map_export(arguments)),
+              HasSubstr("; the named images are distorted by k1 = -0.2000\n"));
+  path("--undistorted") = folder / "images";
+  arguments.force = true;
+  arguments.ascii = true;
+  EXPECT_THAT(to_text(map_export(arguments)), testing::Not(HasSubstr("distorted")));
+  EXPECT_THAT(test::read_file(folder / "model/images.txt"), HasSubstr(" 1 image_0/000000.png\n"));
+  const json frames = json::parse(test::read_file(folder / "t.json"))["frames"];
+  EXPECT_EQ(frames[0]["file_path"], "images/image_0/000000.png");
+  const cv::Mat written = test::read_grey_picture(folder / "images/image_0/000000.png");
+  ASSERT_EQ(written.size(), taken.size());
+  // The columns bend: at the middle of the height they are elsewhere than at the border.
+  EXPECT_GT(cv::norm(written.row(0), written.row(24), cv::NORM_INF), 2);
+}
+
+TEST_F(GeometryExports, UndistortedImagesAreAllOrNone) {
+  fs::remove(folder / "seq/image_0/000004.png");
+  test::write_picture(folder / "seq/image_0/000003.png", cv::Mat(10, 10, CV_8UC1, cv::Scalar(0)));
+  test::write_picture(folder / "seq/image_0/000004.png", cv::Mat(48, 64, CV_8UC1, cv::Scalar(0)));
+  path("--undistorted") = folder / "images";
+  EXPECT_THAT(message_of([&] { map_export(arguments); }), HasSubstr("000003.png"));
+  EXPECT_FALSE(fs::exists(folder / "images"));
+}
+
+TEST_F(GeometryExports, DenseFormsNeedVoxelsLandmarksAndImages) {
+  path("--cloud") = folder / "c.ply";
+  for (const double side : {0.0, -1.0, std::nan("")}) {
+    arguments.voxel = side;
+    EXPECT_THAT(message_of<ArgumentError>([&] { map_export(arguments); }),
+                HasSubstr("--voxel: must be positive"));
+  }
+  arguments.voxel = 1e-5;
+  EXPECT_THAT(message_of<ArgumentError>([&] { map_export(arguments); }),
+              HasSubstr("--voxel: 1e-05 is too small: one keyframe shows"));
+  arguments.voxel.reset();
+  EXPECT_THAT(message_of<NoResult>([&] { map_export(arguments); }),
+              HasSubstr("c.ply: no depth on which keyframes agree"));
+  path("--mesh") = folder / "m.obj";
+  EXPECT_THAT(message_of<ArgumentError>([&] { map_export(arguments); }),
+              HasSubstr("m.obj: the extension is .ply or .glb"));
+  path("--mesh").clear();
+  for (Keyframe& keyframe : stored.map.keyframes) keyframe.observations.clear();
+  save();
+  EXPECT_THAT(message_of<NoResult>([&] { map_export(arguments); }),
+              HasSubstr("c.ply: the range of depths is unknown"));
+  EXPECT_FALSE(fs::exists(folder / "c.ply"));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <placegraph/backend/factors/position.h>
 #include <placegraph/backend/factors/relative_pose.h>
 #include <placegraph/backend/factors/reprojection.h>
+#include <placegraph/backend/internal/factors/camera_reprojection.h>
 #include <placegraph/backend/internal/factors/ceres_factor.h>
 #include <placegraph/backend/internal/factors/kernel_loss.h>
 #include <placegraph/backend/internal/factors/marginal_prior.h>
@@ -38,6 +39,21 @@ class PointFactors : public testing::Test {
     return {pose_block(T_map_cam_, manifold_), Block{{p_map[0], p_map[1], p_map[2]}}};
   }
 };
+
+TEST_F(PointFactors, CameraReprojectionFollowsTheLens) {
+  Camera camera = test::window_camera();
+  const Eigen::Vector3d p_cam(1.5, -0.4, 7);
+  const Eigen::Vector2d px(700, 100);
+  for (const Distortion lens : {Distortion::kRadialTangential, Distortion::kEquidistant}) {
+    camera.distortion = lens;
+    camera.coefficients = {-0.2, 0.05, 0.002, -0.003, 0};
+    const PointFactor<CameraReprojection> factor(CameraReprojection{camera, px, 0.5});
+    const auto b = blocks(p_cam);
+    const Eigen::Vector2d expected = (*camera.project(p_cam) - px) / 0.5;
+    EXPECT_LT((test::evaluate(factor, {b[0].x, b[1].x}) - expected).norm(), 1e-9);
+    test::expect_jacobians_match(factor, b, 1e-6);
+  }
+}
 
 TEST_F(PointFactors, ReprojectionIsTheCamerasProjectionInSigmas) {
   const Camera camera = test::window_camera();

@@ -111,7 +111,8 @@ TEST(ColmapModel, RefusesWhatItCannotHold) {
   EXPECT_THAT(message(model), HasSubstr("image 1 has an observation of a missing point"));
   model = two_views();
   model.camera.distortion = Distortion::kRadialTangential;
-  EXPECT_THAT(message(model), HasSubstr("the camera has a distortion"));
+  model.camera.coefficients = {0, 0, 0, 0, 0.1};
+  EXPECT_THAT(message(model), HasSubstr("the camera has a distortion that OPENCV has not, k3"));
   model = two_views();
   model.images[0].name = "my images/0.png";
   EXPECT_THAT(message(model, NumberForm::kText), HasSubstr("my images/0.png"));

@@ -118,5 +118,40 @@ TEST_F(ColmapReader, NamesWhatItCannotRead) {
   EXPECT_THAT(message_of([&] { read_colmap(dir / "none"); }), HasSubstr("cameras.txt"));
 }
 
+TEST_F(ColmapReader, ReadsLensesWhereTheyAreAllowed) {
+  const std::string folder = write(NumberForm::kText);
+  const auto camera = [&](const std::string& text) {
+    dir.write("m1/cameras.txt", text);
+    return read_colmap(folder, ColmapLenses::kAny).camera;
+  };
+  const Camera simple = camera("1 SIMPLE_RADIAL 64 48 50 32 24 -0.1\n");
+  EXPECT_EQ(simple.distortion, Distortion::kRadialTangential);
+  EXPECT_EQ(simple.fy, 50);
+  EXPECT_EQ(simple.cx, 31.5);
+  EXPECT_EQ(simple.coefficients, (std::array<double, 5>{-0.1, 0, 0, 0, 0}));
+  EXPECT_EQ(camera("1 RADIAL 64 48 50 32 24 -0.1 0.02\n").coefficients[1], 0.02);
+  EXPECT_EQ(camera("1 OPENCV 64 48 50 51 32 24 1 2 3 4\n").coefficients,
+            (std::array<double, 5>{1, 2, 3, 4, 0}));
+  EXPECT_EQ(camera("1 OPENCV_FISHEYE 64 48 50 51 32 24 1 2 3 4\n").distortion,
+            Distortion::kEquidistant);
+  EXPECT_EQ(camera("1 PINHOLE 64 48 50 51 32 24\n").distortion, Distortion::kNone);
+  EXPECT_THAT(message_of<FileError>([&] { camera("1 FOV 64 48 50 51 32 24 1\n"); }),
+              HasSubstr("camera model FOV: PINHOLE, SIMPLE_PINHOLE, SIMPLE_RADIAL, RADIAL"));
+  EXPECT_THAT(message_of<FileError>([&] { camera("1 RADIAL 64 48 50 32 24 -0.1\n"); }),
+              HasSubstr("cameras.txt:1: RADIAL has 5 parameters"));
+}
+
+TEST_F(ColmapReader, LensesAreWrittenAsTheyAreRead) {
+  for (const Distortion lens : {Distortion::kRadialTangential, Distortion::kEquidistant})
+    for (const NumberForm form : {NumberForm::kBinary, NumberForm::kText}) {
+      model.camera.distortion = lens;
+      model.camera.coefficients = {0.1, -0.2, 0.003, 0.004, 0};
+      const Camera read = read_colmap(write(form), ColmapLenses::kAny).camera;
+      EXPECT_EQ(read.distortion, lens);
+      EXPECT_EQ(read.coefficients, model.camera.coefficients);
+      EXPECT_EQ(read.cx, model.camera.cx);
+    }
+}
+
 }  // namespace
 }  // namespace placegraph

@@ -122,5 +122,25 @@ TEST(GltfScene, RefusesWhatDoesNotFit) {
   EXPECT_THROW(to_gltf(scene, GltfForm::kGlb), ArgumentError);
 }
 
+TEST(GltfScene, SurfaceHasNormalsColoursAndIndices) {
+  GltfScene scene;
+  scene.surface.positions = {{0, 0, 0}, {1, 0, 0}, {0, 2, 0}};
+  scene.surface.normals.assign(3, {0, 0, 1});
+  scene.surface.rgb.assign(3, {9, 8, 7});
+  scene.surface.faces = {{0, 1, 2}};
+  const auto [description, bytes] = parts_of(to_gltf(scene, GltfForm::kGlb));
+  const json& primitive = description["meshes"][0]["primitives"][0];
+  EXPECT_EQ(primitive["mode"], 4);
+  const json& indices = description["accessors"][primitive["indices"].get<std::size_t>()];
+  EXPECT_EQ(indices["count"], 3);
+  EXPECT_EQ(indices["componentType"], 5125);
+  const json& view = description["bufferViews"][indices["bufferView"].get<std::size_t>()];
+  EXPECT_EQ(view["target"], 34963);
+  const auto at = view["byteOffset"].get<std::size_t>();
+  for (std::uint32_t i = 0; i < 3; ++i) EXPECT_EQ(number_at(bytes, at + 4 * i), i);
+  EXPECT_EQ(description["accessors"][primitive["attributes"]["NORMAL"].get<std::size_t>()]["count"],
+            3);
+}
+
 }  // namespace
 }  // namespace placegraph

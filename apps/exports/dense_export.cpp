@@ -1,0 +1,144 @@
+#include "apps/exports/dense_export.h"
+
+#include <fmt/format.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/io/internal/exports/gltf_scene.h>
+#include <placegraph/io/internal/exports/surface_ply.h>
+#include <placegraph/pipeline/internal/dense/consistent_depth.h>
+#include <placegraph/pipeline/internal/dense/depth_sources.h>
+#include <placegraph/pipeline/internal/dense/mesh_parts.h>
+#include <placegraph/pipeline/internal/dense/tsdf_volume.h>
+#include <placegraph/pipeline/internal/dense/voxel_cloud.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "apps/exports/keyframe_frames.h"
+#include "apps/support/output.h"
+#include "apps/support/progress.h"
+#include "apps/support/usage.h"
+
+namespace placegraph::apps {
+namespace {
+
+constexpr int kLeastPixels = 3;            ///< of a point of the cloud
+constexpr double kLeastPart_voxels = 400;  ///< area of a part of the mesh
+
+/// The side of the voxels that was asked for, or that fits the sensor.
+double voxel_side(const DenseOutputs& outputs, const StoredMap& stored, const DepthRange& range) {
+  constexpr double kOfSensor_m = 0.02, kOfDepth = 0.01;
+  if (outputs.voxel) return *outputs.voxel;
+  return stored.origin.sensor == Sensor::kRgbd ? kOfSensor_m : kOfDepth * range.median;
+}
+
+/// Checks the side of the voxels by what one keyframe shows at the median depth.
+void check_voxel(double side, const Camera& camera, const DepthRange& range) {
+  constexpr double kBytes = 100;  // of a voxel on the surface
+  require(std::isfinite(side) && side > 0, "--voxel: must be positive");
+  const double cells =
+      camera.width / camera.fx * camera.height / camera.fy * std::pow(range.median / side, 2);
+  require(cells * kBytes <= static_cast<double>(kMostVoxelBytes),
+          fmt::format("--voxel: {:g} is too small: one keyframe shows {:.0f} million voxels", side,
+                      cells / 1e6));
+}
+
+std::unique_ptr<DepthOfKeyframe> depth_of(const StoredMap& stored, PosedImages images,
+                                          const DepthRange& range) {
+  switch (stored.origin.sensor) {
+    case Sensor::kRgbd:
+      return depth_by_sensor(std::move(images));
+    case Sensor::kStereo:
+      return depth_by_stereo(std::move(images), range);
+    case Sensor::kMono:
+      break;
+  }
+  return depth_by_sweep(std::move(images), range);
+}
+
+const char* name_of(Sensor sensor) {
+  switch (sensor) {
+    case Sensor::kRgbd:
+      return "depth images";
+    case Sensor::kStereo:
+      return "stereo matching";
+    case Sensor::kMono:
+      break;
+  }
+  return "planes swept between keyframes";
+}
+
+void write_mesh(const std::string& path, const TriangleMesh& mesh, NumberForm form,
+                const std::vector<std::string>& comments) {
+  if (std::filesystem::path(path).extension() == ".glb") {
+    GltfScene scene;
+    scene.title = comments.front();
+    scene.surface = mesh;
+    write_file(path, to_gltf(scene, GltfForm::kGlb));
+    return;
+  }
+  write_file(path, to_ply(mesh, form, comments));
+}
+
+}  // namespace
+
+DenseSummary write_dense(const DenseOutputs& outputs, const StoredMap& stored, int component) {
+  const Stopwatch stopwatch;
+  const MapGeometry geometry = geometry_of(stored.map, component);
+  const DepthRange range = depth_range_of(geometry);
+  if (range.near == 0)
+    throw NoResult((outputs.cloud.empty() ? outputs.mesh : outputs.cloud) +
+                   ": the range of depths is unknown: no landmark was observed");
+  const double side = voxel_side(outputs, stored, range);
+  check_voxel(side, stored.origin.calibration.value().camera, range);
+
+  ConsistentDepth depths(depth_of(stored, posed_images(stored, geometry), range));
+  VoxelCloud cloud(side);
+  TsdfVolume volume(side);
+  Progress progress("dense depth", static_cast<std::int64_t>(depths.size()));
+  for (std::size_t i = 0; i < depths.size(); ++i) {
+    const KeyframeDepth depth = depths.of(i);
+    if (!outputs.cloud.empty()) cloud.add(depth);
+    if (!outputs.mesh.empty()) volume.add(depth);
+    progress.update(static_cast<std::int64_t>(i + 1));
+  }
+
+  DenseSummary summary{.source = name_of(stored.origin.sensor),
+                       .keyframes = depths.size(),
+                       .voxel = side,
+                       .metric = stored.map.metric,
+                       .points = {},
+                       .vertices = {},
+                       .triangles = {},
+                       .cpu_s = 0};
+  const std::vector<std::string> comments = {
+      fmt::format("surfaces of component {} of a map by placegraph", component),
+      stored.map.metric ? "lengths in metres" : "lengths at an arbitrary scale"};
+  if (!outputs.cloud.empty()) {
+    const std::vector<DensePoint> points = cloud.points(kLeastPixels);
+    if (points.empty()) throw NoResult(outputs.cloud + ": no depth on which keyframes agree");
+    write_file(outputs.cloud, to_ply(points, outputs.form, comments));
+    summary.points = points.size();
+  }
+  if (!outputs.mesh.empty()) {
+    TriangleMesh mesh = volume.mesh();
+    remove_small_parts(mesh, kLeastPart_voxels * side * side);
+    if (mesh.faces.empty()) throw NoResult(outputs.mesh + ": no depth on which keyframes agree");
+    write_mesh(outputs.mesh, mesh, outputs.form, comments);
+    summary.vertices = mesh.positions.size();
+    summary.triangles = mesh.faces.size();
+  }
+  summary.cpu_s = stopwatch.cpu_ms() / 1e3;
+  return summary;
+}
+
+std::string to_text(const DenseSummary& summary) {
+  std::string text =
+      fmt::format("dense: {} keyframes by {}, voxels of {:.3g} {}", summary.keyframes,
+                  summary.source, summary.voxel, summary.metric ? "m" : "units of the map");
+  if (summary.points) text += fmt::format(", {} points", *summary.points);
+  if (summary.vertices)
+    text += fmt::format(", {} vertices and {} triangles", *summary.vertices, *summary.triangles);
+  return text + fmt::format(", {:.1f} s CPU\n", summary.cpu_s);
+}
+
+}  // namespace placegraph::apps

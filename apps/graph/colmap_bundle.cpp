@@ -1,0 +1,72 @@
+#include "apps/graph/colmap_bundle.h"
+
+#include <fmt/format.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/json_text.h>
+#include <placegraph/io/internal/exports/colmap_reader.h>
+#include <placegraph/pipeline/internal/map/colmap_bundle.h>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/support/choice.h"
+#include "apps/support/colmap_folder.h"
+#include "apps/support/output.h"
+#include "apps/support/usage.h"
+
+namespace placegraph::apps {
+
+ColmapBundleResult colmap_bundle(const BundleArguments& arguments) {
+  BundleOptions options = arguments.options;
+  options.kernel.kind =
+      choice<RobustKernel::Kind>("--kernel", robust_kernel_names(), arguments.kernel);
+  options.check();
+  if (!arguments.out.empty()) require_free_folder(arguments.out, arguments.force);
+  const ColmapModel start = read_colmap(arguments.in, ColmapLenses::kAny);
+  const Stopwatch stopwatch;
+  const ColmapBundleReport report = adjust_colmap(start, options);
+  if (!report.outcome) throw NoResult(arguments.in + ": " + report.outcome.reason);
+  if (!arguments.out.empty())
+    write_colmap_folder(arguments.out, report.model, colmap_form(arguments.in));
+  return {.in = arguments.in,
+          .out = arguments.out,
+          .images = start.images.size(),
+          .points = start.points.size(),
+          .observations = report.observations,
+          .cost_initial = report.cost_initial,
+          .cost = report.cost_final,
+          .error_before_px = report.error_before_px,
+          .error_px = report.error_px,
+          .iterations = report.iterations,
+          .cpu_ms = stopwatch.cpu_ms(),
+          .wall_ms = stopwatch.wall_ms()};
+}
+
+std::string to_json(const ColmapBundleResult& result) {
+  nlohmann::ordered_json json;
+  json["in"] = result.in;
+  json["images"] = result.images;
+  json["points"] = result.points;
+  json["observations"] = result.observations;
+  json["cost_initial"] = result.cost_initial;
+  json["cost"] = result.cost;
+  json["error_before_px"] = result.error_before_px;
+  json["error_px"] = result.error_px;
+  json["iterations"] = result.iterations;
+  json["cpu_ms"] = result.cpu_ms;
+  json["wall_ms"] = result.wall_ms;
+  return json_text(json, 2);
+}
+
+std::string to_text(const ColmapBundleResult& result) {
+  return fmt::format("{}: {} images, {} points, {} observations\n", result.in, result.images,
+                     result.points, result.observations) +
+         fmt::format(
+             "  half the sum of squares {:.6f} -> {:.6f}, mean reprojection error {:.4f} -> "
+             "{:.4f} px\n",
+             result.cost_initial, result.cost, result.error_before_px, result.error_px) +
+         fmt::format("  {} iterations, {:.1f} ms CPU, {:.1f} ms wall{}\n", result.iterations,
+                     result.cpu_ms, result.wall_ms,
+                     result.out.empty() ? "" : "; written to " + result.out);
+}
+
+}  // namespace placegraph::apps

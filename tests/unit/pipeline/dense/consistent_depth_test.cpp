@@ -1,0 +1,75 @@
+#include <gtest/gtest.h>
+#include <placegraph/pipeline/internal/dense/consistent_depth.h>
+
+#include "tests/unit/pipeline/dense/rendered_depth.h"
+
+namespace placegraph {
+namespace {
+
+using test::GivenDepth;
+using test::plane_depth;
+using test::rendered_depth;
+
+/// A wall at z = 2, seen from positions 5 cm apart.
+std::vector<KeyframeDepth> views_of_wall(int count) {
+  std::vector<KeyframeDepth> views;
+  for (int i = 0; i < count; ++i)
+    views.push_back(rendered_depth(SE3(SO3(), {0.05 * i, 0, 0}), 0.002, plane_depth));
+  return views;
+}
+
+TEST(ConsistentDepth, KeepsWhatThreeViewsSee) {
+  ConsistentDepth depth(std::make_unique<GivenDepth>(views_of_wall(3)));
+  const KeyframeDepth seen = depth.of(1);
+  EXPECT_GT(cv::countNonZero(seen.depth), 0.9 * seen.depth.total());
+  EXPECT_NEAR(seen.depth.at<float>(60, 80), 2, 1e-5);
+  EXPECT_LT(
+      (Eigen::Vector3f(seen.normal.at<cv::Vec3f>(60, 80).val) - Eigen::Vector3f(0, 0, -1)).norm(),
+      1e-4);
+}
+
+TEST(ConsistentDepth, TwoViewsAreTooFew) {
+  ConsistentDepth depth(std::make_unique<GivenDepth>(views_of_wall(2)));
+  EXPECT_EQ(cv::countNonZero(depth.of(0).depth), 0);
+}
+
+TEST(ConsistentDepth, DropsWhatOthersSeeThrough) {
+  std::vector<KeyframeDepth> views = views_of_wall(5);
+  for (const std::size_t i : {0, 1, 2}) {  // a ghost in front of the wall, in three of five
+    cv::Mat part = views[i].depth(cv::Rect(60, 40, 40, 40));
+    part.setTo(1.5F);
+  }
+  views[3].depth.setTo(2), views[4].depth.setTo(2);
+  // The ghost is at the same pixels, hence at no one place: nobody agrees with it.
+  ConsistentDepth depth(std::make_unique<GivenDepth>(views));
+  const KeyframeDepth seen = depth.of(2);
+  EXPECT_EQ(seen.depth.at<float>(60, 80), 0);
+  EXPECT_GT(seen.depth.at<float>(60, 20), 0);
+}
+
+TEST(ConsistentDepth, WhatIsHiddenIsNoContradiction) {
+  std::vector<KeyframeDepth> views = views_of_wall(6);
+  for (const std::size_t i : {3, 4, 5}) views[i].depth.setTo(0.5F);  // something stands before them
+  ConsistentDepth depth(std::make_unique<GivenDepth>(views));
+  EXPECT_NEAR(depth.of(1).depth.at<float>(60, 80), 2, 1e-5);
+}
+
+TEST(ConsistentDepth, TakesTheMeanOfThoseThatAgree) {
+  std::vector<KeyframeDepth> views = views_of_wall(3);
+  views[0].depth.setTo(1.98F);
+  views[2].depth.setTo(1.98F);
+  ConsistentDepth depth(std::make_unique<GivenDepth>(views));
+  const double mean = depth.of(1).depth.at<float>(60, 80);
+  EXPECT_NEAR(mean, 3 / (1 / 2.0 + 2 / 1.98), 1e-3);
+}
+
+TEST(ConsistentDepth, ReadsEveryImageOnce) {
+  auto source = std::make_unique<GivenDepth>(views_of_wall(20));
+  const GivenDepth& given = *source;
+  ConsistentDepth depth(std::move(source));
+  for (std::size_t i = 0; i < depth.size(); ++i) depth.of(i);
+  EXPECT_EQ(given.reads, 20);
+}
+
+}  // namespace
+}  // namespace placegraph

@@ -1,0 +1,79 @@
+#include <placegraph/pipeline/internal/map/colmap_bundle.h>
+
+#include "tests/support/scenes/observed_map.h"
+#include "tests/support/scenes/poses.h"
+
+namespace placegraph {
+namespace {
+
+constexpr int kViews = 5, kPoints = 60;
+
+/// A model with exact observations of a camera, and noise in poses and points.
+class ColmapBundleTest : public testing::Test {
+ protected:
+  ColmapModel disturbed(const Camera& camera) {
+    const test::PointScene scene =
+        test::make_scene(test::pinhole(640, 480, 500), test::sideways(kViews), kPoints, random);
+    ColmapModel model;
+    model.camera = camera;
+    for (std::size_t k = 0; k < kPoints; ++k)
+      model.points.push_back({k + 1, scene.points_ref[k], {}, -1});
+    for (std::size_t i = 0; i < kViews; ++i) {
+      ColmapModel::Image& image = model.images.emplace_back();
+      image.id = static_cast<std::uint32_t>(i + 1);
+      image.name = std::to_string(i) + ".png";
+      image.T_world_cam = scene.T_ref_cam[i];
+      for (std::size_t k = 0; k < kPoints; ++k)
+        if (const auto px = camera.project(scene.T_ref_cam[i].inverse() * scene.points_ref[k]))
+          image.observations.push_back({*px, static_cast<int>(k)});
+      image.T_world_cam = image.T_world_cam * test::random_motion(random, 0.01, 0.004);
+    }
+    for (ColmapModel::Point& point : model.points) point.p_world *= 1 + random.normal(0, 0.01);
+    return model;
+  }
+  Random random{7};
+};
+
+TEST_F(ColmapBundleTest, FindsWhatExplainsExactObservations) {
+  Camera camera = test::pinhole(640, 480, 500);
+  for (const Distortion lens :
+       {Distortion::kNone, Distortion::kRadialTangential, Distortion::kEquidistant}) {
+    camera.distortion = lens;
+    if (lens != Distortion::kNone) camera.coefficients = {-0.1, 0.02, 0.001, -0.001};
+    const ColmapModel start = disturbed(camera);
+    const ColmapBundleReport report = adjust_colmap(start, {});
+    ASSERT_TRUE(report.outcome) << report.outcome.reason;
+    EXPECT_GT(report.error_before_px, 1);  // 0.004 rad are 2 px
+    EXPECT_LT(report.error_px, 1e-3);
+    EXPECT_GT(report.cost_initial, 100);
+    EXPECT_LT(report.cost_final, 1e-4);
+    EXPECT_GT(report.iterations, 0);
+    EXPECT_GT(report.observations, std::size_t{kViews * kPoints / 2});
+    EXPECT_EQ(report.model.images[3].name, "3.png");
+    EXPECT_EQ(report.model.camera.distortion, lens);
+    for (const ColmapModel::Point& point : report.model.points)
+      EXPECT_TRUE(point.error_px >= 0 && point.error_px < 1e-2) << point.error_px;
+  }
+}
+
+TEST_F(ColmapBundleTest, AKernelHoldsAFalseObservation) {
+  ColmapModel start = disturbed(test::pinhole(640, 480, 500));
+  start.images[1].observations[4].px[0] += 40;
+  BundleOptions options;
+  const double plain = adjust_colmap(start, options).cost_final;
+  options.kernel = {RobustKernel::Kind::kCauchy, 1};
+  const ColmapBundleReport robust = adjust_colmap(start, options);
+  EXPECT_GT(plain, 100);
+  EXPECT_LT(robust.cost_final, 10);
+}
+
+TEST_F(ColmapBundleTest, NeedsObservations) {
+  ColmapModel model = disturbed(test::pinhole(640, 480, 500));
+  for (ColmapModel::Image& image : model.images) image.observations.clear();
+  const ColmapBundleReport report = adjust_colmap(model, {});
+  EXPECT_EQ(report.outcome.code, Outcome::Code::kTooFewData);
+  EXPECT_EQ(report.model.images.size(), std::size_t{kViews});
+}
+
+}  // namespace
+}  // namespace placegraph
