@@ -5,7 +5,12 @@ import type { ReportData } from "./data/model";
 import { watchPlaying } from "./page/actions";
 import { el } from "./page/dom";
 import { header } from "./page/header";
-import { helpDialog } from "./page/help";
+import { replaceReport } from "./edit/replace_report";
+import { editedLoop } from "./edit/editor";
+import { watchUnsaved } from "./edit/edit_panel";
+import { readLiveStart } from "./live/live_start";
+import { type Served, startLive } from "./live/start";
+import { REPORT_MOUSE, helpDialog } from "./page/help";
 import { bindings, watchKeys } from "./page/keys";
 import { splitter } from "./page/splitter";
 import { startState } from "./page/start_state";
@@ -55,13 +60,15 @@ function showScene(page: HTMLElement, report: ReportData, store: Store): SceneVi
   return scene;
 }
 
-function showReport(page: HTMLElement, report: ReportData): void {
+function showReport(page: HTMLElement, report: ReportData, served: Served | null): void {
   document.title = `${report.title} – ${report.program}`;
-  const store = new Store(startState(report, preferredTheme()));
+  const store = new Store(startState(report, served?.theme ?? preferredTheme()));
   watchTheme(store);
-  const help = helpDialog();
+  const help = helpDialog(REPORT_MOUSE);
+  const editor = served?.editor ?? null;
+  if (editor) editor.onReport = (next, edit) => replaceReport(report, store, next, editedLoop(edit));
   page.className = "report";
-  page.append(header(report, store, help.toggle));
+  page.append(header(report, store, help.toggle, editor ? watchUnsaved(editor) : null));
   const scene = showScene(page, report, store);
   if (report.runs.length > 0) {
     const timeline = new Timeline(report, store);
@@ -76,7 +83,7 @@ function showReport(page: HTMLElement, report: ReportData): void {
     );
     watchPlaying(report, store);
   }
-  const context = { report, store };
+  const context = { report, store, served };
   page.append(
     tabs(store, {
       overview: overviewPanel(context),
@@ -94,18 +101,25 @@ function showReport(page: HTMLElement, report: ReportData): void {
   watchKeys(list);
 }
 
+function showIfAny(page: HTMLElement, report: ReportData, served: Served | null): void {
+  if (report.runs.length > 0 || report.graphs.length > 0 || report.pictures.length > 0)
+    showReport(page, report, served);
+  else showMessage(page, "The report in this page holds no run, no pose graph and no picture.");
+}
+
 function start(page: HTMLElement): void {
   try {
+    const live = readLiveStart(document);
     const report = loadReport(document);
-    if (report === null) {
+    if (live !== null) {
+      startLive(page, live, showIfAny, showMessage);
+    } else if (report === null) {
       showMessage(
         page,
         'This page holds no report. The command "placegraph report OUT -o report.html" writes a page with the report of a run.',
       );
-    } else if (report.runs.length === 0 && report.graphs.length === 0 && report.pictures.length === 0) {
-      showMessage(page, "The report in this page holds no run, no pose graph and no picture.");
     } else {
-      showReport(page, report);
+      showIfAny(page, report, null);
     }
   } catch (error) {
     showMessage(

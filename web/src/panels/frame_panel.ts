@@ -3,12 +3,14 @@ import { loopsAt, stageOf, stageSentence } from "../data/loops";
 import { label, type RunData } from "../data/model";
 import { keyframeAt } from "../data/run_view";
 import { lengthUnit, series } from "../data/series";
+import { FrameView } from "../live/frame_view";
 import { loopSelection } from "../page/actions";
 import { button, el, facts, isPicture } from "../page/dom";
 import type { Panel, PanelContext } from "./panel";
 
-export function framePanel({ report, store }: PanelContext): Panel {
+export function framePanel({ report, store, served }: PanelContext): Panel {
   let figure: HTMLElement | null = null;
+  const full = served ? new FrameView(store) : null;
   return {
     title: "Frame",
     available: report.runs.length > 0,
@@ -18,7 +20,11 @@ export function framePanel({ report, store }: PanelContext): Panel {
       const { row } = store.state;
       if (run.frames.count === 0) return el("p", {}, "This run has no frames.");
       const id = run.frames.id[row];
-      figure = thumbnailOf(run, row, figure);
+      if (full === null) figure = thumbnailOf(run, row, figure);
+      else {
+        full.show(run, store.state.run, row);
+        figure = full.element;
+      }
       return el(
         "div",
         {},

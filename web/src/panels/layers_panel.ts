@@ -125,6 +125,8 @@ function layerExists(report: ReportData, run: RunData, name: LayerName): boolean
   switch (name) {
     case "truth":
       return run.frames.truth !== null;
+    case "before":
+      return run.before !== undefined;
     case "frusta":
       return run.keyframes.count > 0;
     case "images":

@@ -28,6 +28,8 @@ export class Viewport {
   beforeDraw: () => void = () => undefined;
   private readonly renderer: WebGLRenderer;
   private readonly quality: Quality;
+  private readonly observer: ResizeObserver;
+  private disposed = false;
   private moving = false;
   private held = false;
   private watching = false;
@@ -59,8 +61,20 @@ export class Viewport {
       this.hold(true);
     });
     this.controls.addEventListener("end", () => this.hold(false));
-    new ResizeObserver(() => this.resize()).observe(parent);
+    this.observer = new ResizeObserver(() => this.resize());
+    this.observer.observe(parent);
     this.resize();
+  }
+
+  /** Frees the graphics; nothing is drawn any more. */
+  dispose(): void {
+    window.clearTimeout(this.stillTimer);
+    this.disposed = true;
+    this.observer.disconnect();
+    this.controls.dispose();
+    this.renderer.dispose();
+    this.renderer.forceContextLoss();
+    this.canvas.remove();
   }
 
   get level(): QualityLevel | null {
@@ -149,13 +163,14 @@ export class Viewport {
 
   /** Follows the animation frames while something moves, whether or not they draw. */
   private watchSpeed(now: number): void {
-    this.watching = this.moving;
-    if (!this.moving) return;
+    this.watching = this.moving && !this.disposed;
+    if (!this.watching) return;
     if (this.quality.note(now)) this.applyQuality();
     requestAnimationFrame((next) => this.watchSpeed(next));
   }
 
   private draw(): void {
+    if (this.disposed) return;
     this.beforeDraw();
     this.renderer.render(this.scene, this.camera);
     if (this.drawn++ === 0) performance.mark("first-picture");
