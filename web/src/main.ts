@@ -35,6 +35,12 @@ function showMessage(page: HTMLElement, text: string): void {
   page.replaceChildren(el("p", { role: "alert" }, text));
 }
 
+/** Pixels at the left of the scene that the open layers cover, if they leave enough for the map. */
+function coveredBy(layers: HTMLDetailsElement): number {
+  const width = layers.offsetLeft + layers.offsetWidth;
+  return layers.open && width < 0.4 * (layers.parentElement?.clientWidth ?? 0) ? width : 0;
+}
+
 /** The scene with its tools; without WebGL 2 a sentence in its place, and the rest of the page works. */
 function showScene(page: HTMLElement, report: ReportData, store: Store): SceneView | null {
   if (graphics() === "none") {
@@ -54,7 +60,9 @@ function showScene(page: HTMLElement, report: ReportData, store: Store): SceneVi
   const scene = new SceneView(page, report, store);
   scene.element.append(sceneTools(report, store, scene));
   if (report.runs.length > 0) {
-    scene.element.append(layersPanel(report, store));
+    const layers = layersPanel(report, store);
+    scene.element.append(layers);
+    new ResizeObserver(() => scene.viewport.setInset(coveredBy(layers))).observe(layers);
     watchPointer(scene, report, store);
   }
   return scene;

@@ -2,7 +2,7 @@
 import type { ServerResponse } from "node:http";
 import { decodeReport } from "../src/data/decode";
 import type { RunData } from "../src/data/model";
-import { keyframeAt } from "../src/data/run_view";
+import { keyframeAt, keyframeOf } from "../src/data/run_view";
 import type { Report, Run } from "../src/data/report";
 import { column, labels } from "./encode";
 import { type Answer, type Site, json, refusal } from "./mock_server";
@@ -57,7 +57,7 @@ function frameFile(run: RunData, path: string): Answer | null {
   const row = run.frames.rowOf.get(Number(match?.[1]));
   if (!match || row === undefined) return null;
   if (match[2] === "image.jpg") return { status: 200, type: "image/png", body: imageOf(run, row) };
-  if (run.frames.keyframe[row] < 0) return refusal(404, `Frame ${row} is no keyframe.`);
+  if (keyframeOf(run, row) < 0) return refusal(404, `Frame ${row} is no keyframe.`);
   return json({ points: column("f32", observations(run, row), 3) });
 }
 
@@ -249,7 +249,7 @@ export class RunSite implements Site {
       inliers: lost ? 0 : frames.inliers[row],
       confidence: lost ? null : 0.9,
       pose: lost ? null : this.pose(row),
-      keyframe: frames.keyframe[row] >= 0,
+      keyframe: keyframeOf(this.run, row) >= 0,
       reason: lost ? "too few points agree with the motion" : "",
     });
     for (const loop of LOOPS.filter(({ query }) => query === frames.id[row])) this.send("loop", loopJson(loop));

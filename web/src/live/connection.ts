@@ -4,8 +4,8 @@ import type { LiveRun } from "./live_run";
 
 export type Link = "connecting" | "live" | "lost";
 
-/** Landmarks come with snapshots only: one is read this often, and more seldom where reading takes long. */
-const REFRESH_MS = 2000;
+/** A snapshot is read after moves of the map, and this often; more seldom where reading takes long. */
+const REFRESH_MS = 5000;
 const READING_SHARE = 0.1;
 const RETRY_MS = 2000;
 
@@ -19,6 +19,7 @@ export class Connection {
   private gaps = 0;
   private timer = 0;
   private framesRead = -1;
+  private notBefore = -Infinity;
   private closed = false;
 
   constructor(
@@ -42,6 +43,7 @@ export class Connection {
     });
     source.addEventListener("error", () => {
       if (this.closed) return;
+      if (this.run.phase === "done") return this.close();
       this.link = "lost";
       this.onChange(null);
       // The browser tries again by itself unless the answer was a refusal.
@@ -49,6 +51,7 @@ export class Connection {
     });
   }
 
+  /** Also called when the program ends after the run: it does so when no page follows its events. */
   close(): void {
     this.closed = true;
     this.source?.close();
@@ -69,10 +72,14 @@ export class Connection {
 
   /** Reads snapshots, one at a time, until one is new enough. */
   private async readState(): Promise<void> {
-    if (this.reading || this.closed) return;
-    this.reading = true;
+    if (this.reading || this.closed || this.run.phase === "done") return;
     window.clearTimeout(this.timer);
     const begin = performance.now();
+    if (begin < this.notBefore) {
+      this.timer = window.setTimeout(() => void this.readState(), this.notBefore - begin);
+      return;
+    }
+    this.reading = true;
     const { gaps } = this;
     let wait = REFRESH_MS;
     try {
@@ -80,12 +87,13 @@ export class Connection {
       if (this.run.take(snapshot)) this.framesRead = this.run.frames.count;
       if (gaps !== this.gaps) this.run.markStale();
       if (this.run.stale) wait = 100;
-      else wait = Math.max(REFRESH_MS, (performance.now() - begin) / READING_SHARE);
     } catch (error) {
       this.fault = error instanceof Error ? error.message : "The state of the run cannot be read.";
     }
     this.reading = false;
     if (this.closed) return;
+    const now = performance.now();
+    this.notBefore = now + Math.min((now - begin) / READING_SHARE, REFRESH_MS);
     this.onChange(null);
     this.timer = window.setTimeout(() => this.refresh(), wait);
   }

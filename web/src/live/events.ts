@@ -21,6 +21,8 @@ export interface FrameEvent {
   pose: number[] | null;
   keyframe: boolean;
   reason: string;
+  /** Positions of landmarks that are new, three values each. */
+  landmarks: Values | null;
 }
 
 export interface LiveLoop {
@@ -84,6 +86,7 @@ function readFrame(json: Record<string, unknown>): FrameEvent {
     pose,
     keyframe: asBoolean(...at("keyframe")),
     reason: asText(json["reason"] ?? "", "frame.reason"),
+    landmarks: orNull(...at("landmarks"), (v, where) => readColumn(v, where, 3).values),
   };
 }
 

@@ -2,7 +2,7 @@
 import { categoryColour, cssColour } from "../data/colour_scale";
 import { plural } from "../data/format";
 import type { RunData } from "../data/model";
-import { keyframeAt } from "../data/run_view";
+import { keyframeAt, keyframeOf } from "../data/run_view";
 import { el, isPicture } from "../page/dom";
 import type { Store } from "../page/state";
 import { CURSOR } from "../scene/cursor_layer";
@@ -53,7 +53,7 @@ export class FrameView {
     while (this.wanted !== null && this.shown !== this.wanted) {
       const wanted = this.wanted;
       const id = wanted.run.frames.id[wanted.row];
-      const isKeyframe = wanted.run.frames.keyframe[wanted.row] >= 0;
+      const isKeyframe = keyframeOf(wanted.run, wanted.row) >= 0;
       try {
         const [bitmap, observations] = await Promise.all([
           frameImage(wanted.index, id).then((blob) => createImageBitmap(blob)),

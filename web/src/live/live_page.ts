@@ -44,6 +44,7 @@ export class LivePage {
   private theme: Theme = preferredTheme();
   private pending = false;
   private ended = false;
+  private closed = false;
 
   constructor(
     private readonly page: HTMLElement,
@@ -56,7 +57,7 @@ export class LivePage {
       if (event?.kind === "loop" && event.loop.accepted)
         this.scene?.noteLoop(`${event.loop.query} ${event.loop.match}`);
       if (event?.kind === "frame" || event === null) this.panel.image.wake();
-      this.updateSoon();
+      if (!this.closed) this.updateSoon();
     });
     this.pause = button(
       "❚❚ Pause",
@@ -84,9 +85,9 @@ export class LivePage {
     this.update();
   }
 
-  /** The theme that the user has chosen. */
+  /** Ends the page, but for the stream of events: the program serves images as long as somebody follows it. Returns the theme. */
   close(): Theme {
-    this.connection.close();
+    this.closed = true;
     this.panel.close();
     this.scene?.dispose();
     this.endKeys();
@@ -161,7 +162,6 @@ export class LivePage {
   private updateSoon(): void {
     if (this.run.phase === "done" && !this.ended) {
       this.ended = true;
-      this.connection.close();
       this.onDone();
     }
     if (this.pending) return;

@@ -1,5 +1,5 @@
 /** The side panel of a live run: the image, the newest frame, the times, what has happened. */
-import { formatNumber, formatPercent } from "../data/format";
+import { formatCount, formatNumber, formatPercent } from "../data/format";
 import { el, facts } from "../page/dom";
 import type { FrameEvent, LiveEvent } from "./events";
 import { LiveImageView } from "./live_image";
@@ -102,7 +102,11 @@ function factsOf(frame: FrameEvent, run: LiveRun): [string, string][] {
         .join(", "),
     ]);
   const accepted = [...run.loops.values()].filter((loop) => loop.accepted).length;
-  rows.push(["Landmarks", String(run.landmarks.length / 3)], ["Loops accepted", String(accepted)]);
+  rows.push(
+    ["Landmarks", formatCount(run.landmarks.count)],
+    ["Loops accepted", formatCount(accepted)],
+    ["Loops refused", formatCount(run.loops.size - accepted)],
+  );
   return rows;
 }
 
@@ -114,13 +118,12 @@ export function sentenceOf(event: LiveEvent, stateBefore: string): string | null
         ? stateText(event.frame)
         : null;
     case "loop": {
-      const { query, match, accepted, stage, inliers } = event.loop;
-      const ends = `of frames ${query} and ${match}`;
+      const { query, match, accepted, inliers } = event.loop;
       const found = Number.isFinite(inliers) ? `, ${formatNumber(inliers)} inliers` : "";
-      return accepted ? `The loop ${ends} is accepted${found}.` : `The loop ${ends} is refused: ${stage}${found}.`;
+      return accepted ? `The loop of frames ${query} and ${match} is accepted${found}.` : null;
     }
     case "moved":
-      return "The map has moved.";
+      return null;
     case "reset":
       return "The run has begun again, or this page was too slow: its state is read again.";
     case "control":

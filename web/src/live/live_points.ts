@@ -1,8 +1,8 @@
 import { BufferAttribute, BufferGeometry, Points, PointsMaterial, type Quaternion, Vector3 } from "three";
-import type { Values } from "../data/column";
 import { robustRange, scaleColour, shareOf } from "../data/colour_scale";
 import type { QualityLevel } from "../scene/quality";
 import { type Viewport, pixelRatio } from "../scene/viewport";
+import type { LandmarkList } from "./landmark_list";
 
 /** More landmarks are thinned evenly. */
 const MOST = 200000;
@@ -20,9 +20,8 @@ export class LivePoints {
     this.setQuality(null);
   }
 
-  show(landmarks: Values, toScene: Quaternion): void {
-    const stride = Math.max(1, Math.ceil(landmarks.length / 3 / MOST));
-    const rows = finiteRows(landmarks, stride);
+  show({ position: landmarks, count }: LandmarkList, toScene: Quaternion): void {
+    const rows = finiteRows(landmarks, count, Math.max(1, Math.ceil(count / MOST)));
     const up = new Vector3(0, 1, 0).applyQuaternion(toScene.clone().invert());
     const heights = Float32Array.from(rows, (row) => {
       return up.x * landmarks[3 * row] + up.y * landmarks[3 * row + 1] + up.z * landmarks[3 * row + 2];
@@ -54,9 +53,9 @@ function clamped(share: number): number {
 }
 
 /** Every `stride`-th row with a position, in an order in which neighbours are far apart. */
-function finiteRows(landmarks: Values, stride: number): number[] {
+function finiteRows(landmarks: Float32Array, count: number, stride: number): number[] {
   const all: number[] = [];
-  for (let row = 0; 3 * row + 2 < landmarks.length; row += stride) {
+  for (let row = 0; row < count; row += stride) {
     if (Number.isFinite(landmarks[3 * row])) all.push(row);
   }
   const step = all.length % STEP === 0 ? 1 : STEP;

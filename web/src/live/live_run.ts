@@ -1,6 +1,6 @@
-import type { Values } from "../data/column";
 import type { FrameEvent, LiveEvent, LiveLoop, Snapshot, Stage } from "./events";
 import { FrameLog } from "./frame_log";
+import { LandmarkList } from "./landmark_list";
 
 /** Refused loops that are kept; a long run has many, and they only show where was searched. */
 const REFUSED_KEPT = 2000;
@@ -15,7 +15,7 @@ export type Phase = "running" | "done";
 export class LiveRun {
   readonly frames = new FrameLog();
   readonly loops = new Map<string, LiveLoop>();
-  landmarks: Values = new Float32Array();
+  readonly landmarks = new LandmarkList();
   stages: Stage[] = [];
   last: FrameEvent | null = null;
   total = 0;
@@ -70,7 +70,8 @@ export class LiveRun {
     this.wanted = snapshot.version;
     this.old = false;
     this.frames.merge(snapshot);
-    this.landmarks = snapshot.landmarks;
+    this.landmarks.clear();
+    this.landmarks.add(snapshot.landmarks);
     for (const loop of snapshot.loops) this.addLoop(loop);
     this.total = Math.max(this.total, snapshot.total);
     this.done = Math.max(this.done, snapshot.done);
@@ -94,6 +95,7 @@ export class LiveRun {
 
   private addFrame(frame: FrameEvent): void {
     this.frames.put(frame);
+    if (frame.landmarks) this.landmarks.add(frame.landmarks);
     this.last = frame;
     this.total = frame.total;
     this.done = Math.max(this.done, frame.index + 1);
@@ -114,7 +116,7 @@ export class LiveRun {
   private clear(): void {
     this.frames.clear();
     this.loops.clear();
-    this.landmarks = new Float32Array();
+    this.landmarks.clear();
     this.last = null;
     this.done = 0;
     this.phase = "running";

@@ -24,6 +24,7 @@ const TRAJECTORY = categoryColour(0);
 /** A new loop is drawn wider for this time. */
 const NEW_MS = 2500;
 const SOFTWARE_PACE_MS = 200;
+const LANDMARKS_MS = 400;
 
 /** The map of a run that goes on. */
 export class LiveScene {
@@ -42,6 +43,7 @@ export class LiveScene {
   private readonly followed = new Vector3();
   private seen = { moves: -1, resets: 0, shifts: 0, component: -1, upright: false };
   private newest = { key: "", since: -Infinity };
+  private shownLandmarks = { count: 0, moves: -1, upright: false, at: -Infinity };
   private pending = false;
   private timer = 0;
 
@@ -105,7 +107,6 @@ export class LiveScene {
     } else if (run.moves !== seen.moves) {
       this.motion.start(run.frames, performance.now());
     }
-    if (run.moves !== seen.moves) this.points.show(run.landmarks, this.group.quaternion);
     Object.assign(seen, {
       moves: run.moves,
       resets: run.resets,
@@ -113,7 +114,19 @@ export class LiveScene {
       component: run.component,
     });
     if (!seen.upright) this.stand();
+    this.showLandmarks();
     this.draw();
+  }
+
+  /** New landmarks are added some times a second. */
+  private showLandmarks(): void {
+    const { run, shownLandmarks: shown } = this;
+    const now = performance.now();
+    const same =
+      shown.count === run.landmarks.count && shown.moves === run.moves && shown.upright === this.seen.upright;
+    if (same || now - shown.at < LANDMARKS_MS) return;
+    this.shownLandmarks = { count: run.landmarks.count, moves: run.moves, upright: this.seen.upright, at: now };
+    this.points.show(run.landmarks, this.group.quaternion);
   }
 
   dispose(): void {
@@ -129,7 +142,6 @@ export class LiveScene {
       const [x, y, z, w] = frames.pose.subarray(7 * row + 3, 7 * row + 7);
       this.group.quaternion.set(1, 0, 0, 0).multiply(new Quaternion(x, y, z, w).normalize().invert());
       this.group.updateMatrixWorld(true);
-      this.points.show(this.run.landmarks, this.group.quaternion);
       this.seen.upright = true;
       return;
     }

@@ -30,6 +30,7 @@ export class Viewport {
   private readonly quality: Quality;
   private readonly observer: ResizeObserver;
   private disposed = false;
+  private inset = 0;
   private moving = false;
   private held = false;
   private watching = false;
@@ -115,6 +116,13 @@ export class Viewport {
     if (this.moving) this.move();
   }
 
+  /** Pixels at the left that something covers: the view is centred in the rest. */
+  setInset(pixels: number): void {
+    if (pixels === this.inset) return;
+    this.inset = pixels;
+    this.resize();
+  }
+
   setBackground(css: string): void {
     this.renderer.setClearColor(css, 1);
     this.request();
@@ -123,7 +131,8 @@ export class Viewport {
   /** Looks at a sphere from `direction` (y is up), so that all of it is seen. */
   fit(sphere: Sphere, direction: Vector3): void {
     const radius = Math.max(sphere.radius, 1e-3);
-    const half = Math.min(this.camera.fov, this.camera.fov * this.camera.aspect) / 2;
+    const free = Math.max(this.parent.clientWidth - this.inset, 1) / Math.max(this.parent.clientHeight, 1);
+    const half = Math.min(this.camera.fov, this.camera.fov * free) / 2;
     const distance = radius / Math.sin((half * Math.PI) / 180);
     this.camera.near = radius / 500;
     this.camera.far = radius * 60;
@@ -192,8 +201,7 @@ export class Viewport {
     const height = Math.max(this.parent.clientHeight, 1);
     this.setRatio();
     this.renderer.setSize(width, height, false);
-    this.camera.aspect = width / height;
-    this.camera.updateProjectionMatrix();
+    this.camera.setViewOffset(width, height, -this.inset / 2, 0, width, height);
     if (this.fitted) this.fit(this.fitted.sphere, this.fitted.direction);
     this.request();
   }

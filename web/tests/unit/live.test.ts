@@ -44,6 +44,7 @@ function frameEvent(id: number, x: number, lost = false): { kind: "frame"; frame
     pose: lost ? null : [x, 0, 0, 0, 0, 0, 1],
     keyframe: false,
     reason: "",
+    landmarks: null,
   };
   return { kind: "frame", frame };
 }
@@ -80,6 +81,8 @@ describe("the events", () => {
     expect(event).toMatchObject({ kind: "frame", frame: { frame: 7, index: 3, pose: FRAME.pose, keyframe: true } });
     expect(event.kind === "frame" && event.frame.confidence).toBeNaN();
     expect(decodeEvent("loop", LOOP)).toMatchObject({ kind: "loop", loop: { query: 40, match: 3, inliers: 54 } });
+    const made = decodeEvent("frame", { ...FRAME, landmarks: column("f32", [1, 2, 3], 3) });
+    expect(made.kind === "frame" && Array.from(made.frame.landmarks ?? [])).toEqual([1, 2, 3]);
     expect(decodeEvent("moved", { version: 3 })).toEqual({ kind: "moved", version: 3 });
     expect(decodeEvent("stages", [{ name: "loops", cpu_s: 0.5, calls: 2 }])).toEqual({
       kind: "stages",
@@ -117,6 +120,7 @@ describe("the events", () => {
     expect(sentenceOf(tracking, "lost")).toContain("has a pose");
     expect(sentenceOf(lost, "tracking")).toBe("Frame 7 is lost: blur.");
     expect(sentenceOf(lost, "lost")).toBeNull();
+    expect(sentenceOf(decodeEvent("loop", { ...LOOP, accepted: false }), "")).toBeNull();
     expect(sentenceOf(decodeEvent("loop", LOOP), "")).toBe("The loop of frames 40 and 3 is accepted, 54 inliers.");
   });
 });
