@@ -132,7 +132,7 @@ export class ViewSite implements Site {
     const change = (stage: string): Loop[] => loops.map((loop) => (loop === known ? { ...loop, stage } : loop));
     switch (action) {
       case "refuse":
-        return this.note(`refused ${ends}`, change("by hand"), bend);
+        return this.note(`refused ${ends}`, change("manual"), bend);
       case "accept":
         return this.note(`accepted ${ends}`, change("accepted"), bend);
       case "add":
@@ -148,11 +148,11 @@ export class ViewSite implements Site {
       case "undo":
         this.edits.pop();
         this.unsaved = this.edits.length > 0;
-        return json({ text: "The last edit is taken back.", ...this.list() });
+        return json({ text: "took back the last edit", ...this.list() });
       case "save":
         this.saved.push(String(body["name"]));
         this.unsaved = false;
-        return json({ text: `The map is saved as ${String(body["name"])}.db.`, ...this.list() });
+        return json({ text: `saved as /data/runs/town/${String(body["name"])}.db`, ...this.list() });
     }
     return refusal(400, "There is no such action.");
   }
@@ -161,7 +161,7 @@ export class ViewSite implements Site {
     this.edits.push({ text, loops, bend });
     this.unsaved = true;
     this.optimized = text.startsWith("optimized");
-    return json({ text: `${text[0].toUpperCase()}${text.slice(1)}.`, ...this.list() });
+    return json({ text: text, ...this.list() });
   }
 }
 

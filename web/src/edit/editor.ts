@@ -44,6 +44,12 @@ export function loopBetween(a: number, b: number): Edit | null {
   return a === b ? null : { action: "add", query_frame: Math.max(a, b), match_frame: Math.min(a, b) };
 }
 
+/** The program says what was done in a line without a capital and a full stop. */
+export function sentence(line: string): string {
+  const begun = line.slice(0, 1).toUpperCase() + line.slice(1);
+  return /[.!?]$/.test(begun) ? begun : `${begun}.`;
+}
+
 /** The loop that an edit is about, so that it is selected afterwards. */
 export function editedLoop(edit: Edit): { query: number; match: number } | null {
   return "query_frame" in edit ? { query: edit.query_frame, match: edit.match_frame } : null;
@@ -78,12 +84,12 @@ export class Editor {
       this.list = decodeEdits(answer);
       this.message = {
         action: edit.action,
-        text: asText(asObject(answer, "The answer")["text"], "text"),
+        text: sentence(asText(asObject(answer, "The answer")["text"], "text")),
         fault: false,
       };
       if (edit.action !== "save") this.onReport(decodeReport(await getJson("report.json")), edit);
     } catch (error) {
-      const text = error instanceof Error ? error.message : "The edit cannot be made.";
+      const text = sentence(error instanceof Error ? error.message : "The edit cannot be made.");
       this.message = { action: edit.action, text, fault: true };
     }
     this.busy = null;

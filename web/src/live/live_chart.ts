@@ -66,13 +66,19 @@ export class LiveChart {
 
 function drawLost(context: CanvasRenderingContext2D, run: LiveRun, x: (row: number) => number): void {
   const { frames } = run;
-  const width = Math.max(x(1) - x(0), 1);
-  for (let row = 0; row < frames.count; row++) {
-    const lost = frames.state(row) === "lost" || (frames.state(row) === null && !frames.isPosed(row));
-    context.fillStyle = cssColour(lost ? LOST : categoryColour(Math.max(frames.component(row), 0)), lost ? 1 : 0.6);
+  /** Component of a frame; -1: lost; -2: neither, as before the map begins. */
+  const kind = (row: number): number => {
+    if (frames.isPosed(row)) return frames.component(row);
+    return frames.state(row) === "initializing" ? -2 : -1;
+  };
+  for (let begin = 0, end = 0; begin < frames.count; begin = end) {
+    while (end < frames.count && kind(end) === kind(begin)) end++;
+    const lost = kind(begin) === -1;
+    if (kind(begin) === -2) continue;
+    context.fillStyle = cssColour(lost ? LOST : categoryColour(kind(begin)), lost ? 1 : 0.6);
     // Lost frames have the full height, so that they are known without their colour.
-    if (lost) context.fillRect(x(row), HEIGHT - BAND, width + 0.5, BAND - 1);
-    else if (frames.isPosed(row)) context.fillRect(x(row), HEIGHT - BAND + 3, width + 0.5, BAND - 7);
+    if (lost) context.fillRect(x(begin), HEIGHT - BAND, Math.max(x(end) - x(begin), 1), BAND - 1);
+    else context.fillRect(x(begin), HEIGHT - BAND + 3, x(end) - x(begin), BAND - 7);
   }
 }
 

@@ -101,11 +101,10 @@ function factsOf(frame: FrameEvent, run: LiveRun): [string, string][] {
         .map((p) => p.toFixed(3))
         .join(", "),
     ]);
-  const accepted = [...run.loops.values()].filter((loop) => loop.accepted).length;
   rows.push(
     ["Landmarks", formatCount(run.landmarks.count)],
-    ["Loops accepted", formatCount(accepted)],
-    ["Loops refused", formatCount(run.loops.size - accepted)],
+    ["Loops accepted", formatCount(run.loops.size - run.refused)],
+    ["Loops refused", formatCount(run.refused)],
   );
   return rows;
 }

@@ -88,6 +88,13 @@ export class LiveRun {
     return -1;
   }
 
+  /** Number of refused loops that are kept. */
+  get refused(): number {
+    let count = 0;
+    for (const { accepted } of this.loops.values()) if (!accepted) count++;
+    return count;
+  }
+
   private want(version: number): void {
     this.wanted = Math.max(this.wanted, version);
     this.old = true;

@@ -19,6 +19,8 @@ export type LiveFollow = "all" | "along" | "off";
 
 const OBLIQUE = new Vector3(-0.35, 0.9, 0.75);
 const ABOVE = new Vector3(0, 1, 0.0005);
+/** Of the refused loops the newest are drawn: all of them would hide the map. */
+const REFUSED_SHOWN = 20;
 const REFUSED: Rgb = [150, 130, 130];
 const TRAJECTORY = categoryColour(0);
 /** A new loop is drawn wider for this time. */
@@ -189,7 +191,9 @@ export class LiveScene {
     const accepted = new SegmentList();
     const refused = new SegmentList();
     const fresh = new SegmentList();
+    let old = this.run.refused - REFUSED_SHOWN;
     for (const [key, loop] of this.run.loops) {
+      if (!loop.accepted && old-- > 0) continue;
       const a = this.run.frames.row(loop.query);
       const b = this.run.frames.row(loop.match);
       if (a < 0 || b < 0 || !this.isShown(a) || !this.isShown(b)) continue;
@@ -197,7 +201,7 @@ export class LiveScene {
       const list = !loop.accepted ? refused : isNew ? fresh : accepted;
       list.add(this.motion.shown, 3 * a, this.motion.shown, 3 * b, loop.accepted ? stageColour("accepted") : REFUSED);
     }
-    this.extras.add(thinLines(refused, 0.3), wideLines(accepted, 2.5, 4), wideLines(fresh, 7, 6));
+    this.extras.add(thinLines(refused, 0.45), wideLines(accepted, 2.5, 4), wideLines(fresh, 7, 6));
     const row = this.currentRow();
     if (row < 0) return;
     const camera = new SegmentList();
@@ -267,8 +271,8 @@ export class LiveScene {
       { text: "trajectory", colour: TRAJECTORY },
       { text: "camera of the newest frame", colour: CURSOR },
       { text: "loop accepted", colour: stageColour("accepted") },
-      { text: "loop refused", colour: REFUSED },
+      { text: `loop refused, the last ${REFUSED_SHOWN}`, colour: REFUSED },
     ];
-    return legendElement([{ kind: "category", title: "Lines and points", entries }]);
+    return legendElement([{ kind: "category", title: "", entries }]);
   }
 }

@@ -138,7 +138,7 @@ export class RunScene {
   private lineLegend(): LegendItem[] {
     const { state, run, report } = this;
     const entries: { text: string; colour: Rgb }[] = [];
-    entries.push({ text: `frame under the cursor${state.layers.landmarks ? ", its landmarks" : ""}`, colour: CURSOR });
+    entries.push({ text: `cursor${state.layers.landmarks ? " and its landmarks" : ""}`, colour: CURSOR });
     if (state.layers.truth && run.frames.truth) entries.push({ text: "ground truth", colour: this.truthColour() });
     if (state.layers.online) entries.push({ text: "online trajectory", colour: ONLINE });
     if (state.layers.before && run.before) entries.push({ text: "before the last edit", colour: BEFORE });
@@ -159,7 +159,7 @@ export class RunScene {
         entries.push({ text: `constraint: ${source}`, colour: constraintColour(run, source) });
       }
     }
-    return entries.length > 0 ? [{ kind: "category", title: "Lines and points", entries }] : [];
+    return entries.length > 0 ? [{ kind: "category", title: "", entries }] : [];
   }
 
   private drop(name: LayerName): void {

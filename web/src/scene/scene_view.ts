@@ -33,7 +33,7 @@ export class SceneView {
   private run: RunScene | null = null;
   private built: Pick<State, "run" | "component"> = { run: 0, component: null };
   private graph: ReturnType<typeof graphLines> | null = null;
-  private legendBox: HTMLElement = el("div");
+  private legendBox = legendElement([]);
   private readonly followed = new Vector3();
 
   constructor(
@@ -190,7 +190,7 @@ export class SceneView {
   }
 
   private refreshLegend(): void {
-    const next = legendElement(this.legend());
+    const next = legendElement(this.legend(), this.legendBox.open);
     this.legendBox.replaceWith(next);
     this.legendBox = next;
   }

@@ -135,7 +135,7 @@ describe("the loops of a served map", () => {
     expect(await page.getByRole("button", { name: "Save as a new map" }).isDisabled()).toBe(true);
     await name.fill("mended");
     await page.getByRole("button", { name: "Save as a new map" }).click();
-    await page.getByText("The map is saved as mended.db.").waitFor();
+    await page.getByText("Saved as /data/runs/town/mended.db.").waitFor();
     expect(site.saved).toEqual(["mended"]);
     expect(await page.locator(".unsaved").isVisible()).toBe(false);
   });

@@ -44,7 +44,7 @@ describe("the editor", () => {
 
   it("sends an edit, takes the list and the report after it", async () => {
     const asked = answers(
-      [200, { text: "The loop is refused.", ...list }],
+      [200, { text: "refused the loop", ...list }],
       [200, sampleReport([sampleRun({ frames: 10, landmarks: 0 })])],
     );
     const editor = new Editor();
@@ -54,7 +54,7 @@ describe("the editor", () => {
     expect(asked[0]).toEqual({ method: "POST", path: "edits", body: refuse });
     expect(asked[1].path).toBe("report.json");
     expect(editor.list).toEqual(list);
-    expect(editor.message).toEqual({ action: "refuse", text: "The loop is refused.", fault: false });
+    expect(editor.message).toEqual({ action: "refuse", text: "Refused the loop.", fault: false });
     expect(reports).toEqual([10]);
   });
 
@@ -66,7 +66,7 @@ describe("the editor", () => {
     expect(editor.list.edits).toEqual([]);
     expect(editor.message).toEqual({
       action: "add",
-      text: "no geometric agreement: 9 inliers of 20 needed",
+      text: "No geometric agreement: 9 inliers of 20 needed.",
       fault: true,
     });
     expect(editor.busy).toBeNull();
