@@ -6,6 +6,9 @@ import type { Plugin } from "vite";
 /** placegraph replaces this by the script element with the report. */
 export const MARKER = "<!--placegraph-report-->";
 
+/** The server of the program replaces this by a nonce of its own, and removes the policy of the page. */
+export const NONCE = "placegraph-nonce";
+
 function policy(script: string, style: string): string {
   const hash = (text: string): string => `'sha256-${createHash("sha256").update(text, "utf8").digest("base64")}'`;
   return [
@@ -56,7 +59,7 @@ export function singleFile(): Plugin {
         .replace(/\s*<script type="module"[^>]*><\/script>/, "")
         .replace(/\s*<link rel="stylesheet"[^>]*>/, "");
       if (html.split(MARKER).length !== 2) throw new Error(`report.html must hold ${MARKER} once`);
-      if (script.includes(MARKER)) throw new Error(`a script holds ${MARKER}`);
+      for (const text of [MARKER, NONCE]) if (script.includes(text)) throw new Error(`a script holds ${text}`);
       page.source = html
         .replace(
           "<head>",
@@ -64,7 +67,7 @@ export function singleFile(): Plugin {
         )
         .replace("</body>", () => `${licences()}\n</body>`)
         .replace("</head>", () => `  <style>${style}</style>\n</head>`)
-        .replace(MARKER, () => `${MARKER}\n  <script type="module">${script}</script>`);
+        .replace(MARKER, () => `${MARKER}\n  <script type="module" nonce="${NONCE}">${script}</script>`);
     },
   };
 }

@@ -5,7 +5,12 @@ import type { ReportData } from "./data/model";
 import { watchPlaying } from "./page/actions";
 import { el } from "./page/dom";
 import { header } from "./page/header";
-import { helpDialog } from "./page/help";
+import { replaceReport } from "./edit/replace_report";
+import { editedLoop } from "./edit/editor";
+import { watchUnsaved } from "./edit/edit_panel";
+import { readLiveStart } from "./live/live_start";
+import { type Served, startLive } from "./live/start";
+import { REPORT_MOUSE, helpDialog } from "./page/help";
 import { bindings, watchKeys } from "./page/keys";
 import { splitter } from "./page/splitter";
 import { startState } from "./page/start_state";
@@ -30,6 +35,12 @@ function showMessage(page: HTMLElement, text: string): void {
   page.replaceChildren(el("p", { role: "alert" }, text));
 }
 
+/** Pixels at the left of the scene that the open layers cover, if they leave enough for the map. */
+function coveredBy(layers: HTMLDetailsElement): number {
+  const width = layers.offsetLeft + layers.offsetWidth;
+  return layers.open && width < 0.4 * (layers.parentElement?.clientWidth ?? 0) ? width : 0;
+}
+
 /** The scene with its tools; without WebGL 2 a sentence in its place, and the rest of the page works. */
 function showScene(page: HTMLElement, report: ReportData, store: Store): SceneView | null {
   if (graphics() === "none") {
@@ -49,19 +60,23 @@ function showScene(page: HTMLElement, report: ReportData, store: Store): SceneVi
   const scene = new SceneView(page, report, store);
   scene.element.append(sceneTools(report, store, scene));
   if (report.runs.length > 0) {
-    scene.element.append(layersPanel(report, store));
+    const layers = layersPanel(report, store);
+    scene.element.append(layers);
+    new ResizeObserver(() => scene.viewport.setInset(coveredBy(layers))).observe(layers);
     watchPointer(scene, report, store);
   }
   return scene;
 }
 
-function showReport(page: HTMLElement, report: ReportData): void {
+function showReport(page: HTMLElement, report: ReportData, served: Served | null): void {
   document.title = `${report.title} – ${report.program}`;
-  const store = new Store(startState(report, preferredTheme()));
+  const store = new Store(startState(report, served?.theme ?? preferredTheme()));
   watchTheme(store);
-  const help = helpDialog();
+  const help = helpDialog(REPORT_MOUSE);
+  const editor = served?.editor ?? null;
+  if (editor) editor.onReport = (next, edit) => replaceReport(report, store, next, editedLoop(edit));
   page.className = "report";
-  page.append(header(report, store, help.toggle));
+  page.append(header(report, store, help.toggle, editor ? watchUnsaved(editor) : null));
   const scene = showScene(page, report, store);
   if (report.runs.length > 0) {
     const timeline = new Timeline(report, store);
@@ -76,7 +91,7 @@ function showReport(page: HTMLElement, report: ReportData): void {
     );
     watchPlaying(report, store);
   }
-  const context = { report, store };
+  const context = { report, store, served };
   page.append(
     tabs(store, {
       overview: overviewPanel(context),
@@ -94,18 +109,25 @@ function showReport(page: HTMLElement, report: ReportData): void {
   watchKeys(list);
 }
 
+function showIfAny(page: HTMLElement, report: ReportData, served: Served | null): void {
+  if (report.runs.length > 0 || report.graphs.length > 0 || report.pictures.length > 0)
+    showReport(page, report, served);
+  else showMessage(page, "The report in this page holds no run, no pose graph and no picture.");
+}
+
 function start(page: HTMLElement): void {
   try {
+    const live = readLiveStart(document);
     const report = loadReport(document);
-    if (report === null) {
+    if (live !== null) {
+      startLive(page, live, showIfAny, showMessage);
+    } else if (report === null) {
       showMessage(
         page,
         'This page holds no report. The command "placegraph report OUT -o report.html" writes a page with the report of a run.',
       );
-    } else if (report.runs.length === 0 && report.graphs.length === 0 && report.pictures.length === 0) {
-      showMessage(page, "The report in this page holds no run, no pose graph and no picture.");
     } else {
-      showReport(page, report);
+      showIfAny(page, report, null);
     }
   } catch (error) {
     showMessage(

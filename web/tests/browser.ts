@@ -1,4 +1,5 @@
 import { existsSync } from "node:fs";
+import { type Picture, decodePng, shrink } from "./png";
 import { type Browser, type Page, chromium } from "playwright-core";
 
 export const CHROMIUM = "/usr/bin/chromium";
@@ -22,6 +23,16 @@ export async function until(page: Page, expression: string): Promise<void> {
     await page.waitForTimeout(100);
   }
   throw new Error(`never true: ${expression}`);
+}
+
+/** The 3D picture without what lies over it, as a small picture of means. */
+export async function smallScene(page: Page): Promise<Picture> {
+  await page.evaluate(
+    "for (const e of document.querySelectorAll('.layers, .legend, .tools, .tip')) e.style.visibility = 'hidden'",
+  );
+  await page.mouse.move(2, 2);
+  await page.waitForTimeout(800); // until all is drawn
+  return shrink(decodePng(await page.locator(".scene canvas").screenshot()), 64, 40);
 }
 
 export interface Watched {

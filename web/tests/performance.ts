@@ -33,7 +33,7 @@ export async function main(): Promise<void> {
 }
 
 async function measure(browser: Browser, file: string, frames: number): Promise<void> {
-  const page = await browser.newPage({ viewport: { width: 1440, height: 900 } });
+  const page = await browser.newPage({ viewport: { width: 1280, height: 800 } });
   await page.goto(`file://${file}`);
   await until(page, "performance.getEntriesByName('first-picture').length > 0");
   const first = await page.evaluate("performance.getEntriesByName('first-picture')[0].startTime");

@@ -9,7 +9,7 @@ export interface SampleKeyframes {
   count: number;
   /** Frame of each keyframe. */
   frames: number[];
-  /** Keyframe of each frame, or -1. */
+  /** Keyframe to which each frame is relative, or -1. */
   ofFrame: number[];
   table: Run["keyframes"];
 }
@@ -24,6 +24,7 @@ export function sampleKeyframes(o: SampleOptions, path: Drive): SampleKeyframes 
   }
   const ofFrame = new Array<number>(o.frames).fill(-1);
   frames.forEach((frame, id) => (ofFrame[frame] = id));
+  for (let i = 1; i < o.frames; i++) if (ofFrame[i] < 0 && path.component[i] >= 0) ofFrame[i] = ofFrame[i - 1];
   return {
     count: frames.length,
     frames,

@@ -1,32 +1,22 @@
-import { deflateSync } from "node:zlib";
+import { encodePng } from "./png";
 
-const WIDTH = 96;
-const HEIGHT = 54;
+export const WIDTH = 96;
+export const HEIGHT = 54;
 
 /** A street as the camera with heading `angle` at `position` sees it, as a PNG in a data URI. */
 export function thumbnail(angle: number, position: number): string {
-  const raw = Buffer.alloc((WIDTH * 3 + 1) * HEIGHT);
-  for (let y = 0; y < HEIGHT; y++) {
-    for (let x = 0; x < WIDTH; x++) {
-      const at = y * (WIDTH * 3 + 1) + 1 + 3 * x;
-      const [r, g, b] = pixel(x, y, angle, position);
-      raw[at] = r;
-      raw[at + 1] = g;
-      raw[at + 2] = b;
+  return `data:image/png;base64,${street(angle, position, 1).toString("base64")}`;
+}
+
+/** The same as a PNG file, `scale` times as large. */
+export function street(angle: number, position: number, scale: number): Buffer {
+  const rgb = Buffer.alloc(3 * WIDTH * scale * HEIGHT * scale);
+  for (let y = 0, at = 0; y < HEIGHT * scale; y++) {
+    for (let x = 0; x < WIDTH * scale; x++, at += 3) {
+      rgb.set(pixel(Math.floor(x / scale), Math.floor(y / scale), angle, position), at);
     }
   }
-  const header = Buffer.alloc(13);
-  header.writeUInt32BE(WIDTH, 0);
-  header.writeUInt32BE(HEIGHT, 4);
-  header.set([8, 2, 0, 0, 0], 8);
-  const signature = Buffer.from([137, 80, 78, 71, 13, 10, 26, 10]);
-  const file = Buffer.concat([
-    signature,
-    chunk("IHDR", header),
-    chunk("IDAT", deflateSync(raw, { level: 1 })),
-    chunk("IEND", Buffer.alloc(0)),
-  ]);
-  return `data:image/png;base64,${file.toString("base64")}`;
+  return encodePng({ width: WIDTH * scale, height: HEIGHT * scale, rgb });
 }
 
 function pixel(x: number, y: number, angle: number, position: number): [number, number, number] {
@@ -42,25 +32,4 @@ function pixel(x: number, y: number, angle: number, position: number): [number, 
   const window = (x + wall) % 7 > 3 && y % 8 > 4;
   const tone = (wall * 131) % 70;
   return window ? [40, 50, 66] : [120 + tone + grain / 2, 96 + tone + grain / 2, 78 + (tone + grain) / 2];
-}
-
-function chunk(type: string, data: Buffer): Buffer {
-  const body = Buffer.concat([Buffer.from(type, "latin1"), data]);
-  const length = Buffer.alloc(4);
-  length.writeUInt32BE(data.length);
-  const check = Buffer.alloc(4);
-  check.writeUInt32BE(crc32(body));
-  return Buffer.concat([length, body, check]);
-}
-
-const CRC = Array.from({ length: 256 }, (_, n) => {
-  let c = n;
-  for (let k = 0; k < 8; k++) c = c & 1 ? 0xedb88320 ^ (c >>> 1) : c >>> 1;
-  return c >>> 0;
-});
-
-function crc32(bytes: Buffer): number {
-  let c = 0xffffffff;
-  for (const byte of bytes) c = CRC[(c ^ byte) & 255] ^ (c >>> 8);
-  return (c ^ 0xffffffff) >>> 0;
 }

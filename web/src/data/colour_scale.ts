@@ -29,7 +29,14 @@ const CIVIDIS: Rgb[] = [
   [239, 219, 73],
 ];
 
-export const SCALES = { viridis: VIRIDIS, cividis: CIVIDIS } as const;
+/** For residuals over images, dark and bright: sky blue, yellow, vermilion of Okabe and Ito (2008). */
+const RESIDUAL: Rgb[] = [
+  [86, 180, 233],
+  [240, 228, 66],
+  [213, 94, 0],
+];
+
+export const SCALES = { viridis: VIRIDIS, cividis: CIVIDIS, residual: RESIDUAL } as const;
 export type ScaleName = keyof typeof SCALES;
 
 /** The colours of Okabe and Ito (2008), without black, with a yellow that is seen on white too. */

@@ -2,7 +2,16 @@
 import type { LoopTable } from "./model";
 import { label } from "./model";
 
-export const STAGES = ["retrieval", "reach", "geometry", "drift", "covariance", "support", "accepted"] as const;
+export const STAGES = [
+  "retrieval",
+  "reach",
+  "geometry",
+  "drift",
+  "covariance",
+  "support",
+  "manual",
+  "accepted",
+] as const;
 
 const STAGE_WORDS: Record<string, string> = {
   retrieval: "Refused: the images are not similar enough.",
@@ -11,6 +20,7 @@ const STAGE_WORDS: Record<string, string> = {
   drift: "Refused: the relative pose differs from odometry by more than its drift.",
   covariance: "Refused: the relative pose contradicts that of the map, given its covariance.",
   support: "Refused: no second loop agrees with it.",
+  manual: "Refused: by hand.",
   accepted: "Accepted: the loop is a constraint of the map.",
 };
 

@@ -114,6 +114,8 @@ export interface RunData {
   streetMap: PlanShape[];
   georeference: GeoTrack | null;
   pictures: Picture[];
+  /** Poses of the frames before the last edit in this page, if it has moved them. */
+  before?: Values;
 }
 
 export interface GraphData {

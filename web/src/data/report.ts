@@ -116,7 +116,7 @@ export interface Frames {
   stamp_s: Column;
   /** -1: lost. */
   component: Column;
-  /** Id of the keyframe, or -1. */
+  /** Id of the keyframe to which the pose of the frame is relative, or -1: a keyframe has its own. */
   keyframe: Column;
   /** x y z qx qy qz qw of T_map_cam, optimized; camera x right, y down, z forward. */
   pose: Column;

@@ -14,6 +14,12 @@ export function frameRowOfKeyframe(run: RunData, keyframeRow: number): number {
   return run.frames.rowOf.get(run.keyframes.frame[keyframeRow]) ?? -1;
 }
 
+/** Row of the keyframe that a frame is, or -1. */
+export function keyframeOf(run: RunData, row: number): number {
+  const keyframe = run.keyframes.rowOf.get(run.frames.keyframe[row]) ?? -1;
+  return keyframe >= 0 && run.keyframes.frame[keyframe] === run.frames.id[row] ? keyframe : -1;
+}
+
 /** Row of the last keyframe at or before a frame; the first keyframe for frames before it; -1 without keyframes. */
 export function keyframeAt(run: RunData, row: number): number {
   const frameId = run.frames.id[row];

@@ -1,6 +1,7 @@
 /** Changes of the state that several views ask for. */
 import { filterLoops, sortLoops } from "../data/loops";
 import type { ReportData, RunData } from "../data/model";
+import { keyframeOf } from "../data/run_view";
 import type { Follow, State, Store } from "./state";
 
 /** Selects a loop; the cursor goes to its query frame, the scene to the component of that frame. */
@@ -48,7 +49,7 @@ export function moveToKeyframe(report: ReportData, store: Store, direction: 1 | 
   const run = report.runs[store.state.run];
   if (!run) return;
   for (let row = store.state.row + direction; row >= 0 && row < run.frames.count; row += direction) {
-    if (run.frames.keyframe[row] >= 0) {
+    if (keyframeOf(run, row) >= 0) {
       store.set({ row, playing: false });
       return;
     }

@@ -8,7 +8,13 @@ import { toggleTheme } from "./theme";
 
 const VERDICTS = { good: "good", doubtful: "doubtful", failed: "failed" };
 
-export function header(report: ReportData, store: Store, toggleHelp: () => void): HTMLElement {
+/** `note` is what stands behind the verdict. */
+export function header(
+  report: ReportData,
+  store: Store,
+  toggleHelp: () => void,
+  note: HTMLElement | null,
+): HTMLElement {
   const verdict = el("span", { class: "verdict" });
   const mark = el("span", { class: "mark" });
   const runs = select(
@@ -37,6 +43,7 @@ export function header(report: ReportData, store: Store, toggleHelp: () => void)
     mark,
     runs,
     verdict,
+    note,
     el("span", { class: "gap" }),
     button("◐", "Dark or light (D)", () => toggleTheme(store)),
     button("?", "Keys and mouse (?)", toggleHelp),

@@ -15,6 +15,7 @@ export const LAYER_KEYS: Record<LayerName, string> = {
   trajectory: "j",
   truth: "t",
   online: "o",
+  before: "b",
   frusta: "k",
   images: "i",
   landmarks: "m",
@@ -31,6 +32,7 @@ export const LAYER_TITLES: Record<LayerName, string> = {
   trajectory: "Trajectory",
   truth: "Ground truth",
   online: "Online trajectory",
+  before: "Before the last edit",
   frusta: "Keyframes",
   images: "Images of keyframes",
   landmarks: "Landmarks",
@@ -115,14 +117,17 @@ function takesKeys(target: EventTarget | null, key: string): boolean {
   return (key === " " || key === "Enter") && target.closest("button, summary, a") !== null;
 }
 
-export function watchKeys(list: KeyBinding[]): void {
+/** Returns what ends it. */
+export function watchKeys(list: KeyBinding[]): () => void {
   const byKey = new Map(list.flatMap((binding) => binding.keys.map((key) => [key, binding] as const)));
-  document.addEventListener("keydown", (event) => {
+  const listener = (event: KeyboardEvent): void => {
     if (event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented) return;
     const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
     const binding = byKey.get(key);
     if (!binding || takesKeys(event.target, key)) return;
     event.preventDefault();
     binding.run(event);
-  });
+  };
+  document.addEventListener("keydown", listener);
+  return () => document.removeEventListener("keydown", listener);
 }

@@ -7,6 +7,7 @@ export const LAYERS = [
   "trajectory",
   "truth",
   "online",
+  "before",
   "frusta",
   "images",
   "landmarks",
@@ -36,6 +37,10 @@ export interface State {
   row: number;
   /** Row of the selected loop, or -1. */
   loop: number;
+  /** Landmark that the pointer is on, by its row, or -1. */
+  landmark: number;
+  /** Rows of the landmarks that the keyframe under the cursor observes; null where they are unknown. */
+  observed: Int32Array | null;
   /** The component that the scene shows; null for all. */
   component: number | null;
   colourBy: ColourBy;
@@ -81,8 +86,18 @@ export class Store {
   }
 
   set(change: Partial<State>): void {
+    this.change(change, []);
+  }
+
+  /** Changes the state after the data of the run have changed: all that shows the run is drawn again. */
+  refresh(change: Partial<State>): void {
+    this.change(change, ["run"]);
+  }
+
+  private change(change: Partial<State>, also: (keyof State)[]): void {
     const next = { ...this.current, ...change };
     const changed = (Object.keys(change) as (keyof State)[]).filter((key) => next[key] !== this.current[key]);
+    changed.push(...also);
     if (changed.length === 0) return;
     this.current = next;
     for (const { keys, call } of this.listeners) if (changed.some((key) => keys.has(key))) call(this.current);

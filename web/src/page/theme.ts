@@ -8,11 +8,13 @@ export function toggleTheme(store: Store): void {
   store.set({ theme: store.state.theme === "dark" ? "light" : "dark" });
 }
 
+export function showTheme(theme: Theme): void {
+  document.documentElement.dataset["theme"] = theme;
+}
+
 /** The theme of the system holds until the user chooses another. */
 export function watchTheme(store: Store): void {
-  const apply = (): void => {
-    document.documentElement.dataset["theme"] = store.state.theme;
-  };
+  const apply = (): void => showTheme(store.state.theme);
   store.on(["theme"], apply);
   apply();
   window

@@ -1,14 +1,16 @@
 import { formatNumber, formatPercent, formatTime, formatWithUnit } from "../data/format";
 import { loopsAt, stageOf, stageSentence } from "../data/loops";
 import { label, type RunData } from "../data/model";
-import { keyframeAt } from "../data/run_view";
+import { keyframeAt, keyframeOf } from "../data/run_view";
 import { lengthUnit, series } from "../data/series";
+import { FrameView } from "../live/frame_view";
 import { loopSelection } from "../page/actions";
 import { button, el, facts, isPicture } from "../page/dom";
 import type { Panel, PanelContext } from "./panel";
 
-export function framePanel({ report, store }: PanelContext): Panel {
+export function framePanel({ report, store, served }: PanelContext): Panel {
   let figure: HTMLElement | null = null;
+  const full = served ? new FrameView(store) : null;
   return {
     title: "Frame",
     available: report.runs.length > 0,
@@ -18,7 +20,11 @@ export function framePanel({ report, store }: PanelContext): Panel {
       const { row } = store.state;
       if (run.frames.count === 0) return el("p", {}, "This run has no frames.");
       const id = run.frames.id[row];
-      figure = thumbnailOf(run, row, figure);
+      if (full === null) figure = thumbnailOf(run, row, figure);
+      else {
+        full.show(run, store.state.run, row);
+        figure = full.element;
+      }
       return el(
         "div",
         {},
@@ -43,7 +49,7 @@ export function stateSentence(run: RunData, row: number): string {
   }
   const main = run.components.find((component) => component.number === number)?.main ?? false;
   const part = run.components.length > 1 ? ` of component ${number}${main ? " (main)" : ""}` : "";
-  return frames.keyframe[row] >= 0 ? `The frame is a keyframe${part}.` : `The frame has a pose${part}.`;
+  return keyframeOf(run, row) >= 0 ? `The frame is a keyframe${part}.` : `The frame has a pose${part}.`;
 }
 
 function componentNote(
@@ -86,7 +92,7 @@ function frameFacts(run: RunData, row: number): [string, string][] {
   const rows: [string, string][] = [
     ["Time", `${formatTime(frames.stamp[row] - frames.stamp[0])} (stamp ${frames.stamp[row].toFixed(3)} s)`],
     ["Component", frames.component[row] < 0 ? "none" : String(frames.component[row])],
-    ["Keyframe", frames.keyframe[row] >= 0 ? String(frames.keyframe[row]) : "no"],
+    ["Keyframe", keyframeText(run, row)],
   ];
   if (k >= 0 && keyframes.place[k] >= 0) rows.push(["Place", String(keyframes.place[k])]);
   rows.push(["Inliers", formatNumber(frames.inliers[row])]);
@@ -105,6 +111,12 @@ function frameFacts(run: RunData, row: number): [string, string][] {
     rows.push(["Latitude, longitude", `${geo.track[2 * row].toFixed(7)}, ${geo.track[2 * row + 1].toFixed(7)} deg`]);
   }
   return rows;
+}
+
+function keyframeText(run: RunData, row: number): string {
+  const keyframe = run.frames.keyframe[row];
+  if (keyframe < 0) return "none";
+  return keyframeOf(run, row) >= 0 ? String(keyframe) : `${keyframe}, to which its pose is relative`;
 }
 
 function loopList(run: RunData, id: number, choose: (loop: number) => void): HTMLElement {

@@ -34,7 +34,7 @@ function followButton(text: string, title: string, follow: Follow, store: Store)
   return element;
 }
 
-export function layersPanel(report: ReportData, store: Store): HTMLElement {
+export function layersPanel(report: ReportData, store: Store): HTMLDetailsElement {
   const body = el("div", { class: "layers-body" });
   const details = el("details", { class: "layers" }, el("summary", {}, "Layers"), body);
   details.open = window.matchMedia("(min-width: 900px)").matches;
@@ -125,6 +125,8 @@ function layerExists(report: ReportData, run: RunData, name: LayerName): boolean
   switch (name) {
     case "truth":
       return run.frames.truth !== null;
+    case "before":
+      return run.before !== undefined;
     case "frusta":
       return run.keyframes.count > 0;
     case "images":

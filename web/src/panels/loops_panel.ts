@@ -3,6 +3,8 @@ import { formatCount, formatNumber, formatPercent, formatTime, plural } from "..
 import { type LoopColumn, filterLoops, sortLoops, stageCounts, stageOf, stageSentence } from "../data/loops";
 import type { RunData } from "../data/model";
 import { keyframeAt } from "../data/run_view";
+import { EditPanel, loopButtons } from "../edit/edit_panel";
+import { showFullImage } from "../live/frame_files";
 import { loopSelection } from "../page/actions";
 import { button, checkbox, el, facts, isPicture, slider } from "../page/dom";
 import type { Store } from "../page/state";
@@ -23,23 +25,31 @@ const COLUMNS: [LoopColumn, string][] = [
 
 export function loopsPanel(context: PanelContext): Panel {
   const { report, store } = context;
+  const editor = context.served?.editor ?? null;
+  const edits = editor ? new EditPanel(editor, report, store) : null;
   // The filters stay in the page while the table changes, so that a slider can be dragged.
   const detail = el("div");
   const choice = el("div");
   const rows = el("div");
-  const root = el("div", {}, detail, choice, rows);
-  let filtersOf = -1;
+  const root = el("div", {}, detail, edits?.element ?? null, choice, rows);
+  let filtersOf: RunData | null = null;
+  const showSelected = (): void => detail.replaceChildren(selectedLoop(context, report.runs[store.state.run]));
+  editor?.on(showSelected);
   return {
     title: "Loops",
-    available: report.runs.some((run) => run.loops.count > 0),
+    available: editor !== null || report.runs.some((run) => run.loops.count > 0),
     keys: ["run", "loop", "loopOrder", "loopFilter"],
     render: () => {
       const run = report.runs[store.state.run];
-      if (run.loops.count === 0) return el("p", {}, "This run has no loop candidates.");
-      if (filtersOf !== store.state.run) choice.replaceChildren(filters(run, store));
-      filtersOf = store.state.run;
+      if (run.loops.count === 0) {
+        const none = el("p", {}, "This run has no loop candidates.");
+        return edits ? el("div", {}, none, edits.element) : none;
+      }
+      if (edits && edits.element.parentElement !== root) choice.before(edits.element);
+      if (filtersOf !== run) choice.replaceChildren(filters(run, store));
+      filtersOf = run;
       const focused = rows.contains(document.activeElement) && document.activeElement?.tagName === "TR";
-      detail.replaceChildren(selectedLoop(run, store));
+      showSelected();
       rows.replaceChildren(table(context, run));
       if (focused) rows.querySelector<HTMLElement>('tr[aria-current="true"]')?.focus();
       return root;
@@ -47,7 +57,7 @@ export function loopsPanel(context: PanelContext): Panel {
   };
 }
 
-function selectedLoop(run: RunData, store: Store): HTMLElement {
+function selectedLoop({ store, served }: PanelContext, run: RunData): HTMLElement {
   const { loop } = store.state;
   if (loop < 0) return el("p", { class: "soft" }, "Select a loop in the table or in the scene.");
   const { loops } = run;
@@ -58,10 +68,11 @@ function selectedLoop(run: RunData, store: Store): HTMLElement {
     el(
       "div",
       { class: "pair" },
-      view(run, loops.query[loop], "Query", QUERY, store),
-      view(run, loops.match[loop], "Match", MATCH, store),
+      view(run, loops.query[loop], "Query", QUERY, store, served !== null),
+      view(run, loops.match[loop], "Match", MATCH, store, served !== null),
     ),
     el("p", {}, el("strong", {}, stageSentence(stage))),
+    served?.editor ? loopButtons(served.editor, run, loop) : null,
     facts([
       ["Probability of the same place", formatPercent(loops.probability[loop])],
       ["Similarity", formatNumber(loops.similarity[loop])],
@@ -80,7 +91,14 @@ function timeBetween(run: RunData, loop: number): string {
     : formatTime(Math.abs(run.frames.stamp[a] - run.frames.stamp[b]));
 }
 
-function view(run: RunData, frame: number, title: string, colour: [number, number, number], store: Store): HTMLElement {
+function view(
+  run: RunData,
+  frame: number,
+  title: string,
+  colour: [number, number, number],
+  store: Store,
+  full: boolean,
+): HTMLElement {
   const row = run.frames.rowOf.get(frame);
   const uri = row === undefined ? undefined : run.keyframes.thumbnails[keyframeAt(run, row)];
   const go = button(`${title}: frame ${frame}`, "Move the cursor to this frame", () => {
@@ -90,6 +108,7 @@ function view(run: RunData, frame: number, title: string, colour: [number, numbe
   const image = isPicture(uri)
     ? el("img", { src: uri, alt: `Image of frame ${frame}` })
     : el("p", { class: "soft" }, "No image.");
+  if (full && image instanceof HTMLImageElement) showFullImage(image, store.state.run, frame);
   return el("figure", {}, image, el("figcaption", {}, go));
 }
 

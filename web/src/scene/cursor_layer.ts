@@ -2,6 +2,7 @@ import { Group, Matrix4 } from "three";
 import type { Rgb } from "../data/colour_scale";
 import type { RunData } from "../data/model";
 import { isPosed, keyframeAt } from "../data/run_view";
+import type { State } from "../page/state";
 import { discs } from "./discs";
 import { addFrustum, imageShape } from "./frusta_layer";
 import { SegmentList, dispose, wideLines } from "./lines";
@@ -16,7 +17,7 @@ export const MATCH: Rgb = [86, 180, 233];
 export class CursorLayer {
   readonly object = new Group();
 
-  show(run: RunData, row: number, loop: number, component: number | null, size: number, landmarks: boolean): void {
+  show(run: RunData, { row, loop, component, layers, observed, landmark }: Readonly<State>, size: number): void {
     for (const child of [...this.object.children]) dispose(child);
     const ends = loop >= 0 ? loopEnds(run, loop, component) : null;
     if (ends !== null) {
@@ -33,18 +34,23 @@ export class CursorLayer {
     point.material.depthTest = false;
     point.renderOrder = 10;
     this.object.add(this.camera(run, row, 1.7 * size, CURSOR), point);
-    if (landmarks) this.object.add(this.landmarksOf(run, row));
+    if (layers.landmarks) this.object.add(observed ? pointsOf(run, observed, 3.5) : this.landmarksOf(run, row));
+    if (landmark < 0) return;
+    const mark = pointsOf(run, [landmark], 14);
+    mark.material.depthTest = false;
+    mark.renderOrder = 11;
+    const ray = new SegmentList();
+    ray.add(run.frames.pose, 7 * row, run.landmarks.position, 3 * landmark, CURSOR);
+    this.object.add(mark, wideLines(ray, 1.5, 10));
   }
 
   /** The landmarks that the keyframe under the cursor has made. */
   private landmarksOf(run: RunData, row: number): ReturnType<typeof discs> {
     const keyframe = run.keyframes.id[keyframeAt(run, row)];
-    const { count, keyframe: owner, position } = run.landmarks;
-    const positions: number[] = [];
-    for (let i = 0; i < count; i++) {
-      if (owner[i] === keyframe) positions.push(position[3 * i], position[3 * i + 1], position[3 * i + 2]);
-    }
-    return discs(positions, CURSOR, 3.5);
+    const { count, keyframe: owner } = run.landmarks;
+    const rows: number[] = [];
+    for (let i = 0; i < count; i++) if (owner[i] === keyframe) rows.push(i);
+    return pointsOf(run, rows, 3.5);
   }
 
   private camera(run: RunData, row: number, size: number, colour: Rgb): ReturnType<typeof wideLines> {
@@ -52,4 +58,15 @@ export class CursorLayer {
     addFrustum(list, poseMatrix(run.frames.pose, row, new Matrix4()), imageShape(run), size, colour);
     return wideLines(list, 2.5, 9);
   }
+}
+
+/** Landmarks as discs. */
+function pointsOf(run: RunData, rows: ArrayLike<number>, pixels: number): ReturnType<typeof discs> {
+  const { position, count } = run.landmarks;
+  const positions: number[] = [];
+  for (let i = 0; i < rows.length; i++) {
+    const at = 3 * rows[i];
+    if (at >= 0 && at < 3 * count) positions.push(position[at], position[at + 1], position[at + 2]);
+  }
+  return discs(positions, CURSOR, pixels);
 }

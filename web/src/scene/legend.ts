@@ -2,9 +2,17 @@ import { SCALES, cssColour } from "../data/colour_scale";
 import { el } from "../page/dom";
 import type { LegendItem } from "./colouring";
 
-export function legendElement(items: LegendItem[]): HTMLElement {
-  const box = el("div", { class: "legend", "aria-label": "Legend" });
-  for (const item of items) box.append(item.kind === "scale" ? scaleElement(item) : categoryElement(item));
+/** The user can close it, as it lies over the scene. */
+export function legendElement(items: LegendItem[], open = true): HTMLDetailsElement {
+  const elements = items.map((item) => (item.kind === "scale" ? scaleElement(item) : categoryElement(item)));
+  const box = el(
+    "details",
+    { class: "legend" },
+    el("summary", {}, "Legend"),
+    el("div", { class: "legend-body" }, ...elements),
+  );
+  box.hidden = items.length === 0;
+  box.open = open;
   return box;
 }
 
@@ -22,7 +30,8 @@ function scaleElement(item: Extract<LegendItem, { kind: "scale" }>): HTMLElement
 }
 
 function categoryElement(item: Extract<LegendItem, { kind: "category" }>): HTMLElement {
-  const box = el("div", { class: item.entries.length > 0 ? "lines" : "" }, el("div", {}, item.title));
+  const box = el("div", { class: item.entries.length > 0 ? "lines" : "" });
+  if (item.title !== "") box.append(el("div", {}, item.title));
   for (const entry of item.entries) {
     const mark = el("span", { class: "mark" });
     mark.style.background = cssColour(entry.colour);
@@ -40,7 +49,8 @@ export function drawLegend(
   height: number,
   dark: boolean,
 ): void {
-  const lines = items.reduce((sum, item) => sum + (item.kind === "scale" ? 3 : 1 + item.entries.length), 0);
+  const titled = (item: LegendItem): number => (item.title === "" ? 0 : 1);
+  const lines = items.reduce((sum, item) => sum + titled(item) + (item.kind === "scale" ? 2 : item.entries.length), 0);
   let y = height - 12 - lines * LINE;
   context.fillStyle = dark ? "rgba(13, 17, 23, 0.75)" : "rgba(255, 255, 255, 0.8)";
   context.fillRect(8, y - 8, 250, lines * LINE + 12);
@@ -53,7 +63,7 @@ export function drawLegend(
   };
   for (const item of items) {
     write(item.kind === "scale" && item.unit !== "" ? `${item.title} [${item.unit}]` : item.title, 16);
-    y += LINE;
+    y += titled(item) * LINE;
     if (item.kind === "scale") {
       const gradient = context.createLinearGradient(16, 0, 236, 0);
       SCALES[item.scale].forEach((c, i, all) => gradient.addColorStop(i / (all.length - 1), cssColour(c)));

@@ -60,9 +60,38 @@ export function nearestLoop(
   return best;
 }
 
-function onScreen(run: RunData, row: number, { width, height, matrix }: Screen): [number, number] | null {
-  const { pose } = run.frames;
-  const [x, y, z] = [pose[7 * row], pose[7 * row + 1], pose[7 * row + 2]];
+/** Of the landmarks in `rows`. */
+export function nearestLandmark(
+  run: RunData,
+  rows: Int32Array,
+  screen: Screen,
+  x: number,
+  y: number,
+  radius: number,
+): number {
+  let best = -1;
+  let bestDistance = radius;
+  for (const row of rows) {
+    const p = row < 0 ? null : pointOnScreen(run.landmarks.position, 3 * row, screen);
+    if (p === null) continue;
+    const distance = Math.hypot(p[0] - x, p[1] - y);
+    if (!(distance < bestDistance)) continue;
+    best = row;
+    bestDistance = distance;
+  }
+  return best;
+}
+
+function onScreen(run: RunData, row: number, screen: Screen): [number, number] | null {
+  return pointOnScreen(run.frames.pose, 7 * row, screen);
+}
+
+function pointOnScreen(
+  values: ArrayLike<number>,
+  at: number,
+  { width, height, matrix }: Screen,
+): [number, number] | null {
+  const [x, y, z] = [values[at], values[at + 1], values[at + 2]];
   const e = matrix.elements;
   const w = e[3] * x + e[7] * y + e[11] * z + e[15];
   if (w <= 0) return null;

@@ -36,10 +36,14 @@ export function watchPointer(view: SceneView, report: ReportData, store: Store):
     pending = true;
     requestAnimationFrame(() => {
       pending = false;
+      store.set({ landmark: view.landmarkAt(event.offsetX, event.offsetY) });
       showTip(tip, report, store, view.frameAt(event.offsetX, event.offsetY, FRAME_RADIUS), event);
     });
   });
-  canvas.addEventListener("pointerleave", () => (tip.hidden = true));
+  canvas.addEventListener("pointerleave", () => {
+    tip.hidden = true;
+    store.set({ landmark: -1 });
+  });
 }
 
 function showTip(tip: HTMLElement, report: ReportData, store: Store, row: number, event: MouseEvent): void {

@@ -23,6 +23,7 @@ import type { QualityLevel } from "./quality";
 import { type Viewport, pixelRatio } from "./viewport";
 
 const ONLINE: Rgb = [170, 150, 255];
+const BEFORE: Rgb = [150, 150, 150];
 
 export class RunScene {
   readonly group: Group;
@@ -83,8 +84,7 @@ export class RunScene {
   beforeDraw(): void {
     if (!this.cursorIsOld) return;
     this.cursorIsOld = false;
-    const { row, loop, component, layers } = this.state;
-    this.cursor.show(this.run, row, loop, component, this.frustumSize, layers.landmarks);
+    this.cursor.show(this.run, this.state, this.frustumSize);
   }
 
   /** Draws less while something moves, all with null. */
@@ -138,9 +138,10 @@ export class RunScene {
   private lineLegend(): LegendItem[] {
     const { state, run, report } = this;
     const entries: { text: string; colour: Rgb }[] = [];
-    entries.push({ text: `frame under the cursor${state.layers.landmarks ? ", its landmarks" : ""}`, colour: CURSOR });
+    entries.push({ text: `cursor${state.layers.landmarks ? " and its landmarks" : ""}`, colour: CURSOR });
     if (state.layers.truth && run.frames.truth) entries.push({ text: "ground truth", colour: this.truthColour() });
     if (state.layers.online) entries.push({ text: "online trajectory", colour: ONLINE });
+    if (state.layers.before && run.before) entries.push({ text: "before the last edit", colour: BEFORE });
     if (state.layers.others) {
       report.runs.forEach((other, i) => {
         if (i !== state.run) entries.push({ text: other.name, colour: runColour(i) });
@@ -158,7 +159,7 @@ export class RunScene {
         entries.push({ text: `constraint: ${source}`, colour: constraintColour(run, source) });
       }
     }
-    return entries.length > 0 ? [{ kind: "category", title: "Lines and points", entries }] : [];
+    return entries.length > 0 ? [{ kind: "category", title: "", entries }] : [];
   }
 
   private drop(name: LayerName): void {
@@ -186,6 +187,8 @@ export class RunScene {
         return run.frames.truth ? truthLines(run.frames.truth, this.truthColour()) : null;
       case "online":
         return plainTrajectory(run, run.frames.online, component, ONLINE);
+      case "before":
+        return run.before ? plainTrajectory(run, run.before, component, BEFORE, 0.7) : null;
       case "frusta":
         return frustaLines(run, component, this.frustumSize, state.theme === "dark" ? [150, 175, 200] : [90, 115, 140]);
       case "images":

@@ -8,7 +8,7 @@ import type { LegendItem } from "./colouring";
 import { edgeMiddle, graphLegend, graphLines, graphSphere } from "./graph_layer";
 import { drawLegend, legendElement } from "./legend";
 import { dispose } from "./lines";
-import { nearestFrame, nearestLoop, type Screen } from "./picking";
+import { nearestFrame, nearestLandmark, nearestLoop, type Screen } from "./picking";
 import { loopRows } from "./loops_layer";
 import { RunScene } from "./run_scene";
 import { Viewport } from "./viewport";
@@ -31,8 +31,9 @@ export class SceneView {
   readonly element = el("section", { class: "scene", "aria-label": "Scene" });
   readonly viewport: Viewport;
   private run: RunScene | null = null;
+  private built: Pick<State, "run" | "component"> = { run: 0, component: null };
   private graph: ReturnType<typeof graphLines> | null = null;
-  private legendBox: HTMLElement = el("div");
+  private legendBox = legendElement([]);
   private readonly followed = new Vector3();
 
   constructor(
@@ -80,6 +81,13 @@ export class SceneView {
     return run ? nearestFrame(run, this.store.state.component, this.screen(), x, y, radius) : -1;
   }
 
+  /** Row of a landmark near a point of the screen that the keyframe under the cursor observes, or -1. */
+  landmarkAt(x: number, y: number): number {
+    const run = this.currentRun();
+    const { observed } = this.store.state;
+    return run && observed ? nearestLandmark(run, observed, this.screen(), x, y, 6) : -1;
+  }
+
   /** Row of a visible loop near a point of the screen, or -1. */
   loopAt(x: number, y: number): number {
     const run = this.currentRun();
@@ -112,6 +120,7 @@ export class SceneView {
       this.viewport.move();
       if (state.follow !== "off") this.follow(state);
     });
+    store.on(["landmark", "observed"], (state) => this.run?.showCursor(state));
     store.on(["follow"], (state) => {
       if (state.follow === "along") this.lookAtFrame(state.row);
       this.rememberFollowed(state.row);
@@ -145,12 +154,15 @@ export class SceneView {
   }
 
   private buildRun(): void {
-    const first = this.run === null;
+    const { run, component, row } = this.store.state;
+    // After an edit the same run is built again, and the view stays.
+    const other = this.run !== null && (run !== this.built.run || component !== this.built.component);
     this.run?.dispose();
     this.run = new RunScene(this.report, this.store.state, this.viewport);
-    this.rememberFollowed(this.store.state.row);
+    this.built = { run, component };
+    this.rememberFollowed(row);
     this.refreshLegend();
-    if (!first) this.fit();
+    if (other) this.fit();
   }
 
   private shownGraph(): GraphData | null {
@@ -178,7 +190,7 @@ export class SceneView {
   }
 
   private refreshLegend(): void {
-    const next = legendElement(this.legend());
+    const next = legendElement(this.legend(), this.legendBox.open);
     this.legendBox.replaceWith(next);
     this.legendBox = next;
   }

@@ -28,6 +28,9 @@ export class Viewport {
   beforeDraw: () => void = () => undefined;
   private readonly renderer: WebGLRenderer;
   private readonly quality: Quality;
+  private readonly observer: ResizeObserver;
+  private disposed = false;
+  private inset = 0;
   private moving = false;
   private held = false;
   private watching = false;
@@ -59,8 +62,20 @@ export class Viewport {
       this.hold(true);
     });
     this.controls.addEventListener("end", () => this.hold(false));
-    new ResizeObserver(() => this.resize()).observe(parent);
+    this.observer = new ResizeObserver(() => this.resize());
+    this.observer.observe(parent);
     this.resize();
+  }
+
+  /** Frees the graphics; nothing is drawn any more. */
+  dispose(): void {
+    window.clearTimeout(this.stillTimer);
+    this.disposed = true;
+    this.observer.disconnect();
+    this.controls.dispose();
+    this.renderer.dispose();
+    this.renderer.forceContextLoss();
+    this.canvas.remove();
   }
 
   get level(): QualityLevel | null {
@@ -101,6 +116,13 @@ export class Viewport {
     if (this.moving) this.move();
   }
 
+  /** Pixels at the left that something covers: the view is centred in the rest. */
+  setInset(pixels: number): void {
+    if (pixels === this.inset) return;
+    this.inset = pixels;
+    this.resize();
+  }
+
   setBackground(css: string): void {
     this.renderer.setClearColor(css, 1);
     this.request();
@@ -109,7 +131,8 @@ export class Viewport {
   /** Looks at a sphere from `direction` (y is up), so that all of it is seen. */
   fit(sphere: Sphere, direction: Vector3): void {
     const radius = Math.max(sphere.radius, 1e-3);
-    const half = Math.min(this.camera.fov, this.camera.fov * this.camera.aspect) / 2;
+    const free = Math.max(this.parent.clientWidth - this.inset, 1) / Math.max(this.parent.clientHeight, 1);
+    const half = Math.min(this.camera.fov, this.camera.fov * free) / 2;
     const distance = radius / Math.sin((half * Math.PI) / 180);
     this.camera.near = radius / 500;
     this.camera.far = radius * 60;
@@ -149,13 +172,14 @@ export class Viewport {
 
   /** Follows the animation frames while something moves, whether or not they draw. */
   private watchSpeed(now: number): void {
-    this.watching = this.moving;
-    if (!this.moving) return;
+    this.watching = this.moving && !this.disposed;
+    if (!this.watching) return;
     if (this.quality.note(now)) this.applyQuality();
     requestAnimationFrame((next) => this.watchSpeed(next));
   }
 
   private draw(): void {
+    if (this.disposed) return;
     this.beforeDraw();
     this.renderer.render(this.scene, this.camera);
     if (this.drawn++ === 0) performance.mark("first-picture");
@@ -177,8 +201,7 @@ export class Viewport {
     const height = Math.max(this.parent.clientHeight, 1);
     this.setRatio();
     this.renderer.setSize(width, height, false);
-    this.camera.aspect = width / height;
-    this.camera.updateProjectionMatrix();
+    this.camera.setViewOffset(width, height, -this.inset / 2, 0, width, height);
     if (this.fitted) this.fit(this.fitted.sphere, this.fitted.direction);
     this.request();
   }

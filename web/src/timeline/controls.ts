@@ -1,5 +1,4 @@
 /** The row above the time line: playback, choice of the graph, readout of the cursor. */
-import { formatCount } from "../data/format";
 import type { ReportData } from "../data/model";
 import { type SeriesName, availableSeries, series } from "../data/series";
 import { moveCursor } from "../page/actions";
@@ -39,8 +38,7 @@ export function timelineControls(report: ReportData, store: Store, timeline: Tim
     play.setAttribute("aria-label", store.state.playing ? "Pause" : "Play");
   };
   const showCursor = (): void => {
-    const { count } = report.runs[store.state.run].frames;
-    readout.textContent = `${timeline.cursorText()} (of ${formatCount(count)} frames)`;
+    readout.textContent = readout.title = timeline.cursorText();
   };
   store.on(["playing"], showPlaying);
   store.on(["run"], showGraphs);

@@ -339,7 +339,7 @@ describe("on a phone", () => {
 function coloursOf(path: string): number {
   const file = readFileSync(path);
   const parts: Buffer[] = [];
-  for (let at = 8; at < file.length; ) {
+  for (let at = 8; at < file.length;) {
     const length = file.readUInt32BE(at);
     if (file.toString("latin1", at + 4, at + 8) === "IDAT") parts.push(file.subarray(at + 8, at + 8 + length));
     at += 12 + length;

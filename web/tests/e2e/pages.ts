@@ -8,10 +8,11 @@ import { insertReport } from "../encode";
 
 const built = readFileSync(join(import.meta.dirname, "../../dist/report.html"), "utf8");
 
-/** Opens pages with reports; after each test, none of them may have written to the console or opened a dialog. */
-export function pages(): {
+/** Opens pages; after each test, none of them may have written to the console or opened a dialog, but for what matches `expected`. */
+export function pages(expected: RegExp | null = null): {
   show: (report: unknown, options?: PageOptions) => Promise<Watched>;
   raw: (html: string) => Promise<Watched>;
+  visit: (url: string, options?: PageOptions) => Promise<Watched>;
 } {
   const folder = mkdtempSync(join(tmpdir(), "placegraph-web-"));
   const opened: Watched[] = [];
@@ -23,21 +24,24 @@ export function pages(): {
   afterEach(async () => {
     for (const { page, messages } of opened.splice(0)) {
       await page.close();
-      expect(messages).toEqual([]);
+      expect(messages.filter((text) => !expected?.test(text))).toEqual([]);
     }
   });
   afterAll(async () => {
     await browser.close();
     rmSync(folder, { recursive: true });
   });
-  const raw = async (html: string, options?: PageOptions): Promise<Watched> => {
-    const file = join(folder, `${files++}.html`);
-    writeFileSync(file, html);
-    const watched = await open(browser, `file://${file}`, options);
+  const visit = async (url: string, options?: PageOptions): Promise<Watched> => {
+    const watched = await open(browser, url, options);
     opened.push(watched);
     return watched;
   };
-  return { raw, show: (report, options) => raw(insertReport(built, report), options) };
+  const raw = (html: string, options?: PageOptions): Promise<Watched> => {
+    const file = join(folder, `${files++}.html`);
+    writeFileSync(file, html);
+    return visit(`file://${file}`, options);
+  };
+  return { raw, visit, show: (report, options) => raw(insertReport(built, report), options) };
 }
 
 export { built };

@@ -27,7 +27,14 @@ describe("the built page", () => {
   it("holds the marker of the report once, before its script", () => {
     const parts = built.split("<!--placegraph-report-->");
     expect(parts).toHaveLength(2);
-    expect(parts[1].trimStart().startsWith('<script type="module">')).toBe(true);
+    expect(parts[1].trimStart().startsWith('<script type="module" nonce="placegraph-nonce">')).toBe(true);
+  });
+
+  it("holds what a server replaces: one nonce, and its policy on a line of its own", () => {
+    expect(built.split("placegraph-nonce")).toHaveLength(2);
+    const lines = built.split("\n").filter((line) => line.includes("http-equiv"));
+    expect(lines).toHaveLength(1);
+    expect(lines[0].trim()).toMatch(/^<meta http-equiv="Content-Security-Policy" content="[^"]*">$/);
   });
 
   it("holds the licences of its packages", () => {

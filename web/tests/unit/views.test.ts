@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { decodeReport } from "../../src/data/decode";
 import { type RunData, label } from "../../src/data/model";
-import { isPosed, keyframeAt, keyframeSpacing } from "../../src/data/run_view";
+import { isPosed, keyframeAt, keyframeOf, keyframeSpacing } from "../../src/data/run_view";
 import { availableSeries, speeds, travelled } from "../../src/data/series";
 import { Store } from "../../src/page/state";
 import { chooseRun, startState } from "../../src/page/start_state";
@@ -57,6 +57,9 @@ describe("a run", () => {
     const run = runOf({ lost: [[40, 49]], components: 2 });
     expect(stateSentence(run, 45)).toBe("The frame is lost: too few points agree with the motion.");
     expect(stateSentence(run, 0)).toBe("The frame is a keyframe of component 0 (main).");
+    expect(run.frames.keyframe[1]).toBe(0);
+    expect(keyframeOf(run, 1)).toBe(-1);
+    expect(stateSentence(run, 1)).toBe("The frame has a pose of component 0 (main).");
     expect(isPosed(run, 60, 0)).toBe(false);
     expect(isPosed(run, 60, 1)).toBe(true);
   });
