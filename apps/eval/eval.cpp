@@ -142,8 +142,12 @@ PairingResult pair(const Job& job, const EvalArguments& arguments,
 }
 
 void check_outputs(const EvalArguments& arguments) {
-  for (const std::string& path : {arguments.csv, arguments.latex, arguments.plot})
+  const std::vector<std::string> files = {arguments.csv, arguments.latex, arguments.plot,
+                                          arguments.report};
+  for (const std::string& path : files)
     if (!path.empty()) require_free(path, arguments.force);
+  require(arguments.report.empty() || std::ranges::count(files, arguments.report) == 1,
+          "--report: " + arguments.report + " is where another output is to be written");
   require_plot_name(arguments.plot);
   require(arguments.times.size() <= 2, "--times: one file for all, or two: ground truth, estimate");
 }

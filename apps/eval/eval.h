@@ -19,6 +19,7 @@ struct EvalArguments {
   std::string associate = "auto";  ///< one of eval_associations()
   EvaluationOptions options;       ///< alignment and association are chosen by the two names above
   std::string csv, latex, plot;    ///< files to write; empty: none
+  std::string report;              ///< page that the caller writes; empty: none
   bool force = false;              ///< overwrite them
 };
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/report/page.h"
+#include "apps/report/parts.h"
 #include "apps/report/report_run.h"
 #include "apps/support/output.h"
 
@@ -16,18 +17,18 @@ using nlohmann::json;
 
 ReportResult report(const ReportArguments& arguments) {
   require_free(arguments.out, arguments.force);
+  require(
+      arguments.georeferences.empty() || arguments.georeferences.size() == arguments.runs.size(),
+      "--georeference: one folder for each run");
   json runs = json::array();
   std::string names;
-  for (const std::string& run : arguments.runs) {
-    runs.push_back(describe_run_for_report(run));
+  for (std::size_t i = 0; i < arguments.runs.size(); ++i) {
+    runs.push_back(describe_run_for_report(
+        arguments.runs[i], arguments.georeferences.empty() ? "" : arguments.georeferences[i]));
     names += (names.empty() ? "" : ", ") + runs.back()["name"].get<std::string>();
   }
-  const json data = {{"format", "placegraph-report-1"},
-                     {"program", arguments.program},
-                     {"title", arguments.title.empty() ? names : arguments.title},
-                     {"runs", std::move(runs)},
-                     {"pictures", json::array()},
-                     {"graphs", json::array()}};
+  json data = bare_report(arguments.program, arguments.title.empty() ? names : arguments.title);
+  data["runs"] = std::move(runs);
   const std::string page = page_with(data);
   write_file(arguments.out, page);
   return {arguments.out, arguments.runs.size(), page.size()};

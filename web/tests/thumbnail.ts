@@ -5,20 +5,22 @@ const HEIGHT = 54;
 
 /** A street as the camera with heading `angle` at `position` sees it, as a PNG in a data URI. */
 export function thumbnail(angle: number, position: number): string {
-  const raw = Buffer.alloc((WIDTH * 3 + 1) * HEIGHT);
-  for (let y = 0; y < HEIGHT; y++) {
-    for (let x = 0; x < WIDTH; x++) {
-      const at = y * (WIDTH * 3 + 1) + 1 + 3 * x;
-      const [r, g, b] = pixel(x, y, angle, position);
-      raw[at] = r;
-      raw[at + 1] = g;
-      raw[at + 2] = b;
-    }
-  }
+  const pixels = new Uint8Array(3 * WIDTH * HEIGHT);
+  for (let y = 0; y < HEIGHT; y++)
+    for (let x = 0; x < WIDTH; x++) pixels.set(pixel(x, y, angle, position), 3 * (y * WIDTH + x));
+  return png(WIDTH, HEIGHT, pixels);
+}
+
+/** A PNG in a data URI; `pixels` are red, green, blue and, if there are four a pixel, opacity. */
+export function png(width: number, height: number, pixels: Uint8Array): string {
+  const channels = pixels.length / (width * height);
+  const raw = Buffer.alloc((width * channels + 1) * height);
+  for (let y = 0; y < height; y++)
+    raw.set(pixels.subarray(y * width * channels, (y + 1) * width * channels), y * (width * channels + 1) + 1);
   const header = Buffer.alloc(13);
-  header.writeUInt32BE(WIDTH, 0);
-  header.writeUInt32BE(HEIGHT, 4);
-  header.set([8, 2, 0, 0, 0], 8);
+  header.writeUInt32BE(width, 0);
+  header.writeUInt32BE(height, 4);
+  header.set([8, channels === 4 ? 6 : 2, 0, 0, 0], 8);
   const signature = Buffer.from([137, 80, 78, 71, 13, 10, 26, 10]);
   const file = Buffer.concat([
     signature,

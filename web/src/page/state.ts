@@ -15,6 +15,7 @@ export const LAYERS = [
   "loops",
   "refused",
   "planes",
+  "street",
   "others",
   "grid",
 ] as const;
