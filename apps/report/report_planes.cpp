@@ -72,6 +72,11 @@ std::optional<IndoorMap> read_floor_plan(const std::string& folder) {
   return read_indoor_map(path.string());
 }
 
+json up_of_plan(const SO3& R_plan_map) {
+  const Eigen::Vector3d up = R_plan_map.inverse().matrix() * Eigen::Vector3d(0, -1, 0);
+  return {up.x(), up.y(), up.z()};
+}
+
 json describe_floor_plan(const IndoorMap& plan) {
   json lines = json::array();
   for (const IndoorRoom& room : plan.rooms) {

@@ -10,6 +10,9 @@ namespace placegraph::apps {
 /// floor_plan.json in the folder of a run; nothing where there is none. Throws FileError.
 std::optional<IndoorMap> read_floor_plan(const std::string& folder);
 
+/// The direction up in the map, against y of a plan.
+nlohmann::json up_of_plan(const SO3& R_plan_map);
+
 /// Walls, doors and rooms as polylines in the plan.
 nlohmann::json describe_floor_plan(const IndoorMap& plan);
 

@@ -140,8 +140,12 @@ void put_results_beside(const std::string& folder, const std::string& georeferen
   if (const std::optional<IndoorMap> plan = read_floor_plan(folder)) {
     run["floor_plan"] = describe_floor_plan(*plan);
     run["planes"] = describe_planes(*plan);
+    run["up"] = up_of_plan(plan->R_plan_map);
   }
-  run["street_map"] = describe_street_map(folder);
+  if (const std::optional<SemanticMap> street = read_street_map(folder)) {
+    run["street_map"] = describe_street_map(*street);
+    run["up"] = up_of_plan(street->R_plan_map);
+  }
   const std::string earth = georeference.empty() ? georeference_of(folder) : georeference;
   if (!earth.empty()) run["georeference"] = describe_georeference(earth, map);
   run["pictures"] = describe_pictures(folder);

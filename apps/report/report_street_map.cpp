@@ -126,11 +126,11 @@ json describe_street_map(const SemanticMap& map) {
           {"classes", classes_of(map, view)}};
 }
 
-json describe_street_map(const std::string& folder) {
+std::optional<SemanticMap> read_street_map(const std::string& folder) {
   const fs::path path = fs::path(folder) / "semantic_map.ply";
   if (!fs::is_regular_file(path) || fs::exists(fs::path(folder) / "semantic_map.geojson"))
-    return {};
-  return describe_street_map(read_semantic_map(path.string()));
+    return std::nullopt;
+  return read_semantic_map(path.string());
 }
 
 }  // namespace placegraph::apps

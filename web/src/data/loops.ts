@@ -75,7 +75,8 @@ function rank(stage: string): number {
 
 export function passes(loops: LoopTable, row: number, filter: LoopFilter): boolean {
   if (!filter.stages.has(stageOf(loops, row))) return false;
-  // A probability that is unknown passes only where none is asked for.
+  // A loop that was missed has no probability; one that is unknown passes only where none is asked for.
+  if (stageOf(loops, row) === "missed") return true;
   return filter.minProbability <= 0 || loopValue(loops, certainty(loops), row) >= filter.minProbability;
 }
 

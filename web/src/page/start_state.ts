@@ -33,7 +33,8 @@ export function startState(report: ReportData, theme: Theme): State {
     frustumSize: 1,
     loopFilter: {
       stages: new Set([...STAGES, ...VERDICTS, ...report.runs.flatMap((r) => stageCounts(r.loops).map(([s]) => s))]),
-      minProbability: 0,
+      // Of a recognizer with probabilities, those that it takes for loops.
+      minProbability: run?.loops.judged && run.loops.probability !== null ? 0.5 : 0,
     },
     loopOrder: { column: run ? certainty(run.loops) : "probability", descending: true },
     playing: false,

@@ -123,7 +123,7 @@ export class RunScene {
     const { state, run } = this;
     const items: LegendItem[] = [];
     if (state.layers.trajectory) items.push(frameColouring(run, state.run, state.colourBy).legend);
-    if (state.layers.landmarks && this.pointLegend) items.push(this.pointLegend);
+    if (state.layers.landmarks && run.landmarks.count > 0 && this.pointLegend) items.push(this.pointLegend);
     items.push(...this.lineLegend());
     if (state.layers.street && run.streetMap)
       items.push({

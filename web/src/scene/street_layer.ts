@@ -5,7 +5,6 @@ import {
   Mesh,
   MeshBasicMaterial,
   NearestFilter,
-  SRGBColorSpace,
   Texture,
 } from "three";
 import type { StreetShape } from "../data/model";
@@ -18,20 +17,21 @@ export function streetMesh(street: StreetShape, onLoad: () => void): Mesh {
   for (let row = 0, i = 0; row <= rows; row++)
     for (let column = 0; column <= columns; column++, i += 2) uv.set([column / columns, row / rows], i);
   const geometry = new BufferGeometry();
-  geometry.setAttribute("position", new BufferAttribute(Float32Array.from(ground), 3));
+  // Points that no triangle uses: not a number would spoil the bounds of the mesh.
+  const positions = Float32Array.from(ground, (value) => (Number.isFinite(value) ? value : 0));
+  geometry.setAttribute("position", new BufferAttribute(positions, 3));
   geometry.setAttribute("uv", new BufferAttribute(uv, 2));
   geometry.setIndex(triangles(street));
   const texture = new Texture();
   texture.flipY = false;
   texture.magFilter = NearestFilter;
-  texture.colorSpace = SRGBColorSpace;
   // Unknown pixels are left out, and what lies on the ground is drawn over it.
   const material = new MeshBasicMaterial({ map: texture, alphaTest: 0.5, side: DoubleSide });
   material.polygonOffset = true;
   material.polygonOffsetFactor = 1;
   material.polygonOffsetUnits = 4;
   const mesh = new Mesh(geometry, material);
-  mesh.frustumCulled = false;
+  mesh.frustumCulled = false; // its bounds contain those points
   if (isPicture(street.image)) {
     const image = new Image();
     image.addEventListener("load", () => {
