@@ -65,11 +65,11 @@ Thumbnails of_sequence(const std::set<std::int64_t>& images, const std::string& 
 Thumbnails thumbnails_of(const std::set<std::int64_t>& images, const std::string& predictions_file,
                          const std::string& poses_file, std::int64_t count) {
   const fs::path map = fs::path(predictions_file).parent_path() / "map.db";
-  const fs::path folder = fs::absolute(fs::path(poses_file)).parent_path();
   try {
     if (fs::is_regular_file(map)) return of_map(images, map.string());
-    if (!poses_file.empty() && fs::exists(folder / "calib.txt"))
-      return of_sequence(images, folder.string(), count);
+    if (poses_file.empty()) return {};
+    const fs::path folder = fs::absolute(poses_file).parent_path();
+    if (fs::exists(folder / "calib.txt")) return of_sequence(images, folder.string(), count);
   } catch (const Error& error) {
     warn(fmt::format("no images for the report: {}", error.what()));
   }

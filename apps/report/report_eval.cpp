@@ -47,11 +47,12 @@ json frames_of(const EvaluationResult& result) {
   std::vector<std::int32_t> id, component;
   std::vector<double> stamp_s;
   Poses estimate, truth;
-  const double unit_s = has_times(result) ? 1e-9 : 1 / SegmentOptions().frame_rate_hz;
+  const bool timed = has_times(result);
   for (const FramePair& pair : result.aligned_pairs) {
     id.push_back(pair.frame);
     component.push_back(pair.T_world_estimate ? 0 : -1);
-    stamp_s.push_back(unit_s * static_cast<double>(pair.stamp_ns));
+    const auto stamp = static_cast<double>(pair.stamp_ns);
+    stamp_s.push_back(timed ? 1e-9 * stamp : stamp / SegmentOptions().frame_rate_hz);
     estimate.push_back(pair.T_world_estimate);
     truth.emplace_back(pair.T_world_truth);
   }

@@ -1,8 +1,11 @@
 #pragma once
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <cstring>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "tests/support/temporary_folder.h"
 
@@ -23,6 +26,25 @@ inline nlohmann::json report_in(const std::string& file) {
 inline std::size_t rows_in(const nlohmann::json& column) {
   const std::string data = column["data"].get<std::string>();
   return data.size() / 4 * 3 / (4 * column["width"].get<std::size_t>());
+}
+
+/// The values of a column of doubles.
+inline std::vector<double> doubles_in(const nlohmann::json& column) {
+  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes;
+  std::uint32_t bits = 0;
+  int count = 0;
+  for (const char c : column["data"].get<std::string>()) {
+    if (c == '=') break;
+    bits = bits << 6 | static_cast<std::uint32_t>(digits.find(c));
+    count += 6;
+    if (count < 8) continue;
+    count -= 8;
+    bytes += static_cast<char>(bits >> count & 255);
+  }
+  std::vector<double> values(bytes.size() / sizeof(double));
+  std::memcpy(values.data(), bytes.data(), values.size() * sizeof(double));
+  return values;
 }
 
 }  // namespace placegraph::test

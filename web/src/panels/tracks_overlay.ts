@@ -33,20 +33,22 @@ export function tracksOverlay(run: RunData, k: number, width: number, height: nu
   root.setAttribute("viewBox", `0 0 ${width} ${height}`);
   root.setAttribute("class", "tracks");
   root.setAttribute("aria-hidden", "true");
-  const radius = Math.max(width, height) / 110;
+  const radius = Math.max(width, height) / 170;
   for (const points of tracks) {
     const colour = cssColour(scaleColour("viridis", (points.length - 1) / (LONGEST - 1)));
     const [x, y] = points[0];
     const line = document.createElementNS(SVG, "path");
     line.setAttribute("d", `M${points.map(([u, v]) => `${u * width} ${v * height}`).join("L")}`);
     line.setAttribute("stroke", colour);
-    line.setAttribute("stroke-width", String(radius / 2));
+    line.setAttribute("stroke-width", String(radius / 1.5));
     line.setAttribute("fill", "none");
     const dot = document.createElementNS(SVG, "circle");
     dot.setAttribute("cx", String(x * width));
     dot.setAttribute("cy", String(y * height));
     dot.setAttribute("r", String(radius));
     dot.setAttribute("fill", colour);
+    dot.setAttribute("stroke", "#ffffff");
+    dot.setAttribute("stroke-width", String(radius / 3));
     root.append(line, dot);
   }
   return root;

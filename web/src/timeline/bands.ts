@@ -108,6 +108,8 @@ export function bandsLegend(run: RunData): HTMLElement {
   run.frames.environment?.table.forEach((name, i) => add(name, cssColour(categoryColour(i + 3))));
   if (run.loops.judged) {
     for (const [stage] of stageCounts(run.loops)) add(`loop ${stage}`, cssColour(stageColour(stage)));
-  } else if (run.loops.count > 0) add("loop accepted (open triangle: refused)", cssColour(stageColour("accepted")));
+  } else if (stageCounts(run.loops).some(([stage]) => isGood(stage))) {
+    add("loop accepted (open triangle: refused)", cssColour(stageColour("accepted")));
+  } else if (run.loops.count > 0) add("loop refused", cssColour(stageColour(stageCounts(run.loops)[0][0])));
   return box;
 }

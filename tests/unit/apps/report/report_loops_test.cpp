@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/io/internal/exports/base64.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -68,8 +69,9 @@ TEST_F(LoopsReport, AMissedLoopNamesACandidateThatWasOldEnough) {
   page.truth.min_age = 9;
   judge("ours", "");
   const std::vector<PageLoop> loops = page_loops(page.systems[0].benchmark, page.truth);
-  const auto missed = std::ranges::find(loops, "missed", &PageLoop::verdict);
+  const auto missed = std::ranges::find(loops, FrameId(12), &PageLoop::query);
   ASSERT_NE(missed, loops.end());
+  EXPECT_EQ(missed->verdict, "missed");
   EXPECT_EQ(missed->match, FrameId(3));
 }
 

@@ -6,6 +6,7 @@
 #include <placegraph/io/internal/exports/base64.h>
 #include <placegraph/io/internal/scene/indoor_map_file.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -178,16 +179,18 @@ TEST_F(ReportCommand, HasThePositionOnTheEarth) {
   EXPECT_EQ(earth["fixes_used"], 12);
   EXPECT_EQ(earth["fixes_rejected"], nullptr);
   EXPECT_EQ(earth["track"]["width"], 3);
-  // One row of three doubles for every frame; the first two have a position.
-  const std::string bytes = earth["track"]["data"].get<std::string>();
-  EXPECT_EQ(bytes.size(), (24 * stored.map.frames.size() + 2) / 3 * 4);
-  EXPECT_EQ(bytes.substr(0, 32),
-            column(std::vector<double>{49, 8, 115})["data"].get<std::string>().substr(0, 32));
+  const std::vector<double> track = test::doubles_in(earth["track"]);
+  ASSERT_EQ(track.size(), 3 * stored.map.frames.size());
+  EXPECT_NEAR(track[0], 49, 1e-9);
+  EXPECT_NEAR(track[1], 8, 1e-9);
+  EXPECT_NEAR(track[3] - 49, 5 / 111200.0, 1e-7);  // 5 m to the north
+  EXPECT_TRUE(std::isnan(track[6]));
   write_earth("elsewhere", "900 0 0 0 0 0 0 1\n");
   arguments.georeferences = {folder / "elsewhere"};
   EXPECT_THAT(test::message_of([&] { report(arguments); }), HasSubstr("is of another map"));
   arguments.georeferences = {folder / "elsewhere", folder / "elsewhere"};
-  EXPECT_THAT(test::message_of([&] { report(arguments); }), HasSubstr("one folder for each run"));
+  EXPECT_THAT(test::message_of<ArgumentError>([&] { report(arguments); }),
+              HasSubstr("one folder for each run"));
 }
 
 TEST_F(ReportCommand, RunsOfOneRecordingCanBeCompared) {
