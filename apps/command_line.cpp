@@ -23,6 +23,7 @@
 #include "apps/map/cmd_localize.h"
 #include "apps/map/cmd_route.h"
 #include "apps/map_edit/cmd_map_loops.h"
+#include "apps/pages.h"
 #include "apps/places/cmd_match.h"
 #include "apps/places/cmd_places.h"
 #include "apps/places/cmd_vocabulary.h"
@@ -31,7 +32,6 @@
 #include "apps/planes/cmd_track_plane.h"
 #include "apps/report/cmd_report.h"
 #include "apps/report/report.h"
-#include "apps/report/report_graph.h"
 #include "apps/run/cmd_config.h"
 #include "apps/run/cmd_inspect.h"
 #include "apps/run/cmd_run.h"
@@ -71,30 +71,10 @@ void add_map_group(CLI::App& app) {
   add_georeference_command(map);
 }
 
-constexpr const char* kProgram = "placegraph " PLACEGRAPH_VERSION;
-
-void write_optimized_graph(const OptimizeArguments& arguments, const OptimizeResult& result) {
-  GraphPage page{std::filesystem::path(arguments.in).filename().string(),
-                 result.start,
-                 result.solution.graph,
-                 result.solution.chi2_by_constraint,
-                 {},
-                 {}};
-  for (const RejectedEdge& edge : result.solution.rejected)
-    page.rejected.push_back(edge.constraint);
-  page.figures = {{"chi2 (logarithm), before", result.before.log},
-                  {"chi2 (logarithm)", result.after.log},
-                  {"chi2 (g2o), before", result.before.g2o},
-                  {"chi2 (g2o)", result.after.g2o},
-                  {"iterations", result.solution.iterations},
-                  {"rejected constraints", static_cast<double>(page.rejected.size())}};
-  write_graph_page(arguments.report, page, kProgram);
-}
-
 void add_graph_group(CLI::App& app) {
   CLI::App& graph =
       add_group(app, "graph", "Pose graphs and bundles", "optimize sphere.g2o -o optimized.g2o");
-  add_optimize_command(graph, write_optimized_graph);
+  add_optimize_command(graph, write_optimize_page);
   add_bundle_command(graph);
   add_convert_command(graph);
 }
@@ -102,9 +82,11 @@ void add_graph_group(CLI::App& app) {
 void add_eval_group(CLI::App& app) {
   CLI::App& group = add_group(app, "eval", "Evaluation against ground truth",
                               "trajectory poses.txt trajectory_optimized.kitti --align se3");
-  add_eval_trajectory_command(group);
+  add_eval_trajectory_command(
+      group, [](const EvalArguments& a, const EvalResult& r) { write_eval_page(a, r); });
   add_eval_edges_command(group);
-  add_eval_loops_command(group);
+  add_eval_loops_command(
+      group, [](const LoopsArguments& a, const LoopsResult& r) { write_loops_page(a, r); });
   add_eval_labels_command(group);
 }
 

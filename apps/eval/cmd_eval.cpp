@@ -12,11 +12,19 @@
 namespace placegraph::apps {
 namespace {
 
-void run(const EvalArguments& arguments, bool json) {
-  const EvalResult result = eval(arguments);
+struct EvalCommand {
+  EvalArguments arguments;
+  bool json = false;
+  std::function<void(const EvalArguments&, const EvalResult&)> write_page;
+};
+
+void run(const EvalCommand& command) {
+  const bool json = command.json;
+  const EvalResult result = eval(command.arguments);
   const EvaluationResult* refused = result.refused();
   // A single estimate that cannot be evaluated is reported once, by the error.
   if (json || !refused || !result.single()) print(json ? to_json(result) : to_text(result));
+  if (!refused && !command.arguments.report.empty()) command.write_page(command.arguments, result);
   if (refused) throw NoResult(refused->name + ": " + refused->outcome.reason);
 }
 
@@ -33,10 +41,12 @@ void add_plot_options(CLI::App& command, EvalArguments& a) {
 
 }  // namespace
 
-void add_eval_trajectory_command(CLI::App& eval_group) {
-  auto arguments = std::make_shared<EvalArguments>();
-  auto json = std::make_shared<bool>(false);
-  EvalArguments& a = *arguments;
+void add_eval_trajectory_command(
+    CLI::App& eval_group,
+    const std::function<void(const EvalArguments&, const EvalResult&)>& write_page) {
+  auto eval_command = std::make_shared<EvalCommand>();
+  eval_command->write_page = write_page;
+  EvalArguments& a = eval_command->arguments;
   CLI::App* command = eval_group.add_subcommand(
       "trajectory", "Evaluate trajectories against ground truth (short: eval)");
   command->footer(
@@ -81,12 +91,13 @@ void add_eval_trajectory_command(CLI::App& eval_group) {
       ->expected(1)
       ->take_all()
       ->check(CLI::ExistingFile);
-  command->add_flag("--json", *json, kJsonText);
+  command->add_flag("--json", eval_command->json, kJsonText);
   command->add_option("--csv", a.csv, "write the details as CSV");
   command->add_option("--latex", a.latex, "write the figures as a LaTeX table");
   add_plot_options(*command, a);
+  command->add_option("--report", a.report, kReportText);
   command->add_flag("--force", a.force, kForceText);
-  command->callback([arguments, json] { run(*arguments, *json); });
+  command->callback([eval_command] { run(*eval_command); });
 }
 
 }  // namespace placegraph::apps

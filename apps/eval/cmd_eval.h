@@ -1,9 +1,16 @@
 #pragma once
 #include <CLI/App.hpp>
+#include <functional>
 
 namespace placegraph::apps {
 
+struct EvalArguments;
+struct EvalResult;
+
 /// Adds `placegraph eval trajectory TRUTH EST...`, which evaluates estimated trajectories.
-void add_eval_trajectory_command(CLI::App& eval_group);
+/// `write_page` writes the page of `--report`.
+void add_eval_trajectory_command(
+    CLI::App& eval_group,
+    const std::function<void(const EvalArguments&, const EvalResult&)>& write_page);
 
 }  // namespace placegraph::apps

@@ -18,7 +18,9 @@ const std::vector<std::string> kFormatNames = {"scores", "ibow", "run"};
 
 }  // namespace
 
-void add_eval_loops_command(CLI::App& eval_group) {
+void add_eval_loops_command(
+    CLI::App& eval_group,
+    const std::function<void(const LoopsArguments&, const LoopsResult&)>& write_page) {
   auto arguments = std::make_shared<LoopsArguments>();
   auto json = std::make_shared<bool>(false);
   LoopsArguments& a = *arguments;
@@ -70,10 +72,12 @@ void add_eval_loops_command(CLI::App& eval_group) {
   command->add_flag("--json", *json, kJsonText);
   command->add_option("--csv", a.csv, "write the details as CSV");
   command->add_option("--plot", a.plot, kPlotText);
+  command->add_option("--report", a.report, kReportText);
   command->add_flag("--force", a.force, kForceText);
-  command->callback([arguments, json] {
+  command->callback([arguments, json, write_page] {
     const LoopsResult result = loops(*arguments);
     print(*json ? to_json(result) : to_text(result));
+    if (!arguments->report.empty()) write_page(*arguments, result);
   });
 }
 

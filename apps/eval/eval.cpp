@@ -168,8 +168,12 @@ std::vector<PlotFile> plot_files(const EvalArguments& arguments) {
 }
 
 void check_outputs(const EvalArguments& arguments) {
+  require(arguments.report.empty() ||
+              (arguments.report != arguments.csv && arguments.report != arguments.latex &&
+               arguments.report != arguments.plot),
+          "--report: " + arguments.report + " is where another output is to be written");
   require_plot_name(arguments.plot);
-  for (const std::string& path : {arguments.csv, arguments.latex})
+  for (const std::string& path : {arguments.csv, arguments.latex, arguments.report})
     if (!path.empty()) require_free(path, arguments.force);
   for (const PlotFile& file : plot_files(arguments)) require_free(file.path, arguments.force);
   require(arguments.times.size() <= 2, "--times: one file for all, or two: ground truth, estimate");

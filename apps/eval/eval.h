@@ -22,7 +22,8 @@ struct EvalArguments {
   /// Kinds of figures for `plot`, of evaluation_plot_names(); several go to files of their own, of
   /// which the names end in _KIND.
   std::vector<std::string> plot_kinds = {"overview"};
-  bool force = false;              ///< overwrite them
+  std::string report;  ///< page that the caller writes; empty: none
+  bool force = false;  ///< overwrite them
 };
 
 struct EvalResult {

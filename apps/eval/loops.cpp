@@ -21,6 +21,7 @@ using nlohmann::json;
 
 struct Protocol {
   LoopTruth truth;
+  std::optional<Trajectory> poses;
   std::string text;
 };
 
@@ -29,7 +30,8 @@ Protocol protocol_of(const LoopsArguments& arguments) {
   if (!arguments.poses.empty()) {
     RevisitOptions revisit = arguments.revisit;
     revisit.min_age = arguments.min_age.value_or(revisit.min_age);
-    protocol.truth = loop_truth_from_poses(read_trajectory(arguments.poses), revisit);
+    protocol.poses = read_trajectory(arguments.poses);
+    protocol.truth = loop_truth_from_poses(*protocol.poses, revisit);
     protocol.text = fmt::format("poses within {:g} m and {:g} deg", revisit.same.radius_m,
                                 revisit.same.heading_deg);
   } else {
@@ -166,8 +168,11 @@ void write_outputs(const LoopsArguments& arguments, const std::vector<LoopJudgem
 }
 
 void check(const LoopsArguments& arguments) {
-  for (const std::string& path : {arguments.csv, arguments.plot})
+  const std::vector<std::string> files = {arguments.csv, arguments.plot, arguments.report};
+  for (const std::string& path : files)
     if (!path.empty()) require_free(path, arguments.force);
+  require(arguments.report.empty() || std::ranges::count(files, arguments.report) == 1,
+          "--report: " + arguments.report + " is where another output is to be written");
   require_plot_name(arguments.plot);
   const std::size_t systems = arguments.predictions.size();
   require(systems > 0, "--predictions: none are given");
@@ -184,8 +189,10 @@ void check(const LoopsArguments& arguments) {
 
 LoopsResult loops(const LoopsArguments& arguments) {
   check(arguments);
-  const Protocol protocol = protocol_of(arguments);
-  const LoopsResult result{protocol.text, judge(arguments, protocol)};
+  Protocol protocol = protocol_of(arguments);
+  LoopsResult result{protocol.text, judge(arguments, protocol), {}, {}};
+  result.truth = std::move(protocol.truth);
+  result.poses = std::move(protocol.poses);
   for (const LoopJudgement& judgement : result.systems) {
     if (judgement.benchmark.positives == 0)
       warn(judgement.name + ": no query has a true match; recall is not defined");

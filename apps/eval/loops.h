@@ -21,6 +21,7 @@ struct LoopsArguments {
   std::optional<int> min_age;    ///< smallest age of a candidate, in images
   int tolerance = 0;             ///< largest distance from a true match, in images
   std::string csv, plot;         ///< files to write; empty: none
+  std::string report;            ///< page that the caller writes; empty: none
   bool force = false;            ///< overwrite them
 };
 
@@ -34,6 +35,8 @@ struct LoopJudgement {
 struct LoopsResult {
   std::string protocol;  ///< definition of a true match, as text
   std::vector<LoopJudgement> systems;
+  LoopTruth truth;                  ///< the true matches
+  std::optional<Trajectory> poses;  ///< the true poses, where these are the ground truth
 };
 
 /// Evaluates place recognizers and writes the requested files: `placegraph eval loops`.

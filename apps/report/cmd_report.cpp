@@ -18,6 +18,9 @@ void add_report_command(CLI::App& app) {
   command->add_option("RUN", a.runs, "folders that `placegraph run` wrote, or their map.db")
       ->required();
   command->add_option("-o,--out", a.out, "the page, one file")->required();
+  command->add_option("--georeference", a.georeferences,
+                      "folders written by `placegraph map georeference`, one for each run; "
+                      "default: what lies in the run's folder or in `georeference` in it");
   command->add_option("--title", a.title, "its title; default: the names of the runs");
   command->add_flag("--force", a.force, kForceText);
   command->callback([arguments] { print(to_text(report(*arguments))); });

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/report/page.h"
+#include "apps/report/parts.h"
 #include "apps/report/report_run.h"
 #include "apps/support/output.h"
 
@@ -15,17 +16,21 @@ namespace placegraph::apps {
 using nlohmann::json;
 
 json report_data(const std::string& title, const std::string& program, json runs) {
-  return {
-      {"format", "placegraph-report-1"}, {"program", program},        {"title", title},
-      {"runs", std::move(runs)},         {"pictures", json::array()}, {"graphs", json::array()}};
+  json data = bare_report(program, title);
+  data["runs"] = std::move(runs);
+  return data;
 }
 
 ReportResult report(const ReportArguments& arguments) {
   require_free(arguments.out, arguments.force);
+  require(
+      arguments.georeferences.empty() || arguments.georeferences.size() == arguments.runs.size(),
+      "--georeference: one folder for each run");
   json runs = json::array();
   std::string names;
-  for (const std::string& run : arguments.runs) {
-    runs.push_back(describe_run_for_report(run));
+  for (std::size_t i = 0; i < arguments.runs.size(); ++i) {
+    runs.push_back(describe_run_for_report(
+        arguments.runs[i], arguments.georeferences.empty() ? "" : arguments.georeferences[i]));
     names += (names.empty() ? "" : ", ") + runs.back()["name"].get<std::string>();
   }
   const std::string page = page_with(report_data(arguments.title.empty() ? names : arguments.title,

@@ -4,29 +4,16 @@
 #include <placegraph/graph/internal/core/angle.h>
 
 #include <cmath>
-#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "apps/report/column.h"
+#include "apps/report/parts.h"
 
 namespace placegraph::apps {
 namespace {
 
 using nlohmann::json;
-
-constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
-
-/// x y z qx qy qz qw, or not a number.
-void put_pose(std::vector<float>& column, const std::optional<Eigen::Isometry3d>& T) {
-  if (!T) {
-    column.insert(column.end(), 7, kUnknown);
-    return;
-  }
-  for (int i = 0; i < 3; ++i) column.push_back(static_cast<float>(T->translation()[i]));
-  const Eigen::Quaterniond q(T->rotation());
-  for (int i = 0; i < 4; ++i) column.push_back(static_cast<float>(q.coeffs()[i]));
-}
 
 /// The optimized pose of every posed frame, each in the frame of its component.
 std::vector<std::optional<Eigen::Isometry3d>> poses_of(const Map& map) {
@@ -66,11 +53,12 @@ Eigen::Isometry3d in_map(const Eigen::Isometry3d& T_truth_cam, const AlignmentRe
 void put_errors(const RunTruth& truth, int main,
                 const std::vector<std::optional<Eigen::Isometry3d>>& poses,
                 const std::vector<std::int32_t>& component, json& frames) {
-  std::vector<float> true_poses, error_m, error_deg;
+  std::vector<std::optional<Eigen::Isometry3d>> true_poses;
+  std::vector<float> error_m, error_deg;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const std::optional<Eigen::Isometry3d>& T_truth_cam = truth.of_frames.poses[i].T_world_body;
-    put_pose(true_poses,
-             T_truth_cam ? std::optional(in_map(*T_truth_cam, truth.alignment)) : std::nullopt);
+    true_poses.emplace_back();
+    if (T_truth_cam) true_poses.back() = in_map(*T_truth_cam, truth.alignment);
     const bool known = T_truth_cam && poses[i] && component[i] == main;
     if (!known) {
       error_m.push_back(kUnknown);
@@ -82,7 +70,7 @@ void put_errors(const RunTruth& truth, int main,
     const Eigen::AngleAxisd off(T_truth_cam->rotation().transpose() * T.rotation());
     error_deg.push_back(static_cast<float>(rad_to_deg(std::abs(off.angle()))));
   }
-  frames["truth"] = column(true_poses, 7);
+  frames["truth"] = pose_column(true_poses);
   frames["error_m"] = column(error_m);
   frames["error_deg"] = column(error_deg);
 }
@@ -116,7 +104,8 @@ json describe_frames_for_report(const Map& map, const std::optional<RunTruth>& t
 
   std::vector<std::int32_t> id, component, keyframe, inliers;
   std::vector<double> stamp_s;
-  std::vector<float> pose, online, sigma_m, confidence;
+  std::vector<std::optional<Eigen::Isometry3d>> online;
+  std::vector<float> sigma_m, confidence;
   std::vector<std::string> reason;
   for (std::size_t i = 0; i < map.frames.size(); ++i) {
     const FrameRecord& frame = map.frames[i];
@@ -126,26 +115,21 @@ json describe_frames_for_report(const Map& map, const std::optional<RunTruth>& t
     component.push_back(place ? component_of.at(place->id) : -1);
     keyframe.push_back(place ? static_cast<std::int32_t>(frame.keyframe->value()) : -1);
     inliers.push_back(frame.inliers);
-    put_pose(pose, poses[i]);
-    put_pose(online, map.trajectory_online.poses[i].T_world_body);
+    online.push_back(map.trajectory_online.poses[i].T_world_body);
     sigma_m.push_back(place && sigma_of.contains(place->id) ? sigma_of.at(place->id) : kUnknown);
     confidence.push_back(frame.confidence ? static_cast<float>(*frame.confidence) : kUnknown);
     reason.push_back(frame.reason);
   }
-  json frames = {{"id", column(id)},
-                 {"stamp_s", column(stamp_s)},
-                 {"component", column(component)},
-                 {"keyframe", column(keyframe)},
-                 {"pose", column(pose, 7)},
-                 {"online", column(online, 7)},
-                 {"truth", nullptr},
-                 {"error_m", nullptr},
-                 {"error_deg", nullptr},
-                 {"sigma_m", sigma_of.empty() ? json() : column(sigma_m)},
-                 {"confidence", column(confidence)},
-                 {"inliers", column(inliers)},
-                 {"reason", text_column(reason)},
-                 {"environment", environments_of(map, place_of)}};
+  json frames = bare_frames(id, stamp_s);
+  frames["component"] = column(component);
+  frames["keyframe"] = column(keyframe);
+  frames["pose"] = pose_column(poses);
+  frames["online"] = pose_column(online);
+  if (!sigma_of.empty()) frames["sigma_m"] = column(sigma_m);
+  frames["confidence"] = column(confidence);
+  frames["inliers"] = column(inliers);
+  frames["reason"] = text_column(reason);
+  frames["environment"] = environments_of(map, place_of);
   if (truth) put_errors(*truth, map.main_component(), poses, component, frames);
   return frames;
 }

@@ -9,6 +9,7 @@
 
 #include "apps/report/column.h"
 #include "apps/report/page.h"
+#include "apps/report/parts.h"
 #include "apps/support/output.h"
 
 namespace placegraph::apps {
@@ -58,12 +59,9 @@ json describe_graph(const GraphPage& page) {
 }  // namespace
 
 void write_graph_page(const std::string& file, const GraphPage& graph, const std::string& program) {
-  write_file(file, page_with({{"format", "placegraph-report-1"},
-                              {"program", program},
-                              {"title", graph.name},
-                              {"runs", json::array()},
-                              {"pictures", json::array()},
-                              {"graphs", json::array({describe_graph(graph)})}}));
+  nlohmann::json report = bare_report(program, graph.name);
+  report["graphs"].push_back(describe_graph(graph));
+  write_file(file, page_with(report));
 }
 
 }  // namespace placegraph::apps

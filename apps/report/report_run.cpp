@@ -3,21 +3,21 @@
 #include <fmt/format.h>
 #include <placegraph/eval/trajectory/evaluate.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/pose_graph/constraint_source.h>
 #include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/datasets/open_dataset.h>
-#include <placegraph/io/internal/exports/base64.h>
 #include <placegraph/pipeline/run.h>
 
-#include <array>
-#include <cmath>
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "apps/report/column.h"
-#include "apps/report/landmark_rows.h"
+#include "apps/report/parts.h"
 #include "apps/report/report_frames.h"
+#include "apps/report/report_georeference.h"
+#include "apps/report/report_map.h"
 #include "apps/report/report_pictures.h"
+#include "apps/report/report_planes.h"
+#include "apps/report/report_street_map.h"
 #include "apps/results/judgement_text.h"
 #include "apps/results/map_file.h"
 #include "apps/results/run_judgement.h"
@@ -29,101 +29,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-
-void put_position(std::vector<float>& column, const Eigen::Vector3d& p) {
-  for (int i = 0; i < 3; ++i) column.push_back(static_cast<float>(p[i]));
-}
-
-json describe_keyframes(const Map& map) {
-  std::vector<std::int32_t> id, frame, place;
-  json thumbnails = json::array();
-  for (const Keyframe& keyframe : map.keyframes) {
-    id.push_back(static_cast<std::int32_t>(keyframe.id.value()));
-    frame.push_back(static_cast<std::int32_t>(keyframe.frame.value()));
-    place.push_back(static_cast<std::int32_t>(keyframe.place.value()));
-    thumbnails.push_back(keyframe.thumbnail.empty()
-                             ? ""
-                             : "data:image/jpeg;base64," + to_base64(keyframe.thumbnail));
-  }
-  return {{"id", column(id)},
-          {"frame", column(frame)},
-          {"place", column(place)},
-          {"thumbnails", thumbnails}};
-}
-
-json describe_landmarks(const Map& map) {
-  const std::size_t step = LandmarkRows(map.landmarks.size()).step();
-  std::vector<float> position, sigma;
-  std::vector<std::uint8_t> colour;
-  std::vector<std::int32_t> keyframe;
-  bool coloured = false, certain = false;
-  for (std::size_t i = 0; i < map.landmarks.size(); i += step) {
-    const PointLandmark& landmark = map.landmarks[i];
-    const Sim3 S_map_keyframe = map.S_map_keyframe(landmark.keyframe);
-    put_position(position, S_map_keyframe * landmark.point_cam);
-    coloured = coloured || landmark.rgb;
-    certain = certain || landmark.covariance;
-    const std::array<std::uint8_t, 3> rgb =
-        landmark.rgb.value_or(std::array<std::uint8_t, 3>{128, 128, 128});
-    colour.insert(colour.end(), rgb.begin(), rgb.end());
-    sigma.push_back(
-        landmark.covariance
-            ? static_cast<float>(S_map_keyframe.scale() * std::sqrt(landmark.covariance->trace()))
-            : std::numeric_limits<float>::quiet_NaN());
-    keyframe.push_back(static_cast<std::int32_t>(landmark.keyframe.value()));
-  }
-  return {{"position", column(position, 3)},
-          {"colour", coloured ? column(colour, 3) : json()},
-          {"sigma_m", certain ? column(sigma) : json()},
-          {"keyframe", column(keyframe)}};
-}
-
-json describe_places(const PlaceGraph& graph) {
-  const std::vector<int> joined = graph.joined_components();
-  std::vector<std::int32_t> id, keyframe, component;
-  std::vector<float> position;
-  for (std::size_t i = 0; i < graph.places.size(); ++i) {
-    const Place& place = graph.places[i];
-    id.push_back(static_cast<std::int32_t>(place.id.value()));
-    keyframe.push_back(static_cast<std::int32_t>(place.anchor_keyframe.value()));
-    component.push_back(joined[i]);
-    put_position(position, place.T_map_place.translation());
-  }
-  return {{"id", column(id)},
-          {"keyframe", column(keyframe)},
-          {"component", column(component)},
-          {"position", column(position, 3)}};
-}
-
-json describe_constraints(const PlaceGraph& graph) {
-  std::vector<std::int32_t> from, to;
-  std::vector<std::string> source;
-  for (const RelativePoseConstraint& constraint : graph.constraints) {
-    from.push_back(static_cast<std::int32_t>(constraint.from.value()));
-    to.push_back(static_cast<std::int32_t>(constraint.to.value()));
-    source.emplace_back(to_string(constraint.source));
-  }
-  return {{"from", column(from)}, {"to", column(to)}, {"source", text_column(source)}};
-}
-
-json describe_loops(const std::vector<LoopRecord>& loops) {
-  std::vector<std::int32_t> query, match, inliers, lines;
-  std::vector<float> probability, similarity;
-  std::vector<std::string> stage;
-  for (const LoopRecord& loop : loops) {
-    query.push_back(static_cast<std::int32_t>(loop.query_frame.value()));
-    match.push_back(static_cast<std::int32_t>(loop.match_frame.value()));
-    inliers.push_back(loop.inliers);
-    lines.push_back(loop.lines);
-    probability.push_back(static_cast<float>(loop.probability));
-    similarity.push_back(static_cast<float>(loop.similarity));
-    stage.emplace_back(to_string(loop.stage));
-  }
-  return {{"query_frame", column(query)},       {"match_frame", column(match)},
-          {"probability", column(probability)}, {"similarity", column(similarity)},
-          {"inliers", column(inliers)},         {"lines", column(lines)},
-          {"stage", text_column(stage)}};
-}
 
 /// The options whose values differ from the defaults.
 json describe_options(const std::string& path, const MapOrigin& origin) {
@@ -173,12 +78,7 @@ std::optional<RunTruth> evaluate_run(const Map& map, const std::optional<Traject
     if (evaluated.aligned_pairs.empty()) continue;
     if (alignment == (map.metric ? Alignment::kSe3 : Alignment::kSim3))
       result = RunTruth{*truth, evaluated.alignment};
-    for (const Metric& metric : metrics(evaluated))
-      if (metric.value && std::isfinite(*metric.value))
-        figures.push_back({{"name", metric.name},
-                           {"value", *metric.value},
-                           {"unit", metric.unit},
-                           {"protocol", metric.protocol}});
+    for (const json& figure : describe_figures(metrics(evaluated))) figures.push_back(figure);
   }
   return result;
 }
@@ -216,15 +116,39 @@ json describe_camera(const std::optional<Calibration>& calibration) {
           {"fy", camera.fy},       {"cx", camera.cx},         {"cy", camera.cy}};
 }
 
-json components_of(const Map& map) {
-  json components = json::array();
-  for (const MapComponent& component : map.components())
-    components.push_back({{"number", component.number},
-                          {"main", component.main},
-                          {"first", map.frames[component.first].frame.value()},
-                          {"last", map.frames[component.last].frame.value()},
-                          {"posed", component.posed}});
-  return components;
+json summary_of(const Map& map, const json& result) {
+  const auto posed = std::ranges::count_if(
+      map.frames, [](const FrameRecord& frame) { return frame.T_keyframe_frame.has_value(); });
+  return {{"frames", map.frames.size()},
+          {"posed", posed},
+          {"keyframes", map.keyframes.size()},
+          {"places", map.place_graph.places.size()},
+          {"landmarks", map.landmarks.size()},
+          {"loops_accepted", std::ranges::count_if(map.loops, &LoopRecord::accepted)},
+          {"cpu_s", number_or_null(result, "cpu_s")},
+          {"wall_s", number_or_null(result, "wall_s")}};
+}
+
+/// Name of the recording: runs of one recording can be compared frame by frame.
+std::string recording_of(const MapOrigin& origin) {
+  return (fs::path(origin.sequence) / "").lexically_normal().parent_path().filename().string();
+}
+
+/// What other files in the folder of the run hold.
+void put_results_beside(const std::string& folder, const std::string& georeference, const Map& map,
+                        json& run) {
+  if (const std::optional<IndoorMap> plan = read_floor_plan(folder)) {
+    run["floor_plan"] = describe_floor_plan(*plan);
+    run["planes"] = describe_planes(*plan);
+    run["up"] = up_of_plan(plan->R_plan_map);
+  }
+  if (const std::optional<SemanticMap> street = read_street_map(folder)) {
+    run["street_map"] = describe_street_map(*street);
+    run["up"] = up_of_plan(street->R_plan_map);
+  }
+  const std::string earth = georeference.empty() ? georeference_of(folder) : georeference;
+  if (!earth.empty()) run["georeference"] = describe_georeference(earth, map);
+  run["pictures"] = describe_pictures(folder);
 }
 
 }  // namespace
@@ -235,48 +159,38 @@ std::string name_of_run(const std::string& map_path) {
                                      : path.stem().string();
 }
 
-json describe_run_for_report(const std::string& file_or_folder) {
-  return describe_run_for_report(read_stored_map(file_or_folder), map_path_of(file_or_folder));
+json describe_run_for_report(const std::string& file_or_folder, const std::string& georeference) {
+  return describe_run_for_report(read_stored_map(file_or_folder), map_path_of(file_or_folder),
+                                 georeference);
 }
 
-json describe_run_for_report(const StoredMap& stored, const std::string& path) {
+json describe_run_for_report(const StoredMap& stored, const std::string& path,
+                             const std::string& georeference) {
   const Map& map = stored.map;
-  const json result = read_result(path);
   json figures = json::array();
   const std::optional<RunTruth> truth = evaluate_run(map, truth_of(stored), figures);
-  const auto posed = std::ranges::count_if(
-      map.frames, [](const FrameRecord& frame) { return frame.T_keyframe_frame.has_value(); });
   const fs::path folder = fs::absolute(fs::path(path)).lexically_normal().parent_path();
-  return {{"name", name_of_run(path)},
-          {"folder", folder.string()},
-          {"sensor", to_string(stored.origin.sensor)},
-          {"metric", map.metric},
-          {"summary",
-           {{"frames", map.frames.size()},
-            {"posed", posed},
-            {"keyframes", map.keyframes.size()},
-            {"places", map.place_graph.places.size()},
-            {"landmarks", map.landmarks.size()},
-            {"loops_accepted", std::ranges::count_if(map.loops, &LoopRecord::accepted)},
-            {"cpu_s", number_or_null(result, "cpu_s")},
-            {"wall_s", number_or_null(result, "wall_s")}}},
-          {"judgement", describe_judgement_or_none(stored.judgement)},
-          {"notes", describe_notes(result)},
-          {"options", describe_options(path, stored.origin)},
-          {"figures", figures},
-          {"camera", describe_camera(stored.origin.calibration)},
-          {"components", components_of(map)},
-          {"frames", describe_frames_for_report(map, truth)},
-          {"keyframes", describe_keyframes(map)},
-          {"landmarks", describe_landmarks(map)},
-          {"places", describe_places(map.place_graph)},
-          {"constraints", describe_constraints(map.place_graph)},
-          {"loops", describe_loops(map.loops)},
-          {"planes", json::array()},
-          {"floor_plan", describe_floor_plan(folder.string())},
-          {"street_map", json::array()},
-          {"georeference", nullptr},
-          {"pictures", describe_pictures(folder.string())}};
+  const json result = read_result(path);
+  json run = bare_run(name_of_run(path), describe_frames_for_report(map, truth));
+  run["folder"] = folder.string();
+  run["recording"] = recording_of(stored.origin);
+  run["sensor"] = to_string(stored.origin.sensor);
+  run["metric"] = map.metric;
+  run["summary"] = summary_of(map, result);
+  run["judgement"] = describe_judgement_or_none(stored.judgement);
+  run["notes"] = describe_notes(result);
+  run["options"] = describe_options(path, stored.origin);
+  run["figures"] = figures;
+  run["camera"] = describe_camera(stored.origin.calibration);
+  const auto& calibration = stored.origin.calibration;
+  run["components"] = describe_components_for_report(map);
+  run["keyframes"] = describe_keyframes(map, calibration ? &*calibration : nullptr);
+  run["landmarks"] = describe_landmarks(map);
+  run["places"] = describe_places(map.place_graph);
+  run["constraints"] = describe_constraints(map.place_graph);
+  run["loops"] = describe_loops(map.loops);
+  put_results_beside(folder.string(), georeference, map, run);
+  return run;
 }
 
 }  // namespace placegraph::apps

@@ -9,10 +9,14 @@ namespace placegraph::apps {
 /// A run as a member of the report: a folder that `placegraph run` wrote, or its map.db.
 ///
 /// Where the recording is at its path and has ground truth, errors and figures are those of the
-/// optimized trajectory against it. Throws FileError as read_map.
-nlohmann::json describe_run_for_report(const std::string& file_or_folder);
+/// optimized trajectory against it. Floor plan, street map and georeference are those in its
+/// folder; `georeference`, if not empty, is another folder of `placegraph map georeference`.
+/// Throws FileError as read_map, and for files beside the map that are broken.
+nlohmann::json describe_run_for_report(const std::string& file_or_folder,
+                                       const std::string& georeference = "");
 /// The same for a map that was read; `path`: its file, beside which are the other results.
-nlohmann::json describe_run_for_report(const StoredMap& stored, const std::string& path);
+nlohmann::json describe_run_for_report(const StoredMap& stored, const std::string& path,
+                                       const std::string& georeference = "");
 
 /// Name of a run by the file of its map: that of the folder, or of a map with another name.
 std::string name_of_run(const std::string& map_path);

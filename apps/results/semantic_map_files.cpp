@@ -62,6 +62,17 @@ std::vector<std::pair<PlaceId, std::vector<float>>> shares_by_place(const UrbanM
 
 }  // namespace
 
+std::optional<SE3> Georeference::at(std::int64_t stamp_ns) const {
+  constexpr std::int64_t kSame_ns = 1000000;  // rounding of stamps written in decimal seconds
+  const auto found = std::lower_bound(
+      trajectory.poses.begin(), trajectory.poses.end(), stamp_ns - kSame_ns,
+      [](const StampedPose& pose, std::int64_t stamp) { return pose.stamp_ns < stamp; });
+  if (found == trajectory.poses.end() || !found->T_world_body ||
+      found->stamp_ns > stamp_ns + kSame_ns)
+    return std::nullopt;
+  return SE3(*found->T_world_body);
+}
+
 Georeference read_georeference(const std::string& folder, const Map& map) {
   const std::string path = (fs::path(folder) / "georeference.json").string();
   Georeference result;
@@ -76,17 +87,10 @@ Georeference read_georeference(const std::string& folder, const Map& map) {
   } catch (const ArgumentError& error) {
     throw FileError(path, error.what());
   }
-  const Trajectory trajectory = read_trajectory((fs::path(folder) / "trajectory_enu.tum").string());
-  constexpr std::int64_t kSame_ns = 1000000;  // rounding of stamps written in decimal seconds
+  result.trajectory = read_trajectory((fs::path(folder) / "trajectory_enu.tum").string());
   std::map<KeyframeId, SE3> poses;
-  for (const Keyframe& keyframe : map.keyframes) {
-    const auto at = std::lower_bound(
-        trajectory.poses.begin(), trajectory.poses.end(), keyframe.stamp_ns - kSame_ns,
-        [](const StampedPose& pose, std::int64_t stamp) { return pose.stamp_ns < stamp; });
-    if (at != trajectory.poses.end() && at->T_world_body &&
-        at->stamp_ns <= keyframe.stamp_ns + kSame_ns)
-      poses.emplace(keyframe.id, SE3(*at->T_world_body));
-  }
+  for (const Keyframe& keyframe : map.keyframes)
+    if (const std::optional<SE3> T = result.at(keyframe.stamp_ns)) poses.emplace(keyframe.id, *T);
   result.T_enu_keyframe = [poses = std::move(poses)](KeyframeId id) -> std::optional<SE3> {
     const auto found = poses.find(id);
     if (found == poses.end()) return std::nullopt;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/pipeline/internal/map/map_geometry.h>
 
 #include <algorithm>
 #include <charconv>
@@ -50,12 +51,13 @@ std::optional<FramePath> frame_path(std::string_view path) {
 
 /// Pixels of the keyframe's landmarks, with the row of each in the report.
 json observations_of(const Map& map, const Keyframe& keyframe) {
-  const LandmarkRows rows(map.landmarks.size());
-  std::unordered_map<std::int64_t, std::size_t> positions;
-  for (std::size_t i = 0; i < map.landmarks.size(); ++i) positions[map.landmarks[i].id.value()] = i;
+  const std::vector<PlacedLandmark> landmarks = geometry_of(map, std::nullopt).landmarks;
+  const LandmarkRows rows(landmarks.size());
+  std::unordered_map<LandmarkId, std::size_t> positions;
+  for (std::size_t i = 0; i < landmarks.size(); ++i) positions[landmarks[i].id] = i;
   std::vector<float> points;
   for (const LandmarkObservation& seen : keyframe.observations) {
-    const auto found = positions.find(seen.landmark.value());
+    const auto found = positions.find(seen.landmark);
     const std::optional<std::size_t> row =
         found == positions.end() ? std::nullopt : rows.row_of(found->second);
     points.push_back(seen.px.x());

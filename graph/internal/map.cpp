@@ -1,9 +1,9 @@
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/map_index.h>
 #include <placegraph/graph/map.h>
 
 #include <algorithm>
 #include <map>
-#include <unordered_map>
 
 namespace placegraph {
 
@@ -27,49 +27,6 @@ Sim3 Map::S_map_keyframe(KeyframeId id) const {
   return place->S_map_place() *
          PlaceMember{id, keyframe->T_place_keyframe, keyframe->scale}.S_place_keyframe();
 }
-
-namespace {
-
-/// Keyframes and places of a map by their ids.
-class MapIndex {
- public:
-  explicit MapIndex(const Map& map) {
-    const std::vector<int> joined = map.place_graph.joined_components();
-    for (std::size_t i = 0; i < joined.size(); ++i)
-      places_.emplace(map.place_graph.places[i].id, Entry{&map.place_graph.places[i], joined[i]});
-    for (const Keyframe& keyframe : map.keyframes) keyframes_.emplace(keyframe.id, &keyframe);
-  }
-
-  /// The keyframe of a posed frame, its place and the number of its component.
-  struct Location {
-    const Keyframe* keyframe;
-    const Place* place;
-    int component;
-  };
-  Location of(const FrameRecord& record) const {
-    if (!record.keyframe)
-      throw ArgumentError("map: frame " + to_string(record.frame) + " has a pose and no keyframe");
-    const auto keyframe = keyframes_.find(*record.keyframe);
-    if (keyframe == keyframes_.end())
-      throw ArgumentError("map: frame " + to_string(record.frame) + " refers to keyframe " +
-                          to_string(*record.keyframe) + ", which is not there");
-    const auto place = places_.find(keyframe->second->place);
-    if (place == places_.end())
-      throw ArgumentError("map: keyframe " + to_string(*record.keyframe) + " refers to place " +
-                          to_string(keyframe->second->place) + ", which is not there");
-    return {keyframe->second, place->second.place, place->second.component};
-  }
-
- private:
-  struct Entry {
-    const Place* place;
-    int component;
-  };
-  std::unordered_map<PlaceId, Entry> places_;
-  std::unordered_map<KeyframeId, const Keyframe*> keyframes_;
-};
-
-}  // namespace
 
 std::vector<MapComponent> Map::components() const {
   const MapIndex index(*this);
@@ -105,10 +62,7 @@ Trajectory Map::trajectory_optimized(int component) const {
     const MapIndex::Location at = index.of(record);
     if (at.component != component) continue;
     // The scale moves positions; a camera's own pose has none.
-    const Sim3 S_map_keyframe =
-        at.place->S_map_place() *
-        PlaceMember{at.keyframe->id, at.keyframe->T_place_keyframe, at.keyframe->scale}
-            .S_place_keyframe();
+    const Sim3 S_map_keyframe = at.S_map_keyframe();
     pose.T_world_body = SE3(S_map_keyframe.rotation() * record.T_keyframe_frame->rotation(),
                             S_map_keyframe * record.T_keyframe_frame->translation())
                             .isometry();

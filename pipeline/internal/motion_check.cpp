@@ -4,6 +4,7 @@
 #include <placegraph/graph/internal/core/angle.h>
 #include <placegraph/graph/internal/core/median.h>
 #include <placegraph/graph/internal/core/quantile.h>
+#include <placegraph/graph/internal/map_index.h>
 #include <placegraph/io/internal/datasets/recorded_sequence.h>
 #include <placegraph/pipeline/internal/motion_check.h>
 
@@ -91,11 +92,12 @@ NearestSides nearest_sides(const Map& map, double camera_height_m) {
   enum { kBelow, kAbove, kLeft, kRight };
   std::array<std::vector<double>, 4> distances;
   const std::set<KeyframeId> ahead = keyframes_that_go_ahead(map);
+  const MapIndex index(map);
   for (const PointLandmark& landmark : map.landmarks) {
     const Eigen::Vector3d& p = landmark.point_cam;
     if (landmark.observations < kViews || p.z() <= 0 || !ahead.contains(landmark.keyframe))
       continue;
-    const double metres = map.S_map_keyframe(landmark.keyframe).scale() / camera_height_m;
+    const double metres = index.find(landmark.keyframe)->S_map_keyframe().scale() / camera_height_m;
     const bool upright = std::abs(p.y()) > std::abs(p.x());
     const int side = upright ? (p.y() > 0 ? kBelow : kAbove) : (p.x() > 0 ? kRight : kLeft);
     distances[static_cast<std::size_t>(side)].push_back(metres *

@@ -46,6 +46,9 @@ function runWith(loops: Loop[]): Run {
       loops.map(() => 3),
     ),
     stage: labels(loops.map(({ stage }) => stage)),
+    reason: null,
+    rank: null,
+    judged: false,
   };
   run.summary.loops_accepted = loops.filter(({ stage }) => stage === "accepted").length;
   return run;
@@ -230,7 +233,8 @@ export class RunSite implements Site {
   }
 
   private pose(row: number): number[] {
-    const { pose, online } = this.run.frames;
+    const { pose } = this.run.frames;
+    const online = this.run.frames.online ?? pose;
     const lost = this.isLost(row);
     return Array.from((this.moved ? pose : online).subarray(7 * row, 7 * row + 7), (v) => (lost ? NaN : v));
   }
@@ -246,7 +250,7 @@ export class RunSite implements Site {
       stamp_s: frames.stamp[row],
       state: row < 2 ? "initializing" : lost ? "lost" : "tracking",
       component: lost ? -1 : 0,
-      inliers: lost ? 0 : frames.inliers[row],
+      inliers: lost ? 0 : (frames.inliers?.[row] ?? 0),
       confidence: lost ? null : 0.9,
       pose: lost ? null : this.pose(row),
       keyframe: keyframeOf(this.run, row) >= 0,

@@ -11,12 +11,18 @@ export interface Picture {
 const SIGNATURE = Buffer.from([137, 80, 78, 71, 13, 10, 26, 10]);
 
 export function encodePng({ width, height, rgb }: Picture): Buffer {
-  const raw = Buffer.alloc((width * 3 + 1) * height);
-  for (let y = 0; y < height; y++) rgb.copy(raw, y * (width * 3 + 1) + 1, 3 * width * y, 3 * width * (y + 1));
+  return encodePixels(width, height, rgb);
+}
+
+/** `pixels` are red, green, blue and, if there are four bytes a pixel, opacity. */
+export function encodePixels(width: number, height: number, pixels: Uint8Array): Buffer {
+  const stride = pixels.length / height;
+  const raw = Buffer.alloc((stride + 1) * height);
+  for (let y = 0; y < height; y++) raw.set(pixels.subarray(y * stride, (y + 1) * stride), y * (stride + 1) + 1);
   const header = Buffer.alloc(13);
   header.writeUInt32BE(width, 0);
   header.writeUInt32BE(height, 4);
-  header.set([8, 2, 0, 0, 0], 8);
+  header.set([8, stride === 4 * width ? 6 : 2, 0, 0, 0], 8);
   return Buffer.concat([
     SIGNATURE,
     chunk("IHDR", header),

@@ -4,6 +4,7 @@ import { column, labels } from "./encode";
 import { Random } from "./random";
 import { sampleGraph } from "./sample_graph";
 import { type Drive, drive, posesOf } from "./sample_drive";
+import { sampleEarth, sampleStreet } from "./sample_earth";
 import { sampleKeyframes, sampleLandmarks, sampleLoops, samplePlaces, samplePlanes } from "./sample_map";
 
 export interface SampleOptions {
@@ -20,6 +21,9 @@ export interface SampleOptions {
   truth: boolean;
   metric: boolean;
   thumbnails: boolean;
+  /** A street map and a track on the earth. */
+  street: boolean;
+  earth: boolean;
   /** From this frame on the estimate bends away from the path, by 4 cm a frame. */
   partsAt: number | null;
 }
@@ -36,6 +40,8 @@ export const DEFAULTS: SampleOptions = {
   truth: true,
   metric: true,
   thumbnails: true,
+  street: false,
+  earth: false,
   partsAt: null,
 };
 
@@ -52,8 +58,11 @@ export function sampleRun(options: Partial<SampleOptions> = {}): Run {
   return {
     name: o.name,
     folder: `/data/runs/${o.name}`,
+    recording: "block",
     sensor: "stereo",
     metric: o.metric,
+    aligned: null,
+    up: null,
     summary: {
       frames: o.frames,
       posed,
@@ -83,6 +92,7 @@ export function sampleRun(options: Partial<SampleOptions> = {}): Run {
     notes: ["The last loop closed 3 s before the end of the sequence."],
     options: [{ name: "loops.min_similarity", value: "0.30", default_value: "0.25" }],
     figures: o.truth ? figuresOf(path) : [],
+    tables: [],
     camera: { width: 960, height: 540, fx: 520, fy: 520, cx: 480, cy: 270 },
     components: componentsOf(path),
     frames: framesOf(o, path, keyframes.ofFrame),
@@ -93,8 +103,8 @@ export function sampleRun(options: Partial<SampleOptions> = {}): Run {
     loops: loops.table,
     planes: samplePlanes(path),
     floor_plan: floorPlan(path),
-    street_map: [],
-    georeference: null,
+    street_map: o.street ? sampleStreet(path) : null,
+    georeference: o.earth ? sampleEarth(path) : null,
     pictures: [picture("Trajectory from above", path)],
   };
 }
@@ -106,6 +116,7 @@ export function sampleReport(runs: Run[], graphs: Graph[] = []): Report {
     title: runs.map((run) => run.name).join(", ") || "pose graph",
     runs,
     pictures: [],
+    tables: [],
     graphs,
   };
 }

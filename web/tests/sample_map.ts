@@ -40,7 +40,25 @@ export function sampleKeyframes(o: SampleOptions, path: Drive): SampleKeyframes 
         frames.map((_, id) => Math.floor(id / PLACE_KEYFRAMES)),
       ),
       thumbnails: frames.map((frame) => (o.thumbnails ? thumbnail(path.truth[frame].heading, frame * STEP) : "")),
+      tracks: sampleTracks(frames.length),
     },
+  };
+}
+
+/** Ten landmarks a keyframe, each of which three keyframes see while it moves outwards. */
+function sampleTracks(keyframes: number): Run["keyframes"]["tracks"] {
+  const landmark: number[] = [];
+  const pixel: number[] = [];
+  for (let k = 0; k < keyframes; k++)
+    for (let i = 0; i < 10; i++) {
+      const age = (k + i) % 3;
+      landmark.push(10 * (k - age) + i);
+      pixel.push(20 + 22 * i, 128 + (i % 2 === 0 ? 1 : -1) * (20 + 15 * age));
+    }
+  return {
+    count: column("i32", new Array<number>(keyframes).fill(10)),
+    landmark: column("i32", landmark),
+    pixel: column("u8", pixel, 2),
   };
 }
 
@@ -177,6 +195,9 @@ export function sampleLoops(o: SampleOptions, path: Drive, random: Random): { st
         rows.map((row) => row.stage),
         [...REFUSALS, "accepted"],
       ),
+      reason: null,
+      rank: null,
+      judged: false,
     },
   };
 }
@@ -186,7 +207,7 @@ export function samplePlanes(path: Drive): Run["planes"] {
   const floor = [-w - 6, 1.5, -6, w + 6, 1.5, -6, w + 6, 1.5, 2 * d + 6, -w - 6, 1.5, 2 * d + 6];
   const wall = [-w * 0.6, 1.5, -5.4, w * 0.6, 1.5, -5.4, w * 0.6, -4, -5.4, -w * 0.6, -4, -5.4];
   return [
-    { name: "ground", rgb: [110, 120, 130], outline: column("f32", floor, 3) },
-    { name: "wall 1", rgb: [200, 150, 90], outline: column("f32", wall, 3) },
+    { name: "ground", rgb: [110, 120, 130], outline: column("f32", floor, 3), holes: [] },
+    { name: "wall 1", rgb: [200, 150, 90], outline: column("f32", wall, 3), holes: [] },
   ];
 }

@@ -1,3 +1,4 @@
+#include <placegraph/graph/internal/map_index.h>
 #include <placegraph/pipeline/internal/map/map_geometry.h>
 
 #include <Eigen/Eigenvalues>
@@ -16,22 +17,14 @@ double worst_sigma(const Eigen::Matrix3d& covariance) {
 
 }  // namespace
 
-MapGeometry geometry_of(const Map& map, int component) {
-  const std::vector<int> joined = map.place_graph.joined_components();
-  std::unordered_map<PlaceId, const Place*> places;
-  for (std::size_t i = 0; i < joined.size(); ++i)
-    if (joined[i] == component)
-      places.emplace(map.place_graph.places[i].id, &map.place_graph.places[i]);
-
+MapGeometry geometry_of(const Map& map, std::optional<int> component) {
+  const MapIndex index(map);
   MapGeometry geometry;
   std::unordered_map<KeyframeId, Sim3> S_map_keyframe;
   for (const Keyframe& keyframe : map.keyframes) {
-    const auto place = places.find(keyframe.place);
-    if (place == places.end()) continue;
-    const Sim3 S =
-        place->second->S_map_place() *
-        PlaceMember{keyframe.id, keyframe.T_place_keyframe, keyframe.scale}.S_place_keyframe();
-    S_map_keyframe.emplace(keyframe.id, S);
+    const auto at = index.find(keyframe.id);
+    if (!at || (component && at->component != *component)) continue;
+    const Sim3 S = S_map_keyframe.emplace(keyframe.id, at->S_map_keyframe()).first->second;
     geometry.keyframes.push_back({&keyframe, rigid_part(S)});
   }
   for (const PointLandmark& landmark : map.landmarks) {

@@ -28,14 +28,14 @@ struct PlacedLandmark {
   std::optional<double> sigma;
 };
 
-/// Keyframes and landmarks of one component of a map, in the frame of that component.
+/// Keyframes and landmarks of components of a map, each in the frame of its component.
 struct MapGeometry {
   std::vector<PosedKeyframe> keyframes;   ///< by ascending id
   std::vector<PlacedLandmark> landmarks;  ///< in the order of the map
 };
 
-/// The geometry of the component with this MapComponent::number.
-/// Throws ArgumentError as Map::components.
-MapGeometry geometry_of(const Map& map, int component);
+/// The geometry of the component with this MapComponent::number, of all of them with nothing.
+/// Keyframes without a place, and landmarks without a keyframe, are left out.
+MapGeometry geometry_of(const Map& map, std::optional<int> component);
 
 }  // namespace placegraph

@@ -1,8 +1,7 @@
-#include <placegraph/graph/internal/image/jpeg_codec.h>
+#include <placegraph/graph/internal/image/thumbnail.h>
 #include <placegraph/pipeline/internal/slam/map_feed.h>
 
 #include <algorithm>
-#include <opencv2/imgproc.hpp>
 
 namespace placegraph {
 namespace {
@@ -15,16 +14,6 @@ int main_component(const MapSources& sources) {
   const auto most =
       std::ranges::max_element(frames, {}, [](const auto& component) { return component.second; });
   return most == frames.end() ? 0 : most->first;
-}
-
-/// A JPEG of the image, of at most 160 pixels at its longer side.
-std::string thumbnail_of(const Image& image) {
-  constexpr int kLongest = 160, kQuality = 80;
-  const double scale = static_cast<double>(kLongest) / std::max(image.cols, image.rows);
-  if (!(scale < 1)) return encode_jpeg(image, kQuality);
-  Image small;
-  cv::resize(image, small, {}, scale, scale, cv::INTER_AREA);
-  return encode_jpeg(small, kQuality);
 }
 
 /// Red, green and blue of a pixel of a grey or BGR image.

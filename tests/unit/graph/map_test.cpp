@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/map_index.h>
 #include <placegraph/graph/map.h>
 
 #include <numbers>
@@ -96,6 +97,21 @@ TEST(Map, FramesAndLandmarksGrowWithTheUnitsOfPlaceAndKeyframe) {
   EXPECT_THROW((void)map.position({LandmarkId(9), KeyframeId(300), {0, 1, 0}, 2}), ArgumentError);
   map.keyframes[1].place = PlaceId(9);
   EXPECT_THROW((void)map.S_map_keyframe(KeyframeId(101)), ArgumentError);
+}
+
+TEST(MapIndex, FindsWhatTheMapFinds) {
+  Map map = make_map(4);
+  const MapIndex index(map);
+  for (const Keyframe& keyframe : map.keyframes) {
+    const auto at = index.find(keyframe.id);
+    ASSERT_TRUE(at);
+    EXPECT_EQ(at->keyframe, map.find_keyframe(keyframe.id));
+    EXPECT_EQ(at->place, map.place_graph.find(keyframe.place));
+    EXPECT_EQ(at->S_map_keyframe().translation(), map.S_map_keyframe(keyframe.id).translation());
+  }
+  EXPECT_FALSE(index.find(KeyframeId(300)));
+  map.keyframes[1].place = PlaceId(9);
+  EXPECT_FALSE(MapIndex(map).find(map.keyframes[1].id));
 }
 
 TEST(Map, FramesOfAnotherComponentAreLostUntilAConstraintJoinsIt) {

@@ -3,7 +3,8 @@ import { type Alignment, type PosePair, IDENTITY, align, apply } from "./align";
 import type { RunData } from "./model";
 import { type Vec3, positionAt, rotationAt } from "./quaternion";
 
-export type AlignOn = "beginning" | "whole";
+/** The frames on which two runs are aligned; "truth": none, both are in the frame of the ground truth. */
+export type AlignOn = "beginning" | "whole" | "truth";
 
 export interface Comparison {
   /** Frame ids that both runs have posed in their main components, ascending. */
@@ -37,8 +38,18 @@ export function beginningCount(common: number): number {
   return Math.min(common, Math.max(10, Math.round(common / 10)));
 }
 
+/** Whether two runs are of one recording, so that their frames can be compared. */
+export function comparable(a: RunData, b: RunData): boolean {
+  return a.recording === "" || b.recording === "" || a.recording === b.recording;
+}
+
+export function bothInTruth(a: RunData, b: RunData): boolean {
+  return a.aligned !== null && b.aligned !== null;
+}
+
 /** The scale is fitted where a run is not metric: its scale is arbitrary. */
 export function compareRuns(reference: RunData, other: RunData, on: AlignOn): Comparison | null {
+  if (!comparable(reference, other)) return null;
   const rowsA = posedRows(reference);
   const rowsB = posedRows(other);
   const ids = [...rowsA.keys()].filter((id) => rowsB.has(id)).sort((a, b) => a - b);
@@ -51,9 +62,10 @@ export function compareRuns(reference: RunData, other: RunData, on: AlignOn): Co
       to: { position: positionAt(reference.frames.pose, a), rotation: rotationAt(reference.frames.pose, a) },
     };
   });
-  const alignedOn = on === "whole" ? ids.length : beginningCount(ids.length);
-  const withScale = !reference.metric || !other.metric;
-  const alignment = align(pairs.slice(0, alignedOn), withScale) ?? IDENTITY;
+  const inTruth = on === "truth" && bothInTruth(reference, other);
+  const alignedOn = inTruth ? 0 : on === "whole" ? ids.length : beginningCount(ids.length);
+  const withScale = !inTruth && (!reference.metric || !other.metric);
+  const alignment = inTruth ? IDENTITY : (align(pairs.slice(0, alignedOn), withScale) ?? IDENTITY);
   const distance = Float64Array.from(pairs, (pair) => between(apply(alignment, pair.from.position), pair.to.position));
   return { ids, distance, alignment, alignedOn, withScale };
 }

@@ -1,6 +1,6 @@
 import { decodeRun } from "./decode_run";
 import { asObject, asText, listOf, orNull } from "./fields";
-import { readFigure, readPicture } from "./figures";
+import { readFigure, readPicture, readTable } from "./figures";
 import type { GraphData, ReportData } from "./model";
 import { readColumn, TableReader } from "./table_reader";
 
@@ -17,6 +17,7 @@ export function decodeReport(value: unknown): ReportData {
     title: asText(report["title"], "title"),
     runs: listOf(report["runs"], "runs", decodeRun),
     pictures: listOf(report["pictures"], "pictures", readPicture),
+    tables: listOf(report["tables"], "tables", readTable),
     graphs: listOf(report["graphs"], "graphs", decodeGraph),
   };
 }

@@ -1,37 +1,38 @@
-import type { Values } from "./column";
-import { type Json, asBoolean, asNumber, asNumberOrNaN, asObject, asOneOf, asText, listOf, orNull } from "./fields";
-import { readFigure, readPicture } from "./figures";
-import type {
-  ConstraintTable,
-  FrameTable,
-  GeoTrack,
-  KeyframeTable,
-  LandmarkTable,
-  LoopTable,
-  PlaceTable,
-  PlaneShape,
-  PlanShape,
-  RunData,
-} from "./model";
+import { type Json, asBoolean, asNumber, asObject, asOneOf, asText, asThree, listOf, orNull } from "./fields";
+import { readFigure, readPicture, readTable } from "./figures";
+import { readGeoreference, readPlane, readPlanLine, readStreetMap } from "./decode_shapes";
+import {
+  readConstraints,
+  readFrames,
+  readKeyframes,
+  readLandmarks,
+  readLoops,
+  readPlaces,
+} from "./decode_tables";
+import type { RunData } from "./model";
 import type { Camera, Component, Finding, Judgement, Option, Summary } from "./report";
-import { readColumn, TableReader } from "./table_reader";
 
 export function decodeRun(value: unknown, where: string): RunData {
   const json = asObject(value, where);
   const at = (name: string): string => `${where}.${name}`;
+  const frames = readFrames(json["frames"], at("frames"));
   return {
     name: asText(json["name"], at("name")),
     folder: asText(json["folder"], at("folder")),
-    sensor: asOneOf(json["sensor"], ["mono", "stereo", "rgbd"] as const, at("sensor")),
+    recording: asText(json["recording"], at("recording")),
+    sensor: orNull(json["sensor"], at("sensor"), (v, w) => asOneOf(v, ["mono", "stereo", "rgbd"] as const, w)),
     metric: asBoolean(json["metric"], at("metric")),
+    aligned: orNull(json["aligned"], at("aligned"), asText),
+    up: orNull(json["up"], at("up"), asThree),
     summary: readSummary(json["summary"], at("summary")),
     judgement: orNull(json["judgement"], at("judgement"), readJudgement),
     notes: listOf(json["notes"], at("notes"), asText),
-    options: listOf(json["options"], at("options"), readOption),
+    options: orNull(json["options"], at("options"), (v, w) => listOf(v, w, readOption)),
     figures: listOf(json["figures"], at("figures"), readFigure),
+    tables: listOf(json["tables"], at("tables"), readTable),
     camera: orNull(json["camera"], at("camera"), readCamera),
     components: listOf(json["components"], at("components"), readComponent),
-    frames: readFrames(json["frames"], at("frames")),
+    frames,
     keyframes: readKeyframes(json["keyframes"], at("keyframes")),
     landmarks: readLandmarks(json["landmarks"], at("landmarks")),
     places: readPlaces(json["places"], at("places")),
@@ -39,8 +40,8 @@ export function decodeRun(value: unknown, where: string): RunData {
     loops: readLoops(json["loops"], at("loops")),
     planes: listOf(json["planes"], at("planes"), readPlane),
     floorPlan: listOf(json["floor_plan"], at("floor_plan"), readPlanLine),
-    streetMap: listOf(json["street_map"], at("street_map"), readPlanLine),
-    georeference: orNull(json["georeference"], at("georeference"), readGeoreference),
+    streetMap: orNull(json["street_map"], at("street_map"), readStreetMap),
+    georeference: orNull(json["georeference"], at("georeference"), (v, w) => readGeoreference(v, w, frames.count)),
     pictures: listOf(json["pictures"], at("pictures"), readPicture),
   };
 }
@@ -53,18 +54,15 @@ function numbersOf<K extends string>(json: Json, where: string, names: readonly 
 
 function readSummary(value: unknown, where: string): Summary {
   const json = asObject(value, where);
-  const counts = numbersOf(json, where, [
-    "frames",
-    "posed",
-    "keyframes",
-    "places",
-    "landmarks",
-    "loops_accepted",
-  ] as const);
+  const count = (name: string): number | null => orNull(json[name], `${where}.${name}`, asNumber);
   return {
-    ...counts,
-    cpu_s: orNull(json["cpu_s"], `${where}.cpu_s`, asNumber),
-    wall_s: orNull(json["wall_s"], `${where}.wall_s`, asNumber),
+    ...numbersOf(json, where, ["frames", "posed"] as const),
+    keyframes: count("keyframes"),
+    places: count("places"),
+    landmarks: count("landmarks"),
+    loops_accepted: count("loops_accepted"),
+    cpu_s: count("cpu_s"),
+    wall_s: count("wall_s"),
   };
 }
 
@@ -109,118 +107,3 @@ function readComponent(value: unknown, where: string): Component {
   };
 }
 
-function rowsById(id: Values): Map<number, number> {
-  const rows = new Map<number, number>();
-  for (let row = 0; row < id.length; row++) rows.set(id[row], row);
-  return rows;
-}
-
-function readFrames(value: unknown, where: string): FrameTable {
-  const table = new TableReader(value, where, "id");
-  const id = table.column("id");
-  return {
-    count: table.rows,
-    id,
-    stamp: table.column("stamp_s"),
-    component: table.column("component"),
-    keyframe: table.column("keyframe"),
-    pose: table.column("pose", 7),
-    online: table.column("online", 7),
-    truth: table.optional("truth", 7),
-    errorM: table.optional("error_m"),
-    errorDeg: table.optional("error_deg"),
-    sigma: table.optional("sigma_m"),
-    confidence: table.optional("confidence"),
-    inliers: table.column("inliers"),
-    reason: table.labels("reason"),
-    environment: table.optionalLabels("environment"),
-    rowOf: rowsById(id),
-  };
-}
-
-function readKeyframes(value: unknown, where: string): KeyframeTable {
-  const table = new TableReader(value, where, "id");
-  const id = table.column("id");
-  const frame = table.column("frame");
-  return {
-    count: table.rows,
-    id,
-    frame,
-    byFrame: Int32Array.from(frame, (_, row) => row).sort((a, b) => frame[a] - frame[b]),
-    place: table.column("place"),
-    thumbnails: table.texts("thumbnails"),
-    rowOf: rowsById(id),
-  };
-}
-
-function readLandmarks(value: unknown, where: string): LandmarkTable {
-  const table = new TableReader(value, where, "position", 3);
-  return {
-    count: table.rows,
-    position: table.column("position", 3),
-    colour: table.optional("colour", 3),
-    sigma: table.optional("sigma_m"),
-    keyframe: table.column("keyframe"),
-  };
-}
-
-function readPlaces(value: unknown, where: string): PlaceTable {
-  const table = new TableReader(value, where, "id");
-  const id = table.column("id");
-  return {
-    count: table.rows,
-    id,
-    keyframe: table.column("keyframe"),
-    component: table.column("component"),
-    position: table.column("position", 3),
-    rowOf: rowsById(id),
-  };
-}
-
-function readConstraints(value: unknown, where: string): ConstraintTable {
-  const table = new TableReader(value, where, "from");
-  return { count: table.rows, from: table.column("from"), to: table.column("to"), source: table.labels("source") };
-}
-
-function readLoops(value: unknown, where: string): LoopTable {
-  const table = new TableReader(value, where, "query_frame");
-  return {
-    count: table.rows,
-    query: table.column("query_frame"),
-    match: table.column("match_frame"),
-    probability: table.column("probability"),
-    similarity: table.column("similarity"),
-    inliers: table.column("inliers"),
-    lines: table.column("lines"),
-    stage: table.labels("stage"),
-  };
-}
-
-function readPlane(value: unknown, where: string): PlaneShape {
-  const json = asObject(value, where);
-  const rgb = listOf(json["rgb"], `${where}.rgb`, asNumber);
-  if (rgb.length !== 3) throw new Error(`${where}.rgb has ${rgb.length} values; it must have 3.`);
-  return {
-    name: asText(json["name"], `${where}.name`),
-    rgb: [rgb[0], rgb[1], rgb[2]],
-    outline: readColumn(json["outline"], `${where}.outline`, 3).values,
-  };
-}
-
-function readPlanLine(value: unknown, where: string): PlanShape {
-  const json = asObject(value, where);
-  return {
-    label: asText(json["label"], `${where}.label`),
-    closed: asBoolean(json["closed"], `${where}.closed`),
-    points: readColumn(json["points"], `${where}.points`, 2).values,
-  };
-}
-
-function readGeoreference(value: unknown, where: string): GeoTrack {
-  const json = asObject(value, where);
-  return {
-    latitude: asNumberOrNaN(json["latitude_deg"], `${where}.latitude_deg`),
-    longitude: asNumberOrNaN(json["longitude_deg"], `${where}.longitude_deg`),
-    track: readColumn(json["track"], `${where}.track`, 2).values,
-  };
-}

@@ -46,6 +46,13 @@ export function asOneOf<T extends string>(value: unknown, allowed: readonly T[],
   return found;
 }
 
+/** Three numbers, such as a direction or a colour. */
+export function asThree(value: unknown, where: string): [number, number, number] {
+  const list = listOf(value, where, asNumber);
+  if (list.length !== 3) throw new Error(`${where} has ${list.length} values; it must have 3.`);
+  return [list[0], list[1], list[2]];
+}
+
 export function orNull<T>(value: unknown, where: string, read: (value: unknown, where: string) => T): T | null {
   return value === null || value === undefined ? null : read(value, where);
 }

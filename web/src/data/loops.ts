@@ -12,6 +12,8 @@ export const STAGES = [
   "manual",
   "accepted",
 ] as const;
+/** Of loops that were compared with ground truth. */
+export const VERDICTS = ["right", "wrong", "missed"] as const;
 
 const STAGE_WORDS: Record<string, string> = {
   retrieval: "Refused: the images are not similar enough.",
@@ -22,6 +24,9 @@ const STAGE_WORDS: Record<string, string> = {
   support: "Refused: no second loop agrees with it.",
   manual: "Refused: by hand.",
   accepted: "Accepted: the loop is a constraint of the map.",
+  right: "Right: by the ground truth both images show the same place.",
+  wrong: "Wrong: by the ground truth the two images do not show the same place.",
+  missed: "Missed: by the ground truth both images show the same place, but no loop was found for the query.",
 };
 
 export interface LoopFilter {
@@ -30,7 +35,8 @@ export interface LoopFilter {
   minProbability: number;
 }
 
-export type LoopColumn = "query" | "match" | "stage" | "probability" | "similarity" | "inliers" | "lines";
+export type LoopColumn = "query" | "match" | "stage" | "reason" | NumberColumn;
+export type NumberColumn = "probability" | "similarity" | "inliers" | "lines" | "rank";
 
 export interface LoopOrder {
   column: LoopColumn;
@@ -39,6 +45,21 @@ export interface LoopOrder {
 
 export function stageOf(loops: LoopTable, row: number): string {
   return label(loops.stage, row) ?? "unknown";
+}
+
+/** Whether a loop is one of those that a run or a recognizer is right to have. */
+export function isGood(stage: string): boolean {
+  return stage === "accepted" || stage === "right";
+}
+
+/** A value of a loop; NaN where it is unknown. */
+export function loopValue(loops: LoopTable, column: NumberColumn, row: number): number {
+  return loops[column]?.[row] ?? NaN;
+}
+
+/** The values by which loops are filtered: probabilities, or the scores of a recognizer without any. */
+export function certainty(loops: LoopTable): "probability" | "similarity" {
+  return loops.probability === null ? "similarity" : "probability";
 }
 
 /** What a stage means, as a sentence. */
@@ -57,14 +78,16 @@ export function stageCounts(loops: LoopTable): [string, number][] {
 }
 
 function rank(stage: string): number {
-  const index = (STAGES as readonly string[]).indexOf(stage);
-  return index < 0 ? STAGES.length : index;
+  const stages: readonly string[] = [...STAGES, ...VERDICTS];
+  const index = stages.indexOf(stage);
+  return index < 0 ? stages.length : index;
 }
 
 export function passes(loops: LoopTable, row: number, filter: LoopFilter): boolean {
   if (!filter.stages.has(stageOf(loops, row))) return false;
-  // A probability that is unknown passes only where none is asked for.
-  return filter.minProbability <= 0 || loops.probability[row] >= filter.minProbability;
+  // A loop that was missed has no probability; one that is unknown passes only where none is asked for.
+  if (stageOf(loops, row) === "missed") return true;
+  return filter.minProbability <= 0 || loopValue(loops, certainty(loops), row) >= filter.minProbability;
 }
 
 export function filterLoops(loops: LoopTable, filter: LoopFilter): number[] {
@@ -75,8 +98,7 @@ export function filterLoops(loops: LoopTable, filter: LoopFilter): number[] {
 
 /** `rows` in order; unknown values come last in both directions. */
 export function sortLoops(loops: LoopTable, rows: number[], order: LoopOrder): number[] {
-  const key = (row: number): number =>
-    order.column === "stage" ? rank(stageOf(loops, row)) : loops[order.column][row];
+  const key = keyOf(loops, order.column);
   const sign = order.descending ? -1 : 1;
   return [...rows].sort((a, b) => {
     const x = key(a);
@@ -84,6 +106,20 @@ export function sortLoops(loops: LoopTable, rows: number[], order: LoopOrder): n
     if (Number.isNaN(x) || Number.isNaN(y)) return Number(Number.isNaN(x)) - Number(Number.isNaN(y)) || a - b;
     return x === y ? a - b : sign * (x - y);
   });
+}
+
+function keyOf(loops: LoopTable, column: LoopColumn): (row: number) => number {
+  switch (column) {
+    case "stage":
+      return (row) => rank(stageOf(loops, row));
+    case "reason":
+      return (row) => loops.reason?.index[row] ?? NaN;
+    case "query":
+    case "match":
+      return (row) => loops[column][row];
+    default:
+      return (row) => loopValue(loops, column, row);
+  }
 }
 
 /** Rows of loops that start or end at a frame. */

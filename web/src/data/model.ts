@@ -1,6 +1,17 @@
 /** The decoded report: what the page works with. */
 import type { Values } from "./column";
-import type { Camera, Component, Figure, Judgement, Option, Picture, Sensor, Summary } from "./report";
+import type {
+  Camera,
+  Component,
+  Figure,
+  Judgement,
+  Option,
+  Picture,
+  Sensor,
+  StreetClass,
+  Summary,
+  Table,
+} from "./report";
 
 export interface Labels {
   table: string[];
@@ -14,13 +25,13 @@ export interface FrameTable {
   component: Values;
   keyframe: Values;
   pose: Values;
-  online: Values;
+  online: Values | null;
   truth: Values | null;
   errorM: Values | null;
   errorDeg: Values | null;
   sigma: Values | null;
   confidence: Values | null;
-  inliers: Values;
+  inliers: Values | null;
   reason: Labels;
   environment: Labels | null;
   /** The row of a frame id. */
@@ -33,9 +44,17 @@ export interface KeyframeTable {
   frame: Values;
   place: Values;
   thumbnails: string[];
+  tracks: TrackTable | null;
   rowOf: Map<number, number>;
   /** Rows in the order of their frames. */
   byFrame: Int32Array;
+}
+
+export interface TrackTable {
+  /** The rows of keyframe k are `first[k]` to `first[k + 1]`, without that. */
+  first: Int32Array;
+  landmark: Values;
+  pixel: Values;
 }
 
 export interface LandmarkTable {
@@ -66,17 +85,34 @@ export interface LoopTable {
   count: number;
   query: Values;
   match: Values;
-  probability: Values;
-  similarity: Values;
-  inliers: Values;
-  lines: Values;
+  probability: Values | null;
+  similarity: Values | null;
+  inliers: Values | null;
+  lines: Values | null;
   stage: Labels;
+  reason: Labels | null;
+  rank: Values | null;
+  judged: boolean;
 }
 
 export interface PlaneShape {
   name: string;
   rgb: [number, number, number];
   outline: Values;
+  holes: Values[];
+}
+
+export interface StreetShape {
+  image: string;
+  width: number;
+  height: number;
+  cell: number;
+  low: [number, number];
+  rotation: Values;
+  columns: number;
+  rows: number;
+  ground: Values;
+  classes: StreetClass[];
 }
 
 export interface PlanShape {
@@ -88,19 +124,28 @@ export interface PlanShape {
 export interface GeoTrack {
   latitude: number;
   longitude: number;
+  folder: string;
+  fixesUsed: number | null;
+  fixesRejected: number | null;
+  residual: number | null;
+  /** Latitude, longitude and height of each frame. */
   track: Values;
 }
 
 export interface RunData {
   name: string;
   folder: string;
-  sensor: Sensor;
+  recording: string;
+  sensor: Sensor | null;
   metric: boolean;
+  aligned: string | null;
+  up: [number, number, number] | null;
   summary: Summary;
   judgement: Judgement | null;
   notes: string[];
-  options: Option[];
+  options: Option[] | null;
   figures: Figure[];
+  tables: Table[];
   camera: Camera | null;
   components: Component[];
   frames: FrameTable;
@@ -111,7 +156,7 @@ export interface RunData {
   loops: LoopTable;
   planes: PlaneShape[];
   floorPlan: PlanShape[];
-  streetMap: PlanShape[];
+  streetMap: StreetShape | null;
   georeference: GeoTrack | null;
   pictures: Picture[];
   /** Poses of the frames before the last edit in this page, if it has moved them. */
@@ -136,6 +181,7 @@ export interface ReportData {
   title: string;
   runs: RunData[];
   pictures: Picture[];
+  tables: Table[];
   graphs: GraphData[];
 }
 

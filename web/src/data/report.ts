@@ -18,8 +18,9 @@ export interface Report {
   program: string;
   title: string;
   runs: Run[];
-  /** Pictures that belong to no run. */
+  /** Pictures and tables that belong to no run. */
   pictures: Picture[];
+  tables: Table[];
   /** Pose graphs, of `placegraph optimize --report`. */
   graphs: Graph[];
 }
@@ -29,15 +30,24 @@ export type Verdict = "good" | "doubtful" | "failed";
 
 export interface Run {
   name: string;
+  /** Folder or file that it is from, or "". */
   folder: string;
-  sensor: Sensor;
+  /** Runs of the same recording have the same frames and can be compared; "": unknown. */
+  recording: string;
+  /** Null for trajectories alone. */
+  sensor: Sensor | null;
   metric: boolean;
+  /** The alignment by which all poses are in the frame of the ground truth; null: in the map's frame. */
+  aligned: string | null;
+  /** The direction up in the frame of the poses; null: against y of the first camera. */
+  up: [number, number, number] | null;
   summary: Summary;
   judgement: Judgement | null;
   notes: string[];
-  /** Only those that differ from their default. */
-  options: Option[];
+  /** Only those that differ from their default; null for what is no run. */
+  options: Option[] | null;
   figures: Figure[];
+  tables: Table[];
   camera: Camera | null;
   components: Component[];
   frames: Frames;
@@ -45,10 +55,10 @@ export interface Run {
   landmarks: Landmarks;
   places: Places;
   constraints: Constraints;
-  loops: Loops;
+  loops: Loops | null;
   planes: Plane[];
   floor_plan: PlanLine[];
-  street_map: PlanLine[];
+  street_map: StreetMap | null;
   georeference: Georeference | null;
   pictures: Picture[];
 }
@@ -56,10 +66,11 @@ export interface Run {
 export interface Summary {
   frames: number;
   posed: number;
-  keyframes: number;
-  places: number;
-  landmarks: number;
-  loops_accepted: number;
+  /** Null where there is no map. */
+  keyframes: number | null;
+  places: number | null;
+  landmarks: number | null;
+  loops_accepted: number | null;
   cpu_s: number | null;
   wall_s: number | null;
 }
@@ -92,6 +103,14 @@ export interface Figure {
   protocol: string;
 }
 
+/** Every row has as many cells as there are columns. */
+export interface Table {
+  title: string;
+  protocol: string;
+  columns: string[];
+  rows: string[][];
+}
+
 export interface Camera {
   width: number;
   height: number;
@@ -120,14 +139,14 @@ export interface Frames {
   keyframe: Column;
   /** x y z qx qy qz qw of T_map_cam, optimized; camera x right, y down, z forward. */
   pose: Column;
-  online: Column;
-  /** Aligned to the map. */
+  online: Column | null;
+  /** In the frame of the poses. */
   truth: Column | null;
   error_m: Column | null;
   error_deg: Column | null;
   sigma_m: Column | null;
   confidence: Column | null;
-  inliers: Column;
+  inliers: Column | null;
   /** Why a frame is lost. */
   reason: LabelColumn;
   environment: LabelColumn | null;
@@ -139,6 +158,15 @@ export interface Keyframes {
   place: Column;
   /** "data:image/jpeg;base64,..." or "". */
   thumbnails: string[];
+  tracks: Tracks | null;
+}
+
+/** Image points of landmarks: the first `count[0]` rows are those of the first keyframe, and so on. */
+export interface Tracks {
+  count: Column;
+  landmark: Column;
+  /** Share of the image's width and height, in 255ths. */
+  pixel: Column;
 }
 
 export interface Landmarks {
@@ -162,15 +190,23 @@ export interface Constraints {
   source: LabelColumn;
 }
 
-/** Loop candidates; `stage` is the test that decided, or "accepted". */
+/**
+ * Loop candidates; `stage` is the test that decided, or "accepted". Loops that were compared with ground
+ * truth are `judged`: then `stage` is "right", "wrong" or "missed", `reason` the stage, and `similarity`
+ * the score where that is no probability.
+ */
 export interface Loops {
   query_frame: Column;
   match_frame: Column;
-  probability: Column;
-  similarity: Column;
-  inliers: Column;
-  lines: Column;
+  probability: Column | null;
+  similarity: Column | null;
+  inliers: Column | null;
+  lines: Column | null;
   stage: LabelColumn;
+  reason: LabelColumn | null;
+  /** Rank of the first true candidate of the query; 0: none. */
+  rank: Column | null;
+  judged: boolean;
 }
 
 export interface Plane {
@@ -178,6 +214,35 @@ export interface Plane {
   rgb: [number, number, number];
   /** Polygon in the map. */
   outline: Column;
+  /** Polygons in it that do not belong to the plane. */
+  holes: Column[];
+}
+
+/**
+ * A street from above: an image with a pixel for each column of cells, rows along z of the plan, and the
+ * ground below it as (rows + 1) x (columns + 1) points of the map between which it is laid.
+ */
+export interface StreetMap {
+  /** "data:image/png;base64,..."; transparent where nothing is known. */
+  image: string;
+  width: number;
+  height: number;
+  /** Side of a pixel. */
+  cell_m: number;
+  /** x and z in the plan of the corner of the first pixel. */
+  low_m: [number, number];
+  /** Three rows that turn directions of the map to the plan, whose y points down. */
+  R_plan_map: Column;
+  columns: number;
+  rows: number;
+  ground: Column;
+  classes: StreetClass[];
+}
+
+export interface StreetClass {
+  name: string;
+  rgb: [number, number, number];
+  area_m2: number;
 }
 
 /** Points in metres in the frame of the plan: x right, y up. */
@@ -188,9 +253,14 @@ export interface PlanLine {
 }
 
 export interface Georeference {
+  /** The origin of the east-north-up frame. */
   latitude_deg: number;
   longitude_deg: number;
-  /** Latitude and longitude in degrees. */
+  folder: string;
+  fixes_used: number | null;
+  fixes_rejected: number | null;
+  residual_rms_m: number | null;
+  /** Latitude and longitude in degrees, height in metres; one row a frame. */
   track: Column;
 }
 

@@ -19,10 +19,11 @@ export function availableSeries(run: RunData): SeriesName[] {
   const names: SeriesName[] = [];
   if (hasValues(frames.errorM)) names.push("error");
   if (hasValues(frames.errorDeg)) names.push("rotation_error");
-  names.push("inliers");
+  if (frames.inliers !== null) names.push("inliers");
   if (hasValues(frames.confidence)) names.push("confidence");
   if (hasValues(frames.sigma)) names.push("uncertainty");
-  names.push("speed", "time");
+  if (hasValues(frames.pose)) names.push("speed");
+  names.push("time");
   return names;
 }
 

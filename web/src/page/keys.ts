@@ -24,6 +24,7 @@ export const LAYER_KEYS: Record<LayerName, string> = {
   loops: "l",
   refused: "r",
   planes: "n",
+  street: "w",
   others: "u",
   grid: "g",
 };
@@ -41,9 +42,17 @@ export const LAYER_TITLES: Record<LayerName, string> = {
   loops: "Loops accepted",
   refused: "Loops refused",
   planes: "Planes",
+  street: "Street map",
   others: "Other runs",
   grid: "Grid",
 };
+
+/** The title of a layer for a run: loops that were compared with ground truth are right or not. */
+export function layerTitle(name: LayerName, judged: boolean): string {
+  if (judged && name === "loops") return "Loops right";
+  if (judged && name === "refused") return "Loops wrong or missed";
+  return LAYER_TITLES[name];
+}
 
 export function bindings(
   report: ReportData,

@@ -1,5 +1,5 @@
 import { mainComponent } from "../data/compare";
-import { STAGES, stageCounts } from "../data/loops";
+import { STAGES, VERDICTS, certainty, stageCounts } from "../data/loops";
 import type { ReportData, RunData } from "../data/model";
 import { availableSeries } from "../data/series";
 import type { ColourBy, State, Theme } from "./state";
@@ -25,8 +25,9 @@ export function startState(report: ReportData, theme: Theme): State {
       places: false,
       constraints: false,
       loops: true,
-      refused: false,
+      refused: report.runs.some((r) => r.loops.judged),
       planes: true,
+      street: true,
       others: true,
       grid: true,
     },
@@ -34,19 +35,20 @@ export function startState(report: ReportData, theme: Theme): State {
     pointSize: 2,
     frustumSize: 1,
     loopFilter: {
-      stages: new Set([...STAGES, ...report.runs.flatMap((r) => stageCounts(r.loops).map(([s]) => s))]),
-      minProbability: 0,
+      stages: new Set([...STAGES, ...VERDICTS, ...report.runs.flatMap((r) => stageCounts(r.loops).map(([s]) => s))]),
+      // Of a recognizer with probabilities, those that it takes for loops.
+      minProbability: run?.loops.judged && run.loops.probability !== null ? 0.5 : 0,
     },
-    loopOrder: { column: "probability", descending: true },
+    loopOrder: { column: run ? certainty(run.loops) : "probability", descending: true },
     playing: false,
     rate: 4,
     follow: "off",
     series: run ? availableSeries(run)[0] : "inliers",
     axis: "frame",
     range: null,
-    tab: run ? "overview" : report.graphs.length > 0 ? "graph" : "pictures",
+    tab: run ? (run.loops.judged ? "loops" : "overview") : report.graphs.length > 0 ? "graph" : "pictures",
     compareWith: 1,
-    alignOn: "beginning",
+    alignOn: run && run.aligned !== null ? "truth" : "beginning",
     threshold: null,
     graph: 0,
     graphShape: report.graphs[0]?.after ? "after" : "before",
@@ -66,7 +68,8 @@ export function startPointColour(run: RunData): State["pointColour"] {
 }
 
 function startColour(run: RunData): ColourBy {
-  return availableSeries(run).includes("error") ? "error" : "speed";
+  const available = availableSeries(run);
+  return available.includes("error") ? "error" : available.includes("speed") && !run.loops.judged ? "speed" : "time";
 }
 
 function firstPosed(run: RunData): number {

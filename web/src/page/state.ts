@@ -16,6 +16,7 @@ export const LAYERS = [
   "loops",
   "refused",
   "planes",
+  "street",
   "others",
   "grid",
 ] as const;

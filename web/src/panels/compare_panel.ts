@@ -1,4 +1,13 @@
-import { type Comparison, compareRuns, defaultThreshold, firstParting, rms } from "../data/compare";
+import {
+  type AlignOn,
+  type Comparison,
+  bothInTruth,
+  comparable,
+  compareRuns,
+  defaultThreshold,
+  firstParting,
+  rms,
+} from "../data/compare";
 import { formatCount, formatDuration, formatNumber, formatTime, formatWithUnit } from "../data/format";
 import type { ReportData, RunData } from "../data/model";
 import { lengthUnit, travelled } from "../data/series";
@@ -8,6 +17,7 @@ import { graphSvg } from "../save/graph_svg";
 import { saveSvgAsPng, saveText } from "../save/save";
 import { distanceGraph } from "./distance_graph";
 import type { Panel, PanelContext } from "./panel";
+import { tableSection } from "./table_section";
 
 export function comparePanel({ report, store }: PanelContext): Panel {
   return {
@@ -15,32 +25,39 @@ export function comparePanel({ report, store }: PanelContext): Panel {
     available: report.runs.length > 1,
     keys: ["run", "compareWith", "alignOn", "threshold", "theme"],
     render: () => {
-      const { state } = store;
-      const run = report.runs[state.run];
-      const index =
-        state.compareWith === state.run || !report.runs[state.compareWith]
-          ? (state.run + 1) % report.runs.length
-          : state.compareWith;
-      const other = report.runs[index];
-      const choices = report.runs
-        .map((r, i) => ({ value: String(i), text: r.name }))
-        .filter(({ value }) => value !== String(state.run));
       return el(
         "div",
         {},
-        el("h2", {}, `${run.name} and ${other.name}`),
-        el(
-          "label",
-          {},
-          "Compare with ",
-          select("Run to compare with", choices, String(index), (value) => store.set({ compareWith: Number(value) })),
-        ),
-        partingSection(run, other, store),
+        ...trajectories(report, store),
         el("h3", {}, "Figures side by side"),
         figuresTable(report),
+        ...report.tables.map(tableSection),
       );
     },
   };
+}
+
+/** The trajectories of the chosen run and another one of the same recording. */
+function trajectories(report: ReportData, store: Store): HTMLElement[] {
+  const { state } = store;
+  const run = report.runs[state.run];
+  const choices = report.runs
+    .map((other, i) => ({ value: String(i), text: other.name, other }))
+    .filter(({ other }) => other !== run && comparable(run, other));
+  const chosen = choices.find(({ value }) => value === String(state.compareWith)) ?? choices[0];
+  if (chosen === undefined)
+    return [el("p", {}, "No other run is of the same recording, so no trajectories are compared.")];
+  if (run.loops.judged) return [];
+  return [
+    el("h2", {}, `${run.name} and ${chosen.other.name}`),
+    el(
+      "label",
+      {},
+      "Compare with ",
+      select("Run to compare with", choices, chosen.value, (value) => store.set({ compareWith: Number(value) })),
+    ),
+    partingSection(run, chosen.other, store),
+  ];
 }
 
 function partingSection(run: RunData, other: RunData, store: Store): HTMLElement {
@@ -60,8 +77,8 @@ function partingSection(run: RunData, other: RunData, store: Store): HTMLElement
   return el(
     "section",
     {},
-    choices(store, limit, unit),
-    el("p", {}, alignmentSentence(comparison, other, alignOn)),
+    choices(store, limit, unit, bothInTruth(run, other)),
+    el("p", {}, alignmentSentence(comparison, run, other)),
     el(
       "p",
       { class: "parting", "data-frame": id === null ? "" : String(id) },
@@ -116,7 +133,12 @@ function saveButtons(run: RunData, other: RunData, comparison: Comparison, unit:
   );
 }
 
-function choices(store: Store, limit: number, unit: string): HTMLElement {
+function choices(store: Store, limit: number, unit: string, inTruth: boolean): HTMLElement {
+  const frames = [
+    { value: "beginning", text: "the common beginning" },
+    { value: "whole", text: "all common frames" },
+  ];
+  if (inTruth) frames.unshift({ value: "truth", text: "the ground truth" });
   const input = el("input", {
     type: "number",
     min: "0",
@@ -135,23 +157,19 @@ function choices(store: Store, limit: number, unit: string): HTMLElement {
       "label",
       {},
       "Align on ",
-      select(
-        "Frames of the alignment",
-        [
-          { value: "beginning", text: "the common beginning" },
-          { value: "whole", text: "all common frames" },
-        ],
-        store.state.alignOn,
-        (value) => store.set({ alignOn: value === "whole" ? "whole" : "beginning" }),
+      select("Frames of the alignment", frames, store.state.alignOn, (value) =>
+        store.set({ alignOn: value as AlignOn }),
       ),
     ),
     el("label", {}, "Threshold ", input, ` ${unit}`),
   );
 }
 
-function alignmentSentence(comparison: Comparison, other: RunData, on: string): string {
+function alignmentSentence(comparison: Comparison, run: RunData, other: RunData): string {
+  if (comparison.alignedOn === 0)
+    return `Both are in the frame of the ground truth: ${run.name} by the alignment ${run.aligned ?? ""}, ${other.name} by ${other.aligned ?? ""}.`;
   const frames =
-    on === "whole"
+    comparison.alignedOn === comparison.ids.length
       ? `all ${formatCount(comparison.alignedOn)} common frames`
       : `the first ${formatCount(comparison.alignedOn)} common frames`;
   const kind = comparison.withScale
@@ -168,6 +186,17 @@ function partingSentence(run: RunData, comparison: Comparison, id: number | null
   return `They part at frame ${id} (${time}): there they are ${formatWithUnit(distance, unit)} apart, more than ${formatWithUnit(limit, unit)} for the first time.`;
 }
 
+function putCounts(run: RunData, put: (name: string, text: string) => void): void {
+  const { summary } = run;
+  if (run.loops.judged) return;
+  put("Frames posed", `${formatCount(summary.posed)} of ${formatCount(summary.frames)}`);
+  if (summary.keyframes !== null) put("Keyframes", formatCount(summary.keyframes));
+  if (summary.loops_accepted !== null) put("Loops accepted", formatCount(summary.loops_accepted));
+  put("Path length", formatWithUnit(travelled(run), lengthUnit(run)));
+  if (summary.wall_s !== null) put("Run time (wall clock)", formatDuration(summary.wall_s));
+  if (summary.cpu_s !== null) put("Run time (all cores)", formatDuration(summary.cpu_s));
+}
+
 /** One column a run; figures of one name but different protocols stay apart. */
 function figuresTable(report: ReportData): HTMLElement {
   const rows = new Map<string, string[]>();
@@ -177,16 +206,11 @@ function figuresTable(report: ReportData): HTMLElement {
     rows.set(name, row);
   };
   report.runs.forEach((run, i) => {
-    put("Verdict", i, run.judgement?.verdict ?? "none");
+    if (run.judgement) put("Verdict", i, run.judgement.verdict);
     for (const figure of run.figures)
       put(`${figure.name} (${figure.protocol})`, i, formatWithUnit(figure.value, figure.unit));
-    put("Frames posed", i, `${formatCount(run.summary.posed)} of ${formatCount(run.summary.frames)}`);
-    put("Keyframes", i, formatCount(run.summary.keyframes));
-    put("Loops accepted", i, formatCount(run.summary.loops_accepted));
-    put("Path length", i, formatWithUnit(travelled(run), lengthUnit(run)));
-    put("Run time (wall clock)", i, formatDuration(run.summary.wall_s));
-    put("Run time (all cores)", i, formatDuration(run.summary.cpu_s));
-    for (const option of run.options) put(`Option ${option.name}`, i, option.value);
+    putCounts(run, (name, text) => put(name, i, text));
+    for (const option of run.options ?? []) put(`Option ${option.name}`, i, option.value);
   });
   const head = el(
     "tr",

@@ -7,6 +7,7 @@ import { FrameView } from "../live/frame_view";
 import { loopSelection } from "../page/actions";
 import { button, el, facts, isPicture } from "../page/dom";
 import type { Panel, PanelContext } from "./panel";
+import { tracksOverlay } from "./tracks_overlay";
 
 export function framePanel({ report, store, served }: PanelContext): Panel {
   let figure: HTMLElement | null = null;
@@ -82,7 +83,17 @@ function thumbnailOf(run: RunData, row: number, shown: HTMLElement | null): HTML
     shown?.querySelector("figcaption")?.replaceChildren(caption);
     return shown;
   }
-  return el("figure", {}, el("img", { src: uri, alt: caption }), el("figcaption", {}, caption));
+  const camera = run.camera;
+  const overlay = camera === null ? null : tracksOverlay(run, k, camera.width, camera.height);
+  return el(
+    "figure",
+    {},
+    el("div", { class: "tracked" }, el("img", { src: uri, alt: caption }), overlay),
+    el("figcaption", {}, caption),
+    overlay === null
+      ? null
+      : el("p", { class: "soft" }, "Points: landmarks with the longest tracks, and where the keyframes before saw them."),
+  );
 }
 
 function frameFacts(run: RunData, row: number): [string, string][] {
@@ -92,10 +103,11 @@ function frameFacts(run: RunData, row: number): [string, string][] {
   const rows: [string, string][] = [
     ["Time", `${formatTime(frames.stamp[row] - frames.stamp[0])} (stamp ${frames.stamp[row].toFixed(3)} s)`],
     ["Component", frames.component[row] < 0 ? "none" : String(frames.component[row])],
-    ["Keyframe", keyframeText(run, row)],
   ];
+  if (keyframes.count > 0 && !run.loops.judged)
+    rows.push(["Keyframe", keyframeText(run, row)]);
   if (k >= 0 && keyframes.place[k] >= 0) rows.push(["Place", String(keyframes.place[k])]);
-  rows.push(["Inliers", formatNumber(frames.inliers[row])]);
+  if (frames.inliers) rows.push(["Inliers", formatNumber(frames.inliers[row])]);
   if (frames.confidence) rows.push(["Confidence", formatPercent(frames.confidence[row])]);
   if (frames.errorM) rows.push(["Position error", formatWithUnit(frames.errorM[row], "m")]);
   if (frames.errorDeg) rows.push(["Rotation error", formatWithUnit(frames.errorDeg[row], "deg")]);
@@ -104,11 +116,13 @@ function frameFacts(run: RunData, row: number): [string, string][] {
   if (frames.environment) rows.push(["Environment", label(frames.environment, row) ?? "unknown"]);
   if (frames.component[row] >= 0) {
     const p = [0, 1, 2].map((i) => frames.pose[7 * row + i].toFixed(3));
-    rows.push(["Position in the map", `${p.join(", ")} ${unit}`]);
+    const frame = run.aligned === null ? "the map" : "the ground truth's frame";
+    rows.push([`Position in ${frame}`, `${p.join(", ")} ${unit}`]);
   }
   const geo = run.georeference;
-  if (geo && geo.track.length === 2 * frames.count && Number.isFinite(geo.track[2 * row])) {
-    rows.push(["Latitude, longitude", `${geo.track[2 * row].toFixed(7)}, ${geo.track[2 * row + 1].toFixed(7)} deg`]);
+  if (geo && Number.isFinite(geo.track[3 * row])) {
+    rows.push(["Latitude, longitude", `${geo.track[3 * row].toFixed(7)}, ${geo.track[3 * row + 1].toFixed(7)} deg`]);
+    rows.push(["Height above the ellipsoid", `${geo.track[3 * row + 2].toFixed(2)} m`]);
   }
   return rows;
 }

@@ -3,7 +3,9 @@ import type { ReportData, RunData } from "../data/model";
 import { availableSeries, series } from "../data/series";
 import { toggleFollow } from "../page/actions";
 import { button, type Choice, el, select, slider } from "../page/dom";
-import { LAYER_KEYS, LAYER_TITLES } from "../page/keys";
+import { comparable } from "../data/compare";
+import { isGood, stageCounts } from "../data/loops";
+import { LAYER_KEYS, layerTitle } from "../page/keys";
 import { type ColourBy, type Follow, LAYERS, type LayerName, type PointColour, type Store } from "../page/state";
 import type { SceneView } from "../scene/scene_view";
 
@@ -61,7 +63,7 @@ function controls(report: ReportData, run: RunData, store: Store): Node[] {
     ),
   ];
   if (run.components.length > 1) nodes.push(componentChoice(run, store));
-  for (const name of LAYERS) if (layerExists(report, run, name)) nodes.push(layerBox(name, store));
+  for (const name of LAYERS) if (layerExists(report, run, name)) nodes.push(layerBox(name, run, store));
   if (run.landmarks.count > 0) {
     nodes.push(
       el(
@@ -80,7 +82,7 @@ function controls(report: ReportData, run: RunData, store: Store): Node[] {
   return nodes;
 }
 
-function layerBox(name: LayerName, store: Store): HTMLElement {
+function layerBox(name: LayerName, run: RunData, store: Store): HTMLElement {
   const input = el("input", { type: "checkbox", "data-layer": name });
   const show = (): void => {
     input.checked = store.state.layers[name];
@@ -88,7 +90,7 @@ function layerBox(name: LayerName, store: Store): HTMLElement {
   input.addEventListener("change", () => store.setLayer(name, input.checked));
   store.on(["layers"], show);
   show();
-  return el("label", { class: "check" }, input, LAYER_TITLES[name], el("kbd", {}, LAYER_KEYS[name].toUpperCase()));
+  return el("label", { class: "check" }, input, layerTitle(name, run.loops.judged), el("kbd", {}, LAYER_KEYS[name].toUpperCase()));
 }
 
 function componentChoice(run: RunData, store: Store): HTMLElement {
@@ -137,13 +139,17 @@ function layerExists(report: ReportData, run: RunData, name: LayerName): boolean
       return run.places.count > 0;
     case "constraints":
       return run.constraints.count > 0;
+    case "online":
+      return run.frames.online !== null;
     case "loops":
     case "refused":
-      return run.loops.count > 0;
+      return stageCounts(run.loops).some(([stage]) => isGood(stage) === (name === "loops"));
     case "planes":
       return run.planes.length > 0;
+    case "street":
+      return run.streetMap !== null;
     case "others":
-      return report.runs.length > 1;
+      return report.runs.some((other) => other !== run && comparable(run, other));
     default:
       return true;
   }

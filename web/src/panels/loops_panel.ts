@@ -1,7 +1,17 @@
 import { cssColour } from "../data/colour_scale";
 import { formatCount, formatNumber, formatPercent, formatTime, plural } from "../data/format";
-import { type LoopColumn, filterLoops, sortLoops, stageCounts, stageOf, stageSentence } from "../data/loops";
-import type { RunData } from "../data/model";
+import {
+  type LoopColumn,
+  type NumberColumn,
+  certainty,
+  filterLoops,
+  loopValue,
+  sortLoops,
+  stageCounts,
+  stageOf,
+  stageSentence,
+} from "../data/loops";
+import { label, type RunData } from "../data/model";
 import { keyframeAt } from "../data/run_view";
 import { EditPanel, loopButtons } from "../edit/edit_panel";
 import { showFullImage } from "../live/frame_files";
@@ -13,15 +23,26 @@ import { stageColour } from "../scene/loops_layer";
 import type { Panel, PanelContext } from "./panel";
 
 const ROWS = 300;
-const COLUMNS: [LoopColumn, string][] = [
-  ["query", "Query"],
-  ["match", "Match"],
-  ["stage", "Stage"],
-  ["probability", "Prob."],
-  ["similarity", "Sim."],
-  ["inliers", "Inliers"],
-  ["lines", "Lines"],
-];
+const NUMBERS: NumberColumn[] = ["probability", "similarity", "inliers", "lines", "rank"];
+
+/** The columns of a run's table: those of which anything is known. */
+function columnsOf({ loops }: RunData): [LoopColumn, string][] {
+  const titles: Record<NumberColumn, string> = {
+    probability: "Prob.",
+    similarity: loops.judged ? "Score" : "Sim.",
+    inliers: "Inliers",
+    lines: "Lines",
+    rank: "Rank",
+  };
+  const columns: [LoopColumn, string][] = [
+    ["query", "Query"],
+    ["match", "Match"],
+    ["stage", loops.judged ? "Verdict" : "Stage"],
+  ];
+  if (loops.reason !== null && loops.reason.table.length > 0) columns.push(["reason", "Stage"]);
+  for (const name of NUMBERS) if (loops[name] !== null) columns.push([name, titles[name]]);
+  return columns;
+}
 
 export function loopsPanel(context: PanelContext): Panel {
   const { report, store } = context;
@@ -72,15 +93,23 @@ function selectedLoop({ store, served }: PanelContext, run: RunData): HTMLElemen
       view(run, loops.match[loop], "Match", MATCH, store, served !== null),
     ),
     el("p", {}, el("strong", {}, stageSentence(stage))),
-    served?.editor ? loopButtons(served.editor, run, loop) : null,
-    facts([
-      ["Probability of the same place", formatPercent(loops.probability[loop])],
-      ["Similarity", formatNumber(loops.similarity[loop])],
-      ["Inliers", formatNumber(loops.inliers[loop])],
-      ["Lines", formatNumber(loops.lines[loop])],
-      ["Time between the two", timeBetween(run, loop)],
-    ]),
+    served?.editor && !run.loops.judged ? loopButtons(served.editor, run, loop) : null,
+    facts(loopFacts(run, loop)),
   );
+}
+
+function loopFacts(run: RunData, loop: number): [string, string][] {
+  const { loops } = run;
+  const rows: [string, string][] = [];
+  const reason = loops.reason === null ? null : label(loops.reason, loop);
+  if (reason !== null) rows.push([stageOf(loops, loop) === "missed" ? "Why" : "Decided by", reason]);
+  if (loops.probability) rows.push(["Probability of the same place", formatPercent(loops.probability[loop])]);
+  if (loops.similarity) rows.push([loops.judged ? "Score" : "Similarity", formatNumber(loops.similarity[loop])]);
+  if (loops.inliers) rows.push(["Inliers", formatNumber(loops.inliers[loop])]);
+  if (loops.lines) rows.push(["Lines", formatNumber(loops.lines[loop])]);
+  if (loops.rank) rows.push(["Rank of the first true candidate", loops.rank[loop] > 0 ? String(loops.rank[loop]) : "none"]);
+  rows.push(["Time between the two", timeBetween(run, loop)]);
+  return rows;
 }
 
 function timeBetween(run: RunData, loop: number): string {
@@ -100,7 +129,8 @@ function view(
   full: boolean,
 ): HTMLElement {
   const row = run.frames.rowOf.get(frame);
-  const uri = row === undefined ? undefined : run.keyframes.thumbnails[keyframeAt(run, row)];
+  const k = row === undefined ? -1 : keyframeAt(run, row);
+  const uri = run.keyframes.frame[k] === frame ? run.keyframes.thumbnails[k] : undefined;
   const go = button(`${title}: frame ${frame}`, "Move the cursor to this frame", () => {
     if (row !== undefined) store.set({ row });
   });
@@ -114,7 +144,7 @@ function view(
 
 function filters(run: RunData, store: Store): HTMLElement {
   const { loopFilter } = store.state;
-  const box = el("fieldset", { class: "filters" }, el("legend", {}, "Stages"));
+  const box = el("fieldset", { class: "filters" }, el("legend", {}, run.loops.judged ? "Verdicts" : "Stages"));
   for (const [stage, count] of stageCounts(run.loops)) {
     const check = checkbox(`${stage} (${formatCount(count)})`, loopFilter.stages.has(stage), (on) => {
       const stages = new Set(store.state.loopFilter.stages);
@@ -127,13 +157,24 @@ function filters(run: RunData, store: Store): HTMLElement {
     check.append(mark);
     box.append(check);
   }
+  box.append(leastCertainty(run, store));
+  return box;
+}
+
+/** The slider for the probability, or for the score of a recognizer without probabilities. */
+function leastCertainty(run: RunData, store: Store): HTMLElement {
+  const { loopFilter } = store.state;
+  const probable = certainty(run.loops) === "probability";
+  const values = run.loops[certainty(run.loops)] ?? [];
+  let most = probable ? 1 : 0;
+  for (let i = 0; i < values.length; i++) if (values[i] > most) most = values[i];
   const least = el("output", {}, formatNumber(loopFilter.minProbability));
-  const probability = slider("Probability at least", 0, 1, 0.05, loopFilter.minProbability, (minProbability) => {
+  const title = probable ? "Probability at least" : "Score at least";
+  const box = slider(title, 0, most, most / 20, loopFilter.minProbability, (minProbability) => {
     least.textContent = formatNumber(minProbability);
     store.set({ loopFilter: { ...store.state.loopFilter, minProbability } });
   });
-  probability.append(least);
-  box.append(probability);
+  box.append(least);
   return box;
 }
 
@@ -141,7 +182,8 @@ function table({ report, store }: PanelContext, run: RunData): HTMLElement {
   const { loopFilter, loopOrder, loop } = store.state;
   const rows = sortLoops(run.loops, filterLoops(run.loops, loopFilter), loopOrder);
   const head = el("tr");
-  for (const [column, title] of COLUMNS) {
+  const columns = columnsOf(run);
+  for (const [column, title] of columns) {
     const active = loopOrder.column === column;
     const sort = button(
       active ? `${title} ${loopOrder.descending ? "▼" : "▲"}` : title,
@@ -152,7 +194,7 @@ function table({ report, store }: PanelContext, run: RunData): HTMLElement {
   }
   const body = el("tbody");
   for (const row of rows.slice(0, ROWS))
-    body.append(tableRow(run, row, row === loop, () => store.set(loopSelection(report, store.state, row))));
+    body.append(tableRow(run, columns, row, row === loop, () => store.set(loopSelection(report, store.state, row))));
   const more =
     rows.length > ROWS
       ? el("p", { class: "soft" }, `The first ${ROWS} are in the table; filter or sort to see others.`)
@@ -166,25 +208,40 @@ function table({ report, store }: PanelContext, run: RunData): HTMLElement {
   );
 }
 
-function tableRow(run: RunData, row: number, selected: boolean, choose: () => void): HTMLElement {
-  const { loops } = run;
-  const stage = stageOf(loops, row);
-  const cells = [
-    String(loops.query[row]),
-    String(loops.match[row]),
-    stage,
-    formatNumber(loops.probability[row], 2),
-    formatNumber(loops.similarity[row], 2),
-    formatNumber(loops.inliers[row]),
-    formatNumber(loops.lines[row]),
-  ];
+function cellText({ loops }: RunData, column: LoopColumn, row: number): string {
+  switch (column) {
+    case "query":
+    case "match":
+      return String(loops[column][row]);
+    case "stage":
+      return stageOf(loops, row);
+    case "reason":
+      return (loops.reason && label(loops.reason, row)) ?? "";
+    case "rank":
+      return (loops.rank?.[row] ?? 0) > 0 ? String(loops.rank?.[row]) : "–";
+    default:
+      return formatNumber(loopValue(loops, column, row), column === "inliers" || column === "lines" ? undefined : 2);
+  }
+}
+
+function tableRow(
+  run: RunData,
+  columns: [LoopColumn, string][],
+  row: number,
+  selected: boolean,
+  choose: () => void,
+): HTMLElement {
+  const stage = stageOf(run.loops, row);
   const element = el("tr", {
     tabindex: "0",
     "aria-current": String(selected),
     "data-loop": String(row),
     title: stageSentence(stage),
   });
-  cells.forEach((text, i) => element.append(el("td", { class: i === 2 ? "" : "number" }, text)));
+  for (const [column] of columns) {
+    const isText = column === "stage" || column === "reason";
+    element.append(el("td", { class: isText ? "" : "number" }, cellText(run, column, row)));
+  }
   element.addEventListener("click", choose);
   element.addEventListener("keydown", (event) => {
     if (event.key === "Enter") choose();

@@ -2,9 +2,13 @@ import { formatCount, formatDuration, formatPercent, formatWithUnit } from "../d
 import type { RunData } from "../data/model";
 import type { Figure, Judgement, Option } from "../data/report";
 import { lengthUnit, times, travelled } from "../data/series";
-import { button, el, facts } from "../page/dom";
+import { geoJson, gpx } from "../data/geodesy";
+import { button, el, facts, svgUri } from "../page/dom";
+import { escapeXml } from "../save/graph_svg";
 import { saveText } from "../save/save";
+import { earthSvg } from "./earth_svg";
 import type { Panel, PanelContext } from "./panel";
+import { tableSection } from "./table_section";
 
 const SENSORS = { mono: "one camera", stereo: "stereo camera", rgbd: "RGB-D camera" };
 const VERDICTS = {
@@ -24,18 +28,26 @@ export function overviewPanel({ report, store }: PanelContext): Panel {
         "div",
         {},
         el("h2", {}, run.name),
-        el("p", { class: "soft" }, `${run.folder} · ${SENSORS[run.sensor]} · ${report.program}`),
+        el("p", { class: "soft" }, sourceOf(run, report.program)),
         run.judgement ? judgementSection(run.judgement) : null,
         figuresSection(run.figures),
+        ...run.tables.map(tableSection),
         el("h3", {}, "Counts"),
         countsOf(run),
         componentsSection(run),
         listSection("Notes", run.notes),
-        optionsSection(run.options),
-        run.georeference ? georeferenceSection(run) : null,
+        run.options === null ? null : optionsSection(run.options),
+        georeferenceSection(run),
       );
     },
   };
+}
+
+function sourceOf(run: RunData, program: string): string {
+  const aligned = run.aligned === null || run.loops.judged ? "" : `poses aligned to the ground truth: ${run.aligned}`;
+  return [run.folder, run.sensor === null ? "" : SENSORS[run.sensor], aligned, program]
+    .filter((text) => text !== "")
+    .join(" · ");
 }
 
 function scaleSentence(judgement: Judgement): string {
@@ -87,24 +99,23 @@ export function figuresSection(figures: Figure[]): HTMLElement | null {
 
 export function countsOf(run: RunData): HTMLElement {
   const { summary } = run;
-  const seconds = times(run).at(-1) ?? 0;
-  return facts([
-    ["Frames", formatCount(summary.frames)],
-    ["Frames posed", `${formatCount(summary.posed)} (${formatPercent(summary.posed / summary.frames)})`],
-    ["Keyframes", formatCount(summary.keyframes)],
-    ["Places", formatCount(summary.places)],
-    [
-      "Landmarks",
-      run.landmarks.count === summary.landmarks
-        ? formatCount(summary.landmarks)
-        : `${formatCount(summary.landmarks)}, ${formatCount(run.landmarks.count)} of them in this page`,
-    ],
-    ["Loops accepted", formatCount(summary.loops_accepted)],
-    ["Path length", formatWithUnit(travelled(run), lengthUnit(run))],
-    ["Length of the sequence", formatDuration(seconds)],
-    ["Run time (wall clock)", formatDuration(summary.wall_s)],
-    ["Run time (all cores)", formatDuration(summary.cpu_s)],
-  ]);
+  const rows: [string, string][] = [["Frames", formatCount(summary.frames)]];
+  const add = (name: string, value: number | null, text: (value: number) => string): void => {
+    if (value !== null) rows.push([name, text(value)]);
+  };
+  if (summary.posed > 0)
+    add("Frames posed", summary.posed, (n) => `${formatCount(n)} (${formatPercent(n / summary.frames)})`);
+  add("Keyframes", summary.keyframes, formatCount);
+  add("Places", summary.places, formatCount);
+  add("Landmarks", summary.landmarks, (n) =>
+    run.landmarks.count === n ? formatCount(n) : `${formatCount(n)}, ${formatCount(run.landmarks.count)} of them in this page`,
+  );
+  add("Loops accepted", summary.loops_accepted, formatCount);
+  if (summary.posed > 0) rows.push(["Path length", formatWithUnit(travelled(run), lengthUnit(run))]);
+  rows.push(["Length of the sequence", formatDuration(times(run).at(-1) ?? 0)]);
+  add("Run time (wall clock)", summary.wall_s, formatDuration);
+  add("Run time (all cores)", summary.cpu_s, formatDuration);
+  return facts(rows);
 }
 
 function componentsSection(run: RunData): HTMLElement | null {
@@ -150,24 +161,30 @@ function optionsSection(options: Option[]): HTMLElement | null {
 }
 
 function georeferenceSection(run: RunData): HTMLElement | null {
-  const { georeference } = run;
-  if (georeference === null) return null;
-  const save = (): void => {
-    const coordinates: number[][] = [];
-    for (let i = 0; i < georeference.track.length; i += 2) {
-      if (Number.isFinite(georeference.track[i])) coordinates.push([georeference.track[i + 1], georeference.track[i]]);
-    }
-    const line = { type: "Feature", properties: { name: run.name }, geometry: { type: "LineString", coordinates } };
-    saveText(JSON.stringify(line), "application/geo+json", `${run.name}.geojson`);
-  };
+  const geo = run.georeference;
+  if (geo === null) return null;
+  const rows: [string, string][] = [
+    ["Origin", `${geo.latitude.toFixed(7)}, ${geo.longitude.toFixed(7)} deg (latitude, longitude)`],
+  ];
+  if (geo.fixesUsed !== null) rows.push(["Fixes used", formatCount(geo.fixesUsed)]);
+  if (geo.fixesRejected !== null) rows.push(["Fixes rejected", formatCount(geo.fixesRejected)]);
+  if (geo.residual !== null) rows.push(["Residual of the fixes, RMS", formatWithUnit(geo.residual, "m")]);
   return el(
     "section",
     {},
     el("h3", {}, "Georeference"),
-    facts([
-      ["Latitude", `${georeference.latitude.toFixed(7)} deg`],
-      ["Longitude", `${georeference.longitude.toFixed(7)} deg`],
-    ]),
-    button("Save the track as GeoJSON", "Save the track as GeoJSON", save),
+    el("p", { class: "soft" }, geo.folder),
+    facts(rows),
+    el("img", { class: "earth", src: svgUri(earthSvg(geo)), alt: "The track on the earth, north up" }),
+    el(
+      "div",
+      { class: "row" },
+      button("GeoJSON", "Save the track as GeoJSON", () =>
+        saveText(geoJson(run.name, geo), "application/geo+json", `${run.name}.geojson`),
+      ),
+      button("GPX", "Save the track as GPX", () =>
+        saveText(gpx(run.name, geo, escapeXml), "application/gpx+xml", `${run.name}.gpx`),
+      ),
+    ),
   );
 }

@@ -2,8 +2,10 @@ import type { RunData } from "../data/model";
 import type { Picture } from "../data/report";
 import { button, el, svgUri } from "../page/dom";
 import { saveSvgAsPng, saveText } from "../save/save";
+import { earthSvg } from "./earth_svg";
 import type { Panel, PanelContext } from "./panel";
 import { planSvg } from "./plan_svg";
+import { streetSvg } from "./street_svg";
 
 const PNG_WIDTH = 1600;
 
@@ -28,11 +30,17 @@ function plansOf(run: RunData): Picture[] {
   const pictures: Picture[] = [];
   if (run.floorPlan.length > 0)
     pictures.push({ title: "Floor plan", caption: "Walls, in the frame of the plan.", svg: planSvg(run.floorPlan) });
-  if (run.streetMap.length > 0)
+  if (run.streetMap !== null)
     pictures.push({
       title: "Street map",
-      caption: "Lines of the street map, in its own frame.",
-      svg: planSvg(run.streetMap),
+      caption: "Classes of the street from above and the path of the camera.",
+      svg: streetSvg(run, run.streetMap),
+    });
+  if (run.georeference !== null)
+    pictures.push({
+      title: "Track on the earth",
+      caption: "North is up; latitude and longitude by the georeference.",
+      svg: earthSvg(run.georeference),
     });
   return pictures;
 }

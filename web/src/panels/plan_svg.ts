@@ -1,4 +1,4 @@
-/** A floor plan or street map as SVG text, with a scale bar. */
+/** A floor plan as SVG text, with a scale bar. */
 import { CATEGORIES, cssColour } from "../data/colour_scale";
 import type { PlanShape } from "../data/model";
 import { escapeXml } from "../save/graph_svg";

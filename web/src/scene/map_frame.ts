@@ -4,7 +4,7 @@ import type { RunData } from "../data/model";
 import { rotationAt } from "../data/quaternion";
 import { isPosed } from "../data/run_view";
 
-/** A group in which map coordinates are right; its y axis up is -y of the first camera. */
+/** A group in which map coordinates are right; its y axis points up, by -y of the first camera if nothing says so. */
 export function mapGroup(run: RunData, component: number | null): Group {
   const group = new Group();
   group.quaternion.copy(uprightRotation(run, component));
@@ -14,6 +14,10 @@ export function mapGroup(run: RunData, component: number | null): Group {
 
 function uprightRotation(run: RunData, component: number | null): Quaternion {
   const axesToScene = new Quaternion(1, 0, 0, 0); // half a rotation about x: y and z change their signs
+  if (run.up !== null) {
+    const up = new Vector3(...run.up);
+    return up.y < -0.9 ? axesToScene : new Quaternion().setFromUnitVectors(up, new Vector3(0, 1, 0));
+  }
   for (let row = 0; row < run.frames.count; row++) {
     if (!isPosed(run, row, component)) continue;
     const [x, y, z, w] = rotationAt(run.frames.pose, row);

@@ -1,8 +1,9 @@
 /** All layers of the chosen run, built when first seen and rebuilt when what they show changes. */
 import { Group, type Object3D, type Sphere, Vector3 } from "three";
 import { apply } from "../data/align";
-import { compareRuns, mainComponent } from "../data/compare";
+import { compareRuns, comparable, mainComponent } from "../data/compare";
 import { type Rgb, robustRange } from "../data/colour_scale";
+import { isGood } from "../data/loops";
 import type { ReportData, RunData } from "../data/model";
 import { keyframeSpacing } from "../data/run_view";
 import { positionAt } from "../data/quaternion";
@@ -18,6 +19,7 @@ import { loopLines, loopRows, stageColour } from "./loops_layer";
 import { mapGroup, poseMatrix, trajectorySphere } from "./map_frame";
 import { constraintColour, constraintLines, placePoints } from "./places_layer";
 import { planeShapes } from "./planes_layer";
+import { streetMesh } from "./street_layer";
 import { plainTrajectory, trajectoryLines, truthLines } from "./trajectory_layer";
 import type { QualityLevel } from "./quality";
 import { type Viewport, pixelRatio } from "./viewport";
@@ -121,8 +123,14 @@ export class RunScene {
     const { state, run } = this;
     const items: LegendItem[] = [];
     if (state.layers.trajectory) items.push(frameColouring(run, state.run, state.colourBy).legend);
-    if (state.layers.landmarks && this.pointLegend) items.push(this.pointLegend);
+    if (state.layers.landmarks && run.landmarks.count > 0 && this.pointLegend) items.push(this.pointLegend);
     items.push(...this.lineLegend());
+    if (state.layers.street && run.streetMap)
+      items.push({
+        kind: "category",
+        title: "Street map",
+        entries: run.streetMap.classes.map(({ name, rgb }) => ({ text: name, colour: rgb })),
+      });
     if (state.layers.grid) {
       const cell = `${cellSize(this.sphere.radius)} ${run.metric ? "m" : "map units"}`;
       items.push({ kind: "category", title: `Grid cells of ${cell}`, entries: [] });
@@ -138,21 +146,20 @@ export class RunScene {
   private lineLegend(): LegendItem[] {
     const { state, run, report } = this;
     const entries: { text: string; colour: Rgb }[] = [];
-    entries.push({ text: `cursor${state.layers.landmarks ? " and its landmarks" : ""}`, colour: CURSOR });
+    const withLandmarks = state.layers.landmarks && run.landmarks.count > 0;
+    entries.push({ text: `frame under the cursor${withLandmarks ? ", its landmarks" : ""}`, colour: CURSOR });
     if (state.layers.truth && run.frames.truth) entries.push({ text: "ground truth", colour: this.truthColour() });
-    if (state.layers.online) entries.push({ text: "online trajectory", colour: ONLINE });
+    if (state.layers.online && run.frames.online) entries.push({ text: "online trajectory", colour: ONLINE });
     if (state.layers.before && run.before) entries.push({ text: "before the last edit", colour: BEFORE });
     if (state.layers.others) {
       report.runs.forEach((other, i) => {
-        if (i !== state.run) entries.push({ text: other.name, colour: runColour(i) });
+        if (i !== state.run && comparable(run, other)) entries.push({ text: other.name, colour: runColour(i) });
       });
     }
-    if (state.layers.loops && run.loops.count > 0)
-      entries.push({ text: "loop accepted", colour: stageColour("accepted") });
-    if (state.layers.refused) {
-      for (const stage of run.loops.stage.table) {
-        if (stage !== "accepted") entries.push({ text: `loop refused: ${stage}`, colour: stageColour(stage) });
-      }
+    for (const stage of run.loops.stage.table) {
+      if (!state.layers[isGood(stage) ? "loops" : "refused"]) continue;
+      const text = run.loops.judged || isGood(stage) ? `loop ${stage}` : `loop refused: ${stage}`;
+      entries.push({ text, colour: stageColour(stage) });
     }
     if (state.layers.constraints) {
       for (const source of run.constraints.source.table) {
@@ -186,7 +193,7 @@ export class RunScene {
       case "truth":
         return run.frames.truth ? truthLines(run.frames.truth, this.truthColour()) : null;
       case "online":
-        return plainTrajectory(run, run.frames.online, component, ONLINE);
+        return run.frames.online ? plainTrajectory(run, run.frames.online, component, ONLINE) : null;
       case "before":
         return run.before ? plainTrajectory(run, run.before, component, BEFORE, 0.7) : null;
       case "frusta":
@@ -204,6 +211,8 @@ export class RunScene {
         return loopLines(run, component, loopRows(run, state.loopFilter, name === "loops"), name === "loops");
       case "planes":
         return planeShapes(run);
+      case "street":
+        return run.streetMap ? streetMesh(run.streetMap, () => this.viewport.request()) : null;
       case "others":
         return this.buildOthers();
       case "grid":

@@ -1,6 +1,6 @@
 /** Coloured bands below the graph: lost frames and components, environments, markers of loops. */
 import { type Rgb, categoryColour, cssColour } from "../data/colour_scale";
-import { filterLoops, stageOf, type LoopFilter } from "../data/loops";
+import { filterLoops, isGood, stageOf, stageCounts, type LoopFilter } from "../data/loops";
 import type { RunData } from "../data/model";
 import { label } from "../data/model";
 import { stageColour } from "../scene/loops_layer";
@@ -25,6 +25,7 @@ export class Bands {
     const numbers = run.components.map((component) => component.number);
     drawSpans(context, run, axis, range, width, 0, (row) => {
       const component = run.frames.component[row];
+      if (run.summary.posed === 0) return "transparent";
       return component < 0 ? null : cssColour(categoryColour(numbers.indexOf(component)), 0.75);
     });
     const { environment } = run.frames;
@@ -71,12 +72,12 @@ function drawLoops(
   filter: LoopFilter,
   selected: number,
 ): void {
-  const rank = (loop: number): number => (loop === selected ? 2 : stageOf(run.loops, loop) === "accepted" ? 1 : 0);
+  const rank = (loop: number): number => (loop === selected ? 2 : isGood(stageOf(run.loops, loop)) ? 1 : 0);
   for (const loop of filterLoops(run.loops, filter).sort((a, b) => rank(a) - rank(b))) {
     const row = run.frames.rowOf.get(run.loops.query[loop]);
     if (row === undefined) continue;
     const stage = stageOf(run.loops, loop);
-    const accepted = stage === "accepted";
+    const accepted = isGood(stage) || run.loops.judged;
     const x = axis.pixel(axis.values[row], range, width);
     const half = loop === selected ? 6 : accepted ? 4 : 2.5;
     context.fillStyle = cssColour(stageColour(stage), accepted ? 1 : 0.6);
@@ -100,9 +101,15 @@ export function bandsLegend(run: RunData): HTMLElement {
     mark.style.background = colour;
     box.append(el("span", { class: "entry" }, mark, text));
   };
-  if (run.summary.posed < run.summary.frames) add("lost", cssColour(LOST));
-  run.components.forEach((component, i) => add(`component ${component.number}`, cssColour(categoryColour(i))));
+  if (run.summary.posed > 0 && run.summary.posed < run.summary.frames) add("lost", cssColour(LOST));
+  run.components.forEach((component, i) =>
+    add(run.components.length > 1 ? `component ${component.number}` : "with a pose", cssColour(categoryColour(i))),
+  );
   run.frames.environment?.table.forEach((name, i) => add(name, cssColour(categoryColour(i + 3))));
-  if (run.loops.count > 0) add("loop accepted (open triangle: refused)", cssColour(stageColour("accepted")));
+  if (run.loops.judged) {
+    for (const [stage] of stageCounts(run.loops)) add(`loop ${stage}`, cssColour(stageColour(stage)));
+  } else if (stageCounts(run.loops).some(([stage]) => isGood(stage))) {
+    add("loop accepted (open triangle: refused)", cssColour(stageColour("accepted")));
+  } else if (run.loops.count > 0) add("loop refused", cssColour(stageColour(stageCounts(run.loops)[0][0])));
   return box;
 }

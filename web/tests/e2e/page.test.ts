@@ -300,7 +300,9 @@ describe("hostile texts", () => {
       },
       frames: { ...run.frames, reason: { ...run.frames.reason, table: [evil] } },
       keyframes: { ...run.keyframes, thumbnails: run.keyframes.thumbnails.map(() => "javascript:alert(3)") },
-      loops: { ...run.loops, stage: { ...run.loops.stage, table: run.loops.stage.table.map(() => evil) } },
+      loops: run.loops && { ...run.loops, stage: { ...run.loops.stage, table: run.loops.stage.table.map(() => evil) } },
+      tables: [{ title: evil, protocol: evil, columns: [evil], rows: [[evil]] }],
+      recording: evil,
       pictures: [
         {
           title: evil,

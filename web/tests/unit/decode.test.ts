@@ -54,9 +54,9 @@ describe("a report", () => {
 
   it("without a column, or with one of another size, names the column", () => {
     const run = sampleRun(small);
-    const without = { ...run, frames: { ...run.frames, inliers: undefined } };
+    const without = { ...run, frames: { ...run.frames, keyframe: undefined } };
     expect(() => decodeReport(sampleReport([without as never]))).toThrow(
-      "runs[0].frames.inliers is missing or is no object.",
+      "runs[0].frames.keyframe is missing or is no object.",
     );
     const short = { ...run, frames: { ...run.frames, inliers: column("i32", [1, 2]) } };
     expect(() => decodeReport(sampleReport([short]))).toThrow("runs[0].frames.inliers has 2 rows; it must have 60.");

@@ -18,6 +18,9 @@ function reportWith(stage: string, shift = 0): ReportData {
     inliers: column("i32", [70, 9]),
     lines: column("i32", [0, 0]),
     stage: labels([stage, "geometry"]),
+    reason: null,
+    rank: null,
+    judged: false,
   };
   const report = decodeReport(sampleReport([run]));
   const { pose } = report.runs[0].frames;

@@ -15,6 +15,9 @@ function table(): LoopTable {
     inliers: column("i32", [7, 7, 3]),
     lines: column("i32", [0, 0, 0]),
     stage: labels(["geometry", "accepted", "retrieval"]),
+    reason: null,
+    rank: null,
+    judged: false,
   };
   return decodeReport(sampleReport([{ ...run, loops }])).runs[0].loops;
 }

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/report/column.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/report_page.h"
 
 namespace placegraph::apps {
 namespace {
@@ -33,10 +33,7 @@ TEST(GraphPage, HasPosesConstraintsAndTheirChi2) {
   page.figures = {{"chi2", 3.5}};
   const test::TemporaryFolder folder;
   write_graph_page(folder / "page.html", page, "placegraph 1.2.3");
-  const std::string text = test::read_file(folder / "page.html");
-  const std::string begin = "type=\"application/json\">";
-  const std::size_t first = text.find(begin) + begin.size();
-  const json report = json::parse(text.substr(first, text.find("</script>", first) - first));
+  const json report = test::report_in(folder / "page.html");
   EXPECT_EQ(report["title"], "square.g2o");
   const json& graph = report["graphs"][0];
   EXPECT_EQ(graph["before"], column(std::vector<float>{0, 2, 3, 1, 2, 3, 2, 2, 3}, 3));

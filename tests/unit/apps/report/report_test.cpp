@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/internal/exports/base64.h>
+#include <placegraph/io/internal/scene/indoor_map_file.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -13,6 +15,7 @@
 #include "apps/report/page.h"
 #include "tests/support/message_of.h"
 #include "tests/support/random_map.h"
+#include "tests/support/report_page.h"
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph::apps {
@@ -37,19 +40,7 @@ class ReportCommand : public testing::Test {
     write_map(folder / name + "/map.db", stored);
     arguments.runs.push_back(folder / name);
   }
-  /// The data in the page that was written.
-  json data() const {
-    const std::string page = test::read_file(arguments.out);
-    const std::string begin = "<script id=\"placegraph-report\" type=\"application/json\">";
-    const std::size_t at = page.find(begin);
-    EXPECT_NE(at, std::string::npos);
-    const std::size_t first = at + begin.size();
-    return json::parse(page.substr(first, page.find("</script>", first) - first));
-  }
-  static std::size_t rows(const json& column, std::size_t bytes) {
-    return column["data"].get<std::string>().size() / 4 * 3 /
-           (bytes * column["width"].get<std::size_t>());
-  }
+  json data() const { return test::report_in(arguments.out); }
   test::TemporaryFolder folder;
   StoredMap stored;
   ReportArguments arguments;
@@ -75,8 +66,8 @@ TEST_F(ReportCommand, HasWhatTheMapHas) {
   EXPECT_EQ(run["judgement"]["findings"].size(), 2u);
   EXPECT_EQ(run["camera"]["width"], 640);
   EXPECT_EQ(run["components"].size(), map.components().size());
-  EXPECT_NEAR(rows(run["frames"]["pose"], 4), map.frames.size(), 1);
-  EXPECT_NEAR(rows(run["landmarks"]["position"], 4), map.landmarks.size(), 1);
+  EXPECT_NEAR(test::rows_in(run["frames"]["pose"]), map.frames.size(), 1);
+  EXPECT_NEAR(test::rows_in(run["landmarks"]["position"]), map.landmarks.size(), 1);
   EXPECT_THAT(run["frames"]["reason"]["table"], testing::ElementsAre("only 'few' points"));
   EXPECT_EQ(run["frames"]["truth"], nullptr);  // the recording is not there
   EXPECT_EQ(run["figures"], json::array());
@@ -89,25 +80,127 @@ TEST_F(ReportCommand, HasWhatTheMapHas) {
   EXPECT_EQ(run["loops"]["match_frame"], column(matches));
 }
 
+/// A room with a column in it, a wall and a door, on a floor 1.2 m below the origin.
+IndoorMap small_plan() {
+  IndoorMap plan;
+  plan.floor_y = 1.2;
+  IndoorWall wall;
+  wall.a = {0, 1}, wall.b = {2, 1}, wall.normal = {0, 1};
+  wall.low_m = 0.1, wall.high_m = 2.2;
+  wall.place = PlaceId(3);
+  plan.walls.push_back(wall);
+  plan.doors.push_back({{2, 1}, {3, 1}, 2, true, {}});
+  plan.doors.push_back({{3, 1}, {4, 1}, 0, false, {}});
+  IndoorRoom room;
+  room.outline = {{0, 0}, {4, 0}, {4, 3}};
+  room.holes = {{{2, 0.5}, {3, 0.5}, {3, 1}}};
+  plan.rooms.push_back(room);
+  return plan;
+}
+
 TEST_F(ReportCommand, HasThePlanAndThePicturesOfTheFolder) {
   save("office");
-  std::ofstream(folder / "office/floor_plan.json")
-      << R"({"walls": [{"a": [0, 1], "b": [2, 3]}], "doors": [],
-             "rooms": [{"label": "", "outline": [[0, 0], [4, 0], [4, 3]], "holes": []}]})";
+  std::ofstream(folder / "office/floor_plan.json") << to_json(small_plan());
   std::ofstream(folder / "office/plan.svg") << "<svg/>";
   report(arguments);
   const json run = data()["runs"][0];
-  ASSERT_EQ(run["floor_plan"].size(), 2u);
+  ASSERT_EQ(run["floor_plan"].size(), 5u);
   EXPECT_EQ(run["floor_plan"][0]["label"], "room");
   EXPECT_EQ(run["floor_plan"][0]["closed"], true);
-  EXPECT_EQ(run["floor_plan"][1]["label"], "wall");
-  EXPECT_EQ(run["floor_plan"][1]["points"], column(std::vector<float>{0, 1, 2, 3}, 2));
+  EXPECT_EQ(run["floor_plan"][2]["label"], "wall");
+  EXPECT_EQ(run["floor_plan"][2]["points"], column(std::vector<float>{0, 1, 2, 1}, 2));
   EXPECT_EQ(run["pictures"][0]["title"], "plan");
   EXPECT_EQ(run["pictures"][0]["svg"], "<svg/>");
   std::ofstream(folder / "office/floor_plan.json") << R"({"walls": 3})";
   arguments.force = true;
   EXPECT_THAT(test::message_of([&] { report(arguments); }),
-              AllOf(HasSubstr("floor_plan.json"), HasSubstr("is no floor plan")));
+              AllOf(HasSubstr("floor_plan.json"), HasSubstr("is not a floor plan")));
+}
+
+TEST_F(ReportCommand, ThePlanGivesThePlanesOfTheMap) {
+  save("office");
+  std::ofstream(folder / "office/floor_plan.json") << to_json(small_plan());
+  report(arguments);
+  const json run = data()["runs"][0];
+  EXPECT_EQ(run["up"], (std::vector<double>{0, -1, 0}));
+  ASSERT_EQ(run["planes"].size(), 3u);  // a door whose head was not observed has no plane
+  const json &floor = run["planes"][0], &wall = run["planes"][1], &door = run["planes"][2];
+  EXPECT_EQ(floor["name"], "floor of room");
+  EXPECT_EQ(floor["outline"], column(std::vector<float>{0, 1.2f, 0, 4, 1.2f, 0, 4, 1.2f, 3}, 3));
+  ASSERT_EQ(floor["holes"].size(), 1u);
+  EXPECT_EQ(floor["holes"][0],
+            column(std::vector<float>{2, 1.2f, 0.5f, 3, 1.2f, 0.5f, 3, 1.2f, 1}, 3));
+  EXPECT_EQ(wall["name"], "wall of place 3");
+  EXPECT_EQ(wall["outline"],
+            column(std::vector<float>{0, 1.1f, 1, 2, 1.1f, 1, 2, -1, 1, 0, -1, 1}, 3));
+  EXPECT_EQ(door["name"], "closed door");
+}
+
+TEST_F(ReportCommand, HasTheTracksOfKeyframes) {
+  for (Keyframe& keyframe : stored.map.keyframes) keyframe.observations.clear();
+  stored.map.keyframes[0].observations = {{LandmarkId(1), {319.5f, 239.5f}, 0},
+                                          {LandmarkId(2), {639.5f, -3}, 0},
+                                          {LandmarkId(3), {10, 10}, 1},
+                                          {LandmarkId(99999), {10, 10}, 0}};
+  stored.map.landmarks[1].observations = 2;
+  stored.map.landmarks[2].observations = 5;
+  save("town-run");
+  report(arguments);
+  const json tracks = data()["runs"][0]["keyframes"]["tracks"];
+  // The longest first; neither the second camera nor landmarks that were refused.
+  EXPECT_EQ(tracks["landmark"], column(std::vector<std::int32_t>{2, 1}));
+  EXPECT_EQ(tracks["pixel"], column(std::vector<std::uint8_t>{255, 0, 128, 128}, 2));
+}
+
+TEST_F(ReportCommand, LandmarksHaveTheDeviationOfTheirWorstDirection) {
+  stored.map.landmarks.resize(1);
+  stored.map.landmarks[0].covariance = Eigen::Vector3d(0.01, 0.04, 0.25).asDiagonal();
+  save("town-run");
+  report(arguments);
+  EXPECT_EQ(data()["runs"][0]["landmarks"]["sigma_m"], column(std::vector<float>{0.5f}));
+}
+
+TEST_F(ReportCommand, HasThePositionOnTheEarth) {
+  for (std::size_t i = 0; i < stored.map.frames.size(); ++i)
+    stored.map.frames[i].stamp_ns = static_cast<std::int64_t>(i) * 1'000'000'000;
+  save("town-run");
+  const auto write_earth = [&](const std::string& at, const std::string& tum) {
+    std::filesystem::create_directories(folder / at);
+    std::ofstream(folder / at + "/georeference.json")
+        << R"({"origin": {"latitude_deg": 49, "longitude_deg": 8, "height_m": 115},
+               "fixes_used": 12, "residual_rms_m": 0.5})";
+    std::ofstream(folder / at + "/trajectory_enu.tum") << tum;
+  };
+  EXPECT_EQ((report(arguments), data()["runs"][0]["georeference"]), nullptr);
+  arguments.force = true;
+  write_earth("town-run/georeference", "0 0 0 0 0 0 0 1\n1 0 0 5 0 0 0 1\n");
+  report(arguments);
+  const json earth = data()["runs"][0]["georeference"];
+  EXPECT_EQ(earth["fixes_used"], 12);
+  EXPECT_EQ(earth["fixes_rejected"], nullptr);
+  EXPECT_EQ(earth["track"]["width"], 3);
+  const std::vector<double> track = test::doubles_in(earth["track"]);
+  ASSERT_EQ(track.size(), 3 * stored.map.frames.size());
+  EXPECT_NEAR(track[0], 49, 1e-9);
+  EXPECT_NEAR(track[1], 8, 1e-9);
+  EXPECT_NEAR(track[3] - 49, 5 / 111200.0, 1e-7);  // 5 m to the north
+  EXPECT_TRUE(std::isnan(track[6]));
+  write_earth("elsewhere", "900 0 0 0 0 0 0 1\n");
+  arguments.georeferences = {folder / "elsewhere"};
+  EXPECT_THAT(test::message_of([&] { report(arguments); }), HasSubstr("is of another map"));
+  arguments.georeferences = {folder / "elsewhere", folder / "elsewhere"};
+  EXPECT_THAT(test::message_of<ArgumentError>([&] { report(arguments); }),
+              HasSubstr("one folder for each run"));
+}
+
+TEST_F(ReportCommand, RunsOfOneRecordingCanBeCompared) {
+  stored.origin.sequence = "/data/kitti/00/";
+  save("first");
+  stored.origin.sequence = "/elsewhere/00";
+  save("second");
+  report(arguments);
+  EXPECT_EQ(data()["runs"][0]["recording"], "00");
+  EXPECT_EQ(data()["runs"][1]["recording"], "00");
 }
 
 TEST_F(ReportCommand, ShowsSeveralRuns) {

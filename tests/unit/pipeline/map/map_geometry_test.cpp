@@ -45,5 +45,19 @@ TEST(MapGeometry, IsThatOfOneComponent) {
   EXPECT_TRUE(geometry_of(map, 7).keyframes.empty());
 }
 
+TEST(MapGeometry, IsThatOfAllComponentsUnlessOneIsNamed) {
+  Map map = test::posed_map({SE3(), SE3(SO3(), {1, 0, 0}), SE3(SO3(), {2, 0, 0})});
+  map.place_graph.places[2].component = 2;
+  for (int i = 0; i < 4; ++i) {
+    PointLandmark& landmark = map.landmarks.emplace_back();
+    landmark.id = LandmarkId(i);
+    landmark.keyframe = KeyframeId(i);  // the last one is not in the map
+  }
+  const MapGeometry geometry = geometry_of(map, std::nullopt);
+  EXPECT_EQ(geometry.keyframes.size(), 3u);
+  ASSERT_EQ(geometry.landmarks.size(), 3u);
+  EXPECT_TRUE(geometry.landmarks[2].p_map.isApprox(Eigen::Vector3d(2, 0, 0)));
+}
+
 }  // namespace
 }  // namespace placegraph

@@ -1,0 +1,52 @@
+#include "apps/pages.h"
+
+#include <filesystem>
+
+#include "apps/eval/eval.h"
+#include "apps/eval/loops.h"
+#include "apps/graph/optimize.h"
+#include "apps/report/report_eval.h"
+#include "apps/report/report_graph.h"
+#include "apps/report/report_loops.h"
+
+namespace placegraph::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A file, or its folder where every sequence has a file of that name.
+std::string name_of(const std::string& path) {
+  const fs::path whole = fs::absolute(fs::path(path) / "").lexically_normal().parent_path();
+  return (whole.filename() == "poses.txt" ? whole.parent_path() : whole).filename().string();
+}
+
+}  // namespace
+
+void write_optimize_page(const OptimizeArguments& arguments, const OptimizeResult& result) {
+  GraphPage page{fs::path(arguments.in).filename().string(), result.start, result.solution.graph,
+                 result.solution.chi2_by_constraint,         {},           {}};
+  for (const RejectedEdge& edge : result.solution.rejected)
+    page.rejected.push_back(edge.constraint);
+  page.figures = {{"chi2 (logarithm), before", result.before.log},
+                  {"chi2 (logarithm)", result.after.log},
+                  {"chi2 (g2o), before", result.before.g2o},
+                  {"chi2 (g2o)", result.after.g2o},
+                  {"iterations", result.solution.iterations},
+                  {"rejected constraints", static_cast<double>(page.rejected.size())}};
+  write_graph_page(arguments.report, page, kProgram);
+}
+
+void write_eval_page(const EvalArguments& arguments, const EvalResult& result) {
+  write_eval_page(arguments.report, {name_of(arguments.truth), result.results, result.folders},
+                  kProgram);
+}
+
+void write_loops_page(const LoopsArguments& arguments, const LoopsResult& result) {
+  LoopsPage page{result.protocol, result.truth, result.poses, arguments.poses, {}};
+  for (const LoopJudgement& judgement : result.systems)
+    page.systems.push_back(
+        {judgement.name, judgement.path, judgement.benchmark, judgement.reliability});
+  write_loops_page(arguments.report, page, kProgram);
+}
+
+}  // namespace placegraph::apps
