@@ -1,9 +1,10 @@
 #include "apps/report/report_eval.h"
 
 #include <fmt/format.h>
-#include <placegraph/eval/internal/plots/plot.h>
+#include <placegraph/eval/internal/plots/evaluation_plot.h>
 #include <placegraph/eval/trajectory/evaluation_options.h>
 #include <placegraph/eval/trajectory/rpe.h>
+#include <placegraph/graph/core/error.h>
 #include <placegraph/graph/internal/core/angle.h>
 
 #include <algorithm>
@@ -127,6 +128,29 @@ json averages_of(const std::vector<EvaluationResult>& results) {
                         {"Figure", "Value"}, rows);
 }
 
+/// The figures of `eval --plot`; those that the results do not allow are left out.
+json figures_of(const EvalPage& page, const std::string& aligned) {
+  const EvaluatedTruth truth = page.sequences ? EvaluatedTruth::kOwn : EvaluatedTruth::kShared;
+  constexpr std::pair<EvaluationPlot, const char*> kTitles[] = {
+      {EvaluationPlot::kOverview, "Evaluation"},
+      {EvaluationPlot::kXyz, "Coordinates"},
+      {EvaluationPlot::kRpy, "Roll, pitch and yaw"},
+      {EvaluationPlot::kRpe, "Relative errors of consecutive frames"},
+      {EvaluationPlot::kLengths, "Errors over the lengths of segments"},
+      {EvaluationPlot::kBox, "Quartiles of the errors"},
+      {EvaluationPlot::kViolin, "Densities of the errors"}};
+  json pictures = json::array();
+  for (const auto& [kind, title] : kTitles) {
+    try {
+      pictures.push_back(describe_picture(title, "against " + page.truth + ", align " + aligned,
+                                          to_svg(figure_of(page.results, truth, kind))));
+    } catch (const ArgumentError&) {
+      continue;
+    }
+  }
+  return pictures;
+}
+
 }  // namespace
 
 void write_eval_page(const std::string& file, const EvalPage& page, const std::string& program) {
@@ -140,8 +164,7 @@ void write_eval_page(const std::string& file, const EvalPage& page, const std::s
   }
   json report = bare_report(program, names + " against " + page.truth);
   report["runs"] = std::move(runs);
-  report["pictures"].push_back(describe_picture(
-      "Evaluation", "against " + page.truth + ", align " + aligned, to_svg(plot_of(page.results))));
+  report["pictures"] = figures_of(page, aligned);
   if (page.sequences) report["tables"].push_back(averages_of(page.results));
   write_file(file, page_with(report));
 }

@@ -189,7 +189,7 @@ std::vector<PageLoop> page_loops(const LoopBenchmark& benchmark, const LoopTruth
 void write_loops_page(const std::string& file, const LoopsPage& page, const std::string& program) {
   const json frames = frames_of(page);
   PrecisionRecallPlot plot;
-  plot.title = page.protocol;
+  plot.protocol = page.protocol;
   std::string names;
   json runs = json::array();
   for (const LoopsPageSystem& system : page.systems) {

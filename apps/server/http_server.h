@@ -43,7 +43,7 @@ struct HttpHandlers {
   /// The answer that refuses a request by its head alone, or nothing.
   std::function<std::optional<HttpResponse>(const HttpRequest&)> refuse;
   /// The answer to a request that was not refused.
-  std::function<HttpResponse(const HttpRequest&)> answer;
+  std::function<HttpResponse(const HttpRequest&)> respond;
 };
 
 /// A server on 127.0.0.1, which ends with the object.

@@ -17,7 +17,7 @@ bool plain(char c) {
          c == '.' || c == '_' || c == '-';
 }
 
-/// Compares all characters: the time does not tell how many of them agree.
+/// Compares all characters: the time does not show how many of them agree.
 bool same(const std::string& a, const std::string& b) {
   if (a.size() != b.size()) return false;
   unsigned different = 0;

@@ -57,7 +57,7 @@ class LiveRun : public RunWatcher {
   LiveMap map_;
   std::vector<LoopRecord> loops_;
   std::size_t total_ = 0;
-  int version_ = 0, announced_ = 0;  // of the poses: present, and as browsers know it
+  int version_ = 0, announced_ = 0;  // versions of the poses: present, and announced
   std::chrono::steady_clock::time_point announced_at_{};
   bool paused_ = false;
   int steps_ = 0;  // frames that a halted run may still process

@@ -25,7 +25,7 @@ class MapImages {
   std::string sequence_;
   Sensor sensor_;
   LensCorrection lens_;
-  std::mutex mutex_;  // of the recording
+  std::mutex mutex_;  // guards the recording
   std::unique_ptr<Dataset> dataset_;
 };
 

@@ -130,7 +130,7 @@ HttpResponse RunPages::of_frame(const std::string& path) {
   return json_response(observations_of(map->map, *keyframe));
 }
 
-HttpResponse RunPages::answer(const std::string& path) {
+HttpResponse RunPages::respond(const std::string& path) {
   try {
     if (path == "report.json") return report();
     return of_frame(path);

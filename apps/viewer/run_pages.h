@@ -25,7 +25,7 @@ class RunPages {
 
   /// Answers "report.json", "runs/R/frames/F/image.jpg" and "runs/R/frames/F/observations.json";
   /// 404 for all other paths.
-  HttpResponse answer(const std::string& path);
+  HttpResponse respond(const std::string& path);
   /// Shows another state of the first run's map from now on.
   void show(std::shared_ptr<const StoredMap> stored);
   /// The first run's map, and its file.
@@ -47,7 +47,7 @@ class RunPages {
 
   std::string program_;
   std::vector<Run> runs_;
-  mutable std::mutex mutex_;  // of the maps
+  mutable std::mutex mutex_;  // guards the maps
 };
 
 }  // namespace placegraph::apps

@@ -33,7 +33,7 @@ RunView::RunView(const ViewerOptions& options, const std::string& title, std::st
                                           {"title", title},
                                           {"editable", false}},
                                      [this](const HttpRequest& request, const std::string& path) {
-                                       return answer(request, path);
+                                       return respond(request, path);
                                      });
   note("the run is shown at " + viewer_->address());
 }
@@ -55,7 +55,7 @@ HttpResponse RunView::control(const std::string& body) {
   return json_response({{"paused", live_->paused()}});
 }
 
-HttpResponse RunView::answer(const HttpRequest& request, const std::string& path) {
+HttpResponse RunView::respond(const HttpRequest& request, const std::string& path) {
   if (request.method == "POST")
     return path == "control" ? control(request.body)
                              : text_response(405, "only GET is answered here");
@@ -79,7 +79,7 @@ HttpResponse RunView::answer(const HttpRequest& request, const std::string& path
     response.stream = events_->reader();
     return response;
   }
-  return pages ? pages->answer(path) : text_response(404, "no such page while the run goes on");
+  return pages ? pages->respond(path) : text_response(404, "no such page while the run goes on");
 }
 
 void RunView::finish(const std::string& folder, const std::string& verdict) {

@@ -21,7 +21,7 @@ class RunView : public RunDisplay {
   void finish(const std::string& folder, const std::string& verdict) override;
 
  private:
-  HttpResponse answer(const HttpRequest& request, const std::string& path);
+  HttpResponse respond(const HttpRequest& request, const std::string& path);
   HttpResponse control(const std::string& body);
 
   std::string program_;

@@ -31,11 +31,11 @@ std::optional<MapMending> mending_of(RunPages& pages) {
 void view(const ViewArguments& arguments) {
   RunPages pages(arguments.runs, arguments.program);
   std::optional<MapMending> mending = mending_of(pages);
-  const auto answer = [&](const HttpRequest& request, const std::string& path) {
+  const auto respond = [&](const HttpRequest& request, const std::string& path) {
     if (mending && path == "edits" && request.method == "POST") return mending->edit(request.body);
     if (request.method != "GET") return text_response(405, "only GET is answered here");
     if (mending && path == "edits.json") return mending->edits();
-    return pages.answer(path);
+    return pages.respond(path);
   };
   const Interruption interruption;
   const Viewer viewer(arguments.viewer,
@@ -44,7 +44,7 @@ void view(const ViewArguments& arguments) {
                        {"program", arguments.program},
                        {"title", pages.title()},
                        {"editable", mending.has_value()}},
-                      answer);
+                      respond);
   print(viewer.address() + "\n");
   finish_printing();
   note("Ctrl-C ends the viewer");

@@ -24,7 +24,7 @@ HttpResponse page_response(const nlohmann::json& start) {
   return response;
 }
 
-/// What every answer says: nothing is kept, guessed, embedded or told to others.
+/// What every answer says: nothing is kept, guessed, embedded or passed on.
 HttpResponse with_headers(HttpResponse response) {
   response.headers.insert(response.headers.end(), {{"Cache-Control", "no-store"},
                                                    {"X-Content-Type-Options", "nosniff"},
@@ -37,7 +37,7 @@ HttpResponse with_headers(HttpResponse response) {
 
 }  // namespace
 
-Viewer::Viewer(const ViewerOptions& options, nlohmann::json start, Answer answer) {
+Viewer::Viewer(const ViewerOptions& options, nlohmann::json start, Responder respond) {
   identity_.token = new_token();
   HttpHandlers handlers;
   handlers.refuse = [this](const HttpRequest& request) -> std::optional<HttpResponse> {
@@ -45,11 +45,11 @@ Viewer::Viewer(const ViewerOptions& options, nlohmann::json start, Answer answer
     if (!refused) return std::nullopt;
     return with_headers(std::move(*refused));
   };
-  handlers.answer = [this, start = std::move(start),
-                     answer = std::move(answer)](const HttpRequest& request) {
+  handlers.respond = [this, start = std::move(start),
+                      respond = std::move(respond)](const HttpRequest& request) {
     const std::string path = path_of(request, identity_);
     if (path.empty() && request.method == "GET") return with_headers(page_response(start));
-    return with_headers(answer(request, path));
+    return with_headers(respond(request, path));
   };
   server_ = bind_http(options.port, std::move(handlers));
   identity_.port = server_->port();

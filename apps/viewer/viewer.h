@@ -14,10 +14,11 @@ namespace placegraph::apps {
 class Viewer {
  public:
   /// Answers a request that was not refused; `path` is the part of the target behind the token.
-  using Answer = std::function<HttpResponse(const HttpRequest& request, const std::string& path)>;
+  using Responder =
+      std::function<HttpResponse(const HttpRequest& request, const std::string& path)>;
 
-  /// `start`: what the page is told at its start, see page_served(). Throws as bind_http().
-  Viewer(const ViewerOptions& options, nlohmann::json start, Answer answer);
+  /// `start`: what the page knows at its start, see page_served(). Throws as bind_http().
+  Viewer(const ViewerOptions& options, nlohmann::json start, Responder respond);
 
   std::string address() const { return address_of(identity_); }
 

@@ -62,10 +62,10 @@ class LibraryServer : public HttpServer {
       response.set_header("Connection", "close");  // a content that follows is not read
       return httplib::Server::HandlerResponse::Handled;
     });
-    const auto answer = [this](const auto& request, auto& response) {
-      send(handlers_.answer(request_of(request)), response);
+    const auto respond = [this](const auto& request, auto& response) {
+      send(handlers_.respond(request_of(request)), response);
     };
-    server_.Get(".*", answer).Post(".*", answer);
+    server_.Get(".*", respond).Post(".*", respond);
   }
   ~LibraryServer() override {
     server_.stop();

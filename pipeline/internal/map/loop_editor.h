@@ -38,7 +38,7 @@ class LoopEditor {
   /// Adds a loop between the keyframes of any two frames, if their features agree.
   std::string add(FrameId query, FrameId match);
   /// Optimizes the place graph to convergence. After a loop was removed, mergers of places and
-  /// joined components are found anew.
+  /// joined components are determined again.
   MapMotion optimize();
   /// Takes back the last edit or optimization; false if there is none.
   bool undo();

@@ -32,7 +32,7 @@ TEST(EventLog, AnEventWakesAWaitingReader) {
   writer.join();
 }
 
-TEST(EventLog, AReaderThatFallsBehindIsTold) {
+TEST(EventLog, AReaderThatFallsBehindGetsAReset) {
   const auto log = std::make_shared<EventLog>();
   const auto reader = log->reader();
   (void)reader->next();
