@@ -92,7 +92,7 @@ class SheetDrawings : public FrameDrawings {
  public:
   SheetDrawings(std::string path, std::int64_t frames) : path_(std::move(path)), frames_(frames) {}
   void add(const Frame& frame, const FrameResult& result, const FrameView& view) override {
-    // The k-th picture is the frame nearest to k / (count - 1) of the way.
+    // The k-th picture is the frame nearest to the share k / (count - 1) of the frames.
     const std::int64_t count = std::min(kPictures, frames_), next = std::ssize(pictures_);
     const std::int64_t wanted =
         count > 1 ? (next * (frames_ - 1) + (count - 1) / 2) / (count - 1) : 0;
@@ -100,7 +100,12 @@ class SheetDrawings : public FrameDrawings {
     const Image drawing = draw_frame(frame, result, view);
     const double scale = std::min(1.0, kWidth_px / drawing.cols);
     pictures_.emplace_back();
-    cv::resize(drawing, pictures_.back(), {}, scale, scale, cv::INTER_AREA);
+    Image& picture = pictures_.back();
+    cv::resize(drawing, picture, {}, scale, scale, cv::INTER_AREA);
+    // The caption may be too small to be read now.
+    for (const auto& [grey, width] : {std::pair(0, 4), std::pair(255, 1)})
+      cv::putText(picture, fmt::format("frame {}", frame.id.value()), {8, picture.rows - 9},
+                  cv::FONT_HERSHEY_SIMPLEX, 0.5, cv::Scalar::all(grey), width, cv::LINE_AA);
   }
   void finish() override {
     if (pictures_.empty()) return;

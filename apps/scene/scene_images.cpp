@@ -90,7 +90,8 @@ Image draw_labels(const Image& bgr, const Image& labels, const std::vector<std::
   std::vector<LegendEntry> legend;
   const auto add_entry = [&](const std::string& name, std::int64_t count, Colour colour) {
     const double share = 100.0 * static_cast<double>(count) / static_cast<double>(labels.total());
-    if (count > 0) legend.push_back(area_entry(fmt::format("{} {:.0f} %", name, share), colour));
+    const std::string text = share < 1 ? "< 1" : fmt::format("{:.0f}", share);
+    if (count > 0) legend.push_back(area_entry(fmt::format("{} {} %", name, text), colour));
   };
   for (std::size_t c = 0; c < classes.size(); ++c) {
     const auto rgb = class_colour(classes[c], static_cast<int>(c));

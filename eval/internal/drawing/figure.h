@@ -15,7 +15,7 @@ namespace placegraph {
 struct FigureLine {
   std::vector<std::optional<Eigen::Vector2d>> points;
   Stroke stroke;
-  std::vector<double> shares;  ///< of scale_colour() at each point; empty: the stroke's colour
+  std::vector<double> shares;  ///< for scale_colour(), at each point; empty: the stroke's colour
 };
 
 struct FigureDots {
@@ -71,7 +71,7 @@ struct Figure {
   std::string title;
   std::vector<std::string> notes;  ///< lines below the title
   std::vector<LegendEntry> legend;
-  double width_px = 0, height_px = 0;  ///< of the area
+  double width_px = 0, height_px = 0;  ///< size of the area
   std::vector<FigurePanel> panels;
 };
 

@@ -32,7 +32,7 @@ void draw_mark(SvgCanvas& canvas, const LegendEntry& entry, const Vector2d& at) 
     case LegendMark::kLine:
       return canvas.line({at, end}, entry.stroke);
     case LegendMark::kRing:
-      return canvas.disc(middle, 4.5, kWhite, entry.stroke.colour);
+      return canvas.disc(middle, entry.stroke.width_px, kWhite, entry.stroke.colour);
     case LegendMark::kDisc:
       return canvas.disc(middle, 4.5, entry.stroke.colour, kWhite, 1);
     case LegendMark::kArea:

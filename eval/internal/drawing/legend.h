@@ -8,7 +8,8 @@ namespace placegraph {
 
 enum class LegendMark { kLine, kRing, kDisc, kArea, kScale };
 
-/// A mark as it is in the picture, and what it means. kScale: a line in the colours of a scale.
+/// A mark as it is in the picture, and what it means. Of a ring the width of the stroke is its
+/// radius; kScale is a line in the colours of a scale.
 struct LegendEntry {
   std::string text;
   Stroke stroke;

@@ -37,11 +37,11 @@ AxisTicks ticks_of(const FigureAxis& axis, double size_px, double room_px) {
   if (!axis.categories.empty()) return {};
   if (axis.logarithmic) return log_ticks(axis.range, size_px / axis.range.size(), room_px);
   constexpr int kMost = 10;
-  return linear_ticks(axis.range, std::clamp(static_cast<int>(size_px / room_px), 2, kMost));
+  return linear_ticks(axis.range, std::clamp(static_cast<int>(size_px / room_px), 3, kMost));
 }
 
 void draw_x_axis(SvgCanvas& canvas, const FigureAxis& axis, const View& view) {
-  const AxisTicks ticks = ticks_of(axis, view.size[0], 72);
+  const AxisTicks ticks = ticks_of(axis, view.size[0], 64);
   for (const AxisTick& tick : ticks.ticks) {
     const double at = view({tick.at, view.y.min})[0];
     canvas.line({{at, view.corner[1]}, {at, view.bottom()}}, {kGrid});

@@ -15,6 +15,9 @@ inline constexpr double kTitlePx = 20, kHeadingPx = 16, kTextPx = 15, kTickPx = 
 inline constexpr double kLeftMargin = 84, kBottomMargin = 62, kTopMargin = 36, kRightMargin = 26,
                         kBarMargin = 104;
 
+/// The least range of an axis of errors [m]: what is smaller is shown as none.
+inline constexpr double kLeastError = 1e-3;
+
 /// The stroke of the curve of a number: colours of Okabe and Ito, which colour-blind readers can
 /// distinguish, and from the seventh curve on dashes too.
 Stroke curve_stroke(std::size_t curve);

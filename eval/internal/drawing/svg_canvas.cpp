@@ -50,7 +50,7 @@ void SvgCanvas::line(const std::vector<Vector2d>& points, const Stroke& stroke) 
       css(stroke.colour), stroke.width_px, stroke.dash.empty() ? "round" : "butt");
   if (stroke.opacity < 1) out_ += fmt::format(" stroke-opacity=\"{:.3g}\"", stroke.opacity);
   if (!stroke.dash.empty()) out_ += fmt::format(" stroke-dasharray=\"{}\"", stroke.dash);
-  out_ += " points=\"" + path + "\"/>\n";
+  out_ += fmt::format(" points=\"{}\"/>\n", path);
 }
 
 void SvgCanvas::area(const std::vector<std::vector<Vector2d>>& rings, Colour fill, double opacity) {
@@ -87,7 +87,9 @@ void SvgCanvas::text(const Vector2d& at, const std::string& text, double size_px
       "<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{:.4g}\" fill=\"{}\" text-anchor=\"{}\"", at[0],
       at[1], size_px, css(colour), anchors[static_cast<int>(anchor)]);
   if (rotated) out_ += fmt::format(" transform=\"rotate(-90 {:.1f} {:.1f})\"", at[0], at[1]);
-  out_ += ">" + xml_text(text) + "</text>\n";
+  out_ += '>';
+  out_ += xml_text(text);
+  out_ += "</text>\n";
 }
 
 void SvgCanvas::begin_clip(const Vector2d& corner, const Vector2d& size) {

@@ -41,7 +41,7 @@ FigureLine stroke_from(const Vector2d& a, const Vector2d& b, Colour colour, doub
 template <typename Draw>
 void draw_rows(const std::vector<Sample>& samples, const std::string& label, const Draw& draw,
                Figure& figure) {
-  constexpr double kWidth_px = 760, kRow_px = 58, kMostName_px = 320;
+  constexpr double kWidth_px = 760, kRow_px = 58, kMostName_px = 560;
   FigurePanel panel;
   Interval values;
   values.add(0);
@@ -53,7 +53,7 @@ void draw_rows(const std::vector<Sample>& samples, const std::string& label, con
     name_px = std::max(name_px, text_width(panel.y.categories.back(), kTickPx));
     draw(sorted, static_cast<double>(i), curve_stroke(i).colour, panel.shapes);
   }
-  panel.x = {label, {0, std::max(1.04 * values.max, 1e-6)}, false, {}};
+  panel.x = {label, {0, std::max(1.04 * values.max, kLeastError)}, false, {}};
   const double rows = static_cast<double>(samples.size());
   panel.y.range = {-0.5, rows - 0.5};
   panel.corner = {name_px + 36, 14};

@@ -41,7 +41,7 @@ double time_of(const EvaluationResult& result, std::int64_t begin_ns, const Fram
   return result.has_times ? 1e-9 * static_cast<double>(pair.stamp_ns - begin_ns) : pair.frame;
 }
 
-/// Adds turns of 360 degrees so that neighbours differ by at most half a turn.
+/// Adds multiples of 360 degrees so that neighbours differ by at most 180.
 void unwrap(Series& series) {
   std::optional<double> last;
   for (auto& p : series) {
@@ -51,7 +51,7 @@ void unwrap(Series& series) {
   }
 }
 
-/// Adds turns so that every value differs from that of the reference by at most half a turn.
+/// Adds multiples of 360 degrees so that no value differs from the reference by more than 180.
 void unwrap(Series& series, const Series& reference) {
   for (std::size_t i = 0; i < series.size(); ++i)
     if (series[i])

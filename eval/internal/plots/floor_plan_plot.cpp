@@ -140,7 +140,8 @@ std::string floor_plan_svg(const IndoorMap& plan, const FloorPlanPicture& pictur
           FigureText{name_at(room), fmt::format("{}\n{:.1f} m²", room.label, room.area_m2)});
   Figure figure;
   figure.title = picture.title;
-  figure.notes = {fmt::format("{} rooms, {:.1f} m²; floor plan, z up", plan.rooms.size(), area_m2)};
+  figure.notes = {fmt::format("floor plan: {} room{}, {:.1f} m²", plan.rooms.size(),
+                              plan.rooms.size() == 1 ? "" : "s", area_m2)};
   figure.legend = legend_of(plan, picture);
   figure.width_px = kLeftMargin + panel.size[0] + kRightMargin;
   figure.height_px = 14 + panel.size[1] + kBottomMargin;

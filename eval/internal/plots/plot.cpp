@@ -24,10 +24,10 @@ std::vector<LegendEntry> legend_of(const Plot& plot) {
   const auto count_of = [](std::size_t count, const char* one, const char* several) {
     return fmt::format("{} {}", count, count == 1 ? one : several);
   };
-  if (!plot.curves.empty()) legend.push_back({"start", {kInk}, LegendMark::kRing});
+  if (!plot.curves.empty()) legend.push_back({"start", {kInk, 5}, LegendMark::kRing});
   if (!plot.places_m.empty())
     legend.push_back(
-        {count_of(plot.places_m.size(), "place", "places"), {kInk}, LegendMark::kRing});
+        {count_of(plot.places_m.size(), "place", "places"), {kInk, 2.5}, LegendMark::kRing});
   if (!plot.links_m.empty())
     legend.push_back(
         {count_of(plot.links_m.size(), "loop closure", "loop closures"), {kLink, 1.5}});
@@ -59,7 +59,7 @@ FigurePanel error_panel(const Plot& plot, bool over_time) {
   }
   panel.heading = over_time ? "position error over time" : "position error over the distance";
   panel.x = {over_time ? "time [s]" : "distance travelled [m]", with_margin(along, 0), false, {}};
-  panel.y = {"position error [m]", {0, std::max(1.06 * errors.max, 1e-6)}, false, {}};
+  panel.y = {"position error [m]", {0, std::max(1.06 * errors.max, kLeastError)}, false, {}};
   return panel;
 }
 

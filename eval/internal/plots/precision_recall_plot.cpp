@@ -46,7 +46,8 @@ std::string to_svg(const PrecisionRecallPlot& plot) {
     if (const auto full = figures.recall_at_full_precision)
       panel.shapes.emplace_back(FigureDots{{Vector2d(*full, 1)}, 5, kWhite, colour});
   }
-  figure.legend.push_back({"largest recall without a false prediction", {kInk}, LegendMark::kRing});
+  figure.legend.push_back(
+      {"largest recall without a false prediction", {kInk, 5}, LegendMark::kRing});
   figure.panels.push_back(std::move(panel));
   return to_svg(figure);
 }

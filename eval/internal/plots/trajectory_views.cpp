@@ -13,8 +13,8 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kLeastSide_px = 190;  ///< of a panel
-constexpr double kMargin = 0.06;       ///< of the data, on each side
+constexpr double kLeastSide_px = 190;  ///< shortest side of a panel
+constexpr double kMargin = 0.06;       ///< share of the data, on each side
 
 /// The curve that determines the axes; nothing if there is none.
 const PlotCurve* chooser_of(const Plot& plot) {
@@ -23,7 +23,7 @@ const PlotCurve* chooser_of(const Plot& plot) {
   return plot.curves.empty() ? nullptr : &plot.curves.front();
 }
 
-/// Axes of the views: horizontal and vertical from above, and the one along the line of sight.
+/// Axes of the views: horizontal and vertical from above, and the third one.
 std::array<int, 3> axes_of(const Plot& plot) {
   const PlotCurve* chooser = chooser_of(plot);
   const auto [horizontal, vertical] =
@@ -99,7 +99,7 @@ FigurePanel panel_of(const Plot& plot, int horizontal, int vertical) {
   errors.add(0);
   for (const PlotCurve& curve : plot.curves)
     for (const double error : curve.error_m) errors.add(error);
-  errors.max = std::max(errors.max, 1e-6);
+  errors.max = std::max(errors.max, kLeastError);
   FigurePanel panel;
   panel.x = axis_of(plot, horizontal);
   panel.y = axis_of(plot, vertical);
@@ -119,24 +119,16 @@ Vector2d size_of(const FigurePanel& panel, const Vector2d& most_px) {
       .cwiseMin(most_px);
 }
 
-/// How many pixels the third axis gets, and whether it is stretched for that.
-struct ThirdAxis {
-  double size_px;
-  std::string heading;
-};
-
-ThirdAxis third_axis(FigureAxis& axis, double px_per_unit, double most_px) {
-  constexpr double kLeast_px = 110;
-  const double equal_px = axis.range.size() * px_per_unit;
-  if (equal_px >= kLeast_px && equal_px <= most_px) return {equal_px, "from the side"};
-  const double size_px = std::clamp(equal_px, kLeast_px, most_px);
-  const double factor = size_px / equal_px;
-  // A factor that needs more digits says less than that there is one.
-  if (factor < 1.05 && factor > 0.95) return {size_px, "from the side"};
-  const char axis_name = axis.label.front();
-  if (factor > 99 || factor < 1)
-    return {size_px, fmt::format("from the side, {} not to scale", axis_name)};
-  return {size_px, fmt::format("from the side, {} stretched {:.2g} times", axis_name, factor)};
+/// How many pixels the third axis gets, which is stretched if it is small and says so.
+double third_size_px(FigureAxis& axis, double px_per_unit, double least_px, double most_px) {
+  const double equal_px = axis.range.size() * px_per_unit,
+               size_px = std::clamp(equal_px, least_px, most_px), factor = size_px / equal_px;
+  constexpr double kEqual = 0.05, kMost = 100;
+  if (factor < 1 - kEqual || factor > kMost)
+    axis.label += ", not to scale";
+  else if (factor > 1 + kEqual)
+    axis.label += fmt::format(", stretched {:.2g}x", factor);
+  return size_px;
 }
 
 }  // namespace
@@ -179,17 +171,16 @@ TrajectoryViews trajectory_views(const Plot& plot, const Vector2d& most_px) {
   FigurePanel side = below ? panel_of(plot, horizontal, depth) : panel_of(plot, depth, vertical);
   side.labels.clear();
   side.scale.reset();
-  constexpr double kMostSide_px = 640;
-  const ThirdAxis third = third_axis(below ? side.y : side.x, px_per_unit, kMostSide_px);
-  side.heading = third.heading;
+  side.heading = "from the side";
+  constexpr double kLeastLow_px = 110, kMostSide_px = 640;
   if (below) {
     side.x.range = above.x.range;
-    side.size = {above.size[0], third.size_px};
+    side.size = {above.size[0], third_size_px(side.y, px_per_unit, kLeastLow_px, kMostSide_px)};
     side.corner = {kLeftMargin, views.height_px + kTopMargin};
     views.height_px += kTopMargin + side.size[1] + kBottomMargin;
   } else {
     side.y.range = above.y.range;
-    side.size = {std::max(third.size_px, kLeastSide_px), above.size[1]};
+    side.size = {third_size_px(side.x, px_per_unit, kLeastSide_px, kMostSide_px), above.size[1]};
     side.corner = {views.width_px + kLeftMargin, kTopMargin};
     views.width_px += kLeftMargin + side.size[0] + kRightMargin;
   }

@@ -9,7 +9,7 @@ namespace placegraph {
 struct TrajectoryViews {
   FigurePanel above;
   std::optional<FigurePanel> side;
-  double width_px = 0, height_px = 0;  ///< of both with their margins
+  double width_px = 0, height_px = 0;  ///< size of both with their margins
 };
 
 /// Lays out the views, of which the view from above is at most this large.

@@ -21,7 +21,7 @@ using Context = std::unique_ptr<cairo_t, Deleter>;
 
 struct Picture {
   Handle handle;
-  double width = 0, height = 0;  ///< of the view box
+  double width = 0, height = 0;  ///< size of the view box
 };
 
 /// The picture in the text; without a handle if it is no SVG with a view box.

@@ -114,6 +114,27 @@ TEST_F(EvalCommand, WritesTheFilesThatAreNamed) {
   EXPECT_THAT(test::read_file(arguments.plot), HasSubstr("<svg"));
 }
 
+TEST_F(EvalCommand, WritesSeveralFiguresBesideEachOther) {
+  arguments.truth = write_drive("truth.txt");
+  arguments.estimates = {write_drive("estimate.txt")};
+  arguments.plot = folder / "plot.pdf";
+  arguments.plot_kinds = {"xyz"};
+  eval(arguments);
+  EXPECT_EQ(test::read_file(arguments.plot).substr(0, 4), "%PDF");
+  arguments.plot_kinds = {"overview", "rpe"};
+  eval(arguments);
+  EXPECT_TRUE(std::filesystem::exists(folder / "plot_overview.pdf"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "plot_rpe.pdf"));
+  EXPECT_THROW(eval(arguments), ArgumentError);  // both exist
+  arguments.plot_kinds = {"pie"};
+  EXPECT_THROW(eval(arguments), ArgumentError);
+  // A figure that cannot be drawn leaves no file of another.
+  arguments.plot_kinds = {"box", "lengths"};
+  arguments.options.segments.lengths_m = {1e6};
+  EXPECT_THROW(eval(arguments), ArgumentError);
+  EXPECT_FALSE(std::filesystem::exists(folder / "plot_box.pdf"));
+}
+
 TEST_F(EvalCommand, WritesNothingWhereTheDataAllowNoAnswer) {
   arguments.truth = write_drive("truth.txt");
   Trajectory lost = test::winding_drive(60, 1, false);

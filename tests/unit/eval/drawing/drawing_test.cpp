@@ -57,8 +57,9 @@ TEST(TextWidth, ReplacesBytesThatAreNoText) {
 }
 
 TEST(AxisTicks, HaveTheSameNumberOfDecimals) {
-  EXPECT_THAT(texts_of_ticks(linear_ticks({0, 2}, 4)), ElementsAre("0.0", "0.5", "1.0", "1.5", "2.0"));
-  EXPECT_THAT(texts_of_ticks(linear_ticks({-0.031, 0.02}, 5)),
+  EXPECT_THAT(texts_of_ticks(linear_ticks({0, 2}, 4)),
+              ElementsAre("0.0", "0.5", "1.0", "1.5", "2.0"));
+  EXPECT_THAT(texts_of_ticks(linear_ticks({-0.031, 0.02}, 6)),
               ElementsAre("-0.03", "-0.02", "-0.01", "0.00", "0.01", "0.02"));
   EXPECT_TRUE(linear_ticks({1, 1}, 5).ticks.empty());
 }
