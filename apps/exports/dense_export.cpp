@@ -21,8 +21,8 @@
 namespace placegraph::apps {
 namespace {
 
-constexpr int kLeastPixels = 3;            ///< of a point of the cloud
-constexpr double kLeastPart_voxels = 400;  ///< area of a part of the mesh
+constexpr int kLeastPixels = 3;            ///< least number of pixels of a point
+constexpr double kLeastPart_voxels = 400;  ///< least area of a part of the mesh
 
 /// The side of the voxels that was asked for, or that fits the sensor.
 double voxel_side(const DenseOutputs& outputs, const StoredMap& stored, const DepthRange& range) {
@@ -33,7 +33,7 @@ double voxel_side(const DenseOutputs& outputs, const StoredMap& stored, const De
 
 /// Checks the side of the voxels by what one keyframe shows at the median depth.
 void check_voxel(double side, const Camera& camera, const DepthRange& range) {
-  constexpr double kBytes = 100;  // of a voxel on the surface
+  constexpr double kBytes = 100;  // memory of a voxel on the surface
   require(std::isfinite(side) && side > 0, "--voxel: must be positive");
   const double cells =
       camera.width / camera.fx * camera.height / camera.fy * std::pow(range.median / side, 2);

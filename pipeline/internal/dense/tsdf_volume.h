@@ -30,7 +30,7 @@ class TsdfVolume {
  public:
   static constexpr int kBlock = 8;  ///< voxels along the side of a block
 
-  /// `side`: side of the voxels in units of the map; distances are truncated at four of them.
+  /// `side`: side of the voxels at the map's scale; distances are truncated at four of them.
   /// Throws ArgumentError unless it is positive.
   explicit TsdfVolume(double side, std::size_t most_bytes = kMostVoxelBytes);
 
