@@ -48,7 +48,7 @@ class DenseCli : public test::CliTest {
   static void SetUpTestSuite() {
     made = new test::TemporaryFolder;
     for (const char* command :
-         {"synth sequence corridor-loop --frames 40 --size 320x240 --difficulty clean --labels "
+         {"synth sequence corridor-loop --frames 30 --size 448x336 --difficulty clean --labels "
           "--stereo --out walk",
           "run walk --sensor rgbd --out rgbd", "run walk --sensor stereo --out stereo",
           "run walk --sensor mono --camera-height 1.4 --out mono"}) {
