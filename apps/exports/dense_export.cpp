@@ -7,7 +7,7 @@
 #include <placegraph/pipeline/internal/dense/consistent_depth.h>
 #include <placegraph/pipeline/internal/dense/depth_sources.h>
 #include <placegraph/pipeline/internal/dense/mesh_parts.h>
-#include <placegraph/pipeline/internal/dense/tsdf_volume.h>
+#include <placegraph/pipeline/internal/dense/tsdf_surface.h>
 #include <placegraph/pipeline/internal/dense/voxel_cloud.h>
 
 #include <cmath>
@@ -113,16 +113,18 @@ DenseSummary write_dense(const DenseOutputs& outputs, const StoredMap& stored, i
   const std::vector<std::string> comments = {
       fmt::format("surfaces of component {} of a map by placegraph", component),
       stored.map.metric ? "lengths in metres" : "lengths at an arbitrary scale"};
+  const std::vector<DensePoint> points = cloud.points(kLeastPixels);
+  if (!outputs.cloud.empty() && points.empty())
+    throw NoResult(outputs.cloud + ": no depth on which keyframes agree");
+  TriangleMesh mesh = surface_of(volume);
+  remove_small_parts(mesh, kLeastPart_voxels * side * side);
+  if (!outputs.mesh.empty() && mesh.faces.empty())
+    throw NoResult(outputs.mesh + ": no depth on which keyframes agree");
   if (!outputs.cloud.empty()) {
-    const std::vector<DensePoint> points = cloud.points(kLeastPixels);
-    if (points.empty()) throw NoResult(outputs.cloud + ": no depth on which keyframes agree");
     write_file(outputs.cloud, to_ply(points, outputs.form, comments));
     summary.points = points.size();
   }
   if (!outputs.mesh.empty()) {
-    TriangleMesh mesh = volume.mesh();
-    remove_small_parts(mesh, kLeastPart_voxels * side * side);
-    if (mesh.faces.empty()) throw NoResult(outputs.mesh + ": no depth on which keyframes agree");
     write_mesh(outputs.mesh, mesh, outputs.form, comments);
     summary.vertices = mesh.positions.size();
     summary.triangles = mesh.faces.size();

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/pipeline/internal/dense/mesh_parts.h>
-#include <placegraph/pipeline/internal/dense/tsdf_volume.h>
+#include <placegraph/pipeline/internal/dense/tsdf_surface.h>
 
 #include <Eigen/Geometry>
 #include <map>
@@ -23,7 +23,7 @@ TriangleMesh mesh_of_sphere() {
     estimate_normals(depth, 2, 0.2);
     volume.add(depth);
   }
-  return volume.mesh();
+  return surface_of(volume);
 }
 
 TEST(TsdfVolume, MeshOfASphereIsOnItAndFacesOutwards) {
