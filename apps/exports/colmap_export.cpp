@@ -5,8 +5,8 @@
 #include <placegraph/io/internal/exports/colmap_model.h>
 #include <placegraph/pipeline/internal/map/map_bundle.h>
 
+#include "apps/exports/colmap_folder.h"
 #include "apps/exports/keyframe_images.h"
-#include "apps/support/colmap_folder.h"
 #include "apps/support/output.h"
 
 namespace placegraph::apps {

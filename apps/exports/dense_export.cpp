@@ -7,7 +7,7 @@
 #include <placegraph/pipeline/internal/dense/consistent_depth.h>
 #include <placegraph/pipeline/internal/dense/depth_sources.h>
 #include <placegraph/pipeline/internal/dense/mesh_parts.h>
-#include <placegraph/pipeline/internal/dense/tsdf_volume.h>
+#include <placegraph/pipeline/internal/dense/tsdf_surface.h>
 #include <placegraph/pipeline/internal/dense/voxel_cloud.h>
 
 #include <cmath>
@@ -21,8 +21,8 @@
 namespace placegraph::apps {
 namespace {
 
-constexpr int kLeastPixels = 3;            ///< of a point of the cloud
-constexpr double kLeastPart_voxels = 400;  ///< area of a part of the mesh
+constexpr int kLeastPixels = 3;            ///< least number of pixels of a point
+constexpr double kLeastPart_voxels = 400;  ///< least area of a part of the mesh
 
 /// The side of the voxels that was asked for, or that fits the sensor.
 double voxel_side(const DenseOutputs& outputs, const StoredMap& stored, const DepthRange& range) {
@@ -33,7 +33,7 @@ double voxel_side(const DenseOutputs& outputs, const StoredMap& stored, const De
 
 /// Checks the side of the voxels by what one keyframe shows at the median depth.
 void check_voxel(double side, const Camera& camera, const DepthRange& range) {
-  constexpr double kBytes = 100;  // of a voxel on the surface
+  constexpr double kBytes = 100;  // memory of a voxel on the surface
   require(std::isfinite(side) && side > 0, "--voxel: must be positive");
   const double cells =
       camera.width / camera.fx * camera.height / camera.fy * std::pow(range.median / side, 2);
@@ -113,16 +113,18 @@ DenseSummary write_dense(const DenseOutputs& outputs, const StoredMap& stored, i
   const std::vector<std::string> comments = {
       fmt::format("surfaces of component {} of a map by placegraph", component),
       stored.map.metric ? "lengths in metres" : "lengths at an arbitrary scale"};
+  const std::vector<DensePoint> points = cloud.points(kLeastPixels);
+  if (!outputs.cloud.empty() && points.empty())
+    throw NoResult(outputs.cloud + ": no depth on which keyframes agree");
+  TriangleMesh mesh = surface_of(volume);
+  remove_small_parts(mesh, kLeastPart_voxels * side * side);
+  if (!outputs.mesh.empty() && mesh.faces.empty())
+    throw NoResult(outputs.mesh + ": no depth on which keyframes agree");
   if (!outputs.cloud.empty()) {
-    const std::vector<DensePoint> points = cloud.points(kLeastPixels);
-    if (points.empty()) throw NoResult(outputs.cloud + ": no depth on which keyframes agree");
     write_file(outputs.cloud, to_ply(points, outputs.form, comments));
     summary.points = points.size();
   }
   if (!outputs.mesh.empty()) {
-    TriangleMesh mesh = volume.mesh();
-    remove_small_parts(mesh, kLeastPart_voxels * side * side);
-    if (mesh.faces.empty()) throw NoResult(outputs.mesh + ": no depth on which keyframes agree");
     write_mesh(outputs.mesh, mesh, outputs.form, comments);
     summary.vertices = mesh.positions.size();
     summary.triangles = mesh.faces.size();

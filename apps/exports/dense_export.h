@@ -12,7 +12,7 @@ namespace placegraph::apps {
 struct DenseOutputs {
   std::string cloud;            ///< file for the cloud; empty: none
   std::string mesh;             ///< file for the mesh, .ply or .glb; empty: none
-  std::optional<double> voxel;  ///< side of the voxels in the unit of the map
+  std::optional<double> voxel;  ///< side of the voxels at the map's scale
   NumberForm form{};            ///< form of the numbers of PLY files
 };
 

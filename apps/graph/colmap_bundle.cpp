@@ -8,8 +8,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "apps/exports/colmap_folder.h"
 #include "apps/support/choice.h"
-#include "apps/support/colmap_folder.h"
 #include "apps/support/output.h"
 #include "apps/support/usage.h"
 

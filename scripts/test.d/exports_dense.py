@@ -10,8 +10,8 @@ import re
 import numpy
 from scipy.spatial import cKDTree
 
-FRAMES = 120
-SIZE = (320, 240)
+FRAMES = 60
+SIZE = (640, 480)
 
 
 class Surfaces:

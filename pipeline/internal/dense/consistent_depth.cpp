@@ -11,7 +11,7 @@ namespace {
 /// What other keyframes say about the depth of a pixel.
 struct DepthVotes {
   int agreeing = 0, seeing_through = 0;
-  double sum = 0, weights = 0;  ///< of inverse depths that agree
+  double sum = 0, weights = 0;  ///< sums over the inverse depths that agree
 };
 
 /// Adds the vote of another keyframe on a point.

@@ -83,7 +83,7 @@ class StereoDepth final : public DepthFromImages {
     options_.window_px = 5;
   }
   KeyframeDepth of(std::size_t index) override {
-    constexpr double kSigma_px = 0.3;  // of a disparity by semi-global matching
+    constexpr double kSigma_px = 0.3;  // standard deviation of a disparity
     const double focal_baseline = calibration().camera.fx * calibration().baseline_m;
     const Frame images = frame(index);
     KeyframeDepth result;
@@ -137,7 +137,7 @@ class SweepDepth final : public DepthFromImages {
 
   /// The keyframes on one side whose images are compared.
   std::vector<std::size_t> views_towards(std::size_t index, int direction) const {
-    constexpr double kNear = 0.05, kFar = 0.15, kMost = 0.3;  // of the median depth
+    constexpr double kNear = 0.05, kFar = 0.15, kMost = 0.3;  // shares of the median depth
     const double most_rad = deg_to_rad(20);
     std::vector<std::size_t> views;
     double wanted = kNear;

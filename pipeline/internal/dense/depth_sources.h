@@ -16,11 +16,11 @@ using FrameOfKeyframe = std::function<Frame(const Keyframe&)>;
 /// Keyframes with their images.
 struct PosedImages {
   std::vector<PosedKeyframe> keyframes;  ///< in the order of time
-  Calibration calibration;               ///< of the images
+  Calibration calibration;               ///< calibration of the images
   FrameOfKeyframe frame_of;              ///< reads them
 };
 
-/// Depths of the landmarks that the keyframes observe, in the units of the map.
+/// Depths of the landmarks that the keyframes observe, at the map's scale.
 struct DepthRange {
   double near = 0;    ///< 98 % of the observations are farther
   double median = 0;  ///< median of the observations

@@ -6,7 +6,7 @@
 
 namespace placegraph {
 
-/// Depth of the pixels of a keyframe's image, in the units of the map.
+/// Depth of the pixels of a keyframe's image, at the map's scale.
 struct KeyframeDepth {
   Camera camera;        ///< camera of the depth image, without distortion
   SE3 T_map_cam;        ///< pose of that camera

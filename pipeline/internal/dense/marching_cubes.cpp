@@ -30,6 +30,31 @@ std::array<int, 4> side_corners(int axis, bool far) {
 
 using Triangles = std::vector<std::array<std::uint8_t, 3>>;
 
+/// Whether two edges are on one side of the cube.
+bool share_side(std::uint8_t a, std::uint8_t b) {
+  const CubeEdge &first = cube_edges()[a], &second = cube_edges()[b];
+  for (int axis = 0; axis < 3; ++axis)
+    if (first.axis != axis && second.axis != axis &&
+        (first.from >> axis & 1) == (second.from >> axis & 1))
+      return true;
+  return false;
+}
+
+/// Cuts a polygon into triangles at one of its corners, from which no diagonal is on a side of the
+/// cube: the neighbour there could have the same one, and the edge four triangles.
+void add_polygon(const std::vector<std::uint8_t>& polygon, Triangles& triangles) {
+  const std::size_t n = polygon.size();
+  std::size_t from = 0;
+  const auto is_free = [&](std::size_t corner) {
+    for (std::size_t k = 2; k + 1 < n; ++k)
+      if (share_side(polygon[corner], polygon[(corner + k) % n])) return false;
+    return true;
+  };
+  while (from + 1 < n && !is_free(from)) ++from;
+  for (std::size_t k = 1; k + 1 < n; ++k)
+    triangles.push_back({polygon[from], polygon[(from + k + 1) % n], polygon[(from + k) % n]});
+}
+
 /// On each side of the cube the surface enters through an edge and leaves through another, with the
 /// inner corners on one hand; followed from side to side these pieces are closed polygons.
 Triangles triangles_of(unsigned inside) {
@@ -58,8 +83,7 @@ Triangles triangles_of(unsigned inside) {
       done[edge] = true;
       polygon.push_back(static_cast<std::uint8_t>(edge));
     }
-    for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
-      triangles.push_back({polygon[0], polygon[i + 1], polygon[i]});
+    add_polygon(polygon, triangles);
   }
   return triangles;
 }

@@ -2,11 +2,46 @@
 #include <placegraph/pipeline/internal/dense/mesh_parts.h>
 #include <placegraph/pipeline/internal/dense/tsdf_surface.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <unordered_map>
 
 namespace placegraph {
+namespace {
+
+/// The surface of a TSDF, cube by cube, with vertices that cubes share.
+class TsdfSurface {
+ public:
+  explicit TsdfSurface(const TsdfVolume& volume) : volume_(volume) {}
+
+  /// Adds the triangles between eight voxels, of which this is the one with the least coordinates.
+  void add_cube(const VoxelIndex& index);
+  TriangleMesh finish() {
+    mesh_.normals = vertex_normals(mesh_);
+    return std::move(mesh_);
+  }
+
+ private:
+  /// An edge of the grid: the voxel where it begins, and its axis.
+  struct Edge {
+    VoxelIndex from{};
+    int axis = 0;
+    bool operator==(const Edge&) const = default;
+  };
+  struct EdgeHash {
+    std::size_t operator()(const Edge& edge) const {
+      return VoxelIndexHash()(edge.from) * 3 + static_cast<std::size_t>(edge.axis);
+    }
+  };
+
+  std::int32_t vertex_on(const Edge& edge, const TsdfVoxel& from, const TsdfVoxel& to);
+
+  const TsdfVolume& volume_;
+  TriangleMesh mesh_;
+  std::unordered_map<Edge, std::int32_t, EdgeHash> vertices_;
+};
 
 void TsdfSurface::add_cube(const VoxelIndex& index) {
   std::array<const TsdfVoxel*, 8> corners{};
@@ -53,9 +88,17 @@ std::int32_t TsdfSurface::vertex_on(const Edge& edge, const TsdfVoxel& from, con
   return entry->second;
 }
 
-TriangleMesh TsdfSurface::finish() {
-  mesh_.normals = vertex_normals(mesh_);
-  return std::move(mesh_);
+}  // namespace
+
+TriangleMesh surface_of(const TsdfVolume& volume) {
+  constexpr int kSide = TsdfVolume::kBlock;
+  TsdfSurface surface(volume);
+  for (const VoxelIndex& block : volume.blocks())
+    for (int z = 0; z < kSide; ++z)
+      for (int y = 0; y < kSide; ++y)
+        for (int x = 0; x < kSide; ++x)
+          surface.add_cube({kSide * block[0] + x, kSide * block[1] + y, kSide * block[2] + z});
+  return surface.finish();
 }
 
 }  // namespace placegraph

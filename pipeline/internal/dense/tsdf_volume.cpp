@@ -1,4 +1,3 @@
-#include <placegraph/pipeline/internal/dense/tsdf_surface.h>
 #include <placegraph/pipeline/internal/dense/tsdf_volume.h>
 
 #include <algorithm>
@@ -111,17 +110,11 @@ const TsdfVoxel* TsdfVolume::find(const VoxelIndex& index) const {
                                     index[2] - kBlock * of[2])];
 }
 
-TriangleMesh TsdfVolume::mesh() const {
+std::vector<VoxelIndex> TsdfVolume::blocks() const {
   std::vector<VoxelIndex> order;
   for (const auto& [index, block] : blocks_) order.push_back(index);
   std::ranges::sort(order);
-  TsdfSurface surface(*this);
-  for (const VoxelIndex& block : order)
-    for (int z = 0; z < kBlock; ++z)
-      for (int y = 0; y < kBlock; ++y)
-        for (int x = 0; x < kBlock; ++x)
-          surface.add_cube({kBlock * block[0] + x, kBlock * block[1] + y, kBlock * block[2] + z});
-  return surface.finish();
+  return order;
 }
 
 }  // namespace placegraph

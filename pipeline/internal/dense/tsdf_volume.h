@@ -1,5 +1,4 @@
 #pragma once
-#include <placegraph/io/internal/exports/surface_ply.h>
 #include <placegraph/pipeline/internal/dense/keyframe_depth.h>
 #include <placegraph/pipeline/internal/dense/voxel_grid.h>
 
@@ -30,20 +29,19 @@ class TsdfVolume {
  public:
   static constexpr int kBlock = 8;  ///< voxels along the side of a block
 
-  /// `side`: side of the voxels in units of the map; distances are truncated at four of them.
+  /// `side`: side of the voxels at the map's scale; distances are truncated at four of them.
   /// Throws ArgumentError unless it is positive.
   explicit TsdfVolume(double side, std::size_t most_bytes = kMostVoxelBytes);
 
   /// Adds a depth image with normals. Throws ArgumentError if the blocks need more memory than is
   /// allowed.
   void add(const KeyframeDepth& depth);
-  /// The surface at distance 0 between voxels that were all seen, as far as they agree.
-  TriangleMesh mesh() const;
+  /// Positions of the blocks in their grid, sorted.
+  std::vector<VoxelIndex> blocks() const;
   /// The voxel at this position in the grid; null where there is none.
   const TsdfVoxel* find(const VoxelIndex& index) const;
   double side() const { return grid_.side(); }
   double truncation() const { return 4 * grid_.side(); }
-  std::size_t blocks() const { return blocks_.size(); }
 
  private:
   using Block = std::array<TsdfVoxel, kBlock * kBlock * kBlock>;

@@ -5,7 +5,7 @@
 namespace placegraph {
 
 VoxelCloud::VoxelCloud(double side, std::size_t most_bytes) : grid_(side) {
-  constexpr std::size_t kNodeBytes = 32;  // of the hash table: links and the bucket
+  constexpr std::size_t kNodeBytes = 32;  // memory of a link and of a bucket of the table
   most_voxels_ = most_bytes / (sizeof(Voxel) + sizeof(VoxelIndex) + kNodeBytes);
 }
 

@@ -14,7 +14,7 @@ namespace placegraph {
 /// what was seen there.
 class VoxelCloud {
  public:
-  /// `side`: side of the voxels in units of the map. Throws ArgumentError unless it is positive.
+  /// `side`: side of the voxels at the map's scale. Throws ArgumentError unless it is positive.
   explicit VoxelCloud(double side, std::size_t most_bytes = kMostVoxelBytes);
 
   /// Adds every pixel with depth and normal, weighted by the information of its depth. Throws

@@ -48,7 +48,7 @@ class DenseCli : public test::CliTest {
   static void SetUpTestSuite() {
     made = new test::TemporaryFolder;
     for (const char* command :
-         {"synth sequence corridor-loop --frames 40 --size 320x240 --difficulty clean --labels "
+         {"synth sequence corridor-loop --frames 30 --size 448x336 --difficulty clean --labels "
           "--stereo --out walk",
           "run walk --sensor rgbd --out rgbd", "run walk --sensor stereo --out stereo",
           "run walk --sensor mono --camera-height 1.4 --out mono"}) {
@@ -62,12 +62,18 @@ class DenseCli : public test::CliTest {
 };
 
 TEST_F(DenseCli, CloudsAreOnTheTrueSurfaces) {
-  for (const auto& [sensor, limit_m] : {std::pair("rgbd", 0.02), std::pair("stereo", 0.05)}) {
+  struct Limit {
+    const char* sensor;
+    double most_m;
+    std::size_t least_points;
+  };
+  for (const auto& [sensor, most_m, least_points] :
+       {Limit{"rgbd", 0.02, 20000}, Limit{"stereo", 0.05, 3000}}) {
     const CommandResult result = run("map export " + at(sensor) + " --cloud c.ply --force");
     ASSERT_EQ(result.code, 0) << result.err;
     EXPECT_THAT(result.out, HasSubstr("dense: "));
-    EXPECT_LT(median_error(dir / "c.ply", at("walk/scene.ply")), limit_m) << sensor;
-    EXPECT_GT(read_point_cloud(dir / "c.ply").points.size(), 20000u) << sensor;
+    EXPECT_LT(median_error(dir / "c.ply", at("walk/scene.ply")), most_m) << sensor;
+    EXPECT_GT(read_point_cloud(dir / "c.ply").points.size(), least_points) << sensor;
   }
 }
 

@@ -51,6 +51,13 @@ TEST_F(SynthCli, OneAndTwoThreadsWriteTheSameBytes) {
   EXPECT_EQ(files, 5 * 3 + 2 + 9);
 }
 
+TEST_F(SynthCli, TrueSurfacesAreWrittenIndoorsToo) {
+  ASSERT_EQ(run("synth sequence corridor-loop --frames 1 --size 64x48 --labels --out walk").code,
+            0);
+  EXPECT_TRUE(fs::exists(dir / "walk/scene.ply"));
+  EXPECT_FALSE(fs::exists(dir / "walk/CLASSES.txt"));
+}
+
 TEST_F(SynthCli, BadArgumentsGiveOneLineAndExitCode2) {
   test::write_file(dir / "broken.txt", "1 0 0 0 0 1 0 0 0 0 1\n");
   expect_error("town-loop", "--out");

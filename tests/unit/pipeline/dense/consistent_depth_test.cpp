@@ -33,18 +33,23 @@ TEST(ConsistentDepth, TwoViewsAreTooFew) {
   EXPECT_EQ(cv::countNonZero(depth.of(0).depth), 0);
 }
 
-TEST(ConsistentDepth, DropsWhatOthersSeeThrough) {
-  std::vector<KeyframeDepth> views = views_of_wall(5);
-  for (const std::size_t i : {0, 1, 2}) {  // a ghost in front of the wall, in three of five
-    cv::Mat part = views[i].depth(cv::Rect(60, 40, 40, 40));
-    part.setTo(1.5F);
+/// The wall with a plate in front of it, at depth 1.5 around the optical axis of the first view.
+double plate_depth(const Eigen::Vector3d& centre, const Eigen::Vector3d& ray) {
+  const Eigen::Vector3d p = centre + (1.5 - centre[2]) / ray[2] * ray;
+  return p.head<2>().norm() < 0.3 ? 1.5 - centre[2] : plane_depth(centre, ray);
+}
+
+TEST(ConsistentDepth, DropsWhatMoreViewsSeeThroughThanSee) {
+  for (const int seeing_through : {1, 4}) {
+    std::vector<KeyframeDepth> views = views_of_wall(3 + seeing_through);
+    for (int i = 0; i < 3; ++i)
+      views[static_cast<std::size_t>(i)] =
+          rendered_depth(SE3(SO3(), {0.05 * i, 0, 0}), 0.002, plate_depth);
+    ConsistentDepth depth(std::make_unique<GivenDepth>(views));
+    const KeyframeDepth seen = depth.of(1);
+    EXPECT_NEAR(seen.depth.at<float>(60, 80), seeing_through == 1 ? 1.5 : 0, 1e-5);
+    EXPECT_NEAR(seen.depth.at<float>(60, 20), 2, 1e-5);
   }
-  views[3].depth.setTo(2), views[4].depth.setTo(2);
-  // The ghost is at the same pixels, hence at no one place: nobody agrees with it.
-  ConsistentDepth depth(std::make_unique<GivenDepth>(views));
-  const KeyframeDepth seen = depth.of(2);
-  EXPECT_EQ(seen.depth.at<float>(60, 80), 0);
-  EXPECT_GT(seen.depth.at<float>(60, 20), 0);
 }
 
 TEST(ConsistentDepth, WhatIsHiddenIsNoContradiction) {

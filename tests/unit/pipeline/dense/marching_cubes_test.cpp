@@ -48,6 +48,22 @@ TEST(MarchingCubes, EveryCutEdgeHasAVertex) {
   }
 }
 
+TEST(MarchingCubes, NoDiagonalIsOnASide) {
+  for (unsigned inside = 0; inside < 256; ++inside) {
+    std::map<std::pair<int, int>, int> directed;
+    for (const auto& t : cube_triangles(inside))
+      for (std::size_t k = 0; k < 3; ++k) ++directed[{t[k], t[(k + 1) % 3]}];
+    for (const auto& [edge, count] : directed) {
+      EXPECT_EQ(count, 1) << inside;
+      if (!directed.count({edge.second, edge.first})) continue;  // on the border
+      const Eigen::Vector3d a = middle(static_cast<std::uint8_t>(edge.first));
+      const Eigen::Vector3d b = middle(static_cast<std::uint8_t>(edge.second));
+      for (int axis = 0; axis < 3; ++axis)
+        EXPECT_FALSE(a[axis] == b[axis] && (a[axis] == 0 || a[axis] == 1)) << inside;
+    }
+  }
+}
+
 /// The directed border of the triangles of a cube on the side where coordinate `axis` is `at`, by
 /// the positions of the edges' middles.
 std::set<std::pair<std::array<double, 2>, std::array<double, 2>>> border(unsigned inside, int axis,

@@ -32,15 +32,15 @@ KeyframeDepth rendered_depth(const SE3& T_map_cam, double sigma_inverse, DepthOf
 }
 
 /// The depth of the sphere of radius 1 around the origin.
-inline double sphere_depth(const Eigen::Vector3d& eye, const Eigen::Vector3d& ray) {
-  const double a = ray.squaredNorm(), b = eye.dot(ray), c = eye.squaredNorm() - 1;
+inline double sphere_depth(const Eigen::Vector3d& centre, const Eigen::Vector3d& ray) {
+  const double a = ray.squaredNorm(), b = centre.dot(ray), c = centre.squaredNorm() - 1;
   const double root = b * b - a * c;
   return root > 0 ? (-b - std::sqrt(root)) / a : 0;
 }
 
 /// The depth of the plane z = 2 of the map.
-inline double plane_depth(const Eigen::Vector3d& eye, const Eigen::Vector3d& ray) {
-  const double depth = (2 - eye[2]) / ray[2];
+inline double plane_depth(const Eigen::Vector3d& centre, const Eigen::Vector3d& ray) {
+  const double depth = (2 - centre[2]) / ray[2];
   return depth > 0 ? depth : 0;
 }
 
@@ -48,8 +48,8 @@ inline double plane_depth(const Eigen::Vector3d& eye, const Eigen::Vector3d& ray
 inline std::vector<SE3> poses_around(int count) {
   std::vector<SE3> poses;
   for (int i = 0; i < count; ++i) {
-    const SO3 turn = SO3::exp({0, 2 * M_PI * i / count, 0});
-    poses.emplace_back(turn, turn * Eigen::Vector3d(0, 0, -3));
+    const SO3 rotation = SO3::exp({0, 2 * M_PI * i / count, 0});
+    poses.emplace_back(rotation, rotation * Eigen::Vector3d(0, 0, -3));
   }
   return poses;
 }

@@ -1,4 +1,4 @@
-#include "apps/support/colmap_folder.h"
+#include "apps/exports/colmap_folder.h"
 
 #include <filesystem>
 #include <utility>
