@@ -223,7 +223,9 @@ export class LiveScene {
 
   /** Row of the newest frame with a pose. */
   private currentRow(): number {
-    for (let row = this.run.frames.count - 1; row >= 0; row--) if (this.isShown(row)) return row;
+    for (let row = this.motion.count - 1; row >= 0; row--) {
+      if (this.isShown(row) && Number.isFinite(this.motion.shown[3 * row])) return row;
+    }
     return -1;
   }
 
