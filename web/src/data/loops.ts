@@ -86,11 +86,13 @@ export function sortLoops(loops: LoopTable, rows: number[], order: LoopOrder): n
   });
 }
 
-/** Rows of loops that start or end at a frame. */
+/** Rows of loops that start or end at a frame: accepted ones first, then by probability. */
 export function loopsAt(loops: LoopTable, frame: number): number[] {
   const rows: number[] = [];
   for (let row = 0; row < loops.count; row++) {
     if (loops.query[row] === frame || loops.match[row] === frame) rows.push(row);
   }
-  return rows;
+  const size = (row: number): number =>
+    (stageOf(loops, row) === "accepted" ? 2 : 0) + (Number.isNaN(loops.probability[row]) ? -1 : loops.probability[row]);
+  return rows.sort((a, b) => size(b) - size(a) || a - b);
 }

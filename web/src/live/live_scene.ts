@@ -160,8 +160,8 @@ export class LiveScene {
     if (first < frames.count || frames.count === 0) {
       this.path.update(this.motion.shown, frames.count, first, (row) => this.isShown(row) && this.isShown(row + 1));
     }
-    this.drawExtras();
     this.aim();
+    this.drawExtras();
     if (this.motion.moving) this.viewport.move();
     else this.requestSoon();
     const unfinished = this.motion.moving || performance.now() - this.newest.since < NEW_MS;
