@@ -53,7 +53,7 @@ export interface PageOptions {
 /** Opens a page and waits until its first picture is drawn. */
 export async function open(browser: Browser, url: string, options: PageOptions = {}): Promise<Watched> {
   const page = await browser.newPage({
-    viewport: { width: options.width ?? 1440, height: options.height ?? 900 },
+    viewport: { width: options.width ?? 1200, height: options.height ?? 760 },
     colorScheme: options.scheme ?? "dark",
     hasTouch: options.touch ?? false,
   });

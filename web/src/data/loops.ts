@@ -122,11 +122,15 @@ function keyOf(loops: LoopTable, column: LoopColumn): (row: number) => number {
   }
 }
 
-/** Rows of loops that start or end at a frame. */
+/** Rows of loops that start or end at a frame: accepted ones first, then by probability. */
 export function loopsAt(loops: LoopTable, frame: number): number[] {
   const rows: number[] = [];
   for (let row = 0; row < loops.count; row++) {
     if (loops.query[row] === frame || loops.match[row] === frame) rows.push(row);
   }
-  return rows;
+  const size = (row: number): number => {
+    const probability = loopValue(loops, "probability", row);
+    return (stageOf(loops, row) === "accepted" ? 2 : 0) + (Number.isNaN(probability) ? -1 : probability);
+  };
+  return rows.sort((a, b) => size(b) - size(a) || a - b);
 }

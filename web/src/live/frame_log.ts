@@ -27,6 +27,7 @@ export class FrameLog {
   count = 0;
   /** Counts how often a frame was put between others, so that rows have changed. */
   shifts = 0;
+  private changed = Infinity;
   private data = columns(256);
   private readonly rows = new Map<number, number>();
 
@@ -69,10 +70,18 @@ export class FrameLog {
     this.rows.clear();
   }
 
+  /** The first row that a frame was put into since the last call; Infinity without one. */
+  takeChanged(): number {
+    const first = this.changed;
+    this.changed = Infinity;
+    return first;
+  }
+
   /** Adds a frame, or replaces what is known of it; returns its row. */
   put(frame: FrameEvent): number {
     const known = this.row(frame.frame);
     const row = known >= 0 ? known : this.insert(frame.frame);
+    this.changed = Math.min(this.changed, row);
     this.data.component[row] = frame.pose === null ? -1 : frame.component;
     for (let k = 0; k < 7; k++) this.data.pose[7 * row + k] = frame.pose?.[k] ?? NaN;
     this.data.inliers[row] = frame.inliers;

@@ -66,10 +66,12 @@ export class LiveChart {
 
 function drawLost(context: CanvasRenderingContext2D, run: LiveRun, x: (row: number) => number): void {
   const { frames } = run;
+  let first = 0;
+  while (first < frames.count && !frames.isPosed(first)) first++;
   /** Component of a frame; -1: lost; -2: neither, as before the map begins. */
   const kind = (row: number): number => {
     if (frames.isPosed(row)) return frames.component(row);
-    return frames.state(row) === "initializing" ? -2 : -1;
+    return frames.state(row) === "initializing" || row < first ? -2 : -1;
   };
   for (let begin = 0, end = 0; begin < frames.count; begin = end) {
     while (end < frames.count && kind(end) === kind(begin)) end++;

@@ -37,7 +37,9 @@ export class LiveMotion {
     if (3 * frames.count > this.shown.length) this.grow(frames.count);
     const { pose } = frames;
     const from = this.from;
-    const first = from === null ? Math.min(this.count, frames.count) : 0;
+    // A snapshot may have told of a frame, without a pose, before its event does.
+    const changed = frames.takeChanged();
+    const first = from === null ? Math.min(this.count, frames.count, changed) : 0;
     const share = from === null ? 1 : ease((now - this.begin) / DURATION_MS);
     for (let row = first; row < frames.count; row++) {
       for (let k = 0; k < 3; k++) {

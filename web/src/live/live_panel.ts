@@ -68,7 +68,8 @@ export class LivePanel {
 
   private draw(): void {
     const { last } = this.run;
-    this.state.textContent = last === null ? "No frame has been processed yet." : stateText(last);
+    const none = this.run.done > 0 ? "The next frame tells more." : "No frame has been processed yet.";
+    this.state.textContent = last === null ? none : stateText(last);
     this.frame.replaceChildren(last === null ? "" : facts(factsOf(last, this.run)));
     this.stages.replaceChildren(stageBars(this.run.stages));
   }

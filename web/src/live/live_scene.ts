@@ -160,8 +160,8 @@ export class LiveScene {
     if (first < frames.count || frames.count === 0) {
       this.path.update(this.motion.shown, frames.count, first, (row) => this.isShown(row) && this.isShown(row + 1));
     }
-    this.drawExtras();
     this.aim();
+    this.drawExtras();
     if (this.motion.moving) this.viewport.move();
     else this.requestSoon();
     const unfinished = this.motion.moving || performance.now() - this.newest.since < NEW_MS;
@@ -223,7 +223,9 @@ export class LiveScene {
 
   /** Row of the newest frame with a pose. */
   private currentRow(): number {
-    for (let row = this.run.frames.count - 1; row >= 0; row--) if (this.isShown(row)) return row;
+    for (let row = this.motion.count - 1; row >= 0; row--) {
+      if (this.isShown(row) && Number.isFinite(this.motion.shown[3 * row])) return row;
+    }
     return -1;
   }
 

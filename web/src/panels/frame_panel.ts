@@ -130,7 +130,8 @@ function frameFacts(run: RunData, row: number): [string, string][] {
 function keyframeText(run: RunData, row: number): string {
   const keyframe = run.frames.keyframe[row];
   if (keyframe < 0) return "none";
-  return keyframeOf(run, row) >= 0 ? String(keyframe) : `${keyframe}, to which its pose is relative`;
+  const frame = run.keyframes.frame[run.keyframes.rowOf.get(keyframe) ?? -1];
+  return frame === undefined || frame === run.frames.id[row] ? String(keyframe) : `${keyframe}, of frame ${frame}`;
 }
 
 function loopList(run: RunData, id: number, choose: (loop: number) => void): HTMLElement {

@@ -2,8 +2,13 @@ import { SCALES, cssColour } from "../data/colour_scale";
 import { el } from "../page/dom";
 import type { LegendItem } from "./colouring";
 
+/** On a phone the legend would hide the scene: it is closed at first. */
+function wide(): boolean {
+  return window.matchMedia("(min-width: 801px)").matches;
+}
+
 /** The user can close it, as it lies over the scene. */
-export function legendElement(items: LegendItem[], open = true): HTMLDetailsElement {
+export function legendElement(items: LegendItem[], open = wide()): HTMLDetailsElement {
   const elements = items.map((item) => (item.kind === "scale" ? scaleElement(item) : categoryElement(item)));
   const box = el(
     "details",

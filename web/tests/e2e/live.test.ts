@@ -62,7 +62,7 @@ describe("a run that goes on", () => {
   });
 
   it("is found again after a gap of the connection", async () => {
-    const site = new RunSite(200);
+    const site = new RunSite(120);
     const page = await follow(site);
     await until(page, `${DONE} >= 5`);
     site.drop();

@@ -87,7 +87,7 @@ describe("the scene", () => {
     await page.waitForTimeout(600);
     const canvas = await page.locator(".scene canvas").boundingBox();
     if (!canvas) throw new Error("no canvas");
-    for (let x = canvas.width / 2 - 100; x > 280 && !(await page.locator(".tip").isVisible()); x -= 12) {
+    for (let x = (canvas.width + 280) / 2 - 40; x > 280 && !(await page.locator(".tip").isVisible()); x -= 12) {
       await page.mouse.move(canvas.x + x, canvas.y + canvas.height / 2);
       await page.waitForTimeout(60);
     }
@@ -101,8 +101,8 @@ describe("the scene", () => {
     await page.waitForTimeout(600);
     const canvas = await page.locator(".scene canvas").boundingBox();
     if (!canvas) throw new Error("no canvas");
-    // From above, a line from the middle of the picture to its left crosses the far side of the block.
-    for (let x = canvas.width / 2 - 100; x > 280 && (await frameOf(page)) === "0"; x -= 12) {
+    // From above, a line from the middle of the free part of the picture to its left crosses the far side of the block.
+    for (let x = (canvas.width + 280) / 2 - 40; x > 280 && (await frameOf(page)) === "0"; x -= 12) {
       await page.mouse.click(canvas.x + x, canvas.y + canvas.height / 2);
     }
     expect(Number(await frameOf(page))).toBeGreaterThan(0);

@@ -260,6 +260,17 @@ describe("the shown positions", () => {
     expect(motion.step(run.frames, 2100)).toBe(3);
   });
 
+  it("follow an event of a frame of which a snapshot has told without a pose", () => {
+    const run = new LiveRun();
+    run.take(snapshot(0, [0, NaN]));
+    const motion = new LiveMotion();
+    motion.step(run.frames, 0);
+    expect(motion.shown[3]).toBeNaN();
+    run.apply(frameEvent(1, 7));
+    expect(motion.step(run.frames, 10)).toBe(1);
+    expect(motion.shown[3]).toBe(7);
+  });
+
   it("stay where nothing has moved", () => {
     const run = new LiveRun();
     run.take(snapshot(0, [0, 1]));

@@ -47,8 +47,8 @@ describe("loops", () => {
     expect(stageOf(loops, 1)).toBe("accepted");
   });
 
-  it("of a frame are those that start or end there", () => {
-    expect(loopsAt(loops, 50)).toEqual([0, 1]);
+  it("of a frame are those that start or end there, accepted ones first", () => {
+    expect(loopsAt(loops, 50)).toEqual([1, 0]);
     expect(loopsAt(loops, 3)).toEqual([]);
   });
 
