@@ -16,6 +16,27 @@ const std::map<std::string, LoopFileFormat> kFormats = {{"scores", LoopFileForma
                                                         {"run", LoopFileFormat::kRun}};
 const std::vector<std::string> kFormatNames = {"scores", "ibow", "run"};
 
+void add_predictions(CLI::App& command, LoopsArguments& a) {
+  command
+      .add_option("--predictions", a.predictions, "predictions of a system; several are compared")
+      ->required()
+      ->check(CLI::ExistingFile);
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--format",
+          [&a](const std::vector<std::string>& names) {
+            a.formats.clear();
+            for (const std::string& name : names) a.formats.push_back(kFormats.at(name));
+          },
+          "scores (query candidate score [stage] a line), ibow (iBoW-LCD's output, "
+          "inliers as score) or run (loops.csv of a run, its probabilities); one for all "
+          "or one each")
+      ->check(CLI::IsMember(kFormatNames))
+      ->default_str("scores");
+  command.add_option("--systems", a.names,
+                     "names of the systems; default: the names of their files");
+}
+
 }  // namespace
 
 void add_eval_loops_command(
@@ -28,24 +49,7 @@ void add_eval_loops_command(
       "loops", "Evaluate loop closures by precision and recall (short: loops)");
   command->footer(
       "placegraph eval loops --predictions found.txt --format scores --truth gt.txt --json");
-  command
-      ->add_option("--predictions", a.predictions, "predictions of a system; several are compared")
-      ->required()
-      ->check(CLI::ExistingFile);
-  command
-      ->add_option_function<std::vector<std::string>>(
-          "--format",
-          [&a](const std::vector<std::string>& names) {
-            a.formats.clear();
-            for (const std::string& name : names) a.formats.push_back(kFormats.at(name));
-          },
-          "scores (query candidate score [stage] a line), ibow (iBoW-LCD's output, "
-          "inliers as score) or run (loops.csv of a run, its probabilities); one for all "
-          "or one each")
-      ->check(CLI::IsMember(kFormatNames))
-      ->default_str("scores");
-  command->add_option("--systems", a.names,
-                      "names of the systems; default: the names of their files");
+  add_predictions(*command, a);
   command
       ->add_option("--truth", a.truth,
                    "true matches: lines `q first last matches...`, lines `q matches...`, or a "

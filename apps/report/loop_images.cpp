@@ -69,7 +69,8 @@ Thumbnails thumbnails_of(const std::set<std::int64_t>& images, const std::string
     if (fs::is_regular_file(map)) return of_map(images, map.string());
     if (poses_file.empty()) return {};
     const fs::path folder = fs::absolute(poses_file).parent_path();
-    if (fs::exists(folder / "calib.txt")) return of_sequence(images, folder.string(), count);
+    if (fs::exists(folder / "image_0") || fs::exists(folder / "image_2"))
+      return of_sequence(images, folder.string(), count);
   } catch (const Error& error) {
     warn(fmt::format("no images for the report: {}", error.what()));
   }

@@ -6,12 +6,13 @@
 namespace placegraph::apps {
 
 struct ReportArguments {
-  std::vector<std::string> runs;           ///< folders that `placegraph run` wrote, or their maps
-  std::vector<std::string> georeferences;  ///< of `map georeference`, one each; empty: beside them
-  std::string out;                         ///< file of the report
-  std::string title;                       ///< title of the page; empty: the names of the runs
-  std::string program;                     ///< name and version of the program, for the page
-  bool force = false;                      ///< whether an existing file is overwritten
+  std::vector<std::string> runs;  ///< folders that `placegraph run` wrote, or their maps
+  std::vector<std::string>
+      georeferences;    ///< folders of `map georeference`, one each; empty: beside the runs
+  std::string out;      ///< file of the report
+  std::string title;    ///< title of the page; empty: the names of the runs
+  std::string program;  ///< name and version of the program, for the page
+  bool force = false;   ///< whether an existing file is overwritten
 };
 
 struct ReportResult {

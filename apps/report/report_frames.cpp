@@ -30,13 +30,13 @@ std::vector<std::optional<Eigen::Isometry3d>> poses_of(const Map& map) {
 std::map<PlaceId, float> sigmas_of_places(const PlaceGraph& graph) {
   std::map<PlaceId, float> sigmas;
   if (graph.places.empty()) return sigmas;
-  const PoseMarginals marginals(graph.pose_graph());
+  const PoseGraph poses = graph.pose_graph();
+  const PoseMarginals marginals(poses);
   if (!marginals.outcome()) return sigmas;
-  for (const Place& place : graph.places) {
-    const Information covariance = marginals.covariance(node_of_place(place.id));
-    sigmas[place.id] =
-        static_cast<float>(std::sqrt(std::max(0.0, covariance.topLeftCorner<3, 3>().trace())));
-  }
+  const std::vector<Information> covariances = marginals.covariances();
+  for (std::size_t i = 0; i < poses.nodes.size(); ++i)
+    sigmas[place_of_node(poses.nodes[i].id)] =
+        static_cast<float>(std::sqrt(std::max(0.0, covariances[i].topLeftCorner<3, 3>().trace())));
   return sigmas;
 }
 

@@ -32,7 +32,7 @@ struct LoopsPage {
 struct PageLoop {
   FrameId query, match;
   double score = 0;     ///< not a number for a missed one
-  int rank = 0;         ///< of the first true candidate; 0: none
+  int rank = 0;         ///< rank of the first true candidate; 0: none
   std::string verdict;  ///< "right", "wrong" or "missed"
   std::string reason;   ///< test that decided, or why nothing was proposed; may be empty
 };

@@ -9,13 +9,14 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "apps/report/parts.h"
 #include "apps/report/report_frames.h"
 #include "apps/report/report_georeference.h"
 #include "apps/report/report_map.h"
-#include "apps/report/report_pictures.h"
 #include "apps/report/report_planes.h"
 #include "apps/report/report_street_map.h"
 #include "apps/results/judgement_text.h"
@@ -132,6 +133,27 @@ json summary_of(const Map& map, const json& result) {
 /// Name of the recording: runs of one recording can be compared frame by frame.
 std::string recording_of(const MapOrigin& origin) {
   return (fs::path(origin.sequence) / "").lexically_normal().parent_path().filename().string();
+}
+
+std::string content_of(const fs::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) throw FileError(path.string(), "cannot be opened for reading");
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+/// The SVG files in the folder of a run, by name; those of more than 4 MB are left out.
+json describe_pictures(const std::string& folder) {
+  constexpr std::uintmax_t kMostBytes = 4'000'000;
+  std::vector<fs::path> paths;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+    if (entry.is_regular_file() && entry.path().extension() == ".svg" &&
+        entry.file_size() <= kMostBytes)
+      paths.push_back(entry.path());
+  std::ranges::sort(paths);
+  json pictures = json::array();
+  for (const fs::path& path : paths)
+    pictures.push_back(describe_picture(path.stem().string(), path.string(), content_of(path)));
+  return pictures;
 }
 
 /// What other files in the folder of the run hold.

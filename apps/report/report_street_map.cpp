@@ -20,7 +20,7 @@ using nlohmann::json;
 /// The squares of the lattice under a top view.
 struct Lattice {
   int columns = 0, rows = 0;                  ///< squares along x and z
-  std::vector<std::vector<double>> ground_y;  ///< of the cells above each square, plan frame
+  std::vector<std::vector<double>> ground_y;  ///< y of the ground below its cells, plan frame
 
   const std::vector<double>* at(int column, int row) const {
     const bool inside = column >= 0 && row >= 0 && column < columns && row < rows;

@@ -104,6 +104,22 @@ Eigen::MatrixXd PoseMarginals::joint_covariance(const std::vector<NodeId>& ids) 
 
 Information PoseMarginals::covariance(NodeId id) const { return joint_covariance({id}); }
 
+std::vector<Information> PoseMarginals::covariances() const {
+  impl_->require_outcome();
+  const int dof = impl_->dof;
+  const BlockFactor inverse = sparse_inverse(impl_->matrix().factor(), dof);
+  const std::vector<int>& position = impl_->matrix().ordering().position;
+  std::vector<Information> covariances;
+  for (std::size_t node = 0; node < impl_->graph.nodes.size(); ++node) {
+    const int i = impl_->block_of(static_cast<int>(node));
+    if (i < 0)
+      covariances.emplace_back(Information::Zero(dof, dof));
+    else
+      covariances.emplace_back(inverse_block(inverse, dof, position[i], position[i]));
+  }
+  return covariances;
+}
+
 Information PoseMarginals::relative_covariance(NodeId from, NodeId to) const {
   const Eigen::MatrixXd joint = joint_covariance({from, to});
   const int dof = impl_->dof;

@@ -28,6 +28,9 @@ class PoseMarginals {
 
   /// Covariance of one pose, dof x dof.
   Information covariance(NodeId id) const;
+  /// Covariances of all poses, in the order of the graph's nodes; computed together from the sparse
+  /// inverse subset, at the cost of a second factorization.
+  std::vector<Information> covariances() const;
   /// Joint covariance of several poses, in the order of `ids`; one solve for every column.
   Eigen::MatrixXd joint_covariance(const std::vector<NodeId>& ids) const;
   /// Covariance of the relative pose T_from_to in its own right tangent.

@@ -33,9 +33,9 @@ export function readStreetMap(value: unknown, where: string): StreetShape {
     image: asText(json["image"], at("image")),
     width: asNumber(json["width"], at("width")),
     height: asNumber(json["height"], at("height")),
-    cell: asNumber(json["cell_m"], at("cell_m")),
-    low: [low[0], low[1]],
-    rotation: readColumn(json["R_plan_map"], at("R_plan_map"), 3, 3).values,
+    cell_m: asNumber(json["cell_m"], at("cell_m")),
+    low_m: [low[0], low[1]],
+    R_plan_map: readColumn(json["R_plan_map"], at("R_plan_map"), 3, 3).values,
     columns,
     rows,
     ground: readColumn(json["ground"], at("ground"), 3, (columns + 1) * (rows + 1)).values,
@@ -50,12 +50,12 @@ export function readStreetMap(value: unknown, where: string): StreetShape {
 export function readGeoreference(value: unknown, where: string, frames: number): GeoTrack {
   const json = asObject(value, where);
   return {
-    latitude: asNumberOrNaN(json["latitude_deg"], `${where}.latitude_deg`),
-    longitude: asNumberOrNaN(json["longitude_deg"], `${where}.longitude_deg`),
+    latitude_deg: asNumberOrNaN(json["latitude_deg"], `${where}.latitude_deg`),
+    longitude_deg: asNumberOrNaN(json["longitude_deg"], `${where}.longitude_deg`),
     folder: asText(json["folder"], `${where}.folder`),
-    fixesUsed: orNull(json["fixes_used"], `${where}.fixes_used`, asNumber),
-    fixesRejected: orNull(json["fixes_rejected"], `${where}.fixes_rejected`, asNumber),
-    residual: orNull(json["residual_rms_m"], `${where}.residual_rms_m`, asNumber),
+    fixes_used: orNull(json["fixes_used"], `${where}.fixes_used`, asNumber),
+    fixes_rejected: orNull(json["fixes_rejected"], `${where}.fixes_rejected`, asNumber),
+    residual_rms_m: orNull(json["residual_rms_m"], `${where}.residual_rms_m`, asNumber),
     track: readColumn(json["track"], `${where}.track`, 3, frames).values,
   };
 }

@@ -2,13 +2,20 @@
 import type { Values } from "./column";
 import type {
   Camera,
+  Column,
   Component,
+  Constraints,
   Figure,
+  Georeference,
   Judgement,
+  LabelColumn,
   Option,
   Picture,
+  Places,
+  Plane,
+  PlanLine,
   Sensor,
-  StreetClass,
+  StreetMap,
   Summary,
   Table,
 } from "./report";
@@ -17,6 +24,24 @@ export interface Labels {
   table: string[];
   index: Values;
 }
+
+/** A type of the report in which columns are decoded. */
+export type Decoded<T> = T extends Column
+  ? Values
+  : T extends LabelColumn
+    ? Labels
+    : T extends readonly unknown[]
+      ? { [K in keyof T]: Decoded<T[K]> }
+      : T extends object
+        ? { [K in keyof T]: Decoded<T[K]> }
+        : T;
+
+export type PlaneShape = Decoded<Plane>;
+export type PlanShape = Decoded<PlanLine>;
+export type StreetShape = Decoded<StreetMap>;
+export type GeoTrack = Decoded<Georeference>;
+export type ConstraintTable = Decoded<Constraints> & { count: number };
+export type PlaceTable = Decoded<Places> & { count: number; rowOf: Map<number, number> };
 
 export interface FrameTable {
   count: number;
@@ -65,22 +90,6 @@ export interface LandmarkTable {
   keyframe: Values;
 }
 
-export interface PlaceTable {
-  count: number;
-  id: Values;
-  keyframe: Values;
-  component: Values;
-  position: Values;
-  rowOf: Map<number, number>;
-}
-
-export interface ConstraintTable {
-  count: number;
-  from: Values;
-  to: Values;
-  source: Labels;
-}
-
 export interface LoopTable {
   count: number;
   query: Values;
@@ -93,43 +102,6 @@ export interface LoopTable {
   reason: Labels | null;
   rank: Values | null;
   judged: boolean;
-}
-
-export interface PlaneShape {
-  name: string;
-  rgb: [number, number, number];
-  outline: Values;
-  holes: Values[];
-}
-
-export interface StreetShape {
-  image: string;
-  width: number;
-  height: number;
-  cell: number;
-  low: [number, number];
-  rotation: Values;
-  columns: number;
-  rows: number;
-  ground: Values;
-  classes: StreetClass[];
-}
-
-export interface PlanShape {
-  label: string;
-  closed: boolean;
-  points: Values;
-}
-
-export interface GeoTrack {
-  latitude: number;
-  longitude: number;
-  folder: string;
-  fixesUsed: number | null;
-  fixesRejected: number | null;
-  residual: number | null;
-  /** Latitude, longitude and height of each frame. */
-  track: Values;
 }
 
 export interface RunData {

@@ -4,7 +4,7 @@ import type { GeoTrack } from "../data/model";
 import { cellSize } from "../scene/grid_layer";
 
 const SIZE = 640;
-const MARGIN = 70;
+const MARGIN = 92;
 
 interface Frame {
   x(longitude: number): string;
@@ -22,14 +22,14 @@ interface Frame {
 export function earthSvg(track: GeoTrack): string {
   const frame = frameOf(track);
   const parts = [
-    `<svg xmlns="http://www.w3.org/2000/svg" width="${frame.width}" height="${frame.height}" font-family="sans-serif" font-size="12">`,
+    `<svg xmlns="http://www.w3.org/2000/svg" width="${frame.width}" height="${frame.height}" font-family="sans-serif" font-size="16">`,
     `<rect width="100%" height="100%" fill="#ffffff"/>`,
     ...graticule(frame),
     `<path d="${pathOf(track, frame)}" fill="none" stroke="#0072b2" stroke-width="2.5" stroke-linejoin="round"/>`,
     ...ends(track, frame),
     ...scaleBar(frame),
-    `<path d="M${frame.width - 22} 40V14l-5 9m5-9l5 9" fill="none" stroke="#000000" stroke-width="1.5"/>`,
-    `<text x="${frame.width - 22}" y="54" text-anchor="middle">N</text>`,
+    `<path d="M${frame.width - 22} 60V14l-7 13m7-13l7 13" fill="none" stroke="#000000" stroke-width="2"/>`,
+    `<text x="${frame.width - 22}" y="78" text-anchor="middle">N</text>`,
   ];
   return `${parts.join("\n")}\n</svg>\n`;
 }
@@ -67,7 +67,7 @@ function frameOf(track: GeoTrack): Frame {
 
 /** Multiples of a round step between two values, about three of them. */
 export function gridValues(low: number, high: number): number[] {
-  const step = cellSize((high - low) * 2);
+  const step = cellSize((high - low) * 3);
   const values: number[] = [];
   for (let i = Math.ceil(low / step); i * step <= high; i++) values.push(i * step);
   return values;
@@ -88,7 +88,7 @@ function graticule(frame: Frame): string[] {
     const text = degrees(longitude, frame.east - frame.west, "E", "W");
     parts.push(
       `<path d="M${x} ${bottom}V${top}" stroke="#dddddd"/>`,
-      `<text x="${x}" y="${Number(bottom) + 15}" text-anchor="middle" font-size="10">${text}</text>`,
+      `<text x="${x}" y="${Number(bottom) + 15}" text-anchor="middle" font-size="13">${text}</text>`,
     );
   }
   for (const latitude of gridValues(frame.south, frame.north)) {
@@ -96,7 +96,7 @@ function graticule(frame: Frame): string[] {
     const text = degrees(latitude, frame.north - frame.south, "N", "S");
     parts.push(
       `<path d="M${left} ${y}H${right}" stroke="#dddddd"/>`,
-      `<text x="${Number(left) - 4}" y="${Number(y) + 4}" text-anchor="end" font-size="10">${text}</text>`,
+      `<text x="${Number(left) - 4}" y="${Number(y) + 4}" text-anchor="end" font-size="13">${text}</text>`,
     );
   }
   parts.push(`<path d="M${left} ${bottom}V${top}H${right}V${bottom}Z" fill="none" stroke="#999999"/>`);
@@ -120,7 +120,7 @@ function ends(track: GeoTrack, frame: Frame): string[] {
     if (!point) return [];
     const [x, y] = [frame.x(point.longitude), frame.y(point.latitude)];
     return [
-      `<circle cx="${x}" cy="${y}" r="5" fill="${colour}" stroke="#ffffff"/>`,
+      `<circle cx="${x}" cy="${y}" r="6" fill="${colour}" stroke="#ffffff"/>`,
       `<text x="${Number(x) + 8}" y="${Number(y) + 4}">${text}</text>`,
     ];
   };
@@ -128,9 +128,9 @@ function ends(track: GeoTrack, frame: Frame): string[] {
 }
 
 function scaleBar(frame: Frame): string[] {
-  const metres = cellSize((SIZE - 2 * MARGIN) / frame.pixelsPerMetre / 1.5);
+  const metres = cellSize(((SIZE - 2 * MARGIN) / frame.pixelsPerMetre) * 2);
   const right = (MARGIN + metres * frame.pixelsPerMetre).toFixed(1);
-  const y = frame.height - 14;
+  const y = frame.height - 18;
   return [
     `<path d="M${MARGIN} ${y - 6}V${y}H${right}V${y - 6}" fill="none" stroke="#000000"/>`,
     `<text x="${MARGIN + 4}" y="${y - 5}">${metres} m</text>`,

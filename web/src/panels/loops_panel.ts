@@ -203,7 +203,7 @@ function table({ report, store }: PanelContext, run: RunData): HTMLElement {
     "div",
     {},
     el("p", {}, `${plural(rows.length, "loop candidate")} of ${formatCount(run.loops.count)}`),
-    el("table", { class: "loops" }, el("thead", {}, head), body),
+    el("div", { class: "wide" }, el("table", { class: "loops" }, el("thead", {}, head), body)),
     more,
   );
 }

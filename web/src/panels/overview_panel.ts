@@ -164,11 +164,11 @@ function georeferenceSection(run: RunData): HTMLElement | null {
   const geo = run.georeference;
   if (geo === null) return null;
   const rows: [string, string][] = [
-    ["Origin", `${geo.latitude.toFixed(7)}, ${geo.longitude.toFixed(7)} deg (latitude, longitude)`],
+    ["Origin", `${geo.latitude_deg.toFixed(7)}, ${geo.longitude_deg.toFixed(7)} deg (latitude, longitude)`],
   ];
-  if (geo.fixesUsed !== null) rows.push(["Fixes used", formatCount(geo.fixesUsed)]);
-  if (geo.fixesRejected !== null) rows.push(["Fixes rejected", formatCount(geo.fixesRejected)]);
-  if (geo.residual !== null) rows.push(["Residual of the fixes, RMS", formatWithUnit(geo.residual, "m")]);
+  if (geo.fixes_used !== null) rows.push(["Fixes used", formatCount(geo.fixes_used)]);
+  if (geo.fixes_rejected !== null) rows.push(["Fixes rejected", formatCount(geo.fixes_rejected)]);
+  if (geo.residual_rms_m !== null) rows.push(["Residual of the fixes, RMS", formatWithUnit(geo.residual_rms_m, "m")]);
   return el(
     "section",
     {},

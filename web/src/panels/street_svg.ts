@@ -21,9 +21,9 @@ export function streetSvg(run: RunData, street: StreetShape): string {
   const image = isPicture(street.image) ? street.image : "";
   // Rows of the image go along z, which is up in the picture.
   const place = `translate(${MARGIN} ${picture - MARGIN}) scale(${scale.toFixed(6)} ${(-scale).toFixed(6)})`;
-  const bar = cellSize(((SIZE / scale) * street.cell) / 2);
+  const bar = cellSize(((SIZE / scale) * street.cell_m) / 2);
   const base = picture + 18;
-  const right = (MARGIN + (bar / street.cell) * scale).toFixed(1);
+  const right = (MARGIN + (bar / street.cell_m) * scale).toFixed(1);
   const parts = [
     `<svg xmlns="http://www.w3.org/2000/svg" width="${Math.max(width, 320)}" height="${height}" font-family="sans-serif" font-size="13">`,
     `<rect width="100%" height="100%" fill="#ffffff"/>`,
@@ -44,7 +44,7 @@ export function streetSvg(run: RunData, street: StreetShape): string {
 
 /** The trajectory of the main component in pixels of the image. */
 function pathOf(run: RunData, street: StreetShape): string {
-  const R = street.rotation;
+  const R = street.R_plan_map;
   const main = mainComponent(run);
   let path = "";
   let before = false;
@@ -52,8 +52,8 @@ function pathOf(run: RunData, street: StreetShape): string {
     const posed = isPosed(run, row, main);
     if (posed) {
       const [x, y, z] = positionAt(run.frames.pose, row);
-      const u = (R[0] * x + R[1] * y + R[2] * z - street.low[0]) / street.cell;
-      const v = (R[6] * x + R[7] * y + R[8] * z - street.low[1]) / street.cell;
+      const u = (R[0] * x + R[1] * y + R[2] * z - street.low_m[0]) / street.cell_m;
+      const v = (R[6] * x + R[7] * y + R[8] * z - street.low_m[1]) / street.cell_m;
       path += `${before ? "L" : "M"}${u.toFixed(1)} ${v.toFixed(1)}`;
     }
     before = posed;

@@ -173,7 +173,7 @@ TEST_F(ReportCommand, HasThePositionOnTheEarth) {
   };
   EXPECT_EQ((report(arguments), data()["runs"][0]["georeference"]), nullptr);
   arguments.force = true;
-  write_earth("town-run/georeference", "0 0 0 0 0 0 0 1\n1 0 0 5 0 0 0 1\n");
+  write_earth("town-run/georeference", "0 0 0 0 0 0 0 1\n1 0 5 0 0 0 0 1\n");
   report(arguments);
   const json earth = data()["runs"][0]["georeference"];
   EXPECT_EQ(earth["fixes_used"], 12);

@@ -95,6 +95,10 @@ TYPED_TEST(PoseMarginalsOf, CarryRelativePosesThroughTheJacobianOfTheirError) {
   const PoseGraph graph = walk<Group>(12, random);
   const Eigen::MatrixXd dense = dense_covariance<Group>(graph);
   const PoseMarginals marginals(graph);
+  const std::vector<Information> by_node = marginals.covariances();
+  ASSERT_EQ(by_node.size(), graph.nodes.size());
+  for (std::size_t i = 0; i < by_node.size(); ++i)
+    EXPECT_LT((by_node[i] - marginals.covariance(graph.nodes[i].id)).norm(), 1e-9 * dense.norm());
   const std::vector<Information> by_constraint = marginals.constraint_covariances();
   const auto expected = [&](int i, int j) {
     // d T_from_to by both poses is the Jacobian of the error of a constraint that fits exactly.
