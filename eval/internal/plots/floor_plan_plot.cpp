@@ -44,25 +44,34 @@ void add_room(const IndoorRoom& room, Colour colour, std::vector<FigureShape>& s
   shapes.emplace_back(std::move(area));
 }
 
-double area_of(const IndoorMap& plan, const std::optional<int>& room) {
-  if (!room || *room < 0 || static_cast<std::size_t>(*room) >= plan.rooms.size()) return 0;
-  return plan.rooms[static_cast<std::size_t>(*room)].area_m2;
+/// Whether a line from the point upwards crosses the ring an odd number of times.
+bool is_within(const std::vector<Vector2d>& ring, const Vector2d& p) {
+  bool within = false;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Vector2d &a = ring[i], &b = ring[(i + 1) % ring.size()];
+    if ((a[0] > p[0]) == (b[0] > p[0])) continue;
+    within ^= p[1] < a[1] + (p[0] - a[0]) / (b[0] - a[0]) * (b[1] - a[1]);
+  }
+  return within;
 }
 
-Vector2d middle_of(const std::vector<Vector2d>& outline) {
-  Vector2d sum = Vector2d::Zero();
-  for (const Vector2d& p : outline) sum += p;
-  return sum / std::max<double>(1, static_cast<double>(outline.size()));
+/// Area of the room at a point; 0 if there is none.
+double area_at(const IndoorMap& plan, const Vector2d& p) {
+  for (const IndoorRoom& room : plan.rooms)
+    if (is_within(room.outline, p) &&
+        std::ranges::none_of(room.holes, [&](const auto& hole) { return is_within(hole, p); }))
+      return room.area_m2;
+  return 0;
 }
 
 /// The unit normal of a door towards the larger of its rooms, where a leaf has room.
 Vector2d swing_side(const IndoorMap& plan, const IndoorDoor& door) {
-  const Vector2d axis = (door.b - door.a).normalized(), normal(-axis[1], axis[0]);
-  const std::optional<int>& larger =
-      area_of(plan, door.rooms[0]) >= area_of(plan, door.rooms[1]) ? door.rooms[0] : door.rooms[1];
-  if (area_of(plan, larger) == 0) return normal;
-  const Vector2d middle = middle_of(plan.rooms[static_cast<std::size_t>(*larger)].outline);
-  return normal.dot(middle - door.a) < 0 ? Vector2d(-normal) : normal;
+  const Vector2d axis = (door.b - door.a).normalized(), normal(-axis[1], axis[0]),
+                 middle = 0.5 * (door.a + door.b);
+  constexpr double kBeside_m = 0.4;
+  return area_at(plan, middle + kBeside_m * normal) >= area_at(plan, middle - kBeside_m * normal)
+             ? normal
+             : Vector2d(-normal);
 }
 
 void add_door(const IndoorMap& plan, const IndoorDoor& door, std::vector<FigureShape>& shapes) {
@@ -131,13 +140,13 @@ std::string floor_plan_svg(const IndoorMap& plan, const FloorPlanPicture& pictur
   if (picture.truth) add_truth(*picture.truth, shapes);
   for (const IndoorWall& wall : plan.walls)
     shapes.emplace_back(line_through({wall.a, wall.b}, {kWall, 4}));
-  for (const IndoorDoor& door : plan.doors) add_door(plan, door, shapes);
   if (picture.path.size() > 1)
     shapes.emplace_back(line_through(picture.path, {kPlanPath, 1.3, 0.8}));
   for (const IndoorRoom& room : plan.rooms)
     if (!room.outline.empty())
       shapes.emplace_back(
           FigureText{name_at(room), fmt::format("{}\n{:.1f} m²", room.label, room.area_m2)});
+  for (const IndoorDoor& door : plan.doors) add_door(plan, door, shapes);
   Figure figure;
   figure.title = picture.title;
   figure.notes = {fmt::format("floor plan: {} room{}, {:.1f} m²", plan.rooms.size(),
