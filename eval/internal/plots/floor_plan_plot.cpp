@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace placegraph {
@@ -89,13 +90,44 @@ void add_door(const IndoorMap& plan, const IndoorDoor& door, std::vector<FigureS
   if (door.closed) shapes.emplace_back(line_through({door.a, door.b}, {kDoor, 4}));
 }
 
-/// A point of the room for its name: the middle of its outline, or of its longest edge moved inside
-/// where there is a hole.
-Vector2d name_at(const IndoorRoom& room) {
+double distance_to(const Vector2d& p, const Vector2d& a, const Vector2d& b) {
+  const Vector2d along = b - a;
+  const double length2 = along.squaredNorm(),
+               share = length2 > 0 ? std::clamp((p - a).dot(along) / length2, 0.0, 1.0) : 0;
+  return (p - a - share * along).norm();
+}
+
+/// Distance from a point of a room to its outline, its holes and the doors, with their leaves.
+double room_around(const IndoorMap& plan, const IndoorRoom& room, const Vector2d& p) {
+  double distance = std::numeric_limits<double>::infinity();
+  const auto keep_off = [&](const std::vector<Vector2d>& ring) {
+    for (std::size_t i = 0; i < ring.size(); ++i)
+      distance = std::min(distance, distance_to(p, ring[i], ring[(i + 1) % ring.size()]));
+  };
+  keep_off(room.outline);
+  std::ranges::for_each(room.holes, keep_off);
+  for (const IndoorDoor& door : plan.doors)
+    distance = std::min(distance, distance_to(p, door.a, door.b) - 0.5 * (door.b - door.a).norm());
+  return distance;
+}
+
+/// The point of a room with the most room around it, for its name.
+Vector2d name_at(const IndoorMap& plan, const IndoorRoom& room) {
   Vector2d low = room.outline.front(), high = low;
   for (const Vector2d& p : room.outline) low = low.cwiseMin(p), high = high.cwiseMax(p);
-  if (room.holes.empty()) return 0.5 * (low + high);
-  return {0.5 * (low[0] + high[0]), low[1] + 0.5};
+  constexpr int kSteps = 41;
+  Vector2d best = 0.5 * (low + high);
+  double most = 0;
+  for (int i = 1; i < kSteps; ++i)
+    for (int k = 1; k < kSteps; ++k) {
+      const Vector2d p(low[0] + (high[0] - low[0]) * i / kSteps,
+                       low[1] + (high[1] - low[1]) * k / kSteps);
+      const double around = is_within(room.outline, p) ? room_around(plan, room, p) : 0;
+      const bool in_hole =
+          std::ranges::any_of(room.holes, [&](const auto& hole) { return is_within(hole, p); });
+      if (!in_hole && around > most) most = around, best = p;
+    }
+  return best;
 }
 
 void set_ranges(const IndoorMap& plan, const FloorPlanPicture& picture, FigurePanel& panel) {
@@ -145,7 +177,7 @@ std::string floor_plan_svg(const IndoorMap& plan, const FloorPlanPicture& pictur
   for (const IndoorRoom& room : plan.rooms)
     if (!room.outline.empty())
       shapes.emplace_back(
-          FigureText{name_at(room), fmt::format("{}\n{:.1f} m²", room.label, room.area_m2)});
+          FigureText{name_at(plan, room), fmt::format("{}\n{:.1f} m²", room.label, room.area_m2)});
   for (const IndoorDoor& door : plan.doors) add_door(plan, door, shapes);
   Figure figure;
   figure.title = picture.title;
