@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace placegraph {
@@ -44,25 +45,34 @@ void add_room(const IndoorRoom& room, Colour colour, std::vector<FigureShape>& s
   shapes.emplace_back(std::move(area));
 }
 
-double area_of(const IndoorMap& plan, const std::optional<int>& room) {
-  if (!room || *room < 0 || static_cast<std::size_t>(*room) >= plan.rooms.size()) return 0;
-  return plan.rooms[static_cast<std::size_t>(*room)].area_m2;
+/// Whether a line from the point upwards crosses the ring an odd number of times.
+bool is_within(const std::vector<Vector2d>& ring, const Vector2d& p) {
+  bool within = false;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Vector2d &a = ring[i], &b = ring[(i + 1) % ring.size()];
+    if ((a[0] > p[0]) == (b[0] > p[0])) continue;
+    within ^= p[1] < a[1] + (p[0] - a[0]) / (b[0] - a[0]) * (b[1] - a[1]);
+  }
+  return within;
 }
 
-Vector2d middle_of(const std::vector<Vector2d>& outline) {
-  Vector2d sum = Vector2d::Zero();
-  for (const Vector2d& p : outline) sum += p;
-  return sum / std::max<double>(1, static_cast<double>(outline.size()));
+/// Area of the room at a point; 0 if there is none.
+double area_at(const IndoorMap& plan, const Vector2d& p) {
+  for (const IndoorRoom& room : plan.rooms)
+    if (is_within(room.outline, p) &&
+        std::ranges::none_of(room.holes, [&](const auto& hole) { return is_within(hole, p); }))
+      return room.area_m2;
+  return 0;
 }
 
 /// The unit normal of a door towards the larger of its rooms, where a leaf has room.
 Vector2d swing_side(const IndoorMap& plan, const IndoorDoor& door) {
-  const Vector2d axis = (door.b - door.a).normalized(), normal(-axis[1], axis[0]);
-  const std::optional<int>& larger =
-      area_of(plan, door.rooms[0]) >= area_of(plan, door.rooms[1]) ? door.rooms[0] : door.rooms[1];
-  if (area_of(plan, larger) == 0) return normal;
-  const Vector2d middle = middle_of(plan.rooms[static_cast<std::size_t>(*larger)].outline);
-  return normal.dot(middle - door.a) < 0 ? Vector2d(-normal) : normal;
+  const Vector2d axis = (door.b - door.a).normalized(), normal(-axis[1], axis[0]),
+                 middle = 0.5 * (door.a + door.b);
+  constexpr double kBeside_m = 0.4;
+  return area_at(plan, middle + kBeside_m * normal) >= area_at(plan, middle - kBeside_m * normal)
+             ? normal
+             : Vector2d(-normal);
 }
 
 void add_door(const IndoorMap& plan, const IndoorDoor& door, std::vector<FigureShape>& shapes) {
@@ -80,13 +90,44 @@ void add_door(const IndoorMap& plan, const IndoorDoor& door, std::vector<FigureS
   if (door.closed) shapes.emplace_back(line_through({door.a, door.b}, {kDoor, 4}));
 }
 
-/// A point of the room for its name: the middle of its outline, or of its longest edge moved inside
-/// where there is a hole.
-Vector2d name_at(const IndoorRoom& room) {
+double distance_to(const Vector2d& p, const Vector2d& a, const Vector2d& b) {
+  const Vector2d along = b - a;
+  const double length2 = along.squaredNorm(),
+               share = length2 > 0 ? std::clamp((p - a).dot(along) / length2, 0.0, 1.0) : 0;
+  return (p - a - share * along).norm();
+}
+
+/// Distance from a point of a room to its outline, its holes and the doors, with their leaves.
+double room_around(const IndoorMap& plan, const IndoorRoom& room, const Vector2d& p) {
+  double distance = std::numeric_limits<double>::infinity();
+  const auto keep_off = [&](const std::vector<Vector2d>& ring) {
+    for (std::size_t i = 0; i < ring.size(); ++i)
+      distance = std::min(distance, distance_to(p, ring[i], ring[(i + 1) % ring.size()]));
+  };
+  keep_off(room.outline);
+  std::ranges::for_each(room.holes, keep_off);
+  for (const IndoorDoor& door : plan.doors)
+    distance = std::min(distance, distance_to(p, door.a, door.b) - 0.5 * (door.b - door.a).norm());
+  return distance;
+}
+
+/// The point of a room with the most room around it, for its name.
+Vector2d name_at(const IndoorMap& plan, const IndoorRoom& room) {
   Vector2d low = room.outline.front(), high = low;
   for (const Vector2d& p : room.outline) low = low.cwiseMin(p), high = high.cwiseMax(p);
-  if (room.holes.empty()) return 0.5 * (low + high);
-  return {0.5 * (low[0] + high[0]), low[1] + 0.5};
+  constexpr int kSteps = 41;
+  Vector2d best = 0.5 * (low + high);
+  double most = 0;
+  for (int i = 1; i < kSteps; ++i)
+    for (int k = 1; k < kSteps; ++k) {
+      const Vector2d p(low[0] + (high[0] - low[0]) * i / kSteps,
+                       low[1] + (high[1] - low[1]) * k / kSteps);
+      const double around = is_within(room.outline, p) ? room_around(plan, room, p) : 0;
+      const bool in_hole =
+          std::ranges::any_of(room.holes, [&](const auto& hole) { return is_within(hole, p); });
+      if (!in_hole && around > most) most = around, best = p;
+    }
+  return best;
 }
 
 void set_ranges(const IndoorMap& plan, const FloorPlanPicture& picture, FigurePanel& panel) {
@@ -131,13 +172,13 @@ std::string floor_plan_svg(const IndoorMap& plan, const FloorPlanPicture& pictur
   if (picture.truth) add_truth(*picture.truth, shapes);
   for (const IndoorWall& wall : plan.walls)
     shapes.emplace_back(line_through({wall.a, wall.b}, {kWall, 4}));
-  for (const IndoorDoor& door : plan.doors) add_door(plan, door, shapes);
   if (picture.path.size() > 1)
     shapes.emplace_back(line_through(picture.path, {kPlanPath, 1.3, 0.8}));
   for (const IndoorRoom& room : plan.rooms)
     if (!room.outline.empty())
       shapes.emplace_back(
-          FigureText{name_at(room), fmt::format("{}\n{:.1f} m²", room.label, room.area_m2)});
+          FigureText{name_at(plan, room), fmt::format("{}\n{:.1f} m²", room.label, room.area_m2)});
+  for (const IndoorDoor& door : plan.doors) add_door(plan, door, shapes);
   Figure figure;
   figure.title = picture.title;
   figure.notes = {fmt::format("floor plan: {} room{}, {:.1f} m²", plan.rooms.size(),

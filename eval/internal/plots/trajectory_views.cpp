@@ -119,16 +119,16 @@ Vector2d size_of(const FigurePanel& panel, const Vector2d& most_px) {
       .cwiseMin(most_px);
 }
 
-/// How many pixels the third axis gets, which is stretched if it is small and says so.
-double third_size_px(FigureAxis& axis, double px_per_unit, double least_px, double most_px) {
+/// How many pixels the third axis gets, and a remark if it is stretched for that.
+std::pair<double, std::string> third_size(const FigureAxis& axis, double px_per_unit,
+                                          double least_px) {
+  constexpr double kMost_px = 640;
   const double equal_px = axis.range.size() * px_per_unit,
-               size_px = std::clamp(equal_px, least_px, most_px), factor = size_px / equal_px;
+               size_px = std::clamp(equal_px, least_px, kMost_px), factor = size_px / equal_px;
   constexpr double kEqual = 0.05, kMost = 100;
-  if (factor < 1 - kEqual || factor > kMost)
-    axis.label += ", not to scale";
-  else if (factor > 1 + kEqual)
-    axis.label += fmt::format(", stretched {:.2g}x", factor);
-  return size_px;
+  if (factor < 1 - kEqual || factor > kMost) return {size_px, "not to scale"};
+  if (factor > 1 + kEqual) return {size_px, fmt::format("stretched {:.2g}x", factor)};
+  return {size_px, ""};
 }
 
 }  // namespace
@@ -172,17 +172,21 @@ TrajectoryViews trajectory_views(const Plot& plot, const Vector2d& most_px) {
   side.labels.clear();
   side.scale.reset();
   side.heading = "from the side";
-  constexpr double kLeastLow_px = 110, kMostSide_px = 640;
+  constexpr double kLeastLow_px = 110;
+  const auto [third_px, remark] =
+      third_size(below ? side.y : side.x, px_per_unit, below ? kLeastLow_px : kLeastSide_px);
   if (below) {
+    if (!remark.empty()) side.heading += fmt::format(", {} {}", side.y.label.front(), remark);
     side.x.range = above.x.range;
-    side.size = {above.size[0], third_size_px(side.y, px_per_unit, kLeastLow_px, kMostSide_px)};
+    side.size = {above.size[0], third_px};
     side.corner = {kLeftMargin, views.height_px + kTopMargin};
-    views.height_px += kTopMargin + side.size[1] + kBottomMargin;
+    views.height_px += kTopMargin + third_px + kBottomMargin;
   } else {
+    if (!remark.empty()) side.x.label += ", " + remark;
     side.y.range = above.y.range;
-    side.size = {third_size_px(side.x, px_per_unit, kLeastSide_px, kMostSide_px), above.size[1]};
+    side.size = {third_px, above.size[1]};
     side.corner = {views.width_px + kLeftMargin, kTopMargin};
-    views.width_px += kLeftMargin + side.size[0] + kRightMargin;
+    views.width_px += kLeftMargin + third_px + kRightMargin;
   }
   views.side = std::move(side);
   return views;
