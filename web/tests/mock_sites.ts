@@ -178,7 +178,11 @@ export class RunSite implements Site {
   private id = 0;
   private timer: NodeJS.Timeout | undefined;
 
-  constructor(private readonly frameMs = 60) {
+  /** The run waits when `holdAt` frames are done. */
+  constructor(
+    private readonly frameMs = 60,
+    private holdAt = Infinity,
+  ) {
     this.timer = setTimeout(() => this.tick(), 800);
   }
 
@@ -213,15 +217,21 @@ export class RunSite implements Site {
     this.streams.clear();
   }
 
+  /** The run goes on to its end. */
+  release(): void {
+    this.holdAt = Infinity;
+  }
+
   /** The run begins again. */
-  reset(): void {
+  reset(holdAt: number): void {
+    this.holdAt = holdAt;
     this.done = 0;
     this.moved = false;
     this.send("reset", { version: ++this.version });
   }
 
   private tick(): void {
-    if (!this.paused) this.frame();
+    if (!this.paused && this.done < this.holdAt) this.frame();
     if (!this.finished) this.timer = setTimeout(() => this.tick(), this.frameMs);
   }
 
