@@ -165,7 +165,7 @@ export class ViewSite implements Site {
   }
 }
 
-/** A run of 60 frames, one each `frameMs`, after a slow start. Frame 20 and 21 are lost; at 40 a loop closes and the map moves. */
+/** A run of 60 frames, one each `frameMs`, with a slow start when somebody first follows it. Frame 20 and 21 are lost; at 40 a loop closes and the map moves. */
 export class RunSite implements Site {
   readonly start = { kind: "run" as const, title: "town", editable: false };
   private readonly run = decodeReport(sampleReport([runWith(LOOPS)])).runs[0];
@@ -182,9 +182,7 @@ export class RunSite implements Site {
   constructor(
     private readonly frameMs = 60,
     private holdAt = Infinity,
-  ) {
-    this.timer = setTimeout(() => this.tick(), 800);
-  }
+  ) {}
 
   answer(method: string, path: string, body: unknown): Answer | null {
     switch (path) {
@@ -203,6 +201,7 @@ export class RunSite implements Site {
   stream(response: ServerResponse): void {
     this.streams.add(response);
     response.write(": begin\n\n");
+    this.timer ??= setTimeout(() => this.tick(), 800);
     response.on("close", () => this.streams.delete(response));
   }
 

@@ -151,7 +151,7 @@ export class LivePage {
   private async control(action: Control): Promise<void> {
     try {
       const json = asObject(await postJson("control", { action }), "The answer");
-      this.run.paused = asBoolean(json["paused"], "paused");
+      this.run.setPaused(asBoolean(json["paused"], "paused"));
       this.say("");
     } catch (error) {
       this.say(error instanceof Error ? error.message : "The run cannot be controlled.");

@@ -69,7 +69,7 @@ describe("a run that goes on", () => {
     const page = await follow(site);
     await until(page, `${DONE} === 30`);
     await page.keyboard.press("h");
-    const follows = page.getByRole("button", { name: "Follow" });
+    const follows = page.locator(".tools button", { hasText: "Follow" });
     expect(await follows.getAttribute("aria-pressed")).toBe("true");
     const colours = new Set((await smallScene(page)).rgb);
     expect(colours.size).toBeGreaterThan(20);
