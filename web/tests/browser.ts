@@ -21,7 +21,7 @@ export function launch(): Promise<Browser> {
 
 /** Waits until an expression is true; unlike waitForFunction it works under the policy of the page. */
 export async function until(page: Page, expression: string): Promise<void> {
-  for (const end = Date.now() + PATIENCE_MS; Date.now() < end; ) {
+  for (const end = Date.now() + PATIENCE_MS; Date.now() < end;) {
     if ((await page.evaluate(expression)) === true) return;
     await page.waitForTimeout(100);
   }
