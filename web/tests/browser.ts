@@ -4,6 +4,9 @@ import { type Browser, type Page, chromium } from "playwright-core";
 
 export const CHROMIUM = "/usr/bin/chromium";
 
+/** Graphics in software on a machine that does other things too are slow. */
+const PATIENCE_MS = 90000;
+
 export function hasChromium(): boolean {
   return existsSync(CHROMIUM);
 }
@@ -18,7 +21,7 @@ export function launch(): Promise<Browser> {
 
 /** Waits until an expression is true; unlike waitForFunction it works under the policy of the page. */
 export async function until(page: Page, expression: string): Promise<void> {
-  for (let tries = 0; tries < 300; tries++) {
+  for (const end = Date.now() + PATIENCE_MS; Date.now() < end;) {
     if ((await page.evaluate(expression)) === true) return;
     await page.waitForTimeout(100);
   }
@@ -57,6 +60,7 @@ export async function open(browser: Browser, url: string, options: PageOptions =
     colorScheme: options.scheme ?? "dark",
     hasTouch: options.touch ?? false,
   });
+  page.setDefaultTimeout(PATIENCE_MS);
   if (options.flat) {
     await page.addInitScript(`{
       const original = HTMLCanvasElement.prototype.getContext;

@@ -168,7 +168,7 @@ export class ViewSite implements Site {
   }
 }
 
-/** A run of 60 frames, one each `frameMs`, after a slow start. Frame 20 and 21 are lost; at 40 a loop closes and the map moves. */
+/** A run of 60 frames, one each `frameMs`, with a slow start when somebody first follows it. Frame 20 and 21 are lost; at 40 a loop closes and the map moves. */
 export class RunSite implements Site {
   readonly start = { kind: "run" as const, title: "town", editable: false };
   private readonly run = decodeReport(sampleReport([runWith(LOOPS)])).runs[0];
@@ -181,9 +181,11 @@ export class RunSite implements Site {
   private id = 0;
   private timer: NodeJS.Timeout | undefined;
 
-  constructor(private readonly frameMs = 60) {
-    this.timer = setTimeout(() => this.tick(), 800);
-  }
+  /** The run waits when `holdAt` frames are done. */
+  constructor(
+    private readonly frameMs = 60,
+    private holdAt = Infinity,
+  ) {}
 
   answer(method: string, path: string, body: unknown): Answer | null {
     switch (path) {
@@ -202,6 +204,7 @@ export class RunSite implements Site {
   stream(response: ServerResponse): void {
     this.streams.add(response);
     response.write(": begin\n\n");
+    this.timer ??= setTimeout(() => this.tick(), 800);
     response.on("close", () => this.streams.delete(response));
   }
 
@@ -216,15 +219,21 @@ export class RunSite implements Site {
     this.streams.clear();
   }
 
+  /** The run goes on to its end. */
+  release(): void {
+    this.holdAt = Infinity;
+  }
+
   /** The run begins again. */
-  reset(): void {
+  reset(holdAt: number): void {
+    this.holdAt = holdAt;
     this.done = 0;
     this.moved = false;
     this.send("reset", { version: ++this.version });
   }
 
   private tick(): void {
-    if (!this.paused) this.frame();
+    if (!this.paused && this.done < this.holdAt) this.frame();
     if (!this.finished) this.timer = setTimeout(() => this.tick(), this.frameMs);
   }
 

@@ -55,7 +55,7 @@ export class LivePage {
     this.connection = new Connection(this.run, (event) => {
       if (event) this.panel.note(event);
       if (event?.kind === "loop" && event.loop.accepted)
-        this.scene?.noteLoop(`${event.loop.query} ${event.loop.match}`);
+        this.scene?.map.noteLoop(`${event.loop.query} ${event.loop.match}`);
       if (event?.kind === "frame" || event === null) this.panel.image.wake();
       if (!this.closed) this.updateSoon();
     });
@@ -151,7 +151,7 @@ export class LivePage {
   private async control(action: Control): Promise<void> {
     try {
       const json = asObject(await postJson("control", { action }), "The answer");
-      this.run.paused = asBoolean(json["paused"], "paused");
+      this.run.setPaused(asBoolean(json["paused"], "paused"));
       this.say("");
     } catch (error) {
       this.say(error instanceof Error ? error.message : "The run cannot be controlled.");

@@ -30,6 +30,7 @@ export class LiveRun {
   /** The least version that a snapshot must have. */
   private wanted = 0;
   private old = true;
+  private pauseKnown = false;
 
   /** Whether a snapshot is needed. */
   get stale(): boolean {
@@ -51,8 +52,7 @@ export class LiveRun {
         this.stages = event.stages;
         return;
       case "control":
-        this.paused = event.paused;
-        return;
+        return this.setPaused(event.paused);
       case "done":
         this.phase = "done";
         this.verdict = event.verdict;
@@ -62,6 +62,13 @@ export class LiveRun {
   /** The stream had a gap: what it would have told is in the next snapshot. */
   markStale(): void {
     this.old = true;
+    this.pauseKnown = false;
+  }
+
+  /** The program has said whether it is paused, which holds against a snapshot that may be older. */
+  setPaused(paused: boolean): void {
+    this.paused = paused;
+    this.pauseKnown = true;
   }
 
   /** Takes a snapshot; returns false, and stays stale, if it is older than what the events have told of. */
@@ -75,7 +82,7 @@ export class LiveRun {
     for (const loop of snapshot.loops) this.addLoop(loop);
     this.total = Math.max(this.total, snapshot.total);
     this.done = Math.max(this.done, snapshot.done);
-    this.paused = snapshot.paused;
+    if (!this.pauseKnown) this.paused = snapshot.paused;
     if (snapshot.finished) this.phase = "done";
     this.moves++;
     return true;

@@ -156,6 +156,19 @@ describe("a run that goes on", () => {
     expect(positions(run)).toEqual([9]);
   });
 
+  it("is paused as its events say, whatever an older snapshot says", () => {
+    const run = new LiveRun();
+    const paused = { ...snapshot(0, []), paused: true };
+    run.take(paused);
+    expect(run.paused).toBe(true);
+    run.apply({ kind: "control", paused: false });
+    run.take(paused);
+    expect(run.paused).toBe(false);
+    run.markStale();
+    run.take(paused);
+    expect(run.paused).toBe(true);
+  });
+
   it("is done by an event or by a snapshot, and runs again after a reset", () => {
     const run = new LiveRun();
     run.take(snapshot(0, [0], true));
