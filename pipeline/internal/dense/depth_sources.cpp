@@ -106,8 +106,9 @@ class SweepDepth final : public DepthFromImages {
   SweepDepth(PosedImages images, const DepthRange& range)
       : DepthFromImages(std::move(images)), median_(range.median) {
     // The sweep's options are in metres: its unit is a tenth of the median depth.
-    options_.min_depth_m = 0.5 * range.near / unit();
-    options_.max_depth_m = 2 * range.far / unit();
+    constexpr double kNearest_m = 0.1, kFarthest_m = 1000;  // a hundredth and 100 of the median
+    options_.min_depth_m = std::max(0.5 * range.near / unit(), kNearest_m);
+    options_.max_depth_m = std::min(2 * range.far / unit(), kFarthest_m);
     constexpr int kMostPixels = 150'000;
     int width = calibration().camera.width, height = calibration().camera.height;
     while (width * height > kMostPixels) width /= 2, height /= 2;

@@ -124,6 +124,15 @@ TEST(DepthSources, SweepFindsTheWallAtAnyScale) {
   }
 }
 
+TEST(DepthSources, SweepBoundsARangeOfFalseLandmarks) {
+  const WallMap wall;
+  DepthRange range = depth_range_of(wall.geometry);
+  range.near *= 1e-6;
+  range.far *= 1e6;
+  const auto source = depth_by_sweep(wall.images, range);
+  EXPECT_GT(share_at(source->of(2).depth, kWall), 0.02);  // the planes are few for the range
+}
+
 TEST(DepthSources, NeedWhatTheyAreMadeOf) {
   const WallMap wall;
   const DepthRange range = depth_range_of(wall.geometry);
