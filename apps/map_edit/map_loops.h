@@ -25,7 +25,7 @@ struct MapLoopsResult {
   std::string out;
   std::vector<std::string> edits;   ///< what was done, in sentences
   std::size_t loops = 0;            ///< accepted loops of the edited map
-  std::optional<MapMotion> motion;  ///< of the optimization
+  std::optional<MapMotion> motion;  ///< how far the optimization moved the map
 };
 
 /// Edits loops of a saved map and writes it as a new one: `placegraph map loops`.

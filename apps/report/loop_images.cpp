@@ -13,7 +13,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "apps/report/column.h"
+#include "apps/page/column.h"
 #include "apps/report/report_loops.h"
 #include "apps/support/output.h"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "apps/report/column.h"
+#include "apps/page/column.h"
 
 namespace placegraph::apps {
 

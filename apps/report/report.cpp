@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "apps/report/page.h"
+#include "apps/page/page.h"
 #include "apps/report/parts.h"
 #include "apps/report/report_run.h"
 #include "apps/support/output.h"

@@ -10,8 +10,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "apps/report/column.h"
-#include "apps/report/page.h"
+#include "apps/page/column.h"
+#include "apps/page/page.h"
 #include "apps/report/parts.h"
 #include "apps/support/output.h"
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "apps/report/column.h"
+#include "apps/page/column.h"
 #include "apps/results/semantic_map_files.h"
 #include "apps/support/json_file.h"
 

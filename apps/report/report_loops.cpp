@@ -8,9 +8,9 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "apps/report/column.h"
+#include "apps/page/column.h"
+#include "apps/page/page.h"
 #include "apps/report/loop_images.h"
-#include "apps/report/page.h"
 #include "apps/report/parts.h"
 #include "apps/support/output.h"
 

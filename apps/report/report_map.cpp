@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 #include <unordered_map>
 
-#include "apps/report/column.h"
-#include "apps/report/landmark_rows.h"
+#include "apps/page/column.h"
+#include "apps/page/landmark_rows.h"
 #include "apps/report/parts.h"
 
 namespace placegraph::apps {

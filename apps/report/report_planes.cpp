@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "apps/report/column.h"
+#include "apps/page/column.h"
 
 namespace placegraph::apps {
 namespace {

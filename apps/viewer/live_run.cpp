@@ -6,7 +6,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "apps/report/column.h"
+#include "apps/page/column.h"
 #include "apps/viewer/jpeg_url.h"
 
 namespace placegraph::apps {

@@ -11,8 +11,8 @@
 #include <optional>
 #include <unordered_map>
 
-#include "apps/report/column.h"
-#include "apps/report/landmark_rows.h"
+#include "apps/page/column.h"
+#include "apps/page/landmark_rows.h"
 #include "apps/report/report.h"
 #include "apps/report/report_run.h"
 #include "apps/results/map_file.h"

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/report/page.h"
+#include "apps/page/page.h"
 #include "apps/support/output.h"
 
 namespace placegraph::apps {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/eval/trajectory/evaluate.h>
 
-#include "apps/report/column.h"
+#include "apps/page/column.h"
 #include "tests/support/report_page.h"
 #include "tests/support/trajectories.h"
 

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/report/column.h"
+#include "apps/page/column.h"
 #include "tests/support/report_page.h"
 
 namespace placegraph::apps {

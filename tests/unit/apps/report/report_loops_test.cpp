@@ -8,7 +8,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "apps/report/column.h"
+#include "apps/page/column.h"
 #include "tests/support/random_map.h"
 #include "tests/support/report_page.h"
 

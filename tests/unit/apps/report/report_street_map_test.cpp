@@ -7,7 +7,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "apps/report/column.h"
+#include "apps/page/column.h"
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph::apps {

@@ -11,8 +11,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "apps/report/column.h"
-#include "apps/report/page.h"
+#include "apps/page/column.h"
+#include "apps/page/page.h"
 #include "tests/support/message_of.h"
 #include "tests/support/random_map.h"
 #include "tests/support/report_page.h"

@@ -1,4 +1,4 @@
-#include "apps/report/column.h"
+#include "apps/page/column.h"
 
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>

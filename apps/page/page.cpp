@@ -1,4 +1,4 @@
-#include "apps/report/page.h"
+#include "apps/page/page.h"
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>

@@ -1,4 +1,4 @@
-#include "apps/report/column.h"
+#include "apps/page/column.h"
 
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/internal/exports/base64.h>
