@@ -23,8 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string extension_of(const std::string& path) { return fs::path(path).extension().string(); }
-
 bool is_video(const std::string& path) {
   const std::string extension = extension_of(path);
   return extension == ".avi" || extension == ".mp4";

@@ -46,10 +46,6 @@ struct WrittenForm {
       write;
 };
 
-std::string extension_of(const std::string& path) {
-  return std::filesystem::path(path).extension().string();
-}
-
 /// Graphs, trajectories and places.
 std::vector<WrittenForm> graph_forms() {
   const auto trajectory = [](TrajectoryFormat format) {

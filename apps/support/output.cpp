@@ -89,6 +89,10 @@ OutputFolder::~OutputFolder() {
   if (locked_ >= 0) ::close(locked_);
 }
 
+std::string extension_of(const std::string& path) {
+  return std::filesystem::path(path).extension().string();
+}
+
 void write_file(const std::string& path, const std::string& content) {
   AtomicFile file(path);
   file.stream().write(content.data(), static_cast<std::streamsize>(content.size()));

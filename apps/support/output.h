@@ -43,6 +43,9 @@ class OutputFolder {
   int locked_ = -1;                ///< descriptor of the folder; its lock ends with it
 };
 
+/// The extension of a file name with its dot; empty if there is none.
+std::string extension_of(const std::string& path);
+
 /// Writes a whole file, atomically; bytes as they are. Throws FileError.
 void write_file(const std::string& path, const std::string& content);
 
