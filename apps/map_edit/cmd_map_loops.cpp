@@ -34,6 +34,7 @@ void add_edit(CLI::App& loops, const char* name, LoopEdit edit, const char* what
 
 void add_map_loops_commands(CLI::App& map) {
   CLI::App* loops = map.add_subcommand("loops", "Edit the loops of a saved map by hand");
+  loops->footer("placegraph map loops refuse out/town-run 612:40 --out mended.db");
   loops->require_subcommand(1);
   add_edit(*loops, "refuse", LoopEdit::kRefuse, "Remove accepted loops and optimize the map again");
   add_edit(*loops, "accept", LoopEdit::kAccept,

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "apps/support/output.h"
 #include "tests/support/message_of.h"
@@ -68,7 +69,9 @@ TEST_F(MapExportCommand, WritesEveryFormThatNeedsNoImages) {
   std::vector<std::string> paths;
   for (std::size_t i = 0; i < arguments.paths.size(); ++i) {
     const std::string flag = map_export_forms()[i].flag;
-    if (flag == "--colmap" || flag == "--nerf") continue;
+    const std::set<std::string> kOfImages = {"--colmap", "--nerf", "--cloud", "--mesh",
+                                             "--undistorted"};
+    if (kOfImages.contains(flag)) continue;
     arguments.paths[i] = folder / ("part" + flag + (flag == "--gltf" ? ".glb" : ""));
     paths.push_back(arguments.paths[i]);
   }
