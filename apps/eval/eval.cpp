@@ -168,6 +168,7 @@ std::vector<PlotFile> plot_files(const EvalArguments& arguments) {
 }
 
 void check_outputs(const EvalArguments& arguments) {
+  if (!arguments.report.empty()) require_page_name(arguments.report);
   require(arguments.report.empty() ||
               (arguments.report != arguments.csv && arguments.report != arguments.latex &&
                arguments.report != arguments.plot),
@@ -181,13 +182,17 @@ void check_outputs(const EvalArguments& arguments) {
 
 void write_outputs(const EvalArguments& arguments, const EvalResult& result) {
   const EvaluatedTruth truth = result.folders ? EvaluatedTruth::kOwn : EvaluatedTruth::kShared;
-  std::vector<std::string> figures;  // all of them before the first file: one may be impossible
+  std::vector<std::pair<std::string, std::string>> figures;  // before the first file is written
   const std::vector<PlotFile> files = plot_files(arguments);
-  for (const PlotFile& file : files)
-    figures.push_back(to_svg(figure_of(result.results, truth, file.kind)));
+  for (const PlotFile& file : files) try {
+      figures.emplace_back(file.path, to_svg(figure_of(result.results, truth, file.kind)));
+    } catch (const ArgumentError& error) {
+      if (files.size() == 1) throw;
+      warn(fmt::format("{} is not drawn: {}", file.path, error.what()));
+    }
   if (!arguments.csv.empty()) write_file(arguments.csv, to_csv(result.results));
   if (!arguments.latex.empty()) write_file(arguments.latex, to_latex(result.results));
-  for (std::size_t i = 0; i < files.size(); ++i) write_plot(files[i].path, figures[i]);
+  for (const auto& [path, svg] : figures) write_plot(path, svg);
 }
 
 }  // namespace

@@ -171,6 +171,7 @@ void check(const LoopsArguments& arguments) {
   const std::vector<std::string> files = {arguments.csv, arguments.plot, arguments.report};
   for (const std::string& path : files)
     if (!path.empty()) require_free(path, arguments.force);
+  if (!arguments.report.empty()) require_page_name(arguments.report);
   require(arguments.report.empty() || std::ranges::count(files, arguments.report) == 1,
           "--report: " + arguments.report + " is where another output is to be written");
   require_plot_name(arguments.plot);

@@ -197,6 +197,7 @@ PoseGraphOptions checked_options(const OptimizeArguments& arguments) {
   require(arguments.plot.empty() || arguments.plot != arguments.out,
           "--plot: " + arguments.plot + " is where the graph is to be written");
   require_free(arguments.out, arguments.force);
+  if (!arguments.report.empty()) require_page_name(arguments.report);
   for (const std::string& path : {arguments.plot, arguments.report})
     if (!path.empty()) require_free(path, arguments.force);
   require(arguments.report.empty() ||

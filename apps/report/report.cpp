@@ -22,6 +22,7 @@ json report_data(const std::string& title, const std::string& program, json runs
 }
 
 ReportResult report(const ReportArguments& arguments) {
+  require_page_name(arguments.out);
   require_free(arguments.out, arguments.force);
   require(
       arguments.georeferences.empty() || arguments.georeferences.size() == arguments.runs.size(),

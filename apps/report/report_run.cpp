@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
@@ -156,20 +157,35 @@ json describe_pictures(const std::string& folder) {
   return pictures;
 }
 
+/// Puts a part of the page that the map does not need; without it, and with a warning, where its
+/// file is broken.
+void put_part(const std::function<void()>& put) {
+  try {
+    put();
+  } catch (const FileError& error) {
+    warn(fmt::format("left out of the page: {}", error.what()));
+  }
+}
+
 /// What other files in the folder of the run hold.
-void put_results_beside(const std::string& folder, const std::string& georeference, const Map& map,
-                        json& run) {
-  if (const std::optional<IndoorMap> plan = read_floor_plan(folder)) {
-    run["floor_plan"] = describe_floor_plan(*plan);
-    run["planes"] = describe_planes(*plan);
-    run["up"] = up_of_plan(plan->R_plan_map);
-  }
-  if (const std::optional<SemanticMap> street = read_street_map(folder)) {
-    run["street_map"] = describe_street_map(*street);
-    run["up"] = up_of_plan(street->R_plan_map);
-  }
-  const std::string earth = georeference.empty() ? georeference_of(folder) : georeference;
-  if (!earth.empty()) run["georeference"] = describe_georeference(earth, map);
+void put_results_beside(const std::string& folder, const Map& map, json& run) {
+  put_part([&] {
+    if (const std::optional<IndoorMap> plan = read_floor_plan(folder)) {
+      run["floor_plan"] = describe_floor_plan(*plan);
+      run["planes"] = describe_planes(*plan);
+      run["up"] = up_of_plan(plan->R_plan_map);
+    }
+  });
+  put_part([&] {
+    if (const std::optional<SemanticMap> street = read_street_map(folder)) {
+      run["street_map"] = describe_street_map(*street);
+      run["up"] = up_of_plan(street->R_plan_map);
+    }
+  });
+  put_part([&] {
+    if (const std::string earth = georeference_of(folder); !earth.empty())
+      run["georeference"] = describe_georeference(earth, map);
+  });
   run["pictures"] = describe_pictures(folder);
 }
 
@@ -192,7 +208,9 @@ json describe_run_for_report(const StoredMap& stored, const std::string& path,
   json figures = json::array();
   const std::optional<RunTruth> truth = evaluate_run(map, truth_of(stored), figures);
   const fs::path folder = fs::absolute(fs::path(path)).lexically_normal().parent_path();
-  const json result = read_result(path);
+  // What lies beside another file, as an edited map, is that of the run.
+  const bool own = fs::path(path).filename() == "map.db";
+  const json result = own ? read_result(path) : json::object();
   json run = bare_run(name_of_run(path), describe_frames_for_report(map, truth));
   run["folder"] = folder.string();
   run["recording"] = recording_of(stored.origin);
@@ -211,7 +229,8 @@ json describe_run_for_report(const StoredMap& stored, const std::string& path,
   run["places"] = describe_places(map.place_graph);
   run["constraints"] = describe_constraints(map.place_graph);
   run["loops"] = describe_loops(map.loops);
-  put_results_beside(folder.string(), georeference, map, run);
+  if (own) put_results_beside(folder.string(), map, run);
+  if (!georeference.empty()) run["georeference"] = describe_georeference(georeference, map);
   return run;
 }
 

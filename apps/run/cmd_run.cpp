@@ -36,6 +36,7 @@ std::string verdict_of(const RunReport& report) {
 }
 
 void run_and_print(const RunCommand& command) {
+  if (!command.page.empty()) require_page_name(command.page);
   if (!command.page.empty() && std::filesystem::exists(command.page))
     require_free(command.page, command.arguments.force);
   RunArguments arguments = command.arguments;
@@ -49,6 +50,7 @@ void run_and_print(const RunCommand& command) {
   if (command.profile && !command.json) print(stages_text(report));
   if (!command.page.empty() && !report.broken_off)
     command.presentation.write_page(report.out, command.page);
+  finish_printing();
   if (display && !report.interrupted) display->finish(report.out, verdict_of(report));
   if (report.broken_off) throw Error(*report.broken_off);
   if (report.interrupted) throw Interrupted(*report.interrupted);
@@ -126,8 +128,10 @@ void add_run_command(CLI::App& app, const RunPresentation& presentation) {
       ".mp4), or a contact sheet (.jpg, .png)");
   command->add_flag("--profile", run_command->profile, kProfileText);
   command->add_option("--report", run_command->page, kReportText);
-  command->add_flag("--view", run_command->view, "show the run in a browser while it goes on");
+  auto* view =
+      command->add_flag("--view", run_command->view, "show the run in a browser while it goes on");
   add_viewer_options(*command, run_command->viewer);
+  for (const char* name : {"--port", "--open"}) command->get_option(name)->needs(view);
   add_verbosity(*command, a.verbosity);
   command->callback([run_command] { run_and_print(*run_command); });
 }

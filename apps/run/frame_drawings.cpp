@@ -139,7 +139,10 @@ bool is_drawing_file(const std::string& path) {
 }
 
 void require_free_drawings(const std::string& path, bool force) {
-  const std::string extension = extension_of(path);
+  for (const char* other :
+       {".gif", ".mkv", ".webm", ".mov", ".mpg", ".pdf", ".svg", ".bmp", ".tif"})
+    require(extension_of(path) != other,
+            "--draw " + path + ": a folder, or a file .mp4, .avi, .jpg or .png");
   if (is_drawing_file(path))
     require_free(path, force);
   else

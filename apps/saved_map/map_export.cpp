@@ -193,9 +193,13 @@ MapExportResult map_export(const MapExportArguments& arguments) {
   require(std::any_of(arguments.paths.begin(), arguments.paths.end(),
                       [](const std::string& path) { return !path.empty(); }),
           "map export: nothing to write; see --help for the forms");
-  for (std::size_t i = 0; i < forms.size(); ++i)
-    if (!arguments.paths[i].empty())
-      require_free_target(forms[i].form, arguments.paths[i], arguments.force);
+  for (std::size_t i = 0; i < forms.size(); ++i) {
+    if (arguments.paths[i].empty()) continue;
+    require(std::ranges::count(arguments.paths, arguments.paths[i]) == 1,
+            fmt::format("{} {}: another form is to be written there", forms[i].form.flag,
+                        arguments.paths[i]));
+    require_free_target(forms[i].form, arguments.paths[i], arguments.force);
+  }
   const StoredMap stored = read_stored_map(arguments.map);
   const NumberForm numbers = arguments.ascii ? NumberForm::kText : NumberForm::kBinary;
   DenseOutputs dense{"", "", arguments.voxel, numbers};

@@ -7,7 +7,7 @@
 namespace placegraph::apps {
 namespace {
 
-constexpr std::size_t kMostEvents = 4096;
+constexpr std::size_t kMostEvents = 4096, kMostTogether = 256;
 /// By a comment after this time the server notices a browser that has gone.
 constexpr std::chrono::seconds kHeartbeat(2);
 
@@ -34,10 +34,10 @@ class EventLog::Reader : public HttpStream {
     }
     std::string text;
     if (next_ < log_->first_) {
-      text = "event: reset\ndata: {}\n\n";
+      text = "event: reset\ndata: {\"version\":0}\n\n";
       next_ = log_->first_;
     }
-    for (; next_ < end(); ++next_)
+    for (std::size_t i = 0; i < kMostTogether && next_ < end(); ++i, ++next_)
       text += log_->events_[static_cast<std::size_t>(next_ - log_->first_)];
     return text;
   }
@@ -67,9 +67,16 @@ void EventLog::close() {
 
 std::shared_ptr<HttpStream> EventLog::reader() {
   const std::lock_guard lock(mutex_);
+  if (readers_ >= kMostReaders) return nullptr;
   ++readers_;
+  visited_ = true;
   return std::make_shared<Reader>(shared_from_this(),
                                   first_ + static_cast<std::int64_t>(events_.size()));
+}
+
+bool EventLog::visited() const {
+  const std::lock_guard lock(mutex_);
+  return visited_;
 }
 
 int EventLog::readers() const {

@@ -20,10 +20,15 @@ class EventLog : public std::enable_shared_from_this<EventLog> {
   void add(const std::string& name, const std::string& data);
   /// Ends all readers after the events that they have not read.
   void close();
-  /// A reader of the events from now on.
+  /// Each reader holds a thread of the server.
+  static constexpr int kMostReaders = 8;
+
+  /// A reader of the events from now on; null if there are as many as there may be.
   std::shared_ptr<HttpStream> reader();
   /// Number of readers.
   int readers() const;
+  /// Whether there has been a reader.
+  bool visited() const;
 
  private:
   class Reader;
@@ -34,7 +39,7 @@ class EventLog : public std::enable_shared_from_this<EventLog> {
   std::deque<std::string> events_;
   std::int64_t first_ = 0;  // number of the oldest event that is kept
   int readers_ = 0;
-  bool closed_ = false;
+  bool closed_ = false, visited_ = false;
 };
 
 }  // namespace placegraph::apps

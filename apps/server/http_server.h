@@ -16,7 +16,10 @@ struct HttpRequest {
   std::string host, origin;  ///< header fields Host and Origin
   std::string site;          ///< header field Sec-Fetch-Site
   std::string content_type;  ///< header field Content-Type
-  std::string body;          ///< content; empty while only the head of the request is judged
+  /// Whether header fields ask for parts (Range) or announce content of unknown length
+  /// (Transfer-Encoding).
+  bool parts = false, unknown_length = false;
+  std::string body;  ///< content; empty while only the head of the request is judged
 };
 
 /// Content that grows while it is sent.
@@ -65,7 +68,7 @@ struct HttpModule {
 };
 
 /// Version of the declarations above; it changes with each of their changes.
-constexpr std::int64_t kHttpModuleVersion = 1;
+constexpr std::int64_t kHttpModuleVersion = 2;
 
 /// A server for a port, or for a free one for 0; it must be started.
 ///

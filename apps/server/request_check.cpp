@@ -27,7 +27,10 @@ bool same(const std::string& a, const std::string& b) {
 }
 
 bool own_host(const std::string& host, int port) {
-  return host == fmt::format("127.0.0.1:{}", port) || host == fmt::format("localhost:{}", port);
+  constexpr int kUsual = 80;  // browsers leave it out
+  for (const char* name : {"127.0.0.1", "localhost"})
+    if (host == fmt::format("{}:{}", name, port) || (port == kUsual && host == name)) return true;
+  return false;
 }
 
 }  // namespace
@@ -48,6 +51,8 @@ std::string address_of(const ServerIdentity& server) {
 std::optional<HttpResponse> refusal_of(const HttpRequest& request, const ServerIdentity& server) {
   if (request.method != "GET" && request.method != "POST")
     return text_response(405, "only GET and POST are answered");
+  if (request.parts) return text_response(400, "parts are not answered");
+  if (request.unknown_length) return text_response(411, "the length of the content is needed");
   if (request.target.size() > kLongestTarget) return text_response(414, "the path is too long");
   if (!std::ranges::all_of(request.target, plain) || request.target.find("..") != std::string::npos)
     return text_response(400, "no such path");

@@ -93,6 +93,11 @@ std::string extension_of(const std::string& path) {
   return std::filesystem::path(path).extension().string();
 }
 
+void require_page_name(const std::string& path) {
+  const std::string extension = extension_of(path);
+  require(extension == ".html" || extension == ".htm", path + ": a page ends in .html");
+}
+
 void write_file(const std::string& path, const std::string& content) {
   AtomicFile file(path);
   file.stream().write(content.data(), static_cast<std::streamsize>(content.size()));

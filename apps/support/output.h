@@ -46,6 +46,9 @@ class OutputFolder {
 /// The extension of a file name with its dot; empty if there is none.
 std::string extension_of(const std::string& path);
 
+/// Checks that a file for a page has an extension that browsers know, .html or .htm.
+void require_page_name(const std::string& path);
+
 /// Writes a whole file, atomically; bytes as they are. Throws FileError.
 void write_file(const std::string& path, const std::string& content);
 

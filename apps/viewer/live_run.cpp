@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/page/column.h"
+#include "apps/support/output.h"
 #include "apps/viewer/jpeg_url.h"
 
 namespace placegraph::apps {
@@ -14,6 +15,8 @@ namespace {
 
 using nlohmann::json;
 
+/// A halted run that no browser shows for this time goes on.
+constexpr std::chrono::seconds kAlone(20);
 /// The newest places move with every keyframe: browsers need not follow each of these motions.
 constexpr std::chrono::seconds kBetweenAnnouncements(1);
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
@@ -64,7 +67,15 @@ void LiveRun::begin(const std::string& /*sequence*/, std::size_t frames) {
 void LiveRun::await_permission(const std::function<bool()>& stop) {
   constexpr std::chrono::milliseconds kBetweenChecks(100);
   std::unique_lock lock(mutex_);
-  while (paused_ && steps_ == 0 && !stop()) permission_.wait_for(lock, kBetweenChecks);
+  auto watched = std::chrono::steady_clock::now();
+  while (paused_ && steps_ == 0 && !stop()) {
+    permission_.wait_for(lock, kBetweenChecks);
+    const auto now = std::chrono::steady_clock::now();
+    if (events_->readers() > 0) watched = now;
+    if (now - watched < kAlone) continue;
+    paused_ = false;
+    note("the page was closed: the run goes on");
+  }
   if (steps_ > 0) --steps_;
 }
 
@@ -217,7 +228,7 @@ std::optional<json> LiveRun::image() const {
       for (int i = 0; i < 2; ++i) lines.push_back(static_cast<float>(end[i]));
     lines.push_back(line.off_px ? static_cast<float>(*line.off_px) : kUnknown);
   }
-  const Image& image = frame.colour.empty() ? frame.image : frame.colour;
+  const Image& image = frame.image;  // tracks are those of the corrected image; the colours are not
   return json{{"frame", frame.id.value()},   {"image", jpeg_url(image)},
               {"width", image.cols},         {"height", image.rows},
               {"points", column(points, 3)}, {"lines", column(lines, 5)}};

@@ -10,21 +10,21 @@
 namespace placegraph::apps {
 
 MapImages::MapImages(const MapOrigin& origin)
-    : sequence_(origin.sequence),
-      sensor_(origin.sensor),
-      lens_(origin.calibration.value_or(Calibration())) {
-  if (origin.lens_k1 != 0) lens_.add(origin.lens_k1);
-}
+    : sequence_(origin.sequence), sensor_(origin.sensor), lens_k1_(origin.lens_k1) {}
 
 std::string MapImages::jpeg(FrameId frame) {
   const std::lock_guard lock(mutex_);
-  if (!dataset_) dataset_ = open_dataset(sequence_);
+  if (!dataset_) {
+    dataset_ = open_dataset(sequence_);
+    lens_.emplace(dataset_->calibration(sensor_));
+    if (lens_k1_ != 0) lens_->add(lens_k1_);
+  }
   const std::int64_t index = frame.value();
   require(index >= 0 && index < static_cast<std::int64_t>(dataset_->size()),
           fmt::format("the recording has no frame {}", index));
-  Frame read = dataset_->frame(static_cast<std::size_t>(index), sensor_);
-  lens_.apply(read);
-  return encode_jpeg(read.colour.empty() ? read.image : read.colour, kJpegQuality);
+  const Frame read = dataset_->frame(static_cast<std::size_t>(index), sensor_);
+  const Image& image = read.colour.empty() ? read.image : read.colour;
+  return encode_jpeg(lens_k1_ == 0 ? image : lens_->corrected(image), kJpegQuality);
 }
 
 }  // namespace placegraph::apps

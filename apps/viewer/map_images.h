@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 
 namespace placegraph::apps {
@@ -24,9 +25,10 @@ class MapImages {
  private:
   std::string sequence_;
   Sensor sensor_;
-  LensCorrection lens_;
+  double lens_k1_;
   std::mutex mutex_;  // guards the recording
   std::unique_ptr<Dataset> dataset_;
+  std::optional<LensCorrection> lens_;
 };
 
 }  // namespace placegraph::apps

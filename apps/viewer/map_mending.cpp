@@ -52,13 +52,13 @@ MapMending::MapMending(RunPages& pages)
 
 bool MapMending::unsaved() const {
   const std::lock_guard lock(mutex_);
-  return editor_.edits().size() != saved_edits_;
+  return editor_.revision() != saved_revision_;
 }
 
 HttpResponse MapMending::edits() const {
   const std::lock_guard lock(mutex_);
   return json_response({{"edits", editor_.edits()},
-                        {"unsaved", editor_.edits().size() != saved_edits_},
+                        {"unsaved", editor_.revision() != saved_revision_},
                         {"optimized", editor_.optimized()}});
 }
 
@@ -69,12 +69,11 @@ std::string MapMending::save(const std::string& name) {
   const fs::path path = fs::path(pages_.first_path()).parent_path() / (name + ".db");
   if (fs::exists(path)) throw ArgumentError(path.string() + ": it exists already");
   write_map(path.string(), editor_.stored());
-  saved_edits_ = editor_.edits().size();
+  saved_revision_ = editor_.revision();
   return "saved as " + path.string();
 }
 
-std::string MapMending::apply(const std::string& action, const std::string& body) {
-  const json edit = json::parse(body);
+std::string MapMending::apply(const std::string& action, const json& edit) {
   if (action == "refuse")
     return editor_.refuse(frame_in(edit, "query_frame"), frame_in(edit, "match_frame"));
   if (action == "accept")
@@ -96,11 +95,13 @@ HttpResponse MapMending::edit(const std::string& body) {
   try {
     const json parsed = json::parse(body);
     if (!parsed.is_object()) throw BadEdit("an object is needed");
-    const std::string text = apply(text_in(parsed, "action"), body);
-    pages_.show(std::make_shared<const StoredMap>(editor_.stored()));
+    const std::string action = text_in(parsed, "action");
+    const std::string text = apply(action, parsed);
+    if (action != "save")
+      pages_.show(std::make_shared<const StoredMap>(editor_.stored()), editor_.revision() != 0);
     return json_response({{"text", text},
                           {"edits", editor_.edits()},
-                          {"unsaved", editor_.edits().size() != saved_edits_},
+                          {"unsaved", editor_.revision() != saved_revision_},
                           {"optimized", editor_.optimized()}});
   } catch (const json::exception&) {
     return text_response(400, "the request is no JSON of an edit");

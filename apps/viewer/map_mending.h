@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <mutex>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "apps/server/http_server.h"
@@ -25,13 +26,13 @@ class MapMending {
   bool unsaved() const;
 
  private:
-  std::string apply(const std::string& action, const std::string& body);
+  std::string apply(const std::string& action, const nlohmann::json& edit);
   std::string save(const std::string& name);
 
   RunPages& pages_;
   mutable std::mutex mutex_;
   LoopEditor editor_;
-  std::size_t saved_edits_ = 0;  // number of edits at the last saving
+  int saved_revision_ = 0;  // revision of the map at the last saving
 };
 
 }  // namespace placegraph::apps

@@ -83,7 +83,7 @@ RunPages::RunPages(const std::vector<std::string>& runs, std::string program)
     auto stored = std::make_shared<const StoredMap>(read_stored_map(run));
     auto images = std::make_unique<MapImages>(stored->origin);
     const std::string path = map_path_of(run);
-    runs_.push_back({path, name_of_run(path), std::move(stored), std::move(images)});
+    runs_.push_back({path, name_of_run(path), false, std::move(stored), std::move(images)});
   }
 }
 
@@ -100,15 +100,29 @@ std::shared_ptr<const StoredMap> RunPages::stored(std::size_t run) const {
 
 std::shared_ptr<const StoredMap> RunPages::first() const { return stored(0); }
 
-void RunPages::show(std::shared_ptr<const StoredMap> stored) {
+void RunPages::show(std::shared_ptr<const StoredMap> stored, bool edited) {
   const std::lock_guard lock(mutex_);
   runs_.front().stored = std::move(stored);
+  runs_.front().edited = edited;
+}
+
+json RunPages::describe_run(std::size_t number) const {
+  const Run& run = runs_[number];
+  bool edited = false;
+  {
+    const std::lock_guard lock(mutex_);
+    edited = run.edited;
+  }
+  const std::filesystem::path path(run.path);
+  json described = describe_run_for_report(
+      *stored(number), edited ? (path.parent_path() / "edited.db").string() : run.path);
+  described["name"] = run.name;
+  return described;
 }
 
 HttpResponse RunPages::report() const {
   json runs = json::array();
-  for (std::size_t i = 0; i < runs_.size(); ++i)
-    runs.push_back(describe_run_for_report(*stored(i), runs_[i].path));
+  for (std::size_t i = 0; i < runs_.size(); ++i) runs.push_back(describe_run(i));
   return json_response(report_data(title(), program_, std::move(runs)));
 }
 

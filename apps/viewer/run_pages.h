@@ -26,8 +26,9 @@ class RunPages {
   /// Answers "report.json", "runs/R/frames/F/image.jpg" and "runs/R/frames/F/observations.json";
   /// 404 for all other paths.
   HttpResponse respond(const std::string& path);
-  /// Shows another state of the first run's map from now on.
-  void show(std::shared_ptr<const StoredMap> stored);
+  /// Shows another state of the first run's map from now on; `edited`: not as the run left it, so
+  /// that what lies beside the map does not belong to it.
+  void show(std::shared_ptr<const StoredMap> stored, bool edited);
   /// The first run's map, and its file.
   std::shared_ptr<const StoredMap> first() const;
   const std::string& first_path() const { return runs_.front().path; }
@@ -38,9 +39,11 @@ class RunPages {
  private:
   struct Run {
     std::string path, name;
+    bool edited = false;
     std::shared_ptr<const StoredMap> stored;
     std::unique_ptr<MapImages> images;
   };
+  nlohmann::json describe_run(std::size_t number) const;
   HttpResponse report() const;
   HttpResponse of_frame(const std::string& path);
   std::shared_ptr<const StoredMap> stored(std::size_t run) const;

@@ -15,8 +15,6 @@ namespace {
 
 using nlohmann::json;
 
-/// More browsers than these get no events: each holds a thread of the server.
-constexpr int kMostReaders = 8;
 /// A browser that shows the page again after this time at the latest is still there.
 constexpr std::chrono::seconds kAbsence(5);
 
@@ -73,11 +71,10 @@ HttpResponse RunView::respond(const HttpRequest& request, const std::string& pat
     return image ? json_response(*image) : HttpResponse{204, "", ""};
   }
   if (path == "events") {
-    if (events_->readers() >= kMostReaders) return text_response(503, "too many browsers");
     HttpResponse response;
     response.type = "text/event-stream";
     response.stream = events_->reader();
-    return response;
+    return response.stream ? response : text_response(503, "too many browsers");
   }
   return pages ? pages->respond(path) : text_response(404, "no such page while the run goes on");
 }
@@ -89,7 +86,7 @@ void RunView::finish(const std::string& folder, const std::string& verdict) {
     pages_ = std::move(pages);
   }
   events_->add("done", json{{"verdict", verdict.empty() ? json() : json(verdict)}}.dump());
-  if (events_->readers() == 0) return;
+  if (!events_->visited()) return;
   note("the run has ended; its page is served until it is closed, or Ctrl-C");
   const Interruption interruption;
   auto seen = std::chrono::steady_clock::now();

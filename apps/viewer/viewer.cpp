@@ -1,8 +1,13 @@
 #include "apps/viewer/viewer.h"
 
+#include <fcntl.h>
 #include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <exception>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "apps/page/page.h"
 #include "apps/support/output.h"
@@ -49,7 +54,12 @@ Viewer::Viewer(const ViewerOptions& options, nlohmann::json start, Responder res
                       respond = std::move(respond)](const HttpRequest& request) {
     const std::string path = path_of(request, identity_);
     if (path.empty() && request.method == "GET") return with_headers(page_response(start));
-    return with_headers(respond(request, path));
+    try {
+      return with_headers(respond(request, path));
+    } catch (const std::exception& error) {
+      warn(std::string("the viewer: ") + error.what());
+      return with_headers(text_response(500, "the program cannot answer this request"));
+    }
   };
   server_ = bind_http(options.port, std::move(handlers));
   identity_.port = server_->port();
@@ -60,9 +70,24 @@ Viewer::Viewer(const ViewerOptions& options, nlohmann::json start, Responder res
 void open_in_browser(const std::string& address) {
   std::string program = "xdg-open", argument = address;
   char* arguments[] = {program.data(), argument.data(), nullptr};
+  // The browser outlives Ctrl-C and writes nothing among the output of the program.
+  posix_spawnattr_t attributes;
+  posix_spawn_file_actions_t files;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+  posix_spawn_file_actions_init(&files);
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    posix_spawn_file_actions_addopen(&files, stream, "/dev/null", O_RDWR, 0);
   pid_t process = 0;
-  if (posix_spawnp(&process, program.c_str(), nullptr, nullptr, arguments, environ) != 0)
+  const int failed =
+      posix_spawnp(&process, program.c_str(), &files, &attributes, arguments, environ);
+  posix_spawn_file_actions_destroy(&files);
+  posix_spawnattr_destroy(&attributes);
+  if (failed) {
     warn("--open: xdg-open cannot be started; open the address yourself");
+    return;
+  }
+  std::thread([process] { waitpid(process, nullptr, 0); }).detach();
 }
 
 }  // namespace placegraph::apps

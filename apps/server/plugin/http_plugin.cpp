@@ -5,11 +5,13 @@
 #include <thread>
 
 #include "apps/server/http_server.h"
+#include "apps/server/plugin/bounded_tasks.h"
+#include "apps/server/plugin/connections.h"
 
 namespace placegraph::apps {
 namespace {
 
-constexpr std::size_t kThreads = 16, kMostBytes = 64 * 1024;
+constexpr std::size_t kThreads = 16, kMostPending = 32, kMostBytes = 64 * 1024;
 constexpr int kTimeoutS = 5;
 
 HttpRequest request_of(const httplib::Request& from) {
@@ -19,6 +21,8 @@ HttpRequest request_of(const httplib::Request& from) {
           from.get_header_value("Origin"),
           from.get_header_value("Sec-Fetch-Site"),
           from.get_header_value("Content-Type"),
+          from.has_header("Range"),
+          from.has_header("Transfer-Encoding"),
           from.body};
 }
 
@@ -49,7 +53,7 @@ void set_socket_options(int socket) {
 class LibraryServer : public HttpServer {
  public:
   explicit LibraryServer(HttpHandlers handlers) : handlers_(std::move(handlers)) {
-    server_.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
+    server_.new_task_queue = [] { return new BoundedTasks(kThreads, kMostPending); };
     server_.set_socket_options(set_socket_options);
     server_.set_tcp_nodelay(true);
     server_.set_payload_max_length(kMostBytes);
@@ -63,12 +67,17 @@ class LibraryServer : public HttpServer {
       return httplib::Server::HandlerResponse::Handled;
     });
     const auto respond = [this](const auto& request, auto& response) {
+      connections_.begin_response(request.remote_port);
       send(handlers_.respond(request_of(request)), response);
     };
     server_.Get(".*", respond).Post(".*", respond);
+    server_.set_logger([this](const auto& request, const auto&) {
+      connections_.end_response(request.remote_port);
+    });
   }
   ~LibraryServer() override {
     server_.stop();
+    connections_.close();  // the server waits for the threads that serve them
     if (thread_.joinable()) thread_.join();
   }
   bool bind(int port) {
@@ -82,12 +91,14 @@ class LibraryServer : public HttpServer {
   void start() override {
     thread_ = std::thread([this] { server_.listen_after_bind(); });
     while (!server_.is_running()) std::this_thread::yield();
+    connections_.guard(port_);
   }
   int port() const override { return port_; }
 
  private:
   HttpHandlers handlers_;
   httplib::Server server_;
+  Connections connections_;
   std::thread thread_;
   int port_ = 0;
 };

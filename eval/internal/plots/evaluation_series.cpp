@@ -65,12 +65,12 @@ struct PoseValues {
   bool angles;
 };
 
-/// A value of the true and of the estimated poses over time.
-std::pair<Series, Series> series_of(const EvaluationResult& result, std::int64_t begin_ns,
-                                    const PoseValues& values, int row) {
+/// A value of the true and of the estimated poses over time, or over the frames of the truth.
+std::pair<Series, Series> series_of(const EvaluationResult& result, bool timed,
+                                    std::int64_t begin_ns, const PoseValues& values, int row) {
   Series truth, estimate;
   for (const FramePair& pair : result.aligned_pairs) {
-    const double at = time_of(result, begin_ns, pair);
+    const double at = timed ? time_of(result, begin_ns, pair) : pair.frame;
     truth.emplace_back(Vector2d(at, values.of(pair.T_world_truth)[row]));
     estimate.emplace_back();
     if (pair.T_world_estimate)
@@ -86,7 +86,9 @@ std::pair<Series, Series> series_of(const EvaluationResult& result, std::int64_t
 /// The frames of both trajectories over time, a panel for each of three values.
 void draw_over_time(const std::vector<EvaluationResult>& results, const PoseValues& values,
                     Figure& figure) {
-  const FigureAxis x{results.front().has_times ? "time [s]" : "frame", {}, false, {}};
+  // An estimate without times is paired by the numbers of frames: then all are drawn over these.
+  const bool timed = std::ranges::all_of(results, &EvaluationResult::has_times);
+  const FigureAxis x{timed ? "time [s]" : "frame", {}, false, {}};
   std::int64_t begin_ns = results.front().aligned_pairs.front().stamp_ns;
   std::size_t longest = 0;  // its truth is drawn: others may have fewer frames of it
   for (std::size_t r = 0; r < results.size(); ++r) {
@@ -97,7 +99,7 @@ void draw_over_time(const std::vector<EvaluationResult>& results, const PoseValu
   for (int row = 0; row < 3; ++row) {
     std::vector<FigureShape> lines = {FigureLine{{}, truth_stroke, {}}};
     for (std::size_t r = 0; r < results.size(); ++r) {
-      auto [truth, estimate] = series_of(results[r], begin_ns, values, row);
+      auto [truth, estimate] = series_of(results[r], timed, begin_ns, values, row);
       if (r == longest) std::get<FigureLine>(lines.front()).points = std::move(truth);
       lines.emplace_back(FigureLine{std::move(estimate), curve_stroke(r), {}});
     }

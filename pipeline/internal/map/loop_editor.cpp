@@ -144,6 +144,7 @@ void LoopEditor::change(State next) {
                            next.history);
   next.place_graph.constraints = mapper.place_graph().constraints;
   next.optimized = false;
+  next.revision = ++revisions_;
   earlier_.push_back(state_);
   show(std::move(next));
 }
@@ -164,6 +165,7 @@ MapMotion LoopEditor::optimize() {
   next.metric = mapper.metric();
   next.optimized = true;
   next.loop_removed = false;
+  next.revision = ++revisions_;
   const MapMotion motion = motion_between(state_.place_graph, next.place_graph);
   next.edits.push_back(fmt::format("optimized the map: a keyframe moved by {:.3g} {} at most",
                                    motion.translation, next.metric ? "m" : "in the map's scale"));
@@ -180,8 +182,7 @@ bool LoopEditor::undo() {
   return true;
 }
 
-/// Gives places their appearance and labels. A place that was part of another one has the labels
-/// of that one.
+/// Gives places their appearance, and the labels of all places from which their keyframes come.
 void LoopEditor::describe_places(PlaceGraph& graph) {
   std::map<KeyframeId, const Place*> place_of;
   for (const Place& place : state_.place_graph.places)
@@ -190,10 +191,13 @@ void LoopEditor::describe_places(PlaceGraph& graph) {
     return place_of.at(place.anchor_keyframe)->anchor_keyframe != place.anchor_keyframe;
   });
   for (Place& place : graph.places) {
-    const Place& before = *place_of.at(place.anchor_keyframe);
-    place.labels = before.labels;
+    for (const PlaceMember& member : place.members)
+      for (const std::string& label : place_of.at(member.keyframe)->labels)
+        if (std::ranges::find(place.labels, label) == place.labels.end())
+          place.labels.push_back(label);
     // Words of one vocabulary: all appearances are made again, or none.
-    place.appearance = divided ? closer().appearance(place.anchor_keyframe) : before.appearance;
+    place.appearance = divided ? closer().appearance(place.anchor_keyframe)
+                               : place_of.at(place.anchor_keyframe)->appearance;
   }
 }
 

@@ -47,16 +47,20 @@ class LoopEditor {
   const StoredMap& stored() const { return stored_; }
   /// Sentences of the edits in force, in order.
   const std::vector<std::string>& edits() const { return state_.edits; }
+  /// Number of the present state of the map: two states differ if their numbers do. 0: the map as
+  /// it was given.
+  int revision() const { return state_.revision; }
   /// Whether the poses follow from the present loops.
   bool optimized() const { return state_.optimized; }
 
  private:
   struct State {  // what edits change
-    std::vector<LoopRecord> loops;
-    PlaceHistory history;
-    PlaceGraph place_graph;
+    std::vector<LoopRecord> loops = {};
+    PlaceHistory history = {};
+    PlaceGraph place_graph = {};
     bool metric = false, optimized = true, loop_removed = false;
-    std::vector<std::string> edits;
+    std::vector<std::string> edits = {};
+    int revision = 0;
   };
   const Keyframe& keyframe_of(FrameId frame) const;
   const LoopCloser& closer();
@@ -69,6 +73,7 @@ class LoopEditor {
   SlamOptions options_;
   State state_;
   std::vector<State> earlier_;
+  int revisions_ = 0;                 // the greatest number of a state so far
   std::optional<LoopCloser> closer_;  // made when it is first needed
 };
 

@@ -197,6 +197,11 @@ function putCounts(run: RunData, put: (name: string, text: string) => void): voi
   if (summary.cpu_s !== null) put("Run time (all cores)", formatDuration(summary.cpu_s));
 }
 
+/** The protocol without what differs between runs of one recording: numbers of frames and lengths. */
+function sharedProtocol(protocol: string): string {
+  return protocol.replace(/, \d+ frames/, "").replace(/ of [\d.]+ m/, "");
+}
+
 /** One column a run; figures of one name but different protocols stay apart. */
 function figuresTable(report: ReportData): HTMLElement {
   const rows = new Map<string, string[]>();
@@ -208,7 +213,7 @@ function figuresTable(report: ReportData): HTMLElement {
   report.runs.forEach((run, i) => {
     if (run.judgement) put("Verdict", i, run.judgement.verdict);
     for (const figure of run.figures)
-      put(`${figure.name} (${figure.protocol})`, i, formatWithUnit(figure.value, figure.unit));
+      put(`${figure.name} (${sharedProtocol(figure.protocol)})`, i, formatWithUnit(figure.value, figure.unit));
     putCounts(run, (name, text) => put(name, i, text));
     for (const option of run.options ?? []) put(`Option ${option.name}`, i, option.value);
   });

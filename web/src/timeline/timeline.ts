@@ -1,3 +1,4 @@
+import { comparable } from "../data/compare";
 import { cssColour } from "../data/colour_scale";
 import { formatTime, formatWithUnit } from "../data/format";
 import type { ReportData, RunData } from "../data/model";
@@ -97,12 +98,13 @@ export class Timeline {
   /** The chosen run, and the others at the frames that they have too. */
   private makeCurves(): Curve[] {
     const { run: chosen, series: name } = this.store.state;
-    return this.report.runs.map((run, i) => {
+    return this.report.runs.flatMap((run, i) => {
       const colour = cssColour(runColour(i));
-      if (i === chosen) return { name: run.name, colour, values: this.shown.values };
+      if (i === chosen) return [{ name: run.name, colour, values: this.shown.values }];
+      if (!comparable(this.run, run)) return [];
       const other = series(run, name).values;
       const values = Float64Array.from(this.run.frames.id, (id) => other[run.frames.rowOf.get(id) ?? -1] ?? NaN);
-      return { name: run.name, colour, values };
+      return [{ name: run.name, colour, values }];
     });
   }
 

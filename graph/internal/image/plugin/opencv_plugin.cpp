@@ -44,25 +44,35 @@ class CaptureReader : public VideoReader {
 class FileWriter : public VideoWriter {
  public:
   FileWriter(const std::string& path, int codec, cv::Size size, double rate_hz)
-      : writer_(path, cv::CAP_FFMPEG, codec, rate_hz, size), size_(size) {}
+      : writer_(path, cv::CAP_FFMPEG, codec, rate_hz, size), path_(path), size_(size) {}
   bool opened() const { return writer_.isOpened(); }
   bool write(const Image& frame) override {
     if (frame.size() != size_ || frame.type() != CV_8UC3) return false;
     try {
       writer_.write(frame);
+      ++frames_;
       return true;
     } catch (const cv::Exception&) {
       return false;
     }
   }
+  /// The library does not report a full disk: the file is read again.
   bool finish() override {
-    writer_.release();
-    return true;
+    try {
+      writer_.release();
+      cv::VideoCapture written(path_, cv::CAP_FFMPEG);
+      return written.isOpened() &&
+             static_cast<int>(written.get(cv::CAP_PROP_FRAME_COUNT)) == frames_;
+    } catch (const cv::Exception&) {
+      return false;
+    }
   }
 
  private:
   cv::VideoWriter writer_;
+  std::string path_;
   cv::Size size_;
+  int frames_ = 0;
 };
 
 /// Damaged files are reported by the caller, which knows their names.

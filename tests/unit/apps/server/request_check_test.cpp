@@ -88,6 +88,15 @@ TEST(RequestCheck, RefusesOtherHostsAndPages) {
   }
 }
 
+TEST(RequestCheck, RefusesPartsAndContentOfUnknownLength) {
+  HttpRequest request = get("report.json");
+  request.parts = true;
+  EXPECT_EQ(status_of(request), 400);
+  request = post("edits");
+  request.unknown_length = true;
+  EXPECT_EQ(status_of(request), 411);
+}
+
 TEST(RequestCheck, RefusesPostsThatAreNoJson) {
   for (const char* type : {"", "text/plain", "application/x-www-form-urlencoded",
                            "multipart/form-data", "application/json;x"}) {
