@@ -128,11 +128,15 @@ TEST_F(EvalCommand, WritesSeveralFiguresBesideEachOther) {
   EXPECT_THROW(eval(arguments), ArgumentError);  // both exist
   arguments.plot_kinds = {"pie"};
   EXPECT_THROW(eval(arguments), ArgumentError);
-  // A figure that cannot be drawn leaves no file of another.
+  // A figure that cannot be drawn is named; the others are written.
   arguments.plot_kinds = {"box", "lengths"};
   arguments.options.segments.lengths_m = {1e6};
+  testing::internal::CaptureStderr();
+  eval(arguments);
+  EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("plot_lengths.pdf is not drawn"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "plot_box.pdf"));
+  arguments.plot_kinds = {"lengths"};
   EXPECT_THROW(eval(arguments), ArgumentError);
-  EXPECT_FALSE(std::filesystem::exists(folder / "plot_box.pdf"));
 }
 
 TEST_F(EvalCommand, WritesNothingWhereTheDataAllowNoAnswer) {
