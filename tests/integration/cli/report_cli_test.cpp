@@ -77,7 +77,7 @@ TEST_F(ReportCli, LoopsWritesAPageBesideItsJson) {
   EXPECT_EQ(run_in_page["loops"]["judged"], true);
   EXPECT_EQ(run_in_page["loops"]["stage"]["table"], (json{"right", "wrong"}));
   expect_usage_error(command + " --report page.html", "page.html");
-  expect_usage_error(command + " --csv page.html --report page.html",
+  expect_usage_error(command + " --csv other.html --report other.html",
                      "is where another output is to be written");
 }
 
