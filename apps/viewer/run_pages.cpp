@@ -108,14 +108,15 @@ void RunPages::show(std::shared_ptr<const StoredMap> stored, bool edited) {
 
 json RunPages::describe_run(std::size_t number) const {
   const Run& run = runs_[number];
-  bool edited = false;
+  std::string path = run.path;
+  std::shared_ptr<const StoredMap> stored;
   {
+    // Both at once: the map of one state must not be described with the files of another.
     const std::lock_guard lock(mutex_);
-    edited = run.edited;
+    stored = run.stored;
+    if (run.edited) path = (std::filesystem::path(path).parent_path() / "edited.db").string();
   }
-  const std::filesystem::path path(run.path);
-  json described = describe_run_for_report(
-      *stored(number), edited ? (path.parent_path() / "edited.db").string() : run.path);
+  json described = describe_run_for_report(*stored, path);
   described["name"] = run.name;
   return described;
 }
