@@ -117,7 +117,7 @@ TEST(StaticOverlay, HasCapturedAMapThatRestsOnIt) {
   ASSERT_FALSE(overlay.mask().empty());
   FrameView view;
   const auto add = [&](double u, double v) {
-    view.tracks.push_back({LandmarkId(0), {u, v}, {u, v}, Eigen::Vector2d(u, v)});
+    view.tracks.push_back({LandmarkId(0), {u, v}, {u, v}, Eigen::Vector2d(u, v), {}});
   };
   add(200, 140), add(210, 150), add(10, 10);
   EXPECT_TRUE(overlay.has_captured(view));
