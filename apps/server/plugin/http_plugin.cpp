@@ -118,9 +118,8 @@ extern "C" {
 __attribute__((visibility("default"))) std::int64_t placegraph_http_module_version() {
   return placegraph::apps::kHttpModuleVersion;
 }
-__attribute__((visibility("default"))) const placegraph::apps::HttpModule*
-placegraph_http_module() {
+__attribute__((visibility("default"))) const void* placegraph_http_module() {
   static const placegraph::apps::LibraryModule module;
-  return &module;
+  return static_cast<const placegraph::apps::HttpModule*>(&module);
 }
 }

@@ -9,7 +9,7 @@ namespace placegraph {
 struct PluginKind {
   const char* file;            ///< name of the shared library
   const char* version_symbol;  ///< function std::int64_t () in it
-  const char* symbol;          ///< function const Interface* () in it
+  const char* symbol;          ///< function const void* () in it: the address of the interface
   std::int64_t version;        ///< the only version that is taken
   const char* packages;        ///< Debian's packages that it links
 };

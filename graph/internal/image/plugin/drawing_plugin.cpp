@@ -103,8 +103,7 @@ extern "C" __attribute__((visibility("default"))) std::int64_t placegraph_drawin
   return placegraph::kDrawingPluginVersion;
 }
 
-extern "C" __attribute__((visibility("default"))) const placegraph::DrawingPlugin*
-placegraph_drawing_plugin() {
+extern "C" __attribute__((visibility("default"))) const void* placegraph_drawing_plugin() {
   static const placegraph::RsvgPlugin plugin;
-  return &plugin;
+  return static_cast<const placegraph::DrawingPlugin*>(&plugin);
 }

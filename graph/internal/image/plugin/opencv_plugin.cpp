@@ -168,8 +168,7 @@ extern "C" __attribute__((visibility("default"))) std::int64_t placegraph_pictur
   return placegraph::kPicturePluginVersion;
 }
 
-extern "C" __attribute__((visibility("default"))) const placegraph::PicturePlugin*
-placegraph_picture_plugin() {
+extern "C" __attribute__((visibility("default"))) const void* placegraph_picture_plugin() {
   static const placegraph::OpenCvPlugin plugin;
-  return &plugin;
+  return static_cast<const placegraph::PicturePlugin*>(&plugin);
 }
