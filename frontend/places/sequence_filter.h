@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/places/place_similarity.h>
+#include <placegraph/frontend/places/place_recognizer.h>
 #include <placegraph/frontend/places/recognition_options.h>
 #include <placegraph/graph/core/options.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/graph/pose_graph/landmark_graph.h>
-#include <placegraph/io/graphs/pose_graph_reading.h>
+#include <placegraph/io/graphs/pose_graph_file.h>
 
 #include <string>
 

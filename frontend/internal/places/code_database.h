@@ -2,7 +2,7 @@
 #include <placegraph/frontend/internal/places/cues/corner_agreement.h>
 #include <placegraph/frontend/internal/places/landmarks.h>
 #include <placegraph/frontend/internal/places/place_database.h>
-#include <placegraph/frontend/places/place_similarity.h>
+#include <placegraph/frontend/internal/places/place_similarity.h>
 #include <placegraph/graph/internal/word_tree.h>
 
 #include <cstdint>

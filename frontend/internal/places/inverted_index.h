@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/places/place_similarity.h>
+#include <placegraph/frontend/internal/places/place_similarity.h>
 
 #include <cstdint>
 #include <vector>

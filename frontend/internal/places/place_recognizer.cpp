@@ -1,7 +1,7 @@
 #include <placegraph/frontend/internal/places/dense_index.h>
+#include <placegraph/frontend/internal/places/place_similarity.h>
 #include <placegraph/frontend/internal/places/place_view.h>
 #include <placegraph/frontend/places/place_recognizer.h>
-#include <placegraph/frontend/places/place_similarity.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/internal/core/function_clones.h>
 

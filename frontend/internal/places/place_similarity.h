@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace [[gnu::visibility("default")]] placegraph {
+namespace placegraph {
 
 /// Keeps the `count` best of a list, sorted by score, best first; ties are sorted by view.
 inline void keep_best(std::vector<PlaceSimilarity>& list, int count) {
