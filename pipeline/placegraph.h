@@ -17,10 +17,12 @@
 #include <placegraph/backend/georeference/georeference.h>
 #include <placegraph/backend/incremental/incremental_optimizer.h>
 #include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
+#include <placegraph/backend/pose_graph/pose_marginals.h>
 
 // Build a factor graph.
 #include <placegraph/backend/factor_graph/bundle_adjustment.h>
 #include <placegraph/backend/factor_graph/factor_graph.h>
+#include <placegraph/backend/factor_graph/fixed_lag_smoother.h>
 #include <placegraph/backend/factor_graph/landmark_graph_optimizer.h>
 
 // Evaluate trajectories and loop closures.

@@ -86,6 +86,9 @@ using StagesObserver = std::function<void(const std::vector<StageTimes::Stage>& 
 struct RunInputs {
   /// Trained model that labels surfaces; required if `semantics` or `context` is enabled.
   std::shared_ptr<const SceneModel> surfaces = nullptr;
+  /// Place recognizer of the caller's own, see SlamInputs::recognizer. It is cleared at each start
+  /// of the run.
+  std::shared_ptr<PlaceRetrieval> recognizer = nullptr;
   /// File in which the map is saved, or from which the run resumes: the frames up to the last
   /// committed place are then read from the file.
   std::optional<MapFile> map_file = std::nullopt;

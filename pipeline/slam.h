@@ -14,6 +14,7 @@
 namespace [[gnu::visibility("default")]] placegraph {
 
 class MeasuredMotion;
+class PlaceRetrieval;
 class SlamEvents;
 struct EnvironmentObservation;
 struct FrameView;
@@ -42,6 +43,10 @@ struct SlamInputs {
   std::shared_ptr<const MeasuredMotion> motion = nullptr;
   /// Trained model that labels surfaces; required if `semantics` or `context` is enabled.
   std::shared_ptr<const SceneModel> surfaces = nullptr;
+  /// Place recognizer of the caller's own (frontend/places/place_recognizer.h), which finds the
+  /// candidates of loops and of relocalization instead of visual words. LoopRecord::similarity is
+  /// then its score, and LoopOptions::min_similarity is not used. Such a run cannot be resumed.
+  std::shared_ptr<PlaceRetrieval> recognizer = nullptr;
   /// Listener for events; not owned, must outlive the Slam object.
   SlamEvents* events = nullptr;
   LogSink log = {};  ///< receiver of log messages; may be empty
@@ -74,15 +79,16 @@ class Slam {
   /// `map` and `history` are those of the saved run. `last` is the frame of its last keyframe; it
   /// is processed again, and tracking restarts there as after a loss. Records of later frames are
   /// dropped; add_frame continues with the frame after `last`. Throws ArgumentError if map and
-  /// history are inconsistent, if `last` is another frame, or if frames have already been added;
-  /// the object must then not be used any more.
+  /// history are inconsistent, if `last` is another frame, if there is a SlamInputs::recognizer, or
+  /// if frames have already been added; the object must then not be used any more.
   void resume(const Map& map, const PlaceHistory& history, const Frame& last);
   /// Processes one frame; returns its current pose estimate, or the reason why it has none.
   ///
   /// The images are referenced, not copied, for as long as tracking needs them: pass a clone() of a
   /// buffer that will be overwritten or freed.
   /// Throws ArgumentError if the size or type of an image differs from the calibration, if id or
-  /// stamp does not increase, or after finish().
+  /// stamp does not increase, or after finish(); the frame is then ignored. After any other
+  /// exception, as one of a callback, the object is of no use: the next call throws ArgumentError.
   FrameResult add_frame(const Frame& frame);
   /// Returns the changes of the map since the last call, for MapDatabase::commit.
   ///
@@ -94,7 +100,8 @@ class Slam {
   Map snapshot() const;
   /// Optimizes the place graph to convergence and returns the map.
   ///
-  /// Later calls of finish() and add_frame() throw ArgumentError.
+  /// Later calls of finish() and add_frame() throw ArgumentError, as does finish() after an
+  /// exception of an earlier call.
   Map finish();
   /// Returns the radial distortion estimated so far; for a stereo pair it remains unknown.
   ///

@@ -24,6 +24,29 @@ struct PlaceSimilarity {
   double score = 0;
 };
 
+/// A place recognizer of the caller's own, which Slam asks for loop candidates (SlamInputs).
+///
+/// Derive from this class. Slam adds the image of every keyframe and asks for candidates among
+/// those of earlier ones; geometry decides which of them are loops. Images are in colour (BGR)
+/// where the frames are, grey otherwise, 8 bits; they are valid during the call and must not be
+/// changed. The functions are called on the thread that calls Slam; an exception propagates through
+/// it. An object serves one run at a time.
+class PlaceRetrieval {
+ public:
+  virtual ~PlaceRetrieval() = default;
+
+  /// Forgets all images; called when a run begins.
+  virtual void clear() = 0;
+  /// Stores an image; its index is the number of images stored before.
+  virtual void add(const Image& image) = 0;
+  /// Returns stored images among first..last that may show the place of `image`, in any order.
+  ///
+  /// Candidates are examined in descending order of their scores, which must be finite and may have
+  /// any unit. Images that do not resemble `image` should not be returned. Slam throws
+  /// ArgumentError for a view outside of first..last and for one that is returned twice.
+  virtual std::vector<PlaceSimilarity> query(const Image& image, int first, int last) = 0;
+};
+
 /// Retrieves the stored images (views) that are most similar to a query.
 ///
 /// There is no training: every score depends on two images alone and is the weighted sum of all

@@ -181,6 +181,7 @@ std::vector<UnposedFrames> unposed_frames(const Trajectory& optimized, const Map
 SlamInputs slam_inputs(const Dataset& dataset, const RunOptions& options, const RunInputs& given) {
   SlamInputs inputs;
   inputs.surfaces = given.surfaces;
+  inputs.recognizer = given.recognizer;
   inputs.events = given.events;
   inputs.log = given.log;
   if (!options.motion.file.empty())

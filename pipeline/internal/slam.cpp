@@ -23,7 +23,7 @@ struct Slam::Impl {
         calibration(c),
         log_sink(inputs.log),
         odometry(o.odometry, c, o.seed, log_sink, times),
-        closer(o.loops, c, o.seed),
+        closer(o.loops, c, o.seed, inputs.recognizer),
         mapper(o.places, o.pose_graph),
         recovery({o.max_lost_frames, o.odometry.pure_rotation.threshold_px / c.camera.fx},
                  log_sink),
@@ -32,14 +32,20 @@ struct Slam::Impl {
         events(inputs.events),
         health(c) {
     if (o.overlays.enabled) overlay.emplace(o.overlays, c.camera, o.seed);
-    if (inputs.surfaces) use_surfaces(inputs.surfaces);
-    if (inputs.motion) use_motion(inputs.motion);
+    if (const auto& model = inputs.surfaces)
+      odometry.set_scene(std::make_shared<const SurfaceLabeller>(model, o.semantics.masks),
+                         o.semantics.enabled);
+    if (inputs.motion) recovery.use_motion(inputs.motion), odometry.set_motion(inputs.motion);
   }
 
-  void use_motion(const std::shared_ptr<const MeasuredMotion>& motion_cam);
-  void use_surfaces(const std::shared_ptr<const SceneModel>& surfaces);
-
   void check_frame(const Frame& frame) const;
+  /// After a step that throws, no other can follow.
+  void perform(const auto& step) {
+    require(!broken, "Slam: an earlier call threw an exception; use another object");
+    broken = true;
+    step();
+    broken = false;
+  }
   FrameResult add_frame(const Frame& given);
   Frame without_overlay(const Frame& frame);
   void leave_contradicted_map(FrameId frame);
@@ -75,7 +81,7 @@ struct Slam::Impl {
   HealthMonitor health;
   ContradictedSteps contradicted;
   std::optional<StaticOverlay> overlay;
-  bool finished = false;
+  bool finished = false, broken = false;  ///< broken: an exception has left a step unfinished
 };
 
 Slam::Slam(const SlamOptions& options, const Calibration& calibration, const SlamInputs& inputs) {
@@ -88,15 +94,18 @@ Slam::Slam(const SlamOptions& options, const Calibration& calibration, const Sla
 Slam::~Slam() = default;
 Slam::Slam(Slam&&) noexcept = default;
 Slam& Slam::operator=(Slam&&) noexcept = default;
-
 const std::vector<EnvironmentObservation>& Slam::environments() const {
   return impl_->environments.observations();
 }
-
-FrameResult Slam::add_frame(const Frame& frame) { return impl_->add_frame(frame); }
+FrameResult Slam::add_frame(const Frame& frame) {
+  impl_->check_frame(frame);
+  FrameResult result;
+  impl_->perform([&] { result = impl_->add_frame(frame); });
+  return result;
+}
 MapChanges Slam::take_changes() { return impl_->feed.take_changes(impl_->sources()); }
 void Slam::resume(const Map& map, const PlaceHistory& history, const Frame& last) {
-  impl_->take_up(map, history, last);
+  impl_->perform([&] { impl_->take_up(map, history, last); });
 }
 Map Slam::snapshot() const { return impl_->feed.snapshot(impl_->sources()); }
 LensDistortion Slam::lens() const { return impl_->odometry.lens().estimate(); }
@@ -110,22 +119,11 @@ std::vector<DataNote> Slam::notes() const {
 }
 FrameView Slam::view() const { return impl_->odometry.view(); }
 const std::vector<StageTimes::Stage>& Slam::stages() const { return impl_->times.stages(); }
-
 Map Slam::finish() {
   require(!impl_->finished, "Slam::finish: called twice");
-  impl_->optimized(impl_->mapper.finish());
+  impl_->perform([&] { impl_->optimized(impl_->mapper.finish()); });
   impl_->finished = true;
   return snapshot();
-}
-
-void Slam::Impl::use_motion(const std::shared_ptr<const MeasuredMotion>& motion_cam) {
-  recovery.use_motion(motion_cam);
-  odometry.set_motion(motion_cam);
-}
-
-void Slam::Impl::use_surfaces(const std::shared_ptr<const SceneModel>& surfaces) {
-  const SceneUseOptions& o = options.semantics;
-  odometry.set_scene(std::make_shared<const SurfaceLabeller>(surfaces, o.masks), o.enabled);
 }
 
 void Slam::Impl::check_frame(const Frame& frame) const {
@@ -140,9 +138,11 @@ void Slam::Impl::check_frame(const Frame& frame) const {
            (image.type() == type && image.cols == of.width && image.rows == of.height);
   };
   require(fits(frame.right, CV_8UC1, camera) && fits(frame.mask, CV_8UC1, camera) &&
+              fits(frame.colour, CV_8UC3, camera) &&
               (!calibration.depth || fits(frame.depth, CV_32FC1, calibration.depth->camera)),
           "frame " + to_string(frame.id) +
-              ": right image, mask or depth image differs in size or type from the calibration");
+              ": right image, colour image, mask or depth image differs in size or type from the "
+              "calibration");
   require(recorder.accepts(frame),
           "frame " + to_string(frame.id) + ": ids and stamps must increase");
 }
@@ -175,7 +175,6 @@ void Slam::Impl::leave_contradicted_map(FrameId frame) {
 }
 
 FrameResult Slam::Impl::add_frame(const Frame& given) {
-  check_frame(given);
   recorder.begin(given);
   const Frame frame = without_overlay(given);
   leave_contradicted_map(frame.id);
@@ -378,6 +377,7 @@ void Slam::Impl::optimized(const IncrementalStep& step) {
 }
 
 void Slam::Impl::take_up(const Map& map, const PlaceHistory& history, const Frame& last) {
+  require(!closer.has_recognizer(), "Slam::resume: the recognizer lacks the images of the map");
   require(recorder.empty() && !finished, "Slam::resume: after the first frame");
   require(!map.keyframes.empty() && map.keyframes.back().frame == last.id,
           "Slam::resume: the frame is not that of the last keyframe");

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <placegraph/graph/core/error.h>
 #include <placegraph/graph/measurements/measured_motion.h>
 #include <placegraph/pipeline/run.h>
 #include <placegraph/pipeline/slam_events.h>
@@ -184,6 +185,8 @@ TEST(SlamEventsOfARun, EndItIfTheyThrow) {
   } thrower;
   Slam slam(small_options(), calibration(), {.events = &thrower});
   EXPECT_THROW(slam.add_frame(frames().front()), std::runtime_error);
+  EXPECT_THROW(slam.add_frame(frames()[1]), ArgumentError);
+  EXPECT_THROW(slam.finish(), ArgumentError);
 }
 
 TEST(SnapshotOfARun, IsAValueThatOutlivesIt) {

@@ -1,5 +1,5 @@
-#include <placegraph/backend/internal/solver/pose_marginals.h>
 #include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
+#include <placegraph/backend/pose_graph/pose_marginals.h>
 #include <placegraph/frontend/internal/markers/marker_pose.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/internal/core/chi_squared.h>

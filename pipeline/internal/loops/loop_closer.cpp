@@ -5,18 +5,21 @@
 #include <placegraph/pipeline/internal/loops/loop_closer.h>
 #include <placegraph/pipeline/internal/loops/loop_gates.h>
 #include <placegraph/pipeline/internal/loops/loop_probability.h>
+#include <placegraph/pipeline/internal/loops/own_recognizer.h>
 
 #include <algorithm>
 
 namespace placegraph {
 
 LoopCloser::LoopCloser(const LoopOptions& options, const Calibration& calibration,
-                       std::uint64_t seed)
+                       std::uint64_t seed, std::shared_ptr<PlaceRetrieval> recognizer)
     : options_(options),
       describer_(options.detector, options.verifier.matcher, calibration),
       seed_(seed),
-      database_(options.database, seed) {
+      database_(options.database, seed),
+      recognizer_(std::move(recognizer)) {
   options_.check();
+  if (recognizer_) recognizer_->clear();
 }
 
 LoopCloser::LoopCloser(const LoopOptions& options, const Calibration& calibration,
@@ -44,6 +47,25 @@ void LoopCloser::add_view(KeyframeId keyframe, const Frame& frame,
     describer_.triangulate(views_.back(), view, *T_previous_this);
   database_.add(keyframe, view.features);
   views_.push_back(std::move(view));
+  if (!recognizer_) return;
+  newest_image_ = recognizer_image(frame);
+  recognizer_->add(newest_image_);
+}
+
+/// The views that are most similar to an image with the given features, the best first.
+std::vector<PlaceCandidate> LoopCloser::similar_views(
+    const std::vector<Feature>& features, const Image& image,
+    const std::function<bool(KeyframeId)>& allowed) const {
+  if (!recognizer_) return database_.query(features, options_.candidates, allowed);
+  const auto keyframe_of = [&](int view) {
+    return views_[static_cast<std::size_t>(view)].keyframe;
+  };
+  std::vector<PlaceCandidate> candidates;
+  for (const PlaceSimilarity& each :
+       ask_recognizer(*recognizer_, image, static_cast<int>(views_.size()), options_.candidates,
+                      [&](int view) { return allowed(keyframe_of(view)); }))
+    candidates.push_back({keyframe_of(each.view), each.score});
+  return candidates;
 }
 
 /// Similarity of a view to the one before it; 0 for the first, which has no reference.
@@ -56,15 +78,14 @@ double LoopCloser::similarity_to_previous(std::size_t number) const {
 /// the newest ones count too.
 std::vector<LoopCloser::Candidate> LoopCloser::retrieve(const KnownMotions& known) const {
   const View& query = views_.back();
-  const double similarity_to_last = similarity_to_previous(views_.size() - 1);
+  const double unit = recognizer_ ? 1 : similarity_to_previous(views_.size() - 1);
   std::vector<Candidate> candidates;
   for (const PlaceCandidate& candidate :
-       database_.query(query.features, options_.candidates, [&](KeyframeId id) {
+       similar_views(query.features, newest_image_, [&](KeyframeId id) {
          return query.frame.value() - view(id).frame.value() >= options_.min_frame_gap ||
                 (known.apart && known.apart(id, query.keyframe));
        }))
-    candidates.push_back(
-        {&view(candidate.id), similarity_to_last > 0 ? candidate.score / similarity_to_last : 1});
+    candidates.push_back({&view(candidate.id), unit > 0 ? candidate.score / unit : 1});
   return candidates;
 }
 
@@ -107,7 +128,7 @@ std::optional<Loop> LoopCloser::judge(const Candidate& candidate, const KnownMot
                                       double median_depth_m, LoopRecord& record) const {
   const KeyframeId match = candidate.match->keyframe, query = views_.back().keyframe;
   record.stage = LoopStage::kRetrieval;
-  if (candidate.similarity < options_.min_similarity) return std::nullopt;
+  if (!recognizer_ && candidate.similarity < options_.min_similarity) return std::nullopt;
 
   const bool free_scale = known.scale_differs && known.scale_differs(match, query);
   const auto odometry = known.odometry ? known.odometry(match, query) : std::nullopt;
@@ -193,7 +214,7 @@ std::optional<LocatedFrame> LoopCloser::relocalize(const Frame& frame,
   if (views_.empty()) return std::nullopt;
   const std::vector<Feature> features = describer_.features(frame);
   for (const PlaceCandidate& c :
-       database_.query(features, options_.candidates, [](KeyframeId) { return true; }))
+       similar_views(features, recognizer_image(frame), [](KeyframeId) { return true; }))
     if (std::find(tries.begin(), tries.end(), c.id) == tries.end()) tries.push_back(c.id);
   for (const KeyframeId id : tries) {
     Random random(seed_, static_cast<std::uint64_t>(frame.id.value()) << 20 |

@@ -1,6 +1,7 @@
 #pragma once
 #include <placegraph/frontend/internal/lines/line_feature.h>
 #include <placegraph/frontend/internal/places/place_database.h>
+#include <placegraph/frontend/places/place_recognizer.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/loop.h>
 #include <placegraph/graph/map.h>
@@ -17,7 +18,9 @@ namespace placegraph {
 /// geometry, and accepts a loop only when a second, independent one agrees with it.
 class LoopCloser {
  public:
-  LoopCloser(const LoopOptions& options, const Calibration& calibration, std::uint64_t seed);
+  /// Candidates are those of `recognizer`, which is cleared, or of visual words without one.
+  LoopCloser(const LoopOptions& options, const Calibration& calibration, std::uint64_t seed,
+             std::shared_ptr<PlaceRetrieval> recognizer = nullptr);
   /// Loads the keyframes of a map, so that `relocalize` locates frames in it, for example when the
   /// path is travelled back.
   LoopCloser(const LoopOptions& options, const Calibration& calibration, std::uint64_t seed,
@@ -43,6 +46,7 @@ class LoopCloser {
   /// The same with the keyframes `tries` tried first.
   std::optional<LocatedFrame> relocalize(const Frame& frame, std::vector<KeyframeId> tries) const;
 
+  bool has_recognizer() const { return recognizer_ != nullptr; }
   const std::vector<View>& views() const { return views_; }
   const std::vector<LoopRecord>& records() const { return records_; }
   /// Appearance of a view in the current vocabulary; it changes with every training.
@@ -54,12 +58,16 @@ class LoopCloser {
  private:
   struct Candidate {
     const View* match;
-    double similarity;  // relative to the similarity of the keyframe before the newest view
+    /// Relative to the similarity of the keyframe before the newest view; a recognizer's score.
+    double similarity;
   };
   struct Pending {  // loop that has passed all gates
     Loop loop;
     std::size_t record, view;
   };
+  std::vector<PlaceCandidate> similar_views(const std::vector<Feature>& features,
+                                            const Image& image,
+                                            const std::function<bool(KeyframeId)>& allowed) const;
   std::vector<Candidate> retrieve(const KnownMotions& known) const;
   double similarity_to_previous(std::size_t number) const;
   std::optional<Loop> verify(const View& query, const View& match, bool free_scale,
@@ -74,7 +82,9 @@ class LoopCloser {
   KeyframeDescriber describer_;
   std::uint64_t seed_;
   PlaceDatabase database_;
-  std::vector<View> views_;  // in ascending order of keyframes
+  std::shared_ptr<PlaceRetrieval> recognizer_;  // instead of database_ for candidates; may be null
+  Image newest_image_;                          // image of the newest view, for recognizer_
+  std::vector<View> views_;                     // in ascending order of keyframes
   std::vector<LoopRecord> records_;
   std::deque<Pending> pending_;
 };

@@ -1,4 +1,4 @@
-#include <placegraph/backend/internal/solver/pose_marginals.h>
+#include <placegraph/backend/pose_graph/pose_marginals.h>
 #include <placegraph/graph/pose_graph/constraint_source.h>
 #include <placegraph/pipeline/map/explanation.h>
 

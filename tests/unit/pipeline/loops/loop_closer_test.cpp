@@ -106,6 +106,37 @@ TEST_F(LoopCloserOnAStreet, AcceptsARevisitWhenASecondOneAgrees) {
   EXPECT_EQ(static_cast<std::size_t>(accepted), loops.size());
 }
 
+/// Knows which keyframe of the first drive each one of the second drive is beside.
+struct TrueNeighbours final : PlaceRetrieval {
+  int first_drive = 0, images = 0, cleared = 0;
+  void clear() override {
+    images = 0;
+    ++cleared;
+  }
+  void add(const Image&) override { ++images; }
+  std::vector<PlaceSimilarity> query(const Image&, int first, int last) override {
+    const int beside = images - 1 - first_drive;
+    if (beside < first || beside > last) return {};
+    return {{beside, -7}};
+  }
+};
+
+TEST_F(LoopCloserOnAStreet, TakesTheCandidatesOfARecognizerOfTheCallers) {
+  LoopOptions options = small_options();
+  options.min_similarity = 0.9;            // of visual words; it does not count here
+  options.database.first_training = 1000;  // there are no visual words
+  const auto recognizer = std::make_shared<TrueNeighbours>();
+  recognizer->first_drive = kFirst;
+  recognizer->images = 3;
+  LoopCloser closer(options, monocular(), 1, recognizer);
+  EXPECT_EQ(recognizer->cleared, 1);
+  const auto loops = drive(closer, 1, SE3(), false);
+  EXPECT_EQ(recognizer->images, kAll);
+  ASSERT_GE(loops.size(), 2u) << stages(closer);
+  for (const Loop& loop : loops) EXPECT_EQ(loop.query.value() - loop.match.value(), kFirst);
+  for (const LoopRecord& record : closer.records()) EXPECT_EQ(record.similarity, -7);
+}
+
 TEST_F(LoopCloserOnAStreet, ComparesANewComponentWithTheNewestFramesOfAnother) {
   LoopOptions options = small_options();
   options.min_frame_gap = 200;  // more than the two drives have

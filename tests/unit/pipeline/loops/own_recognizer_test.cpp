@@ -1,0 +1,85 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/pipeline/internal/loops/own_recognizer.h>
+
+#include <limits>
+
+namespace placegraph {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Pair;
+
+/// Answers with the views of a list that are asked for, or with all of the list.
+struct ListedViews final : PlaceRetrieval {
+  std::vector<PlaceSimilarity> list;
+  bool whole = false;
+  std::vector<std::pair<int, int>> asked;
+
+  void clear() override {}
+  void add(const Image&) override {}
+  std::vector<PlaceSimilarity> query(const Image&, int first, int last) override {
+    asked.emplace_back(first, last);
+    if (whole) return list;
+    std::vector<PlaceSimilarity> answer;
+    for (const PlaceSimilarity& each : list)
+      if (each.view >= first && each.view <= last) answer.push_back(each);
+    return answer;
+  }
+};
+
+std::vector<int> views_of(const std::vector<PlaceSimilarity>& answer) {
+  std::vector<int> views;
+  for (const PlaceSimilarity& each : answer) views.push_back(each.view);
+  return views;
+}
+
+TEST(AskRecognizer, AsksForEachStretchOfAllowedViewsAndSortsTheAnswers) {
+  ListedViews recognizer;
+  recognizer.list = {{0, 0.1}, {1, -3}, {4, 7}, {6, 0.5}, {8, 2}};
+  const auto allowed = [](int view) { return view < 2 || (view > 4 && view != 7); };
+  EXPECT_THAT(views_of(ask_recognizer(recognizer, {}, 9, 10, allowed)), ElementsAre(8, 6, 0, 1));
+  EXPECT_THAT(recognizer.asked, ElementsAre(Pair(0, 1), Pair(5, 6), Pair(8, 8)));
+  EXPECT_THAT(views_of(ask_recognizer(recognizer, {}, 9, 2, allowed)), ElementsAre(8, 6));
+}
+
+TEST(AskRecognizer, DoesNotAskWhereNoViewIsAllowed) {
+  ListedViews recognizer;
+  recognizer.list = {{0, 1}};
+  EXPECT_THAT(ask_recognizer(recognizer, {}, 5, 10, [](int) { return false; }), IsEmpty());
+  EXPECT_THAT(ask_recognizer(recognizer, {}, 0, 10, [](int) { return true; }), IsEmpty());
+  EXPECT_THAT(recognizer.asked, IsEmpty());
+}
+
+TEST(AskRecognizer, RefusesAnswersThatBreakTheContract) {
+  const auto refusal = [](std::vector<PlaceSimilarity> list) -> std::string {
+    ListedViews recognizer;
+    recognizer.list = std::move(list);
+    recognizer.whole = true;
+    try {
+      (void)ask_recognizer(recognizer, {}, 5, 10, [](int view) { return view > 0; });
+    } catch (const ArgumentError& error) {
+      return error.what();
+    }
+    return "nothing was thrown";
+  };
+  EXPECT_THAT(refusal({{2, 1}, {5, 1}}), HasSubstr("view 5, which is not one of 1 to 4"));
+  EXPECT_THAT(refusal({{0, 1}}), HasSubstr("view 0"));
+  EXPECT_THAT(refusal({{3, std::numeric_limits<double>::quiet_NaN()}}), HasSubstr("score nan"));
+  EXPECT_THAT(refusal({{3, std::numeric_limits<double>::infinity()}}), HasSubstr("score inf"));
+  EXPECT_THAT(refusal({{3, 1}, {2, 1}, {3, 2}}), HasSubstr("view 3 twice"));
+}
+
+TEST(RecognizerImage, IsInColourWhereTheFrameIs) {
+  Frame frame;
+  frame.image = Image(2, 3, CV_8UC1);
+  EXPECT_EQ(recognizer_image(frame).data, frame.image.data);
+  frame.colour = Image(2, 3, CV_8UC3);
+  EXPECT_EQ(recognizer_image(frame).data, frame.colour.data);
+}
+
+}  // namespace
+}  // namespace placegraph
