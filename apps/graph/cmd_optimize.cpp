@@ -66,6 +66,8 @@ void add_optimize_command(
   command->add_flag("--components", a.task.split,
                     "optimize each component of a disconnected graph separately");
   command->add_flag("--drop-rejected", a.drop_rejected, "leave rejected constraints out of OUT");
+  command->add_option("--covariances", a.covariances,
+                      "file for the covariance of every pose of the optimized graph (.csv)");
   command->add_option("--plot", a.plot, kPlotText);
   command->add_option("--report", a.report, kReportText);
   command->add_flag("--json", optimize_command->json, kJsonText);

@@ -1,5 +1,4 @@
 #include "apps/graph/optimize.h"
-#include <placegraph/graph/internal/core/log_message.h>
 
 #include <fmt/format.h>
 #include <placegraph/eval/internal/plots/pose_graph_plot.h>
@@ -7,6 +6,7 @@
 #include <placegraph/graph/internal/core/chi_squared.h>
 #include <placegraph/graph/internal/core/id_format.h>
 #include <placegraph/graph/internal/core/json_text.h>
+#include <placegraph/graph/internal/core/log_message.h>
 #include <placegraph/io/graphs/g2o.h>
 #include <placegraph/io/graphs/pose_graph_file.h>
 
@@ -15,7 +15,10 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <optional>
+#include <utility>
 
+#include "apps/graph/covariance_table.h"
+#include "apps/graph/optimize_warnings.h"
 #include "apps/support/choice.h"
 #include "apps/support/output.h"
 #include "apps/support/plot_file.h"
@@ -89,38 +92,6 @@ std::string misfit_text(const OptimizeResult& result, double misfit) {
       result.robust == "auto" ? "" : " (try --robust auto)");
 }
 
-/// "3, 5, 7 and 12 more"
-std::string some_ids(const std::vector<NodeId>& ids) {
-  constexpr std::size_t kMost = 10;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(kMost, ids.size()); ++i)
-    text += fmt::format("{}{}", i == 0 ? "" : ", ", ids[i]);
-  if (ids.size() > kMost) text += fmt::format(" and {} more", ids.size() - kMost);
-  return text;
-}
-
-/// One line if another initialization may end at another solution of the same cost.
-void warn_of_free_directions(const std::string& in, int count,
-                             const std::vector<NodeId>& vertices) {
-  if (count == 0) return;
-  warn(
-      fmt::format("{}: the minimum is not unique: the constraints leave {}{} directions free, at "
-                  "{} vertices ({}); their information may have been written in another order, or "
-                  "has zeros",
-                  in, count >= FreeDirections::kMost ? "at least " : "", count, vertices.size(),
-                  some_ids(vertices)));
-}
-
-/// One line if components of a graph with priors or landmarks are not constrained to the world.
-void warn_of_parts(const std::string& in, const LandmarkSolution& solution) {
-  const std::vector<NodeId>& held = solution.held_vertices;
-  if (solution.components < 2 || held.empty()) return;
-  warn(fmt::format(
-      "{}: the graph falls into {} components, of which {} are constrained to the world by "
-      "no prior and no FIX: each keeps a vertex where it is ({})",
-      in, solution.components, held.size(), some_ids(held)));
-}
-
 std::vector<NodeId> free_vertices(const GraphSolution& solution) {
   std::vector<NodeId> ids;
   for (const int node : solution.free.nodes) ids.push_back(solution.graph.nodes[node].id);
@@ -176,6 +147,26 @@ void draw(const std::string& path, const PoseGraph& before, const GraphSolution&
   write_plot(path, to_svg(plot));
 }
 
+/// Checks that every output is free, and that no two are the same file.
+void require_outputs(const OptimizeArguments& arguments) {
+  struct Output {
+    const char *flag, *content;
+    const std::string& path;
+  };
+  const Output outputs[] = {{"--out", "the graph", arguments.out},
+                            {"--covariances", "the table of covariances", arguments.covariances},
+                            {"--plot", "the plot", arguments.plot},
+                            {"--report", "the page", arguments.report}};
+  for (const Output& output : outputs) {
+    if (&output != outputs && output.path.empty()) continue;
+    for (const Output* earlier = outputs; earlier != &output; ++earlier)
+      require(output.path != earlier->path,
+              fmt::format("{}: {} is where {} is to be written", output.flag, output.path,
+                          earlier->content));
+    require_free(output.path, arguments.force);
+  }
+}
+
 /// Checks all arguments and returns the options that their names stand for.
 PoseGraphOptions checked_options(const OptimizeArguments& arguments) {
   PoseGraphOptions options = arguments.task.options;
@@ -194,15 +185,8 @@ PoseGraphOptions checked_options(const OptimizeArguments& arguments) {
   require(!arguments.drop_rejected || arguments.robust != "none",
           "--drop-rejected goes with --robust, which rejects");
   require_plot_name(arguments.plot);
-  require(arguments.plot.empty() || arguments.plot != arguments.out,
-          "--plot: " + arguments.plot + " is where the graph is to be written");
-  require_free(arguments.out, arguments.force);
   if (!arguments.report.empty()) require_page_name(arguments.report);
-  for (const std::string& path : {arguments.plot, arguments.report})
-    if (!path.empty()) require_free(path, arguments.force);
-  require(arguments.report.empty() ||
-              (arguments.report != arguments.out && arguments.report != arguments.plot),
-          "--report: " + arguments.report + " is where the graph or its plot is to be written");
+  require_outputs(arguments);
   return options;
 }
 
@@ -215,11 +199,11 @@ void require_for_landmarks(const OptimizeArguments& arguments, const GraphTask& 
           !task.certify &&
           (options.initialization == PoseGraphInitialization::kAuto ||
            options.initialization == PoseGraphInitialization::kFile) &&
-          arguments.plot.empty() && arguments.report.empty(),
+          arguments.plot.empty() && arguments.report.empty() && arguments.covariances.empty(),
       arguments.in +
           ": has priors or point landmarks, which --robust, --incremental, "
-          "--components, --certify, --plot, --report and --initialization odometry, chordal and "
-          "certified do not take");
+          "--components, --certify, --covariances, --plot, --report and --initialization odometry, "
+          "chordal and certified do not take");
   require(
       options.rotation_error == RotationError::kLog ||
           std::ranges::none_of(graph.priors, &PosePriorConstraint::beside_node),
@@ -261,6 +245,8 @@ void optimize_poses(const OptimizeArguments& arguments, const GraphTask& task, P
   result.after = costs_of(kept);
   if (!std::isfinite(result.after.g2o + result.after.log))
     throw NoResult(arguments.in + ": the cost of the solution is not finite");
+  if (!arguments.covariances.empty())
+    write_covariances(arguments.covariances, arguments.in, kept, task.options.rotation_error);
   if (!arguments.plot.empty()) draw(arguments.plot, drawn, solution, result.after);
   if (const auto misfit = misfit_of(result))
     log(sink, LogLevel::kWarning, "warning: {}: {}", arguments.in, misfit_text(result, *misfit));

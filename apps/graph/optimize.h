@@ -20,15 +20,17 @@ const std::vector<std::string>& optimize_costs();
 
 struct OptimizeArguments {
   std::string in, out;  ///< graph to read (g2o, TORO or iSAM) and to write (g2o)
-  std::string plot;     ///< .png or .svg of the poses before and after; empty: none
-  std::string report;   ///< page that shows the graph, which the caller writes; empty: none
+  /// .csv of the covariances of the optimized poses; empty: none
+  std::string covariances;
+  std::string plot;    ///< .png or .svg of the poses before and after; empty: none
+  std::string report;  ///< page that shows the graph, which the caller writes; empty: none
   std::string cost = "log";
   std::string engine = pose_graph_option("engine").value;
   std::string initialization = pose_graph_option("initialization").value;
   std::string robust = pose_graph_option("robust.method").value;
   GraphTask task;              ///< its options with a name above are set by that name
   bool drop_rejected = false;  ///< leave rejected constraints out of `out`
-  bool force = false;          ///< overwrite `out`, `plot` and `report`
+  bool force = false;          ///< overwrite the files above
 };
 
 /// chi2 of a graph in both conventions, over the constraints that were not rejected.

@@ -2,6 +2,7 @@
 #include <placegraph/backend/factor_graph/factor_graph_options.h>
 #include <placegraph/backend/factors/factor.h>
 #include <placegraph/backend/factors/variable.h>
+#include <placegraph/graph/core/log.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/core/robust_kernel.h>
 #include <placegraph/graph/pose_graph/constraint.h>
@@ -69,9 +70,11 @@ struct FactorGraphReport {
 /// determines stay near their initial values. Deterministic, single-threaded. Throws ArgumentError
 /// as FactorGraph::check and for options out of range. kTooFewData: there is no term, or all
 /// variables are held. kNotConverged: the maximum number of iterations was reached (the report has
-/// the last estimate), or a factor could not be computed.
+/// the last estimate), or a factor could not be computed. `log` receives a line for every step. An
+/// exception of a factor or of `log` ends the optimization and is thrown here.
 [[nodiscard]] FactorGraphReport optimize_factor_graph(const FactorGraph& graph,
-                                                      const FactorGraphOptions& options);
+                                                      const FactorGraphOptions& options,
+                                                      const LogSink& log = {});
 
 /// Squared residual |r|^2 of every term at the current values, without kernels.
 /// Empty for a term whose residual cannot be computed. Throws as FactorGraph::check.

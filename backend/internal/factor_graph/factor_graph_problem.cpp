@@ -8,9 +8,11 @@
 #include <placegraph/backend/internal/linear/blas_threads.h>
 #include <placegraph/backend/internal/linear/sparse_algebra.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/log_message.h>
 
 #include <algorithm>
 #include <deque>
+#include <exception>
 #include <string>
 
 namespace placegraph {
@@ -46,6 +48,30 @@ class Manifolds {
       manifolds_;
 };
 
+/// Evaluates factors and keeps the first exception, which must not pass through Ceres.
+/// After it no factor can be computed, so that the solver ends soon.
+class GuardedFactor final : public Factor {
+ public:
+  GuardedFactor(const Factor& factor, std::exception_ptr& thrown)
+      : factor_(factor), thrown_(thrown) {}
+  int residual_size() const override { return factor_.residual_size(); }
+  std::vector<std::size_t> variable_kinds() const override { return factor_.variable_kinds(); }
+  bool evaluate(std::span<const Variable* const> values, Eigen::Ref<Eigen::VectorXd> r,
+                std::span<Eigen::MatrixXd> jacobians) const override {
+    if (thrown_) return false;
+    try {
+      return factor_.evaluate(values, r, jacobians);
+    } catch (...) {
+      thrown_ = std::current_exception();
+      return false;
+    }
+  }
+
+ private:
+  const Factor& factor_;
+  std::exception_ptr& thrown_;
+};
+
 /// A factor graph as a Ceres problem with its own blocks; variables without a term are left out.
 class FactorGraphProblem {
  public:
@@ -64,7 +90,8 @@ class FactorGraphProblem {
       if (term.kernel.kind != RobustKernel::Kind::kNone) loss = &kernels_.emplace_back(term.kernel);
       std::vector<double*> between;
       for (const int i : term.variables) between.push_back(block(i));
-      problem_.AddResidualBlock(&costs_.emplace_back(*term.factor, values_of(graph, term)), loss,
+      const GuardedFactor& factor = factors_.emplace_back(*term.factor, thrown_);
+      problem_.AddResidualBlock(&costs_.emplace_back(factor, values_of(graph, term)), loss,
                                 between);
     }
     for (std::size_t i = 0; i < graph.variables.size(); ++i) {
@@ -80,6 +107,11 @@ class FactorGraphProblem {
   }
 
   int free() const { return free_; }
+  /// The exception that ended an evaluation, if any.
+  std::exception_ptr& thrown() { return thrown_; }
+  void rethrow() const {
+    if (thrown_) std::rethrow_exception(thrown_);
+  }
   ceres::Problem& problem() { return problem_; }
   double* block(int variable) { return &blocks_[offsets_[static_cast<std::size_t>(variable)]]; }
 
@@ -113,11 +145,34 @@ class FactorGraphProblem {
   const FactorGraph& graph_;
   std::vector<std::size_t> offsets_;  ///< first number of each variable's block in `blocks_`
   std::vector<double> blocks_;
+  std::exception_ptr thrown_;
+  std::deque<GuardedFactor> factors_;
   std::deque<DynamicCeresFactor> costs_;
   std::deque<KernelLoss> kernels_;
   Manifolds manifolds_;
   int free_ = 0;
   ceres::Problem problem_;  // declared after all objects that it points to
+};
+
+/// Logs every step, and ends the optimization after an exception.
+class StepLog final : public ceres::IterationCallback {
+ public:
+  StepLog(const LogSink& sink, std::exception_ptr& thrown) : sink_(sink), thrown_(thrown) {}
+
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& step) override {
+    try {
+      if (!thrown_)
+        log(sink_, LogLevel::kDebug, "factor graph: step {}, cost {:.9g}", step.iteration,
+            step.cost);
+    } catch (...) {
+      thrown_ = std::current_exception();
+    }
+    return thrown_ ? ceres::SOLVER_ABORT : ceres::SOLVER_CONTINUE;
+  }
+
+ private:
+  const LogSink& sink_;
+  std::exception_ptr& thrown_;
 };
 
 ceres::Solver::Options solver_options(const FactorGraphOptions& options, bool landmarks) {
@@ -136,8 +191,8 @@ ceres::Solver::Options solver_options(const FactorGraphOptions& options, bool la
 
 }  // namespace
 
-FactorGraphReport optimize_factor_graph(const FactorGraph& graph,
-                                        const FactorGraphOptions& options) {
+FactorGraphReport optimize_factor_graph(const FactorGraph& graph, const FactorGraphOptions& options,
+                                        const LogSink& log) {
   options.check();
   graph.check();
   FactorGraphReport report;
@@ -149,7 +204,11 @@ FactorGraphReport optimize_factor_graph(const FactorGraph& graph,
     return report;
   }
   ceres::Solver::Summary summary;
-  ceres::Solve(solver_options(options, problem.has_landmarks()), &problem.problem(), &summary);
+  StepLog steps(log, problem.thrown());
+  ceres::Solver::Options solver = solver_options(options, problem.has_landmarks());
+  solver.callbacks.push_back(&steps);
+  ceres::Solve(solver, &problem.problem(), &summary);
+  problem.rethrow();
   report.cost_initial = summary.initial_cost;
   report.cost_final = summary.final_cost;
   report.iterations = std::max(0, static_cast<int>(summary.iterations.size()) - 1);
@@ -163,6 +222,7 @@ FactorGraphReport optimize_factor_graph(const FactorGraph& graph,
 MarginalCovariance marginal_covariance(const FactorGraph& graph,
                                        const std::vector<int>& variables) {
   graph.check();
+  require(!variables.empty(), "marginal covariance: no variable is named");
   MarginalCovariance result;
   FactorGraphProblem problem(graph);
   std::vector<const double*> blocks;
@@ -189,8 +249,10 @@ MarginalCovariance marginal_covariance(const FactorGraph& graph,
   result.covariance.resize(size, size);
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   RowMajor matrix(size, size);
-  if (!covariance.Compute(blocks, &problem.problem()) ||
-      !covariance.GetCovarianceMatrixInTangentSpace(blocks, matrix.data()) || !matrix.allFinite()) {
+  const bool computed = covariance.Compute(blocks, &problem.problem());
+  problem.rethrow();
+  if (!computed || !covariance.GetCovarianceMatrixInTangentSpace(blocks, matrix.data()) ||
+      !matrix.allFinite()) {
     result.covariance.setZero();
     result.outcome = Outcome::failure(Outcome::Code::kDegenerate,
                                       "the terms leave some direction of the graph undetermined");

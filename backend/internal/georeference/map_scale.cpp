@@ -1,6 +1,6 @@
 #include <placegraph/backend/internal/georeference/antenna_trajectory.h>
 #include <placegraph/backend/internal/georeference/map_scale.h>
-#include <placegraph/backend/internal/solver/pose_marginals.h>
+#include <placegraph/backend/pose_graph/pose_marginals.h>
 
 #include <algorithm>
 #include <cmath>

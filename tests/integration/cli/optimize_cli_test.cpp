@@ -92,6 +92,35 @@ TEST_F(OptimizeCli, FindsTheSameMinimumWithBothEngines) {
     }
 }
 
+TEST_F(OptimizeCli, WritesTheCovarianceOfEveryPose) {
+  // Two edges in a row and one over both, each with the information 1 along x: that of the three
+  // measurements of x1 and x2 is [[2, -1], [-1, 2]], its inverse [[2, 1], [1, 2]] / 3.
+  optimized("in.g2o -o out.g2o --covariances covariances.csv");
+  std::istringstream table(read_file(dir / "covariances.csv"));
+  std::string line;
+  ASSERT_TRUE(std::getline(table, line));
+  EXPECT_EQ(line, "node,x:x,x:y,x:angle,y:y,y:angle,angle:angle");
+  ASSERT_TRUE(std::getline(table, line));
+  EXPECT_EQ(line, "0,0,0,0,0,0,0");  // the pose that is held
+  for (const char* node : {"1", "2"}) {
+    ASSERT_TRUE(std::getline(table, line));
+    ASSERT_THAT(line, StartsWith(std::string(node) + ","));
+    EXPECT_NEAR(std::stod(line.substr(2)), 2.0 / 3, 1e-3);
+  }
+  EXPECT_FALSE(std::getline(table, line));
+}
+
+TEST_F(OptimizeCli, RefusesCovariancesThatDoNotExistOrHaveNoPlace) {
+  write_file(dir / "open.g2o",
+             "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1 0 0\nEDGE_SE2 0 1 1 0 0 1 0 0 1 0 0\n");
+  expect_failure("optimize open.g2o -o out.g2o --covariances c.csv --quiet", 1,
+                 "no covariances: the constraints leave directions undetermined");
+  EXPECT_FALSE(fs::exists(dir / "out.g2o"));
+  EXPECT_FALSE(fs::exists(dir / "c.csv"));
+  expect_usage_error("optimize in.g2o -o out.g2o --covariances out.g2o",
+                     "--covariances: out.g2o is where the graph is to be written");
+}
+
 TEST_F(OptimizeCli, ReadsOtherFormsAndWritesThatOfG2o) {
   write_file(
       dir / "toro.graph",

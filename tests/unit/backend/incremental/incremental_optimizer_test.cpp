@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/backend/internal/incremental/incremental_replay.h>
-#include <placegraph/backend/internal/solver/pose_marginals.h>
 #include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
+#include <placegraph/backend/pose_graph/pose_marginals.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/internal/core/random.h>
 
