@@ -2,6 +2,8 @@
 #include <placegraph/eval/internal/drawing/svg_canvas.h>
 #include <placegraph/eval/internal/drawing/text_width.h>
 
+#include <cmath>
+
 namespace placegraph {
 namespace {
 
@@ -93,11 +95,14 @@ void SvgCanvas::text(const Vector2d& at, const std::string& text, double size_px
 }
 
 void SvgCanvas::begin_clip(const Vector2d& corner, const Vector2d& size) {
-  ++clips_;
+  // Pictures that stand in one page share their names: equal names have equal rectangles.
+  const auto tenths = [](double px) { return std::lround(10 * px); };
   out_ += fmt::format(
-      "<clipPath id=\"panel{0}\"><rect x=\"{1:.1f}\" y=\"{2:.1f}\" width=\"{3:.1f}\" "
-      "height=\"{4:.1f}\"/></clipPath>\n<g clip-path=\"url(#panel{0})\">\n",
-      clips_, corner[0], corner[1], size[0], size[1]);
+      "<clipPath id=\"{0}\"><rect x=\"{1:.1f}\" y=\"{2:.1f}\" width=\"{3:.1f}\" "
+      "height=\"{4:.1f}\"/></clipPath>\n<g clip-path=\"url(#{0})\">\n",
+      fmt::format("clip_{}_{}_{}_{}", tenths(corner[0]), tenths(corner[1]), tenths(size[0]),
+                  tenths(size[1])),
+      corner[0], corner[1], size[0], size[1]);
 }
 
 void SvgCanvas::end_clip() { out_ += "</g>\n"; }

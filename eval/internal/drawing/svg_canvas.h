@@ -42,7 +42,6 @@ class SvgCanvas {
 
  private:
   std::string out_;
-  int clips_ = 0;
 };
 
 }  // namespace placegraph

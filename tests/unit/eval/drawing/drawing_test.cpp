@@ -6,6 +6,7 @@
 #include <placegraph/eval/internal/drawing/picture_legend.h>
 #include <placegraph/eval/internal/drawing/plot_axis.h>
 #include <placegraph/eval/internal/drawing/plot_style.h>
+#include <placegraph/eval/internal/drawing/svg_canvas.h>
 #include <placegraph/eval/internal/drawing/text_width.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/internal/image/png_codec.h>
@@ -194,6 +195,21 @@ TEST(PictureLegend, LiesBelowThePicture) {
     for (int u = 0; u < whole.cols; ++u) marked += whole.at<cv::Vec3b>(v, u) == cv::Vec3b(3, 2, 1);
   EXPECT_GT(marked, 100);
   EXPECT_FALSE(area_colour(0) == area_colour(1));
+}
+
+/// The names of the clip paths of a picture with one clipped panel.
+std::string clip_of_panel(double width_px) {
+  SvgCanvas canvas(300, 200);
+  canvas.begin_clip({10, 20}, {width_px, 100});
+  canvas.end_clip();
+  const std::string svg = canvas.finish();
+  const auto begin = svg.find("id=\"") + 4;
+  return svg.substr(begin, svg.find('"', begin) - begin);
+}
+
+TEST(SvgCanvas, ClipsPicturesInOnePageByTheirOwnPanels) {
+  EXPECT_EQ(clip_of_panel(50), clip_of_panel(50));
+  EXPECT_NE(clip_of_panel(50), clip_of_panel(50.1));
 }
 
 }  // namespace
