@@ -126,7 +126,7 @@ std::vector<Corner> find_corners(const Image& image, double min_strength, int bo
     require(of_size->empty() || (of_size->type() == CV_8UC1 && of_size->size() == image.size()),
             "find_corners: blocked and mask must be of the image's size");
   std::vector<Corner> corners;
-  if (image.cols <= 2 * border || image.rows <= 2 * border) return corners;
+  if (image.cols - border <= border || image.rows - border <= border) return corners;
   const float threshold = static_cast<float>(min_strength);
   StrengthRows rows(image, border - 1);
   std::array<PeakRow, 3> of{PeakRow(image.cols), PeakRow(image.cols),
