@@ -40,8 +40,9 @@ SequenceWriterOptions writer_options(const SynthArguments& arguments, const Synt
   writer.threads = arguments.threads > 0
                        ? arguments.threads
                        : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  writer.contents = {.right = arguments.stereo || (!arguments.mono && !world.is_indoor()),
-                     .depth = arguments.depth || world.is_indoor(),
+  const SyntheticContents usual = usual_contents(world);
+  writer.contents = {.right = arguments.stereo || (!arguments.mono && usual.right),
+                     .depth = arguments.depth || usual.depth,
                      .labels = arguments.labels,
                      .planes = arguments.labels,
                      .flow = arguments.flow};
@@ -58,9 +59,8 @@ SynthResult synth(const SynthArguments& arguments) {
   const SequenceWriterOptions writer = writer_options(arguments, world);
   {
     Progress progress("rendering " + world.name(), static_cast<std::int64_t>(world.size()));
-    const auto write = world.flight_setting() ? write_flight : write_sequence;
-    write(world, arguments.out, writer,
-          [&](std::size_t done) { progress.update(static_cast<std::int64_t>(done)); });
+    write_world(world, arguments.out, writer,
+                [&](std::size_t done) { progress.update(static_cast<std::int64_t>(done)); });
   }
   return {world.name(),
           arguments.difficulty,
