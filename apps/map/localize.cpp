@@ -21,18 +21,9 @@ namespace {
 
 using nlohmann::json;
 
-/// Views are compared by the cues of their descriptions, features as in the run of the map.
 LocalizerOptions options_of(const LocalizeArguments& arguments, const StoredMap& stored,
                             const std::string& path) {
-  LocalizerOptions options;
-  if (stored.origin.view_options.empty())
-    throw NoResult(path + ": holds no views of its keyframes (run with views.enabled)");
-  read_options_text(path, stored.origin.view_options, options.recognizer.cues);
-  if (!stored.origin.options.empty()) {
-    RunOptions run;
-    read_options_text(path, stored.origin.options, run);
-    options.loops = run.slam.loops;
-  }
+  LocalizerOptions options = localizer_options_of(path, stored.origin);
   for (const std::string& setting : arguments.settings)
     set_option(options, setting, option_notes());
   options.check();

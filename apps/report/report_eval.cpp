@@ -153,7 +153,7 @@ json figures_of(const EvalPage& page, const std::string& aligned) {
 
 }  // namespace
 
-void write_eval_page(const std::string& file, const EvalPage& page, const std::string& program) {
+std::string eval_page(const EvalPage& page, const std::string& program) {
   std::string names, aligned;
   json runs = json::array();
   for (const EvaluationResult& result : page.results) {
@@ -166,7 +166,11 @@ void write_eval_page(const std::string& file, const EvalPage& page, const std::s
   report["runs"] = std::move(runs);
   report["pictures"] = figures_of(page, aligned);
   if (page.sequences) report["tables"].push_back(averages_of(page.results));
-  write_file(file, page_with(report));
+  return page_with(report);
+}
+
+void write_eval_page(const std::string& file, const EvalPage& page, const std::string& program) {
+  write_file(file, eval_page(page, program));
 }
 
 }  // namespace placegraph::apps

@@ -15,8 +15,11 @@ struct EvalPage {
   bool sequences = false;
 };
 
-/// Writes a page with every estimate as a run, in the frame of its ground truth.
-/// `program`: name and version of the program. Throws FileError if it cannot be written.
+/// A page with every estimate as a run, in the frame of its ground truth.
+/// `program`: name and version of the program.
+std::string eval_page(const EvalPage& page, const std::string& program);
+
+/// Writes that page. Throws FileError if it cannot be written.
 void write_eval_page(const std::string& file, const EvalPage& page, const std::string& program);
 
 }  // namespace placegraph::apps

@@ -1,6 +1,6 @@
 #include "apps/report/report_frames.h"
 
-#include <placegraph/backend/internal/solver/pose_marginals.h>
+#include <placegraph/backend/pose_graph/pose_marginals.h>
 #include <placegraph/graph/internal/core/angle.h>
 
 #include <cmath>

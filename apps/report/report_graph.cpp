@@ -58,10 +58,14 @@ json describe_graph(const GraphPage& page) {
 
 }  // namespace
 
-void write_graph_page(const std::string& file, const GraphPage& graph, const std::string& program) {
+std::string graph_page(const GraphPage& graph, const std::string& program) {
   nlohmann::json report = bare_report(program, graph.name);
   report["graphs"].push_back(describe_graph(graph));
-  write_file(file, page_with(report));
+  return page_with(report);
+}
+
+void write_graph_page(const std::string& file, const GraphPage& graph, const std::string& program) {
+  write_file(file, graph_page(graph, program));
 }
 
 }  // namespace placegraph::apps

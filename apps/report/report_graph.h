@@ -16,8 +16,10 @@ struct GraphPage {
   std::vector<std::pair<std::string, double>> figures;  ///< names and values of costs
 };
 
-/// Writes a page that shows the graph; `program`: name and version of the program.
-/// Throws FileError if it cannot be written.
+/// A page that shows the graph; `program`: name and version of the program.
+std::string graph_page(const GraphPage& graph, const std::string& program);
+
+/// Writes that page. Throws FileError if it cannot be written.
 void write_graph_page(const std::string& file, const GraphPage& graph, const std::string& program);
 
 }  // namespace placegraph::apps

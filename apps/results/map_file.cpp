@@ -28,4 +28,13 @@ RunOptions options_of_run(const std::string& path, const MapOrigin& origin) {
   return options;
 }
 
+LocalizerOptions localizer_options_of(const std::string& path, const MapOrigin& origin) {
+  if (origin.view_options.empty())
+    throw NoResult(path + ": holds no views of its keyframes (run with views.enabled)");
+  LocalizerOptions options;
+  read_options_text(path, origin.view_options, options.recognizer.cues);
+  if (!origin.options.empty()) options.loops = options_of_run(path, origin).slam.loops;
+  return options;
+}
+
 }  // namespace placegraph::apps

@@ -1,5 +1,6 @@
 #pragma once
 #include <placegraph/io/map/map_database.h>
+#include <placegraph/pipeline/map/map_options.h>
 #include <placegraph/pipeline/run_options.h>
 
 #include <string>
@@ -15,5 +16,10 @@ StoredMap read_stored_map(const std::string& file_or_folder);
 /// The options of the run that made a map; the defaults for a map of no run. `path`: its file, for
 /// messages. Throws FileError for options that this program does not know.
 RunOptions options_of_run(const std::string& path, const MapOrigin& origin);
+
+/// Options with which images are localized in a map: views are compared by the cues of their
+/// descriptions, features as in the run. Throws as options_of_run, and NoResult if the map has no
+/// views of its keyframes.
+LocalizerOptions localizer_options_of(const std::string& path, const MapOrigin& origin);
 
 }  // namespace placegraph::apps

@@ -41,23 +41,23 @@ PlotCurve curve_of(const Trajectory& trajectory, const std::string& name) {
 
 /// The trajectories compared with the truth: online, optimized, and those of other components.
 /// Those that cannot be compared are left out.
-std::vector<EvaluationResult> evaluated(const RunResult& run, const Trajectory& optimized,
+std::vector<EvaluationResult> evaluated(const Map& map, const Trajectory& optimized,
                                         const Trajectory& ground_truth) {
   EvaluationOptions options;
   options.association = Association::kIndex;
-  options.alignment = run.map.metric ? Alignment::kOrigin : Alignment::kSim3;
-  const Trajectory truth = truth_of_frames(ground_truth, run.map);
+  options.alignment = map.metric ? Alignment::kOrigin : Alignment::kSim3;
+  const Trajectory truth = truth_of_frames(ground_truth, map);
   std::vector<EvaluationResult> results;
   const auto add = [&](const Trajectory& trajectory, const std::string& name) {
     EvaluationResult result = evaluate(truth, trajectory, options, name);
     if (result.outcome) results.push_back(std::move(result));
   };
-  add(run.map.trajectory_online, "online");
+  add(map.trajectory_online, "online");
   add(optimized, "optimized");
   if (results.empty()) return results;
-  for (const MapComponent& component : run.map.components())
+  for (const MapComponent& component : map.components())
     if (!component.main)
-      add(run.map.trajectory_optimized(component.number),
+      add(map.trajectory_optimized(component.number),
           "component " + std::to_string(component.number));
   return results;
 }
@@ -213,24 +213,24 @@ json describe_run(const RunResult& run, const Trajectory& optimized) {
           {"lens_k1", run.lens_k1}};
 }
 
-Plot run_plot(const RunResult& run, const Trajectory& optimized, const Trajectory* ground_truth,
+Plot run_plot(const Map& map, const Trajectory& optimized, const Trajectory* ground_truth,
               const std::string& title) {
   Plot plot;
   AlignmentResult alignment;
   if (ground_truth) {
-    const std::vector<EvaluationResult> results = evaluated(run, optimized, *ground_truth);
+    const std::vector<EvaluationResult> results = evaluated(map, optimized, *ground_truth);
     if (!results.empty()) {
       plot = plot_of(results);
       alignment = main_alignment(results);
     }
   }
   if (plot.curves.empty()) {
-    plot.curves = {curve_of(run.map.trajectory_online, "online"), curve_of(optimized, "optimized")};
-    plot.unit = unit_of(run.map.metric);
+    plot.curves = {curve_of(map.trajectory_online, "online"), curve_of(optimized, "optimized")};
+    plot.unit = unit_of(map.metric);
     plot.notes = {"no ground truth: positions in the frame of the map, not aligned"};
   }
-  add_places(run.map, alignment, plot);
-  add_loops(run.map, optimized, alignment, plot);
+  add_places(map, alignment, plot);
+  add_loops(map, optimized, alignment, plot);
   plot.title = title;
   return plot;
 }

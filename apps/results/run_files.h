@@ -17,7 +17,7 @@ nlohmann::json describe_motion(const PlaceGraph& graph);
 nlohmann::json describe_run(const RunResult& run, const Trajectory& optimized);
 /// The trajectories, the places with their numbers, and the accepted loops.
 /// With `ground_truth` (may be nullptr) it also shows the errors. The notes name the alignment.
-Plot run_plot(const RunResult& run, const Trajectory& optimized, const Trajectory* ground_truth,
+Plot run_plot(const Map& map, const Trajectory& optimized, const Trajectory* ground_truth,
               const std::string& title);
 
 }  // namespace placegraph::apps

@@ -77,7 +77,7 @@ void write_results(const std::string& folder, const RunResult& run, const Trajec
   write_file(path("places.graphml"), to_graphml(run.map.place_graph, transitions));
   write_file(path("places.dot"), to_dot(run.map.place_graph, transitions));
   write_file(path("loops.csv"), loops_csv(run.map));
-  write_plot_beside(path("plot.png"), to_svg(run_plot(run, optimized, truth, title)));
+  write_plot_beside(path("plot.png"), to_svg(run_plot(run.map, optimized, truth, title)));
   write_file(path("result.json"), json_text(summary, 1));
 }
 

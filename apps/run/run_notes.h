@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/pipeline/run.h>
+#include <placegraph/pipeline/internal/run_notes.h>
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -8,14 +8,8 @@
 
 namespace placegraph::apps {
 
-/// Notes on the data of the sequence, on its images and on the options.
-std::vector<DataNote> notes_of(const Dataset& dataset, const RunOptions& options);
-
 /// Names inertial measurements of a folder in EuRoC's layout, which a run does not use.
 std::optional<DataNote> note_of_unused_imu(const std::string& sequence);
-
-/// Notes on doubts about the scale of the estimated motion.
-std::vector<DataNote> notes_of_motion(const RunResult& run, const Trajectory& optimized);
 
 /// Adds the notes to result.json; a scale in doubt is not reported as metric.
 void add_notes(const std::vector<DataNote>& notes, nlohmann::json& summary);

@@ -179,16 +179,9 @@ int component_of(const MapExportArguments& arguments, const Map& map) {
                                   *arguments.component, numbers.empty() ? "none" : numbers));
 }
 
-}  // namespace
-
-std::vector<MapExportForm> map_export_forms() {
-  std::vector<MapExportForm> forms;
-  for (const WrittenForm& written : written_forms()) forms.push_back(written.form);
-  return forms;
-}
-
-MapExportResult map_export(const MapExportArguments& arguments) {
-  const std::vector<WrittenForm> forms = written_forms();
+/// Checks that something is to be written, and can be, before the work for it.
+void require_free_targets(const std::vector<WrittenForm>& forms,
+                          const MapExportArguments& arguments) {
   require(arguments.paths.size() == forms.size(), "map export: one path for each form is needed");
   require(std::any_of(arguments.paths.begin(), arguments.paths.end(),
                       [](const std::string& path) { return !path.empty(); }),
@@ -200,7 +193,24 @@ MapExportResult map_export(const MapExportArguments& arguments) {
                         arguments.paths[i]));
     require_free_target(forms[i].form, arguments.paths[i], arguments.force);
   }
-  const StoredMap stored = read_stored_map(arguments.map);
+}
+
+}  // namespace
+
+std::vector<MapExportForm> map_export_forms() {
+  std::vector<MapExportForm> forms;
+  for (const WrittenForm& written : written_forms()) forms.push_back(written.form);
+  return forms;
+}
+
+MapExportResult map_export(const MapExportArguments& arguments) {
+  require_free_targets(written_forms(), arguments);
+  return map_export(read_stored_map(arguments.map), arguments);
+}
+
+MapExportResult map_export(const StoredMap& stored, const MapExportArguments& arguments) {
+  const std::vector<WrittenForm> forms = written_forms();
+  require_free_targets(forms, arguments);
   const NumberForm numbers = arguments.ascii ? NumberForm::kText : NumberForm::kBinary;
   DenseOutputs dense{"", "", arguments.voxel, numbers};
   MapExportInput input{.stored = stored,

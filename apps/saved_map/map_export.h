@@ -49,6 +49,8 @@ struct MapExportResult {
 /// written, a file exists or has an unknown extension, FileError, and NoResult if a form needs
 /// poses or a metric map and the map is another.
 MapExportResult map_export(const MapExportArguments& arguments);
+/// The same for a map that was read; MapExportArguments::map is its name in messages.
+MapExportResult map_export(const StoredMap& stored, const MapExportArguments& arguments);
 
 /// A line for COLMAP's model, and one for cloud and mesh; empty without them.
 std::string to_text(const MapExportResult& result);

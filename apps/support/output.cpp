@@ -44,6 +44,12 @@ std::string shortened(const std::string& line) {
   return line.substr(0, begin) + " ... " + line.substr(end);
 }
 
+/// Empty: stderr takes the messages.
+LogSink& message_sink() {
+  static LogSink sink;
+  return sink;
+}
+
 /// Locks a folder against other processes; -1 where the file system has no locks.
 int lock_folder(const std::string& path) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -112,13 +118,19 @@ void finish_printing() {
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) fail_to_print();
 }
 
-void note(const std::string& message) { std::fprintf(stderr, "%s\n", one_line(message).c_str()); }
+void set_message_sink(LogSink sink) { message_sink() = std::move(sink); }
+
+void note(const std::string& message) {
+  if (const LogSink& sink = message_sink()) return sink(LogLevel::kInfo, one_line(message));
+  std::fprintf(stderr, "%s\n", one_line(message).c_str());
+}
 
 LogSink option_notes() {
   return [](LogLevel, const std::string& message) { note(message); };
 }
 
 void warn(const std::string& message) {
+  if (const LogSink& sink = message_sink()) return sink(LogLevel::kWarning, one_line(message));
   std::fprintf(stderr, "warning: %s\n", one_line(message).c_str());
 }
 

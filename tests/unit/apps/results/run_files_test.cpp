@@ -22,7 +22,7 @@ RunResult run_of_map(bool metric) {
 TEST(RunPlot, HasTheUnitOfTheMap) {
   for (const bool metric : {false, true}) {
     const RunResult run = run_of_map(metric);
-    const Plot plot = run_plot(run, run.map.trajectory_optimized(), nullptr, "a run");
+    const Plot plot = run_plot(run.map, run.map.trajectory_optimized(), nullptr, "a run");
     EXPECT_EQ(plot.unit, metric ? "m" : "units");
     EXPECT_EQ(plot.title, "a run");
   }
@@ -30,7 +30,7 @@ TEST(RunPlot, HasTheUnitOfTheMap) {
 
 TEST(RunPlot, NumbersThePlacesOfTheMapsFrame) {
   const RunResult run = run_of_map(true);
-  const Plot plot = run_plot(run, run.map.trajectory_optimized(), nullptr, "a run");
+  const Plot plot = run_plot(run.map, run.map.trajectory_optimized(), nullptr, "a run");
   EXPECT_EQ(plot.place_names, (std::vector<std::string>{"0", "1", "2"}));
   ASSERT_EQ(plot.places_m.size(), 3u);
   EXPECT_EQ(plot.places_m[2], run.map.place_graph.places[2].T_map_place.translation());
