@@ -1,0 +1,205 @@
+"""Visual SLAM whose backend is a pose graph of topological places.
+
+    import placegraph as pg
+
+    dataset = pg.open_dataset("kitti/sequences/00")
+    result = pg.run(dataset)
+    print(pg.evaluate(dataset.ground_truth, result.trajectory()))
+"""
+
+import importlib as _importlib
+from typing import TYPE_CHECKING as _TYPE_CHECKING
+from typing import Any as _Any
+
+from . import _show, loops, synthetic, vision
+from ._core import version as __version__
+from ._core import (
+    ArgumentError,
+    Calibration,
+    Camera,
+    ComponentJoined,
+    DataNote,
+    DepthCamera,
+    Distortion,
+    Error,
+    FileError,
+    Frame,
+    FrameResult,
+    FrameView,
+    ImuRecording,
+    KeyframeAdded,
+    LensDistortion,
+    LensFound,
+    MapMoved,
+    MeasuredMotion,
+    MotionNoise,
+    NoResult,
+    PlaceAdded,
+    PlaceRecognizer,
+    PlacesMerged,
+    PlaceView,
+    RunBegan,
+    SE3,
+    Sensor,
+    SequenceFilter,
+    TrackingState,
+    Trajectory,
+    TrajectoryFormat,
+    edge_consistency,
+)
+from ._show import page_of, show
+from .datasets import Dataset, open_dataset
+from .evaluation import Comparison, Evaluation, compare, evaluate
+from .factor_graph import (
+    SE2,
+    SO3,
+    Factor,
+    FactorGraph,
+    FactorGraphOptions,
+    FactorGraphReport,
+    FixedLagSmoother,
+    Line3,
+    Marker,
+    Plane3,
+    Sim3,
+    optimize_factors,
+)
+from .graphs import (
+    IncrementalOptimizer,
+    OptimizedGraph,
+    PoseGraph,
+    PoseMarginals,
+    RobustKernel,
+    from_networkx,
+    marginal_covariances,
+    optimize,
+    to_networkx,
+)
+from .maps import (
+    Explanation,
+    Judgement,
+    Localization,
+    Localizer,
+    LoopRecord,
+    Map,
+    localizer_options,
+)
+from .options import (
+    EvaluationOptions,
+    IncrementalOptions,
+    LocalizerOptions,
+    PlaceRecognizerOptions,
+    PoseGraphOptions,
+    RunOptions,
+    SequenceFilterOptions,
+    SlamOptions,
+)
+from .slam import Event, Recognizer, RunResult, Slam, run
+
+if _TYPE_CHECKING:
+    from . import bag, colmap, gtsam, rerun
+
+setattr(OptimizedGraph, "_repr_html_", _show.optimized_html)
+setattr(PoseGraph, "_repr_html_", _show.pose_graph_html)
+
+# Modules for packages that few need are imported when they are first used.
+_BESIDE = ("bag", "colmap", "gtsam", "rerun")
+
+
+def __getattr__(name: str) -> _Any:
+    if name in _BESIDE:
+        return _importlib.import_module(f"{__name__}.{name}")
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *_BESIDE})
+
+
+__all__ = [
+    "__version__",
+    "ArgumentError",
+    "Calibration",
+    "Camera",
+    "Comparison",
+    "ComponentJoined",
+    "DataNote",
+    "Dataset",
+    "DepthCamera",
+    "Distortion",
+    "Error",
+    "Evaluation",
+    "EvaluationOptions",
+    "Event",
+    "Explanation",
+    "Factor",
+    "FactorGraph",
+    "FactorGraphOptions",
+    "FactorGraphReport",
+    "FileError",
+    "FixedLagSmoother",
+    "Frame",
+    "FrameResult",
+    "FrameView",
+    "ImuRecording",
+    "IncrementalOptimizer",
+    "IncrementalOptions",
+    "Judgement",
+    "KeyframeAdded",
+    "LensDistortion",
+    "LensFound",
+    "Line3",
+    "Localization",
+    "Localizer",
+    "LocalizerOptions",
+    "LoopRecord",
+    "Map",
+    "MapMoved",
+    "Marker",
+    "NoResult",
+    "MeasuredMotion",
+    "MotionNoise",
+    "OptimizedGraph",
+    "PlaceAdded",
+    "PlaceRecognizer",
+    "PlaceRecognizerOptions",
+    "PlaceView",
+    "PlacesMerged",
+    "Plane3",
+    "PoseGraph",
+    "PoseGraphOptions",
+    "PoseMarginals",
+    "Recognizer",
+    "RobustKernel",
+    "RunBegan",
+    "RunOptions",
+    "RunResult",
+    "SE2",
+    "SE3",
+    "SO3",
+    "Sensor",
+    "SequenceFilter",
+    "SequenceFilterOptions",
+    "Sim3",
+    "Slam",
+    "SlamOptions",
+    "TrackingState",
+    "Trajectory",
+    "TrajectoryFormat",
+    "compare",
+    "edge_consistency",
+    "evaluate",
+    "from_networkx",
+    "localizer_options",
+    "loops",
+    "marginal_covariances",
+    "open_dataset",
+    "optimize",
+    "optimize_factors",
+    "page_of",
+    "run",
+    "show",
+    "synthetic",
+    "to_networkx",
+    "vision",
+]

@@ -1,0 +1,302 @@
+"""Evaluation of trajectories against ground truth, as `placegraph eval` does it.
+
+    result = pg.evaluate(dataset.ground_truth, map.trajectory(), align="se3")
+    print(result["ate_rmse_m"], result.protocol)
+    result.frames.plot(x="travelled_m", y="error_m")
+    result.plot("rpe")
+    pg.compare("truth.tum", ["a.tum", "b.tum"]).table
+"""
+
+from __future__ import annotations
+
+import html
+import os
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+from . import _core
+from ._estimates import (
+    estimated_of,
+    existing,
+    files_of_times,
+    is_run,
+    named_estimates,
+    pairs_of_files,
+    read_estimate,
+    read_truth,
+    true_of,
+)
+from ._tables import table_of
+from .datasets import Dataset
+from .options import EvaluationOptions, given_or_default
+
+if TYPE_CHECKING:
+    import pandas
+    from matplotlib.figure import Figure
+
+    from ._estimates import EstimateLike, TruthLike
+    from ._types import Path
+
+
+class Evaluation:
+    """One estimated trajectory evaluated against one ground truth."""
+
+    def __init__(self, core: _core.EvaluationResult) -> None:
+        self._core = core
+
+    @property
+    def name(self) -> str:
+        """Name of the estimate."""
+        return self._core.name
+
+    @property
+    def ok(self) -> bool:
+        """Whether the figures are meaningful; `reason` says why not."""
+        return self._core.ok
+
+    @property
+    def reason(self) -> str:
+        """Why there are no figures; empty otherwise."""
+        return self._core.reason
+
+    @property
+    def warnings(self) -> list[str]:
+        """Suspicious properties of the data, one line each."""
+        return self._core.warnings
+
+    @property
+    def protocol(self) -> dict[str, Any]:
+        """How the figures were computed: align, association, max_difference_s, lengths_m, step."""
+        return self._core.protocol
+
+    @property
+    def alignment(self) -> _core.AlignmentResult:
+        """The transformation that was fitted: scale, rotation, translation."""
+        return self._core.alignment
+
+    @property
+    def ape_m(self) -> _core.Statistics | None:
+        """Statistics of the position errors after the alignment [m]; the rmse is the ATE."""
+        return self._core.ape_m
+
+    @property
+    def rpe_m(self) -> _core.Statistics | None:
+        """Statistics of the errors in translation between consecutive frames [m]."""
+        return self._core.rpe_m
+
+    @property
+    def rpe_deg(self) -> _core.Statistics | None:
+        """Statistics of the errors in rotation between consecutive frames [deg]."""
+        return self._core.rpe_deg
+
+    def __bool__(self) -> bool:
+        return self._core.ok
+
+    def __getitem__(self, key: str) -> float | None:
+        """A figure by its key, as "ate_rmse_m"; None if the data allow none."""
+        figures = self.values
+        if key not in figures:
+            raise KeyError(f"{key}: no such figure; there are {', '.join(figures)}")
+        return figures[key]
+
+    @property
+    def values(self) -> dict[str, float | None]:
+        """All figures by their keys; None where the data allow none."""
+        return {row["key"]: row["value"] for row in self._core.metric_rows()}
+
+    @property
+    def metrics(self) -> pandas.DataFrame:
+        """All figures: key, name, unit, value, protocol."""
+        rows = self._core.metric_rows()
+        return table_of({key: [row[key] for row in rows] for key in rows[0]})
+
+    @property
+    def frames(self) -> pandas.DataFrame:
+        """The evaluated frames: frame, stamp_ns, error_m (NaN where lost), travelled_m."""
+        return table_of(self._core.frame_table())
+
+    def frame_table(self) -> dict[str, Any]:
+        """The same with truth and aligned estimate (N x 4 x 4) as arrays."""
+        return self._core.frame_table()
+
+    @property
+    def segments(self) -> pandas.DataFrame:
+        """The segments of t_rel and r_rel (KITTI)."""
+        return table_of(self._core.segment_table())
+
+    @property
+    def lengths(self) -> pandas.DataFrame:
+        """Mean errors of the segments of each length [m]."""
+        return table_of(self._core.length_table())
+
+    @property
+    def speeds(self) -> pandas.DataFrame:
+        """Mean errors of the segments in each interval of speed [m/s]."""
+        return table_of(self._core.speed_table())
+
+    def picture(self, kind: str = "overview") -> _core.Figure:
+        """The picture that `placegraph eval --plot-kind` draws; `to_svg()` is its text."""
+        return _core.evaluation_figure([self._core], kind)
+
+    def plot(self, kind: str = "overview") -> Figure:
+        """A matplotlib figure: 'overview', 'xyz', 'rpy', 'rpe', 'lengths', 'box' or 'violin'."""
+        from ._figures import draw
+
+        return draw(self.picture(kind))
+
+    def to_json(self) -> str:
+        """The result as `placegraph eval --json` prints it."""
+        return self._core.to_json()
+
+    def __repr__(self) -> str:
+        return str(self._core)
+
+    def _repr_html_(self) -> str:
+        from ._show import evaluation_html
+
+        return evaluation_html(self)
+
+
+class Comparison(Sequence[Evaluation]):
+    """Evaluations of several estimates of one ground truth, or of several sequences."""
+
+    def __init__(self, results: Sequence[Evaluation], own_truths: bool) -> None:
+        self._results = list(results)
+        self._own = own_truths
+
+    @property
+    def own_truths(self) -> bool:
+        """Whether each result is of a sequence of its own."""
+        return self._own
+
+    def __len__(self) -> int:
+        return len(self._results)
+
+    def __iter__(self) -> Iterator[Evaluation]:
+        return iter(self._results)
+
+    def __getitem__(self, which: Any) -> Any:
+        """A result by its index or its name."""
+        if not isinstance(which, str):
+            return self._results[which]
+        for result in self._results:
+            if result.name == which:
+                return result
+        raise KeyError(f"{which}: there are {', '.join(each.name for each in self)}")
+
+    @property
+    def table(self) -> pandas.DataFrame:
+        """The figures, a row for each result and a column for each key."""
+        columns: dict[str, list[Any]] = {"name": [each.name for each in self]}
+        for key in self._results[0].values:
+            columns[key] = [each[key] for each in self]
+        table: pandas.DataFrame = table_of(columns).set_index("name")
+        return table
+
+    @property
+    def average(self) -> dict[str, Any]:
+        """Averages of the figures over the sequences whose outcome is ok.
+
+        `pooled_t_rel` and `pooled_r_rel` are means over all segments of all sequences, as the KITTI
+        devkit averages.
+        """
+        average = _core.average_results([each._core for each in self])
+        figures = {row["key"]: row["value"] for row in average["means"]}
+        for key in ("pooled_t_rel", "pooled_r_rel"):
+            figures[key] = average[key]["value"]
+        return {"sequences": average["sequences"], "segments": average["segments"], **figures}
+
+    def picture(self, kind: str = "overview") -> _core.Figure:
+        """The picture that `placegraph eval --plot-kind` draws."""
+        return _core.evaluation_figure([each._core for each in self], kind, self._own)
+
+    def plot(self, kind: str = "overview") -> Figure:
+        """A matplotlib figure: 'overview', 'xyz', 'rpy', 'rpe', 'lengths', 'box' or 'violin'."""
+        from ._figures import draw
+
+        return draw(self.picture(kind))
+
+    def to_json(self) -> str:
+        """The results as `placegraph eval --json` prints them."""
+        return _core.results_to_json([each._core for each in self], self._own)
+
+    def to_csv(self) -> str:
+        """The results as CSV, one number per line."""
+        return _core.results_to_csv([each._core for each in self])
+
+    def to_latex(self) -> str:
+        """A LaTeX table (booktabs), one row per result."""
+        return _core.results_to_latex([each._core for each in self])
+
+    def __repr__(self) -> str:
+        return _core.results_to_table([each._core for each in self], self._own)
+
+    def _repr_html_(self) -> str:
+        text = f"<pre>{html.escape(repr(self))}</pre>"
+        return self.picture().to_svg() + text if any(each.ok for each in self) else text
+
+
+def _options(options: EvaluationOptions | None, align: str | None) -> _core.OptionSet:
+    chosen = given_or_default(options, EvaluationOptions)._set.copy()
+    if align is not None:
+        chosen.set("align", align)
+    return chosen
+
+
+def evaluate(
+    truth: TruthLike,
+    estimate: EstimateLike,
+    *,
+    align: str | None = None,
+    name: str | None = None,
+    times: Path | Sequence[Path] | None = None,
+    options: EvaluationOptions | None = None,
+) -> Evaluation:
+    """Evaluates a trajectory against the ground truth: ATE, RPE and KITTI segment errors.
+
+    `truth`: a Trajectory, the file of one, a Dataset, or the folder of a sequence; `estimate`: a
+    Trajectory, the file of one, a Map, or the output folder of a run. `align`: 'none', 'origin',
+    'se3' (the default), 'sim3' or 'scale'; it takes precedence over that of `options`. `times`:
+    file of times for trajectories without, or two, for truth and estimate.
+    """
+    chosen = _options(options, align)
+    truth_times, estimate_times = files_of_times(times)
+    truth, estimate = true_of(truth), estimated_of(estimate)
+    if name is None:
+        name = "estimate"
+        if not isinstance(estimate, _core.Trajectory):
+            name = os.path.basename(os.path.normpath(existing(estimate, "estimate")))
+    estimated = read_estimate(estimate, truth, estimate_times)
+    true, beside = read_truth(truth, truth_times)
+    if beside and not true.has_times and estimated.has_times:
+        if chosen.get("associate") != "index":
+            true, _ = read_truth(truth, beside)
+    return Evaluation(_core.evaluate_trajectory(true, estimated, chosen, name))
+
+
+def compare(
+    truth: TruthLike,
+    estimates: Mapping[str, EstimateLike] | Sequence[EstimateLike] | EstimateLike,
+    *,
+    align: str | None = None,
+    times: Path | Sequence[Path] | None = None,
+    options: EvaluationOptions | None = None,
+) -> Comparison:
+    """Evaluates several estimates of one ground truth, or all sequences of a folder.
+
+    `estimates`: what `evaluate` takes, by names, or a list of it, where "estimate 1", ... are the
+    names of trajectories and maps; or one folder, whose files are paired by name with those of the
+    folder `truth`.
+    """
+    shared = {"align": align, "times": times, "options": options}
+    if isinstance(estimates, (str, os.PathLike)):
+        folder = existing(estimates, "estimates")
+        if os.path.isdir(folder) and not is_run(folder):
+            if isinstance(truth, (_core.Trajectory, Dataset)) or not os.path.isdir(
+                    truths := existing(truth, "truth")):
+                raise _core.ArgumentError("truth: a folder is needed, as estimates is one")
+            return Comparison([evaluate(*pair, name=name, **shared)  # type: ignore[arg-type]
+                               for name, pair in pairs_of_files(truths, folder).items()], True)
+    named = named_estimates(estimates)
+    return Comparison([evaluate(truth, each, name=name, **shared)  # type: ignore[arg-type]
+                       for name, each in named], False)

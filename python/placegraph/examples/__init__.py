@@ -1,0 +1,1 @@
+"""Examples: `python -m placegraph.examples.first_drive`."""

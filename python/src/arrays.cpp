@@ -1,0 +1,63 @@
+#include "python/src/arrays.h"
+
+#include <fmt/format.h>
+#include <placegraph/graph/core/error.h>
+
+#include <string>
+
+namespace placegraph::python {
+namespace {
+
+using namespace nb::literals;
+
+std::string text_of_shape(const std::vector<int>& shape) {
+  std::string text;
+  for (const int size : shape)
+    text += (text.empty() ? "" : " x ") + (size == kAny ? "N" : std::to_string(size));
+  return text;
+}
+
+/// Whether Python takes a value, also one of numpy, for true.
+bool is_true(const nb::object& value) { return PyObject_IsTrue(value.ptr()) == 1; }
+
+}  // namespace
+
+nb::object checked_array(nb::handle value, const char* argument, const char* dtype,
+                         const std::vector<int>& shape, bool finite) {
+  const nb::module_ numpy = nb::module_::import_("numpy");
+  const std::string wanted =
+      fmt::format("{}: an array of {}, {}, is needed", argument, dtype, text_of_shape(shape));
+  nb::object array;
+  try {
+    array = numpy.attr("asarray")(value);
+  } catch (const nb::python_error&) {  // rows of different lengths
+    throw ArgumentError(wanted);
+  }
+  const auto text = [](nb::handle object) { return std::string(nb::str(object).c_str()); };
+  // An empty list has the type of a float.
+  const bool safe = nb::cast<std::size_t>(array.attr("size")) == 0 ||
+                    is_true(numpy.attr("can_cast")(array.attr("dtype"), dtype, "safe"));
+  if (!safe) throw ArgumentError(fmt::format("{}, not of {}", wanted, text(array.attr("dtype"))));
+  const auto sizes = nb::cast<std::vector<std::size_t>>(array.attr("shape"));
+  bool fits = sizes.size() == shape.size();
+  for (std::size_t i = 0; fits && i < shape.size(); ++i)
+    fits = shape[i] == kAny || sizes[i] == static_cast<std::size_t>(shape[i]);
+  if (!fits)
+    throw ArgumentError(fmt::format("{}, not of shape {}", wanted, text(array.attr("shape"))));
+  array = numpy.attr("ascontiguousarray")(array, "dtype"_a = dtype);
+  if (finite && !is_true(numpy.attr("isfinite")(array).attr("all")()))
+    throw ArgumentError(fmt::format("{}: a value is not finite", argument));
+  return array;
+}
+
+nb::module_ module_for(const char* name, const char* extra) {
+  try {
+    return nb::module_::import_(name);
+  } catch (const nb::python_error& error) {
+    if (!error.matches(PyExc_ModuleNotFoundError)) throw;
+    throw nb::import_error(
+        fmt::format("{} is not installed: pip install 'placegraph[{}]'", name, extra).c_str());
+  }
+}
+
+}  // namespace placegraph::python

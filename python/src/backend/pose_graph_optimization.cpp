@@ -1,0 +1,260 @@
+#include <fmt/format.h>
+#include <placegraph/backend/internal/initialization/certificate.h>
+#include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
+#include <placegraph/backend/pose_graph/pose_marginals.h>
+
+#include "python/src/backend/graphs.h"
+#include "python/src/options.h"
+
+namespace placegraph::python {
+namespace {
+
+using namespace nb::literals;
+
+/// The report of an optimization, and the certificate if it was asked for.
+struct OptimizedGraph {
+  PoseGraphReport report;
+  std::optional<ChordalIsotropicCertificate> certificate;
+};
+
+template <class Group>
+ChordalIsotropicCertificate certify(const PoseGraphReport& report, RotationError rotation_error) {
+  PackedGraph<Group> packed = pack<Group>(report.graph);
+  std::vector<char> rejected(report.graph.constraints.size());
+  for (const RejectedEdge& edge : report.rejected)
+    rejected[static_cast<std::size_t>(edge.constraint)] = true;
+  for (auto& edge : packed.edges)
+    if (rejected[static_cast<std::size_t>(edge.constraint)]) edge.weight = 0;
+  return certify_chordal_isotropic(packed, rotation_error);
+}
+
+ChordalIsotropicCertificate certify_any(const PoseGraphReport& report,
+                                        RotationError rotation_error) {
+  switch (report.graph.kind()) {
+    case PoseKind::kSE2:
+      return certify<SE2>(report, rotation_error);
+    case PoseKind::kSE3:
+      return certify<SE3>(report, rotation_error);
+    case PoseKind::kSim3:
+      break;
+  }
+  return certify<Sim3>(report, rotation_error);
+}
+
+OptimizedGraph optimize(PoseGraph graph, const OptionSet& options, bool with_certificate) {
+  const PoseGraphOptions typed = options_in<PoseGraphOptions>(options, "options");
+  const nb::gil_scoped_release release;
+  OptimizedGraph result;
+  result.report = optimize_pose_graph(std::move(graph), typed, interruptible());
+  if (with_certificate && !result.report.graph.nodes.empty())
+    result.certificate = certify_any(result.report, typed.rotation_error);
+  return result;
+}
+
+std::vector<std::int64_t> free_nodes(const OptimizedGraph& o) {
+  std::vector<std::int64_t> ids;
+  for (const int node : o.report.free.nodes)
+    ids.push_back(o.report.graph.nodes[static_cast<std::size_t>(node)].id.value());
+  return ids;
+}
+
+double chi2_kept(const OptimizedGraph& o) {
+  double sum = o.report.chi2_final;
+  for (const RejectedEdge& edge : o.report.rejected) sum -= edge.chi2;
+  return sum;
+}
+
+std::string text_of(const OptimizedGraph& o) {
+  const PoseGraphReport& r = o.report;
+  std::string text = fmt::format(
+      "<OptimizedGraph: {} nodes, chi2 {:.6g} -> {:.6g}, {} iterations, initialization {}",
+      r.graph.nodes.size(), r.chi2_initial, r.chi2_final, r.iterations,
+      to_string(r.initialization_used));
+  if (!r.rejected.empty())
+    text += fmt::format(", {} constraints rejected, chi2 {:.6g} without them", r.rejected.size(),
+                        chi2_kept(o));
+  if (o.certificate) text += o.certificate->certified ? ", certified" : ", not certified";
+  if (!r.outcome) text += ", " + r.outcome.reason;
+  return text + ">";
+}
+
+void bind_parts(nb::module_& m) {
+  nb::class_<RejectedEdge>(m, "RejectedEdge", doc("RejectedEdge"))
+      .def_ro("constraint", &RejectedEdge::constraint, doc("RejectedEdge::constraint"))
+      .def_ro("chi2", &RejectedEdge::chi2, doc("RejectedEdge::chi2"))
+      .def_ro("reason", &RejectedEdge::reason, doc("RejectedEdge::reason"))
+      .def("__repr__", [](const RejectedEdge& e) {
+        return fmt::format("RejectedEdge(constraint={}, chi2={:.6g}, reason='{}')", e.constraint,
+                           e.chi2, e.reason);
+      });
+  using Certificate = ChordalIsotropicCertificate;
+  nb::class_<Certificate>(m, "Certificate", doc("ChordalIsotropicCertificate"))
+      .def_ro("certified", &Certificate::certified,
+              "Whether `relative_gap` is at most 1e-5 and no pose is rotated by more than 0.3 rad "
+              "from the minimum that was found, which is therefore that of the estimate.")
+      .def_ro("cost", &Certificate::cost, doc("ChordalIsotropicCertificate::cost"))
+      .def_ro("cost_of_estimate", &Certificate::cost_of_estimate,
+              doc("ChordalIsotropicCertificate::cost_of_estimate"))
+      .def_ro("lower_bound", &Certificate::lower_bound,
+              doc("ChordalIsotropicCertificate::lower_bound"))
+      .def_ro(
+          "relative_gap", &Certificate::relative_gap,
+          "Gap between the cost of that minimum and the lower bound, relative to the cost; of the "
+          "estimate if it belongs to another minimum.")
+      .def_ro("smallest_eigenvalue", &Certificate::smallest_eigenvalue,
+              doc("ChordalIsotropicCertificate::smallest_eigenvalue"))
+      .def_ro("eigenvalue_scale", &Certificate::eigenvalue_scale,
+              doc("ChordalIsotropicCertificate::eigenvalue_scale"));
+}
+
+void bind_report(nb::module_& m) {
+  using O = OptimizedGraph;
+  nb::class_<O>(m, "OptimizedGraph", doc("PoseGraphReport"))
+      .def_prop_ro(
+          "ok", [](const O& o) { return static_cast<bool>(o.report.outcome); },
+          "Whether a minimum was reached.")
+      .def_prop_ro(
+          "reason", [](const O& o) { return o.report.outcome.reason; },
+          "Why no minimum was reached; empty otherwise.")
+      .def_prop_ro(
+          "graph", [](O& o) -> PoseGraph& { return o.report.graph; },
+          nb::rv_policy::reference_internal, doc("PoseGraphReport::graph"))
+      .def_prop_ro(
+          "chi2_initial", [](const O& o) { return o.report.chi2_initial; },
+          doc("PoseGraphReport::chi2_initial"))
+      .def_prop_ro(
+          "chi2_final", [](const O& o) { return o.report.chi2_final; },
+          doc("PoseGraphReport::chi2_final"))
+      .def_prop_ro("chi2_kept", &chi2_kept,
+                   "chi2_final without the constraints that were rejected.")
+      .def_prop_ro(
+          "iterations", [](const O& o) { return o.report.iterations; },
+          doc("PoseGraphReport::iterations"))
+      .def_prop_ro(
+          "initialization", [](const O& o) { return to_string(o.report.initialization_used); },
+          "Initialization of the selected descent: file, odometry, chordal or certified.")
+      .def_prop_ro(
+          "refined_from_certified", [](const O& o) { return o.report.refined_from_certified; },
+          "Whether `initialization` is 'certified'.")
+      .def_prop_ro(
+          "chi2_by_constraint",
+          [](nb::handle self) {
+            const std::vector<double>& chi2 = nb::cast<const O&>(self).report.chi2_by_constraint;
+            return nb::ndarray<nb::numpy, const double>(chi2.data(), {chi2.size()}, self);
+          },
+          "Squared error of each constraint at the optimized poses (a view).")
+      .def_prop_ro(
+          "rejected", [](const O& o) { return o.report.rejected; },
+          doc("PoseGraphReport::rejected"))
+      .def_prop_ro(
+          "loops_judged", [](const O& o) { return o.report.loops_judged; },
+          doc("PoseGraphReport::loops_judged"))
+      .def_prop_ro(
+          "free_directions", [](const O& o) { return o.report.free.count; }, doc("FreeDirections"))
+      .def_prop_ro("free_nodes", &free_nodes, "Ids of the nodes that the free directions move.")
+      .def_prop_ro(
+          "certificate", [](const O& o) { return o.certificate; },
+          "How far the solution is from the global minimum, if that was asked for.")
+      .def("__repr__", &text_of);
+}
+
+std::vector<NodeId> node_ids(const ArrayArgument<std::int64_t>& ids) {
+  const auto array = ids.get("ids", {kAny});
+  std::vector<NodeId> nodes;
+  for (std::size_t i = 0; i < array.shape(0); ++i) nodes.emplace_back(array.data()[i]);
+  return nodes;
+}
+
+nb::ndarray<nb::numpy, double> stacked(const std::vector<Information>& matrices, PoseKind kind) {
+  const auto dof = static_cast<std::size_t>(degrees_of_freedom(kind));
+  std::vector<double> values;
+  std::size_t count = 0;
+  for (const Information& matrix : matrices) {
+    if (matrix.size() == 0) continue;  // a constraint of another kind
+    append_rows(matrix, values);
+    ++count;
+  }
+  return owned_array(std::move(values), {count, dof, dof});
+}
+
+/// The marginals of a graph and the kind of its poses.
+struct Marginals {
+  PoseMarginals marginals;
+  PoseKind kind;
+};
+
+/// Throws if the constraints leave directions undetermined: nothing can be asked for then.
+Marginals marginals_of(PoseGraph graph, const std::string& rotation_error) {
+  const RotationError error = rotation_error_of(rotation_error);
+  const nb::gil_scoped_release release;
+  Marginals result{PoseMarginals(graph, error), graph.kind()};
+  if (!result.marginals.outcome())
+    throw Error("graph: no covariances: " + result.marginals.outcome().reason);
+  return result;
+}
+
+void bind_marginals(nb::module_& m) {
+  const auto released = nb::call_guard<nb::gil_scoped_release>();
+  nb::class_<Marginals>(m, "PoseMarginals", doc("PoseMarginals"))
+      .def(
+          "__init__",
+          [](Marginals* self, const PoseGraph& graph, const std::string& rotation_error) {
+            new (self) Marginals(marginals_of(graph, rotation_error));
+          },
+          "graph"_a, "rotation_error"_a = "log",
+          "Makes the factorization. Raises Error if the constraints leave directions undetermined.")
+      .def(
+          "covariance",
+          [](const Marginals& p, std::int64_t id) {
+            return Eigen::MatrixXd(p.marginals.covariance(NodeId(id)));
+          },
+          "id"_a, released, doc("PoseMarginals::covariance"))
+      .def(
+          "covariances",
+          [](const Marginals& p) {
+            std::vector<Information> all;
+            {
+              const nb::gil_scoped_release release;
+              all = p.marginals.covariances();
+            }
+            return stacked(all, p.kind);
+          },
+          doc("PoseMarginals::covariances"))
+      .def(
+          "joint_covariance",
+          [](const Marginals& p, const ArrayArgument<std::int64_t>& ids) {
+            const std::vector<NodeId> nodes = node_ids(ids);
+            const nb::gil_scoped_release release;
+            return p.marginals.joint_covariance(nodes);
+          },
+          "ids"_a, doc("PoseMarginals::joint_covariance"))
+      .def(
+          "relative_covariance",
+          [](const Marginals& p, std::int64_t from, std::int64_t to) {
+            return Eigen::MatrixXd(p.marginals.relative_covariance(NodeId(from), NodeId(to)));
+          },
+          "from_"_a, "to"_a, released, doc("PoseMarginals::relative_covariance"))
+      .def(
+          "edge_covariances",
+          [](const Marginals& p) {
+            std::vector<Information> all;
+            {
+              const nb::gil_scoped_release release;
+              all = p.marginals.constraint_covariances();
+            }
+            return stacked(all, p.kind);
+          },
+          "Covariances in the graph of the measured relative poses, M x D x D, as `edges`.");
+}
+
+}  // namespace
+
+void bind_pose_graph_optimization(nb::module_& m) {
+  bind_parts(m);
+  bind_report(m);
+  bind_marginals(m);
+  m.def("optimize_pose_graph", &optimize, "graph"_a, "options"_a, "certify"_a = false,
+        doc("optimize_pose_graph"));
+}
+
+}  // namespace placegraph::python

@@ -1,0 +1,237 @@
+#include <placegraph/eval/internal/plots/evaluation_plot.h>
+#include <placegraph/eval/trajectory/evaluate.h>
+#include <placegraph/eval/trajectory/report.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/io/trajectories/trajectory_file.h>
+
+#include <limits>
+
+#include "python/src/arrays.h"
+#include "python/src/frontend/functions.h"
+
+namespace placegraph::python {
+namespace {
+
+using namespace nb::literals;
+
+/// Columns of the evaluated frames.
+Table frame_table(const EvaluationResult& result) {
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  std::vector<std::int64_t> frame, stamp;
+  std::vector<double> truth, estimate, error;
+  std::size_t next = 0;
+  for (const FramePair& pair : result.aligned_pairs) {
+    frame.push_back(pair.frame);
+    stamp.push_back(pair.stamp_ns);
+    append_rows(pair.T_world_truth.matrix(), truth);
+    append_rows(pair.T_world_estimate ? Eigen::Matrix4d(pair.T_world_estimate->matrix())
+                                      : Eigen::Matrix4d::Constant(kUnknown),
+                estimate);
+    error.push_back(pair.T_world_estimate && next < result.ape.frame_errors_m.size()
+                        ? result.ape.frame_errors_m[next++]
+                        : kUnknown);
+  }
+  const std::size_t n = frame.size();
+  std::vector<double> travelled = result.travelled_m;
+  travelled.resize(n, kUnknown);
+  Table table;
+  table["frame"] = owned_array(std::move(frame), {n});
+  table["stamp_ns"] = owned_array(std::move(stamp), {n});
+  table["truth"] = owned_array(std::move(truth), {n, 4, 4});
+  table["estimate"] = owned_array(std::move(estimate), {n, 4, 4});
+  table["error_m"] = owned_array(std::move(error), {n});
+  table["travelled_m"] = owned_array(std::move(travelled), {n});
+  return table;
+}
+
+/// Columns of the means over segments of one length, or of one interval of speed.
+Table group_table(const std::vector<SegmentGroup>& groups) {
+  std::vector<double> from, to, t, r;
+  std::vector<std::int64_t> segments;
+  for (const SegmentGroup& group : groups) {
+    from.push_back(group.from);
+    to.push_back(group.to);
+    segments.push_back(group.segments);
+    t.push_back(group.t_percent);
+    r.push_back(group.r_deg_per_100m);
+  }
+  const std::size_t n = from.size();
+  Table table;
+  table["from"] = owned_array(std::move(from), {n});
+  table["to"] = owned_array(std::move(to), {n});
+  table["segments"] = owned_array(std::move(segments), {n});
+  table["t_percent"] = owned_array(std::move(t), {n});
+  table["r_deg_per_100m"] = owned_array(std::move(r), {n});
+  return table;
+}
+
+Table segment_table(const EvaluationResult& result) {
+  std::vector<std::int64_t> first, last;
+  std::vector<double> length, t, r, speed;
+  for (const SegmentError& segment : result.segments.segments) {
+    first.push_back(segment.first_frame);
+    last.push_back(segment.last_frame);
+    length.push_back(segment.length_m);
+    t.push_back(segment.t_percent);
+    r.push_back(segment.r_deg_per_100m);
+    speed.push_back(segment.speed_m_per_s);
+  }
+  const std::size_t n = first.size();
+  Table table;
+  table["first_frame"] = owned_array(std::move(first), {n});
+  table["last_frame"] = owned_array(std::move(last), {n});
+  table["length_m"] = owned_array(std::move(length), {n});
+  table["t_percent"] = owned_array(std::move(t), {n});
+  table["r_deg_per_100m"] = owned_array(std::move(r), {n});
+  table["speed_m_per_s"] = owned_array(std::move(speed), {n});
+  return table;
+}
+
+/// The figure of a metric, whose value is None if the data allow none.
+Table row_of(const Metric& metric) {
+  Table row;
+  row["key"] = metric.key;
+  row["name"] = metric.name;
+  row["unit"] = metric.unit;
+  row["value"] = metric.value ? nb::object(nb::float_(*metric.value)) : nb::none();
+  row["protocol"] = metric.protocol;
+  return row;
+}
+
+TableList rows_of(const std::vector<Metric>& metrics) {
+  TableList rows;
+  for (const Metric& metric : metrics) rows.append(row_of(metric));
+  return rows;
+}
+
+Table protocol_of(const EvaluationResult& result) {
+  const Protocol& protocol = result.protocol;
+  Table row;
+  row["align"] = to_string(protocol.alignment);
+  row["association"] = to_string(protocol.association);
+  row["max_difference_s"] = protocol.max_difference_s;
+  row["offset_s"] = protocol.offset_s;
+  row["lengths_m"] = protocol.lengths_m;
+  row["step"] = protocol.step;
+  return row;
+}
+
+std::optional<Statistics> if_known(const Outcome& outcome, const Statistics& statistics) {
+  return outcome ? std::optional(statistics) : std::nullopt;
+}
+
+EvaluationResult evaluated(const Trajectory& truth, const Trajectory& estimate,
+                           const OptionSet& options, const std::string& name) {
+  const EvaluationOptions& typed = options_in<EvaluationOptions>(options, "options");
+  const nb::gil_scoped_release release;
+  return evaluate(truth, estimate, typed, name);
+}
+
+Figure figure_of_results(const std::vector<EvaluationResult>& results, const std::string& kind,
+                         bool own_truths) {
+  const auto chosen = choice_of<EvaluationPlot>(kind, evaluation_plot_names(), "kind");
+  const nb::gil_scoped_release release;
+  return figure_of(results, own_truths ? EvaluatedTruth::kOwn : EvaluatedTruth::kShared, chosen);
+}
+
+Table average_of(const std::vector<EvaluationResult>& results) {
+  const AverageResult mean = average(results);
+  Table row;
+  row["sequences"] = mean.sequences;
+  row["segments"] = mean.segments;
+  row["means"] = rows_of(mean.means);
+  row["pooled_t_rel"] = row_of(mean.pooled_t_rel);
+  row["pooled_r_rel"] = row_of(mean.pooled_r_rel);
+  return row;
+}
+
+void bind_statistics(nb::module_& m) {
+  nb::class_<Statistics>(m, "Statistics", doc("Statistics"))
+      .def_ro("rmse", &Statistics::rmse, doc("Statistics::rmse"))
+      .def_ro("mean", &Statistics::mean, doc("Statistics::mean"))
+      .def_ro("median", &Statistics::median, doc("Statistics::median"))
+      .def_ro("max", &Statistics::max, doc("Statistics::max"))
+      .def_ro("count", &Statistics::count, doc("Statistics::count"));
+}
+
+void bind_result(nb::module_& m) {
+  nb::class_<EvaluationResult> result(m, "EvaluationResult", doc("EvaluationResult"));
+  bind_outcome(result);
+  result.def_ro("name", &EvaluationResult::name, doc("EvaluationResult::name"))
+      .def_ro("warnings", &EvaluationResult::warnings, doc("EvaluationResult::warnings"))
+      .def_ro("frames", &EvaluationResult::frames, doc("EvaluationResult::frames"))
+      .def_ro("posed", &EvaluationResult::posed, doc("EvaluationResult::posed"))
+      .def_ro("coverage", &EvaluationResult::coverage, doc("EvaluationResult::coverage"))
+      .def_ro("lost_frames", &EvaluationResult::lost_frames, doc("EvaluationResult::lost_frames"))
+      .def_ro("path_m", &EvaluationResult::path_m, doc("EvaluationResult::path_m"))
+      .def_ro("alignment", &EvaluationResult::alignment, doc("EvaluationResult::alignment"))
+      .def_prop_ro("protocol", &protocol_of, doc("Protocol"))
+      .def_prop_ro(
+          "ape_m", [](const EvaluationResult& r) { return if_known(r.ape.outcome, r.ape.error_m); },
+          doc("ApeResult"))
+      .def_prop_ro(
+          "rpe_m",
+          [](const EvaluationResult& r) { return if_known(r.rpe.outcome, r.rpe.translation_m); },
+          doc("RpeResult::translation_m"))
+      .def_prop_ro(
+          "rpe_deg",
+          [](const EvaluationResult& r) { return if_known(r.rpe.outcome, r.rpe.rotation_deg); },
+          doc("RpeResult::rotation_deg"))
+      .def(
+          "metric_rows", [](const EvaluationResult& r) { return rows_of(metrics(r)); },
+          "All figures, a dictionary each.")
+      .def("frame_table", &frame_table, "Columns of the evaluated frames.")
+      .def("segment_table", &segment_table, "Columns of the KITTI segments.")
+      .def(
+          "length_table",
+          [](const EvaluationResult& r) { return group_table(r.segments.by_length); },
+          "Columns of the means over the segments of each length [m].")
+      .def(
+          "speed_table", [](const EvaluationResult& r) { return group_table(r.segments.by_speed); },
+          "Columns of the means over the segments of each interval of speed [m/s].")
+      .def(
+          "to_json", [](const EvaluationResult& r) { return to_json(r); },
+          "The result as JSON, as `placegraph eval --json` prints it.")
+      .def("__str__", [](const EvaluationResult& r) { return to_text(r); });
+}
+
+}  // namespace
+
+void bind_evaluation(nb::module_& m) {
+  using Results = std::vector<EvaluationResult>;
+  bind_statistics(m);
+  bind_result(m);
+  m.def("evaluate_trajectory", &evaluated, "truth"_a, "estimate"_a, "options"_a,
+        "name"_a = "estimate", doc("evaluate"));
+  m.def("evaluation_figure", &figure_of_results, "results"_a, "kind"_a = "overview",
+        "own_truths"_a = false,
+        "A figure of the results that did not fail.\n\n`kind`: one of `evaluation_plots()`. "
+        "`own_truths`: each result is of a sequence of its own.");
+  m.def("average_results", &average_of, "results"_a, doc("average"));
+  m.def(
+      "results_to_json",
+      [](const Results& results, bool average) { return to_json(results, average); }, "results"_a,
+      "average"_a = false, "Several results as JSON, with their averages if `average`.");
+  m.def(
+      "results_to_csv", [](const Results& results) { return to_csv(results); }, "results"_a,
+      doc("to_csv"));
+  m.def(
+      "results_to_latex", [](const Results& results) { return to_latex(results); }, "results"_a,
+      doc("to_latex"));
+  m.def(
+      "results_to_table",
+      [](const Results& results, bool average) { return to_table(results, average); }, "results"_a,
+      "average"_a = false, "The results as a table of text; `average` adds a row of averages.");
+  m.def(
+      "read_evaluated",
+      [](const std::string& path, const std::string& times) {
+        Trajectory trajectory = read_trajectory(path, {}, Orientation::kOptional);
+        if (!trajectory.has_times && !times.empty()) give_times(trajectory, path, times);
+        return trajectory;
+      },
+      "path"_a, "times"_a = "", nb::call_guard<nb::gil_scoped_release>(),
+      "Reads a trajectory to evaluate: poses without orientation are accepted. `times`: file of "
+      "times for a trajectory without.");
+}
+
+}  // namespace placegraph::python

@@ -1,0 +1,157 @@
+#include <fmt/format.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/graph/geometry/se3.h>
+#include <placegraph/graph/geometry/trajectory.h>
+#include <placegraph/io/internal/datasets/recorded_sequence.h>
+#include <placegraph/io/trajectories/trajectory_file.h>
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include "python/src/arrays.h"
+
+namespace placegraph::python {
+namespace {
+
+using namespace nb::literals;
+
+/// N x 4 x 4; frames without a pose have NaN.
+nb::ndarray<nb::numpy, double> poses_of(const Trajectory& trajectory) {
+  std::vector<double> values;
+  values.reserve(16 * trajectory.size());
+  for (const StampedPose& pose : trajectory.poses)
+    append_rows(pose.T_world_body
+                    ? Eigen::Matrix4d(pose.T_world_body->matrix())
+                    : Eigen::Matrix4d::Constant(std::numeric_limits<double>::quiet_NaN()),
+                values);
+  return owned_array(std::move(values), {trajectory.size(), 4, 4});
+}
+
+nb::ndarray<nb::numpy, std::int64_t> stamps_of(const Trajectory& trajectory) {
+  std::vector<std::int64_t> stamps;
+  for (const StampedPose& pose : trajectory.poses) stamps.push_back(pose.stamp_ns);
+  return owned_array(std::move(stamps), {trajectory.size()});
+}
+
+Trajectory from_arrays(const ArrayArgument<std::int64_t>& stamps_argument,
+                       const ArrayArgument<double>& poses_argument) {
+  const auto stamps_ns = stamps_argument.get("stamps_ns", {kAny});
+  const auto poses = poses_argument.get("poses", {kAny, 4, 4}, Values::kUnchecked);
+  require(stamps_ns.shape(0) == poses.shape(0),
+          fmt::format("poses: {} stamps and {} poses", stamps_ns.shape(0), poses.shape(0)));
+  Trajectory trajectory;
+  const double* value = poses.data();
+  for (std::size_t i = 0; i < poses.shape(0); ++i, value += 16) {
+    StampedPose& pose = trajectory.poses.emplace_back();
+    pose.stamp_ns = stamps_ns.data()[i];
+    require(i == 0 || pose.stamp_ns > trajectory.poses[i - 1].stamp_ns,
+            fmt::format("stamps_ns: row {} does not increase", i));
+    using RowMajor = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
+    const Eigen::Map<const RowMajor> matrix(value);
+    if (matrix.hasNaN()) continue;
+    require(matrix.allFinite(), fmt::format("poses: row {} is not finite", i));
+    const Eigen::Matrix3d R = matrix.topLeftCorner<3, 3>();
+    require((R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < 1e-2 &&
+                R.determinant() > 0 && matrix.row(3) == Eigen::RowVector4d(0, 0, 0, 1),
+            fmt::format("poses: row {} is no rigid motion", i));
+    pose.T_world_body.emplace();
+    pose.T_world_body->matrix() = matrix;
+  }
+  return trajectory;
+}
+
+std::string text_of(const Trajectory& trajectory) {
+  return fmt::format("<placegraph.Trajectory: {} of {} frames posed, path length {:.4g}>",
+                     trajectory.posed(), trajectory.size(), trajectory.path_length());
+}
+
+nb::object table_of(const Trajectory& trajectory) {
+  constexpr const char* kColumns[] = {"x", "y", "z", "qx", "qy", "qz", "qw"};
+  std::vector<double> columns[std::size(kColumns)];
+  for (const StampedPose& pose : trajectory.poses) {
+    Eigen::Matrix<double, 7, 1> row;
+    row.setConstant(std::numeric_limits<double>::quiet_NaN());
+    if (pose.T_world_body)
+      row << pose.T_world_body->translation(),
+          SE3(*pose.T_world_body).rotation().quaternion().coeffs();
+    for (Eigen::Index i = 0; i < row.size(); ++i) columns[i].push_back(row[i]);
+  }
+  nb::dict table;
+  table["stamp_ns"] = stamps_of(trajectory);
+  for (std::size_t i = 0; i < std::size(kColumns); ++i)
+    table[kColumns[i]] = owned_array(std::move(columns[i]), {trajectory.size()});
+  return module_for("pandas", "pandas").attr("DataFrame")(table);
+}
+
+}  // namespace
+
+void bind_trajectories(nb::module_& m) {
+  nb::enum_<TrajectoryFormat>(m, "TrajectoryFormat", "Formats in which trajectories are written.")
+      .value("KITTI", TrajectoryFormat::kKitti)
+      .value("TUM", TrajectoryFormat::kTum)
+      .value("EUROC", TrajectoryFormat::kEuroc);
+  nb::class_<Trajectory>(m, "Trajectory", doc("Trajectory"))
+      .def(nb::init<>(), "No poses.")
+      .def_static(
+          "from_arrays", &from_arrays, "stamps_ns"_a, "poses"_a,
+          "A trajectory of stamps (N, int64) [ns] and matrices T_world_body (N x 4 x 4).\n\n"
+          "A matrix with NaN is that of a frame without a pose. Raises ArgumentError for "
+          "stamps that do not increase and matrices that are no rigid motions.")
+      .def_static(
+          "read",
+          [](const std::filesystem::path& path, const std::filesystem::path& times) {
+            return read_trajectory(path.string(), times.string());
+          },
+          "path"_a, "times"_a = "", nb::call_guard<nb::gil_scoped_release>(),
+          "Reads a trajectory from a text file with one pose per line.\n\n"
+          "A header that names the columns is used; otherwise the number of fields decides: KITTI "
+          "(3x4 or 4x4), TUM, EuRoC. Blanks, tabs, commas or semicolons separate the fields. "
+          "Without times, stamps are the numbers of the frames and `has_times` is False, unless "
+          "`times` names a file with one time [s] per line and frame. Raises FileError with the "
+          "line: missing, empty, of unknown format, not a number, times or numbers not "
+          "increasing, not a rotation (tolerance 1e-2), no orientation.")
+      .def(
+          "write",
+          [](const Trajectory& t, const std::filesystem::path& path, TrajectoryFormat format) {
+            write_trajectory(path.string(), t, format);
+          },
+          "path"_a, "format"_a = TrajectoryFormat::kTum, nb::call_guard<nb::gil_scoped_release>(),
+          doc("write_trajectory"))
+      .def("__len__", &Trajectory::size)
+      .def("__repr__", &text_of)
+      .def_prop_ro("posed", &Trajectory::posed, doc("Trajectory::posed"))
+      .def_prop_ro("path_length", &Trajectory::path_length, doc("Trajectory::path_length"))
+      .def_ro("has_times", &Trajectory::has_times, doc("Trajectory::has_times"))
+      .def_prop_ro("stamps_ns", &stamps_of, nb::rv_policy::move,
+                   "Stamps, N of int64 [ns]; numbers of frames where has_times is false.")
+      .def_prop_ro("poses", &poses_of, nb::rv_policy::move,
+                   "Matrices T_world_body, N x 4 x 4; NaN where there is none.")
+      .def(
+          "resample",
+          [](const Trajectory& t, const ArrayArgument<std::int64_t>& stamps_ns, double max_gap_s) {
+            const auto stamps = stamps_ns.get("stamps_ns", {kAny});
+            require(max_gap_s > 0, "max_gap_s: it is not positive");
+            for (std::size_t i = 1; i < stamps.size(); ++i)
+              require(stamps.data()[i] > stamps.data()[i - 1],
+                      fmt::format("stamps_ns: row {} does not increase", i));
+            return resample(t, {stamps.data(), stamps.data() + stamps.size()}, max_gap_s);
+          },
+          "stamps_ns"_a, "max_gap_s"_a = 0.2,
+          "The poses at other stamps [ns] (N, int64), interpolated. Stamps that have no pose on "
+          "both sides within `max_gap_s` get none.")
+      .def(
+          "pose_at",
+          [](const Trajectory& t, std::int64_t stamp_ns, double max_gap_s) {
+            require(max_gap_s >= 0, "max_gap_s: it must be a number that is not negative");
+            return interpolate(t, stamp_ns, max_gap_s);
+          },
+          "stamp_ns"_a, "max_gap_s"_a = 1.0,
+          "The pose T_world_body at a time [ns] between two frames that have one; None outside the "
+          "trajectory, beside a lost frame, or across a gap wider than `max_gap_s`.\n\n"
+          "The translation is interpolated linearly, the rotation along the geodesic.")
+      .def("to_pandas", &table_of, nb::sig("def to_pandas(self) -> pandas.DataFrame"),
+           "A row for each frame: stamp_ns, x, y, z, qx, qy, qz, qw; NaN where there is no pose.");
+}
+
+}  // namespace placegraph::python

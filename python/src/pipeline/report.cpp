@@ -1,0 +1,137 @@
+#include <fmt/format.h>
+#include <placegraph/eval/internal/plots/evaluation_plot.h>
+#include <placegraph/eval/internal/plots/pose_graph_plot.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/io/datasets/open_dataset.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "apps/page/page.h"
+#include "apps/report/report.h"
+#include "apps/report/report_eval.h"
+#include "apps/report/report_graph.h"
+#include "apps/report/report_run.h"
+#include "apps/results/run_files.h"
+#include "apps/support/output.h"
+#include "python/src/graph/maps.h"
+
+namespace placegraph::python {
+namespace {
+
+using namespace nb::literals;
+
+constexpr const char* kProgram = "placegraph " PLACEGRAPH_VERSION;
+
+/// The page of a map, as `placegraph report` writes it; `path`: its file, empty for a map of this
+/// process, which is named after its recording.
+std::string map_page(const StoredMap& stored, const std::string& path, const std::string& title) {
+  namespace fs = std::filesystem;
+  std::string file = path;
+  if (file.empty()) {
+    const fs::path recording = (fs::path(stored.origin.sequence) / "").parent_path().filename();
+    file = (recording.empty() ? "map" : recording.string()) + ".db";
+  }
+  nlohmann::json run = apps::describe_run_for_report(stored, file);
+  if (path.empty()) run["folder"] = "";
+  const std::string name = title.empty() ? run["name"].get<std::string>() : title;
+  nlohmann::json runs = nlohmann::json::array();
+  runs.push_back(std::move(run));
+  return apps::page_with(apps::report_data(name, kProgram, std::move(runs)));
+}
+
+std::string map_picture(const StoredMap& stored, const std::optional<Trajectory>& truth,
+                        const std::string& title) {
+  for (const FrameRecord& each : stored.map.frames)
+    require(!truth || each.frame.value() < static_cast<std::int64_t>(truth->size()),
+            fmt::format("truth: it has no pose of frame {}", each.frame.value()));
+  return to_svg(apps::run_plot(stored.map, stored.map.trajectory_optimized(),
+                               truth ? &*truth : nullptr, title));
+}
+
+EvaluationPlot kind_of(const std::string& name) {
+  const std::vector<std::string>& names = evaluation_plot_names();
+  const auto found = std::ranges::find(names, name);
+  if (found == names.end()) throw ArgumentError(fmt::format("kind: there is no plot '{}'", name));
+  return static_cast<EvaluationPlot>(found - names.begin());
+}
+
+EvaluatedTruth truth_of(bool sequences) {
+  return sequences ? EvaluatedTruth::kOwn : EvaluatedTruth::kShared;
+}
+
+std::string evaluation_picture(const std::vector<EvaluationResult>& results,
+                               const std::string& kind, bool sequences) {
+  require(!results.empty(), "results: there is none");
+  return to_svg(figure_of(results, truth_of(sequences), kind_of(kind)));
+}
+
+std::string evaluation_page(const std::vector<EvaluationResult>& results, const std::string& truth,
+                            bool sequences) {
+  require(!results.empty(), "results: there is none");
+  return apps::eval_page({truth, results, sequences}, kProgram);
+}
+
+void require_same_graph(const PoseGraph& before, const PoseGraph& after,
+                        const std::vector<int>& rejected) {
+  require(before.nodes.size() == after.nodes.size() &&
+              before.constraints.size() == after.constraints.size(),
+          "before: it has other nodes or constraints than the graph");
+  for (const int i : rejected)
+    require(i >= 0 && static_cast<std::size_t>(i) < after.constraints.size(),
+            fmt::format("rejected: there is no constraint {}", i));
+}
+
+std::string pose_graph_picture(const PoseGraph& graph, const PoseGraph* before,
+                               const std::vector<int>& rejected, const std::string& title) {
+  require(!graph.nodes.empty(), "graph: it has no nodes");
+  require_same_graph(before ? *before : graph, graph, rejected);
+  Plot plot = plot_of(before ? *before : graph, graph, rejected);
+  if (!before) {
+    plot.curves.erase(plot.curves.begin());
+    plot.curves.front().name = "poses";
+  }
+  plot.title = title;
+  return to_svg(plot);
+}
+
+std::string pose_graph_page(const PoseGraph& graph, const PoseGraph& before,
+                            const std::vector<double>& chi2, const std::vector<int>& rejected,
+                            const std::string& title) {
+  require(!graph.nodes.empty(), "graph: it has no nodes");
+  require_same_graph(before, graph, rejected);
+  return apps::graph_page({title, before, graph, chi2, rejected, {}}, kProgram);
+}
+
+/// What the commands would print on stderr are Python's warnings.
+void warn(LogLevel, const std::string& message) {
+  const nb::gil_scoped_acquire gil;
+  if (PyErr_WarnEx(PyExc_RuntimeWarning, message.c_str(), 1) != 0) throw nb::python_error();
+}
+
+}  // namespace
+
+void bind_reports(nb::module_& m) {
+  apps::set_message_sink(&warn);
+  nb::exception<apps::NoResult>(m, "NoResult", m.attr("Error"));
+  const auto released = nb::call_guard<nb::gil_scoped_release>();
+  m.def("map_page", &map_page, "map"_a, "path"_a = "", "title"_a = "", released,
+        "The page of a map as `placegraph report` writes it, HTML. `path`: the file of the map, "
+        "beside which are other results of its run.");
+  m.def("map_picture", &map_picture, "map"_a, "truth"_a = nb::none(), "title"_a = "", released,
+        "Trajectories, places and loops of a map, over the true trajectory, SVG. `truth`: poses "
+        "of the recording's frames, T_world_cam.");
+  m.def("evaluation_plots", &evaluation_plot_names, "Names of the pictures of an evaluation.");
+  m.def("evaluation_picture", &evaluation_picture, "results"_a, "kind"_a = "overview",
+        "sequences"_a = false, released, "A picture of evaluated trajectories, SVG.");
+  m.def("evaluation_page", &evaluation_page, "results"_a, "truth"_a, "sequences"_a = false,
+        released, "The page of `placegraph eval --report`, HTML; `truth`: name of the truth.");
+  m.def("pose_graph_picture", &pose_graph_picture, "graph"_a, "before"_a = nb::none(),
+        "rejected"_a = std::vector<int>(), "title"_a = "", released,
+        "A pose graph, over what it was before its optimization if that is given, SVG.");
+  m.def("pose_graph_page", &pose_graph_page, "graph"_a, "before"_a,
+        "chi2"_a = std::vector<double>(), "rejected"_a = std::vector<int>(), "title"_a = "",
+        released, "The page of `placegraph graph optimize --report`, HTML.");
+}
+
+}  // namespace placegraph::python

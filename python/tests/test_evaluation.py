@@ -1,0 +1,234 @@
+"""Evaluation of trajectories: against formulas in numpy and the program's output."""
+
+import json
+import pathlib
+import shutil
+import subprocess
+
+import matplotlib
+import matplotlib.pyplot
+import numpy as np
+import pytest
+from checks import some, wrong
+from numpy.typing import NDArray
+
+import placegraph as pg
+from placegraph import _core
+
+matplotlib.use("agg")
+Array = NDArray[np.float64]
+
+
+def motion(count: int = 300) -> tuple[Array, Array]:
+    """Poses of a truth and of an estimate in another frame and scale, with noise."""
+    random = np.random.default_rng(4)
+    angle = np.linspace(0, 5, count)
+    truth = np.stack([pg.SE3.exp([0, 0, 0, 0, a, 0]).matrix() for a in angle])
+    truth[:, :3, 3] = np.stack([60 * np.sin(angle), np.sin(3 * angle), 60 * (1 - np.cos(angle))], 1)
+    frame = pg.SE3.exp([3, -2, 1, 0.3, -0.2, 0.5]).matrix()
+    estimate = frame @ truth
+    estimate[:, :3, 3] *= 0.8
+    estimate[:, :3, 3] += random.normal(0, 0.1, (count, 3))
+    return truth, estimate
+
+
+def trajectory(poses: Array) -> pg.Trajectory:
+    stamps = np.arange(len(poses), dtype=np.int64) * 100_000_000
+    return pg.Trajectory.from_arrays(stamps, poses)
+
+
+def similarity(source: Array, target: Array, with_scale: bool) -> tuple[float, Array, Array]:
+    """Umeyama 1991 in numpy."""
+    a, b = source - source.mean(0), target - target.mean(0)
+    U, D, Vt = np.linalg.svd(b.T @ a / len(a))
+    S = np.diag([1, 1, np.sign(np.linalg.det(U @ Vt))])
+    R = U @ S @ Vt
+    scale = float(np.trace(np.diag(D) @ S) / (a**2).sum() * len(a)) if with_scale else 1.0
+    return scale, R, target.mean(0) - scale * R @ source.mean(0)
+
+
+@pytest.mark.parametrize("align", ["se3", "sim3", "none", "origin"])
+def test_ate_is_that_of_numpy(align: str) -> None:
+    truth, estimate = motion()
+    result = pg.evaluate(trajectory(truth), trajectory(estimate), align=align)
+    moved = estimate[:, :3, 3]
+    if align in ("se3", "sim3"):
+        scale, R, t = similarity(moved, truth[:, :3, 3], align == "sim3")
+        moved = scale * moved @ R.T + t
+        assert result.alignment.scale == pytest.approx(scale, rel=1e-12)
+        np.testing.assert_allclose(result.alignment.R_truth_estimate, R, atol=1e-12)
+    elif align == "origin":
+        T = truth[0] @ np.linalg.inv(estimate[0])
+        moved = moved @ T[:3, :3].T + T[:3, 3]
+    errors = np.linalg.norm(moved - truth[:, :3, 3], axis=1)
+    assert result.ape_m is not None
+    assert result["ate_rmse_m"] == pytest.approx(np.sqrt((errors**2).mean()), rel=1e-9)
+    assert result.ape_m.median == pytest.approx(np.median(errors), rel=1e-9)
+    assert result.ape_m.max == pytest.approx(errors.max(), rel=1e-9)
+    np.testing.assert_allclose(result.frames["error_m"], errors, rtol=1e-7, atol=1e-12)
+    np.testing.assert_allclose(result.frame_table()["estimate"][:, :3, 3], moved, atol=1e-9)
+
+
+def test_rpe_is_that_of_numpy() -> None:
+    truth, estimate = motion()
+    result = pg.evaluate(trajectory(truth), trajectory(estimate), align="se3")
+    steps = [np.linalg.inv(a[:-1]) @ a[1:] for a in (truth, estimate)]
+    error = np.linalg.inv(steps[0]) @ steps[1]
+    assert result.rpe_m is not None and result.rpe_m.count == len(truth) - 1
+    assert result.rpe_m.rmse == pytest.approx(
+        np.sqrt((error[:, :3, 3]**2).sum(1).mean()), rel=1e-9)
+
+
+def test_lost_frames_have_no_error() -> None:
+    truth, estimate = motion()
+    estimate[40:50] = np.nan
+    result = pg.evaluate(trajectory(truth), trajectory(estimate))
+    error = result.frames["error_m"]
+    assert error.isna().sum() == 10 and error[40:50].isna().all()
+    assert result["coverage"] == pytest.approx(290 / 300)
+
+
+def test_segments_and_their_means_agree() -> None:
+    truth, estimate = motion()
+    result = pg.evaluate(trajectory(truth), trajectory(estimate), align="sim3")
+    segments = result.segments
+    assert set(segments["length_m"]) == {100.0, 200.0, 300.0}
+    assert result["t_rel_percent"] == pytest.approx(segments["t_percent"].mean(), rel=1e-12)
+    by_length = segments.groupby("length_m")["t_percent"].mean()
+    np.testing.assert_allclose(result.lengths["t_percent"], by_length, rtol=1e-12)
+    assert result.speeds["segments"].sum() == len(segments)
+
+
+def test_trajectories_in_a_list_have_numbers(tmp_path: pathlib.Path) -> None:
+    truth, estimate = motion()
+    true, estimated = trajectory(truth), trajectory(estimate)
+    file = write(tmp_path, "mine.txt", estimate)
+    both = pg.compare(true, [estimated, file, true])
+    assert [each.name for each in both] == ["estimate 1", "mine.txt", "estimate 3"]
+    assert both["estimate 1"]["ate_rmse_m"] == pg.evaluate(true, estimated)["ate_rmse_m"]
+    assert some(both["estimate 3"]["ate_rmse_m"]) < 1e-9
+    assert [each.name for each in pg.compare(true, estimated)] == ["estimate 1"]
+
+
+def test_datasets_and_maps_are_evaluated(drive: pathlib.Path, run_folder: pathlib.Path,
+                                         tmp_path: pathlib.Path) -> None:
+    dataset, opened = pg.open_dataset(drive), pg.Map.open(run_folder)
+    expected = pg.evaluate(some(dataset.ground_truth), opened.trajectory())
+    assert pg.evaluate(dataset, opened).to_json() == expected.to_json()
+    assert pg.compare(dataset, {"mine": opened})["mine"].values == expected.values
+    assert pg.compare(dataset, [opened])["estimate 1"].values == expected.values
+    with pytest.raises(pg.ArgumentError, match="estimate: .* not Dataset"):
+        pg.evaluate(dataset, wrong(dataset))
+    with pytest.raises(pg.ArgumentError, match="truth: .* not Map"):
+        pg.evaluate(wrong(opened), opened)
+    untrue = shutil.copytree(drive, tmp_path / "untrue", ignore=shutil.ignore_patterns("poses.txt"))
+    with pytest.raises(pg.ArgumentError, match="truth: the dataset untrue has no ground truth"):
+        pg.evaluate(pg.open_dataset(untrue), opened)
+
+
+def test_a_refused_evaluation_says_why() -> None:
+    truth, estimate = motion(10)
+    other = pg.Trajectory.from_arrays(np.arange(10, dtype=np.int64) + 10**15, estimate)
+    result = pg.evaluate(trajectory(truth), other)
+    assert not result and "stamps" in result.reason
+    assert result["ate_rmse_m"] is None
+    both = pg.compare(trajectory(truth), {"late": other})
+    assert both._repr_html_().startswith("<pre>")
+
+
+def write(folder: pathlib.Path, name: str, poses: Array) -> str:
+    path = folder / name
+    np.savetxt(path, poses[:, :3].reshape(-1, 12), fmt="%.9f")
+    return str(path)
+
+
+def printed(*command: str) -> str:
+    return subprocess.run(command, check=True, capture_output=True, text=True).stdout
+
+
+def test_json_is_that_of_the_program(program: str, tmp_path: pathlib.Path) -> None:
+    truth, estimate = motion()
+    files = [write(tmp_path, "truth.txt", truth), write(tmp_path, "estimate.txt", estimate)]
+    result = pg.evaluate(*files, align="sim3")
+    assert result.to_json() == printed(program, "eval", *files, "--align", "sim3", "--json")
+
+
+def test_a_run_is_evaluated_against_its_sequence(
+    program: str, drive: pathlib.Path, run_folder: pathlib.Path
+) -> None:
+    result = pg.evaluate(drive, run_folder, align="se3")
+    assert result.protocol["association"] == "time"
+    assert result.to_json() == printed(program, "eval", str(drive), str(run_folder), "--json")
+
+
+def test_comparison_of_files_and_of_folders(program: str, tmp_path: pathlib.Path) -> None:
+    truth, estimate = motion()
+    for folder in ("truth", "estimate"):
+        (tmp_path / folder).mkdir()
+    for sequence, part in (("00.txt", slice(0, 300)), ("01.txt", slice(100, 300))):
+        write(tmp_path / "truth", sequence, truth[part])
+        write(tmp_path / "estimate", sequence, estimate[part])
+    folders = [str(tmp_path / "truth"), str(tmp_path / "estimate")]
+    compared = pg.compare(*folders, align="se3")
+    assert compared.own_truths and [each.name for each in compared] == ["00", "01"]
+    assert compared.to_json() == printed(program, "eval", *folders, "--align", "se3", "--json")
+    assert compared.table.loc["01", "ate_rmse_m"] == compared["01"]["ate_rmse_m"]
+    mean = np.mean([each["ate_rmse_m"] or 0 for each in compared])
+    assert compared.average["ate_rmse_m"] == pytest.approx(mean, rel=1e-12)
+
+    files = [str(tmp_path / "truth" / "00.txt"), str(tmp_path / "estimate" / "00.txt")]
+    several = pg.compare(files[0], [files[1], files[0]])
+    text = printed(program, "eval", files[0], files[1], files[0], "--json")
+    assert several.to_json() == text
+    assert [each["name"] for each in json.loads(text)["results"]] == [e.name for e in several]
+    assert several.to_csv().startswith("name,record") and "toprule" in several.to_latex()
+
+
+@pytest.mark.parametrize("kind", _core.evaluation_plots())
+def test_plots_show_the_numbers(kind: str) -> None:
+    truth, estimate = motion()
+    result = pg.evaluate(trajectory(truth), trajectory(estimate))
+    picture = result.picture(kind)
+    figure = result.plot(kind)
+    assert "<svg" in picture.to_svg()
+    bars = sum(panel["scale"] is not None for panel in picture.panels)
+    assert len(figure.axes) == len(picture.panels) + bars
+    for axes, panel in zip([a for a in figure.axes if a.get_label() != "<colorbar>"],
+                           picture.panels):
+        assert axes.get_xlabel() == panel["x"]["label"]
+    if kind == "xyz":
+        line = figure.axes[0].get_lines()[0].get_xydata()
+        np.testing.assert_allclose(np.asarray(line)[:, 1], truth[:, 0, 3])
+    if kind == "rpe":
+        steps = np.linalg.inv(truth[:-1]) @ truth[1:], np.linalg.inv(estimate[:-1]) @ estimate[1:]
+        error = np.linalg.norm((np.linalg.inv(steps[0]) @ steps[1])[:, :3, 3], axis=1)
+        line = figure.axes[0].get_lines()[0].get_xydata()
+        np.testing.assert_allclose(np.asarray(line)[:, 1], error, rtol=1e-9)
+    matplotlib.pyplot.close(figure)
+
+
+def test_the_picture_is_shown_in_a_notebook() -> None:
+    truth, estimate = motion()
+    both = pg.compare(trajectory(truth), {"a": trajectory(estimate), "b": trajectory(truth)})
+    assert both._repr_html_().startswith("<svg") and "ATE" in both._repr_html_()
+
+
+def test_errors_of_edges_are_those_of_their_covariances() -> None:
+    random = np.random.default_rng(8)
+    sigma = np.array([0.1, 0.2, 0.1, 0.01, 0.02, 0.01])
+    poses = [pg.SE3.exp(random.normal(0, 1, 6)) for _ in range(400)]
+    graph = pg.PoseGraph()
+    for node, pose in enumerate(poses):
+        graph.add_node(node, pose)
+    squares = []
+    for node in range(399):
+        error = random.normal(0, sigma)
+        true = poses[node].inverse() * poses[node + 1]
+        graph.add_edge(node, node + 1, true * pg.SE3.exp(-error), np.diag(sigma**-2.0))
+        squares.append(np.sum((error / sigma) ** 2) / 6)
+    truth = dict(enumerate(poses[:-1]))  # the last edge has no true pose
+    found = pg.edge_consistency(graph, truth)["odometry"]
+    assert (found.edges, found.unknown) == (398, 1)
+    assert found.mean_nees == pytest.approx(np.mean(squares[:-1]), rel=1e-6)
+    assert found.median_nees == pytest.approx(np.median(squares[:-1]), rel=1e-6)
+    assert found.mean_nees == pytest.approx(1, abs=0.1)

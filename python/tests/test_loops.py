@@ -1,0 +1,128 @@
+"""Scores of place recognizers: against definitions in numpy and the program's output."""
+
+import json
+import pathlib
+import subprocess
+
+import matplotlib
+import matplotlib.pyplot
+import numpy as np
+import pandas
+import pytest
+
+import placegraph as pg
+from placegraph import loops
+
+matplotlib.use("agg")
+
+
+def example() -> tuple[pandas.DataFrame, dict[int, list[int]]]:
+    """Best candidates of 60 queries, two thirds of them right."""
+    random = np.random.default_rng(2)
+    truth = {query: [query - 50, query - 49] for query in range(50, 100)}
+    truth.update({query: [] for query in range(100, 110)})
+    query = np.repeat(np.arange(50, 110), 2)
+    right = random.random(len(query)) < 0.6
+    candidate = np.where(right, query - 50, random.integers(0, 50, len(query)))
+    candidate[1::2] = (candidate[::2] + 7) % 50  # no pair twice
+    score = np.where(right, random.uniform(0.3, 1, len(query)), random.uniform(0, 0.8, len(query)))
+    return pandas.DataFrame({"query": query, "candidate": candidate, "score": score}), truth
+
+
+def test_curve_is_that_of_the_definition() -> None:
+    table, lists = example()
+    result = loops.score(table, loops.LoopTruth(lists))
+    best = table.loc[table.groupby("query")["score"].idxmax()]
+    hit = np.array([c in lists[q] for q, c in zip(best["query"], best["candidate"])])
+    order = np.argsort(-best["score"].to_numpy())
+    hits, misses = np.cumsum(hit[order]), np.cumsum(~hit[order])
+    curve = result.curve
+    np.testing.assert_array_equal(curve["threshold"], best["score"].to_numpy()[order])
+    np.testing.assert_array_equal(curve["hits"], hits)
+    np.testing.assert_allclose(curve["precision"], hits / (hits + misses))
+    recall = hits / 50
+    np.testing.assert_allclose(curve["recall"], recall)
+    average = np.sum(np.diff(recall, prepend=0) * hits / (hits + misses))
+    assert result["ap"] == pytest.approx(average, rel=1e-12)
+    assert result["r_at_1"] == pytest.approx(hit.sum() / 50)
+    assert result["positives"] == 50
+    queries = result.queries.set_index("query")
+    assert (queries.loc[best["query"], "verdict"] == np.where(hit, "hit", "miss")).all()
+
+
+@pytest.mark.parametrize("tolerance", [0, 2])
+def test_figures_are_those_of_the_program(program: str, tmp_path: pathlib.Path,
+                                          tolerance: int) -> None:
+    table, lists = example()
+    predictions, truth = tmp_path / "predictions.txt", tmp_path / "truth.txt"
+    np.savetxt(predictions, table.to_numpy(), fmt="%d %d %.17g")
+    truth.write_text("".join(f"{q} {' '.join(map(str, m))}\n" for q, m in lists.items() if m))
+    command = [program, "eval", "loops", "--predictions", str(predictions), "--truth", str(truth),
+               "--min-age", "5", "--tolerance", str(tolerance), "--json"]
+    printed = json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
+    result = loops.score(predictions, truth, min_age=5, tolerance=tolerance)
+    assert result.metrics == {key: printed[key] for key in result.metrics}
+    assert loops.read_predictions(predictions)["query"].tolist() == table["query"].tolist()
+
+
+def test_loops_of_a_run_are_those_of_the_program(
+    program: str, drive: pathlib.Path, run_folder: pathlib.Path
+) -> None:
+    predictions = run_folder / "loops.csv"
+    command = [program, "eval", "loops", "--predictions", str(predictions), "--format", "run",
+               "--true-poses", str(drive / "poses.txt"), "--min-age", "20", "--json"]
+    printed = json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
+    truth = pg.Trajectory.read(str(drive / "poses.txt"))
+    result = loops.score(predictions, truth, format="run", min_age=20)
+    assert result.metrics == {key: printed[key] for key in result.metrics}
+    assert result.reliability["calibration_error"] == printed["calibration_error"]
+
+
+def test_truth_of_poses_is_that_of_distances() -> None:
+    angle = np.linspace(0, 4 * np.pi, 200)  # two rounds
+    poses = np.stack([pg.SE3.exp([0, 0, 0, 0, a, 0]).matrix() for a in angle])
+    poses[:, 0, 3], poses[:, 2, 3] = 20 * np.sin(angle), 20 * np.cos(angle)
+    poses[150] = np.nan
+    trajectory = pg.Trajectory.from_arrays(np.arange(200, dtype=np.int64) * 10**8, poses)
+    options = loops.RevisitOptions()
+    options.min_age, options.same.radius_m, options.same.heading_deg = 50, 3.0, 40.0
+    truth = loops.LoopTruth.from_poses(trajectory, options)
+    position = poses[:, :3, 3]
+    apart = np.linalg.norm(position[:, None] - position, axis=2)
+    heading = np.abs((angle[:, None] - angle + np.pi) % (2 * np.pi) - np.pi)
+    near = (apart <= 3.0) & (heading <= np.radians(40))
+    expected = {q: [m for m in range(q - 49) if near[q, m]] for q in range(200) if q != 150}
+    assert truth.matches == expected
+
+    table, _ = example()
+    by_poses = loops.score(table, trajectory, options=options)
+    assert by_poses.metrics == loops.score(table, truth).metrics
+
+
+def test_truth_of_a_matrix() -> None:
+    matrix = np.zeros((6, 6), bool)
+    matrix[5, 1] = matrix[1, 5] = matrix[4, 0] = True
+    truth = loops.LoopTruth.from_matrix(matrix)
+    assert truth.matches == {0: [], 1: [], 2: [], 3: [], 4: [0], 5: [1]}
+
+
+def test_reliability_of_probabilities() -> None:
+    query, right = np.arange(100, 300), np.arange(200) % 4 != 0
+    candidate = np.where(right, 0, 50)
+    truth = loops.LoopTruth({int(q): [0] for q in query})
+    result = loops.score((query, candidate, np.full(200, 0.75)), truth)
+    table = result.reliability
+    assert table["candidates"].sum() == 200 and table["candidates"][7] == 200
+    assert table["share_right"][7] == pytest.approx(0.75)
+    assert table["calibration_error"] == pytest.approx(0, abs=1e-12)
+
+
+def test_the_plot_has_the_points_of_the_curve() -> None:
+    table, lists = example()
+    result = loops.score(table, loops.LoopTruth(lists), name="mine")
+    axes = result.plot()
+    line = np.asarray(axes.get_lines()[0].get_xydata())
+    np.testing.assert_allclose(line[1::2, 0], result.curve["recall"])
+    np.testing.assert_allclose(line[1::2, 1], result.curve["precision"])
+    assert "mine" in str(axes.get_lines()[0].get_label())
+    matplotlib.pyplot.close("all")
