@@ -34,8 +34,9 @@ def debian_package(library: str) -> str:
     name = re.sub(r"-[0-9a-f]{8}(?=\.)", "", library)
     folder = pathlib.Path("/usr/lib", sysconfig.get_config_var("MULTIARCH"))
     # Behind links such as liblapack.so.3 stand several packages, of which the system uses one.
-    file = (folder / name).resolve() if (folder / name).exists() else f"*/{name}"
-    found = subprocess.run(["dpkg-query", "-S", str(file)], capture_output=True, text=True)
+    file = (folder / name).resolve()
+    pattern = f"*/{file.parent.name}/{file.name}" if file.exists() else f"*/{name}"
+    found = subprocess.run(["dpkg-query", "-S", pattern], capture_output=True, text=True)
     if found.returncode != 0:
         sys.exit(f"wheel_licences: no package has {name}")
     return re.split(r"[:,]", found.stdout, maxsplit=1)[0]
