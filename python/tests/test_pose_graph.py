@@ -115,6 +115,8 @@ def test_false_loops_are_rejected_with_reasons_and_the_rest_is_certified() -> No
     certificate = report.certificate
     assert certificate is not None and certificate.certified
     assert certificate.lower_bound <= certificate.cost <= certificate.cost_of_estimate + 1e-9
+    rejected = [edge.constraint for edge in report.rejected]
+    assert report.chi2_kept == pytest.approx(np.delete(report.chi2_by_constraint, rejected).sum())
     assert "4 constraints rejected" in repr(report) and "certified" in repr(report)
     clean = pg.optimize(graph.without(false))
     np.testing.assert_allclose(report.graph.poses, clean.graph.poses, atol=1e-6)

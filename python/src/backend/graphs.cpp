@@ -101,4 +101,11 @@ Eigen::MatrixXd whitening_of(nb::handle sigma, nb::handle information, int rows)
   return values.cwiseMax(0.0).cwiseSqrt().asDiagonal() * eigen.eigenvectors().transpose();
 }
 
+std::vector<NodeId> node_ids(const ArrayArgument<std::int64_t>& ids) {
+  const auto array = ids.get("ids", {kAny});
+  std::vector<NodeId> nodes;
+  for (std::size_t i = 0; i < array.shape(0); ++i) nodes.emplace_back(array.data()[i]);
+  return nodes;
+}
+
 }  // namespace placegraph::python

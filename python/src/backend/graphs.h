@@ -21,6 +21,8 @@ std::size_t row_width(PoseKind kind);
 /// The pose of a row of 3, 7 or 8 finite numbers; throws ArgumentError, which names the row.
 Pose pose_of_row(const double* row, std::size_t width, const std::string& name);
 void append_row(const Pose& pose, std::vector<double>& values);
+/// Ids of nodes of an array, N of int64; ArgumentError names `ids`.
+std::vector<NodeId> node_ids(const ArrayArgument<std::int64_t>& ids);
 /// The pose of an SE2, SE3 or Sim3, or of a row.
 Pose pose_of(nb::handle value, const char* argument);
 

@@ -44,13 +44,6 @@ void bind_step(nb::module_& m) {
       });
 }
 
-std::vector<NodeId> nodes_of(const ArrayArgument<std::int64_t>& ids) {
-  const auto array = ids.get("ids", {kAny});
-  std::vector<NodeId> nodes;
-  for (std::size_t i = 0; i < array.shape(0); ++i) nodes.emplace_back(array.data()[i]);
-  return nodes;
-}
-
 IncrementalStep reweight(Optimizer& o, const ArrayArgument<std::int64_t>& constraints,
                          const ArrayArgument<double>& weights) {
   const auto numbers = constraints.get("constraints", {kAny});
@@ -118,7 +111,7 @@ void bind_incremental(nb::module_& m) {
       .def(
           "covariance",
           [](Optimizer& o, const ArrayArgument<std::int64_t>& ids) {
-            const std::vector<NodeId> nodes = nodes_of(ids);
+            const std::vector<NodeId> nodes = node_ids(ids);
             return o.run(
                 [&](const IncrementalOptimizer& optimizer) { return optimizer.covariance(nodes); });
           },

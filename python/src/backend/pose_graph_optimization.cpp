@@ -3,6 +3,8 @@
 #include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
 #include <placegraph/backend/pose_graph/pose_marginals.h>
 
+#include <numeric>
+
 #include "python/src/backend/graphs.h"
 #include "python/src/options.h"
 
@@ -59,9 +61,10 @@ std::vector<std::int64_t> free_nodes(const OptimizedGraph& o) {
 }
 
 double chi2_kept(const OptimizedGraph& o) {
-  double sum = o.report.chi2_final;
-  for (const RejectedEdge& edge : o.report.rejected) sum -= edge.chi2;
-  return sum;
+  std::vector<double> chi2 = o.report.chi2_by_constraint;
+  for (const RejectedEdge& edge : o.report.rejected)
+    chi2[static_cast<std::size_t>(edge.constraint)] = 0;
+  return std::accumulate(chi2.begin(), chi2.end(), 0.0);
 }
 
 std::string text_of(const OptimizedGraph& o) {
@@ -156,13 +159,6 @@ void bind_report(nb::module_& m) {
           "certificate", [](const O& o) { return o.certificate; },
           "How far the solution is from the global minimum, if that was asked for.")
       .def("__repr__", &text_of);
-}
-
-std::vector<NodeId> node_ids(const ArrayArgument<std::int64_t>& ids) {
-  const auto array = ids.get("ids", {kAny});
-  std::vector<NodeId> nodes;
-  for (std::size_t i = 0; i < array.shape(0); ++i) nodes.emplace_back(array.data()[i]);
-  return nodes;
 }
 
 nb::ndarray<nb::numpy, double> stacked(const std::vector<Information>& matrices, PoseKind kind) {
