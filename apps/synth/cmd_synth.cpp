@@ -1,6 +1,12 @@
 #include "apps/synth/cmd_synth.h"
 
+#include <fmt/format.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/io/config/yaml_config.h>
+
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "apps/support/option_texts.h"
@@ -8,6 +14,34 @@
 #include "apps/synth/synth.h"
 
 namespace placegraph::apps {
+namespace {
+
+/// `--defects` and one flag for each defect, which overrides the set.
+void add_defect_flags(CLI::App& command, SyntheticDefects& defects) {
+  const char* const kGroup = "Defects";
+  // Flags take effect in the order in which they are added here: first the set.
+  command
+      .add_option_function<std::string>(
+          "--defects", [&defects](const std::string& name) { defects = defects_from(name); },
+          "set of defects: none, hard-drive or hard-rgbd")
+      ->group(kGroup);
+  for (const OptionEntry& entry : list_options(SyntheticDefects())) {
+    std::string flag = "--" + entry.path;
+    std::replace(flag.begin(), flag.end(), '_', '-');
+    command
+        .add_option_function<double>(
+            flag,
+            [&defects, flag, key = entry.path](double value) {
+              require(std::isfinite(value), flag + ": is not a number");
+              set_option(defects, fmt::format("{}={}", key, value));
+            },
+            entry.doc)
+        ->check(CLI::Range(entry.range.min, entry.range.max))
+        ->group(kGroup);
+  }
+}
+
+}  // namespace
 
 void add_synth_sequence_command(CLI::App& synth_group) {
   auto arguments = std::make_shared<SynthArguments>();
@@ -18,7 +52,8 @@ void add_synth_sequence_command(CLI::App& synth_group) {
   command
       ->add_option(
           "WORLD", a.world.world,
-          "town-loop, repeated-blocks, corridor-loop, warehouse, flight, or a KITTI pose file")
+          "town-loop, repeated-blocks, corridor-loop, warehouse, turning-walk, flight, or a KITTI "
+          "pose file")
       ->required();
   command
       ->add_option("-o,--out", a.out,
@@ -40,6 +75,7 @@ void add_synth_sequence_command(CLI::App& synth_group) {
   command->add_option("--threads", a.threads, kThreadsText)->capture_default_str();
   command->add_option("--size", a.size, "image size, as in 1241x376");
   command->add_flag("--force", a.force, kForceText);
+  add_defect_flags(*command, a.world.defects);
   command->callback([arguments] { print(to_text(synth(*arguments))); });
 }
 

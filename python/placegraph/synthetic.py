@@ -10,18 +10,29 @@ Equal arguments give equal bits.
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 
 from . import _core
 from ._types import Path, SensorName, sensor_of
 from .datasets import Dataset, open_dataset
 
-__all__ = ["World", "render", "worlds"]
+__all__ = ["World", "defect_set", "render", "worlds"]
 
 
 def worlds() -> list[str]:
     """Names of the built-in worlds: town-loop, corridor-loop, ..."""
     return list(_core.SyntheticWorld.worlds())
+
+
+def defect_set(name: str) -> dict[str, float]:
+    """The defects of a set, by their names: "none" (all are 0), "hard-drive" or "hard-rgbd".
+
+        defects = pg.synthetic.defect_set("hard-drive") | {"undulation_m": 0}
+        world = pg.synthetic.World("town-loop", defects=defects)
+
+    Their meanings are those of the flags of `placegraph synth sequence`, which have the same names.
+    """
+    return dict(_core.SyntheticWorld.defect_set(name))
 
 
 class World:
@@ -34,7 +45,9 @@ class World:
 
     `world`: a name of `worlds()`, or the path of a KITTI pose file, along which a town is rendered;
     `difficulty`: "clean", "standard" or "hard"; `frames`: at most so many, 0 for all; `duration_s`:
-    of the world flight; `size`: width and height of the images [px]; `threads`: of one rendering.
+    of the world flight; `size`: width and height of the images [px]; `threads`: of one rendering;
+    `defects`: how images and calibration differ from what is written, a name of `defect_set` or
+    values by their names, as in {"rolling_shutter_s": 0.015}.
     A sensor of None is what the world usually has: two cameras outdoors, one with depth indoors.
     """
 
@@ -48,10 +61,12 @@ class World:
         duration_s: float = 0,
         size: tuple[int, int] | None = None,
         threads: int = 1,
+        defects: str | Mapping[str, float] = "none",
     ) -> None:
+        values = defect_set(defects) if isinstance(defects, str) else dict(defects)
         self._core = _core.SyntheticWorld(
             world, difficulty=difficulty, seed=seed, frames=frames, duration_s=duration_s,
-            size=size, threads=threads,
+            size=size, threads=threads, defects=values,
         )
 
     @property
@@ -136,6 +151,7 @@ def render(
     difficulty: str = "standard",
     size: tuple[int, int] | None = None,
     duration_s: float = 0,
+    defects: str | Mapping[str, float] = "none",
     labels: bool = False,
     flow: bool = False,
     threads: int = 0,
@@ -147,7 +163,8 @@ def render(
     The files are those of `placegraph synth sequence`.
     """
     rendered = World(
-        world, difficulty=difficulty, seed=seed, frames=frames, duration_s=duration_s, size=size
+        world, difficulty=difficulty, seed=seed, frames=frames, duration_s=duration_s, size=size,
+        defects=defects,
     )
     return rendered.write(
         folder, sensor, labels=labels, flow=flow, threads=threads, force=force, on_frame=on_frame

@@ -34,6 +34,9 @@ def same_folders(a: pathlib.Path, b: pathlib.Path) -> int:
         ("town-loop", ["--mono", "--labels", "--flow"],
          {"sensor": pg.Sensor.MONO, "labels": True, "flow": True}),
         ("flight", ["--duration", "1"], {"duration_s": 1}),
+        ("turning-walk", ["--defects", "hard-rgbd"], {"defects": "hard-rgbd"}),
+        ("town-loop", ["--undulation-m", "0.02", "--rolling-shutter-s", "0.01"],
+         {"defects": {"undulation_m": 0.02, "rolling_shutter_s": 0.01}}),
     ],
 )
 def test_files_are_those_of_the_program(world: str, flags: list[str],
@@ -114,3 +117,24 @@ def test_the_example_runs(tmp_path: pathlib.Path, capsys: pytest.CaptureFixture[
 
 def test_worlds_are_named() -> None:
     assert {"town-loop", "corridor-loop", "flight"} <= set(pg.synthetic.worlds())
+
+
+def test_defect_sets_hold_every_defect() -> None:
+    none, drive = pg.synthetic.defect_set("none"), pg.synthetic.defect_set("hard-drive")
+    assert set(none) == set(drive) and set(none.values()) == {0}
+    assert drive["rolling_shutter_s"] == 0.015
+    with pytest.raises(pg.ArgumentError, match="soft"):
+        pg.synthetic.defect_set("soft")
+    with pytest.raises(pg.ArgumentError, match="depth_lag"):
+        pg.synthetic.World("turning-walk", defects={"depth_lag": 0.02})
+    with pytest.raises(pg.ArgumentError, match="depth_lag_s"):
+        pg.synthetic.World("turning-walk", defects={"depth_lag_s": 3})
+
+
+def test_a_calibration_error_changes_what_is_written_alone() -> None:
+    exact = pg.synthetic.World("corridor-loop", frames=1, size=SIZE)
+    world = pg.synthetic.World("corridor-loop", frames=1, size=SIZE,
+                               defects={"calibration_error": 0.005})
+    written, truth = world.calibration().camera, exact.calibration().camera
+    assert 0 < abs(written.fx / truth.fx - 1) < 0.025
+    assert np.array_equal(world.frame(0).image, exact.frame(0).image)

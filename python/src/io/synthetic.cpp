@@ -3,6 +3,7 @@
 
 #include "python/src/bindings.h"
 #include "python/src/graph/images.h"
+#include "python/src/options.h"
 #include "python/src/pipeline/events.h"
 
 namespace placegraph::python {
@@ -12,7 +13,8 @@ using namespace nb::literals;
 
 SyntheticOptions options_of(const std::string& world, const std::string& difficulty,
                             std::uint64_t seed, int frames, double duration_s,
-                            const std::optional<std::pair<int, int>>& size, int threads) {
+                            const std::optional<std::pair<int, int>>& size, int threads,
+                            const nb::dict& defects) {
   SyntheticOptions options;
   options.world = world;
   options.difficulty = synthetic::difficulty_from(difficulty);
@@ -24,8 +26,18 @@ SyntheticOptions options_of(const std::string& world, const std::string& difficu
     std::tie(options.width, options.height) = *size;
   }
   options.threads = threads;
+  OptionSetOf<SyntheticDefects> set;
+  for (const auto& [key, value] : defects) set.set(nb::cast<std::string>(key), value);
+  options.defects = set.options();
   options.check();
   return options;
+}
+
+nb::dict defect_set(const std::string& name) {
+  const OptionSetOf<SyntheticDefects> set(defects_from(name));
+  nb::dict values;
+  for (const OptionEntry& entry : set.entries()) values[entry.path.c_str()] = set.get(entry.path);
+  return values;
 }
 
 /// What a sequence holds for a sensor, or what the world usually has.
@@ -99,15 +111,22 @@ void bind_synthetic(nb::module_& m) {
           "__init__",
           [](SyntheticWorld* self, const std::string& world, const std::string& difficulty,
              std::uint64_t seed, int frames, double duration_s,
-             const std::optional<std::pair<int, int>>& size, int threads) {
+             const std::optional<std::pair<int, int>>& size, int threads, const nb::dict& defects) {
             const SyntheticOptions options =
-                options_of(world, difficulty, seed, frames, duration_s, size, threads);
+                options_of(world, difficulty, seed, frames, duration_s, size, threads, defects);
             const nb::gil_scoped_release release;
             new (self) SyntheticWorld(options);
           },
           "world"_a, nb::kw_only(), "difficulty"_a = "standard", "seed"_a = 1, "frames"_a = 0,
-          "duration_s"_a = 0.0, "size"_a = nb::none(), "threads"_a = 1)
+          "duration_s"_a = 0.0, "size"_a = nb::none(), "threads"_a = 1, "defects"_a = nb::dict(),
+          nb::sig("def __init__(self, world: str, *, difficulty: str = 'standard', seed: int = 1, "
+                  "frames: int = 0, duration_s: float = 0.0, "
+                  "size: tuple[int, int] | None = None, threads: int = 1, "
+                  "defects: dict[str, float] = {}) -> None"))
       .def_static("worlds", &SyntheticWorld::worlds, doc("SyntheticWorld::worlds"))
+      .def_static("defect_set", &defect_set, "name"_a,
+                  nb::sig("def defect_set(name: str) -> dict[str, float]"),
+                  "Values of the defects of a set, by their names.")
       .def_static("class_names", &SyntheticWorld::class_names, "Names of the classes of labels.")
       .def_prop_ro("name", &SyntheticWorld::name, "Name of the world.")
       .def("__len__", &SyntheticWorld::size)

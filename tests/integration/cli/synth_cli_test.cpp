@@ -7,6 +7,7 @@ namespace {
 namespace fs = std::filesystem;
 using test::read_file;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 class SynthCli : public test::CliTest {
@@ -58,6 +59,23 @@ TEST_F(SynthCli, TrueSurfacesAreWrittenIndoorsToo) {
   EXPECT_FALSE(fs::exists(dir / "walk/CLASSES.txt"));
 }
 
+TEST_F(SynthCli, DefectsOfASetAreOverriddenOneByOne) {
+  const std::string small = " --frames 2 --size 96x48 --threads 1";
+  ASSERT_EQ(run("synth sequence turning-walk --out exact" + small).code, 0);
+  ASSERT_EQ(
+      run("synth sequence turning-walk --depth-lag-s 0 --defects hard-rgbd --out hard" + small)
+          .code,
+      0);
+  const std::string world = read_file(dir / "hard/world.yaml");
+  EXPECT_THAT(world, HasSubstr("defects:\n  calibration_error: 0.005\n  shutter_s: 0.015\n"));
+  EXPECT_THAT(world, Not(HasSubstr("depth_lag_s")));
+  EXPECT_THAT(read_file(dir / "exact/world.yaml"), Not(HasSubstr("defects")));
+  EXPECT_NE(read_file(dir / "hard/calib.txt"), read_file(dir / "exact/calib.txt"));
+  EXPECT_NE(read_file(dir / "hard/calib_depth.txt"), read_file(dir / "exact/calib_depth.txt"));
+  EXPECT_EQ(read_file(dir / "hard/poses.txt"), read_file(dir / "exact/poses.txt"));
+  EXPECT_EQ(read_file(dir / "hard/times.txt"), read_file(dir / "exact/times.txt"));
+}
+
 TEST_F(SynthCli, BadArgumentsGiveOneLineAndExitCode2) {
   test::write_file(dir / "broken.txt", "1 0 0 0 0 1 0 0 0 0 1\n");
   expect_error("town-loop", "--out");
@@ -69,6 +87,10 @@ TEST_F(SynthCli, BadArgumentsGiveOneLineAndExitCode2) {
   expect_error("town-loop --out out --size 96", "1241x376");
   expect_error("town-loop --out out --size 0x0", "1241x376");
   expect_error("town-loop --out out --threads -1", "--threads");
+  expect_error("town-loop --out out --defects soft", "'soft' is none of none, hard-drive");
+  expect_error("town-loop --out out --depth-holes 2", "--depth-holes");
+  expect_error("town-loop --out out --time-jitter-s nan", "--time-jitter-s: is not a number");
+  expect_error("warehouse --out out --undulation-m 0.02", "undulation_m: only for `town-loop`");
 }
 
 TEST_F(SynthCli, DoesNotWriteIntoAFolderThatHoldsSomething) {

@@ -35,6 +35,12 @@ inline float hash_unit(std::uint32_t h, std::uint32_t salt = 0) {
   return static_cast<float>(h >> 8) * (1.0F / 16777216.0F);
 }
 
+/// Approximately normal with sigma 1: four uniform bytes of one hash, whose sum has sigma 147.8.
+inline float hash_normal(std::uint32_t h) {
+  const auto sum = (h & 255U) + (h >> 8 & 255U) + (h >> 16 & 255U) + (h >> 24);
+  return (static_cast<float>(sum) - 510.0F) * (1.0F / 147.80F);
+}
+
 inline float clamp01(float x) { return x < 0 ? 0 : (x > 1 ? 1 : x); }
 inline float mix(float a, float b, float amount) { return a + (b - a) * amount; }
 

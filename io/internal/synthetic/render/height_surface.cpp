@@ -141,12 +141,13 @@ Eigen::Vector3d HeightSurface::normal(double x, double z) const {
   return Eigen::Vector3d(dx, -1, dz).normalized();
 }
 
-double GroundMesh::height(double x, double z) const {
-  const double gx = std::floor(x / kCell_m), gz = std::floor(z / kCell_m);
-  const double fx = x / kCell_m - gx, fz = z / kCell_m - gz;
-  const auto at = [&](double i, double j) {
-    return surface.height((gx + i) * kCell_m, (gz + j) * kCell_m);
-  };
+namespace {
+
+template <class Fn>
+double interpolate(double x, double z, double cell_m, const Fn& vertex) {
+  const double gx = std::floor(x / cell_m), gz = std::floor(z / cell_m);
+  const double fx = x / cell_m - gx, fz = z / cell_m - gz;
+  const auto at = [&](double i, double j) { return vertex((gx + i) * cell_m, (gz + j) * cell_m); };
   const double h00 = at(0, 0), h11 = at(1, 1);
   if (fx >= fz) {
     const double h10 = at(1, 0);
@@ -154,6 +155,16 @@ double GroundMesh::height(double x, double z) const {
   }
   const double h01 = at(0, 1);
   return h00 + fz * (h01 - h00) + fx * (h11 - h01);
+}
+
+}  // namespace
+
+double GroundMesh::height(double x, double z) const {
+  return interpolate(x, z, cell_m, [&](double i, double j) { return vertex_height(i, j); });
+}
+
+double GroundMesh::undulation_at(double x, double z) const {
+  return interpolate(x, z, cell_m, [&](double i, double j) { return undulation.height(i, j); });
 }
 
 }  // namespace placegraph::synthetic

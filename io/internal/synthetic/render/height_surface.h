@@ -1,4 +1,6 @@
 #pragma once
+#include <placegraph/io/internal/synthetic/render/undulation.h>
+
 #include <Eigen/Core>
 
 #include <functional>
@@ -38,13 +40,22 @@ class HeightSurface {
   std::vector<double> control_;
 };
 
-/// The ground as it is rendered: `surface` sampled on the grid of whole multiples of kCell_m and
-/// interpolated linearly in two triangles a cell, split along the diagonal of growing x + z.
+/// The ground as it is rendered: `surface` plus `undulation`, sampled on the grid of whole
+/// multiples of `cell_m` and interpolated linearly in two triangles a cell, split along the
+/// diagonal of growing x + z.
 struct GroundMesh {
-  static constexpr double kCell_m = 2;
-  explicit GroundMesh(HeightSurface s) : surface(std::move(s)) {}
+  explicit GroundMesh(HeightSurface s, Undulation u = {})
+      : surface(std::move(s)), undulation(std::move(u)), cell_m(undulation.empty() ? 2 : 1) {}
   HeightSurface surface;
+  Undulation undulation;
+  double cell_m;
+
+  /// Height at a point of the grid.
+  double vertex_height(double x, double z) const {
+    return surface.height(x, z) + undulation.height(x, z);
+  }
   double height(double x, double z) const;
+  double undulation_at(double x, double z) const;  ///< the undulation's part of `height`
 };
 
 }  // namespace placegraph::synthetic

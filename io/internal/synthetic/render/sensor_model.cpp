@@ -35,12 +35,6 @@ float blurred(const Image& image, int u, int v, float du, float dv) {
   return sum / static_cast<float>(taps);
 }
 
-/// Approximately normal with sigma 1: four uniform bytes of one hash, whose sum has sigma 147.8.
-float noise(std::uint32_t h) {
-  const auto sum = (h & 255U) + (h >> 8 & 255U) + (h >> 16 & 255U) + (h >> 24);
-  return (static_cast<float>(sum) - 510.0F) * (1.0F / 147.80F);
-}
-
 }  // namespace
 
 Difficulty difficulty_from(const std::string& name) {
@@ -118,7 +112,7 @@ Image expose(const Rendering& rendering, const View& view, const std::vector<Aff
                         static_cast<float>(camera.fy * model.shutter_s * (d[1] - y * d[2])));
       }
       value *= gain;
-      if (sigma > 0) value += sigma * noise(hash_cell(u, v, noise_seed));
+      if (sigma > 0) value += sigma * hash_normal(hash_cell(u, v, noise_seed));
       to[u] = static_cast<unsigned char>(std::clamp(value + 0.5F, 0.0F, 255.0F));
     }
   }

@@ -1,6 +1,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/internal/core/median.h>
 #include <placegraph/io/internal/datasets/kitti_calibration.h>
+#include <placegraph/io/internal/synthetic/defects/vehicle.h>
 #include <placegraph/io/internal/synthetic/worlds/tours.h>
 #include <placegraph/io/internal/synthetic/worlds/town_builder.h>
 #include <placegraph/io/internal/synthetic/worlds/traffic.h>
@@ -59,7 +60,7 @@ RawDrive read_drive(const std::string& path) {
 
 Eigen::Vector2d flat(const Eigen::Vector3d& v) { return {v[0], v[2]}; }
 
-GroundMesh fit_ground(const RawDrive& raw) {
+GroundMesh fit_ground(const RawDrive& raw, const Undulation& undulation) {
   // Five samples across each pose keep the road level sideways where only one pass defines it.
   std::vector<Eigen::Vector3d> samples;
   Eigen::Vector2d low(1e30, 1e30), high(-1e30, -1e30), last(1e30, 1e30);
@@ -77,7 +78,7 @@ GroundMesh fit_ground(const RawDrive& raw) {
   if (!(extent.maxCoeff() < 20000))
     throw ArgumentError("pose file: the path spans more than 20 km");
   const double spacing_m = std::max(4.0, std::sqrt(extent[0] * extent[1] / 40000));
-  return GroundMesh(HeightSurface::fit(samples, spacing_m, kSurfaceStiffness, 60));
+  return GroundMesh(HeightSurface::fit(samples, spacing_m, kSurfaceStiffness, 60), undulation);
 }
 
 std::vector<double> smoothed(std::vector<double> values, int half) {
@@ -121,7 +122,9 @@ std::vector<SE3> settle(const RawDrive& raw, const GroundMesh& ground) {
     right = (right - forward * forward.dot(right)).normalized();
     Eigen::Matrix3d settled;
     settled << right, forward.cross(right), forward;
-    poses.emplace_back(settled, Eigen::Vector3d(x, ground.height(x, z) - kDriveHeight_m, z));
+    const double level = ground.height(x, z) - ground.undulation_at(x, z);
+    poses.push_back(
+        on_undulation(ground, SE3(settled, Eigen::Vector3d(x, level - kDriveHeight_m, z))));
   }
   return poses;
 }
@@ -185,7 +188,8 @@ Tour make_drive(const std::string& poses_path, const TourRequest& request) {
                moved.front() - 10 * flat(raw.R_scene_cam.front().col(2)).normalized());
   const std::vector<Eigen::Vector2d> track = smooth_path(moved, kPathStep_m, 4.5);
 
-  TownPlan plan{find_roads(track), fit_ground(raw), driven, request.seed};
+  const Undulation undulation(request.undulation_m, request.seed);
+  TownPlan plan{find_roads(track), fit_ground(raw, undulation), driven, request.seed};
   Tour tour;
   tour.name = fs::path(poses_path).stem().string();
   tour.scene = build_town(plan);

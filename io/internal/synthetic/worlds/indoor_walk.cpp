@@ -5,6 +5,16 @@
 
 namespace placegraph::synthetic {
 
+Camera indoor_camera() {
+  Camera camera;
+  camera.width = 640;
+  camera.height = 480;
+  camera.fx = camera.fy = 525;
+  camera.cx = 319.5;
+  camera.cy = 239.5;
+  return camera;
+}
+
 void walk_through(const FloorPlan& plan, const IndoorWalk& walk, std::uint32_t seed, Tour& tour) {
   constexpr double kStep_m = 0.05;
   const std::vector<Eigen::Vector2d> path =
@@ -28,12 +38,8 @@ void walk_through(const FloorPlan& plan, const IndoorWalk& walk, std::uint32_t s
     tour.time_s.push_back(t);
     tour.T_scene_cam.emplace_back(R, Eigen::Vector3d(p[0], -walk.camera_height_m, p[1]));
   }
-  tour.camera.width = 640;
-  tour.camera.height = 480;
-  tour.camera.fx = tour.camera.fy = 525;
-  tour.camera.cx = 319.5;
-  tour.camera.cy = 239.5;
-  tour.baseline_m = 0.1;
+  tour.camera = indoor_camera();
+  tour.baseline_m = kIndoorBaseline_m;
   tour.camera_height_m = walk.camera_height_m;
   const Eigen::Vector3d first = tour.T_scene_cam.front().translation();
   tour.floor_plan = to_json(plan, {first[0], first[2]}, walk.camera_height_m);

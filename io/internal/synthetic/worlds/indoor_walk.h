@@ -12,6 +12,10 @@ struct IndoorWalk {
   double camera_height_m = 1.4;
 };
 
+/// The camera of all indoor worlds: 640 x 480, f = 525 px.
+Camera indoor_camera();
+constexpr double kIndoorBaseline_m = 0.1;
+
 /// Fills time, poses, camera and floor plan of `tour`: 10 Hz, 640 x 480, swaying like a walker. The
 /// first pose has the scene's axes, so that the plan and poses.txt differ by a shift only.
 void walk_through(const FloorPlan& plan, const IndoorWalk& walk, std::uint32_t seed, Tour& tour);

@@ -12,8 +12,8 @@ namespace {
 constexpr double kBlock_m = 64;  ///< whole cells of the fine and of the coarse ground
 constexpr int kBlocks = 7;       ///< number of driven blocks
 constexpr int kBeyond = 4;       ///< further blocks at either end, to hide the end of the street
-constexpr double kLane_m = 1.75;
-constexpr double kStep_m = 0.25;
+constexpr double kStreetLane_m = 1.75;
+constexpr double kStreetStep_m = 0.25;
 
 bool is_ground(const Part& part) {
   const Material material = part.faces.front().material;
@@ -73,7 +73,7 @@ void repeat_blocks(Scene& scene) {
 Tour make_repeated_blocks(const TourRequest& request) {
   const double begin = -kBeyond * kBlock_m, end = (kBlocks + kBeyond) * kBlock_m;
   const std::vector<Eigen::Vector2d> path =
-      smooth_path({{kLane_m, 1}, {kLane_m, kBlocks * kBlock_m - 1}}, kStep_m, 11);
+      smooth_path({{kStreetLane_m, 1}, {kStreetLane_m, kBlocks * kBlock_m - 1}}, kStreetStep_m, 11);
   const GroundMesh flat(HeightSurface::from_function({-450, begin - 350}, {450, end + 350}, 50,
                                                      [](double, double) { return 0.0; }));
   Roadway street;
@@ -89,10 +89,10 @@ Tour make_repeated_blocks(const TourRequest& request) {
   tour.baseline_m = kKittiBaseline_m;
   tour.camera_height_m = kDriveHeight_m;
   const auto seed = mix_bits(static_cast<std::uint32_t>(request.seed) + 5000U);
-  const std::vector<double> positions = drive_positions(path, kStep_m, {}, 0.1);
+  const std::vector<double> positions = drive_positions(path, kStreetStep_m, {}, 0.1);
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const double t = 0.1 * static_cast<double>(i);
-    const PathPoint p = path_point(path, kStep_m, positions[i]);
+    const PathPoint p = path_point(path, kStreetStep_m, positions[i]);
     const double pitch = 0.0022 * value_noise(t * 2.1, 0.5, seed);
     const double roll = 0.002 * value_noise(t * 1.3, 0.5, seed + 1);
     const double yaw = 0.0008 * value_noise(t * 3.1, 0.5, seed + 2);

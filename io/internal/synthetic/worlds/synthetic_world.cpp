@@ -1,5 +1,9 @@
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/io/internal/synthetic/defects/camera_motion.h>
+#include <placegraph/io/internal/synthetic/render/depth_sensor.h>
 #include <placegraph/io/internal/synthetic/render/hash_noise.h>
+#include <placegraph/io/internal/synthetic/render/rolling_shutter.h>
 #include <placegraph/io/internal/synthetic/worlds/flight_world.h>
 #include <placegraph/io/internal/synthetic/worlds/synthetic_world.h>
 #include <placegraph/io/internal/synthetic/worlds/tours.h>
@@ -25,6 +29,7 @@ constexpr BuiltIn kWorlds[] = {{"town-loop", synthetic::make_town_loop},
                                {"repeated-blocks", synthetic::make_repeated_blocks},
                                {"corridor-loop", synthetic::make_corridor_loop},
                                {"warehouse", synthetic::make_warehouse},
+                               {"turning-walk", synthetic::make_turning_walk},
                                {"flight", synthetic::make_flight_world, "hover"}};
 
 const BuiltIn* built_in(const std::string& name) {
@@ -36,7 +41,7 @@ const BuiltIn* built_in(const std::string& name) {
 
 Tour make_tour(const SyntheticOptions& options) {
   const TourRequest request{options.seed, synthetic::sensor_model(options.difficulty),
-                            options.duration_s};
+                            options.duration_s, options.defects.undulation_m};
   if (const BuiltIn* world = built_in(options.world)) return world->make(request);
   if (!std::filesystem::exists(options.world)) {
     std::string names;
@@ -65,6 +70,8 @@ void SyntheticOptions::check() const {
   const BuiltIn* named = built_in(world);
   require(duration_s == 0 || (named != nullptr && named->make == synthetic::make_flight_world),
           "duration_s: only for the world `flight`");
+  require(defects.undulation_m == 0 || named == nullptr || named->make == synthetic::make_town_loop,
+          "defects.undulation_m: only for `town-loop` and pose files");
   require((width == 0) == (height == 0), "size: width and height go together");
   require(width == 0 || (width >= 32 && height >= 32), "size: at least 32 x 32");
 }
@@ -81,6 +88,7 @@ void visit(OptionVisitor& field, SyntheticOptions& o) {
   field("width", o.width, "image width [px]; 0 = width of the world's camera", {0, 16384});
   field("height", o.height, "image height [px]; 0 = height of the world's camera", {0, 16384});
   field("threads", o.threads, "number of threads of one rendering", {1, 256});
+  field.group("defects", o.defects, "how images and calibration differ from what is written");
 }
 
 const std::vector<std::string>& SyntheticWorld::worlds() {
@@ -95,6 +103,7 @@ const std::vector<std::string>& SyntheticWorld::worlds() {
 SyntheticWorld::SyntheticWorld(const SyntheticOptions& options) : options_(options) {
   options_.check();
   sensor_ = synthetic::sensor_model(options_.difficulty);
+  if (options_.defects.shutter_s > 0) sensor_.shutter_s = options_.defects.shutter_s;
   Tour tour = make_tour(options_);
   if (options_.width > 0) resize(tour.camera, options_.width, options_.height);
   tour_ = std::make_unique<const Tour>(std::move(tour));
@@ -117,7 +126,14 @@ Calibration SyntheticWorld::calibration() const {
   calibration.baseline_m = tour_->baseline_m;
   calibration.depth = DepthCamera{tour_->camera, SE3(), 0.001};
   if (tour_->camera_height_m > 0) calibration.camera_height_m = tour_->camera_height_m;
-  return calibration;
+  return synthetic::miscalibrated(calibration, options_.defects.calibration_error, options_.seed);
+}
+
+double SyntheticWorld::exposure_time_s(std::size_t index) const {
+  const double jitter_s = options_.defects.time_jitter_s;
+  if (jitter_s == 0) return tour_->time_s.at(index);
+  Random random(options_.seed * 1000003 + index, 71);
+  return tour_->time_s.at(index) + random.normal(0, jitter_s);
 }
 
 std::int64_t SyntheticWorld::stamp_ns(std::size_t index) const {
@@ -134,11 +150,21 @@ Trajectory SyntheticWorld::ground_truth() const {
   return out;
 }
 
-View SyntheticWorld::view(std::size_t index, bool right) const {
-  View view{tour_->camera, tour_->T_scene_cam.at(index), tour_->time_s[index]};
+View SyntheticWorld::view(std::size_t index, bool right, double delay_s) const {
+  const double time_s = exposure_time_s(index) + delay_s;
+  View view{tour_->camera, synthetic::pose_at(tour_->time_s, tour_->T_scene_cam, time_s), time_s};
   if (right)
     view.T_scene_cam = view.T_scene_cam * SE3(SO3(), Eigen::Vector3d(tour_->baseline_m, 0, 0));
   return view;
+}
+
+synthetic::Rendering SyntheticWorld::see(std::size_t index, bool right) const {
+  const auto contrast = static_cast<float>(sensor_.contrast);
+  const double readout_s = options_.defects.rolling_shutter_s;
+  if (readout_s == 0)
+    return synthetic::render(tour_->scene, view(index, right), contrast, false, options_.threads);
+  const auto view_after = [&](double delay_s) { return view(index, right, delay_s); };
+  return synthetic::render_rolling(tour_->scene, view_after, readout_s, contrast, options_.threads);
 }
 
 Image SyntheticWorld::expose(std::size_t index, bool right,
@@ -153,7 +179,7 @@ Image SyntheticWorld::expose(std::size_t index, bool right,
   } else if (b > a) {
     // Central differences; rotations between frames are small enough for R^T R' = I + [w dt].
     const View before = view(a, right), after = view(b, right);
-    const double dt = tour_->time_s[b] - tour_->time_s[a];
+    const double dt = after.time_s - before.time_s;
     const Eigen::Matrix3d R = at.T_scene_cam.rotation().matrix();
     velocity =
         R.transpose() * (after.T_scene_cam.translation() - before.T_scene_cam.translation()) / dt;
@@ -164,29 +190,48 @@ Image SyntheticWorld::expose(std::size_t index, bool right,
         (2 * dt);
   }
   const auto velocities = synthetic::point_velocities(tour_->scene, at, velocity, angular_velocity);
+  return synthetic::expose(rendering, at, velocities, sensor_, frame_seed(index, right ? 1 : 0),
+                           static_cast<std::uint32_t>(options_.seed) + 99U);
+}
+
+std::uint32_t SyntheticWorld::frame_seed(std::size_t index, int image) const {
   const auto seed = static_cast<std::uint32_t>(options_.seed);
-  const std::uint32_t frame_seed =
-      synthetic::hash_cell(static_cast<int>(index), right ? 1 : 0, seed * 7919U + 13U);
-  return synthetic::expose(rendering, at, velocities, sensor_, frame_seed, seed + 99U);
+  return synthetic::hash_cell(static_cast<int>(index), image, seed * 7919U + 13U);
+}
+
+Image SyntheticWorld::measure_depth(std::size_t index, const synthetic::Rendering& at_image) const {
+  const SyntheticDefects& d = options_.defects;
+  const View seen = view(index, false, -d.depth_lag_s);
+  const Image inverse_depth =
+      d.depth_lag_s == 0
+          ? at_image.inverse_depth
+          : synthetic::render(tour_->scene, seen, 1, false, options_.threads).inverse_depth;
+  const synthetic::DepthSensor sensor{
+      .step = d.depth_quantization,
+      .noise = d.depth_noise,
+      .holes = d.depth_holes,
+      .flying_pixels = d.flying_pixels,
+      .scale = 1 + Random(options_.seed, 81).normal(0, d.depth_scale_error)};
+  return synthetic::measure_depth(inverse_depth, seen, sensor, frame_seed(index, 2),
+                                  static_cast<std::uint32_t>(options_.seed) + 199U);
 }
 
 SyntheticFrame SyntheticWorld::render(std::size_t index, const SyntheticContents& contents) const {
   require(index < size(), "synthetic world: frame index out of range");
-  const auto contrast = static_cast<float>(sensor_.contrast);
   const View left = view(index, false);
+  const bool rolling = options_.defects.rolling_shutter_s > 0;
   const bool maps = contents.labels || contents.planes;
-  const synthetic::Rendering rendering =
-      synthetic::render(tour_->scene, left, contrast, maps, options_.threads);
+  synthetic::Rendering rendering;  // all rows at one time
+  if (!rolling || maps || contents.depth || contents.flow)
+    rendering = synthetic::render(tour_->scene, left, static_cast<float>(sensor_.contrast), maps,
+                                  options_.threads);
   SyntheticFrame out;
   out.frame.id = FrameId(index);
   out.frame.stamp_ns = stamp_ns(index);
-  out.frame.image = expose(index, false, rendering);
-  if (contents.right) {
-    const synthetic::Rendering right =
-        synthetic::render(tour_->scene, view(index, true), contrast, false, options_.threads);
-    out.frame.right = expose(index, true, right);
-  }
-  if (contents.depth) out.frame.depth = synthetic::depth_image(rendering);
+  out.frame.image =
+      rolling ? expose(index, false, see(index, false)) : expose(index, false, rendering);
+  if (contents.right) out.frame.right = expose(index, true, see(index, true));
+  if (contents.depth) out.frame.depth = measure_depth(index, rendering);
   if (contents.labels) out.labels = rendering.labels;
   if (contents.planes) out.planes = rendering.planes;
   if (contents.flow && index + 1 < size())

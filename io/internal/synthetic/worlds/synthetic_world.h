@@ -4,6 +4,7 @@
 #include <placegraph/graph/image/frame.h>
 #include <placegraph/graph/internal/scene/labelled_mesh.h>
 #include <placegraph/graph/scene/scene_model.h>
+#include <placegraph/io/internal/synthetic/defects/defects.h>
 #include <placegraph/io/internal/synthetic/render/sensor_model.h>
 
 #include <memory>
@@ -26,6 +27,7 @@ struct SyntheticOptions {
   double duration_s = 0;      ///< duration of the flight, world `flight` only; 0 = 120 s
   int width = 0, height = 0;  ///< [px], intrinsics scaled along; 0 = the world's own
   int threads = 1;            ///< threads of one rendering
+  SyntheticDefects defects;   ///< how images and calibration differ from what is written
 
   void check() const;  ///< throws ArgumentError naming the field
 };
@@ -36,7 +38,8 @@ struct SyntheticContents {
   bool right = false, depth = false, labels = false, planes = false, flow = false;
 };
 
-/// A frame with its ground truth, all at the left pixels' centres.
+/// A frame with its ground truth, all at the left pixels' centres and the middle of the exposure;
+/// with the defect `depth_lag_s` depth is older.
 struct SyntheticFrame {
   Frame frame;   ///< image; right and depth if requested
   Image labels;  ///< CV_8UC1, see class_names()
@@ -60,10 +63,14 @@ class SyntheticWorld {
 
   const std::string& name() const;
   std::size_t size() const;  ///< number of frames
-  /// The calibration, with baseline, depth camera (the left camera's own) and camera height.
+  /// The written calibration, with baseline, depth camera (the left camera's own) and, if it is
+  /// constant, camera height.
   Calibration calibration() const;
-  std::int64_t stamp_ns(std::size_t index) const;
-  /// T_first_cam: poses of the left camera in the frame of the first one, as in poses.txt.
+  std::int64_t stamp_ns(std::size_t index) const;  ///< the written time
+  /// The time of the middle of the exposure, without the written time's error.
+  double exposure_time_s(std::size_t index) const;
+  /// T_first_cam: poses of the left camera at the written times in the frame of the first one, as
+  /// in poses.txt.
   Trajectory ground_truth() const;
   SyntheticFrame render(std::size_t index, const SyntheticContents& contents) const;
 
@@ -85,8 +92,11 @@ class SyntheticWorld {
   const synthetic::Tour& tour() const { return *tour_; }
 
  private:
-  synthetic::View view(std::size_t index, bool right) const;
+  synthetic::View view(std::size_t index, bool right, double delay_s = 0) const;
+  synthetic::Rendering see(std::size_t index, bool right) const;
   Image expose(std::size_t index, bool right, const synthetic::Rendering& rendering) const;
+  Image measure_depth(std::size_t index, const synthetic::Rendering& at_image) const;
+  std::uint32_t frame_seed(std::size_t index, int image) const;
 
   SyntheticOptions options_;
   synthetic::SensorModel sensor_;

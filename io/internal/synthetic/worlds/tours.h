@@ -20,7 +20,7 @@ struct Tour {
   std::vector<SE3> T_scene_cam;
   Camera camera;
   double baseline_m = 0;
-  double camera_height_m = 0;  ///< camera height above the ground, exact at every pose
+  double camera_height_m = 0;  ///< camera height above the ground at every pose; 0: it changes
   bool has_depth = false;      ///< depth is written by default (indoor worlds)
   std::string floor_plan;      ///< JSON; empty outdoors
   /// Velocity of the camera in its own axes, [translation, rotation], if it is known better than
@@ -32,7 +32,8 @@ struct Tour {
 struct TourRequest {
   std::uint64_t seed = 1;
   SensorModel sensor;
-  double duration_s = 0;  ///< duration of worlds without a fixed one; 0 = default
+  double duration_s = 0;    ///< duration of worlds without a fixed one; 0 = default
+  double undulation_m = 0;  ///< root mean square of the height of the road's undulation
 };
 
 /// A drive at 10 Hz through a small grid of streets, about 650 m, parts of it twice.
@@ -43,6 +44,8 @@ Tour make_repeated_blocks(const TourRequest& request);
 Tour make_corridor_loop(const TourRequest& request);
 /// A walk between the racks of a hall and through the offices beside it, partly twice.
 Tour make_warehouse(const TourRequest& request);
+/// A camera in the hand that turns about itself at three or four places of a small room, 30 Hz.
+Tour make_turning_walk(const TourRequest& request);
 /// A town around any KITTI pose file. Times and calibration are taken from `times.txt` and
 /// `calib.txt` beside it if they exist. The poses keep x, z and the rotation's vibration; height,
 /// mean pitch and roll follow one surface fitted to all passes; the camera is 1.65 m above the

@@ -1,3 +1,4 @@
+#include <placegraph/io/internal/synthetic/defects/vehicle.h>
 #include <placegraph/io/internal/synthetic/render/hash_noise.h>
 #include <placegraph/io/internal/synthetic/worlds/tours.h>
 #include <placegraph/io/internal/synthetic/worlds/town_builder.h>
@@ -65,7 +66,10 @@ void add_crossing_traffic(Tour& tour, const GroundMesh& ground, std::uint32_t se
 Tour make_town_loop(const TourRequest& request) {
   const std::vector<Eigen::Vector2d> path = smooth_path(route(), kStep_m, 11);
   const auto seed = mix_bits(static_cast<std::uint32_t>(request.seed) + 1000U);
-  TownPlan plan{{}, GroundMesh(hills(seed)), path, request.seed};
+  TownPlan plan{{},
+                GroundMesh(hills(seed), Undulation(request.undulation_m, request.seed)),
+                path,
+                request.seed};
   for (const double x : kStreets_x)
     plan.roads.push_back(street({x, kStreets_z[0] - kBeyond_m}, {x, kStreets_z[2] + kBeyond_m}));
   for (const double z : kStreets_z)
@@ -97,8 +101,9 @@ Tour make_town_loop(const TourRequest& request) {
     const Eigen::Matrix3d R = camera_axes({p.direction[0], 0, p.direction[1]},
                                           plan.ground.surface.normal(x, z), pitch, yaw, roll);
     tour.time_s.push_back(t);
-    tour.T_scene_cam.emplace_back(R,
-                                  Eigen::Vector3d(x, plan.ground.height(x, z) - kDriveHeight_m, z));
+    const double level = plan.ground.height(x, z) - plan.ground.undulation_at(x, z);
+    tour.T_scene_cam.push_back(
+        on_undulation(plan.ground, SE3(R, Eigen::Vector3d(x, level - kDriveHeight_m, z))));
   }
   add_traffic(tour.scene, plan.ground, tour.time_s, tour.T_scene_cam, request.sensor.traffic,
               request.seed);

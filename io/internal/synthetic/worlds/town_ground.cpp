@@ -91,21 +91,21 @@ struct Lattice {
 };
 
 std::vector<Vertex> sample_vertices(const TownSite& site, const Lattice& l) {
+  const double cell = site.plan.ground.cell_m;
   std::vector<Vertex> vertices(static_cast<std::size_t>(l.nx + 1) * (l.nz + 1));
   for (int z = 0; z <= l.nz; ++z) {
     for (int x = 0; x <= l.nx; ++x) {
-      const double px = (l.x0 + x) * GroundMesh::kCell_m, pz = (l.z0 + z) * GroundMesh::kCell_m;
+      const double px = (l.x0 + x) * cell, pz = (l.z0 + z) * cell;
       Vertex& v = vertices[static_cast<std::size_t>(z) * (l.nx + 1) + x];
       v.edge = site.road.edge_distance(px, pz);
-      if (v.edge < kFineReach_m + 4 * GroundMesh::kCell_m)
-        v.p = {px, site.plan.ground.surface.height(px, pz), pz};
+      if (v.edge < kFineReach_m + 8) v.p = {px, site.plan.ground.vertex_height(px, pz), pz};
     }
   }
   return vertices;
 }
 
 void add_coarse(TownSite& site, const Lattice& l, const std::vector<char>& fine) {
-  const int ratio = static_cast<int>(kCoarse_m / GroundMesh::kCell_m);
+  const int ratio = static_cast<int>(kCoarse_m / site.plan.ground.cell_m);
   const auto lowest = [&](double at) { return floor_int((at - kOuter_m) / kCoarse_m); };
   const auto highest = [&](double at) { return floor_int((at + kOuter_m) / kCoarse_m) + 1; };
   const HeightSurface& surface = site.plan.ground.surface;
@@ -145,7 +145,7 @@ void add_coarse(TownSite& site, const Lattice& l, const std::vector<char>& fine)
 }  // namespace
 
 void build_ground(TownSite& site) {
-  const double cell = GroundMesh::kCell_m;
+  const double cell = site.plan.ground.cell_m;
   Lattice l{};
   l.x0 = floor_int(site.road.low()[0] / cell);
   l.z0 = floor_int(site.road.low()[1] / cell);

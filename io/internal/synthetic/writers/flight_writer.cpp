@@ -32,10 +32,12 @@ std::string camera_yaml(const Camera& camera, const SE3& T_body_cam) {
 
 std::string flight_yaml(const SyntheticWorld& world) {
   const SyntheticOptions& o = world.options();
+  const std::string defects = defect_list(o.defects);
   return fmt::format(
-      "# A rendered flight; everything here is exact.\nworld: {}\ndifficulty: {}\nseed: {}\n"
-      "frames: {}\nfloor_z_m: 0\n",
-      world.name(), to_string(o.difficulty), o.seed, world.size());
+      "# A rendered flight; {}\nworld: {}\ndifficulty: {}\nseed: {}\nframes: {}\nfloor_z_m: 0\n{}",
+      defects.empty() ? "everything here is exact." : "its files have these defects.", world.name(),
+      to_string(o.difficulty), o.seed, world.size(),
+      defects.empty() ? defects : "defects:\n" + defects);
 }
 
 std::string readme(const SyntheticContents& contents) {

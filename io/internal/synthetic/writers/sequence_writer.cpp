@@ -42,11 +42,15 @@ double depth_unit_m(const SyntheticWorld& world) {
 
 std::string world_yaml(const SyntheticWorld& world) {
   const SyntheticOptions& o = world.options();
-  std::string text = fmt::format(
-      "# A rendered sequence; everything here is exact.\nworld: {}\ndifficulty: {}\nseed: {}\n"
-      "frames: {}\ncamera_height_m: {}\nclasses: [",
-      world.name(), to_string(o.difficulty), o.seed, world.size(),
-      *world.calibration().camera_height_m);
+  const std::string defects = defect_list(o.defects);
+  std::string text =
+      fmt::format("# A rendered sequence; {}\nworld: {}\ndifficulty: {}\nseed: {}\nframes: {}\n",
+                  defects.empty() ? "everything here is exact." : "its files have these defects.",
+                  world.name(), to_string(o.difficulty), o.seed, world.size());
+  if (!defects.empty()) text += "defects:\n" + defects;
+  const std::optional<double> height_m = world.calibration().camera_height_m;
+  if (height_m) text += fmt::format("camera_height_m: {}\n", *height_m);
+  text += "classes: [";
   const auto names = SyntheticWorld::class_names();
   for (std::size_t i = 0; i < names.size(); ++i) text += (i ? ", " : "") + names[i];
   return text + "]\n";
@@ -63,9 +67,14 @@ std::string class_list() {
 std::string readme(const SyntheticWorld& world, const SyntheticContents& contents) {
   std::string text =
       "Rendered by `placegraph synth sequence`. KITTI odometry layout, poses.txt = T_world_cam0, "
-      "exact.\n"
-      "The camera is camera_height_m (world.yaml) above the rendered ground, measured vertically.\n"
-      "image_0, image_1: left and right camera, 8-bit grey, rectified, without distortion.\n";
+      "exact.\n";
+  if (world.calibration().camera_height_m)
+    text +=
+        "The camera is camera_height_m (world.yaml) above the rendered ground, measured "
+        "vertically.\n";
+  if (!defect_list(world.options().defects).empty())
+    text += "Images, times and calibration have the defects that world.yaml lists.\n";
+  text += "image_0, image_1: left and right camera, 8-bit grey, rectified, without distortion.\n";
   if (contents.depth)
     text += fmt::format(
         "depth_0: 16-bit, one step = {} m along the optical axis, 0 = none; same camera as "
@@ -73,7 +82,8 @@ std::string readme(const SyntheticWorld& world, const SyntheticContents& content
         depth_unit_m(world));
   if (contents.labels)
     text +=
-        "labels_0: 8-bit, index into `classes` of world.yaml; CLASSES.txt, outdoors: which class of "
+        "labels_0: 8-bit, index into `classes` of world.yaml; CLASSES.txt, outdoors: which class "
+        "of "
         "a street each is.\n"
         "scene.ply: what stands still, polygons with a class each, in the frame of poses.txt.\n";
   if (contents.planes)
@@ -108,7 +118,7 @@ void write_texts(const SyntheticWorld& world, const SequenceFolder& folder,
   folder.write("calib.txt", projection("P0", calibration.camera, 0) +
                                 projection("P1", calibration.camera, calibration.baseline_m));
   if (contents.depth)
-    folder.write("calib_depth.txt", projection("P0", calibration.camera, 0) +
+    folder.write("calib_depth.txt", projection("P0", calibration.depth->camera, 0) +
                                         fmt::format("unit_m: {}\n", depth_unit_m(world)));
   std::string times;
   for (std::size_t i = 0; i < world.size(); ++i)
