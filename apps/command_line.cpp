@@ -9,6 +9,7 @@
 
 #include "apps/eval/cmd_eval.h"
 #include "apps/eval/cmd_eval_edges.h"
+#include "apps/eval/cmd_eval_noise.h"
 #include "apps/eval/cmd_loops.h"
 #include "apps/flight/cmd_flight.h"
 #include "apps/graph/cmd_bundle.h"
@@ -85,6 +86,7 @@ void add_eval_group(CLI::App& app) {
   add_eval_trajectory_command(
       group, [](const EvalArguments& a, const EvalResult& r) { write_eval_page(a, r); });
   add_eval_edges_command(group);
+  add_eval_noise_command(group);
   add_eval_loops_command(
       group, [](const LoopsArguments& a, const LoopsResult& r) { write_loops_page(a, r); });
   add_eval_labels_command(group);

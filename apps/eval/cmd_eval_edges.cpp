@@ -11,7 +11,7 @@ namespace placegraph::apps {
 
 void add_eval_edges_command(CLI::App& eval_group) {
   auto arguments = std::make_shared<EvalEdgesArguments>();
-  auto json = std::make_shared<bool>(false);
+  auto json = std::make_shared<bool>(false), axes = std::make_shared<bool>(false);
   EvalEdgesArguments& a = *arguments;
   CLI::App* command = eval_group.add_subcommand(
       "edges", "Compare the errors of a place graph's edges with their stated covariances");
@@ -24,10 +24,19 @@ void add_eval_edges_command(CLI::App& eval_group) {
   command->add_option("RUN", a.run, "folder written by `placegraph run`")
       ->required()
       ->check(CLI::ExistingDirectory);
+  command
+      ->add_option("--truth-noise", a.truth_noise,
+                   "noise of the true poses: none, estimate (from the poses alone, see `eval "
+                   "noise`), or POSITION_M,ROTATION_DEG (white noise of each pose)")
+      ->capture_default_str();
+  command->add_flag("--fit-mount", a.fit_mount,
+                    "fit the camera's pose in the frame of the truth first, which a calibration of "
+                    "the truth's sensor may have wrong");
+  command->add_flag("--axes", *axes, "print the errors of every axis, too");
   command->add_flag("--json", *json, kJsonText);
-  command->callback([arguments, json] {
+  command->callback([arguments, json, axes] {
     const EvalEdgesResult result = eval_edges(*arguments);
-    print(*json ? to_json(result) : to_text(result));
+    print(*json ? to_json(result) : to_text(result, *axes));
   });
 }
 

@@ -2,67 +2,139 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/angle.h>
 #include <placegraph/graph/internal/core/json_text.h>
 #include <placegraph/graph/pose_graph/constraint_source.h>
-#include <placegraph/io/trajectories/trajectory_file.h>
 
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "apps/eval/eval_noise.h"
 #include "apps/results/run_map.h"
+#include "apps/support/rows_json.h"
 
 namespace placegraph::apps {
 namespace {
 
-namespace fs = std::filesystem;
 using nlohmann::json;
 
 /// True pose of the camera at each place's anchor frame, by node of the graph.
-std::map<NodeId, SE3> true_places(const Trajectory& truth, const RunMap& map) {
-  std::map<NodeId, SE3> result;
+TrueNodes true_places(const Trajectory& truth, const RunMap& map) {
+  TrueNodes result;
   for (const Place& place : map.graph.places) {
     const FrameId frame = map.anchor_frame(place);
     require(frame.value() >= 0 && frame.value() < static_cast<std::int64_t>(truth.size()),
             "place " + to_string(place.id) + " was seen in frame " + to_string(frame) +
                 ", and the truth has " + std::to_string(truth.size()));
+    const NodeId node = node_of_place(place.id);
+    result.frames[node] = static_cast<int>(frame.value());
     if (const auto& pose = truth.poses[static_cast<std::size_t>(frame.value())].T_world_body)
-      result.emplace(node_of_place(place.id), SE3(*pose));
+      result.T_world_node.emplace(node, SE3(*pose));
   }
   return result;
+}
+
+std::string table_of(const EvalEdgesResult& result) {
+  std::string text =
+      "source      edges  unknown  interpolated  mean NEES  median  beyond 99 %  with truth's "
+      "noise  "
+      "truth's share\n";
+  for (const auto& [source, c] : result.by_source)
+    text += fmt::format(
+        "{:<10} {:>6} {:>8} {:>13} {:>10.3f} {:>7.3f} {:>10.1f} % {:>19.3f} {:>12.0f} %\n",
+        to_string(source), c.edges, c.unknown, c.interpolated, c.by_stated.mean, c.by_stated.median,
+        100 * c.by_stated.share_beyond_99, c.with_truth.mean, 100 * c.truth_share);
+  return text;
+}
+
+std::string axes_table_of(const EvalEdgesResult& result) {
+  std::string text =
+      "\nsource      root mean square of    error     stated      truth  error / deviation\n";
+  for (const auto& [source, c] : result.by_source)
+    for (const AxisConsistency& axis : c.axes)
+      text +=
+          fmt::format("{:<11} {:<20} {:>9.6f}  {:>9.6f}  {:>9.6f} {:>18.2f}\n", to_string(source),
+                      axis.name, axis.error, axis.stated, axis.of_truth, axis.normalized);
+  return text;
+}
+
+Eigen::Vector3d degrees(const Eigen::Vector3d& angles) { return angles * (1 / kRadPerDeg); }
+
+std::string mount_text(const TruthMount& mount) {
+  const Eigen::Vector3d t = mount.T_truth_cam.translation(), t_sigma = mount.sigma.head<3>(),
+                        r = degrees(mount.T_truth_cam.rotation().log()),
+                        r_sigma = degrees(mount.sigma.tail<3>());
+  return fmt::format(
+      "Camera in the frame of the truth: turned by {:.2f} {:.2f} {:.2f} deg (standard deviations "
+      "{:.2f} {:.2f} {:.2f}), at {:.3f} {:.3f} {:.3f} m ({:.3f} {:.3f} {:.3f}).\n",
+      r.x(), r.y(), r.z(), r_sigma.x(), r_sigma.y(), r_sigma.z(), t.x(), t.y(), t.z(), t_sigma.x(),
+      t_sigma.y(), t_sigma.z());
+}
+
+json json_of(const TruthMount& mount) {
+  return {{"position_m", numbers_of(mount.T_truth_cam.translation())},
+          {"rotation_deg", numbers_of(degrees(mount.T_truth_cam.rotation().log()))},
+          {"sigma_m", numbers_of(mount.sigma.head<3>())},
+          {"sigma_deg", numbers_of(degrees(mount.sigma.tail<3>()))}};
+}
+
+json json_of(const Nees& nees, int degrees_of_freedom) {
+  const auto [low, high] = nees_interval(nees, degrees_of_freedom);
+  return {{"mean_nees", nees.mean},
+          {"interval_95", {low, high}},
+          {"median_nees", nees.median},
+          {"share_beyond_99", nees.share_beyond_99}};
+}
+
+json json_of(ConstraintSource source, const EdgeConsistency& c) {
+  json report = json_of(c.by_stated, c.degrees_of_freedom);
+  report["edges"] = c.edges;
+  report["unknown"] = c.unknown;
+  report["interpolated"] = c.interpolated;
+  report["degrees_of_freedom"] = c.degrees_of_freedom;
+  report["with_truth"] = json_of(c.with_truth, c.degrees_of_freedom);
+  report["truth_share"] = c.truth_share;
+  report["verdict"] = to_string(verdict_on(c));
+  report["sentence"] = sentence_of(source, c);
+  report["axes"] = json::array();
+  for (const AxisConsistency& axis : c.axes)
+    report["axes"].push_back({{"name", axis.name},
+                              {"error", axis.error},
+                              {"stated", axis.stated},
+                              {"of_truth", axis.of_truth},
+                              {"normalized", axis.normalized}});
+  return report;
 }
 
 }  // namespace
 
 EvalEdgesResult eval_edges(const EvalEdgesArguments& arguments) {
-  fs::path truth = arguments.truth;
-  if (fs::is_directory(truth)) truth /= "poses.txt";
   const RunMap map = read_run_map(arguments.run);
-  const auto nodes = true_places(read_trajectory(truth.string()), map);
-  std::map<ConstraintSource, std::vector<RelativePoseConstraint>> by_source;
-  for (const RelativePoseConstraint& edge : map.graph.constraints)
-    by_source[edge.source].push_back(edge);
+  const Trajectory truth = read_true_poses(arguments.truth);
+  TrueNodes nodes = true_places(truth, map);
+  nodes.noise = truth_noise_of(arguments.truth_noise, truth);
   EvalEdgesResult result;
-  for (const auto& [source, edges] : by_source)
-    result.by_source[source] = edge_consistency(edges, nodes);
+  if (arguments.fit_mount) {
+    result.mount = fit_mount(map.graph.constraints, nodes);
+    nodes = mounted(nodes, *result.mount);
+  }
+  result.by_source = edge_consistency(map.graph.constraints, nodes);
   return result;
 }
 
-std::string to_text(const EvalEdgesResult& result) {
-  std::string text = "source      edges  unknown  mean NEES  median  beyond 99 %\n";
-  for (const auto& [source, c] : result.by_source)
-    text += fmt::format("{:<10} {:>6} {:>8} {:>10.3f} {:>7.3f} {:>10.1f} %\n", to_string(source),
-                        c.edges, c.unknown, c.mean_nees, c.median_nees, 100 * c.share_beyond_99);
+std::string to_text(const EvalEdgesResult& result, bool axes) {
+  std::string text = table_of(result);
+  if (axes) text += axes_table_of(result);
+  text += "\n";
+  if (result.mount) text += mount_text(*result.mount);
+  for (auto it = result.by_source.rbegin(); it != result.by_source.rend(); ++it)
+    text += sentence_of(it->first, it->second) + "\n";
   return text;
 }
 
 std::string to_json(const EvalEdgesResult& result) {
   json report = json::object();
-  for (const auto& [source, c] : result.by_source)
-    report[to_string(source)] = {{"edges", c.edges},
-                                 {"unknown", c.unknown},
-                                 {"mean_nees", c.mean_nees},
-                                 {"median_nees", c.median_nees},
-                                 {"share_beyond_99", c.share_beyond_99}};
+  for (const auto& [source, c] : result.by_source) report[to_string(source)] = json_of(source, c);
+  if (result.mount) report["mount"] = json_of(*result.mount);
   return json_text(report, 1);
 }
 

@@ -16,4 +16,7 @@ nlohmann::ordered_json rows_json(const Eigen::MatrixBase<Matrix>& matrix) {
   return rows;
 }
 
+/// A vector as a list of its numbers.
+inline nlohmann::json numbers_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
 }  // namespace placegraph::apps

@@ -45,7 +45,11 @@ from ._core import (
     TrackingState,
     Trajectory,
     TrajectoryFormat,
+    TruthMount,
+    TruthNoise,
     edge_consistency,
+    estimate_truth_noise,
+    fit_mount,
 )
 from ._show import page_of, show
 from .datasets import Dataset, open_dataset
@@ -186,9 +190,13 @@ __all__ = [
     "TrackingState",
     "Trajectory",
     "TrajectoryFormat",
+    "TruthMount",
+    "TruthNoise",
     "compare",
     "edge_consistency",
+    "estimate_truth_noise",
     "evaluate",
+    "fit_mount",
     "from_networkx",
     "localizer_options",
     "loops",

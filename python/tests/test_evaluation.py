@@ -231,4 +231,59 @@ def test_errors_of_edges_are_those_of_their_covariances() -> None:
     assert (found.edges, found.unknown) == (398, 1)
     assert found.mean_nees == pytest.approx(np.mean(squares[:-1]), rel=1e-6)
     assert found.median_nees == pytest.approx(np.median(squares[:-1]), rel=1e-6)
+    assert found.by_stated.mean == found.with_truth.mean == found.mean_nees
     assert found.mean_nees == pytest.approx(1, abs=0.1)
+    assert found.interval_95[0] < 1 < found.interval_95[1]
+    assert (found.verdict, found.truth_share) == ("hold", 0)
+    assert found.sentence().startswith("The covariances of the odometry hold: NEES ")
+    assert [axis.name for axis in found.axes][4] == "rotation about y"
+    assert found.axes[4].stated == pytest.approx(sigma[4])
+    with pytest.raises(ValueError, match="source: 'some'"):
+        found.sentence("some")
+
+
+def test_noise_of_the_truth_is_found_and_taken_into_account() -> None:
+    random = np.random.default_rng(9)
+    sigma = np.array([2e-3, 1e-3, 3e-3, 1e-3, 5e-4, 2e-3])
+    frames = 600
+    poses = [pg.SE3()]
+    for frame in range(1, frames):
+        step = np.array([0, 0, 0.5, 0, 0.02 * np.sin(0.03 * frame), 0])
+        poses.append(poses[-1] * pg.SE3.exp(step))
+    graph = pg.PoseGraph()
+    for frame, pose in enumerate(poses):
+        graph.add_node(frame, pose)
+    for frame in range(frames - 1):
+        step_taken = poses[frame].inverse() * poses[frame + 1]
+        graph.add_edge(frame, frame + 1, step_taken, np.eye(6) * 1e8)
+    matrices = [(pose * pg.SE3.exp(random.normal(0, sigma))).matrix() for pose in poses]
+    trajectory = pg.Trajectory.from_arrays(np.arange(frames), np.array(matrices))
+    noise = pg.estimate_truth_noise(trajectory)
+    assert noise.ok and noise.interpolated == []
+    assert noise.sigma == pytest.approx(sigma, rel=0.3)
+    assert noise.direction[0].frames == 1
+    truth = {frame: pg.SE3(matrix) for frame, matrix in enumerate(matrices)}
+    found = pg.edge_consistency(graph, truth, noise, {n: n for n in range(frames)})["odometry"]
+    assert found.verdict == "not testable"
+    assert found.mean_nees > 100 > 3 > found.with_truth.mean
+    assert found.truth_share > 0.5
+    assert not pg.estimate_truth_noise(pg.Trajectory()).ok
+    white = pg.TruthNoise.white(0.01, 0.002)
+    assert white.covariance(pg.SE3(), 1) == pytest.approx(2 * np.diag(white.sigma**2))
+
+
+def test_mount_of_the_truth_is_fitted() -> None:
+    random = np.random.default_rng(10)
+    mount = pg.SE3.exp(np.array([0.02, -0.01, 0.03, 0.004, -0.006, 0.003]))
+    poses = [pg.SE3.exp(random.normal(0, 1, 6)) for _ in range(60)]
+    graph = pg.PoseGraph()
+    for node, pose in enumerate(poses):
+        graph.add_node(node, pose)
+    for node in range(59):
+        graph.add_edge(node, node + 1, poses[node].inverse() * poses[node + 1], np.eye(6) * 1e6)
+    truth = {node: pose * mount.inverse() for node, pose in enumerate(poses)}
+    fitted = pg.fit_mount(graph, truth)
+    assert fitted.T_truth_cam.matrix() == pytest.approx(mount.matrix(), abs=1e-5)
+    assert fitted.parameters == pytest.approx(6, abs=0.01)
+    assert pg.edge_consistency(graph, truth)["odometry"].mean_nees > 10
+    assert pg.edge_consistency(graph, truth, mount=fitted)["odometry"].mean_nees < 0.1

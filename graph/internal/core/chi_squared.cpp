@@ -1,6 +1,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/internal/core/chi_squared.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -28,6 +29,12 @@ double chi_squared_quantile(double probability, int dof) {
     (chi_squared_tail(middle, dof) > 1 - probability ? low : high) = middle;
   }
   return 0.5 * (low + high);
+}
+
+double mean_square_quantile(double z, double dof) {
+  const double variance = 2 / (9 * dof);
+  const double root = std::max(0.0, 1 - variance + z * std::sqrt(variance));
+  return root * root * root;
 }
 
 }  // namespace placegraph

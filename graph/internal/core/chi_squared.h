@@ -13,4 +13,8 @@ double chi_squared_tail(double x, int dof);
 /// `probability` in (0, 1).
 double chi_squared_quantile(double probability, int dof);
 
+/// The quantile of chi-squared / dof at `z` standard deviations of the normal distribution, for
+/// real degrees of freedom from about 4 on and without a largest number (Wilson, Hilferty 1931).
+double mean_square_quantile(double z, double dof);
+
 }  // namespace placegraph

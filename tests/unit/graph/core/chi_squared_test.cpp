@@ -3,6 +3,7 @@
 #include <placegraph/graph/internal/core/chi_squared.h>
 
 #include <cmath>
+#include <utility>
 
 namespace placegraph {
 namespace {
@@ -19,6 +20,17 @@ TEST(ChiSquared, QuantilesInvertTheTails) {
   for (int dof = 1; dof <= 12; ++dof)
     for (const double p : {0.01, 0.5, 0.95, 0.999, 0.999999})
       EXPECT_NEAR(1 - chi_squared_tail(chi_squared_quantile(p, dof), dof), p, 1e-10);
+}
+
+TEST(ChiSquared, QuantilesOfMeanSquaresAreNearTheExactOnes) {
+  for (const int dof : {6, 12, 40, 100})
+    for (const auto& [probability, z] : {std::pair(0.025, -1.959964), std::pair(0.25, -0.67449),
+                                         std::pair(0.5, 0.0), std::pair(0.975, 1.959964)}) {
+      const double exact = chi_squared_quantile(probability, dof) / dof;
+      EXPECT_NEAR(mean_square_quantile(z, dof), exact, 0.006) << dof << ' ' << probability;
+    }
+  EXPECT_NEAR(mean_square_quantile(1.959964, 1e6), 1 + 1.96 * std::sqrt(2e-6), 1e-5);
+  EXPECT_EQ(mean_square_quantile(-10, 4), 0);
 }
 
 TEST(ChiSquared, RefusesAProbabilityThatIsNone) {

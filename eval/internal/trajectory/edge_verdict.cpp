@@ -1,0 +1,96 @@
+#include <fmt/format.h>
+#include <placegraph/eval/internal/trajectory/edge_consistency.h>
+#include <placegraph/graph/internal/core/chi_squared.h>
+#include <placegraph/graph/pose_graph/constraint_source.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace placegraph {
+namespace {
+
+constexpr double kLeast = 0.5, kMost = 2;  // bounds of a NEES with which covariances hold
+
+std::string covariances_of(ConstraintSource source) {
+  if (source == ConstraintSource::kOdometry) return "The covariances of the odometry";
+  if (source == ConstraintSource::kLoop) return "The covariances of the loops";
+  return "The covariances of the other edges";
+}
+
+/// "errors are 3.2 times the stated standard deviations (NEES 10.2); largest: ..."
+std::string factor_text(const EdgeConsistency& c, const Nees& nees) {
+  const auto worst = std::max_element(c.axes.begin(), c.axes.end(),
+                                      [](const AxisConsistency& a, const AxisConsistency& b) {
+                                        return a.normalized < b.normalized;
+                                      });
+  return fmt::format(
+      "errors are {:.2g} times the stated standard deviations (NEES {:.3g}); largest: {}, {:.2g} "
+      "standard deviations",
+      std::sqrt(nees.mean), nees.mean, worst->name, worst->normalized);
+}
+
+}  // namespace
+
+const char* to_string(EdgeVerdict verdict) {
+  switch (verdict) {
+    case EdgeVerdict::kNoEdges:
+      return "no edges";
+    case EdgeVerdict::kTooFewEdges:
+      return "too few edges";
+    case EdgeVerdict::kNotTestable:
+      return "not testable";
+    case EdgeVerdict::kTooLarge:
+      return "too large";
+    case EdgeVerdict::kHold:
+      return "hold";
+    case EdgeVerdict::kTooSmall:
+      return "too small";
+  }
+  return "";
+}
+
+std::pair<double, double> nees_interval(const Nees& nees, int degrees_of_freedom) {
+  constexpr double kDeviations = 1.959964;  // below which the normal distribution has 97.5 %
+  if (degrees_of_freedom == 0) return {0, 0};
+  return {nees.mean / mean_square_quantile(kDeviations, degrees_of_freedom),
+          nees.mean / mean_square_quantile(-kDeviations, degrees_of_freedom)};
+}
+
+EdgeVerdict verdict_on(const EdgeConsistency& c) {
+  if (c.edges == 0) return EdgeVerdict::kNoEdges;
+  const auto [stated_low, stated_high] = nees_interval(c.by_stated, c.degrees_of_freedom);
+  const auto [low, high] = nees_interval(c.with_truth, c.degrees_of_freedom);
+  if (stated_high < kLeast) return EdgeVerdict::kTooLarge;
+  if (c.truth_share > 0.5) return EdgeVerdict::kNotTestable;
+  if (low > kMost) return EdgeVerdict::kTooSmall;
+  return stated_low >= kLeast && high <= kMost ? EdgeVerdict::kHold : EdgeVerdict::kTooFewEdges;
+}
+
+std::string sentence_of(ConstraintSource source, const EdgeConsistency& c) {
+  const std::string subject = covariances_of(source);
+  switch (verdict_on(c)) {
+    case EdgeVerdict::kNoEdges:
+      return subject + " are not tested: no edge has a truth.";
+    case EdgeVerdict::kTooFewEdges: {
+      const auto [low, high] = nees_interval(c.with_truth, c.degrees_of_freedom);
+      return fmt::format(
+          "{}: too few edges to say; NEES {:.2f} (interval of 95 %: {:.2f} to {:.2f}).", subject,
+          c.with_truth.mean, low, high);
+    }
+    case EdgeVerdict::kNotTestable:
+      return fmt::format("{} are not testable: the truth's own noise makes {:.0f} % of the errors.",
+                         subject, 100 * c.truth_share);
+    case EdgeVerdict::kTooLarge:
+      return subject + " are too large: " + factor_text(c, c.by_stated) + ".";
+    case EdgeVerdict::kHold:
+      if (c.truth_share > 0)
+        return fmt::format("{} hold: NEES {:.2f}, with the noise of the truth {:.2f} (0.5 to 2).",
+                           subject, c.by_stated.mean, c.with_truth.mean);
+      return fmt::format("{} hold: NEES {:.2f} (0.5 to 2).", subject, c.by_stated.mean);
+    case EdgeVerdict::kTooSmall:
+      return subject + " are too small: " + factor_text(c, c.with_truth) + ".";
+  }
+  return subject;
+}
+
+}  // namespace placegraph
