@@ -294,9 +294,9 @@ void Slam::Impl::add_keyframe(const NewKeyframe& keyframe, FrameResult& result) 
   }
   {
     const auto inner = times.measure("described features");
-    const bool newest = keyframe.frame.id == recorder.newest().frame;
-    closer.add_view(keyframe.id, keyframe.frame, T_previous_this,
-                    newest ? odometry.line_features() : std::vector<LineFeature>());
+    std::vector<LineFeature> lines;
+    if (keyframe.frame.id == recorder.newest().frame) lines = odometry.line_features();
+    closer.add_view(keyframe.id, keyframe.frame, T_previous_this, lines, keyframe.errors);
   }
   if (options.views.enabled) {
     const auto inner = times.measure("views of keyframes");

@@ -70,6 +70,19 @@ std::optional<T> value_if_there(const std::map<Key, T>& all, Key id) {
   return it == all.end() ? std::nullopt : std::optional(it->second);
 }
 
+/// The name of an observation; throws ArgumentError unless its numbers are sound.
+std::string checked_name(const WindowObservation& o) {
+  std::string name =
+      name_of("observation of landmark", o.landmark) + " in keyframe " + to_string(o.keyframe);
+  require(o.px.allFinite() && positive(o.sigma_px),
+          name + ": px must be finite and sigma_px positive");
+  require(!o.covariance_px || is_positive_definite(*o.covariance_px),
+          name + ": covariance_px must be finite and positive definite");
+  require(!o.inverse_depth || (std::isfinite(*o.inverse_depth) && positive(o.sigma_inverse_depth)),
+          name + ": inverse_depth must be finite and its sigma positive");
+  return name;
+}
+
 }  // namespace
 
 SlidingWindow::SlidingWindow(const SlidingWindowOptions& options, const Camera& camera)
@@ -111,15 +124,7 @@ void SlidingWindow::add_landmark(LandmarkId id, const Eigen::Vector3d& p_map) {
 void SlidingWindow::add_observation(const WindowObservation& o) {
   require_variable(*state_, keyframe_variable(o.keyframe));
   WindowLandmark& landmark = find(change().landmarks, o.landmark, "landmark");
-  const std::string name =
-      name_of("observation of landmark", o.landmark) + " in keyframe " + to_string(o.keyframe);
-  require(o.px.allFinite() && positive(o.sigma_px),
-          name + ": px must be finite and sigma_px positive");
-  require(!o.covariance_px || is_positive_definite(*o.covariance_px),
-          name + ": covariance_px must be finite and positive definite");
-  require(!o.inverse_depth || (std::isfinite(*o.inverse_depth) && positive(o.sigma_inverse_depth)),
-          name + ": inverse_depth must be finite and its sigma positive");
-  insert_observation(landmark.observations, o, name);
+  insert_observation(landmark.observations, o, checked_name(o));
 }
 
 void SlidingWindow::add_line(LineId id, const Line3& line_map) {
@@ -224,6 +229,17 @@ void SlidingWindow::revise_inverse_depth(KeyframeId keyframe, LandmarkId landmar
     }
   throw ArgumentError(name_of("landmark", landmark) + " has no inverse depth in keyframe " +
                       to_string(keyframe));
+}
+
+void SlidingWindow::revise(const WindowObservation& observation) {
+  const std::string name = checked_name(observation);
+  for (WindowObservation& o :
+       find(change().landmarks, observation.landmark, "landmark").observations)
+    if (o.keyframe == observation.keyframe) {
+      o = observation;
+      return;
+    }
+  throw ArgumentError(name + " is not in the window");
 }
 
 void SlidingWindow::revise_second_camera(KeyframeId keyframe, LineId line,

@@ -71,6 +71,8 @@ class SlidingWindow {
   void remove(const WindowFactor& factor);
   /// Replaces the inverse depth [1/m] of an observation that has one, e.g. after a new calibration.
   void revise_inverse_depth(KeyframeId keyframe, LandmarkId landmark, double inverse_depth);
+  /// Replaces an observation of a landmark in a keyframe, e.g. after a new calibration.
+  void revise(const WindowObservation& observation);
   /// Replaces the observation by a second camera, e.g. after its calibration. It must exist.
   void revise_second_camera(KeyframeId keyframe, LineId line,
                             const LineObservation::SecondCamera& second);

@@ -21,6 +21,8 @@ struct WindowObservation {
   double sigma_inverse_depth = 1;       ///< standard deviation [1/m]
   /// Covariance of px [px^2] if the noise is anisotropic; replaces sigma_px.
   std::optional<Eigen::Matrix2d> covariance_px = std::nullopt;
+  /// g of the plane g^T p_cam = 1 through the measured depths around px; zero: not known.
+  Eigen::Vector3d surface_cam = Eigen::Vector3d::Zero();
 };
 
 /// An observed segment of a line landmark in a keyframe.

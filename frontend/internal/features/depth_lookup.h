@@ -29,4 +29,17 @@ std::vector<std::optional<double>> lookup_depth(const Image& depth_m, const Came
                                                 const std::vector<Eigen::Vector2f>& px,
                                                 const DepthLookupOptions& options = {});
 
+/// Depth at a pixel and how the inverse depth changes around it.
+struct SurfaceDepth {
+  double depth_m = 0;
+  /// Gradient of the inverse depth [1/m per px]; zero where it is not determined.
+  Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
+};
+/// The same with the slope of the surface, from a plane through the depths within the margin.
+std::vector<std::optional<SurfaceDepth>> lookup_surfaces(const Image& depth_m,
+                                                         const Camera& camera,
+                                                         const DepthCamera& depth_camera,
+                                                         const std::vector<Eigen::Vector2f>& px,
+                                                         const DepthLookupOptions& options = {});
+
 }  // namespace placegraph

@@ -13,6 +13,8 @@ struct InverseDepth {
   Eigen::Vector3d ray_cam = Eigen::Vector3d::UnitZ();  ///< viewing ray, z = 1
   double value = 0;                                    ///< 1 / z [1/m]
   double sigma = 1;                                    ///< standard deviation of value [1/m]
+  /// g of the plane g^T X = 1 through the depths around the pixel; zero: not known.
+  Eigen::Vector3d surface_cam = Eigen::Vector3d::Zero();
 };
 
 struct InverseDepthPlane {

@@ -29,6 +29,27 @@ std::vector<std::optional<InverseDepth>> DepthSensor::measure(
   return result;
 }
 
+std::vector<std::optional<InverseDepth>> DepthSensor::measure_surfaces(
+    const Frame& frame, const DepthCamera& depth, const std::vector<Eigen::Vector2f>& px) const {
+  const Camera& camera = calibration_.camera;
+  std::vector<std::optional<InverseDepth>> result(px.size());
+  if (frame.depth.empty()) return result;
+  const auto surfaces = lookup_surfaces(frame.depth, camera, depth, px);
+  for (std::size_t i = 0; i < px.size(); ++i) {
+    const auto ray = camera.unproject(px[i].cast<double>());
+    if (!surfaces[i] || !ray) continue;
+    const double inverse = 1 / surfaces[i]->depth_m;
+    InverseDepth measured{*ray, inverse, depth.sigma_at_1m};
+    if (!surfaces[i]->gradient.isZero(0)) {
+      measured.surface_cam.head<2>() =
+          surfaces[i]->gradient.cwiseProduct(Eigen::Vector2d(camera.fx, camera.fy));
+      measured.surface_cam.z() = inverse - measured.surface_cam.head<2>().dot(ray->head<2>());
+    }
+    result[i] = measured;
+  }
+  return result;
+}
+
 std::optional<double> DepthSensor::disparity_px(const Eigen::Vector3d& point_cam,
                                                 const RectificationError& rectification) const {
   if (!(point_cam.z() > 0) || calibration_.baseline_m <= 0) return std::nullopt;

@@ -25,6 +25,10 @@ class DepthSensor {
       const Frame& frame, const RectificationError& rectification,
       const std::vector<Eigen::Vector2f>& px,
       const std::vector<std::optional<double>>& expected_px = {}) const;
+  /// The same from the depth image, which `depth` took, with the surfaces around the pixels;
+  /// nothing without one.
+  std::vector<std::optional<InverseDepth>> measure_surfaces(
+      const Frame& frame, const DepthCamera& depth, const std::vector<Eigen::Vector2f>& px) const;
   /// Disparity [px], as observed by the cameras, of a point at `point_cam` [m] in front of the left
   /// camera; nothing behind it or without a baseline.
   std::optional<double> disparity_px(const Eigen::Vector3d& point_cam,

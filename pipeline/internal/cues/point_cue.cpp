@@ -24,6 +24,7 @@ void add_observation(KeyframeId keyframe, LandmarkId landmark, const Eigen::Vect
   if (depth) {
     observation.inverse_depth = depth->value;
     observation.sigma_inverse_depth = depth->sigma;
+    observation.surface_cam = depth->surface_cam;
   }
   window.add_observation(observation);
 }
@@ -34,6 +35,7 @@ PointCue::PointCue(const PointCueOptions& options, const Calibration& calibratio
                    const StereoMatcherOptions& stereo, StageTimes& times)
     : options_(options),
       camera_(calibration.camera),
+      depth_camera_(calibration.baseline_m > 0 ? std::nullopt : calibration.depth),
       depth_(calibration, stereo),
       times_(times),
       tracker_(options.tracker) {}
@@ -68,10 +70,37 @@ std::vector<Eigen::Vector2f> PointCue::predict(const SlidingWindow& window, cons
       const double depth = depth_nearby(known, px_last, median_depth);
       points[i] = T_odom_last * Eigen::Vector3d(depth * *ray);
     }
-    const auto px = camera_.project(T_cam_odom * *points[i]);
+    const Eigen::Vector3d p_cam = T_cam_odom * *points[i];
+    auto px = camera_.project(p_cam);
+    if (px && errors_.any()) *px += errors_.displacement_px(camera_, *px, p_cam, twist_);
     if (px && camera_.contains(*px, 2)) predicted.back() = px->cast<float>();
   }
   return predicted;
+}
+
+/// Pixel at which the track would be without the errors of the camera. `p_cam`: its point; nothing:
+/// far off.
+Eigen::Vector2d PointCue::corrected_px(const PointTrack& track,
+                                       const std::optional<Eigen::Vector3d>& p_cam) const {
+  const Eigen::Vector2d px = track.px.cast<double>();
+  if (!errors_.any()) return px;
+  constexpr double kFar_m = 1e3;
+  const auto ray = camera_.unproject(px);
+  if (p_cam && p_cam->z() > 0) return px - errors_.displacement_px(camera_, px, *p_cam, twist_);
+  return ray ? px - errors_.displacement_px(camera_, px, kFar_m * *ray, twist_) : px;
+}
+
+/// The same of all tracks, one entry per track.
+std::vector<Eigen::Vector2d> PointCue::corrected_px(const SlidingWindow& window,
+                                                    const SE3& T_odom_cam) const {
+  const SE3 T_cam_odom = T_odom_cam.inverse();
+  std::vector<Eigen::Vector2d> px;
+  for (const PointTrack& track : tracks()) {
+    auto point = window.landmark(track.id);
+    if (point) *point = T_cam_odom * *point;
+    px.push_back(corrected_px(track, point));
+  }
+  return px;
 }
 
 /// If the prediction of the last frame was accurate, the points of this one are searched nearby; if
@@ -127,10 +156,11 @@ PointCue::TrackedPose PointCue::pose(const SlidingWindow& window, const SE3& T_o
   std::vector<Eigen::Vector3d> points;
   std::vector<Eigen::Vector2d> px;
   std::vector<int> track_of;
+  const std::vector<Eigen::Vector2d> corrected = corrected_px(window, T_odom_prior);
   for (int i = 0; i < static_cast<int>(tracks().size()); ++i)
     if (const auto point = window.landmark(tracks()[i].id)) {
       points.push_back(*point);
-      px.push_back(tracks()[i].px.cast<double>());
+      px.push_back(corrected[static_cast<std::size_t>(i)]);
       track_of.push_back(i);
     }
   TrackedPose result;
@@ -192,19 +222,23 @@ void PointCue::detect(const Image& mask, bool labelled, const Image& given_mask)
 }
 
 std::vector<std::optional<InverseDepth>> PointCue::measure_depth(
-    const Frame& frame, const RectificationError& rectification, const SE3& T_odom_cam,
+    const Frame& frame, const std::vector<Eigen::Vector2d>& at_px,
+    const RectificationError& rectification, const SE3& T_odom_cam,
     const SlidingWindow& window) const {
   const auto span = times_.measure("depth of points");
   const SE3 T_cam_odom = T_odom_cam.inverse();
   std::vector<Eigen::Vector2f> px;
   std::vector<std::optional<double>> expected_px;
-  for (const PointTrack& track : tracks()) {
-    px.push_back(track.px);
+  for (std::size_t i = 0; i < tracks().size(); ++i) {
+    const PointTrack& track = tracks()[i];
+    px.push_back(at_px[i].cast<float>());
     expected_px.emplace_back();
     if (frame.right.empty()) continue;
     if (const auto point = window.landmark(track.id))
       expected_px.back() = depth_.disparity_px(T_cam_odom * *point, rectification);
   }
+  if (depth_camera_)
+    return depth_.measure_surfaces(frame, errors_.corrected(*depth_camera_, twist_), px);
   return depth_.measure(frame, rectification, px, expected_px);
 }
 
@@ -234,7 +268,8 @@ std::optional<Eigen::Vector3d> PointCue::place_point(const Observation& now,
 void PointCue::observe(KeyframeId keyframe, const Frame& frame,
                        const RectificationError& rectification, SlidingWindow& window) {
   const auto span = times_.measure("triangulation");
-  const auto depths = measure_depth(frame, rectification, window.pose(keyframe), window);
+  const std::vector<Eigen::Vector2d> px = corrected_px(window, window.pose(keyframe));
+  const auto depths = measure_depth(frame, px, rectification, window.pose(keyframe), window);
   const KeyframeId oldest = window.keyframes().front();
   std::map<LandmarkId, std::vector<Observation>> all;
   for (std::size_t i = 0; i < tracks().size(); ++i) {
@@ -246,8 +281,7 @@ void PointCue::observe(KeyframeId keyframe, const Frame& frame,
     // The error of a patch that is warped or half occluded changes slowly: the observations of a
     // track are not independent, and their weight decreases with their number.
     const double correlated = 1 + static_cast<double>(observations.size());
-    const Observation now{keyframe, tracks()[i].px.cast<double>(),
-                          correlated * tracks()[i].covariance.cast<double>()};
+    const Observation now{keyframe, px[i], correlated * tracks()[i].covariance.cast<double>()};
     if (!window.landmark(id))
       if (const auto point_odom = place_point(now, observations, depths[i], window)) {
         window.add_landmark(id, *point_odom);
@@ -323,10 +357,11 @@ std::vector<double> PointCue::prune(SlidingWindow& window, KeyframeId newest) {
 }
 
 std::vector<std::pair<LandmarkId, Eigen::Vector2d>> PointCue::landmark_pixels(
-    const SlidingWindow& window) const {
+    const SlidingWindow& window, const SE3& T_odom_cam) const {
+  const std::vector<Eigen::Vector2d> corrected = corrected_px(window, T_odom_cam);
   std::vector<std::pair<LandmarkId, Eigen::Vector2d>> px;
-  for (const PointTrack& track : tracks())
-    if (window.landmark(track.id)) px.emplace_back(track.id, track.px.cast<double>());
+  for (std::size_t i = 0; i < tracks().size(); ++i)
+    if (window.landmark(tracks()[i].id)) px.emplace_back(tracks()[i].id, corrected[i]);
   return px;
 }
 

@@ -7,6 +7,7 @@
 #include <placegraph/pipeline/cues/cue_options.h>
 #include <placegraph/pipeline/internal/cues/depth_sensor.h>
 #include <placegraph/pipeline/internal/cues/direct_cue.h>
+#include <placegraph/frontend/internal/features/rgbd_errors.h>
 
 #include <map>
 #include <optional>
@@ -24,6 +25,12 @@ class PointCue {
 
   const std::vector<PointTrack>& tracks() const { return tracker_.tracks(); }
   const PointCueOptions& options() const { return options_; }
+
+  /// Sets the errors that pixels and depths are corrected by.
+  void correct(const RgbdErrors& errors) { errors_ = errors; }
+  const RgbdErrors& errors() const { return errors_; }
+  /// Sets the velocity of the camera at the newest image, on which the errors of times depend.
+  void set_velocity(const Vector6d& twist) { twist_ = twist; }
 
   /// Tracks the points into an image without a map.
   void track(const Image& image);
@@ -77,9 +84,9 @@ class PointCue {
   /// landmarks in keyframe `newest` [m, or in the scale of the map].
   std::vector<double> prune(SlidingWindow& window, KeyframeId newest);
 
-  /// Tracked landmarks with their pixel in the newest image.
-  std::vector<std::pair<LandmarkId, Eigen::Vector2d>> landmark_pixels(
-      const SlidingWindow& window) const;
+  /// Tracked landmarks with their corrected pixel in the newest image, whose pose is T_odom_cam.
+  std::vector<std::pair<LandmarkId, Eigen::Vector2d>> landmark_pixels(const SlidingWindow& window,
+                                                                      const SE3& T_odom_cam) const;
   /// The same with their depths in `keyframe`, which must be the newest image, for a cue that needs
   /// depths: they are assumed to be accurate to a few per cent.
   std::vector<KnownPixel> landmark_depths(const SlidingWindow& window, KeyframeId keyframe) const;
@@ -101,7 +108,12 @@ class PointCue {
   std::vector<bool> used_by(const Image& mask) const;
   std::vector<Eigen::Vector2f> predict(const SlidingWindow& window, const SE3& T_odom_last,
                                        const SE3& T_odom_cam, double median_depth) const;
+  Eigen::Vector2d corrected_px(const PointTrack& track,
+                               const std::optional<Eigen::Vector3d>& p_cam) const;
+  std::vector<Eigen::Vector2d> corrected_px(const SlidingWindow& window,
+                                            const SE3& T_odom_cam) const;
   std::vector<std::optional<InverseDepth>> measure_depth(const Frame& frame,
+                                                         const std::vector<Eigen::Vector2d>& at_px,
                                                          const RectificationError& rectification,
                                                          const SE3& T_odom_cam,
                                                          const SlidingWindow& window) const;
@@ -113,11 +125,14 @@ class PointCue {
 
   PointCueOptions options_;
   Camera camera_;
+  std::optional<DepthCamera> depth_camera_;  // unless depth is from stereo
   DepthSensor depth_;
   StageTimes& times_;
   PointTracker tracker_;
   std::map<LandmarkId, std::vector<Observation>> observations_;  // current tracks, in the window
   double prediction_error_px_ = 0;                               // median of the last frame
+  RgbdErrors errors_;
+  Vector6d twist_ = Vector6d::Zero();
 };
 
 }  // namespace placegraph

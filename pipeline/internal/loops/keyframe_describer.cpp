@@ -32,20 +32,43 @@ KeyframeDescriber::KeyframeDescriber(const DetectorOptions& detector, const Matc
 
 std::vector<Feature> KeyframeDescriber::features(const Frame& frame) const {
   std::vector<Feature> features = detect_features(frame.image, detector_, frame.mask);
-  if (!calibration_.depth || frame.depth.empty()) return features;
-  std::vector<Eigen::Vector2f> px;
-  for (const Feature& feature : features) px.push_back(feature.px);
-  const auto depths = lookup_depth(frame.depth, calibration_.camera, *calibration_.depth, px);
-  for (std::size_t i = 0; i < features.size(); ++i) {
-    const auto ray = calibration_.camera.unproject(features[i].px.cast<double>());
-    if (depths[i] && ray) features[i].point_cam = (*depths[i] * *ray).cast<float>();
-  }
+  add_depths(frame, FrameErrors(), features);
   return features;
 }
 
+/// Sets the points of the features that the depth image covers, and moves all features to where
+/// they would be without the errors. Points without a depth count as far off.
+void KeyframeDescriber::add_depths(const Frame& frame, const FrameErrors& frame_errors,
+                                   std::vector<Feature>& features) const {
+  if (!calibration_.depth || frame.depth.empty()) return;
+  const auto& [errors, twist] = frame_errors;
+  constexpr double kFar_m = 1e3;
+  const Camera& camera = calibration_.camera;
+  const auto corrected = [&, &errors = errors, &twist = twist](const Feature& feature,
+                                                               double depth_m) {
+    const Eigen::Vector2d px = feature.px.cast<double>();
+    const auto ray = errors.any() ? camera.unproject(px) : std::nullopt;
+    return ray ? Eigen::Vector2d(px - errors.displacement_px(camera, px, depth_m * *ray, twist))
+               : px;
+  };
+  std::vector<Eigen::Vector2f> px;
+  for (const Feature& feature : features) px.push_back(corrected(feature, kFar_m).cast<float>());
+  const auto depths =
+      lookup_depth(frame.depth, camera, errors.corrected(*calibration_.depth, twist), px);
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    Feature& feature = features[i];
+    if (errors.any()) feature.px = corrected(feature, depths[i].value_or(kFar_m)).cast<float>();
+    const auto ray = camera.unproject(feature.px.cast<double>());
+    if (depths[i] && ray) feature.point_cam = (*depths[i] * *ray).cast<float>();
+  }
+}
+
 DescribedKeyframe KeyframeDescriber::describe(KeyframeId keyframe, const Frame& frame,
-                                              std::vector<LineFeature> lines) const {
-  DescribedKeyframe described{keyframe, frame.id, features(frame), std::move(lines)};
+                                              std::vector<LineFeature> lines,
+                                              const FrameErrors& errors) const {
+  DescribedKeyframe described{
+      keyframe, frame.id, detect_features(frame.image, detector_, frame.mask), std::move(lines)};
+  add_depths(frame, errors, described.features);
   std::vector<LineSegment> segments;
   for (const LineFeature& line : described.lines) segments.push_back(line.segment);
   const auto descriptors = describe_segments(frame.image, segments);

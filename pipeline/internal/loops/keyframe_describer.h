@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/frontend/internal/features/rgbd_errors.h>
 #include <placegraph/frontend/internal/places/verification/loop_verifier.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/image/frame.h>
@@ -34,10 +35,11 @@ class KeyframeDescriber {
   /// Features of a frame; those covered by the depth image have their point in the camera's frame
   /// [m].
   std::vector<Feature> features(const Frame& frame) const;
-  /// The same with lines that the odometry tracks in the frame; their descriptors are computed
-  /// here.
+  /// The same of a keyframe, corrected by `errors`, with lines that the odometry tracks in the
+  /// frame; their descriptors are computed here.
   DescribedKeyframe describe(KeyframeId keyframe, const Frame& frame,
-                             std::vector<LineFeature> lines) const;
+                             std::vector<LineFeature> lines,
+                             const FrameErrors& errors = FrameErrors()) const;
   /// Computes depth from the parallax between consecutive keyframes, in the same manner for
   /// monocular and stereo cameras, for features observed in both whose rays meet at 0.7 degrees or
   /// more and within 2 px. A feature of the previous keyframe that has a depth keeps it. Does
@@ -46,6 +48,9 @@ class KeyframeDescriber {
                    const SE3& T_previous_current) const;
 
  private:
+  void add_depths(const Frame& frame, const FrameErrors& frame_errors,
+                  std::vector<Feature>& features) const;
+
   DetectorOptions detector_;
   MatcherOptions matcher_;
   Calibration calibration_;

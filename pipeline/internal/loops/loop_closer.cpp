@@ -40,9 +40,9 @@ const LoopCloser::View& LoopCloser::view(KeyframeId keyframe) const {
 }
 
 void LoopCloser::add_view(KeyframeId keyframe, const Frame& frame,
-                          const std::optional<SE3>& T_previous_this,
-                          std::vector<LineFeature> lines) {
-  View view = describer_.describe(keyframe, frame, std::move(lines));
+                          const std::optional<SE3>& T_previous_this, std::vector<LineFeature> lines,
+                          const FrameErrors& errors) {
+  View view = describer_.describe(keyframe, frame, std::move(lines), errors);
   if (T_previous_this && !views_.empty())
     describer_.triangulate(views_.back(), view, *T_previous_this);
   database_.add(keyframe, view.features);

@@ -30,9 +30,10 @@ class LoopCloser {
 
   /// Describes a keyframe. `T_previous_this`, if there is a predecessor in the same track segment,
   /// is used to compute the depth of features observed in both. `lines`: those that the odometry
-  /// tracks in the frame; their descriptors are computed here.
+  /// tracks in the frame; their descriptors are computed here. `errors` correct the features of an
+  /// RGB-D camera.
   void add_view(KeyframeId keyframe, const Frame& frame, const std::optional<SE3>& T_previous_this,
-                std::vector<LineFeature> lines = {});
+                std::vector<LineFeature> lines = {}, const FrameErrors& errors = FrameErrors());
   /// Returns the loops that the newest view completes.
   std::vector<Loop> find_loops(const KnownMotions& known, double median_depth_m);
   /// Measures the loop between two keyframes, without the other tests; nothing if their

@@ -31,6 +31,8 @@ LocalMapping::LocalMapping(const OdometryOptions& options, const Calibration& ca
   if (stereo && options.rectification.enabled)
     rectifier_.emplace(options.rectification, calibration, options.points.tracker.sigma_px,
                        options.stereo.sigma_disparity_px);
+  if (!stereo && calibration.depth && parse_cues(options.cues).points)
+    rgbd_.emplace(calibration.camera, static_cast<std::size_t>(options.window.max_keyframes));
   // Stereo pairs would show distortion as an error of their rectification.
   if (calibration.baseline_m == 0 && parse_cues(options.cues).points)
     lens_window_ = static_cast<std::size_t>(options.window.max_keyframes) + 1;
@@ -52,8 +54,11 @@ std::optional<LocalMapping::Added> LocalMapping::add(const Frame& frame, const S
   const auto T_odom_keyframe = tracker.prepare_keyframe(images, T_odom_cam, map, random);
   if (!T_odom_keyframe) return std::nullopt;
   const KeyframeId id = map.add_keyframe(*T_odom_keyframe);
+  if (rgbd_) rgbd_->add_keyframe(id, tracker.velocity());
   tracker.observe(images, rectification(), map, random);
-  Added added{{id, images.frame, images.labels}, {}, measure_scale(images, tracker, map)};
+  NewKeyframe keyframe{id, images.frame, images.labels, FrameErrors()};
+  if (rgbd_) keyframe.errors = {rgbd_->errors(), tracker.velocity()};
+  Added added{std::move(keyframe), {}, measure_scale(images, tracker, map)};
   refine(tracker, map);
   added.posed_again = tracker.finish_keyframe(added.rescale ? added.rescale->factor : 1, map);
   return added;
@@ -70,11 +75,25 @@ void LocalMapping::refine(FrameTracker& tracker, LocalMap& map) {
   const auto span = times_.measure("window");
   const Outcome optimized = map.optimize();
   if (!optimized) log(log_, LogLevel::kWarning, "window not optimized: {}", optimized.reason);
+  if (rgbd_ && rgbd_->calibrate(map.window())) use_errors(*rgbd_, tracker, map);
   map.update_poses(tracker.prune(map), tracker.corrects_rotations());
   calibrate(tracker, map);
   const auto leaving = times_.measure("marginalization");
   map.marginalize();
   tracker.settle(map);
+}
+
+/// The window was optimized with observations that have been corrected since.
+void LocalMapping::use_errors(const RgbdCalibrator& rgbd, FrameTracker& tracker, LocalMap& map) {
+  tracker.correct(rgbd.errors());
+  const Outcome again = map.optimize();
+  if (!again) log(log_, LogLevel::kWarning, "window not optimized: {}", again.reason);
+  const RgbdErrors::Vector& q = rgbd.errors().values();
+  log(log_, LogLevel::kDebug,
+      "RGB-D camera: focal length off by {:.4f}, principal point by {:.4f}, {:.4f} focal lengths; "
+      "readout {:.4f} s, depth time {:.4f} s",
+      q[RgbdErrors::kFocal], q[RgbdErrors::kPrincipalX], q[RgbdErrors::kPrincipalY],
+      q[RgbdErrors::kReadout], q[RgbdErrors::kDepthTime]);
 }
 
 /// A single keyframe provides no information on the cameras.

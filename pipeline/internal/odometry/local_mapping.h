@@ -1,6 +1,7 @@
 #pragma once
 #include <placegraph/graph/core/stage_times.h>
 #include <placegraph/pipeline/internal/local_map/lens_estimator.h>
+#include <placegraph/pipeline/internal/local_map/rgbd_calibrator.h>
 #include <placegraph/pipeline/internal/local_map/stereo_rectifier.h>
 #include <placegraph/pipeline/internal/tracking/frame_tracker.h>
 #include <placegraph/pipeline/tracking/odometry_options.h>
@@ -41,6 +42,7 @@ class LocalMapping {
  private:
   RectificationError rectification() const;
   void calibrate(FrameTracker& tracker, LocalMap& map);
+  void use_errors(const RgbdCalibrator& rgbd, FrameTracker& tracker, LocalMap& map);
 
   std::uint64_t seed_;
   LogSink log_;
@@ -48,6 +50,7 @@ class LocalMapping {
   KeyframeMasks masks_;
   MetricScale scale_;
   std::optional<StereoRectifier> rectifier_;  // only for a stereo camera
+  std::optional<RgbdCalibrator> rgbd_;        // only for an RGB-D camera
   // Number of keyframes of a window that reveals lens distortion.
   std::optional<std::size_t> lens_window_;
   LensEstimator lens_;

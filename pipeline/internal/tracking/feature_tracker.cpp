@@ -2,6 +2,7 @@
 #include <placegraph/frontend/internal/cloud_planes/depth_planes.h>
 #include <placegraph/frontend/internal/flow/point_tracker.h>
 #include <placegraph/frontend/internal/relative_pose/rotation_2d2d.h>
+#include <placegraph/graph/core/time.h>
 #include <placegraph/pipeline/internal/cues/determined_rotation.h>
 #include <placegraph/pipeline/internal/tracking/feature_tracker.h>
 #include <placegraph/pipeline/internal/tracking/line_pose.h>
@@ -38,6 +39,9 @@ void FeatureTracker::reset() {
   if (direct_) direct_->reset();
   selector_.reset();
   intermediate_.clear();
+  velocity_.reset();
+  stamp_ns_.reset();
+  points_.set_velocity(velocity_.at());
 }
 
 void FeatureTracker::drop_masked(const Image& mask, LocalMap& map) {
@@ -53,10 +57,7 @@ TrackedFrame FeatureTracker::track(const Frame& frame, const LocalMap& map,
   const PointTracker points_before = points_.checkpoint();
   const std::optional<LineCue> lines_before = lines_;
   const SlidingWindow& window = map.window();
-  const auto [points, keep, landmarks] =
-      cues_.points ? points_.follow(frame.image, window, motion.T_odom_cam(), motion.predicted(),
-                                    motion.velocity_known(), map.median_depth(), random)
-                   : points_.pose(window, motion.predicted(), random);
+  const auto [points, keep, landmarks] = pose_by_points(frame, map, motion, random);
   TrackedFrame tracked;
   tracked.outcome = points.outcome;
   tracked.T_odom_cam = points.T_ref_cam;
@@ -95,14 +96,41 @@ TrackedFrame FeatureTracker::track(const Frame& frame, const LocalMap& map,
       with_manhattan_rotation(tracked.T_odom_cam, information, manhattan_rotation, window);
   tracked.contradicted = monocular_points() &&
                          contradicted(frame.id, motion.T_odom_cam().inverse() * tracked.T_odom_cam);
+  remember_motion(frame, motion.T_odom_cam(), tracked.T_odom_cam);
   points_.keep(keep);
   selector_.count_frame();
   tracked.keyframe_due = keyframe_due(tracked.T_odom_cam, tracked.inliers, map);
   if (!tracked.keyframe_due)
-    intermediate_.remember({frame.id,
-                            map.window().pose(map.newest()).inverse() * tracked.T_odom_cam,
-                            points_.landmark_pixels(window), manhattan_rotation});
+    intermediate_.remember(
+        {frame.id, map.window().pose(map.newest()).inverse() * tracked.T_odom_cam,
+         points_.landmark_pixels(window, tracked.T_odom_cam), manhattan_rotation});
   return tracked;
+}
+
+/// Errors of times displace points in proportion to the velocity, which is known better after
+/// the first estimate: the pose is estimated twice.
+PointCue::TrackedPose FeatureTracker::pose_by_points(const Frame& frame, const LocalMap& map,
+                                                     const MotionModel& motion, Random& random) {
+  const SlidingWindow& window = map.window();
+  if (!cues_.points) return points_.pose(window, motion.predicted(), random);
+  const double interval_s = stamp_ns_ ? seconds(*stamp_ns_, frame.stamp_ns) : 0;
+  if (points_.errors().any()) points_.set_velocity(velocity_.at(interval_s));
+  PointCue::TrackedPose found =
+      points_.follow(frame.image, window, motion.T_odom_cam(), motion.predicted(),
+                     motion.velocity_known(), map.median_depth(), random);
+  if (!points_.errors().any() || !found.pose.outcome) return found;
+  CameraVelocity velocity = velocity_;
+  velocity.update(motion.T_odom_cam().inverse() * found.pose.T_ref_cam, interval_s);
+  points_.set_velocity(velocity.at());
+  return points_.pose(window, found.pose.T_ref_cam, random);
+}
+
+void FeatureTracker::remember_motion(const Frame& frame, const SE3& T_odom_last,
+                                     const SE3& T_odom_cam) {
+  if (stamp_ns_)
+    velocity_.update(T_odom_last.inverse() * T_odom_cam, seconds(*stamp_ns_, frame.stamp_ns));
+  stamp_ns_ = frame.stamp_ns;
+  points_.set_velocity(velocity_.at());
 }
 
 bool FeatureTracker::monocular_points() const {
@@ -163,6 +191,7 @@ void FeatureTracker::observe(const KeyframeImages& images, const RectificationEr
                              LocalMap& map, Random& random) {
   const Frame& frame = images.frame;
   const KeyframeId id = map.newest();
+  if (!stamp_ns_) stamp_ns_ = frame.stamp_ns;
   points_.observe(id, frame, rectification, map.window());
   if (lines_) {
     lines_->observe(id, frame, rectification, map.median_depth(), map.window());

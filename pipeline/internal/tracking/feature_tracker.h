@@ -3,6 +3,7 @@
 #include <placegraph/pipeline/internal/cues/keyframe_alignment.h>
 #include <placegraph/pipeline/internal/cues/plane_cue.h>
 #include <placegraph/pipeline/internal/cues/point_cue.h>
+#include <placegraph/pipeline/internal/tracking/camera_velocity.h>
 #include <placegraph/pipeline/internal/tracking/cue_list.h>
 #include <placegraph/pipeline/internal/tracking/frame_tracker.h>
 #include <placegraph/pipeline/internal/tracking/intermediate_frames.h>
@@ -35,6 +36,8 @@ class FeatureTracker : public FrameTracker {
   void drop_masked(const Image& mask, LocalMap& map) override;
   void assume(const std::optional<Assumptions>& assumptions) override;
   bool corrects_rotations() const override { return manhattan_.has_value(); }
+  Vector6d velocity() const override { return velocity_.at(); }
+  void correct(const RgbdErrors& errors) override { points_.correct(errors); }
   LineCue* lines() override { return lines_ ? &*lines_ : nullptr; }
   const ManhattanCue* manhattan() const override;
   std::vector<Eigen::Vector3d> points_odom(const LocalMap& map) const override;
@@ -52,6 +55,9 @@ class FeatureTracker : public FrameTracker {
   void start_selection(int landmarks);
 
  private:
+  PointCue::TrackedPose pose_by_points(const Frame& frame, const LocalMap& map,
+                                       const MotionModel& motion, Random& random);
+  void remember_motion(const Frame& frame, const SE3& T_odom_last, const SE3& T_odom_cam);
   bool monocular_points() const;
   bool contradicted(FrameId frame, const SE3& T_previous_this) const;
   std::optional<ManhattanCue::RotationEstimate> rotation_from_manhattan(const Frame& frame,
@@ -75,6 +81,8 @@ class FeatureTracker : public FrameTracker {
   std::optional<KeyframeAlignment> direct_;
   KeyframeSelector selector_;
   IntermediateFrames intermediate_;
+  CameraVelocity velocity_;
+  std::optional<std::int64_t> stamp_ns_;  // the last posed frame's
 };
 
 }  // namespace placegraph

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/frontend/internal/features/rgbd_errors.h>
 #include <placegraph/graph/internal/core/random.h>
 #include <placegraph/pipeline/cues/frame_view.h>
 #include <placegraph/pipeline/internal/local_map/keyframe_masks.h>
@@ -65,6 +66,10 @@ class FrameTracker {
   virtual void assume(const std::optional<Assumptions>& /*assumptions*/) {}
   /// Whether rotations are constrained by more than the keyframes of the window.
   virtual bool corrects_rotations() const = 0;
+  /// Velocity of the camera at the newest frame [m/s, rad/s], right tangent; zero: not known.
+  virtual Vector6d velocity() const { return Vector6d::Zero(); }
+  /// Sets the errors that its observations are corrected by from now on.
+  virtual void correct(const RgbdErrors& /*errors*/) {}
   /// Tracked lines; null if lines are not among the cues.
   virtual LineCue* lines() { return nullptr; }
   /// Manhattan frames observed in the newest keyframe; null where they are not accepted.

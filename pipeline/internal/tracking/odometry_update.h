@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/frontend/internal/features/rgbd_errors.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/pipeline/internal/cues/surface_labels.h>
@@ -18,6 +19,7 @@ struct NewKeyframe {
   Frame frame;
   /// Labels of its surfaces, where they are labelled.
   std::shared_ptr<const SurfaceLabels> labels = nullptr;
+  FrameErrors errors = FrameErrors();  ///< errors of an RGB-D camera, which its images contain
 };
 
 /// Pure rotation of a monocular camera since an earlier frame.

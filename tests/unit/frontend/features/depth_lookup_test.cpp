@@ -36,6 +36,19 @@ TEST(DepthLookup, CarriesDepthOverFromACameraBeside) {
   }
 }
 
+TEST(DepthLookup, FindsTheSlopeOfASurface) {
+  DepthCamera depth{kCamera, SE3(), 0.005};
+  const TexturedPlane wall{pose({0.2, 0.3, 0}, {0, 0, 2}), 1e3, 1e3, {}};
+  const Image image = depth_image(depth, {wall});
+  const auto found = lookup_surfaces(image, kCamera, depth, {{60, 70}})[0];
+  ASSERT_TRUE(found);
+  const double z = image.at<float>(70, 60);
+  EXPECT_NEAR(found->depth_m, z, 0.01 * z);
+  EXPECT_NEAR(found->gradient.x(), 1 / image.at<float>(70, 61) - 1 / z, 1e-5);
+  EXPECT_NEAR(found->gradient.y(), 1 / image.at<float>(71, 60) - 1 / z, 1e-5);
+  EXPECT_GT(found->gradient.norm(), 1e-4);
+}
+
 TEST(DepthLookup, SaysNothingWhereNearAndFarMeet) {
   const DepthCamera depth = beside();
   const TexturedPlane wall{pose({0, 0, 0}, {0, 0, 3}), 1e3, 1e3, {}};

@@ -1,0 +1,157 @@
+#include <placegraph/backend/internal/window/nuisance_equations.h>
+#include <placegraph/pipeline/internal/local_map/rgbd_calibrator.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+
+namespace placegraph {
+namespace {
+
+using Vector = RgbdErrors::Vector;
+constexpr Eigen::Index kParameters = RgbdErrors::kParameters;
+using Matrix = Eigen::Matrix<double, kParameters, kParameters>;
+
+/// Standard deviations: of the focal length and the principal point relative to the focal length,
+/// of the readout time and the depth time [s].
+Vector sigmas(double intrinsics, double readout_s, double depth_time_s) {
+  Vector result;
+  result << intrinsics, intrinsics, intrinsics, readout_s, depth_time_s;
+  return result;
+}
+
+/// Expected errors of a camera that nobody doubts.
+Vector prior_sigmas() { return sigmas(0.01, 0.02, 0.02); }
+/// Each window has at least these errors of its own beside those of its noise.
+Vector window_sigmas() { return sigmas(0.003, 0.002, 0.003); }
+
+/// The evidence of a window whose own errors, of these standard deviations, are marginalized.
+NuisanceEvidence with_own_errors(const NuisanceEvidence& window, const Vector& own_sigmas) {
+  Matrix sum = window.information;
+  sum.diagonal() += own_sigmas.cwiseAbs2().cwiseInverse();
+  const Matrix kept = Matrix::Identity() - window.information * sum.inverse();
+  return {kept * window.gradient, kept * window.information};
+}
+
+/// Squared difference of a window's estimate and q, in its covariance; directions of which the
+/// window has no information are left out. Adds their number to `freedom`.
+double difference2(const NuisanceEvidence& window, const Vector& q, double& freedom) {
+  constexpr double kNothing = 1e-6;  // share of the prior's information
+  const Vector unit = prior_sigmas();
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(
+      Matrix(unit.asDiagonal() * window.information * unit.asDiagonal()));
+  const Vector gradient = eigen.eigenvectors().transpose() *
+                          (unit.asDiagonal() * (window.gradient + window.information * q));
+  double sum = 0;
+  for (Eigen::Index i = 0; i < kParameters; ++i) {
+    const double lambda = eigen.eigenvalues()[i];
+    if (!(lambda > kNothing)) continue;
+    sum += gradient[i] * gradient[i] / lambda;
+    freedom += 1;
+  }
+  return sum;
+}
+
+}  // namespace
+
+Vector6d RgbdCalibrator::twist(KeyframeId keyframe) const {
+  const auto known = twists_.find(keyframe);
+  return known == twists_.end() ? Vector6d::Zero() : known->second;
+}
+
+NuisanceEvidence RgbdCalibrator::evidence(const SlidingWindow& window) const {
+  constexpr std::size_t kViews = 3;  // two views are consistent with nearly any errors
+  const auto derivative_of = [&](const WindowObservation& o, const Eigen::Vector3d& p_cam,
+                                 NuisanceEquations::Derivative& J) {
+    J = RgbdErrors::derivative(camera_, o.px, p_cam, twist(o.keyframe), o.surface_cam);
+  };
+  const WindowState& state = window.state();
+  NuisanceEquations equations(state, kParameters, derivative_of);
+  for (const auto& [id, landmark] : state.landmarks) {
+    const auto observations = usable_observations(state, landmark);
+    if (observations.size() >= kViews) equations.add(observations, landmark.p_map);
+  }
+  NuisanceEvidence result = equations.evidence();
+  // The observations are corrected by what is applied.
+  result.gradient -= result.information * applied_.values();
+  return result;
+}
+
+RgbdCalibrator::Estimate RgbdCalibrator::estimate(
+    const std::optional<NuisanceEvidence>& newest) const {
+  constexpr double kMostDispersion = 1.5, kLargestOwn = 16;
+  Estimate result;
+  for (double own = 1; own <= kLargestOwn; own *= 2) {
+    std::vector<NuisanceEvidence> windows;
+    for (const NuisanceEvidence& window : windows_)
+      windows.push_back(with_own_errors(window, own * window_sigmas()));
+    if (newest) windows.push_back(with_own_errors(*newest, own * window_sigmas()));
+    Vector gradient = Vector::Zero();
+    Matrix information = prior_sigmas().cwiseAbs2().cwiseInverse().asDiagonal();
+    for (const NuisanceEvidence& window : windows) {
+      gradient += window.gradient;
+      information += window.information;
+    }
+    result.covariance = information.inverse();
+    result.errors = -result.covariance * gradient;
+    double sum = 0, freedom = -static_cast<double>(kParameters);
+    for (const NuisanceEvidence& window : windows)
+      sum += difference2(window, result.errors, freedom);
+    result.dispersion = sum / std::max(1.0, freedom);
+    if (result.dispersion < kMostDispersion) break;
+  }
+  result.covariance *= std::max(1.0, result.dispersion);
+  return result;
+}
+
+bool RgbdCalibrator::calibrate(SlidingWindow& window) {
+  constexpr std::size_t kFewest = 5;  // keyframes of the first window
+  const auto keyframes = window.keyframes();
+  std::erase_if(twists_, [&](const auto& entry) { return entry.first < keyframes.front(); });
+  const bool apart = !newest_ || keyframes.front() > *newest_;
+  if (keyframes.size() < kFewest || !apart) return false;
+  const NuisanceEvidence now = evidence(window);
+  const Estimate found = estimate(now);
+  if (keyframes.size() >= full_) {
+    windows_.push_back(now);
+    newest_ = keyframes.back();
+  }
+  const RgbdErrors next = significant(found);
+  const Vector change = next.values() - applied_.values();
+  if (change.isZero(0)) return false;
+  applied_ = next;
+  revise(change, window);
+  return true;
+}
+
+/// An error of the intrinsics beyond what a calibration errs by is left to who calibrates: it may
+/// be the effect of something else.
+RgbdErrors RgbdCalibrator::significant(const Estimate& found) const {
+  constexpr double kChi2 = 20.5;  // 99.9 % of five degrees of freedom
+  constexpr double kMostSigmas = 2;
+  const double chi2 = found.errors.dot(found.covariance.ldlt().solve(found.errors));
+  if (!applied_.any() && !(chi2 > kChi2)) return RgbdErrors();
+  Vector errors = found.errors;
+  constexpr Eigen::Index kIntrinsics = RgbdErrors::kReadout;
+  const Vector doubt = errors.cwiseQuotient(prior_sigmas());
+  if (doubt.head<kIntrinsics>().cwiseAbs().maxCoeff() > kMostSigmas)
+    errors.head<kIntrinsics>().setZero();
+  return RgbdErrors(errors);
+}
+
+void RgbdCalibrator::revise(const Vector& change, SlidingWindow& window) const {
+  for (const LandmarkId id : window.landmarks()) {
+    const Eigen::Vector3d p_map = *window.landmark(id);
+    const std::vector<WindowObservation> observations = window.observations(id);
+    for (WindowObservation o : observations) {
+      const Eigen::Vector3d p_cam = window.pose(o.keyframe).inverse() * p_map;
+      if (!(p_cam.z() > 0)) continue;
+      const Eigen::Vector3d moved =
+          RgbdErrors::derivative(camera_, o.px, p_cam, twist(o.keyframe), o.surface_cam) * change;
+      o.px -= moved.head<2>();
+      if (o.inverse_depth) *o.inverse_depth -= moved.z();
+      window.revise(o);
+    }
+  }
+}
+
+}  // namespace placegraph

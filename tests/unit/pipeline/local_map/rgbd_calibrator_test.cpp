@@ -1,0 +1,110 @@
+#include <gtest/gtest.h>
+#include <placegraph/pipeline/internal/local_map/rgbd_calibrator.h>
+
+#include "tests/support/scenes/window_world.h"
+
+namespace placegraph {
+namespace {
+
+using namespace test;
+
+constexpr int kKeyframes = 8;
+
+/// The camera turns at the place, to one side and back, and moves a little.
+Vector6d twist_of(int k) {
+  Vector6d twist;
+  twist << 0.05, 0.02 * k, 0, 0.2 * std::sin(2.0 * k), 1.2 * std::cos(1.1 * k), 0.3;
+  return twist;
+}
+
+/// A turn among points of slanted surfaces, whose observations contain `errors`.
+SlidingWindow window_of(const RgbdErrors& errors, RgbdCalibrator& calibrator, int first = 0) {
+  const Camera camera = window_camera();
+  SlidingWindow window({}, camera);
+  SE3 T_map_cam;
+  for (int k = 0; k < kKeyframes; ++k) {
+    window.add_keyframe(KeyframeId(first + k), T_map_cam);
+    calibrator.add_keyframe(KeyframeId(first + k), twist_of(k));
+    T_map_cam = T_map_cam * SE3::exp(0.08 * twist_of(k));
+  }
+  Random random(5);
+  for (int i = 0; i < 300; ++i) {
+    const Eigen::Vector3d point(random.uniform(-3, 3), random.uniform(-2, 2), random.uniform(2, 5));
+    const Eigen::Vector3d normal_map(random.uniform(-0.7, 0.7), random.uniform(-0.7, 0.7), 1);
+    window.add_landmark(LandmarkId(i), point);
+    for (int k = 0; k < kKeyframes; ++k) {
+      const SE3 T_cam_map = window.pose(KeyframeId(first + k)).inverse();
+      const Eigen::Vector3d p_cam = T_cam_map * point;
+      const auto px = camera.project(p_cam);
+      if (!px || !camera.contains(*px)) continue;
+      WindowObservation o;
+      o.keyframe = KeyframeId(first + k);
+      o.landmark = LandmarkId(i);
+      const Eigen::Vector3d normal = T_cam_map.rotation() * normal_map;
+      o.surface_cam = normal / normal.dot(p_cam);
+      const Eigen::Vector3d shift =
+          RgbdErrors::derivative(camera, *px, p_cam, twist_of(k), o.surface_cam) * errors.values();
+      o.px = *px + shift.head<2>() + 0.2 * Eigen::Vector2d(random.normal(), random.normal());
+      o.sigma_px = 0.25;
+      o.inverse_depth = 1 / p_cam.z() + shift.z() + random.normal(0, 0.002);
+      o.sigma_inverse_depth = 0.005;
+      window.add_observation(o);
+    }
+  }
+  return window;
+}
+
+RgbdErrors errors_of(double readout_s, double depth_time_s) {
+  RgbdErrors::Vector values = RgbdErrors::Vector::Zero();
+  values[RgbdErrors::kReadout] = readout_s;
+  values[RgbdErrors::kDepthTime] = depth_time_s;
+  return RgbdErrors(values);
+}
+
+TEST(RgbdCalibrator, FindsTheTimesOfRowsAndOfDepthsAndCorrectsTheWindow) {
+  RgbdCalibrator calibrator(window_camera(), kKeyframes);
+  const RgbdErrors truth = errors_of(0.025, -0.02);
+  for (int pass = 0; pass < 3; ++pass) {
+    SlidingWindow window = window_of(truth, calibrator, 100 * pass);
+    // Later windows are observed with what is known by then.
+    const RgbdErrors left(truth.values() - calibrator.errors().values());
+    window = window_of(left, calibrator, 100 * pass);
+    ASSERT_TRUE(window.optimize().outcome);
+    EXPECT_TRUE(calibrator.calibrate(window));
+  }
+  EXPECT_NEAR(calibrator.errors().values()[RgbdErrors::kReadout], 0.025, 0.003);
+  EXPECT_NEAR(calibrator.errors().values()[RgbdErrors::kDepthTime], -0.02, 0.003);
+}
+
+TEST(RgbdCalibrator, LeavesObservationsThatNothingContradicts) {
+  RgbdCalibrator calibrator(window_camera(), kKeyframes);
+  SlidingWindow window = window_of(RgbdErrors(), calibrator);
+  ASSERT_TRUE(window.optimize().outcome);
+  EXPECT_FALSE(calibrator.calibrate(window));
+  EXPECT_FALSE(calibrator.errors().any());
+}
+
+TEST(RgbdErrors, DisplaceAPointAsItMovesInTheTimeOfItsRow) {
+  const Camera camera = window_camera();
+  const Eigen::Vector3d p_cam(0.6, 0.5, 3);
+  const Eigen::Vector2d px = *camera.project(p_cam);
+  const double readout_s = 0.02;
+  const double later_s = readout_s * (px.y() - 0.5 * (camera.height - 1)) / camera.height;
+  const SE3 T_cam_later = SE3::exp(later_s * twist_of(1));
+  const Eigen::Vector2d moved = *camera.project(T_cam_later.inverse() * p_cam) - px;
+  const Eigen::Vector2d predicted =
+      errors_of(readout_s, 0).displacement_px(camera, px, p_cam, twist_of(1));
+  EXPECT_GT(moved.norm(), 0.5);
+  EXPECT_LT((predicted - moved).norm(), 0.05 * moved.norm());
+}
+
+TEST(RgbdErrors, PlaceTheDepthCameraAtTheTimeOfItsImage) {
+  DepthCamera depth;
+  depth.camera = window_camera();
+  const DepthCamera corrected = errors_of(0, -0.02).corrected(depth, twist_of(1));
+  const SE3 expected = SE3::exp(-0.02 * twist_of(1));
+  EXPECT_LT((corrected.T_cam_depth.matrix() - expected.matrix()).norm(), 1e-12);
+}
+
+}  // namespace
+}  // namespace placegraph
