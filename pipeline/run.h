@@ -49,6 +49,8 @@ struct RunResult {
   std::vector<UnposedFrames> unposed;
   /// Doubts about the images, the calibration and the motion that the frames show (Slam::notes).
   std::vector<DataNote> notes;
+  /// Errors of the motion from the first place to the last one (Slam::odometry_error).
+  std::optional<OdometryError> odometry_error;
   /// Environment of each keyframe; empty unless `context` is enabled.
   std::vector<EnvironmentObservation> environments;
 };

@@ -18,9 +18,12 @@ struct SlidingWindowOptions {
   /// the prior ties the window to the map's frame, and a small late correction of the heading moves
   /// the whole window, by more the longer the path behind it.
   bool hold_oldest = false;
+  /// Whether inverse depths come from disparities, so that an error of the focal length is one of
+  /// the depths.
+  bool depths_from_disparities = false;
   void check() const;
 };
-/// Visits all options except scale_drift and hold_oldest, which the owner sets for the sensor.
+/// Visits all options except the last three, which the owner sets for the sensor.
 void visit(OptionVisitor& field, SlidingWindowOptions& options);
 
 }  // namespace placegraph

@@ -121,7 +121,11 @@ std::size_t tracked_frames(const Map& map) {
       map.frames, [](const FrameRecord& frame) { return frame.T_keyframe_frame.has_value(); }));
 }
 
-std::optional<double> drift_of(const PlaceGraph& places) {
+/// Standard deviation of the position of the last place relative to the first one. In the place
+/// graph all errors are independent. Those that all motions share are larger at the end; loops
+/// reduce them as they reduce the errors of the odometry in the graph.
+std::optional<double> drift_of(const PlaceGraph& places,
+                               const std::optional<OdometryError>& odometry) {
   const std::vector<int> components = places.joined_components();
   if (components.empty()) return std::nullopt;
   std::size_t last = 0;
@@ -131,8 +135,11 @@ std::optional<double> drift_of(const PlaceGraph& places) {
   const PoseMarginals marginals(places.pose_graph());
   if (!marginals.outcome()) return std::nullopt;
   const auto node = [&](std::size_t i) { return node_of_place(places.places[i].id); };
-  const Information covariance = marginals.relative_covariance(node(0), node(last));
-  return std::sqrt(covariance.topLeftCorner<3, 3>().trace());
+  const double in_graph =
+      marginals.relative_covariance(node(0), node(last)).topLeftCorner<3, 3>().trace();
+  if (!odometry) return std::sqrt(in_graph);
+  const double kept = std::min(1.0, in_graph / odometry->independent.topLeftCorner<3, 3>().trace());
+  return std::sqrt(in_graph + kept * kept * odometry->shared.topLeftCorner<3, 3>().trace());
 }
 
 std::optional<DataNote> note_of_drift(const std::optional<double>& drift, double length,
@@ -185,7 +192,8 @@ Judgement judge(const RunResult& run, const std::vector<DataNote>& notes, double
   for (const DataNote& note : notes) add(note);
   for (const DataNote& note : run.notes) add(note);
   add(note_of_height(run));
-  judgement.expected_drift_m = drift_of(run.map.place_graph);
+  judgement.expected_drift_m =
+      drift_of(run.map.place_graph, run.map.metric ? run.odometry_error : std::nullopt);
   add(note_of_drift(judgement.expected_drift_m, run.map.trajectory_optimized().path_length(),
                     run.map.metric));
   for (const MapComponent& component : run.map.components()) {

@@ -298,6 +298,7 @@ class SequenceRun {
     result_.unposed = unposed_frames(result_.map.trajectory_optimized(), result_.map);
     if (inputs_.map_file) commit(slam, !result_.broken_off && !result_.stopped);
     result_.notes = slam.notes();
+    result_.odometry_error = slam.odometry_error();
     if (is_clear(slam.lens(), options_.lens))
       result_.notes.push_back(distortion_note(lens_.k1(), slam.lens()));
     result_.notes.insert(result_.notes.begin(), mask_.notes().begin(), mask_.notes().end());

@@ -8,6 +8,7 @@
 #include <placegraph/pipeline/internal/health/static_overlay.h>
 #include <placegraph/pipeline/internal/local_map/lens_estimator.h>
 #include <placegraph/pipeline/internal/slam/event_feed.h>
+#include <placegraph/pipeline/internal/slam/link_feed.h>
 #include <placegraph/pipeline/internal/slam/map_feed.h>
 #include <placegraph/pipeline/internal/slam/track_recovery.h>
 #include <placegraph/pipeline/slam.h>
@@ -55,7 +56,6 @@ struct Slam::Impl {
   void rescale(double factor);
   void add_keyframes(const OdometryUpdate& update, FrameResult& result);
   void add_keyframe(const NewKeyframe& keyframe, FrameResult& result);
-  void refresh_links(KeyframeId newest);
   void add_motion(KeyframeId keyframe);
   void classify_environment(const NewKeyframe& keyframe);
   void close_loops(FrameResult& result);
@@ -76,6 +76,7 @@ struct Slam::Impl {
   TrackRecovery recovery;
   TrajectoryRecorder recorder;
   EnvironmentMonitor environments;
+  LinkFeed links;
   MapFeed feed;
   EventFeed events;
   HealthMonitor health;
@@ -110,6 +111,10 @@ void Slam::resume(const Map& map, const PlaceHistory& history, const Frame& last
 Map Slam::snapshot() const { return impl_->feed.snapshot(impl_->sources()); }
 LensDistortion Slam::lens() const { return impl_->odometry.lens().estimate(); }
 Image Slam::overlay_mask() const { return impl_->overlay ? impl_->overlay->mask() : Image(); }
+std::optional<OdometryError> Slam::odometry_error() const {
+  return impl_->links.odometry_error(impl_->odometry.map(), impl_->mapper);
+}
+
 std::vector<DataNote> Slam::notes() const {
   std::vector<DataNote> notes = impl_->health.notes();
   if (const auto note = impl_->overlay ? impl_->overlay->note() : std::nullopt)
@@ -121,7 +126,10 @@ FrameView Slam::view() const { return impl_->odometry.view(); }
 const std::vector<StageTimes::Stage>& Slam::stages() const { return impl_->times.stages(); }
 Map Slam::finish() {
   require(!impl_->finished, "Slam::finish: called twice");
-  impl_->perform([&] { impl_->optimized(impl_->mapper.finish()); });
+  impl_->perform([&] {
+    impl_->links.finish(impl_->odometry.map(), impl_->mapper);
+    impl_->optimized(impl_->mapper.finish());
+  });
   impl_->finished = true;
   return snapshot();
 }
@@ -251,6 +259,7 @@ void Slam::Impl::record(KeyframeId keyframe, const SE3& T_keyframe_frame, FrameR
 void Slam::Impl::rescale(double factor) {
   const KeyframeId first = odometry.map().first();
   mapper.rescale(first, factor);
+  links.rescale(first, factor);
   closer.rescale(factor, first);
   recorder.rescale(first, factor);
   recovery.rescale(factor);
@@ -280,7 +289,8 @@ void Slam::Impl::add_keyframe(const NewKeyframe& keyframe, FrameResult& result) 
   mapper.add_keyframe(keyframe.id, link, map.pose(keyframe.id), map.median_depth(), map.metric());
   {
     const auto inner = times.measure("constraints");
-    refresh_links(keyframe.id);
+    // Keyframes leave the window two at a time at most.
+    links.refresh(map, keyframe.id, options.odometry.window.max_keyframes + 2, mapper);
   }
   recorder.add_keyframe(keyframe);
   if (recovery.motion()) add_motion(keyframe.id);
@@ -333,26 +343,6 @@ void Slam::Impl::classify_environment(const NewKeyframe& keyframe) {
   odometry.assume(kind ? std::optional(assumptions_of(*kind)) : std::nullopt);
 }
 
-/// Updates the links of the keyframes that the window still refines. The information of the motion
-/// between consecutive anchors comes from the window as a whole while it contains both.
-void Slam::Impl::refresh_links(KeyframeId newest) {
-  const LocalMap& map = odometry.map();
-  const KeyframeId oldest(newest.value() - options.odometry.window.max_keyframes - 2);
-  for (KeyframeId id = std::max(map.first(), oldest), next = id; id < newest; id = next) {
-    ++next;
-    mapper.update_link(next, map.pose(id).inverse() * map.pose(next));
-    const LocalMap::Link link = map.link(id);
-    mapper.inform_link(next, link.information, link.sigma_log_scale);
-  }
-  const auto begin = map.window_begin();
-  if (!begin) return;
-  for (KeyframeId id = ++KeyframeId(*begin); id <= newest; ++id) {
-    const auto previous = mapper.previous_anchor(id);
-    if (previous && *previous >= *begin)
-      mapper.inform_anchor(id, map.motion_information(*previous, id));
-  }
-}
-
 void Slam::Impl::close_loops(FrameResult& result) {
   const KnownMotions motions{
       [&](KeyframeId a, KeyframeId b) { return mapper.odometry(a, b); },
@@ -365,7 +355,7 @@ void Slam::Impl::close_loops(FrameResult& result) {
   }();
   events.loops_decided(closer.records());
   if (loops.empty()) return;
-  for (const Loop& loop : loops) mapper.add_loop(loop);
+  for (const Loop& loop : loops) mapper.add_loop(links.with_errors(loop, odometry.map()));
   result.loops_accepted += static_cast<int>(loops.size());
   optimized(mapper.optimize(first_open()));
 }

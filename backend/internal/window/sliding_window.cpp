@@ -107,13 +107,16 @@ const WindowInformation& SlidingWindow::information() const {
   return *information_;
 }
 
-void SlidingWindow::add_keyframe(KeyframeId id, const SE3& T_map_cam) {
+void SlidingWindow::add_keyframe(KeyframeId id, const SE3& T_map_cam,
+                                 const std::optional<double>& stamp_s) {
   WindowState& state = change();
   require(state.keyframes.empty() || id > state.keyframes.rbegin()->first,
           name_of("keyframe", id) + " is not newer than the last one");
   require(T_map_cam.matrix().allFinite(), name_of("pose of keyframe", id) + " is not finite");
+  require(std::isfinite(stamp_s.value_or(0)), name_of("stamp of keyframe", id) + " is not finite");
   if (state.keyframes.empty() && state.prior.empty()) state.fixed = id;
   state.keyframes.emplace(id, T_map_cam);
+  if (stamp_s) state.stamps.emplace(id, *stamp_s);
 }
 
 void SlidingWindow::add_landmark(LandmarkId id, const Eigen::Vector3d& p_map) {

@@ -38,7 +38,9 @@ class SlidingWindow {
   /// is held). If neither depth nor a distance measures the scale, it is fixed at its current
   /// value: by a soft distance to the farthest keyframe, and by the prior once that distance is
   /// marginalized.
-  void add_keyframe(KeyframeId id, const SE3& T_map_cam);
+  /// `stamp_s`: its time [s], if known; the accuracy of the motion makes use of it.
+  void add_keyframe(KeyframeId id, const SE3& T_map_cam,
+                    const std::optional<double>& stamp_s = std::nullopt);
   void add_landmark(LandmarkId id, const Eigen::Vector3d& p_map);
   void add_observation(const WindowObservation& observation);
   /// Adds a line, which is used if it has at least three images from at least two keyframes: fewer

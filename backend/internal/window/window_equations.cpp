@@ -30,6 +30,20 @@ std::optional<Variable> first_estimate(const MarginalPrior& prior, const WindowV
   }
 }
 
+/// Whitened derivative of a measurement by the imaging errors; `J`: of pixel and inverse depth.
+ImagingErrors::Rows2 whitened(const Reprojection& measurement, const ImagingErrors::Rows3& J) {
+  ImagingErrors::Rows2 result;
+  for (Eigen::Index i = 0; i < J.cols(); ++i)
+    result.col(i) = measurement.whiten(J.col(i).head<2>());
+  return result;
+}
+
+ImagingErrors::Rows2 whitened(const InverseDepth& measurement, const ImagingErrors::Rows3& J) {
+  ImagingErrors::Rows2 result = ImagingErrors::Rows2::Zero();
+  result.row(0) = measurement.inverse_sigma * J.row(2);
+  return result;
+}
+
 }  // namespace
 
 Eigen::Index columns_of(const std::vector<WindowVariable>& variables) {
@@ -64,7 +78,8 @@ WindowEquations::WindowEquations(const WindowState& state,
 
 template <class Measurement>
 void WindowEquations::add_measurement(const LinearizedVariable& at, const Eigen::Vector3d& p_map,
-                                      const Measurement& measurement) {
+                                      const Measurement& measurement,
+                                      const std::optional<Vector6d>& velocity) {
   const SE3 &T_now = std::get<SE3>(at.now), &T_lin = std::get<SE3>(at.lin);
   const PointInCamera now(T_now.rotation().matrix(), T_now.translation(), p_map);
   const Eigen::Matrix3d R_map_cam = T_lin.rotation().matrix();
@@ -78,6 +93,11 @@ void WindowEquations::add_measurement(const LinearizedVariable& at, const Eigen:
   J_pose << -A, A * hat(lin.p_cam);
   if (at.column >= 0) r -= J_pose * Vector6d(at.delta);  // the residual at delta = 0
   point_.add(r, w, J_point, at.column, J_pose);
+  if (!images) return;
+  point_.add_errors(
+      r, w, J_point, at.column, J_pose,
+      whitened(measurement, derivative_by_imaging_errors(state_.camera, lin.p_cam, velocity,
+                                                         state_.options.depths_from_disparities)));
 }
 
 void WindowEquations::add_landmark(const WindowLandmark& landmark) {
@@ -85,9 +105,11 @@ void WindowEquations::add_landmark(const WindowLandmark& landmark) {
   const auto usable = usable_observations(state_, landmark);
   for (const WindowObservation* o : usable) {
     const LinearizedVariable& at = variables_.at(keyframe_variable(o->keyframe));
-    add_measurement(at, landmark.p_map, reprojection_of(state_.camera, *o));
+    const auto velocity = images ? velocity_of(state_, o->keyframe) : std::nullopt;
+    add_measurement(at, landmark.p_map, reprojection_of(state_.camera, *o), velocity);
     if (o->inverse_depth)
-      add_measurement(at, landmark.p_map, InverseDepth(*o->inverse_depth, o->sigma_inverse_depth));
+      add_measurement(at, landmark.p_map, InverseDepth(*o->inverse_depth, o->sigma_inverse_depth),
+                      velocity);
   }
   if (landmark.on_plane && !usable.empty()) {
     const PointOnPlaneFactor factor(landmark.on_plane->sigma_m);
@@ -100,7 +122,7 @@ void WindowEquations::add_landmark(const WindowLandmark& landmark) {
     if (at.column >= 0) r -= std::get<1>(J) * Eigen::Vector3d(at.delta);
     point_.add(r, w, std::get<0>(J), at.column, std::get<1>(J));
   }
-  point_.eliminate(form);
+  point_.eliminate(form, sums());
 }
 
 void WindowEquations::add_line(const WindowLine& line) {
@@ -117,7 +139,7 @@ void WindowEquations::add_line(const WindowLine& line) {
       line_.add(r, w, std::get<1>(J), at.column, std::get<0>(J));
     });
   }
-  line_.eliminate(form);
+  line_.eliminate(form, sums());
 }
 
 void WindowEquations::add(const WindowFactor& f) {

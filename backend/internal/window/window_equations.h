@@ -3,6 +3,8 @@
 #include <placegraph/backend/internal/window/window_state.h>
 #include <placegraph/graph/core/robust_kernel.h>
 
+#include <optional>
+
 namespace placegraph {
 
 /// Total number of columns of variables.
@@ -29,6 +31,8 @@ class WindowEquations {
   WindowEquations(const WindowState& state, const std::vector<WindowVariable>& variables,
                   bool first_estimates);
 
+  /// Also forms the sums of `images` when landmarks and lines are added from now on.
+  void collect_image_sums() { images.emplace(form.H.cols()); }
   void add_landmark(const WindowLandmark& landmark);
   void add_line(const WindowLine& line);
   void add(const WindowFactor& factor);
@@ -41,11 +45,13 @@ class WindowEquations {
   }
 
   QuadraticForm form;
+  std::optional<ImageSums> images;
 
  private:
   template <class Measurement>
   void add_measurement(const LinearizedVariable& at, const Eigen::Vector3d& p_map,
-                       const Measurement& measurement);
+                       const Measurement& measurement, const std::optional<Vector6d>& velocity);
+  ImageSums* sums() { return images ? &*images : nullptr; }
 
   const WindowState& state_;
   bool first_estimates_;

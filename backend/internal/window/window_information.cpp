@@ -19,6 +19,19 @@ bool is_held(const WindowState& state, const WindowVariable& variable) {
   return variable.kind == Kind::kKeyframe && state.fixed == variable.keyframe();
 }
 
+/// Inverse of a positive semi-definite matrix; directions without information are left out.
+Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& H) {
+  constexpr double kNothing = 1e-10;  // share of the largest eigenvalue
+  const Eigen::VectorXd unit = H.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(unit.asDiagonal() * H *
+                                                             unit.asDiagonal());
+  const Eigen::ArrayXd lambda = eigen.eigenvalues().array();
+  const Eigen::VectorXd inverse =
+      (lambda > kNothing * lambda.maxCoeff()).select(lambda.inverse(), 0.0);
+  const Eigen::MatrixXd V = unit.asDiagonal() * eigen.eigenvectors();
+  return V * inverse.asDiagonal() * V.transpose();
+}
+
 /// The information of a keyframe's pose in the map, all other variables marginalized.
 Matrix6d absolute_information(const SlidingWindow& window, KeyframeId keyframe) {
   return clamp_to_semidefinite(
@@ -54,10 +67,21 @@ WindowInformation window_information(const WindowState& state) {
   result.variables.assign(keyframes_end, all.end());
   result.variables.insert(result.variables.end(), all.begin(), keyframes_end);
   WindowEquations equations(state, result.variables, false);
+  equations.collect_image_sums();
   for (const auto& [id, landmark] : state.landmarks) equations.add_landmark(landmark);
   for (const auto& [id, line] : state.lines) equations.add_line(line);
+  const QuadraticForm by_images = equations.form;
   for (const WindowFactor& factor : state.factors) equations.add(factor);
+  const Eigen::MatrixXd H_measured = equations.form.H;
   equations.add_prior();
+
+  constexpr double kShareOfPrior = 0.01;
+  const Eigen::MatrixXd weak_prior = kShareOfPrior * (equations.form.H - H_measured);
+  WindowInformation::WithoutPrior& without_prior = result.without_prior;
+  without_prior.covariance = pseudo_inverse(H_measured + weak_prior);
+  without_prior.gradient = by_images.b;
+  without_prior.images = std::move(*equations.images);
+  without_prior.images.scatter += H_measured - by_images.H + weak_prior;
   result.H = std::move(equations.form.H);
   return result;
 }

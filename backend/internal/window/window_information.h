@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/backend/internal/window/landmark_equations.h>
 #include <placegraph/backend/internal/window/window_factor.h>
 #include <placegraph/backend/internal/window/window_observations.h>
 #include <placegraph/graph/core/ids.h>
@@ -18,6 +19,16 @@ struct WindowState;
 struct WindowInformation {
   std::vector<WindowVariable> variables;  ///< planes, Manhattan frames, keyframes
   Eigen::MatrixXd H;
+
+  /// The same without the prior, whose observations are not in the window any more: it only
+  /// decides what all other measurements leave open. Pseudo-inverse of the normal equations, the
+  /// gradient by the images, and the sums over landmarks; `images.scatter` has the information of
+  /// all other measurements as their scatter.
+  struct WithoutPrior {
+    Eigen::MatrixXd covariance;
+    Eigen::VectorXd gradient;
+    ImageSums images;
+  } without_prior;
 };
 WindowInformation window_information(const WindowState& state);
 

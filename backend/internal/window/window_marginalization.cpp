@@ -128,8 +128,10 @@ void erase_leaving(WindowState& state, const std::set<WindowVariable>& gone, Key
   for (const WindowVariable& variable : gone) {
     state.kept.erase(variable);
     if (variable.kind == WindowVariable::Kind::kPlane) state.planes.erase(variable.plane());
-    if (variable.kind == WindowVariable::Kind::kKeyframe)
+    if (variable.kind == WindowVariable::Kind::kKeyframe) {
       state.keyframes.erase(variable.keyframe());
+      state.stamps.erase(variable.keyframe());
+    }
     if (variable.kind != WindowVariable::Kind::kManhattanFrame) continue;
     state.manhattan_frames.erase(variable.manhattan_frame());
     if (state.held_manhattan_frame == variable.manhattan_frame())

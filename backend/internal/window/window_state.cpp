@@ -68,6 +68,16 @@ Variable value_of(const WindowState& state, const WindowVariable& variable) {
   }
 }
 
+std::optional<Vector6d> velocity_of(const WindowState& state, KeyframeId keyframe) {
+  const auto at = state.keyframes.find(keyframe);
+  const auto before = at == state.keyframes.begin() ? at : std::prev(at);
+  const auto after = std::next(at) == state.keyframes.end() ? at : std::next(at);
+  const auto from = state.stamps.find(before->first), to = state.stamps.find(after->first);
+  if (from == state.stamps.end() || to == state.stamps.end() || !(to->second > from->second))
+    return std::nullopt;
+  return Vector6d((before->second.inverse() * after->second).log() / (to->second - from->second));
+}
+
 std::vector<WindowVariable> variables_of(const WindowState& state) {
   std::vector<WindowVariable> variables;
   for (const auto& [id, T_map_cam] : state.keyframes) variables.push_back(keyframe_variable(id));

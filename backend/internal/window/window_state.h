@@ -30,6 +30,7 @@ struct WindowState {
   SlidingWindowOptions options;
   Camera camera;
   std::map<KeyframeId, SE3> keyframes;  ///< T_map_cam
+  std::map<KeyframeId, double> stamps;  ///< times [s], of keyframes that have one
   std::map<LandmarkId, WindowLandmark> landmarks;
   std::map<LineId, WindowLine> lines;
   std::map<PlaneId, Plane3> planes;                  ///< planes of the map
@@ -54,6 +55,10 @@ struct WindowState {
 void require_variable(const WindowState& state, const WindowVariable& variable);
 /// The estimate of a variable, which must be in the window.
 Variable value_of(const WindowState& state, const WindowVariable& variable);
+
+/// Mean twist of the camera [m/s, rad/s] between the neighbours of a keyframe, in the right tangent.
+/// Empty if a stamp is unknown, or without a neighbour.
+std::optional<Vector6d> velocity_of(const WindowState& state, KeyframeId keyframe);
 
 /// All variables: keyframes, planes, Manhattan frames, each in the order of their ids.
 std::vector<WindowVariable> variables_of(const WindowState& state);

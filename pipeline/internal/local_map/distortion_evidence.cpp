@@ -1,5 +1,5 @@
+#include <placegraph/backend/internal/evidence/intrinsics_evidence.h>
 #include <placegraph/pipeline/internal/local_map/distortion_evidence.h>
-#include <placegraph/backend/internal/window/intrinsics_evidence.h>
 
 namespace placegraph {
 

@@ -1,5 +1,6 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/internal/core/median.h>
+#include <placegraph/graph/internal/geometry/bounded_covariance.h>
 #include <placegraph/pipeline/internal/local_map/local_map.h>
 
 #include <algorithm>
@@ -15,6 +16,7 @@ void LocalMap::restart(Scale scale, const std::optional<double>& median_depth) {
   for (const WindowObservation& observation : window_observations()) keep_observation(observation);
   observed_before_.clear();
   window_ = SlidingWindow(options_, camera_);
+  uncertainty_.restart();
   scale_ = scale;
   median_depth_ = median_depth.value_or(median_depth_);
   first_ = next_;
@@ -27,8 +29,11 @@ void LocalMap::go_on_from(KeyframeId next_keyframe, double median_depth) {
   median_depth_ = median_depth;
 }
 
-KeyframeId LocalMap::add_keyframe(const SE3& T_odom_cam) {
-  window_.add_keyframe(next_, T_odom_cam);
+KeyframeId LocalMap::add_keyframe(const SE3& T_odom_cam,
+                                  const std::optional<std::int64_t>& stamp_ns) {
+  window_.add_keyframe(
+      next_, T_odom_cam,
+      stamp_ns ? std::optional(1e-9 * static_cast<double>(*stamp_ns)) : std::nullopt);
   return next_++;
 }
 
@@ -58,20 +63,21 @@ void LocalMap::widen_link_to_oldest() {
   const auto link = links_.find(KeyframeId(oldest.value() - 1));
   const auto before = poses_.find(oldest);
   if (link == links_.end() || before == poses_.end()) return;
-  // (H^-1 + g g^T)^-1 of the rotation g (Sherman & Morrison 1950)
-  Vector6d g = Vector6d::Zero();
-  g.tail<3>() = (before->second.rotation().inverse() * window_.pose(oldest).rotation()).log();
-  Matrix6d& H = link->second.information;
-  const Vector6d Hg = H * g;
-  H -= Hg * Hg.transpose() / (1 + g.dot(Hg));
+  const Eigen::Vector3d rotated =
+      (before->second.rotation().inverse() * window_.pose(oldest).rotation()).log();
+  link->second.motion.by_observations.bottomRightCorner<3, 3>() += rotated * rotated.transpose();
 }
 
 void LocalMap::marginalize() {
   const auto keyframes = window_.keyframes();
   const auto size = static_cast<std::size_t>(options_.max_keyframes);
   if (keyframes.size() <= size) return;
+  if (keyframes.front() > assessed_) {
+    uncertainty_.add_window(window_);
+    assessed_ = keyframes.back();
+  }
   for (std::size_t i = 0; i + 1 < keyframes.size() && keyframes.size() - i > size; ++i)
-    links_[keyframes[i]] = {motion_information(keyframes[i], keyframes[i + 1]), scale_drift()};
+    links_[keyframes[i]] = {motion(keyframes[i], keyframes[i + 1]), scale_drift()};
   std::map<LandmarkId, PointLandmark> before;  // those that are in the map if they leave
   for (const LandmarkId id : window_.landmarks()) {
     const std::vector<WindowObservation>& observations = window_.observations(id);
@@ -121,6 +127,7 @@ Rescale LocalMap::rescale(double factor) {
         SE3(T_odom_keyframe.rotation(), centre + factor * (T_odom_keyframe.translation() - centre));
   for (PointLandmark& landmark : past_landmarks_)
     if (landmark.keyframe >= first_) landmark.point_cam *= factor;
+  for (auto& [id, link] : links_) link.motion = link.motion.scaled(factor);
   median_depth_ *= factor;
   scale_ = Scale::kMetric;
   return {factor, centre};
@@ -129,7 +136,7 @@ Rescale LocalMap::rescale(double factor) {
 LocalMap::Link LocalMap::link(KeyframeId id) const {
   const auto link = links_.find(id);
   if (link != links_.end()) return link->second;
-  return {motion_information(id, ++KeyframeId(id)), scale_drift()};
+  return {motion(id, ++KeyframeId(id)), scale_drift()};
 }
 
 /// Drift of the scale (logarithm) from one keyframe to the next: half a window's worth, distributed
@@ -144,7 +151,17 @@ double LocalMap::scale_drift() const {
   return std::min(kMost, sigma / std::sqrt(0.5 * static_cast<double>(ids.size() - 1)));
 }
 
-Matrix6d LocalMap::motion_information(KeyframeId from, KeyframeId to) const {
+AssessedMotion LocalMap::motion(KeyframeId from, KeyframeId to) const {
+  const Matrix6d stated = bounded_covariance(stated_information(from, to));
+  return assess_motion(window_, from, to, stated, metric());
+}
+
+Matrix6d LocalMap::information(const AssessedMotion& motion) const {
+  return bounded_inverse(uncertainty_.covariance(motion), 0);
+}
+
+/// The information by the stated noise of the observations.
+Matrix6d LocalMap::stated_information(KeyframeId from, KeyframeId to) const {
   Matrix6d information = relative_information(window_, from, to);
   if (metric()) return information;
   // The prior's constraint on the scale is arbitrary and common to all motions: no error of this

@@ -2,6 +2,7 @@
 #include <placegraph/backend/internal/window/sliding_window.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/landmark.h>
+#include <placegraph/pipeline/internal/local_map/motion_uncertainty.h>
 
 #include <map>
 #include <optional>
@@ -39,8 +40,12 @@ class LocalMap {
   /// Sets the next keyframe's id and the median depth to those at the end of another run.
   void go_on_from(KeyframeId next_keyframe, double median_depth);
 
-  /// Adds a keyframe at T_odom_cam to the window; returns its id.
-  KeyframeId add_keyframe(const SE3& T_odom_cam);
+  /// Adds a keyframe at T_odom_cam to the window; returns its id. `stamp_ns`: its time, if known.
+  KeyframeId add_keyframe(const SE3& T_odom_cam, const std::optional<std::int64_t>& stamp_ns = {});
+  /// Adds the pose of a frame of this segment to what is known of the stamps.
+  void add_frame(std::int64_t stamp_ns, const SE3& T_odom_cam) {
+    uncertainty_.add_frame(stamp_ns, T_odom_cam);
+  }
   /// Removes all keyframes and landmarks of this segment, as if they had never been added;
   /// `median_depth`: the value before them.
   void discard(double median_depth);
@@ -67,13 +72,16 @@ class LocalMap {
   /// length of the motion is treated as known in the scale of `id`, and `sigma_log_scale` is the
   /// standard deviation of the change of scale up to `id` + 1.
   struct Link {
-    Matrix6d information = Matrix6d::Zero();  ///< right tangent of T_id_next
+    AssessedMotion motion;  ///< T_id_next
     double sigma_log_scale = 0;
   };
   Link link(KeyframeId id) const;
-  /// Information of the motion between any two keyframes of the window, with all keyframes between
+  /// Uncertainty of the motion between any two keyframes of the window, with all keyframes between
   /// them marginalized.
-  Matrix6d motion_information(KeyframeId from, KeyframeId to) const;
+  AssessedMotion motion(KeyframeId from, KeyframeId to) const;
+  /// Information of a motion by all that has been learned until now.
+  Matrix6d information(const AssessedMotion& motion) const;
+  const MotionUncertainty& uncertainty() const { return uncertainty_; }
 
   /// Newest estimate T_odom_cam of a keyframe of this segment.
   SE3 pose(KeyframeId keyframe) const { return poses_.at(keyframe); }
@@ -111,11 +119,14 @@ class LocalMap {
   std::vector<WindowObservation> window_observations() const;
   void keep_observation(const WindowObservation& observation);
   double scale_drift() const;
+  Matrix6d stated_information(KeyframeId from, KeyframeId to) const;
   void widen_link_to_oldest();
 
   SlidingWindowOptions options_;
   Camera camera_;
   SlidingWindow window_;
+  MotionUncertainty uncertainty_;
+  KeyframeId assessed_ = KeyframeId::lowest();  // newest keyframe of the last assessed window
   Scale scale_;
   double median_depth_ = kUnknownDepth;
   KeyframeId first_, next_;

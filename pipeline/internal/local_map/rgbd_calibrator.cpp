@@ -1,4 +1,4 @@
-#include <placegraph/backend/internal/window/nuisance_equations.h>
+#include <placegraph/backend/internal/evidence/nuisance_equations.h>
 #include <placegraph/pipeline/internal/local_map/rgbd_calibrator.h>
 
 #include <Eigen/Dense>
@@ -7,49 +7,20 @@
 namespace placegraph {
 namespace {
 
-using Vector = RgbdErrors::Vector;
-constexpr Eigen::Index kParameters = RgbdErrors::kParameters;
-using Matrix = Eigen::Matrix<double, kParameters, kParameters>;
+using RgbdMatrix = Eigen::Matrix<double, RgbdErrors::kParameters, RgbdErrors::kParameters>;
 
 /// Standard deviations: of the focal length and the principal point relative to the focal length,
 /// of the readout time and the depth time [s].
-Vector sigmas(double intrinsics, double readout_s, double depth_time_s) {
-  Vector result;
+RgbdErrors::Vector rgbd_sigmas(double intrinsics, double readout_s, double depth_time_s) {
+  RgbdErrors::Vector result;
   result << intrinsics, intrinsics, intrinsics, readout_s, depth_time_s;
   return result;
 }
 
 /// Expected errors of a camera that nobody doubts.
-Vector prior_sigmas() { return sigmas(0.01, 0.02, 0.02); }
+RgbdErrors::Vector rgbd_prior() { return rgbd_sigmas(0.01, 0.02, 0.02); }
 /// Each window has at least these errors of its own beside those of its noise.
-Vector window_sigmas() { return sigmas(0.003, 0.002, 0.003); }
-
-/// The evidence of a window whose own errors, of these standard deviations, are marginalized.
-NuisanceEvidence with_own_errors(const NuisanceEvidence& window, const Vector& own_sigmas) {
-  Matrix sum = window.information;
-  sum.diagonal() += own_sigmas.cwiseAbs2().cwiseInverse();
-  const Matrix kept = Matrix::Identity() - window.information * sum.inverse();
-  return {kept * window.gradient, kept * window.information};
-}
-
-/// Squared difference of a window's estimate and q, in its covariance; directions of which the
-/// window has no information are left out. Adds their number to `freedom`.
-double difference2(const NuisanceEvidence& window, const Vector& q, double& freedom) {
-  constexpr double kNothing = 1e-6;  // share of the prior's information
-  const Vector unit = prior_sigmas();
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(
-      Matrix(unit.asDiagonal() * window.information * unit.asDiagonal()));
-  const Vector gradient = eigen.eigenvectors().transpose() *
-                          (unit.asDiagonal() * (window.gradient + window.information * q));
-  double sum = 0;
-  for (Eigen::Index i = 0; i < kParameters; ++i) {
-    const double lambda = eigen.eigenvalues()[i];
-    if (!(lambda > kNothing)) continue;
-    sum += gradient[i] * gradient[i] / lambda;
-    freedom += 1;
-  }
-  return sum;
-}
+RgbdErrors::Vector rgbd_window_errors() { return rgbd_sigmas(0.003, 0.002, 0.003); }
 
 }  // namespace
 
@@ -65,7 +36,7 @@ NuisanceEvidence RgbdCalibrator::evidence(const SlidingWindow& window) const {
     J = RgbdErrors::derivative(camera_, o.px, p_cam, twist(o.keyframe), o.surface_cam);
   };
   const WindowState& state = window.state();
-  NuisanceEquations equations(state, kParameters, derivative_of);
+  NuisanceEquations equations(state, RgbdErrors::kParameters, derivative_of);
   for (const auto& [id, landmark] : state.landmarks) {
     const auto observations = usable_observations(state, landmark);
     if (observations.size() >= kViews) equations.add(observations, landmark.p_map);
@@ -83,19 +54,19 @@ RgbdCalibrator::Estimate RgbdCalibrator::estimate(
   for (double own = 1; own <= kLargestOwn; own *= 2) {
     std::vector<NuisanceEvidence> windows;
     for (const NuisanceEvidence& window : windows_)
-      windows.push_back(with_own_errors(window, own * window_sigmas()));
-    if (newest) windows.push_back(with_own_errors(*newest, own * window_sigmas()));
-    Vector gradient = Vector::Zero();
-    Matrix information = prior_sigmas().cwiseAbs2().cwiseInverse().asDiagonal();
+      windows.push_back(with_own_errors(window, own * rgbd_window_errors()));
+    if (newest) windows.push_back(with_own_errors(*newest, own * rgbd_window_errors()));
+    RgbdErrors::Vector gradient = RgbdErrors::Vector::Zero();
+    RgbdMatrix information = rgbd_prior().cwiseAbs2().cwiseInverse().asDiagonal();
     for (const NuisanceEvidence& window : windows) {
       gradient += window.gradient;
       information += window.information;
     }
     result.covariance = information.inverse();
     result.errors = -result.covariance * gradient;
-    double sum = 0, freedom = -static_cast<double>(kParameters);
+    double sum = 0, freedom = -static_cast<double>(RgbdErrors::kParameters);
     for (const NuisanceEvidence& window : windows)
-      sum += difference2(window, result.errors, freedom);
+      sum += squared_difference(window, result.errors, rgbd_prior(), freedom);
     result.dispersion = sum / std::max(1.0, freedom);
     if (result.dispersion < kMostDispersion) break;
   }
@@ -107,6 +78,8 @@ bool RgbdCalibrator::calibrate(SlidingWindow& window) {
   constexpr std::size_t kFewest = 5;  // keyframes of the first window
   const auto keyframes = window.keyframes();
   std::erase_if(twists_, [&](const auto& entry) { return entry.first < keyframes.front(); });
+  // The velocity of the first keyframe of a track is unknown.
+  if (twists_.size() + 1 < keyframes.size()) return false;
   const bool apart = !newest_ || keyframes.front() > *newest_;
   if (keyframes.size() < kFewest || !apart) return false;
   const NuisanceEvidence now = evidence(window);
@@ -116,7 +89,7 @@ bool RgbdCalibrator::calibrate(SlidingWindow& window) {
     newest_ = keyframes.back();
   }
   const RgbdErrors next = significant(found);
-  const Vector change = next.values() - applied_.values();
+  const RgbdErrors::Vector change = next.values() - applied_.values();
   if (change.isZero(0)) return false;
   applied_ = next;
   revise(change, window);
@@ -130,15 +103,15 @@ RgbdErrors RgbdCalibrator::significant(const Estimate& found) const {
   constexpr double kMostSigmas = 2;
   const double chi2 = found.errors.dot(found.covariance.ldlt().solve(found.errors));
   if (!applied_.any() && !(chi2 > kChi2)) return RgbdErrors();
-  Vector errors = found.errors;
+  RgbdErrors::Vector errors = found.errors;
   constexpr Eigen::Index kIntrinsics = RgbdErrors::kReadout;
-  const Vector doubt = errors.cwiseQuotient(prior_sigmas());
+  const RgbdErrors::Vector doubt = errors.cwiseQuotient(rgbd_prior());
   if (doubt.head<kIntrinsics>().cwiseAbs().maxCoeff() > kMostSigmas)
     errors.head<kIntrinsics>().setZero();
   return RgbdErrors(errors);
 }
 
-void RgbdCalibrator::revise(const Vector& change, SlidingWindow& window) const {
+void RgbdCalibrator::revise(const RgbdErrors::Vector& change, SlidingWindow& window) const {
   for (const LandmarkId id : window.landmarks()) {
     const Eigen::Vector3d p_map = *window.landmark(id);
     const std::vector<WindowObservation> observations = window.observations(id);

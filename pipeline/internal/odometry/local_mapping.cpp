@@ -53,11 +53,12 @@ std::optional<LocalMapping::Added> LocalMapping::add(const Frame& frame, const S
   const KeyframeImages images = masks_.apply(frame);
   const auto T_odom_keyframe = tracker.prepare_keyframe(images, T_odom_cam, map, random);
   if (!T_odom_keyframe) return std::nullopt;
-  const KeyframeId id = map.add_keyframe(*T_odom_keyframe);
-  if (rgbd_) rgbd_->add_keyframe(id, tracker.velocity());
+  const KeyframeId id = map.add_keyframe(*T_odom_keyframe, frame.stamp_ns);
+  const std::optional<Vector6d> velocity = tracker.velocity();
+  if (rgbd_ && velocity) rgbd_->add_keyframe(id, *velocity);
   tracker.observe(images, rectification(), map, random);
   NewKeyframe keyframe{id, images.frame, images.labels, FrameErrors()};
-  if (rgbd_) keyframe.errors = {rgbd_->errors(), tracker.velocity()};
+  if (rgbd_ && velocity) keyframe.errors = {rgbd_->errors(), *velocity};
   Added added{std::move(keyframe), {}, measure_scale(images, tracker, map)};
   refine(tracker, map);
   added.posed_again = tracker.finish_keyframe(added.rescale ? added.rescale->factor : 1, map);

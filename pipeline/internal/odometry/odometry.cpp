@@ -50,6 +50,7 @@ OdometryUpdate Odometry::track(const Frame& frame) {
     return update;
   }
   motion_.update(tracked.T_odom_cam);
+  map_.add_frame(frame.stamp_ns, tracked.T_odom_cam);
 
   // 2. If it shows enough new content, the frame becomes a keyframe and is added to the map.
   if (tracked.keyframe_due && add_keyframe(frame, tracked.T_odom_cam, update))

@@ -16,6 +16,7 @@ LocalMap make_local_map(const OdometryOptions& options, const Calibration& calib
   // A monocular map passes its scale on through the pose of the window, which the prior must
   // constrain.
   if (scale == Scale::kMetric) window.hold_oldest = true;
+  window.depths_from_disparities = calibration.baseline_m > 0 && !calibration.depth;
   return LocalMap(window, calibration.camera, scale);
 }
 

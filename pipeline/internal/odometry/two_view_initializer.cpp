@@ -153,9 +153,10 @@ Initialization TwoViewInitializer::accept(const Frame& frame, const MonoInitiali
                                           LocalMapping& mapping) {
   PointCue& points = tracker_.points();
   const KeyframeImages newest = mapping.masks().apply(frame);
-  const KeyframeId ref = map.add_keyframe(T_odom_start_);
+  const KeyframeId ref = map.add_keyframe(T_odom_start_, reference_.frame.stamp_ns);
   const KeyframeId cur = map.add_keyframe(
-      T_odom_start_ * SE3(start.T_ref_cur.rotation(), scale * start.T_ref_cur.translation()));
+      T_odom_start_ * SE3(start.T_ref_cur.rotation(), scale * start.T_ref_cur.translation()),
+      frame.stamp_ns);
   std::vector<PointCue::TwoViewPoint> pairs;
   for (std::size_t i = 0; i < points.tracks().size(); ++i) {
     const PointTrack& track = points.tracks()[i];

@@ -17,6 +17,8 @@ class CameraVelocity {
     last_ = Mean{T_last_cur.log() / interval_s, interval_s};
   }
   void reset() { last_ = before_ = std::nullopt; }
+  /// Whether the frames are dense enough: the velocity of a hand changes within a tenth of a second.
+  bool known() const { return last_ && last_->interval_s < kLongest_s; }
 
   /// Velocity `later_s` after the last frame; zero while no motion is known.
   Vector6d at(double later_s = 0) const {
@@ -36,6 +38,8 @@ class CameraVelocity {
     Vector6d twist;
     double interval_s;
   };
+  static constexpr double kLongest_s = 0.07;
+
   std::optional<Mean> last_, before_;
 };
 

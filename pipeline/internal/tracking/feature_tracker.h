@@ -36,7 +36,9 @@ class FeatureTracker : public FrameTracker {
   void drop_masked(const Image& mask, LocalMap& map) override;
   void assume(const std::optional<Assumptions>& assumptions) override;
   bool corrects_rotations() const override { return manhattan_.has_value(); }
-  Vector6d velocity() const override { return velocity_.at(); }
+  std::optional<Vector6d> velocity() const override {
+    return velocity_.known() ? std::optional(velocity_.at()) : std::nullopt;
+  }
   void correct(const RgbdErrors& errors) override { points_.correct(errors); }
   LineCue* lines() override { return lines_ ? &*lines_ : nullptr; }
   const ManhattanCue* manhattan() const override;

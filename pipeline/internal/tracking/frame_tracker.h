@@ -66,8 +66,8 @@ class FrameTracker {
   virtual void assume(const std::optional<Assumptions>& /*assumptions*/) {}
   /// Whether rotations are constrained by more than the keyframes of the window.
   virtual bool corrects_rotations() const = 0;
-  /// Velocity of the camera at the newest frame [m/s, rad/s], right tangent; zero: not known.
-  virtual Vector6d velocity() const { return Vector6d::Zero(); }
+  /// Velocity of the camera at the newest frame [m/s, rad/s], right tangent; nothing: not known.
+  virtual std::optional<Vector6d> velocity() const { return std::nullopt; }
   /// Sets the errors that its observations are corrected by from now on.
   virtual void correct(const RgbdErrors& /*errors*/) {}
   /// Tracked lines; null if lines are not among the cues.

@@ -87,6 +87,7 @@ class PythonSlam {
       run.calibration = calibration_;
       run.map = slam_->finish();
       run.notes = slam_->notes();
+      run.odometry_error = slam_->odometry_error();
       const Judgement judgement = judge(run, {}, kLeastPosed);
       return stored(std::move(run.map), judgement);
     });

@@ -37,10 +37,11 @@ TEST(DepthLookup, CarriesDepthOverFromACameraBeside) {
 }
 
 TEST(DepthLookup, FindsTheSlopeOfASurface) {
-  DepthCamera depth{kCamera, SE3(), 0.005};
+  const Camera camera = pinhole(640, 480, 525);  // few pixels of a small image are near
+  const DepthCamera depth{camera, SE3(), 0.005};
   const TexturedPlane wall{pose({0.2, 0.3, 0}, {0, 0, 2}), 1e3, 1e3, {}};
   const Image image = depth_image(depth, {wall});
-  const auto found = lookup_surfaces(image, kCamera, depth, {{60, 70}})[0];
+  const auto found = lookup_surfaces(image, camera, depth, {{60, 70}})[0];
   ASSERT_TRUE(found);
   const double z = image.at<float>(70, 60);
   EXPECT_NEAR(found->depth_m, z, 0.01 * z);

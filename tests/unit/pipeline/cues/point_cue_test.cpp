@@ -62,7 +62,7 @@ TEST(PointCue, MaskedTracksAreDroppedWithTheirLandmarks) {
   Image mask(street_camera().height, street_camera().width, CV_8UC1, cv::Scalar(255));
   mask.colRange(0, mask.cols / 2).setTo(0);
   std::vector<LandmarkId> masked;
-  for (const auto& [id, px] : street.points.landmark_pixels(street.window))
+  for (const auto& [id, px] : street.points.landmark_pixels(street.window, T_world_cam(0)))
     if (px.x() < mask.cols / 2 - 1) masked.push_back(id);
   ASSERT_GT(masked.size(), 20U);
   street.points.drop_masked(mask, street.window);
@@ -98,7 +98,7 @@ TEST(PointCue, TracksThatContradictThePoseAreMarked) {
   Random random(1);
   // A landmark that is not where its track sees it.
   const LandmarkId moved = street.window.landmarks().front();
-  const auto px = street.points.landmark_pixels(street.window);
+  const auto px = street.points.landmark_pixels(street.window, T_world_cam(0));
   street.window.remove_landmark(moved);
   street.window.add_landmark(moved, T_world_cam(0) * Eigen::Vector3d(0.5, 0.1, 3));
   const auto tracked = street.points.pose(street.window, T_world_cam(0), random);

@@ -50,6 +50,29 @@ TEST(ExpectedDrift, IsTheDeviationOfTheLastPlaceFromTheFirst) {
   EXPECT_FALSE(reports_drift(judgement));
 }
 
+TEST(ExpectedDrift, ErrorsThatAllMotionsShareAddInProportionToTheMotion) {
+  RunResult run = path_of(17, 0.01);
+  run.odometry_error.emplace();
+  run.odometry_error->independent.topLeftCorner<3, 3>() =
+      16 * 1e-4 * Eigen::Matrix3d::Identity();
+  run.odometry_error->independent.bottomRightCorner<3, 3>() = 1e-12 * Eigen::Matrix3d::Identity();
+  // Half a per cent of a length of 16 m.
+  run.odometry_error->shared(2, 2) = 0.08 * 0.08;
+  const double alone = 0.01 * std::sqrt(3 * 16);
+  EXPECT_NEAR(*judge(run, {}, 0.5).expected_drift_m, std::hypot(alone, 0.08), 1e-4);
+  // A loop that knows the end ten times better leaves a hundredth of it.
+  RelativePoseConstraint loop = run.map.place_graph.constraints.back();
+  loop.from = NodeId(0);
+  loop.T_from_to = test::pose({0, 0, 0}, {0, 0, 16});
+  loop.information.topLeftCorner<3, 3>() = 1e6 * Eigen::Matrix3d::Identity();
+  loop.source = ConstraintSource::kLoop;
+  run.map.place_graph.constraints.push_back(loop);
+  EXPECT_LT(*judge(run, {}, 0.5).expected_drift_m, 0.002);
+  run.map.place_graph.constraints.pop_back();
+  run.map.metric = false;  // the shared errors are metric ones
+  EXPECT_NEAR(*judge(run, {}, 0.5).expected_drift_m, alone, 1e-4);
+}
+
 TEST(ExpectedDrift, IsReportedBeyondTheTwentiethPartOfThePath) {
   EXPECT_TRUE(reports_drift(judge(path_of(17, 0.2), {}, 0.5)));
 }

@@ -48,6 +48,11 @@ struct Drive {
   }
 };
 
+/// Information of the motion from a keyframe to the next.
+Matrix6d information_of(const LocalMap& map, KeyframeId id) {
+  return map.information(map.link(id).motion);
+}
+
 TEST(LocalMap, NumbersKeyframesOverAllSegments) {
   Drive drive(Scale::kMetric);
   EXPECT_TRUE(drive.map.empty());
@@ -233,10 +238,14 @@ TEST(LocalMap, LawTheCovarianceOfALandmarkDoesNotDependOnTheFrameOfTheMap) {
 TEST(LocalMap, KeepsWhatIsKnownOfAMotionWhenItsKeyframeLeaves) {
   Drive drive(Scale::kMetric, 8, 4);
   drive.add_all();
-  const Matrix6d known = drive.map.motion_information(KeyframeId(0), KeyframeId(1));
+  const AssessedMotion known = drive.map.motion(KeyframeId(0), KeyframeId(1));
   drive.map.marginalize();
   EXPECT_EQ(drive.map.window().keyframes().size(), 4u);
-  EXPECT_LT((drive.map.link(KeyframeId(0)).information - known).norm(), 1e-6 * known.norm());
+  const AssessedMotion kept = drive.map.link(KeyframeId(0)).motion;
+  EXPECT_LT((kept.by_observations - known.by_observations).norm(),
+            1e-6 * known.by_observations.norm());
+  EXPECT_LT((kept.by_imaging_errors - known.by_imaging_errors).norm(),
+            1e-6 * known.by_imaging_errors.norm());
   EXPECT_EQ(drive.map.link(KeyframeId(0)).sigma_log_scale, 0);
   EXPECT_NO_THROW(drive.map.pose(KeyframeId(0)));
 }
@@ -251,7 +260,7 @@ TEST(LocalMap, WhereTheScaleIsArbitraryALengthIsKnownInTheUnitOfItsKeyframe) {
   const Eigen::Vector3d t = motion.translation();
   const Eigen::Vector3d along = motion.rotation().inverse() * t.normalized();
   const double sigma = std::max(1e-3, link.sigma_log_scale) * t.norm();
-  EXPECT_GE(along.dot(link.information.topLeftCorner<3, 3>() * along), 0.999 / (sigma * sigma));
+  EXPECT_GE(along.dot(information_of(drive.map, KeyframeId(2)).topLeftCorner<3, 3>() * along), 0.999 / (sigma * sigma));
   drive.map.set_scale(Scale::kMetric);
   EXPECT_EQ(drive.map.link(KeyframeId(2)).sigma_log_scale, 0);
 }
@@ -260,9 +269,9 @@ TEST(LocalMap, ARotationThatIsCorrectedWidensTheLinkToTheKeyframeThatLeftBefore)
   Drive drive(Scale::kMetric, 8, 4);
   drive.add_all();
   drive.map.marginalize();  // keyframes 4 to 7 are left
-  const Matrix6d before = drive.map.link(KeyframeId(3)).information;
+  const Matrix6d before = information_of(drive.map, KeyframeId(3));
   drive.map.update_poses({}, true);  // nothing was rotated
-  EXPECT_LT((drive.map.link(KeyframeId(3)).information - before).norm(), 1e-9 * before.norm());
+  EXPECT_LT((information_of(drive.map, KeyframeId(3)) - before).norm(), 1e-9 * before.norm());
   // A prior rotates the whole window by 0.02 rad about y.
   const Eigen::Vector3d step_rotation(0, 0.02, 0);
   for (const KeyframeId id : drive.map.window().keyframes()) {
@@ -275,7 +284,7 @@ TEST(LocalMap, ARotationThatIsCorrectedWidensTheLinkToTheKeyframeThatLeftBefore)
       angle_rad(drive.map.window().pose(KeyframeId(4)), drive.map.pose(KeyframeId(4)));
   ASSERT_GT(rotated, 1e-4);
   drive.map.update_poses({}, true);
-  const Matrix6d after = drive.map.link(KeyframeId(3)).information;
+  const Matrix6d after = information_of(drive.map, KeyframeId(3));
   EXPECT_LT(after(4, 4), 1.01 / (rotated * rotated));  // its variance is the rotation's square
   EXPECT_LT(after(4, 4), before(4, 4));
 }
@@ -284,8 +293,8 @@ TEST(LocalMap, LawTheUnitOfLengthChangesNoRotationAndNoRelativeInformation) {
   Drive one(Scale::kArbitrary), three(Scale::kArbitrary);
   one.add_all(1);
   three.add_all(3);
-  const Matrix6d a = one.map.link(KeyframeId(3)).information,
-                 b = three.map.link(KeyframeId(3)).information;
+  const Matrix6d a = information_of(one.map, KeyframeId(3)),
+                 b = information_of(three.map, KeyframeId(3));
   const Eigen::Matrix3d a_t = a.topLeftCorner<3, 3>(), b_t = b.topLeftCorner<3, 3>();
   const Eigen::Matrix3d a_r = a.bottomRightCorner<3, 3>(), b_r = b.bottomRightCorner<3, 3>();
   // Translations are three times as long, and known three times worse.

@@ -26,5 +26,14 @@ TEST(CameraVelocity, FollowsASlowChangeAndDoubtsAFastOne) {
   EXPECT_LT(fast.at()[4], 1);  // a line would end at 2
 }
 
+TEST(CameraVelocity, IsKnownFromDenseFramesOnly) {
+  CameraVelocity velocity;
+  EXPECT_FALSE(velocity.known());
+  velocity.update(rotated(0.01), 1.0 / 30);
+  EXPECT_TRUE(velocity.known());
+  velocity.update(rotated(0.03), 0.1);
+  EXPECT_FALSE(velocity.known());
+}
+
 }  // namespace
 }  // namespace placegraph

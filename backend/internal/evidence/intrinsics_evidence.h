@@ -5,15 +5,6 @@ namespace placegraph {
 
 struct WindowState;
 
-/// Evidence of parameters q that shift the observations of a window, with its poses and points
-/// eliminated and without its prior, to second order:
-///
-///   cost(q) = cost(0) + 2 gradient^T q + q^T information q
-struct NuisanceEvidence {
-  Eigen::VectorXd gradient;
-  Eigen::MatrixXd information;
-};
-
 /// Evidence of wrong intrinsics by bundle adjustment over a window. The parameters q are errors of
 /// the stated ones; x = X/Z and y = Y/Z of a point in the camera, r^2 = x^2 + y^2:
 ///

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/internal/places/bounded_covariance.h>
+#include <placegraph/graph/internal/geometry/bounded_covariance.h>
 
 namespace placegraph {
 namespace {

@@ -1,0 +1,38 @@
+#pragma once
+#include <placegraph/graph/core/ids.h>
+#include <placegraph/graph/loop.h>
+#include <placegraph/pipeline/internal/local_map/local_map.h>
+#include <placegraph/pipeline/internal/places/place_mapper.h>
+#include <placegraph/pipeline/slam.h>
+
+#include <map>
+#include <optional>
+
+namespace placegraph {
+
+/// Passes the motions between keyframes and their uncertainties from the local map to the place
+/// graph. What the run learns about its errors later holds for earlier motions, too: finish()
+/// passes their uncertainties again.
+class LinkFeed {
+ public:
+  /// Updates the links of the last `keyframes` keyframes up to `newest`, which the window still
+  /// refines. The uncertainty of the motion between consecutive anchors comes from the window as a
+  /// whole while it contains both.
+  void refresh(const LocalMap& map, KeyframeId newest, int keyframes, PlaceMapper& mapper);
+  /// Multiplies all lengths from keyframe `first` on by `factor`.
+  void rescale(KeyframeId first, double factor);
+  /// A loop whose covariance is as much larger than the noise of its features as those of the
+  /// motions are: translation and rotation by the median factor of the links.
+  Loop with_errors(const Loop& loop, const LocalMap& map) const;
+  /// Errors of the motion from the anchor of the first place to that of the last one of its
+  /// component, along the links; nothing where a link between them is none of this run's odometry.
+  std::optional<OdometryError> odometry_error(const LocalMap& map, const PlaceMapper& mapper) const;
+  /// Passes all uncertainties again.
+  void finish(const LocalMap& map, PlaceMapper& mapper) const;
+
+ private:
+  std::map<KeyframeId, LocalMap::Link> links_;       // by the keyframe at the end
+  std::map<KeyframeId, AssessedMotion> to_anchors_;  // from the previous anchor
+};
+
+}  // namespace placegraph
