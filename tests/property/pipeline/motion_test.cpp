@@ -289,7 +289,7 @@ TEST(LocalMapLaws, RelativePosesDoNotDependOnTheFrame) {
       ASSERT_TRUE(map.optimize());
       map.update_poses({}, false);
       motions.push_back(map.pose(KeyframeId(1)).inverse() * map.pose(KeyframeId(3)));
-      informations.push_back(map.motion_information(KeyframeId(1), KeyframeId(3)));
+      informations.push_back(map.information(map.motion(KeyframeId(1), KeyframeId(3))));
     }
     // The descent ends within a thousandth of the decrease of its cost.
     EXPECT_LT(error(motions[0], motions[1]), 1e-3);
