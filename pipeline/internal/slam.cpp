@@ -127,8 +127,11 @@ const std::vector<StageTimes::Stage>& Slam::stages() const { return impl_->times
 Map Slam::finish() {
   require(!impl_->finished, "Slam::finish: called twice");
   impl_->perform([&] {
-    impl_->links.finish(impl_->odometry.map(), impl_->mapper);
+    const Odometry& odometry = impl_->odometry;
+    impl_->links.finish(
+        odometry.map(), [&](KeyframeId to) { return odometry.correction(to); }, impl_->mapper);
     impl_->optimized(impl_->mapper.finish());
+    if (impl_->closer.correct_views()) impl_->feed.report_again();
   });
   impl_->finished = true;
   return snapshot();
@@ -355,7 +358,7 @@ void Slam::Impl::close_loops(FrameResult& result) {
   }();
   events.loops_decided(closer.records());
   if (loops.empty()) return;
-  for (const Loop& loop : loops) mapper.add_loop(links.with_errors(loop, odometry.map()));
+  for (const Loop& loop : loops) links.add_loop(loop, odometry.map(), mapper);
   result.loops_accepted += static_cast<int>(loops.size());
   optimized(mapper.optimize(first_open()));
 }

@@ -61,25 +61,33 @@ class NuisanceEquations {
   /// The evidence with the poses eliminated; directions that no residual measures (the pose of the
   /// whole window, the scale of a monocular camera) are left out.
   NuisanceEvidence evidence() const {
+    const Eigen::MatrixXd by_parameters = poses_by_parameters();
+    return {b_.tail(parameters_) + by_parameters.transpose() * b_.head(poses()),
+            H_.bottomRightCorner(parameters_, parameters_) +
+                by_parameters.transpose() * H_.topRightCorner(poses(), parameters_)};
+  }
+
+  /// Derivative of the estimated poses, in the right tangent of each in the order of the keyframes,
+  /// by the parameters; zero in the directions that no residual measures.
+  Eigen::MatrixXd poses_by_parameters() const {
     constexpr double kNothing = 1e-9;  // share of the largest eigenvalue
-    const Eigen::Index poses = H_.cols() - parameters_;
     const Eigen::VectorXd unit =
-        H_.diagonal().head(poses).cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+        H_.diagonal().head(poses()).cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
-        unit.asDiagonal() * H_.topLeftCorner(poses, poses) * unit.asDiagonal());
+        unit.asDiagonal() * H_.topLeftCorner(poses(), poses()) * unit.asDiagonal());
     const Eigen::ArrayXd lambda = eigen.eigenvalues().array();
     const Eigen::VectorXd inverse =
-        (lambda > kNothing * lambda[poses - 1]).select(lambda.inverse(), 0.0);
+        (lambda > kNothing * lambda[poses() - 1]).select(lambda.inverse(), 0.0);
     const Eigen::MatrixXd coupling =
         eigen.eigenvectors().transpose() *
-        (unit.asDiagonal() * H_.topRightCorner(poses, parameters_)).eval();
-    const Eigen::VectorXd b = eigen.eigenvectors().transpose() * unit.cwiseProduct(b_.head(poses));
-    return {b_.tail(parameters_) - coupling.transpose() * inverse.cwiseProduct(b),
-            H_.bottomRightCorner(parameters_, parameters_) -
-                coupling.transpose() * inverse.asDiagonal() * coupling};
+        (unit.asDiagonal() * H_.topRightCorner(poses(), parameters_)).eval();
+    return -(unit.asDiagonal() *
+             (eigen.eigenvectors() * (inverse.asDiagonal() * coupling).eval()).eval());
   }
 
  private:
+  Eigen::Index poses() const { return H_.cols() - parameters_; }
+
   void add_view(Eigen::Index row, Eigen::Index column, const WindowObservation& o,
                 const Eigen::Vector3d& p_map) {
     const SE3& T_map_cam = state_.keyframes.at(o.keyframe);

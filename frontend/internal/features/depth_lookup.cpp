@@ -52,19 +52,18 @@ void for_neighbours(const Image& registered, const Eigen::Vector2f& px, double r
     }
 }
 
-std::optional<double> depth_at(const Image& registered, const Eigen::Vector2f& px,
-                               double margin_px, const DepthLookupOptions& options) {
+std::optional<double> depth_at(const Image& registered, const Eigen::Vector2f& px, double margin_px,
+                               const DepthLookupOptions& options) {
   double sum = 0, weight = 0;
   float nearest = std::numeric_limits<float>::max(), farthest = 0;
-  for_neighbours(registered, px, margin_px,
-                 [&](const Eigen::Vector2d&, double distance, float z) {
-                   nearest = std::min(nearest, z);
-                   farthest = std::max(farthest, z);
-                   if (distance > options.radius_px) return;
-                   const double w = 1 / (0.5 + distance);
-                   sum += w * z;
-                   weight += w;
-                 });
+  for_neighbours(registered, px, margin_px, [&](const Eigen::Vector2d&, double distance, float z) {
+    nearest = std::min(nearest, z);
+    farthest = std::max(farthest, z);
+    if (distance > options.radius_px) return;
+    const double w = 1 / (0.5 + distance);
+    sum += w * z;
+    weight += w;
+  });
   if (weight > 0 && farthest - nearest < options.max_spread * nearest) return sum / weight;
   return std::nullopt;
 }
@@ -102,13 +101,11 @@ std::vector<std::optional<double>> lookup_depth(const Image& depth_m, const Came
   const Image registered = registered_depth(depth_m, camera, depth_camera);
   const double margin_px = margin_of(camera, options);
   std::vector<std::optional<double>> depths;
-  for (const Eigen::Vector2f& p : px)
-    depths.push_back(depth_at(registered, p, margin_px, options));
+  for (const Eigen::Vector2f& p : px) depths.push_back(depth_at(registered, p, margin_px, options));
   return depths;
 }
 
-std::vector<std::optional<SurfaceDepth>> lookup_surfaces(const Image& depth_m,
-                                                         const Camera& camera,
+std::vector<std::optional<SurfaceDepth>> lookup_surfaces(const Image& depth_m, const Camera& camera,
                                                          const DepthCamera& depth_camera,
                                                          const std::vector<Eigen::Vector2f>& px,
                                                          const DepthLookupOptions& options) {
@@ -122,6 +119,14 @@ std::vector<std::optional<SurfaceDepth>> lookup_surfaces(const Image& depth_m,
       surfaces.back() = {*depth, inverse_depth_gradient(registered, p, margin_px)};
   }
   return surfaces;
+}
+
+Eigen::Vector3d plane_through(const Camera& camera, const Eigen::Vector3d& ray,
+                              const SurfaceDepth& surface) {
+  if (surface.gradient.isZero(0)) return Eigen::Vector3d::Zero();
+  const Eigen::Vector2d slope =
+      surface.gradient.cwiseProduct(Eigen::Vector2d(camera.fx, camera.fy));
+  return {slope.x(), slope.y(), 1 / surface.depth_m - slope.dot(ray.head<2>())};
 }
 
 }  // namespace placegraph

@@ -36,10 +36,13 @@ struct SurfaceDepth {
   Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
 };
 /// The same with the slope of the surface, from a plane through the depths within the margin.
-std::vector<std::optional<SurfaceDepth>> lookup_surfaces(const Image& depth_m,
-                                                         const Camera& camera,
+std::vector<std::optional<SurfaceDepth>> lookup_surfaces(const Image& depth_m, const Camera& camera,
                                                          const DepthCamera& depth_camera,
                                                          const std::vector<Eigen::Vector2f>& px,
                                                          const DepthLookupOptions& options = {});
+/// g of the plane g^T X = 1 through the surface that the ray (z = 1) of its pixel meets; zero where
+/// the gradient is not determined.
+Eigen::Vector3d plane_through(const Camera& camera, const Eigen::Vector3d& ray,
+                              const SurfaceDepth& surface);
 
 }  // namespace placegraph

@@ -19,6 +19,7 @@ RgbdErrors::Derivative RgbdErrors::derivative(const Camera& camera, const Eigen:
   // The depth is read at the displaced pixel, from a surface that has moved against the camera.
   J.row(2) = surface_cam.head<2>().cwiseQuotient(f).transpose() * J.topRows<2>();
   J(2, kDepthTime) = surface_cam.dot(moved) / p_cam.z();
+  J.block<1, 2>(2, kDepthX) = -surface_cam.head<2>().transpose();
   return J;
 }
 
@@ -31,6 +32,8 @@ Eigen::Vector2d RgbdErrors::displacement_px(const Camera& camera, const Eigen::V
 DepthCamera RgbdErrors::corrected(DepthCamera depth, const Vector6d& twist) const {
   const SE3 T_cam_then = SE3::exp(values_[kDepthTime] * twist);
   depth.T_cam_depth = T_cam_then * depth.T_cam_depth;
+  depth.camera.cx += values_[kDepthX] * depth.camera.fx;
+  depth.camera.cy += values_[kDepthY] * depth.camera.fy;
   return depth;
 }
 

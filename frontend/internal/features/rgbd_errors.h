@@ -8,8 +8,8 @@ namespace placegraph {
 /// Errors of an RGB-D camera against its calibration that displace pixels and depths.
 ///
 /// Images are read row by row, from half the readout time before the frame's stamp to half of it
-/// after. The depth image shows the scene at the stamp plus the depth time. The effects of all are
-/// linear in their values.
+/// after. The depth image shows the scene at the stamp plus the depth time, displaced in the image.
+/// The effects of all are linear in their values.
 class RgbdErrors {
  public:
   enum Parameter : Eigen::Index {
@@ -18,6 +18,8 @@ class RgbdErrors {
     kPrincipalY,  ///< error of cy in units of fy
     kReadout,     ///< readout time of the image [s]
     kDepthTime,   ///< time of the depth image after the frame's stamp [s]
+    kDepthX,      ///< displacement of the depth image along u in focal lengths
+    kDepthY,      ///< the same along v
     kParameters
   };
   using Vector = Eigen::Matrix<double, kParameters, 1>;
@@ -36,6 +38,12 @@ class RgbdErrors {
                                const Eigen::Vector3d& p_cam, const Vector6d& twist,
                                const Eigen::Vector3d& surface_cam = Eigen::Vector3d::Zero());
 
+  /// Effect of these errors on u, v [px] and inverse depth [1/m].
+  Eigen::Vector3d effect(const Camera& camera, const Eigen::Vector2d& px,
+                         const Eigen::Vector3d& p_cam, const Vector6d& twist,
+                         const Eigen::Vector3d& surface_cam) const {
+    return derivative(camera, px, p_cam, twist, surface_cam) * values_;
+  }
   /// Displacement [px] of a point at `p_cam`, observed at `px`, by the errors.
   Eigen::Vector2d displacement_px(const Camera& camera, const Eigen::Vector2d& px,
                                   const Eigen::Vector3d& p_cam, const Vector6d& twist) const;

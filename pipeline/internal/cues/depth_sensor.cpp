@@ -38,14 +38,8 @@ std::vector<std::optional<InverseDepth>> DepthSensor::measure_surfaces(
   for (std::size_t i = 0; i < px.size(); ++i) {
     const auto ray = camera.unproject(px[i].cast<double>());
     if (!surfaces[i] || !ray) continue;
-    const double inverse = 1 / surfaces[i]->depth_m;
-    InverseDepth measured{*ray, inverse, depth.sigma_at_1m};
-    if (!surfaces[i]->gradient.isZero(0)) {
-      measured.surface_cam.head<2>() =
-          surfaces[i]->gradient.cwiseProduct(Eigen::Vector2d(camera.fx, camera.fy));
-      measured.surface_cam.z() = inverse - measured.surface_cam.head<2>().dot(ray->head<2>());
-    }
-    result[i] = measured;
+    result[i] = {*ray, 1 / surfaces[i]->depth_m, depth.sigma_at_1m,
+                 plane_through(camera, *ray, *surfaces[i])};
   }
   return result;
 }

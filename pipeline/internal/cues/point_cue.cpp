@@ -78,16 +78,15 @@ std::vector<Eigen::Vector2f> PointCue::predict(const SlidingWindow& window, cons
   return predicted;
 }
 
-/// Pixel at which the track would be without the errors of the camera. `p_cam`: its point; nothing:
-/// far off.
-Eigen::Vector2d PointCue::corrected_px(const PointTrack& track,
+/// Where a pixel would be without the errors of a camera that moves by `twist`. `p_cam`: its point;
+/// nothing: far off.
+Eigen::Vector2d PointCue::corrected_px(const Eigen::Vector2d& px, const Vector6d& twist,
                                        const std::optional<Eigen::Vector3d>& p_cam) const {
-  const Eigen::Vector2d px = track.px.cast<double>();
   if (!errors_.any()) return px;
   constexpr double kFar_m = 1e3;
   const auto ray = camera_.unproject(px);
-  if (p_cam && p_cam->z() > 0) return px - errors_.displacement_px(camera_, px, *p_cam, twist_);
-  return ray ? px - errors_.displacement_px(camera_, px, kFar_m * *ray, twist_) : px;
+  if (p_cam && p_cam->z() > 0) return px - errors_.displacement_px(camera_, px, *p_cam, twist);
+  return ray ? px - errors_.displacement_px(camera_, px, kFar_m * *ray, twist) : px;
 }
 
 /// The same of all tracks, one entry per track.
@@ -98,7 +97,7 @@ std::vector<Eigen::Vector2d> PointCue::corrected_px(const SlidingWindow& window,
   for (const PointTrack& track : tracks()) {
     auto point = window.landmark(track.id);
     if (point) *point = T_cam_odom * *point;
-    px.push_back(corrected_px(track, point));
+    px.push_back(corrected_px(track.px.cast<double>(), twist_, point));
   }
   return px;
 }
@@ -244,21 +243,22 @@ std::vector<std::optional<InverseDepth>> PointCue::measure_depth(
 
 /// Position [m] in the odometry frame of a point that is not yet in the window: from its depth, or
 /// from the intersection of the rays of its observations. Nothing if neither is certain enough.
-std::optional<Eigen::Vector3d> PointCue::place_point(const Observation& now,
+std::optional<Eigen::Vector3d> PointCue::place_point(KeyframeId keyframe, const Eigen::Vector2d& px,
                                                      const std::vector<Observation>& before,
                                                      const std::optional<InverseDepth>& depth,
                                                      const SlidingWindow& window) const {
-  const SE3 T_odom_cam = window.pose(now.keyframe);
+  const SE3 T_odom_cam = window.pose(keyframe);
   // Maximum relative standard deviation of an inverse depth that alone determines a point.
   constexpr double kCertain = 0.2;
   if (depth && depth->sigma < kCertain * depth->value) {
-    const auto ray = camera_.unproject(now.px);
+    const auto ray = camera_.unproject(px);
     if (!ray) return std::nullopt;
     return T_odom_cam * Eigen::Vector3d(*ray / depth->value);
   }
   if (before.empty()) return std::nullopt;
-  std::vector<PointMeasurement> rays{{T_odom_cam, now.px}};
-  for (const Observation& o : before) rays.push_back({window.pose(o.keyframe), o.px});
+  std::vector<PointMeasurement> rays{{T_odom_cam, px}};
+  for (const Observation& o : before)
+    rays.push_back({window.pose(o.keyframe), corrected_px(o.px, o.twist, std::nullopt)});
   const auto point =
       triangulate(camera_, rays, deg_to_rad(options_.min_parallax_deg), options_.outlier_px);
   if (!point.outcome) return std::nullopt;
@@ -281,15 +281,19 @@ void PointCue::observe(KeyframeId keyframe, const Frame& frame,
     // The error of a patch that is warped or half occluded changes slowly: the observations of a
     // track are not independent, and their weight decreases with their number.
     const double correlated = 1 + static_cast<double>(observations.size());
-    const Observation now{keyframe, px[i], correlated * tracks()[i].covariance.cast<double>()};
+    const Observation now{keyframe, tracks()[i].px.cast<double>(),
+                          correlated * tracks()[i].covariance.cast<double>(), twist_};
     if (!window.landmark(id))
-      if (const auto point_odom = place_point(now, observations, depths[i], window)) {
+      if (const auto point_odom = place_point(keyframe, px[i], observations, depths[i], window)) {
         window.add_landmark(id, *point_odom);
         for (const Observation& o : observations)
-          add_observation(o.keyframe, id, o.px, o.covariance_px, std::nullopt, window);
+          add_observation(
+              o.keyframe, id,
+              corrected_px(o.px, o.twist, window.pose(o.keyframe).inverse() * *point_odom),
+              o.covariance_px, std::nullopt, window);
       }
     if (window.landmark(id))
-      add_observation(keyframe, id, now.px, now.covariance_px, depths[i], window);
+      add_observation(keyframe, id, px[i], now.covariance_px, depths[i], window);
     observations.push_back(now);
     all[id] = std::move(observations);
   }

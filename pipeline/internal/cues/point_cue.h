@@ -1,5 +1,6 @@
 #pragma once
 #include <placegraph/backend/internal/window/sliding_window.h>
+#include <placegraph/frontend/internal/features/rgbd_errors.h>
 #include <placegraph/frontend/internal/flow/point_tracker.h>
 #include <placegraph/frontend/internal/relative_pose/pose_3d2d.h>
 #include <placegraph/graph/core/ids.h>
@@ -7,7 +8,6 @@
 #include <placegraph/pipeline/cues/cue_options.h>
 #include <placegraph/pipeline/internal/cues/depth_sensor.h>
 #include <placegraph/pipeline/internal/cues/direct_cue.h>
-#include <placegraph/frontend/internal/features/rgbd_errors.h>
 
 #include <map>
 #include <optional>
@@ -102,13 +102,14 @@ class PointCue {
  private:
   struct Observation {
     KeyframeId keyframe;
-    Eigen::Vector2d px;
+    Eigen::Vector2d px;  // as tracked
     Eigen::Matrix2d covariance_px;
+    Vector6d twist = Vector6d::Zero();  // the velocity at the keyframe
   };
   std::vector<bool> used_by(const Image& mask) const;
   std::vector<Eigen::Vector2f> predict(const SlidingWindow& window, const SE3& T_odom_last,
                                        const SE3& T_odom_cam, double median_depth) const;
-  Eigen::Vector2d corrected_px(const PointTrack& track,
+  Eigen::Vector2d corrected_px(const Eigen::Vector2d& px, const Vector6d& twist,
                                const std::optional<Eigen::Vector3d>& p_cam) const;
   std::vector<Eigen::Vector2d> corrected_px(const SlidingWindow& window,
                                             const SE3& T_odom_cam) const;
@@ -117,7 +118,7 @@ class PointCue {
                                                          const RectificationError& rectification,
                                                          const SE3& T_odom_cam,
                                                          const SlidingWindow& window) const;
-  std::optional<Eigen::Vector3d> place_point(const Observation& now,
+  std::optional<Eigen::Vector3d> place_point(KeyframeId keyframe, const Eigen::Vector2d& px,
                                              const std::vector<Observation>& before,
                                              const std::optional<InverseDepth>& depth,
                                              const SlidingWindow& window) const;

@@ -9,11 +9,11 @@ namespace {
 
 using RgbdMatrix = Eigen::Matrix<double, RgbdErrors::kParameters, RgbdErrors::kParameters>;
 
-/// Standard deviations: of the focal length and the principal point relative to the focal length,
-/// of the readout time and the depth time [s].
+/// Standard deviations: of the focal length, the principal point and the displacement of depths
+/// relative to the focal length, of the readout time and the depth time [s].
 RgbdErrors::Vector rgbd_sigmas(double intrinsics, double readout_s, double depth_time_s) {
   RgbdErrors::Vector result;
-  result << intrinsics, intrinsics, intrinsics, readout_s, depth_time_s;
+  result << intrinsics, intrinsics, intrinsics, readout_s, depth_time_s, intrinsics, intrinsics;
   return result;
 }
 
@@ -29,19 +29,22 @@ Vector6d RgbdCalibrator::twist(KeyframeId keyframe) const {
   return known == twists_.end() ? Vector6d::Zero() : known->second;
 }
 
-NuisanceEvidence RgbdCalibrator::evidence(const SlidingWindow& window) const {
+NuisanceEquations RgbdCalibrator::equations(const WindowState& state) const {
   constexpr std::size_t kViews = 3;  // two views are consistent with nearly any errors
-  const auto derivative_of = [&](const WindowObservation& o, const Eigen::Vector3d& p_cam,
-                                 NuisanceEquations::Derivative& J) {
+  const auto derivative_of = [this](const WindowObservation& o, const Eigen::Vector3d& p_cam,
+                                    NuisanceEquations::Derivative& J) {
     J = RgbdErrors::derivative(camera_, o.px, p_cam, twist(o.keyframe), o.surface_cam);
   };
-  const WindowState& state = window.state();
   NuisanceEquations equations(state, RgbdErrors::kParameters, derivative_of);
   for (const auto& [id, landmark] : state.landmarks) {
     const auto observations = usable_observations(state, landmark);
     if (observations.size() >= kViews) equations.add(observations, landmark.p_map);
   }
-  NuisanceEvidence result = equations.evidence();
+  return equations;
+}
+
+NuisanceEvidence RgbdCalibrator::evidence(const SlidingWindow& window) const {
+  NuisanceEvidence result = equations(window.state()).evidence();
   // The observations are corrected by what is applied.
   result.gradient -= result.information * applied_.values();
   return result;
@@ -89,17 +92,41 @@ bool RgbdCalibrator::calibrate(SlidingWindow& window) {
     newest_ = keyframes.back();
   }
   const RgbdErrors next = significant(found);
-  const RgbdErrors::Vector change = next.values() - applied_.values();
-  if (change.isZero(0)) return false;
+  const RgbdErrors change(next.values() - applied_.values());
+  if (!change.any()) return false;
   applied_ = next;
   revise(change, window);
   return true;
 }
 
+/// The derivatives change little while the window moves on: they are computed twice for each
+/// motion.
+void RgbdCalibrator::add_motions(const SlidingWindow& window) {
+  const auto keyframes = window.keyframes();
+  if (keyframes.size() < 2 || twists_.size() + 1 < keyframes.size()) return;
+  for (std::size_t i = 1; i < keyframes.size(); ++i)
+    motions_[keyframes[i]].corrected = applied_.values();
+  if (2 * ++since_motions_ < full_) return;
+  since_motions_ = 0;
+  const Eigen::MatrixXd poses = equations(window.state()).poses_by_parameters();
+  for (std::size_t i = 1; i < keyframes.size(); ++i) {
+    const SE3 T_to_from = window.pose(keyframes[i]).inverse() * window.pose(keyframes[i - 1]);
+    const auto row = static_cast<Eigen::Index>(6 * i);
+    motions_[keyframes[i]].by_errors =
+        poses.middleRows<6>(row) - T_to_from.adjoint() * poses.middleRows<6>(row - 6);
+  }
+}
+
+Vector6d RgbdCalibrator::correction(KeyframeId to) const {
+  const auto motion = motions_.find(to);
+  if (motion == motions_.end()) return Vector6d::Zero();
+  return motion->second.by_errors * (applied_.values() - motion->second.corrected);
+}
+
 /// An error of the intrinsics beyond what a calibration errs by is left to who calibrates: it may
 /// be the effect of something else.
 RgbdErrors RgbdCalibrator::significant(const Estimate& found) const {
-  constexpr double kChi2 = 20.5;  // 99.9 % of five degrees of freedom
+  constexpr double kChi2 = 24.3;  // 99.9 % of seven degrees of freedom
   constexpr double kMostSigmas = 2;
   const double chi2 = found.errors.dot(found.covariance.ldlt().solve(found.errors));
   if (!applied_.any() && !(chi2 > kChi2)) return RgbdErrors();
@@ -111,7 +138,7 @@ RgbdErrors RgbdCalibrator::significant(const Estimate& found) const {
   return RgbdErrors(errors);
 }
 
-void RgbdCalibrator::revise(const RgbdErrors::Vector& change, SlidingWindow& window) const {
+void RgbdCalibrator::revise(const RgbdErrors& change, SlidingWindow& window) const {
   for (const LandmarkId id : window.landmarks()) {
     const Eigen::Vector3d p_map = *window.landmark(id);
     const std::vector<WindowObservation> observations = window.observations(id);
@@ -119,7 +146,7 @@ void RgbdCalibrator::revise(const RgbdErrors::Vector& change, SlidingWindow& win
       const Eigen::Vector3d p_cam = window.pose(o.keyframe).inverse() * p_map;
       if (!(p_cam.z() > 0)) continue;
       const Eigen::Vector3d moved =
-          RgbdErrors::derivative(camera_, o.px, p_cam, twist(o.keyframe), o.surface_cam) * change;
+          change.effect(camera_, o.px, p_cam, twist(o.keyframe), o.surface_cam);
       o.px -= moved.head<2>();
       if (o.inverse_depth) *o.inverse_depth -= moved.z();
       window.revise(o);

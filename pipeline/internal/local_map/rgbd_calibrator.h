@@ -9,6 +9,8 @@
 
 namespace placegraph {
 
+class NuisanceEquations;
+
 /// Estimates the errors of an RGB-D camera (RgbdErrors) in motion, from bundle adjustment over its
 /// windows with the errors as further unknowns: those of times show where the speed changes, those
 /// of the calibration where the camera turns.
@@ -24,6 +26,11 @@ class RgbdCalibrator {
   /// Updates the estimate with the window and corrects all observations in the window accordingly;
   /// returns whether any has changed.
   bool calibrate(SlidingWindow& window);
+  /// Notes how the motions between the keyframes of the optimized window depend on the errors.
+  void add_motions(const SlidingWindow& window);
+  /// Change of the motion into a keyframe from the one before it, in its right tangent, by what has
+  /// been learned about the errors since the window was optimized with both for the last time.
+  Vector6d correction(KeyframeId to) const;
 
   struct Estimate {
     RgbdErrors::Vector errors;
@@ -35,8 +42,9 @@ class RgbdCalibrator {
   Estimate estimate(const std::optional<NuisanceEvidence>& newest) const;
 
  private:
+  NuisanceEquations equations(const WindowState& state) const;
   NuisanceEvidence evidence(const SlidingWindow& window) const;
-  void revise(const RgbdErrors::Vector& change, SlidingWindow& window) const;
+  void revise(const RgbdErrors& change, SlidingWindow& window) const;
   Vector6d twist(KeyframeId keyframe) const;
 
   RgbdErrors significant(const Estimate& found) const;
@@ -47,6 +55,12 @@ class RgbdCalibrator {
   std::map<KeyframeId, Vector6d> twists_;  // keyframes of the window
   std::vector<NuisanceEvidence> windows_;  // about zero errors; they share no keyframe
   std::optional<KeyframeId> newest_;       // newest keyframe of the last of them
+  struct Motion {
+    Eigen::Matrix<double, 6, RgbdErrors::kParameters> by_errors = decltype(by_errors)::Zero();
+    RgbdErrors::Vector corrected = RgbdErrors::Vector::Zero();  // errors that it was estimated with
+  };
+  std::map<KeyframeId, Motion> motions_;  // by the keyframe at the end
+  std::size_t since_motions_ = 0;         // keyframes since their derivatives were computed
 };
 
 }  // namespace placegraph

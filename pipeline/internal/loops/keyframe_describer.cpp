@@ -9,6 +9,12 @@
 #include <algorithm>
 
 namespace placegraph {
+namespace {
+
+/// Depth [m] of points that no depth image shows.
+constexpr double kFar_m = 1e3;
+
+}  // namespace
 
 double farthest_depth(const DescribedKeyframe& keyframe) {
   double farthest = 0;
@@ -37,12 +43,12 @@ std::vector<Feature> KeyframeDescriber::features(const Frame& frame) const {
 }
 
 /// Sets the points of the features that the depth image covers, and moves all features to where
-/// they would be without the errors. Points without a depth count as far off.
-void KeyframeDescriber::add_depths(const Frame& frame, const FrameErrors& frame_errors,
-                                   std::vector<Feature>& features) const {
-  if (!calibration_.depth || frame.depth.empty()) return;
+/// they would be without the errors. Returns the surfaces of the features.
+std::vector<Eigen::Vector3f> KeyframeDescriber::add_depths(const Frame& frame,
+                                                           const FrameErrors& frame_errors,
+                                                           std::vector<Feature>& features) const {
+  if (!calibration_.depth || frame.depth.empty()) return {};
   const auto& [errors, twist] = frame_errors;
-  constexpr double kFar_m = 1e3;
   const Camera& camera = calibration_.camera;
   const auto corrected = [&, &errors = errors, &twist = twist](const Feature& feature,
                                                                double depth_m) {
@@ -53,14 +59,41 @@ void KeyframeDescriber::add_depths(const Frame& frame, const FrameErrors& frame_
   };
   std::vector<Eigen::Vector2f> px;
   for (const Feature& feature : features) px.push_back(corrected(feature, kFar_m).cast<float>());
-  const auto depths =
-      lookup_depth(frame.depth, camera, errors.corrected(*calibration_.depth, twist), px);
+  const auto surfaces =
+      lookup_surfaces(frame.depth, camera, errors.corrected(*calibration_.depth, twist), px);
+  std::vector<Eigen::Vector3f> planes(features.size(), Eigen::Vector3f::Zero());
   for (std::size_t i = 0; i < features.size(); ++i) {
     Feature& feature = features[i];
-    if (errors.any()) feature.px = corrected(feature, depths[i].value_or(kFar_m)).cast<float>();
+    const double depth_m = surfaces[i] ? surfaces[i]->depth_m : kFar_m;
+    if (errors.any()) feature.px = corrected(feature, depth_m).cast<float>();
     const auto ray = camera.unproject(feature.px.cast<double>());
-    if (depths[i] && ray) feature.point_cam = (*depths[i] * *ray).cast<float>();
+    if (!surfaces[i] || !ray) continue;
+    feature.point_cam = (depth_m * *ray).cast<float>();
+    planes[i] = plane_through(camera, *ray, *surfaces[i]).cast<float>();
   }
+  return planes;
+}
+
+bool KeyframeDescriber::correct(DescribedKeyframe& keyframe, const RgbdErrors& errors) const {
+  const RgbdErrors change(errors.values() - keyframe.errors.errors.values());
+  if (!change.any() || keyframe.surfaces_cam.size() != keyframe.features.size()) return false;
+  const Camera& camera = calibration_.camera;
+  for (std::size_t i = 0; i < keyframe.features.size(); ++i) {
+    Feature& feature = keyframe.features[i];
+    const Eigen::Vector2d px = feature.px.cast<double>();
+    const auto ray = camera.unproject(px);
+    if (!ray) continue;
+    const double depth_m = feature.point_cam ? feature.point_cam->z() : kFar_m;
+    const Eigen::Vector3d moved = change.effect(camera, px, depth_m * *ray, keyframe.errors.twist,
+                                                keyframe.surfaces_cam[i].cast<double>());
+    feature.px = (px - moved.head<2>()).cast<float>();
+    const auto corrected = camera.unproject(feature.px.cast<double>());
+    const double inverse_depth = 1 / depth_m - moved.z();
+    if (feature.point_cam && corrected && inverse_depth > 0)
+      feature.point_cam = (*corrected / inverse_depth).cast<float>();
+  }
+  keyframe.errors.errors = errors;
+  return true;
 }
 
 DescribedKeyframe KeyframeDescriber::describe(KeyframeId keyframe, const Frame& frame,
@@ -68,7 +101,8 @@ DescribedKeyframe KeyframeDescriber::describe(KeyframeId keyframe, const Frame& 
                                               const FrameErrors& errors) const {
   DescribedKeyframe described{
       keyframe, frame.id, detect_features(frame.image, detector_, frame.mask), std::move(lines)};
-  add_depths(frame, errors, described.features);
+  described.surfaces_cam = add_depths(frame, errors, described.features);
+  described.errors = errors;
   std::vector<LineSegment> segments;
   for (const LineFeature& line : described.lines) segments.push_back(line.segment);
   const auto descriptors = describe_segments(frame.image, segments);

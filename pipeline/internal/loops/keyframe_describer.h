@@ -15,7 +15,10 @@ struct DescribedKeyframe {
   KeyframeId keyframe;
   FrameId frame;
   std::vector<Feature> features;
-  std::vector<LineFeature> lines;  ///< empty for keyframes of a loaded map
+  std::vector<LineFeature> lines;      ///< empty for keyframes of a loaded map
+  FrameErrors errors = FrameErrors();  ///< that the features are corrected by
+  /// g of the surface g^T X = 1 of every feature; empty for keyframes of a loaded map.
+  std::vector<Eigen::Vector3f> surfaces_cam = {};
   LoopView for_verification() const { return {features, lines}; }
 };
 
@@ -40,6 +43,9 @@ class KeyframeDescriber {
   DescribedKeyframe describe(KeyframeId keyframe, const Frame& frame,
                              std::vector<LineFeature> lines,
                              const FrameErrors& errors = FrameErrors()) const;
+  /// Corrects the features by what is known about the errors by now; returns whether that changed
+  /// them.
+  bool correct(DescribedKeyframe& keyframe, const RgbdErrors& errors) const;
   /// Computes depth from the parallax between consecutive keyframes, in the same manner for
   /// monocular and stereo cameras, for features observed in both whose rays meet at 0.7 degrees or
   /// more and within 2 px. A feature of the previous keyframe that has a depth keeps it. Does
@@ -48,8 +54,8 @@ class KeyframeDescriber {
                    const SE3& T_previous_current) const;
 
  private:
-  void add_depths(const Frame& frame, const FrameErrors& frame_errors,
-                  std::vector<Feature>& features) const;
+  std::vector<Eigen::Vector3f> add_depths(const Frame& frame, const FrameErrors& frame_errors,
+                                          std::vector<Feature>& features) const;
 
   DetectorOptions detector_;
   MatcherOptions matcher_;

@@ -34,9 +34,17 @@ LoopCloser::LoopCloser(const LoopOptions& options, const Calibration& calibratio
   records_ = map.loops;
 }
 
-const LoopCloser::View& LoopCloser::view(KeyframeId keyframe) const {
-  return *std::lower_bound(views_.begin(), views_.end(), keyframe,
-                           [](const View& v, KeyframeId id) { return v.keyframe < id; });
+/// Where the view of a keyframe is in views_.
+std::size_t LoopCloser::number_of(KeyframeId keyframe) const {
+  const auto at = std::ranges::lower_bound(views_, keyframe, {}, &View::keyframe);
+  return static_cast<std::size_t>(at - views_.begin());
+}
+
+bool LoopCloser::correct_views() {
+  bool changed = false;
+  for (View& view : views_)
+    changed = describer_.correct(view, views_.back().errors.errors) || changed;
+  return changed;
 }
 
 void LoopCloser::add_view(KeyframeId keyframe, const Frame& frame,
@@ -76,7 +84,7 @@ double LoopCloser::similarity_to_previous(std::size_t number) const {
 
 /// Older views similar to the newest one, the most similar first. In another component of the map
 /// the newest ones count too.
-std::vector<LoopCloser::Candidate> LoopCloser::retrieve(const KnownMotions& known) const {
+std::vector<LoopCloser::Candidate> LoopCloser::retrieve(const KnownMotions& known) {
   const View& query = views_.back();
   const double unit = recognizer_ ? 1 : similarity_to_previous(views_.size() - 1);
   std::vector<Candidate> candidates;
@@ -85,7 +93,7 @@ std::vector<LoopCloser::Candidate> LoopCloser::retrieve(const KnownMotions& know
          return query.frame.value() - view(id).frame.value() >= options_.min_frame_gap ||
                 (known.apart && known.apart(id, query.keyframe));
        }))
-    candidates.push_back({&view(candidate.id), unit > 0 ? candidate.score / unit : 1});
+    candidates.push_back({&views_[number_of(candidate.id)], unit > 0 ? candidate.score / unit : 1});
   return candidates;
 }
 
@@ -186,6 +194,7 @@ std::vector<Loop> LoopCloser::find_loops(const KnownMotions& known, double media
     record.query_frame = views_.back().frame;
     record.match_frame = candidate.match->frame;
     record.similarity = candidate.similarity;
+    describer_.correct(*candidate.match, views_.back().errors.errors);
     const std::optional<Loop> loop = judge(candidate, known, median_depth_m, record);
     record.probability = loop_probability(record);
     records_.push_back(record);

@@ -34,6 +34,9 @@ class LoopCloser {
   /// RGB-D camera.
   void add_view(KeyframeId keyframe, const Frame& frame, const std::optional<SE3>& T_previous_this,
                 std::vector<LineFeature> lines = {}, const FrameErrors& errors = FrameErrors());
+  /// Corrects the features of all views by the errors of the newest; returns whether that changed
+  /// any.
+  bool correct_views();
   /// Returns the loops that the newest view completes.
   std::vector<Loop> find_loops(const KnownMotions& known, double median_depth_m);
   /// Measures the loop between two keyframes, without the other tests; nothing if their
@@ -58,7 +61,7 @@ class LoopCloser {
 
  private:
   struct Candidate {
-    const View* match;
+    View* match;
     /// Relative to the similarity of the keyframe before the newest view; a recognizer's score.
     double similarity;
   };
@@ -69,7 +72,7 @@ class LoopCloser {
   std::vector<PlaceCandidate> similar_views(const std::vector<Feature>& features,
                                             const Image& image,
                                             const std::function<bool(KeyframeId)>& allowed) const;
-  std::vector<Candidate> retrieve(const KnownMotions& known) const;
+  std::vector<Candidate> retrieve(const KnownMotions& known);
   double similarity_to_previous(std::size_t number) const;
   std::optional<Loop> verify(const View& query, const View& match, bool free_scale,
                              LoopRecord& record) const;
@@ -77,7 +80,8 @@ class LoopCloser {
                             double median_depth_m, LoopRecord& record) const;
   std::vector<Loop> support(const MotionBetween& odometry, double median_depth_m);
   void accept(const Pending& pending, std::vector<Loop>& accepted);
-  const View& view(KeyframeId keyframe) const;
+  std::size_t number_of(KeyframeId keyframe) const;
+  const View& view(KeyframeId keyframe) const { return views_[number_of(keyframe)]; }
 
   LoopOptions options_;
   KeyframeDescriber describer_;

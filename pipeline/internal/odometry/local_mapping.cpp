@@ -42,6 +42,10 @@ RectificationError LocalMapping::rectification() const {
   return rectifier_ ? rectifier_->error() : RectificationError();
 }
 
+Vector6d LocalMapping::correction(KeyframeId to) const {
+  return rgbd_ ? rgbd_->correction(to) : Vector6d(Vector6d::Zero());
+}
+
 void LocalMapping::assume(const std::optional<Assumptions>& assumptions) {
   masks_.trust(!assumptions || assumptions->street_surfaces);
   scale_.trust_height(!assumptions || assumptions->ground_height);
@@ -58,9 +62,10 @@ std::optional<LocalMapping::Added> LocalMapping::add(const Frame& frame, const S
   if (rgbd_ && velocity) rgbd_->add_keyframe(id, *velocity);
   tracker.observe(images, rectification(), map, random);
   NewKeyframe keyframe{id, images.frame, images.labels, FrameErrors()};
-  if (rgbd_ && velocity) keyframe.errors = {rgbd_->errors(), *velocity};
   Added added{std::move(keyframe), {}, measure_scale(images, tracker, map)};
   refine(tracker, map);
+  if (rgbd_)
+    added.keyframe.errors = {rgbd_->errors(), velocity.value_or(Vector6d(Vector6d::Zero()))};
   added.posed_again = tracker.finish_keyframe(added.rescale ? added.rescale->factor : 1, map);
   return added;
 }
@@ -77,6 +82,7 @@ void LocalMapping::refine(FrameTracker& tracker, LocalMap& map) {
   const Outcome optimized = map.optimize();
   if (!optimized) log(log_, LogLevel::kWarning, "window not optimized: {}", optimized.reason);
   if (rgbd_ && rgbd_->calibrate(map.window())) use_errors(*rgbd_, tracker, map);
+  if (rgbd_) rgbd_->add_motions(map.window());
   map.update_poses(tracker.prune(map), tracker.corrects_rotations());
   calibrate(tracker, map);
   const auto leaving = times_.measure("marginalization");
@@ -92,9 +98,10 @@ void LocalMapping::use_errors(const RgbdCalibrator& rgbd, FrameTracker& tracker,
   const RgbdErrors::Vector& q = rgbd.errors().values();
   log(log_, LogLevel::kDebug,
       "RGB-D camera: focal length off by {:.4f}, principal point by {:.4f}, {:.4f} focal lengths; "
-      "readout {:.4f} s, depth time {:.4f} s",
+      "readout {:.4f} s, depth time {:.4f} s, depths displaced by {:.4f}, {:.4f} focal lengths",
       q[RgbdErrors::kFocal], q[RgbdErrors::kPrincipalX], q[RgbdErrors::kPrincipalY],
-      q[RgbdErrors::kReadout], q[RgbdErrors::kDepthTime]);
+      q[RgbdErrors::kReadout], q[RgbdErrors::kDepthTime], q[RgbdErrors::kDepthX],
+      q[RgbdErrors::kDepthY]);
 }
 
 /// A single keyframe provides no information on the cameras.

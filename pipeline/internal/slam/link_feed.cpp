@@ -35,11 +35,16 @@ void LinkFeed::rescale(KeyframeId first, double factor) {
     at->second = at->second.scaled(factor);
 }
 
+void LinkFeed::add_loop(const Loop& loop, const LocalMap& map, PlaceMapper& mapper) {
+  mapper.add_loop(with_errors(loop, map));
+}
+
 Loop LinkFeed::with_errors(const Loop& loop, const LocalMap& map) const {
+  constexpr std::size_t kNewest = 100;
   std::vector<double> of_position, of_rotation;
-  for (const auto& [keyframe, link] : links_) {
-    const Matrix6d stated = link.motion.stated;
-    const Matrix6d covariance = map.uncertainty().covariance(link.motion);
+  for (auto at = links_.rbegin(); at != links_.rend() && of_position.size() < kNewest; ++at) {
+    const AssessedMotion& motion = at->second.motion;
+    const Matrix6d stated = motion.stated, covariance = map.uncertainty().covariance(motion);
     of_position.push_back(
         (stated.topLeftCorner<3, 3>().inverse() * covariance.topLeftCorner<3, 3>()).trace() / 3);
     of_rotation.push_back(
@@ -82,9 +87,14 @@ std::optional<OdometryError> LinkFeed::odometry_error(const LocalMap& map,
   return error;
 }
 
-void LinkFeed::finish(const LocalMap& map, PlaceMapper& mapper) const {
-  for (const auto& [keyframe, link] : links_)
+void LinkFeed::finish(const LocalMap& map, const std::function<Vector6d(KeyframeId)>& correction,
+                      PlaceMapper& mapper) const {
+  for (const auto& [keyframe, link] : links_) {
+    const Vector6d change = correction(keyframe);
+    const auto motion = mapper.odometry(KeyframeId(keyframe.value() - 1), keyframe);
+    if (motion && !change.isZero(0)) mapper.update_link(keyframe, motion->T_a_b * SE3::exp(change));
     mapper.inform_link(keyframe, map.information(link.motion), link.sigma_log_scale);
+  }
   for (const auto& [anchor, motion] : to_anchors_)
     mapper.inform_anchor(anchor, map.information(motion));
 }

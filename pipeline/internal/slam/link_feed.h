@@ -5,14 +5,15 @@
 #include <placegraph/pipeline/internal/places/place_mapper.h>
 #include <placegraph/pipeline/slam.h>
 
+#include <functional>
 #include <map>
 #include <optional>
 
 namespace placegraph {
 
-/// Passes the motions between keyframes and their uncertainties from the local map to the place
+/// Passes motions between keyframes, loops, and their uncertainties from the local map to the place
 /// graph. What the run learns about its errors later holds for earlier motions, too: finish()
-/// passes their uncertainties again.
+/// passes motions and uncertainties again.
 class LinkFeed {
  public:
   /// Updates the links of the last `keyframes` keyframes up to `newest`, which the window still
@@ -21,16 +22,20 @@ class LinkFeed {
   void refresh(const LocalMap& map, KeyframeId newest, int keyframes, PlaceMapper& mapper);
   /// Multiplies all lengths from keyframe `first` on by `factor`.
   void rescale(KeyframeId first, double factor);
-  /// A loop whose covariance is as much larger than the noise of its features as those of the
-  /// motions are: translation and rotation by the median factor of the links.
-  Loop with_errors(const Loop& loop, const LocalMap& map) const;
+  /// Adds a loop. Its covariance is as much larger than the noise of its features as those of the
+  /// motions are, translation and rotation by the median factor of the newest links.
+  void add_loop(const Loop& loop, const LocalMap& map, PlaceMapper& mapper);
   /// Errors of the motion from the anchor of the first place to that of the last one of its
   /// component, along the links; nothing where a link between them is none of this run's odometry.
   std::optional<OdometryError> odometry_error(const LocalMap& map, const PlaceMapper& mapper) const;
-  /// Passes all uncertainties again.
-  void finish(const LocalMap& map, PlaceMapper& mapper) const;
+  /// Passes all uncertainties again, and the motions with their `correction`, in the right tangent
+  /// of the motion into a keyframe.
+  void finish(const LocalMap& map, const std::function<Vector6d(KeyframeId)>& correction,
+              PlaceMapper& mapper) const;
 
  private:
+  Loop with_errors(const Loop& loop, const LocalMap& map) const;
+
   std::map<KeyframeId, LocalMap::Link> links_;       // by the keyframe at the end
   std::map<KeyframeId, AssessedMotion> to_anchors_;  // from the previous anchor
 };

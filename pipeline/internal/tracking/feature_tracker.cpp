@@ -101,9 +101,11 @@ TrackedFrame FeatureTracker::track(const Frame& frame, const LocalMap& map,
   selector_.count_frame();
   tracked.keyframe_due = keyframe_due(tracked.T_odom_cam, tracked.inliers, map);
   if (!tracked.keyframe_due)
-    intermediate_.remember(
-        {frame.id, map.window().pose(map.newest()).inverse() * tracked.T_odom_cam,
-         points_.landmark_pixels(window, tracked.T_odom_cam), manhattan_rotation});
+    intermediate_.remember({frame.id,
+                            map.window().pose(map.newest()).inverse() * tracked.T_odom_cam,
+                            points_.landmark_pixels(window, tracked.T_odom_cam),
+                            manhattan_rotation,
+                            {points_.errors(), velocity_.at()}});
   return tracked;
 }
 
@@ -252,7 +254,8 @@ std::vector<PosedFrame> FeatureTracker::finish_keyframe(double scale, const Loca
   start_selection(points_.tracked_landmarks(map.window()) +
                   (lines_ ? lines_->followed(map.window()) : 0));
   const auto previous = map.before_newest();
-  return previous ? intermediate_.repose(map, *previous, scale) : std::vector<PosedFrame>();
+  return previous ? intermediate_.repose(map, *previous, scale, points_.errors())
+                  : std::vector<PosedFrame>();
 }
 
 void FeatureTracker::start_selection(int landmarks) {

@@ -13,23 +13,31 @@ void IntermediateFrames::correct_drift(const std::map<LandmarkId, Eigen::Vector2
 }
 
 std::vector<std::pair<FrameId, SE3>> IntermediateFrames::repose(const LocalMap& map,
-                                                                KeyframeId keyframe, double scale) {
+                                                                KeyframeId keyframe, double scale,
+                                                                const RgbdErrors& errors) {
   constexpr int kIterations = 10;
   constexpr double kSigmaPx = 1;  // standard deviation of a track
   const SlidingWindow& window = map.window();
   std::vector<std::pair<FrameId, SE3>> posed;
   for (const Tracked& frame : frames_) {
+    const SE3 T_odom_before = window.pose(keyframe) * frame.T_keyframe_cam.scaled(scale);
+    const RgbdErrors change(errors.values() - frame.errors.errors.values());
+    const auto corrected = [&](const Eigen::Vector2d& pixel, const Eigen::Vector3d& point) {
+      const Eigen::Vector3d p_cam = T_odom_before.inverse() * point;
+      if (!change.any() || !(p_cam.z() > 0)) return pixel;
+      return Eigen::Vector2d(pixel -
+                             change.displacement_px(camera_, pixel, p_cam, frame.errors.twist));
+    };
     std::vector<Eigen::Vector3d> points;
     std::vector<Eigen::Vector2d> px;
     for (const auto& [id, pixel] : frame.landmark_px)
       if (const auto point = window.landmark(id)) {
         points.push_back(*point);
-        px.push_back(pixel);
+        px.push_back(corrected(pixel, *point));
       }
     if (static_cast<int>(points.size()) < options_.ransac.min_inliers) continue;
     std::vector<int> all(points.size());
     std::iota(all.begin(), all.end(), 0);
-    const SE3 T_odom_before = window.pose(keyframe) * frame.T_keyframe_cam.scaled(scale);
     Matrix6d normal;
     const SE3 by_points = refine_pose_3d2d(camera_, points, px, all, T_odom_before,
                                            options_.threshold_px, kIterations, &normal);

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/frontend/internal/features/rgbd_errors.h>
 #include <placegraph/frontend/internal/relative_pose/pose_3d2d.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/pipeline/internal/cues/manhattan_cue.h>
@@ -24,7 +25,8 @@ class IntermediateFrames {
     SE3 T_keyframe_cam;  ///< relative to the last keyframe
     std::vector<std::pair<LandmarkId, Eigen::Vector2d>> landmark_px;
     std::optional<ManhattanCue::RotationEstimate>
-        manhattan_rotation;  ///< observation of a Manhattan frame
+        manhattan_rotation;              ///< observation of a Manhattan frame
+    FrameErrors errors = FrameErrors();  ///< that the pixels are corrected by
   };
   void remember(Tracked frame) { frames_.push_back(std::move(frame)); }
   /// Corrects the drift of tracks, which reference patches reveal at the next keyframe, by an equal
@@ -32,9 +34,11 @@ class IntermediateFrames {
   void correct_drift(const std::map<LandmarkId, Eigen::Vector2d>& drift_px);
   /// Poses the frames again with the current landmarks and removes them from the list. Returns id
   /// and T_odom_cam of those that observe enough landmarks. `keyframe`: last keyframe before them.
-  /// `scale`: factor applied to lengths since then.
-  [[nodiscard]] std::vector<std::pair<FrameId, SE3>> repose(const LocalMap& map,
-                                                            KeyframeId keyframe, double scale);
+  /// `scale`: factor applied to lengths since then. `errors`: those of an RGB-D camera as they are
+  /// known now.
+  [[nodiscard]] std::vector<std::pair<FrameId, SE3>> repose(
+      const LocalMap& map, KeyframeId keyframe, double scale,
+      const RgbdErrors& errors = RgbdErrors());
   void clear() { frames_.clear(); }
 
  private:

@@ -57,6 +57,34 @@ TEST(PointCue, FollowsPointsAndPosesTheNextFrame) {
   EXPECT_GT(std::count(tracked.keep.begin(), tracked.keep.end(), true), 100);
 }
 
+TEST(PointCue, EarlierObservationsOfANewLandmarkAreCorrectedByWhatIsKnownNow) {
+  StageTimes times;
+  const Calibration calibration = frames().calibration(Sensor::kStereo);
+  PointCue points({}, calibration, {}, times);
+  SlidingWindow window({}, calibration.camera);
+  const Frame without_depth = frames().frame(0, Sensor::kMono);
+  points.track(without_depth.image);
+  points.detect({}, false, {});
+  window.add_keyframe(KeyframeId(0), T_world_cam(0));
+  points.observe(KeyframeId(0), without_depth, {}, window);
+  ASSERT_TRUE(window.landmarks().empty());
+  std::map<LandmarkId, Eigen::Vector2d> px;
+  for (const PointTrack& track : points.tracks()) px[track.id] = track.px.cast<double>();
+
+  RgbdErrors::Vector errors = RgbdErrors::Vector::Zero();
+  errors[RgbdErrors::kPrincipalX] = 0.01;
+  points.correct(RgbdErrors(errors));
+  const Frame next = frames().frame(1, Sensor::kStereo);
+  points.track(next.image);
+  window.add_keyframe(KeyframeId(1), T_world_cam(1));
+  points.observe(KeyframeId(1), next, {}, window);
+  ASSERT_GT(window.landmarks().size(), 50u);
+  const Eigen::Vector2d moved(0.01 * calibration.camera.fx, 0);
+  for (const LandmarkId id : window.landmarks())
+    for (const WindowObservation& o : window.observations(id))
+      if (o.keyframe == KeyframeId(0)) EXPECT_LT((px.at(id) - moved - o.px).norm(), 1e-4);
+}
+
 TEST(PointCue, MaskedTracksAreDroppedWithTheirLandmarks) {
   Street street;
   Image mask(street_camera().height, street_camera().width, CV_8UC1, cv::Scalar(255));

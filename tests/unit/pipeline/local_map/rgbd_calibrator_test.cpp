@@ -76,6 +76,31 @@ TEST(RgbdCalibrator, FindsTheTimesOfRowsAndOfDepthsAndCorrectsTheWindow) {
   EXPECT_NEAR(calibrator.errors().values()[RgbdErrors::kDepthTime], -0.02, 0.003);
 }
 
+TEST(RgbdCalibrator, EarlierMotionsFollowWhatIsLearnedLater) {
+  RgbdCalibrator calibrator(window_camera(), kKeyframes);
+  RgbdErrors::Vector values;
+  values << 0.005, 0, 0, 0.02, -0.02, 0.006, -0.004;
+  const RgbdErrors truth(values);
+  const SlidingWindow exact = window_of(truth, calibrator);
+  SlidingWindow window = window_of(truth, calibrator);
+  ASSERT_TRUE(window.optimize().outcome);
+  for (int i = 0; i < kKeyframes; ++i) calibrator.add_motions(window);
+  EXPECT_TRUE(calibrator.correction(KeyframeId(3)).isZero());  // nothing has been learned yet
+  SlidingWindow later = window_of(truth, calibrator, 100);
+  ASSERT_TRUE(later.optimize().outcome);
+  ASSERT_TRUE(calibrator.calibrate(later));
+
+  double before = 0, after = 0;
+  for (int k = 1; k < kKeyframes; ++k) {
+    const KeyframeId from(k - 1), to(k);
+    const SE3 T_true = exact.pose(from).inverse() * exact.pose(to);
+    const SE3 T_found = window.pose(from).inverse() * window.pose(to);
+    before += (T_true.inverse() * T_found).log().squaredNorm();
+    after += (T_true.inverse() * T_found * SE3::exp(calibrator.correction(to))).log().squaredNorm();
+  }
+  EXPECT_LT(std::sqrt(after), 0.3 * std::sqrt(before));
+}
+
 TEST(RgbdCalibrator, LeavesObservationsThatNothingContradicts) {
   RgbdCalibrator calibrator(window_camera(), kKeyframes);
   SlidingWindow window = window_of(RgbdErrors(), calibrator);
@@ -96,6 +121,26 @@ TEST(RgbdErrors, DisplaceAPointAsItMovesInTheTimeOfItsRow) {
       errors_of(readout_s, 0).displacement_px(camera, px, p_cam, twist_of(1));
   EXPECT_GT(moved.norm(), 0.5);
   EXPECT_LT((predicted - moved).norm(), 0.05 * moved.norm());
+}
+
+TEST(RgbdErrors, ADisplacedDepthImageIsReadBesideThePixel) {
+  const Camera camera = window_camera();
+  const Eigen::Vector3d surface(0.4, -0.2, 0.3), ray = *camera.unproject({200, 90});
+  RgbdErrors::Vector values = RgbdErrors::Vector::Zero();
+  values[RgbdErrors::kDepthX] = 0.01;
+  values[RgbdErrors::kDepthY] = -0.02;
+  const RgbdErrors errors(values);
+  // The inverse depth of the plane g^T X = 1 on a ray is g^T ray.
+  const double here = surface.dot(ray), beside = surface.dot(ray - Eigen::Vector3d(0.01, -0.02, 0));
+  const Eigen::Vector3d effect =
+      errors.effect(camera, {200, 90}, ray / here, Vector6d::Zero(), surface);
+  EXPECT_LT(effect.head<2>().norm(), 1e-12);
+  EXPECT_NEAR(effect.z(), beside - here, 1e-12);
+  DepthCamera depth;
+  depth.camera = camera;
+  const Camera corrected = errors.corrected(depth, Vector6d::Zero()).camera;
+  EXPECT_NEAR(corrected.cx - camera.cx, 0.01 * camera.fx, 1e-9);
+  EXPECT_NEAR(corrected.cy - camera.cy, -0.02 * camera.fy, 1e-9);
 }
 
 TEST(RgbdErrors, PlaceTheDepthCameraAtTheTimeOfItsImage) {

@@ -59,6 +59,44 @@ TEST(KeyframeDescriber, LinesGetTheirDescriptors) {
   EXPECT_NE(keyframe.lines[0].descriptor, line.descriptor);
 }
 
+TEST(KeyframeDescriber, CorrectsAKeyframeAsIfTheErrorsHadBeenKnown) {
+  const KeyframeDescriber describer = describer_of(Sensor::kRgbd);
+  const Frame frame = street_of(true).frame(0, Sensor::kRgbd);
+  RgbdErrors::Vector values;
+  values << 0.01, 0.004, -0.006, 0.02, -0.02, 0.003, 0.002;
+  Vector6d twist;
+  twist << 0.2, 0, 0.5, 0.1, 0.6, 0;
+  const FrameErrors errors{RgbdErrors(values), twist};
+  const auto known = describer.describe(KeyframeId(0), frame, {}, errors);
+  auto later = describer.describe(KeyframeId(0), frame, {}, {RgbdErrors(), twist});
+  const auto differences = [&] {
+    std::vector<double> px, depth;
+    for (std::size_t i = 0; i < known.features.size(); ++i) {
+      const Feature &a = known.features[i], &b = later.features[i];
+      px.push_back((a.px - b.px).norm());
+      if (a.point_cam && b.point_cam)
+        depth.push_back(std::abs(a.point_cam->z() / b.point_cam->z() - 1));
+    }
+    return std::pair(median_of(px), median_of(depth));
+  };
+  const auto [px_before, depth_before] = differences();
+  EXPECT_TRUE(describer.correct(later, errors.errors));
+  EXPECT_FALSE(describer.correct(later, errors.errors));
+  const auto [px_after, depth_after] = differences();
+  EXPECT_GT(px_before, 2);
+  EXPECT_LT(px_after, 0.1 * px_before);
+  EXPECT_LT(depth_after, 0.3 * depth_before);
+}
+
+TEST(KeyframeDescriber, LeavesAKeyframeOfALoadedMap) {
+  const KeyframeDescriber describer = describer_of(Sensor::kRgbd);
+  auto loaded = describer.describe(KeyframeId(0), street_of(true).frame(0, Sensor::kRgbd), {});
+  loaded.surfaces_cam.clear();
+  const Eigen::Vector2f px = loaded.features.front().px;
+  EXPECT_FALSE(describer.correct(loaded, RgbdErrors(RgbdErrors::Vector::Constant(0.01))));
+  EXPECT_EQ(loaded.features.front().px, px);
+}
+
 TEST(KeyframeDescriber, RescalingMultipliesAllLengths) {
   auto keyframe = describer_of(Sensor::kRgbd)
                       .describe(KeyframeId(0), street_of(true).frame(0, Sensor::kRgbd), {});

@@ -43,6 +43,29 @@ TEST(IntermediateFrames, ArePosedByTheLandmarksAsTheyAreKnownNow) {
   EXPECT_TRUE(frames.repose(scene.map, KeyframeId(0), 1).empty());  // they are forgotten
 }
 
+TEST(IntermediateFrames, AreCorrectedByErrorsThatHaveBecomeKnown) {
+  const Scene scene;
+  RgbdErrors::Vector values = RgbdErrors::Vector::Zero();
+  values[RgbdErrors::kFocal] = 0.01;
+  values[RgbdErrors::kReadout] = 0.02;
+  const RgbdErrors errors(values);
+  Vector6d twist;
+  twist << 0, 0, 1, 0, 0.8, 0;
+  auto seen = scene.px;
+  const SE3 T_cam_odom = (scene.T_odom_keyframe * scene.T_keyframe_cam).inverse();
+  for (auto& [id, px] : seen)
+    px += errors.displacement_px(scene.camera, px, T_cam_odom * *scene.map.window().landmark(id),
+                                 twist);
+  const auto error_with = [&](const RgbdErrors& known) {
+    IntermediateFrames frames = scene.frames();
+    frames.remember({FrameId(5), scene.T_keyframe_cam, seen, std::nullopt, {RgbdErrors(), twist}});
+    const auto posed = frames.repose(scene.map, KeyframeId(0), 1, known);
+    return (T_cam_odom * posed.at(0).second).log().norm();
+  };
+  EXPECT_GT(error_with(RgbdErrors()), 0.01);
+  EXPECT_LT(error_with(errors), 0.1 * error_with(RgbdErrors()));
+}
+
 TEST(IntermediateFrames, StayAsTheyWereWithoutEnoughLandmarks) {
   const Scene scene(11);  // 12 are needed
   IntermediateFrames frames = scene.frames();
