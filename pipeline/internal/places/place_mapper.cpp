@@ -9,6 +9,7 @@
 #include <placegraph/pipeline/internal/places/shortest_path.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace placegraph {
 
@@ -107,8 +108,17 @@ void PlaceMapper::add_motion(KeyframeId previous, KeyframeId anchor, const SE3& 
   changed(anchor);
 }
 
-void PlaceMapper::add_loop(const Loop& loop) {
+std::size_t PlaceMapper::add_loop(const Loop& loop) {
   loops_.push_back(loop);
+  changed(std::max(loop.match, loop.query));
+  return loops_.size() - 1;
+}
+
+void PlaceMapper::scale_loop_covariance(std::size_t number, double factor) {
+  Loop& loop = loops_.at(number);
+  Vector7d scale = Vector7d::Constant(1 / std::sqrt(factor));
+  scale[6] = 1;
+  loop.information = scale.asDiagonal() * loop.information * scale.asDiagonal();
   changed(std::max(loop.match, loop.query));
 }
 

@@ -42,7 +42,9 @@ class PlaceMapper {
   /// sensors, as a robust constraint. Throws ArgumentError unless both are anchors.
   void add_motion(KeyframeId previous, KeyframeId anchor, const SE3& T_previous_anchor,
                   const Matrix6d& covariance);
-  void add_loop(const Loop& loop);  ///< adds a loop closure
+  std::size_t add_loop(const Loop& loop);  ///< adds a loop closure; returns its number
+  /// Multiplies the covariance of position and rotation of the loop with this number.
+  void scale_loop_covariance(std::size_t number, double factor);
   /// Undoes all mergers, which finish() may make again, and gives a component of their own to
   /// places that nothing connects any more: after loops were removed from the history.
   void reconsider();

@@ -36,7 +36,7 @@ void LinkFeed::rescale(KeyframeId first, double factor) {
 }
 
 void LinkFeed::add_loop(const Loop& loop, const LocalMap& map, PlaceMapper& mapper) {
-  mapper.add_loop(with_errors(loop, map));
+  loops_.add(with_errors(loop, map), mapper);
 }
 
 Loop LinkFeed::with_errors(const Loop& loop, const LocalMap& map) const {
@@ -97,6 +97,7 @@ void LinkFeed::finish(const LocalMap& map, const std::function<Vector6d(Keyframe
   }
   for (const auto& [anchor, motion] : to_anchors_)
     mapper.inform_anchor(anchor, map.information(motion));
+  loops_.finish(mapper);
 }
 
 }  // namespace placegraph

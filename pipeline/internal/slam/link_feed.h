@@ -2,6 +2,7 @@
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/loop.h>
 #include <placegraph/pipeline/internal/local_map/local_map.h>
+#include <placegraph/pipeline/internal/places/loop_feed.h>
 #include <placegraph/pipeline/internal/places/place_mapper.h>
 #include <placegraph/pipeline/slam.h>
 
@@ -23,7 +24,8 @@ class LinkFeed {
   /// Multiplies all lengths from keyframe `first` on by `factor`.
   void rescale(KeyframeId first, double factor);
   /// Adds a loop. Its covariance is as much larger than the noise of its features as those of the
-  /// motions are, translation and rotation by the median factor of the newest links.
+  /// motions are, translation and rotation by the median factor of the newest links, and by what
+  /// the innovations of the loops have shown.
   void add_loop(const Loop& loop, const LocalMap& map, PlaceMapper& mapper);
   /// Errors of the motion from the anchor of the first place to that of the last one of its
   /// component, along the links; nothing where a link between them is none of this run's odometry.
@@ -38,6 +40,7 @@ class LinkFeed {
 
   std::map<KeyframeId, LocalMap::Link> links_;       // by the keyframe at the end
   std::map<KeyframeId, AssessedMotion> to_anchors_;  // from the previous anchor
+  LoopFeed loops_;
 };
 
 }  // namespace placegraph

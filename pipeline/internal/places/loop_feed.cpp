@@ -1,0 +1,64 @@
+#include <placegraph/graph/internal/core/chi_squared.h>
+#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/graph/internal/geometry/bounded_covariance.h>
+#include <placegraph/pipeline/internal/places/loop_feed.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace placegraph {
+namespace {
+
+/// With fewer innovations the missing ones count as zero: a few of them do not make a statistic.
+constexpr std::size_t kFewest = 6;
+constexpr std::size_t kNewest = 200;  // innovations that are used
+constexpr double kMostFactor = 1e4;
+
+/// The least factor on `of_loop` with which the squared errors are consistent; `squares(f)` is
+/// their median with the factor f and falls with it.
+double least_consistent(const auto& squares) {
+  const double expected = chi_squared_quantile(0.5, 6);
+  if (squares(1.0) <= expected) return 1;
+  double low = 0, high = std::log(kMostFactor);
+  for (int i = 0; i < 30; ++i) {
+    const double middle = 0.5 * (low + high);
+    (squares(std::exp(middle)) > expected ? low : high) = middle;
+  }
+  return std::exp(high);
+}
+
+}  // namespace
+
+double LoopFeed::factor() const {
+  const std::size_t begin = innovations_.size() - std::min(innovations_.size(), kNewest);
+  return least_consistent([&](double factor) {
+    std::vector<double> squares(kFewest - std::min(innovations_.size(), kFewest), 0.0);
+    for (std::size_t i = begin; i < innovations_.size(); ++i) {
+      const Innovation& each = innovations_[i];
+      const Matrix6d covariance = factor * each.of_loop + each.of_map;
+      squares.push_back(each.error.dot(covariance.ldlt().solve(each.error)));
+    }
+    return median_of(std::move(squares));
+  });
+}
+
+void LoopFeed::add(const Loop& stated, PlaceMapper& mapper) {
+  const auto predicted = mapper.predicted(stated.match, stated.query);
+  const double known = factor();
+  const std::size_t number = mapper.add_loop(stated);
+  mapper.scale_loop_covariance(number, known);
+  added_.push_back({number, known});
+  if (!predicted || predicted->covariance.topLeftCorner<6, 6>().isZero()) return;
+  const Vector7d error = (predicted->S_a_b.inverse() * stated.S_match_query()).log();
+  innovations_.push_back({error.head<6>(),
+                          bounded_covariance(Matrix6d(stated.information.topLeftCorner<6, 6>())),
+                          predicted->covariance.topLeftCorner<6, 6>()});
+}
+
+void LoopFeed::finish(PlaceMapper& mapper) const {
+  const double last = factor();
+  for (const auto& [number, before] : added_) mapper.scale_loop_covariance(number, last / before);
+}
+
+}  // namespace placegraph

@@ -1,0 +1,40 @@
+#pragma once
+#include <placegraph/graph/loop.h>
+#include <placegraph/pipeline/internal/loops/keyframe_motion.h>
+#include <placegraph/pipeline/internal/places/place_mapper.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace placegraph {
+
+/// Passes accepted loops and their uncertainties to the place graph. Their covariances are stated
+/// by the noise of their features; how much larger the errors are is learned from the innovations,
+/// the differences between the loops and the motions that the map predicted before it had them.
+/// What is learned later holds for earlier loops, too: finish() passes their uncertainties again.
+class LoopFeed {
+ public:
+  /// Adds a loop to the graph with the stated covariance times what the loops before have shown.
+  void add(const Loop& stated, PlaceMapper& mapper);
+  /// Passes all uncertainties again.
+  void finish(PlaceMapper& mapper) const;
+
+  /// Factor on the stated variances: the least, from 1 on, with which the squared innovations,
+  /// normalized by the covariances of loop and map, have the median of a chi-squared variable of 6
+  /// degrees of freedom.
+  double factor() const;
+
+ private:
+  struct Innovation {
+    Vector6d error;
+    Matrix6d of_loop, of_map;  // covariances
+  };
+  struct Added {
+    std::size_t number;  // by which the graph knows the loop
+    double factor;       // on its covariance
+  };
+  std::vector<Added> added_;
+  std::vector<Innovation> innovations_;
+};
+
+}  // namespace placegraph
