@@ -59,6 +59,7 @@ PoseFromLines pose_with_lines(LineCue& lines, const Image& image, const SlidingW
   if (!best.outcome && points.outcome) {
     best.outcome = points.outcome;
     best.T_ref_cam = points.T_ref_cam;
+    best.information = points.information;
   }
   if (best.outcome) lines.accept(window, best.T_ref_cam);
   return best;
