@@ -127,9 +127,12 @@ const std::vector<StageTimes::Stage>& Slam::stages() const { return impl_->times
 Map Slam::finish() {
   require(!impl_->finished, "Slam::finish: called twice");
   impl_->perform([&] {
-    const Odometry& odometry = impl_->odometry;
-    impl_->links.finish(
-        odometry.map(), [&](KeyframeId to) { return odometry.correction(to); }, impl_->mapper);
+    const std::map<KeyframeId, Vector6d> corrections = impl_->odometry.corrections();
+    impl_->recorder.correct_motions(corrections, [&](KeyframeId to) {
+      return impl_->mapper.odometry(KeyframeId(to.value() - 1), to)->T_a_b;
+    });
+    impl_->mapper.correct_links(corrections);
+    impl_->links.finish(impl_->odometry.map(), impl_->mapper);
     impl_->optimized(impl_->mapper.finish());
     if (impl_->closer.correct_views()) impl_->feed.report_again();
   });
@@ -358,7 +361,7 @@ void Slam::Impl::close_loops(FrameResult& result) {
   }();
   events.loops_decided(closer.records());
   if (loops.empty()) return;
-  for (const Loop& loop : loops) links.add_loop(loop, odometry.map(), mapper);
+  links.add_loops(loops, odometry.map(), mapper);
   result.loops_accepted += static_cast<int>(loops.size());
   optimized(mapper.optimize(first_open()));
 }

@@ -61,31 +61,42 @@ class NuisanceEquations {
   /// The evidence with the poses eliminated; directions that no residual measures (the pose of the
   /// whole window, the scale of a monocular camera) are left out.
   NuisanceEvidence evidence() const {
-    const Eigen::MatrixXd by_parameters = poses_by_parameters();
-    return {b_.tail(parameters_) + by_parameters.transpose() * b_.head(poses()),
-            H_.bottomRightCorner(parameters_, parameters_) +
-                by_parameters.transpose() * H_.topRightCorner(poses(), parameters_)};
+    const auto [unit, eigenvectors, inverse, coupling] = eliminated();
+    const Eigen::VectorXd b = eigenvectors.transpose() * unit.cwiseProduct(b_.head(poses()));
+    return {b_.tail(parameters_) - coupling.transpose() * inverse.cwiseProduct(b),
+            H_.bottomRightCorner(parameters_, parameters_) -
+                coupling.transpose() * inverse.asDiagonal() * coupling};
   }
 
   /// Derivative of the estimated poses, in the right tangent of each in the order of the keyframes,
   /// by the parameters; zero in the directions that no residual measures.
   Eigen::MatrixXd poses_by_parameters() const {
-    constexpr double kNothing = 1e-9;  // share of the largest eigenvalue
-    const Eigen::VectorXd unit =
-        H_.diagonal().head(poses()).cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
-        unit.asDiagonal() * H_.topLeftCorner(poses(), poses()) * unit.asDiagonal());
-    const Eigen::ArrayXd lambda = eigen.eigenvalues().array();
-    const Eigen::VectorXd inverse =
-        (lambda > kNothing * lambda[poses() - 1]).select(lambda.inverse(), 0.0);
-    const Eigen::MatrixXd coupling =
-        eigen.eigenvectors().transpose() *
-        (unit.asDiagonal() * H_.topRightCorner(poses(), parameters_)).eval();
-    return -(unit.asDiagonal() *
-             (eigen.eigenvectors() * (inverse.asDiagonal() * coupling).eval()).eval());
+    const auto [unit, eigenvectors, inverse, coupling] = eliminated();
+    return -(unit.asDiagonal() * (eigenvectors * (inverse.asDiagonal() * coupling).eval()).eval());
   }
 
  private:
+  /// H_pp = diag(1 / unit) V diag(1 / inverse) V^T diag(1 / unit) of the poses.
+  struct Eliminated {
+    Eigen::VectorXd unit;
+    Eigen::MatrixXd eigenvectors;
+    Eigen::VectorXd inverse;   // zero where nothing is measured
+    Eigen::MatrixXd coupling;  // with the parameters
+  };
+  Eliminated eliminated() const {
+    constexpr double kNothing = 1e-9;  // share of the largest eigenvalue
+    Eliminated result;
+    result.unit = H_.diagonal().head(poses()).cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+    const auto unit = result.unit.asDiagonal();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
+        unit * H_.topLeftCorner(poses(), poses()) * unit);
+    const Eigen::ArrayXd lambda = eigen.eigenvalues().array();
+    result.eigenvectors = eigen.eigenvectors();
+    result.inverse = (lambda > kNothing * lambda[poses() - 1]).select(lambda.inverse(), 0.0);
+    result.coupling =
+        result.eigenvectors.transpose() * (unit * H_.topRightCorner(poses(), parameters_)).eval();
+    return result;
+  }
   Eigen::Index poses() const { return H_.cols() - parameters_; }
 
   void add_view(Eigen::Index row, Eigen::Index column, const WindowObservation& o,

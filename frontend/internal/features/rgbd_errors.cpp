@@ -30,10 +30,12 @@ Eigen::Vector2d RgbdErrors::displacement_px(const Camera& camera, const Eigen::V
 }
 
 DepthCamera RgbdErrors::corrected(DepthCamera depth, const Vector6d& twist) const {
+  const Eigen::Vector3d displaced = depth.T_cam_depth.rotation().inverse() *
+                                    Eigen::Vector3d(values_[kDepthX], values_[kDepthY], 0);
+  depth.camera.cx += displaced.x() * depth.camera.fx;
+  depth.camera.cy += displaced.y() * depth.camera.fy;
   const SE3 T_cam_then = SE3::exp(values_[kDepthTime] * twist);
   depth.T_cam_depth = T_cam_then * depth.T_cam_depth;
-  depth.camera.cx += values_[kDepthX] * depth.camera.fx;
-  depth.camera.cy += values_[kDepthY] * depth.camera.fy;
   return depth;
 }
 

@@ -8,7 +8,7 @@ namespace placegraph {
 /// Errors of an RGB-D camera against its calibration that displace pixels and depths.
 ///
 /// Images are read row by row, from half the readout time before the frame's stamp to half of it
-/// after. The depth image shows the scene at the stamp plus the depth time, displaced in the image.
+/// after. The depth image shows the scene at the stamp plus the depth time, displaced against it.
 /// The effects of all are linear in their values.
 class RgbdErrors {
  public:

@@ -117,14 +117,17 @@ void RgbdCalibrator::add_motions(const SlidingWindow& window) {
   }
 }
 
-Vector6d RgbdCalibrator::correction(KeyframeId to) const {
-  const auto motion = motions_.find(to);
-  if (motion == motions_.end()) return Vector6d::Zero();
-  return motion->second.by_errors * (applied_.values() - motion->second.corrected);
+std::map<KeyframeId, Vector6d> RgbdCalibrator::corrections() const {
+  std::map<KeyframeId, Vector6d> result;
+  for (const auto& [to, motion] : motions_) {
+    const Vector6d change = motion.by_errors * (applied_.values() - motion.corrected);
+    if (!change.isZero(0)) result[to] = change;
+  }
+  return result;
 }
 
-/// An error of the intrinsics beyond what a calibration errs by is left to who calibrates: it may
-/// be the effect of something else.
+/// An error of the intrinsics or a displacement of the depths beyond what a calibration errs by is
+/// left to who calibrates: it may be the effect of something else.
 RgbdErrors RgbdCalibrator::significant(const Estimate& found) const {
   constexpr double kChi2 = 24.3;  // 99.9 % of seven degrees of freedom
   constexpr double kMostSigmas = 2;
@@ -135,6 +138,8 @@ RgbdErrors RgbdCalibrator::significant(const Estimate& found) const {
   const RgbdErrors::Vector doubt = errors.cwiseQuotient(rgbd_prior());
   if (doubt.head<kIntrinsics>().cwiseAbs().maxCoeff() > kMostSigmas)
     errors.head<kIntrinsics>().setZero();
+  if (doubt.segment<2>(RgbdErrors::kDepthX).cwiseAbs().maxCoeff() > kMostSigmas)
+    errors.segment<2>(RgbdErrors::kDepthX).setZero();
   return RgbdErrors(errors);
 }
 

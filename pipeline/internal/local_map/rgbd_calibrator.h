@@ -28,9 +28,10 @@ class RgbdCalibrator {
   bool calibrate(SlidingWindow& window);
   /// Notes how the motions between the keyframes of the optimized window depend on the errors.
   void add_motions(const SlidingWindow& window);
-  /// Change of the motion into a keyframe from the one before it, in its right tangent, by what has
-  /// been learned about the errors since the window was optimized with both for the last time.
-  Vector6d correction(KeyframeId to) const;
+  /// Changes of the motions into keyframes from the ones before them, each in its right tangent, by
+  /// what has been learned about the errors since the window was optimized with both for the last
+  /// time. Motions that are as they were are left out.
+  std::map<KeyframeId, Vector6d> corrections() const;
 
   struct Estimate {
     RgbdErrors::Vector errors;

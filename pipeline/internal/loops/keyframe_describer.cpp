@@ -102,7 +102,7 @@ DescribedKeyframe KeyframeDescriber::describe(KeyframeId keyframe, const Frame& 
   DescribedKeyframe described{
       keyframe, frame.id, detect_features(frame.image, detector_, frame.mask), std::move(lines)};
   described.surfaces_cam = add_depths(frame, errors, described.features);
-  described.errors = errors;
+  if (!described.surfaces_cam.empty()) described.errors = errors;
   std::vector<LineSegment> segments;
   for (const LineFeature& line : described.lines) segments.push_back(line.segment);
   const auto descriptors = describe_segments(frame.image, segments);

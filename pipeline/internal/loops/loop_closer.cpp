@@ -41,10 +41,12 @@ std::size_t LoopCloser::number_of(KeyframeId keyframe) const {
 }
 
 bool LoopCloser::correct_views() {
-  bool changed = false;
-  for (View& view : views_)
-    changed = describer_.correct(view, views_.back().errors.errors) || changed;
-  return changed;
+  for (View& view : views_) correct(view);
+  return views_corrected_;
+}
+
+void LoopCloser::correct(View& view) {
+  if (describer_.correct(view, views_.back().errors.errors)) views_corrected_ = true;
 }
 
 void LoopCloser::add_view(KeyframeId keyframe, const Frame& frame,
@@ -194,7 +196,7 @@ std::vector<Loop> LoopCloser::find_loops(const KnownMotions& known, double media
     record.query_frame = views_.back().frame;
     record.match_frame = candidate.match->frame;
     record.similarity = candidate.similarity;
-    describer_.correct(*candidate.match, views_.back().errors.errors);
+    correct(*candidate.match);
     const std::optional<Loop> loop = judge(candidate, known, median_depth_m, record);
     record.probability = loop_probability(record);
     records_.push_back(record);

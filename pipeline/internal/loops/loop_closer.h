@@ -34,8 +34,8 @@ class LoopCloser {
   /// RGB-D camera.
   void add_view(KeyframeId keyframe, const Frame& frame, const std::optional<SE3>& T_previous_this,
                 std::vector<LineFeature> lines = {}, const FrameErrors& errors = FrameErrors());
-  /// Corrects the features of all views by the errors of the newest; returns whether that changed
-  /// any.
+  /// Corrects the features of all views by the errors of the newest; returns whether any view has
+  /// changed since it was added.
   bool correct_views();
   /// Returns the loops that the newest view completes.
   std::vector<Loop> find_loops(const KnownMotions& known, double median_depth_m);
@@ -81,6 +81,7 @@ class LoopCloser {
   std::vector<Loop> support(const MotionBetween& odometry, double median_depth_m);
   void accept(const Pending& pending, std::vector<Loop>& accepted);
   std::size_t number_of(KeyframeId keyframe) const;
+  void correct(View& view);
   const View& view(KeyframeId keyframe) const { return views_[number_of(keyframe)]; }
 
   LoopOptions options_;
@@ -90,6 +91,7 @@ class LoopCloser {
   std::shared_ptr<PlaceRetrieval> recognizer_;  // instead of database_ for candidates; may be null
   Image newest_image_;                          // image of the newest view, for recognizer_
   std::vector<View> views_;                     // in ascending order of keyframes
+  bool views_corrected_ = false;                // whether any has changed since it was added
   std::vector<LoopRecord> records_;
   std::deque<Pending> pending_;
 };

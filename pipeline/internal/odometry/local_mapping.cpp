@@ -42,8 +42,8 @@ RectificationError LocalMapping::rectification() const {
   return rectifier_ ? rectifier_->error() : RectificationError();
 }
 
-Vector6d LocalMapping::correction(KeyframeId to) const {
-  return rgbd_ ? rgbd_->correction(to) : Vector6d(Vector6d::Zero());
+std::map<KeyframeId, Vector6d> LocalMapping::corrections() const {
+  return rgbd_ ? rgbd_->corrections() : std::map<KeyframeId, Vector6d>();
 }
 
 void LocalMapping::assume(const std::optional<Assumptions>& assumptions) {

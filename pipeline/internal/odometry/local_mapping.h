@@ -36,9 +36,9 @@ class LocalMapping {
   MetricScale& scale() { return scale_; }
   const MetricScale& scale() const { return scale_; }
   const LensEstimator& lens() const { return lens_; }
-  /// Change of the motion into a keyframe from the one before it, in its right tangent, by what has
-  /// been learned about the errors of an RGB-D camera since both left the window.
-  Vector6d correction(KeyframeId to) const;
+  /// Changes of motions by what has been learned about the errors of an RGB-D camera since they
+  /// left the window, see RgbdCalibrator::corrections().
+  std::map<KeyframeId, Vector6d> corrections() const;
   /// Sets the assumptions about the environment; nothing: all cues of the options are used.
   void assume(const std::optional<Assumptions>& assumptions);
 

@@ -66,8 +66,8 @@ class Odometry {
   std::vector<LineFeature> line_features() const;
   /// Lens distortion over all track segments; not estimated for a stereo camera.
   const LensEstimator& lens() const { return mapping_.lens(); }
-  /// See LocalMapping::correction().
-  Vector6d correction(KeyframeId to) const { return mapping_.correction(to); }
+  /// See RgbdCalibrator::corrections().
+  std::map<KeyframeId, Vector6d> corrections() const { return mapping_.corrections(); }
   /// Tracks and ground of the last frame; nothing if it is lost.
   FrameView view() const;
 

@@ -80,6 +80,16 @@ void KeyframeChain::update_link(KeyframeId id, const SE3& T_from_this) {
   chain_up(id);
 }
 
+void KeyframeChain::correct_links(const std::map<KeyframeId, Vector6d>& corrections) {
+  for (const auto& [id, correction] : corrections) {
+    auto& link = keyframes_.at(id).link;
+    require(link.has_value(),
+            "KeyframeChain::correct_links: keyframe " + to_string(id) + " has no link");
+    link->T_from_this = link->T_from_this * SE3::exp(correction);
+  }
+  if (!corrections.empty()) chain_up(corrections.begin()->first);
+}
+
 void KeyframeChain::inform_link(KeyframeId id, const Matrix6d& information,
                                 double sigma_log_scale) {
   Keyframe& keyframe = keyframes_.at(id);

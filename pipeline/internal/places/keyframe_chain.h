@@ -43,6 +43,8 @@ class KeyframeChain {
   /// Replaces the motion to keyframe `id`. Throws ArgumentError if it has no link, as does
   /// inform_link().
   void update_link(KeyframeId id, const SE3& T_from_this);
+  /// Corrects motions, each in its right tangent, of the links of these keyframes.
+  void correct_links(const std::map<KeyframeId, Vector6d>& corrections);
   /// Replaces the information of that motion, in its right tangent, and the standard deviation of
   /// the change of scale along it.
   void inform_link(KeyframeId id, const Matrix6d& information, double sigma_log_scale);

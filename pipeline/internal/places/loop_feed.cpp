@@ -10,7 +10,7 @@
 namespace placegraph {
 namespace {
 
-/// With fewer innovations the missing ones count as zero: a few of them do not make a statistic.
+/// With fewer innovations the missing ones count as zero, so that less than three have no effect.
 constexpr std::size_t kFewest = 6;
 constexpr std::size_t kNewest = 200;  // innovations that are used
 constexpr double kMostFactor = 1e4;
@@ -28,6 +28,12 @@ double least_consistent(const auto& squares) {
   return std::exp(high);
 }
 
+/// Covariance of position and rotation; if the scale is measured, too, it is uncertain.
+Matrix6d covariance_of(const Loop& loop) {
+  if (loop.information(6, 6) > 0) return bounded_covariance(loop.information).topLeftCorner<6, 6>();
+  return bounded_covariance(Matrix6d(loop.information.topLeftCorner<6, 6>()));
+}
+
 }  // namespace
 
 double LoopFeed::factor() const {
@@ -43,22 +49,28 @@ double LoopFeed::factor() const {
   });
 }
 
-void LoopFeed::add(const Loop& stated, PlaceMapper& mapper) {
-  const auto predicted = mapper.predicted(stated.match, stated.query);
+void LoopFeed::add(const std::vector<Loop>& stated, PlaceMapper& mapper) {
+  if (stated.empty()) return;
+  const Loop& newest = stated.back();
+  const auto predicted = mapper.predicted(newest.match, newest.query);
   const double known = factor();
-  const std::size_t number = mapper.add_loop(stated);
-  mapper.scale_loop_covariance(number, known);
-  added_.push_back({number, known});
-  if (!predicted || predicted->covariance.topLeftCorner<6, 6>().isZero()) return;
-  const Vector7d error = (predicted->S_a_b.inverse() * stated.S_match_query()).log();
-  innovations_.push_back({error.head<6>(),
-                          bounded_covariance(Matrix6d(stated.information.topLeftCorner<6, 6>())),
-                          predicted->covariance.topLeftCorner<6, 6>()});
+  for (const Loop& loop : stated) {
+    const std::size_t number = mapper.add_loop(loop);
+    mapper.scale_loop_covariance(number, known);
+    added_.push_back({number, known});
+  }
+  if (!predicted || predicted->covariance.topLeftCorner<6, 6>().isZero(0)) return;
+  const Vector7d error = (predicted->S_a_b.inverse() * newest.S_match_query()).log();
+  innovations_.push_back(
+      {error.head<6>(), covariance_of(newest), predicted->covariance.topLeftCorner<6, 6>()});
 }
 
-void LoopFeed::finish(PlaceMapper& mapper) const {
+void LoopFeed::finish(PlaceMapper& mapper) {
   const double last = factor();
-  for (const auto& [number, before] : added_) mapper.scale_loop_covariance(number, last / before);
+  for (Added& loop : added_) {
+    mapper.scale_loop_covariance(loop.number, last / loop.factor);
+    loop.factor = last;
+  }
 }
 
 }  // namespace placegraph

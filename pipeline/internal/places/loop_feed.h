@@ -14,10 +14,11 @@ namespace placegraph {
 /// What is learned later holds for earlier loops, too: finish() passes their uncertainties again.
 class LoopFeed {
  public:
-  /// Adds a loop to the graph with the stated covariance times what the loops before have shown.
-  void add(const Loop& stated, PlaceMapper& mapper);
+  /// Adds loops that were found at once, with the stated covariance times what earlier loops have
+  /// shown. They share the error of the map: one of them, the newest, provides an innovation.
+  void add(const std::vector<Loop>& stated, PlaceMapper& mapper);
   /// Passes all uncertainties again.
-  void finish(PlaceMapper& mapper) const;
+  void finish(PlaceMapper& mapper);
 
   /// Factor on the stated variances: the least, from 1 on, with which the squared innovations,
   /// normalized by the covariances of loop and map, have the median of a chi-squared variable of 6

@@ -84,6 +84,12 @@ void PlaceMapper::update_link(KeyframeId id, const SE3& T_from_this) {
     partition_.set_pose(place_of(id), S_map_keyframe(chain_.at(id).link->from) * Sim3(T_from_this));
 }
 
+void PlaceMapper::correct_links(const std::map<KeyframeId, Vector6d>& corrections) {
+  if (corrections.empty()) return;
+  chain_.correct_links(corrections);
+  changed(corrections.begin()->first);
+}
+
 void PlaceMapper::inform_link(KeyframeId id, const Matrix6d& information, double sigma_log_scale) {
   chain_.inform_link(id, information, sigma_log_scale);
   changed(id);

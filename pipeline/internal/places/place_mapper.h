@@ -29,6 +29,8 @@ class PlaceMapper {
                     double median_depth_m, bool scale_known = true);
   /// Replaces the motion from its link's keyframe to keyframe `id` by a newer estimate.
   void update_link(KeyframeId id, const SE3& T_from_this);
+  /// Corrects motions, each in its right tangent, of the links of these keyframes.
+  void correct_links(const std::map<KeyframeId, Vector6d>& corrections);
   /// Sets the uncertainty of that motion: its information in its right tangent, and the standard
   /// deviation of the change of scale.
   void inform_link(KeyframeId id, const Matrix6d& information, double sigma_log_scale = 0);

@@ -35,8 +35,10 @@ void LinkFeed::rescale(KeyframeId first, double factor) {
     at->second = at->second.scaled(factor);
 }
 
-void LinkFeed::add_loop(const Loop& loop, const LocalMap& map, PlaceMapper& mapper) {
-  loops_.add(with_errors(loop, map), mapper);
+void LinkFeed::add_loops(const std::vector<Loop>& loops, const LocalMap& map, PlaceMapper& mapper) {
+  std::vector<Loop> uncertain;
+  for (const Loop& loop : loops) uncertain.push_back(with_errors(loop, map));
+  loops_.add(uncertain, mapper);
 }
 
 Loop LinkFeed::with_errors(const Loop& loop, const LocalMap& map) const {
@@ -87,14 +89,9 @@ std::optional<OdometryError> LinkFeed::odometry_error(const LocalMap& map,
   return error;
 }
 
-void LinkFeed::finish(const LocalMap& map, const std::function<Vector6d(KeyframeId)>& correction,
-                      PlaceMapper& mapper) const {
-  for (const auto& [keyframe, link] : links_) {
-    const Vector6d change = correction(keyframe);
-    const auto motion = mapper.odometry(KeyframeId(keyframe.value() - 1), keyframe);
-    if (motion && !change.isZero(0)) mapper.update_link(keyframe, motion->T_a_b * SE3::exp(change));
+void LinkFeed::finish(const LocalMap& map, PlaceMapper& mapper) {
+  for (const auto& [keyframe, link] : links_)
     mapper.inform_link(keyframe, map.information(link.motion), link.sigma_log_scale);
-  }
   for (const auto& [anchor, motion] : to_anchors_)
     mapper.inform_anchor(anchor, map.information(motion));
   loops_.finish(mapper);

@@ -6,15 +6,15 @@
 #include <placegraph/pipeline/internal/places/place_mapper.h>
 #include <placegraph/pipeline/slam.h>
 
-#include <functional>
 #include <map>
 #include <optional>
+#include <vector>
 
 namespace placegraph {
 
 /// Passes motions between keyframes, loops, and their uncertainties from the local map to the place
 /// graph. What the run learns about its errors later holds for earlier motions, too: finish()
-/// passes motions and uncertainties again.
+/// passes their uncertainties again.
 class LinkFeed {
  public:
   /// Updates the links of the last `keyframes` keyframes up to `newest`, which the window still
@@ -23,17 +23,15 @@ class LinkFeed {
   void refresh(const LocalMap& map, KeyframeId newest, int keyframes, PlaceMapper& mapper);
   /// Multiplies all lengths from keyframe `first` on by `factor`.
   void rescale(KeyframeId first, double factor);
-  /// Adds a loop. Its covariance is as much larger than the noise of its features as those of the
-  /// motions are, translation and rotation by the median factor of the newest links, and by what
-  /// the innovations of the loops have shown.
-  void add_loop(const Loop& loop, const LocalMap& map, PlaceMapper& mapper);
+  /// Adds loops that were found at once. Their covariances are as much larger than the noise of
+  /// their features as those of the motions are, translation and rotation by the median factor of
+  /// the newest links, and by what the innovations of earlier loops have shown.
+  void add_loops(const std::vector<Loop>& loops, const LocalMap& map, PlaceMapper& mapper);
   /// Errors of the motion from the anchor of the first place to that of the last one of its
   /// component, along the links; nothing where a link between them is none of this run's odometry.
   std::optional<OdometryError> odometry_error(const LocalMap& map, const PlaceMapper& mapper) const;
-  /// Passes all uncertainties again, and the motions with their `correction`, in the right tangent
-  /// of the motion into a keyframe.
-  void finish(const LocalMap& map, const std::function<Vector6d(KeyframeId)>& correction,
-              PlaceMapper& mapper) const;
+  /// Passes all uncertainties again.
+  void finish(const LocalMap& map, PlaceMapper& mapper);
 
  private:
   Loop with_errors(const Loop& loop, const LocalMap& map) const;

@@ -68,6 +68,25 @@ void TrajectoryRecorder::correct(const std::vector<PosedFrame>& posed, KeyframeI
     }
 }
 
+void TrajectoryRecorder::correct_motions(const std::map<KeyframeId, Vector6d>& corrections,
+                                         const std::function<SE3(KeyframeId)>& motion_into) {
+  for (FrameRecord& record : records_) {
+    if (!record.keyframe || !record.T_keyframe_frame) continue;
+    const KeyframeId from = *record.keyframe, to(from.value() + 1);
+    const auto correction = corrections.find(to);
+    const auto begin = stamps_ns_.find(from), end = stamps_ns_.find(to);
+    if (correction == corrections.end() || begin == stamps_ns_.end() || end == stamps_ns_.end() ||
+        record.stamp_ns <= begin->second || record.stamp_ns >= end->second)
+      continue;
+    const double share = static_cast<double>(record.stamp_ns - begin->second) /
+                         static_cast<double>(end->second - begin->second);
+    const SE3 T_frame_to = record.T_keyframe_frame->inverse() * motion_into(to);
+    record.T_keyframe_frame =
+        *record.T_keyframe_frame * SE3::exp(share * T_frame_to.adjoint() * correction->second);
+    first_changed_ = 0;
+  }
+}
+
 void TrajectoryRecorder::rescale(KeyframeId first_keyframe, double factor) {
   for (FrameRecord& record : records_)
     if (record.keyframe && *record.keyframe >= first_keyframe && record.T_keyframe_frame)

@@ -5,6 +5,7 @@
 #include <placegraph/graph/map.h>
 #include <placegraph/pipeline/internal/tracking/odometry_update.h>
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <vector>
@@ -30,6 +31,11 @@ class TrajectoryRecorder {
   /// Corrects poses of frames in the odometry frame of a track segment whose keyframes are in
   /// `map`. Poses of frames before the segment become relative to keyframe `first_new`.
   void correct(const std::vector<PosedFrame>& posed, KeyframeId first_new, const LocalMap& map);
+  /// Corrects the frames between two keyframes as the motion between these is corrected in its
+  /// right tangent, in proportion to the time since the first. Motions by the keyframe at their
+  /// end, from the one before; `motion_into`: before the correction.
+  void correct_motions(const std::map<KeyframeId, Vector6d>& corrections,
+                       const std::function<SE3(KeyframeId)>& motion_into);
   /// Multiplies all lengths relative to keyframes from `first_keyframe` on by `factor`.
   void rescale(KeyframeId first_keyframe, double factor);
 

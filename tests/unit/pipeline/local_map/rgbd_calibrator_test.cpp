@@ -85,10 +85,13 @@ TEST(RgbdCalibrator, EarlierMotionsFollowWhatIsLearnedLater) {
   SlidingWindow window = window_of(truth, calibrator);
   ASSERT_TRUE(window.optimize().outcome);
   for (int i = 0; i < kKeyframes; ++i) calibrator.add_motions(window);
-  EXPECT_TRUE(calibrator.correction(KeyframeId(3)).isZero());  // nothing has been learned yet
+  EXPECT_TRUE(calibrator.corrections().empty());  // nothing has been learned yet
   SlidingWindow later = window_of(truth, calibrator, 100);
   ASSERT_TRUE(later.optimize().outcome);
   ASSERT_TRUE(calibrator.calibrate(later));
+  for (int i = 0; i < kKeyframes; ++i) calibrator.add_motions(later);
+  const std::map<KeyframeId, Vector6d> corrections = calibrator.corrections();
+  ASSERT_EQ(corrections.size(), kKeyframes - 1u);  // the later window has been corrected already
 
   double before = 0, after = 0;
   for (int k = 1; k < kKeyframes; ++k) {
@@ -96,7 +99,7 @@ TEST(RgbdCalibrator, EarlierMotionsFollowWhatIsLearnedLater) {
     const SE3 T_true = exact.pose(from).inverse() * exact.pose(to);
     const SE3 T_found = window.pose(from).inverse() * window.pose(to);
     before += (T_true.inverse() * T_found).log().squaredNorm();
-    after += (T_true.inverse() * T_found * SE3::exp(calibrator.correction(to))).log().squaredNorm();
+    after += (T_true.inverse() * T_found * SE3::exp(corrections.at(to))).log().squaredNorm();
   }
   EXPECT_LT(std::sqrt(after), 0.3 * std::sqrt(before));
 }

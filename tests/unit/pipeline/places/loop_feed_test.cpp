@@ -48,7 +48,7 @@ Rounds rounds(int corners, double times_m, double times_rad, int wrong_every = 0
     if (i < 4) continue;
     SE3 measured = disturbed(SE3(), times_m * kSigma_m, times_rad * kSigma_rad, random);
     if (wrong_every && i % wrong_every == 0) measured = measured * pose({0, 0, 0}, {1, 0, 0});
-    result.loops.add(loop(i, i - 4, measured, kSigma_m, kSigma_rad), result.mapper);
+    result.loops.add({loop(i, i - 4, measured, kSigma_m, kSigma_rad)}, result.mapper);
     (void)result.mapper.optimize();
   }
   return result;
@@ -69,6 +69,26 @@ TEST(LoopFeed, AFewWrongLoopsDoNotMakeTheOthersUncertain) {
 }
 
 TEST(LoopFeed, DrawsNoConclusionFromTwoLoops) { EXPECT_EQ(rounds(6, 10, 10).loops.factor(), 1); }
+
+TEST(LoopFeed, LoopsThatAreFoundAtOnceAreOneObservationOfTheMap) {
+  // The map is off by a metre, and five loops say so.
+  PlaceOptions options;
+  options.merge = false;
+  PlaceMapper mapper(options);
+  mapper.add_keyframe(KeyframeId(0), std::nullopt, {}, kDepth_m);
+  for (int i = 1; i < 12; ++i)
+    mapper.add_keyframe(KeyframeId(i), link(i - 1, kLong, kSigma_m, kSigma_rad), {}, kDepth_m);
+  (void)mapper.optimize();
+  std::vector<Loop> found;
+  for (int i = 7; i < 12; ++i) {
+    const auto predicted = mapper.predicted(KeyframeId(i - 6), KeyframeId(i));
+    found.push_back(loop(i, i - 6, rigid_part(predicted->S_a_b) * pose({0, 0, 0}, {1, 0, 0}),
+                         kSigma_m, kSigma_rad));
+  }
+  LoopFeed loops;
+  loops.add(found, mapper);
+  EXPECT_EQ(loops.factor(), 1);
+}
 
 TEST(LoopFeed, EarlierLoopsGetWhatWasLearnedLater) {
   Rounds run = rounds(100, 6, 6);
