@@ -37,6 +37,22 @@ TEST(PlaceMapper, GathersNearKeyframesInOnePlace) {
   EXPECT_THROW(mapper.add_keyframe(KeyframeId(4), std::nullopt, {}, kDepth_m), ArgumentError);
 }
 
+TEST(PlaceMapper, CorrectedLinksMoveAllThatFollows) {
+  PlaceMapper mapper({});
+  mapper.add_keyframe(KeyframeId(0), std::nullopt, {}, kDepth_m);
+  for (int i = 1; i < 4; ++i) mapper.add_keyframe(KeyframeId(i), link(i - 1, kLong), {}, kDepth_m);
+  Vector6d change;
+  change << 0.1, 0, 0.2, 0, 0.05, 0;
+  mapper.correct_links({{KeyframeId(1), change}, {KeyframeId(3), -change}});
+  const SE3 expected = kLong * SE3::exp(change) * kLong * kLong * SE3::exp(-change);
+  EXPECT_LT(
+      (mapper.odometry(KeyframeId(0), KeyframeId(3))->T_a_b.inverse() * expected).log().norm(),
+      1e-12);
+  ASSERT_TRUE(mapper.finish().outcome);
+  EXPECT_LT((mapper.T_map_keyframe(KeyframeId(3)).inverse() * expected).log().norm(), 1e-6);
+  EXPECT_THROW(mapper.correct_links({{KeyframeId(0), change}}), ArgumentError);
+}
+
 TEST(PlaceMapper, AddsUpTheCovariancesOfTheLinksBetweenAnchors) {
   // 0 -> 1 (a member) -> 2 (a new place), straight on, so that the sum can be written by hand:
   // C = Ad C1 Ad^T + C2 with Ad of T_2_1 = (I, -t), t = (0, 0, 5).

@@ -54,6 +54,23 @@ TEST(TrajectoryRecorder, FramesMustBeInOrder) {
   EXPECT_FALSE(r.recorder.accepts(late));
 }
 
+TEST(TrajectoryRecorder, FramesBetweenKeyframesFollowTheCorrectionOfTheirMotion) {
+  Recorded r;
+  Vector6d change;
+  change << 0.3, 0, 0, 0, 0.03, 0;
+  r.recorder.correct_motions({{KeyframeId(1), change}}, [](KeyframeId) { return along(3); });
+  const auto& records = r.recorder.records();
+  EXPECT_LT(records[0].T_keyframe_frame->log().norm(), 1e-12);  // a keyframe
+  EXPECT_LT((records[4].T_keyframe_frame->inverse() * along(1)).log().norm(), 1e-12);
+  // In proportion to the time; the error of the end, 2 m and 1 m ahead, is seen from the frame.
+  for (int i = 1; i < 3; ++i) {
+    const SE3 T_frame_end = along(3 - i);
+    const Vector6d found =
+        (along(i).inverse() * *records[static_cast<std::size_t>(i)].T_keyframe_frame).log();
+    EXPECT_LT((found - i / 3.0 * (T_frame_end.adjoint() * change)).norm(), 1e-9) << i;
+  }
+}
+
 TEST(TrajectoryRecorder, TheNewestFrameIsExplained) {
   Recorded r;
   r.recorder.explain(0.75, "");
