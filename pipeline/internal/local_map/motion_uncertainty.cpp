@@ -25,7 +25,7 @@ ImagingErrors::Vector imaging_sigmas(double focal, double aspect, double princip
 
 /// Expected errors of a calibration that nobody doubts, and of a camera with a rolling shutter.
 ImagingErrors::Vector imaging_prior() {
-  return imaging_sigmas(0.005, 0.001, 0.005, 0.005, 0.0005, 0.02);
+  return imaging_sigmas(0.005, 0.001, 0.006, 0.005, 0.0005, 0.02);
 }
 /// Common error of the estimates of all windows, by rendered drives without and with errors: what
 /// the model leaves out biases all of them in the same way.

@@ -78,7 +78,7 @@ RgbdCalibrator::Estimate RgbdCalibrator::estimate(
 }
 
 bool RgbdCalibrator::calibrate(SlidingWindow& window) {
-  constexpr std::size_t kFewest = 5;  // keyframes of the first window
+  constexpr std::size_t kFewest = 3;  // keyframes of the first window
   const auto keyframes = window.keyframes();
   std::erase_if(twists_, [&](const auto& entry) { return entry.first < keyframes.front(); });
   // The velocity of the first keyframe of a track is unknown.
@@ -91,7 +91,7 @@ bool RgbdCalibrator::calibrate(SlidingWindow& window) {
     windows_.push_back(now);
     newest_ = keyframes.back();
   }
-  const RgbdErrors next = significant(found);
+  const RgbdErrors next = plausible(found.errors);
   const RgbdErrors change(next.values() - applied_.values());
   if (!change.any()) return false;
   applied_ = next;
@@ -128,12 +128,8 @@ std::map<KeyframeId, Vector6d> RgbdCalibrator::corrections() const {
 
 /// An error of the intrinsics or a displacement of the depths beyond what a calibration errs by is
 /// left to who calibrates: it may be the effect of something else.
-RgbdErrors RgbdCalibrator::significant(const Estimate& found) const {
-  constexpr double kChi2 = 24.3;  // 99.9 % of seven degrees of freedom
+RgbdErrors RgbdCalibrator::plausible(RgbdErrors::Vector errors) const {
   constexpr double kMostSigmas = 2;
-  const double chi2 = found.errors.dot(found.covariance.ldlt().solve(found.errors));
-  if (!applied_.any() && !(chi2 > kChi2)) return RgbdErrors();
-  RgbdErrors::Vector errors = found.errors;
   constexpr Eigen::Index kIntrinsics = RgbdErrors::kReadout;
   const RgbdErrors::Vector doubt = errors.cwiseQuotient(rgbd_prior());
   if (doubt.head<kIntrinsics>().cwiseAbs().maxCoeff() > kMostSigmas)

@@ -19,7 +19,7 @@ class RgbdCalibrator {
   /// `full`: number of keyframes of a full window.
   RgbdCalibrator(const Camera& camera, std::size_t full) : camera_(camera), full_(full) {}
 
-  /// The errors that pixels and depths are corrected by: those that are significant, or none.
+  /// The errors that pixels and depths are corrected by; none until a window has shown any.
   const RgbdErrors& errors() const { return applied_; }
   /// Sets the velocity of the camera at a keyframe, before it is observed.
   void add_keyframe(KeyframeId keyframe, const Vector6d& twist) { twists_[keyframe] = twist; }
@@ -48,7 +48,7 @@ class RgbdCalibrator {
   void revise(const RgbdErrors& change, SlidingWindow& window) const;
   Vector6d twist(KeyframeId keyframe) const;
 
-  RgbdErrors significant(const Estimate& found) const;
+  RgbdErrors plausible(RgbdErrors::Vector errors) const;
 
   Camera camera_;
   std::size_t full_;
