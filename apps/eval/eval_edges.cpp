@@ -6,10 +6,12 @@
 #include <placegraph/graph/internal/core/json_text.h>
 #include <placegraph/graph/pose_graph/constraint_source.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "apps/eval/eval_noise.h"
 #include "apps/results/run_map.h"
+#include "apps/support/output.h"
 #include "apps/support/rows_json.h"
 
 namespace placegraph::apps {
@@ -17,14 +19,21 @@ namespace {
 
 using nlohmann::json;
 
-/// True pose of the camera at each place's anchor frame, by node of the graph.
-TrueNodes true_places(const Trajectory& truth, const RunMap& map) {
+/// True pose of the camera at each place's anchor frame, by node of the graph. `file`: the truth's.
+TrueNodes true_places(const Trajectory& truth, const std::string& file, const RunMap& map) {
   TrueNodes result;
+  require(!map.frames || *map.frames == truth.size(),
+          fmt::format("{} has {} poses, and {} is of a run of {} frames; the truth needs one pose "
+                      "a frame",
+                      file, truth.size(), map.file, map.frames.value_or(0)));
   for (const Place& place : map.graph.places) {
     const FrameId frame = map.anchor_frame(place);
-    require(frame.value() >= 0 && frame.value() < static_cast<std::int64_t>(truth.size()),
-            "place " + to_string(place.id) + " was seen in frame " + to_string(frame) +
-                ", and the truth has " + std::to_string(truth.size()));
+    if (frame.value() < 0)
+      throw FileError(map.file, fmt::format("place {} was seen in frame {}", to_string(place.id),
+                                            to_string(frame)));
+    require(frame.value() < static_cast<std::int64_t>(truth.size()),
+            fmt::format("{}: place {} was seen in frame {}, and {} has {} poses", map.file,
+                        to_string(place.id), to_string(frame), file, truth.size()));
     const NodeId node = node_of_place(place.id);
     result.frames[node] = static_cast<int>(frame.value());
     if (const auto& pose = truth.poses[static_cast<std::size_t>(frame.value())].T_world_body)
@@ -110,7 +119,7 @@ json json_of(ConstraintSource source, const EdgeConsistency& c) {
 EvalEdgesResult eval_edges(const EvalEdgesArguments& arguments) {
   const RunMap map = read_run_map(arguments.run);
   const Trajectory truth = read_true_poses(arguments.truth);
-  TrueNodes nodes = true_places(truth, map);
+  TrueNodes nodes = true_places(truth, arguments.truth, map);
   nodes.noise = truth_noise_of(arguments.truth_noise, truth);
   EvalEdgesResult result;
   if (arguments.fit_mount) {
@@ -118,6 +127,11 @@ EvalEdgesResult eval_edges(const EvalEdgesArguments& arguments) {
     nodes = mounted(nodes, *result.mount);
   }
   result.by_source = edge_consistency(map.graph.constraints, nodes);
+  if (result.by_source.empty()) throw NoResult(map.file + ": has no edges between places");
+  for (const auto& [source, c] : result.by_source)
+    if (!std::isfinite(c.by_stated.mean) || !std::isfinite(c.with_truth.mean))
+      throw NoResult(fmt::format("{}: the errors of the {} edges are too large to be computed",
+                                 arguments.truth, to_string(source)));
   return result;
 }
 

@@ -20,12 +20,14 @@ namespace {
 
 using nlohmann::json;
 
-/// A standard deviation; nothing if the text is none.
-std::optional<double> deviation_of(std::string_view text) {
+constexpr double kMostPosition_m = 1000, kMostRotation_deg = 180;
+
+/// A standard deviation; nothing if the text is none, or a larger one.
+std::optional<double> deviation_of(std::string_view text, double most) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return std::isfinite(value) && value >= 0 ? std::optional(value) : std::nullopt;
+  return value >= 0 && value <= most ? std::optional(value) : std::nullopt;
 }
 
 std::string direction_text(const DirectionNoise& noise) {
@@ -51,16 +53,18 @@ TruthNoise truth_noise_of(const std::string& text, const Trajectory& truth) {
   }
   const std::size_t comma = text.find(',');
   if (comma != std::string::npos) {
-    const auto position_m = deviation_of(std::string_view(text).substr(0, comma)),
-               rotation_deg = deviation_of(std::string_view(text).substr(comma + 1));
+    const auto position_m = deviation_of(std::string_view(text).substr(0, comma), kMostPosition_m),
+               rotation_deg =
+                   deviation_of(std::string_view(text).substr(comma + 1), kMostRotation_deg);
     if (position_m && rotation_deg) {
       TruthNoise noise = TruthNoise::white(*position_m, deg_to_rad(*rotation_deg));
       noise.interpolated = estimate_truth_noise(truth).interpolated;
       return noise;
     }
   }
-  throw ArgumentError("--truth-noise: '" + text +
-                      "' is none of none, estimate, POSITION_M,ROTATION_DEG (two numbers from 0)");
+  throw ArgumentError(
+      "--truth-noise: '" + text +
+      "' is none of none, estimate, POSITION_M,ROTATION_DEG (numbers from 0 to 1000 and 180)");
 }
 
 EvalNoiseResult eval_noise(const std::string& path) {
@@ -87,8 +91,7 @@ std::string to_text(const EvalNoiseResult& result) {
   } else {
     text += direction_text(noise.direction.front()) + "\n";
     if (noise.direction.size() > 1)
-      text += "                    " + direction_text(noise.direction[noise.direction.size() / 2]) +
-              "\n";
+      text += "                    " + direction_text(noise.direction.back()) + "\n";
   }
   std::string stretches;
   for (const FrameStretch& stretch : noise.interpolated)

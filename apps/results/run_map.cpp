@@ -5,6 +5,7 @@
 #include <placegraph/io/graphs/g2o.h>
 #include <placegraph/io/map/map_database.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -51,12 +52,18 @@ void take_edges(const json& edges, const PoseGraph& written, RunMap& map) {
   }
 }
 
-/// Whether a run says that its lengths are metres; a graph with scales is not metric if the folder
-/// has no result.json.
-bool is_metric(const std::filesystem::path& folder, const PoseGraph& written) {
-  const std::string path = (folder / "result.json").string();
-  if (!std::filesystem::exists(path)) return written.kind() != PoseKind::kSim3;
-  return read_json(path).value("metric", true);
+/// Takes whether lengths are metres and the number of frames from result.json; a graph with scales
+/// is not metric if the folder has none.
+void take_result(const std::string& path, const PoseGraph& written, RunMap& map) {
+  map.metric = written.kind() != PoseKind::kSim3;
+  if (!std::filesystem::exists(path)) return;
+  const json result = read_json(path);
+  try {
+    map.metric = result.value("metric", true);
+    if (result.contains("frames")) map.frames = result.at("frames").get<std::size_t>();
+  } catch (const json::exception&) {
+    throw FileError(path, "was not written by `placegraph run`");
+  }
 }
 
 }  // namespace
@@ -94,13 +101,16 @@ RunMap read_run_map(const std::string& folder) {
   const json document = read_json(path);
   RunMap map;
   map.file = path;
-  map.metric = is_metric(root, written);
+  take_result((root / "result.json").string(), written, map);
   try {
     for (const json& entry : document.at("places"))
       map.graph.places.push_back(place_of(entry, map));
     take_edges(document.at("edges"), written, map);
   } catch (const json::exception& error) {
-    throw FileError(path, std::string("was not written by `placegraph run`: ") + error.what());
+    // The library begins its texts with a name in brackets.
+    const std::string text = error.what();
+    throw FileError(path, "was not written by `placegraph run`: " +
+                              text.substr(std::min(text.size(), text.find("] ") + 2)));
   } catch (const ArgumentError& error) {
     throw FileError(path, std::string("was not written by `placegraph run`: ") + error.what());
   }

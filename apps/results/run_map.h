@@ -2,7 +2,9 @@
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/place_graph.h>
 
+#include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
 
 namespace placegraph::apps {
@@ -12,8 +14,9 @@ const char* unit_of(bool metric);
 
 /// Places of a folder of `placegraph run` (graph.g2o and places.json) or of a map.db.
 struct RunMap {
-  PlaceGraph graph;     ///< without appearances
-  bool metric = false;  ///< lengths are in metres
+  PlaceGraph graph;                   ///< without appearances
+  bool metric = false;                ///< lengths are in metres
+  std::optional<std::size_t> frames;  ///< frames of the run, if its folder says
   std::map<KeyframeId, FrameId> frame_of_keyframe;
   std::string file;  ///< file that lists the places
 

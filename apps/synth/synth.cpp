@@ -47,6 +47,9 @@ SequenceWriterOptions writer_options(const SynthArguments& arguments, const Synt
                      .planes = arguments.labels,
                      .flow = arguments.flow};
   writer.force = arguments.force;
+  require(
+      writer.contents.depth || !has_depth_defects(arguments.world.defects),
+      "defects of the depth images: " + world.name() + " has none; add --depth, or leave them out");
   return writer;
 }
 
@@ -67,13 +70,14 @@ SynthResult synth(const SynthArguments& arguments) {
           arguments.out,
           world.size(),
           world.ground_truth().path_length(),
-          writer.contents.right};
+          writer.contents.right,
+          writer.contents.depth};
 }
 
 std::string to_text(const SynthResult& result) {
+  const char* sensor = result.stereo ? "stereo" : result.depth ? "rgbd" : "mono";
   return fmt::format("{}: {} frames, {:.0f} m, {} ({}), written to {}\n", result.world,
-                     result.frames, result.length_m, result.stereo ? "stereo" : "mono",
-                     result.difficulty, result.out);
+                     result.frames, result.length_m, sensor, result.difficulty, result.out);
 }
 
 }  // namespace placegraph::apps

@@ -24,6 +24,7 @@ struct SynthResult {
   std::size_t frames = 0;
   double length_m = 0;  ///< path length of the camera
   bool stereo = false;
+  bool depth = false;  ///< with depth images
 };
 
 /// Renders a sequence with exact ground truth: `placegraph synth sequence`.

@@ -182,6 +182,7 @@ namespace {
 struct Step {
   std::size_t frame = 0;  ///< index of the later pose
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();
+  Eigen::Vector3d rotation = Eigen::Vector3d::Zero();  ///< rotation vector [rad]
   double length() const { return offset.norm(); }
 };
 
@@ -189,8 +190,10 @@ std::vector<Step> steps_of(const Trajectory& trajectory) {
   std::vector<Step> steps;
   for (std::size_t i = 1; i < trajectory.size(); ++i) {
     const StampedPose &a = trajectory.poses[i - 1], &b = trajectory.poses[i];
-    if (a.T_world_body && b.T_world_body)
-      steps.push_back({i, b.T_world_body->translation() - a.T_world_body->translation()});
+    if (!a.T_world_body || !b.T_world_body) continue;
+    const SE3 T_a_b = SE3(*a.T_world_body).inverse() * SE3(*b.T_world_body);
+    steps.push_back(
+        {i, b.T_world_body->translation() - a.T_world_body->translation(), T_a_b.rotation().log()});
   }
   return steps;
 }
@@ -242,6 +245,18 @@ std::optional<DataNote> odd_steps(const Trajectory& trajectory) {
                   "look at these images: some are missing, out of order, or of another place"};
 }
 
+namespace {
+
+/// Whether the camera rotates on in the same direction from one step to the next.
+bool rotates_on(const Step& before, const Step& after) {
+  constexpr double kLeast_deg = 0.2;  // more than the noise of a step
+  const double a = before.rotation.norm(), b = after.rotation.norm();
+  return std::min(a, b) > deg_to_rad(kLeast_deg) &&
+         before.rotation.dot(after.rotation) > 0.5 * a * b;
+}
+
+}  // namespace
+
 std::optional<DataNote> odd_order(const Trajectory& trajectory) {
   constexpr double kOfMedian = 0.5, kOpposite = -0.5, kShare = 0.1, kProgress = 0.3;
   const std::vector<Step> steps = steps_of(trajectory);
@@ -252,7 +267,8 @@ std::optional<DataNote> odd_order(const Trajectory& trajectory) {
     const double a = steps[k - 1].length(), b = steps[k].length();
     if (!(a > 0 && b > 0) || a < least || b < least) continue;
     ++compared;
-    if (steps[k - 1].offset.dot(steps[k].offset) < kOpposite * a * b) ++opposite;
+    const bool turns_back = steps[k - 1].offset.dot(steps[k].offset) < kOpposite * a * b;
+    if (turns_back && !rotates_on(steps[k - 1], steps[k])) ++opposite;
   }
   if (compared < kFewestSteps ||
       static_cast<double>(opposite) < kShare * static_cast<double>(compared))

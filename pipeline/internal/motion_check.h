@@ -54,7 +54,8 @@ std::optional<DataNote> odd_steps(const Trajectory& trajectory);
 
 /// Reports a camera that moves to and fro from frame to frame, as if images had changed places: a
 /// tenth of the steps that are no shorter than half of the median are opposite to the one before,
-/// though it gets on. Nothing for a camera that trembles at one place.
+/// though it gets on, and the rotation does not go on. Nothing for a camera that trembles at one
+/// place, or in a hand that turns it.
 std::optional<DataNote> odd_order(const Trajectory& trajectory);
 
 /// Reports a camera that is faster than any vehicle or hand (a median of 100 m/s), so that its

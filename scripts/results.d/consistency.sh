@@ -5,7 +5,8 @@ command_line "placegraph run WORLD --sensor SENSOR --cues CUES --no-loops --out 
 command_line "placegraph eval edges WORLD OUT --json"
 prose << 'NOTE'
 NEES is that of the odometry edges per degree of freedom, 1 where the stated covariances are right; 1 % of the edges then
-lie beyond the 99 % bound.
+lie beyond the 99 % bound. `stereo06` is rendered along the path of KITTI 06, `town200` are the first 200 frames of
+`town-loop`, `corridor` the first 620 of `corridor-loop`, all of the standard difficulty.
 NOTE
 columns sequence sensor cues edges "mean NEES" "median NEES" "beyond 99 % [%]" "mean in [0.5, 2]" "beyond <= 3 %"
 # consistency_row NAME WORLD SENSOR CUES

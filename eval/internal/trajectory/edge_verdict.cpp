@@ -17,16 +17,21 @@ std::string covariances_of(ConstraintSource source) {
   return "The covariances of the other edges";
 }
 
-/// "errors are 3.2 times the stated standard deviations (NEES 10.2); largest: ..."
-std::string factor_text(const EdgeConsistency& c, const Nees& nees) {
+/// "errors are 3.2 times the stated standard deviations (NEES 10.2)"
+std::string factor_text(const Nees& nees) {
+  return fmt::format("errors are {:.2g} times the stated standard deviations (NEES {:.3g})",
+                     std::sqrt(nees.mean), nees.mean);
+}
+
+/// The axis with errors beyond its deviation; directions that combine axes may have some, too.
+std::string worst_axis(const EdgeConsistency& c) {
   const auto worst = std::max_element(c.axes.begin(), c.axes.end(),
                                       [](const AxisConsistency& a, const AxisConsistency& b) {
                                         return a.normalized < b.normalized;
                                       });
-  return fmt::format(
-      "errors are {:.2g} times the stated standard deviations (NEES {:.3g}); largest: {}, {:.2g} "
-      "standard deviations",
-      std::sqrt(nees.mean), nees.mean, worst->name, worst->normalized);
+  if (worst == c.axes.end() || worst->normalized <= 1)
+    return "each axis alone is within its deviation, combinations of axes are not";
+  return fmt::format("largest: {}, {:.2g} standard deviations", worst->name, worst->normalized);
 }
 
 }  // namespace
@@ -81,14 +86,14 @@ std::string sentence_of(ConstraintSource source, const EdgeConsistency& c) {
       return fmt::format("{} are not testable: the truth's own noise makes {:.0f} % of the errors.",
                          subject, 100 * c.truth_share);
     case EdgeVerdict::kTooLarge:
-      return subject + " are too large: " + factor_text(c, c.by_stated) + ".";
+      return subject + " are too large: " + factor_text(c.by_stated) + ".";
     case EdgeVerdict::kHold:
       if (c.truth_share > 0)
         return fmt::format("{} hold: NEES {:.2f}, with the noise of the truth {:.2f} (0.5 to 2).",
                            subject, c.by_stated.mean, c.with_truth.mean);
       return fmt::format("{} hold: NEES {:.2f} (0.5 to 2).", subject, c.by_stated.mean);
     case EdgeVerdict::kTooSmall:
-      return subject + " are too small: " + factor_text(c, c.with_truth) + ".";
+      return subject + " are too small: " + factor_text(c.with_truth) + "; " + worst_axis(c) + ".";
   }
   return subject;
 }

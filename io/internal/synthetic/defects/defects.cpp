@@ -73,6 +73,11 @@ SyntheticDefects defects_from(const std::string& name) {
   throw ArgumentError("defects: '" + name + "' is none of " + names);
 }
 
+bool has_depth_defects(const SyntheticDefects& d) {
+  return d.depth_lag_s != 0 || d.depth_quantization != 0 || d.depth_noise != 0 ||
+         d.depth_holes != 0 || d.flying_pixels != 0 || d.depth_scale_error != 0;
+}
+
 std::string defect_list(const SyntheticDefects& defects) {
   std::string text;
   for (const OptionEntry& entry : list_options(defects))

@@ -29,6 +29,8 @@ const std::vector<std::string>& defect_sets();
 /// One of them. Throws ArgumentError that lists them for another name.
 SyntheticDefects defects_from(const std::string& name);
 
+/// Whether any of the defects is one of depth images.
+bool has_depth_defects(const SyntheticDefects& defects);
 /// The defects that are not 0, a line "  key: value" each.
 std::string defect_list(const SyntheticDefects& defects);
 

@@ -73,8 +73,11 @@ std::string readme(const SyntheticWorld& world, const SyntheticContents& content
         "The camera is camera_height_m (world.yaml) above the rendered ground, measured "
         "vertically.\n";
   if (!defect_list(world.options().defects).empty())
-    text += "Images, times and calibration have the defects that world.yaml lists.\n";
-  text += "image_0, image_1: left and right camera, 8-bit grey, rectified, without distortion.\n";
+    text +=
+        "Images, times and calibration, camera_height_m and the depth camera's too, have the "
+        "defects that world.yaml lists.\n";
+  text += contents.right ? "image_0, image_1: left and right camera" : "image_0: camera";
+  text += ", 8-bit grey, rectified, without distortion.\n";
   if (contents.depth)
     text += fmt::format(
         "depth_0: 16-bit, one step = {} m along the optical axis, 0 = none; same camera as "

@@ -76,7 +76,31 @@ TEST_F(EvalEdgesCommand, TakesThePosesOfASequencesFolder) {
 TEST_F(EvalEdgesCommand, NamesTheFrameThatTheTruthLacks) {
   write_places(3, "odometry");
   EXPECT_THAT(message_of<ArgumentError>([&] { eval_edges(arguments); }),
-              HasSubstr("place 1 was seen in frame 3, and the truth has 3"));
+              HasSubstr("places.json: place 1 was seen in frame 3, and " + arguments.truth +
+                        " has 3 poses"));
+  write_places(-1, "odometry");
+  EXPECT_THAT(message_of([&] { eval_edges(arguments); }),
+              HasSubstr("places.json: place 1 was seen in frame -1"));
+}
+
+TEST_F(EvalEdgesCommand, NeedsATruthForEachFrameOfTheRun) {
+  write_places(1, "odometry");
+  folder.write("run/result.json", R"({"frames": 3, "metric": true})");
+  EXPECT_EQ(eval_edges(arguments).by_source.size(), 1u);
+  folder.write("run/result.json", R"({"frames": 4, "metric": true})");
+  EXPECT_THAT(message_of<ArgumentError>([&] { eval_edges(arguments); }),
+              HasSubstr("poses.txt has 3 poses, and "));
+  folder.write("run/result.json", R"({"frames": "four"})");
+  EXPECT_THAT(message_of([&] { eval_edges(arguments); }),
+              HasSubstr("result.json: was not written by `placegraph run`"));
+}
+
+TEST_F(EvalEdgesCommand, AGraphWithoutEdgesHasNoResult) {
+  write_places(1, "odometry");
+  folder.write("run/places.json", R"({"places": [], "edges": []})");
+  folder.write("run/graph.g2o", "VERTEX_SE3:QUAT 0 0 0 0 0 0 0 1\nFIX 0\n");
+  EXPECT_THAT(message_of<NoResult>([&] { eval_edges(arguments); }),
+              HasSubstr("places.json: has no edges between places"));
 }
 
 TEST_F(EvalEdgesCommand, NamesTheFileThatIsNoRuns) {
@@ -97,7 +121,7 @@ TEST_F(EvalEdgesCommand, AddsWhiteNoiseOfTheTruth) {
 TEST_F(EvalEdgesCommand, RefusesNoiseThatIsNone) {
   write_places(1, "odometry");
   for (const std::string text : {"", "some", "0.1", "0.1,", ",1", "0.1;1", "0.1,1,2", "-0.1,1",
-                                 "0.1,nan", "inf,1", "1e999,1"}) {
+                                 "0.1,nan", "inf,1", "1e999,1", "1001,1", "1,181"}) {
     arguments.truth_noise = text;
     EXPECT_THAT(message_of<ArgumentError>([&] { eval_edges(arguments); }),
                 HasSubstr("--truth-noise: '" + text + "' is none of none, estimate"))

@@ -89,6 +89,12 @@ TEST_F(SynthCommand, NamesWhatItCannotUseAndWritesNothing) {
   arguments.labels = true;
   EXPECT_EQ(message_of<ArgumentError>([&] { synth(arguments); }),
             "flight: has one camera; --stereo, --depth and --labels are for other worlds");
+  arguments.labels = false;
+  arguments.world.world = "town-loop";
+  arguments.world.defects.depth_holes = 0.1;
+  EXPECT_THAT(message_of<ArgumentError>([&] { synth(arguments); }),
+              HasSubstr("defects of the depth images: town-loop has none; add --depth"));
+  arguments.world.defects = {};
   arguments.world.world = folder.write("broken.txt", "1 0 0 0 0 1 0 0 0 0 1\n");
   EXPECT_THAT(message_of([&] { synth(arguments); }), HasSubstr("broken.txt:1: "));
   EXPECT_FALSE(fs::exists(arguments.out));
@@ -104,6 +110,8 @@ TEST(SynthText, SaysWhatWasRendered) {
   EXPECT_EQ(to_text(result), "town-loop: 40 frames, 32 m, stereo (clean), written to out/town\n");
   result.stereo = false;
   EXPECT_THAT(to_text(result), HasSubstr("32 m, mono (clean)"));
+  result.depth = true;
+  EXPECT_THAT(to_text(result), HasSubstr("32 m, rgbd (clean)"));
 }
 
 }  // namespace
