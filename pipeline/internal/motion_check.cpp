@@ -267,8 +267,8 @@ std::optional<DataNote> odd_order(const Trajectory& trajectory) {
     const double a = steps[k - 1].length(), b = steps[k].length();
     if (!(a > 0 && b > 0) || a < least || b < least) continue;
     ++compared;
-    const bool turns_back = steps[k - 1].offset.dot(steps[k].offset) < kOpposite * a * b;
-    if (turns_back && !rotates_on(steps[k - 1], steps[k])) ++opposite;
+    const bool reverses = steps[k - 1].offset.dot(steps[k].offset) < kOpposite * a * b;
+    if (reverses && !rotates_on(steps[k - 1], steps[k])) ++opposite;
   }
   if (compared < kFewestSteps ||
       static_cast<double>(opposite) < kShare * static_cast<double>(compared))

@@ -156,18 +156,18 @@ TEST(OddOrder, IsNotThatOfACameraThatStandsOrReturns) {
   EXPECT_FALSE(odd_order(trajectory));
 }
 
-TEST(OddOrder, IsNotThatOfATremblingHandThatTurns) {
+TEST(OddOrder, IsNotThatOfAHandThatTremblesAndRotates) {
   Trajectory trajectory;
   for (int i = 0; i < 200; ++i) {
     Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
     T.rotate(Eigen::AngleAxisd(deg_to_rad(1.5 * i), Eigen::Vector3d::UnitY()));
     T.translation() = Eigen::Vector3d(2e-3 * i, i % 2 == 0 ? 6e-3 : 0, 0);
-    trajectory.poses.push_back({i * 33'000'000, T});
+    trajectory.poses.push_back({i * 33'000'000LL, T});
   }
   EXPECT_FALSE(odd_order(trajectory));
   for (StampedPose& pose : trajectory.poses)
     pose.T_world_body->linear() = Eigen::Matrix3d::Identity();
-  EXPECT_TRUE(odd_order(trajectory));  // the same without the turn
+  EXPECT_TRUE(odd_order(trajectory));  // the same without the rotation
 }
 
 TEST(OddSpeed, IsFasterThanAnyVehicle) {
