@@ -72,7 +72,7 @@ TEST_F(EvalEdges, NoiseOfATruthThatIsTooShortIsNotEstimated) {
 
 TEST_F(EvalEdges, NamesWhatIsWrongWithItsInput) {
   write_places(2);
-  expect_usage_error("eval edges poses.txt run", "frame 2, and the truth has 2");
+  expect_usage_error("eval edges poses.txt run", "frame 2, and poses.txt has 2 poses");
   write_file(dir / "run/places.json", "{}");
   expect_usage_error("eval edges poses.txt run",
                      "places.json: was not written by `placegraph run`");

@@ -72,8 +72,8 @@ void SyntheticOptions::check() const {
           "duration_s: only for the world `flight`");
   require(
       defects.undulation_m == 0 || named == nullptr || named->make == synthetic::make_town_loop,
-      "defects.undulation_m, also of the set hard-drive: only for `town-loop` and pose files; it "
-      "must be 0 in this world");
+      "defects.undulation_m: only for `town-loop` and pose files; elsewhere it must be 0, beside "
+      "hard-drive, too");
   require((width == 0) == (height == 0), "size: width and height go together");
   require(width == 0 || (width >= 32 && height >= 32), "size: at least 32 x 32");
 }
