@@ -23,7 +23,7 @@ struct EvalEdgesResult {
 
 /// Compares edge errors with stated covariances: `placegraph eval edges`.
 /// Throws ArgumentError if the truth has not one pose per frame of the run, FileError, NoResult if
-/// the graph has no edges, and as truth_noise_of().
+/// the graph has no edges or errors are too large to be computed, and as truth_noise_of().
 EvalEdgesResult eval_edges(const EvalEdgesArguments& arguments);
 
 /// A table, one row per source, with `axes` one of the errors of every axis, and a verdict per

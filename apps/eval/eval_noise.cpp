@@ -7,7 +7,6 @@
 #include <placegraph/io/trajectories/trajectory_file.h>
 
 #include <charconv>
-#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>

@@ -5,7 +5,6 @@
 #include <placegraph/io/graphs/g2o.h>
 #include <placegraph/io/map/map_database.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -15,6 +14,17 @@ namespace placegraph::apps {
 namespace {
 
 using nlohmann::json;
+
+FileError not_of_a_run(const std::string& path, const std::string& reason) {
+  return {path, "was not written by `placegraph run`: " + reason};
+}
+
+/// The text of the library's error without the name in brackets before it.
+std::string reason_of(const json::exception& error) {
+  const std::string text = error.what();
+  const std::size_t bracket = text.find("] ");
+  return bracket == std::string::npos ? text : text.substr(bracket + 2);
+}
 
 Place place_of(const json& entry, RunMap& map) {
   Place place;
@@ -61,8 +71,8 @@ void take_result(const std::string& path, const PoseGraph& written, RunMap& map)
   try {
     map.metric = result.value("metric", true);
     if (result.contains("frames")) map.frames = result.at("frames").get<std::size_t>();
-  } catch (const json::exception&) {
-    throw FileError(path, "was not written by `placegraph run`");
+  } catch (const json::exception& error) {
+    throw not_of_a_run(path, reason_of(error));
   }
 }
 
@@ -107,12 +117,9 @@ RunMap read_run_map(const std::string& folder) {
       map.graph.places.push_back(place_of(entry, map));
     take_edges(document.at("edges"), written, map);
   } catch (const json::exception& error) {
-    // The library begins its texts with a name in brackets.
-    const std::string text = error.what();
-    throw FileError(path, "was not written by `placegraph run`: " +
-                              text.substr(std::min(text.size(), text.find("] ") + 2)));
+    throw not_of_a_run(path, reason_of(error));
   } catch (const ArgumentError& error) {
-    throw FileError(path, std::string("was not written by `placegraph run`: ") + error.what());
+    throw not_of_a_run(path, error.what());
   }
   return map;
 }

@@ -23,7 +23,8 @@ ImagingErrors::Vector imaging_sigmas(double focal, double aspect, double princip
   return result;
 }
 
-/// Expected errors of a calibration that nobody doubts, and of a camera with a rolling shutter.
+/// Expected errors of a calibration that nobody doubts, and of a camera with a rolling shutter. The
+/// error of the principal point is common to all edges of a run: it is stated rather too large.
 ImagingErrors::Vector imaging_prior() {
   return imaging_sigmas(0.005, 0.001, 0.006, 0.005, 0.0005, 0.02);
 }

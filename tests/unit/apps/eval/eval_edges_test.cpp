@@ -103,6 +103,13 @@ TEST_F(EvalEdgesCommand, AGraphWithoutEdgesHasNoResult) {
               HasSubstr("places.json: has no edges between places"));
 }
 
+TEST_F(EvalEdgesCommand, ErrorsBeyondAllNumbersHaveNoResult) {
+  write_places(1, "odometry");
+  folder.write("poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0 0 1 0 0 0 0 1 1e200\n");
+  EXPECT_THAT(message_of<NoResult>([&] { eval_edges(arguments); }),
+              HasSubstr("poses.txt: the errors of the odometry edges are too large"));
+}
+
 TEST_F(EvalEdgesCommand, NamesTheFileThatIsNoRuns) {
   folder.write("run/places.json", "{}");
   EXPECT_THAT(message_of([&] { eval_edges(arguments); }),

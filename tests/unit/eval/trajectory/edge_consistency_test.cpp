@@ -152,6 +152,14 @@ TEST(EdgeConsistency, NamesTheWorstAxis) {
   EXPECT_NE(sentence.find("largest: rotation about y, "), std::string::npos) << sentence;
 }
 
+TEST(EdgeConsistency, NamesNoAxisThatIsWithinItsDeviation) {
+  EdgeConsistency combined = judged(noisy_edges(100, 3), exact(chain(101)));
+  for (AxisConsistency& axis : combined.axes) axis.normalized = 0.5;
+  const std::string sentence = sentence_of(ConstraintSource::kOdometry, combined);
+  EXPECT_NE(sentence.find("combinations of axes are not"), std::string::npos) << sentence;
+  EXPECT_EQ(sentence.find("largest"), std::string::npos) << sentence;
+}
+
 TEST(EdgeConsistency, GivesTheIntervalOfTheMean) {
   const auto [low, high] = nees_interval({1, 1, 0}, 60);
   EXPECT_NEAR(low, 60 / 83.30, 0.002);  // quantiles of chi^2 over 60 in tables

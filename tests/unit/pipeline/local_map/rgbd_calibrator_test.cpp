@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 #include <placegraph/pipeline/internal/local_map/rgbd_calibrator.h>
 
+#include <Eigen/LU>
+
 #include "tests/support/scenes/window_world.h"
 
 namespace placegraph {
@@ -105,11 +107,14 @@ TEST(RgbdCalibrator, EarlierMotionsFollowWhatIsLearnedLater) {
 }
 
 TEST(RgbdCalibrator, HardlyChangesObservationsThatNothingContradicts) {
+  constexpr double kChi2 = 24.3;  // 99.9 % of seven degrees of freedom
   RgbdCalibrator calibrator(window_camera(), kKeyframes);
   const SlidingWindow before = window_of(RgbdErrors(), calibrator);
   SlidingWindow window = window_of(RgbdErrors(), calibrator);
   ASSERT_TRUE(window.optimize().outcome);
   calibrator.calibrate(window);
+  const auto [errors, covariance, dispersion] = calibrator.estimate(std::nullopt);
+  EXPECT_LT(errors.dot(covariance.inverse() * errors), kChi2);
   for (const LandmarkId id : window.landmarks()) {
     const auto then = before.observations(id), now = window.observations(id);
     for (std::size_t i = 0; i < then.size(); ++i)

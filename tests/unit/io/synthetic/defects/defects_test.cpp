@@ -36,6 +36,8 @@ TEST(Defects, SetsAreFoundByName) {
   EXPECT_EQ(defects_from("hard-drive").depth_lag_s, 0);
   EXPECT_EQ(defects_from("hard-rgbd").depth_lag_s, 0.02);
   EXPECT_EQ(defects_from("hard-rgbd").undulation_m, 0);
+  EXPECT_TRUE(has_depth_defects(defects_from("hard-rgbd")));
+  EXPECT_FALSE(has_depth_defects(defects_from("hard-drive")));
   EXPECT_EQ(message_of<ArgumentError>([] { defects_from("soft"); }),
             "defects: 'soft' is none of none, hard-drive, hard-rgbd");
 }
