@@ -10,6 +10,8 @@
 # compiler would read that header a second time.
 # Clang's (.pch) holds paths and times of its clone: each clone makes its own, and what is compiled with it
 # is keyed by the checksum beside it (.pch.sum), of the arguments and of the headers that went into it.
+#
+# What a compilation costs is noted beside the cache (compile_cost.sh): of what comes from the cache, too, it is known.
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 output=
@@ -35,7 +37,7 @@ case $output in
     export CCACHE_DEPEND=true ;;
   *.pch)
     rm -f "$output.sum"
-    "$@"
+    "$root/cmake/compile_cost.sh" "$@"
     # A file of make's dependencies: "target: header header \", blanks within a name behind a backslash.
     headers=$output.headers
     sed 's/^[^:]*: //; s/ *\\$//; s/\([^\\]\) /\1\n/g' "$dependencies" | sed 's/^ *//; s/\\ / /g; /^$/d' > "$headers"
@@ -45,5 +47,5 @@ case $output in
     rm "$headers"
     exit ;;
 esac
-CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=true CCACHE_PCH_EXTSUM=true \
+CCACHE_PREFIX="$root/cmake/compile_cost.sh${CCACHE_PREFIX:+ $CCACHE_PREFIX}" CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=true CCACHE_PCH_EXTSUM=true \
   CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime exec ccache "$@"

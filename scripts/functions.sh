@@ -1,4 +1,4 @@
-# What scripts/results and scripts/bench_posegraph share. To be sourced.
+# What scripts/results, scripts/bench_posegraph and scripts/kill_study share. To be sourced.
 
 say() { printf '%s: %s\n' "$0" "$1" >&2; }
 # number FILE KEY: a scalar of a JSON file with one key a line; the first of that name, nothing without the file.

@@ -10,7 +10,7 @@ namespace [[gnu::visibility("default")]] placegraph {
 
 namespace internal {
 
-/// Assigns the values of one YAML file in an options struct's visit() and records the used keys.
+/// Assigns a YAML file's values in an options struct's visit() and records the used keys.
 class OptionsFile {
  public:
   explicit OptionsFile(const std::string& path);

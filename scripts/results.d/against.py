@@ -1,8 +1,8 @@
 """Compares two sets of results, figure by figure: what `scripts/results --against` and `--compare` print.
 
 against.py fetch BASELINE [SECTION...]    prints BASELINE as a single file, if it is well formed and has one of them
-against.py compare OLD NEW [SECTION...]   OLD, NEW: folders of the form of docs/results, single files with
-                                          lines `<!-- section: NAME -->`, or git revisions
+against.py compare OLD NEW [SECTION...]   OLD, NEW: folders of the form of docs/results, git revisions, or single
+                                          files that fetch printed
   --names OLD NEW     what they are called in messages
   --all               prints figures that are the same to the digit, too
   --tolerances FILE   in place of tolerances.txt beside this program
@@ -55,15 +55,12 @@ def git(*arguments):
 
 
 def of_revision(name):
-    """The pages of docs/results of a git revision, or the text of its docs/results.md."""
+    """The pages of docs/results of a git revision."""
     listed = git("ls-tree", "--full-tree", "--name-only", name, "docs/results/")
     paths = [path for path in (listed or "").splitlines() if path.endswith(".md")]
-    if paths:
-        return {f"{name}:{path}": git("show", f"{name}:{path}") for path in paths}
-    text = git("show", f"{name}:docs/results.md")
-    if text is None:
+    if not paths:
         raise Unusable(f"'{name}' is neither a file or folder of results nor a git revision with docs/results")
-    return text
+    return {f"{name}:{path}": git("show", f"{name}:{path}") for path in paths}
 
 
 def fetch(name):

@@ -16,7 +16,7 @@ heading "Direct alignment: from how far it converges"
 command_line "build/release/tests/bench/bench_align_study out/rendered $trials"
 command_line "build/release/tests/bench/bench_align_study out/photos $trials \$DATA/scene/planar_homography"
 say "alignment: rendered templates"
-$study "$out/alignment_rendered" "$trials" > /dev/null 2> "$out/alignment_rendered.log"
+$study "$out/alignment_rendered" "$trials" 2> "$out/alignment_rendered.log"
 columns figure target measured met
 steps=$(value_of "steps of ESM to 0.01 px from 4 px, median of 40")
 cells "steps of ESM from 4 px to 0.01 px, rendered, median of 40" "<= 6" "$steps" "$(verdict "$steps" "<=" 6)"
@@ -37,7 +37,7 @@ cat "$out/alignment_rendered.md" >> "$rows"
 pictures rendered
 if [ -d "$data/scene/planar_homography" ]; then
   say "alignment: photographs"
-  $study "$out/alignment_photos" "$trials" "$data/scene/planar_homography" > /dev/null 2> "$out/alignment_photos.log"
+  $study "$out/alignment_photos" "$trials" "$data/scene/planar_homography" 2> "$out/alignment_photos.log"
   prose 'Photographs (graf, leuven, boat: the first with the second and the third):'
   gap
   cat "$out/alignment_photos.md" >> "$rows"

@@ -68,7 +68,7 @@ columns figure target mean "least to most of a flight" met
 # study KEY WHAT TARGET VERDICT
 study() {
   mean=$(LC_ALL=C awk -F '\t' -v k="$1" '$1 == k { print $2 }' "$out/flight_study.tsv")
-  range=$(LC_ALL=C awk -F '\t' -v k="$1" '$1 == k { print $4 " to " $5 }' "$out/flight_study.tsv")
+  range=$(LC_ALL=C awk -F '\t' -v k="$1" '$1 == k { print $3 " to " $4 }' "$out/flight_study.tsv")
   met=-
   case "$3" in
     "0.5 to 2") met="**no**"; [ "$(verdict "$mean" ">=" 0.5)" = yes ] && met=$(verdict "$mean" "<=" 2) ;;

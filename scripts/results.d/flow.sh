@@ -3,7 +3,6 @@ frames=${FLOW_FRAMES:-6}
 build_bench bench_flow_study
 say "flow: rendering and following"
 build/release/tests/bench/bench_flow_study "$out/flow" "$frames" > "$out/flow.log"
-sed -i 's/hover/flight/' "$out/flow.md" "$out/flow_targets.tsv"  # the former name of that world
 # value_of WHAT: a figure of the targets
 value_of() { sed -n "s/^$1	//p" "$out/flow_targets.tsv"; }
 # ratio A B

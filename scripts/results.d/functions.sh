@@ -73,8 +73,6 @@ build_bench() {
   cmake --build --preset release -j"$(nproc)" --target "$@"
   cmake --preset release -DPLACEGRAPH_BENCH=OFF > "$out/configure.log"
 }
-# tabbed FILE KEY: the value of lines `key<tab>value`; KEY is a regular expression
-tabbed() { sed -n "s/^$2	//p" "$1"; }
 
 # render NAME ARGUMENTS...: renders $out/NAME-world quietly
 render() {

@@ -1,4 +1,4 @@
-# What sections on places share: their sets, how they are matched and judged. To be sourced.
+# The sets of places, how they are matched and judged. To be sourced by places.sh.
 sets="corridor_milford gardens_day_thumb"
 [ ! -d "$data/sequences/sevenscenes_rgbd334" ] || sets="$sets kitchen"
 # folder_of SET
@@ -13,18 +13,11 @@ found() {
   esac
   say "matching $name"
   $placegraph match "$folder" $age --out "$out/$name.txt" --force "$@" > "$out/$name.log" 2>&1
-  case "$set_name" in
-    vtm_virtual_house) ;;
-    *) $placegraph loops --predictions "$out/$name.txt" $truth --json > "$out/$name.json" ;;
-  esac
+  $placegraph loops --predictions "$out/$name.txt" $truth --json > "$out/$name.json"
 }
-# classified_right LABELS, matched_right FOUND: the share of images of vtm_virtual_house with, or matched with one of, their label
+# classified_right LABELS: the share of images of vtm_virtual_house with their label
 classified_right() { awk 'NR == FNR { label[$1] = $2; next } { n++; right += $2 == label[$1] } END { print right / n }' "$data/places/vtm_virtual_house/labels.txt" "$1"; }
-matched_right() { awk 'NR == FNR { label[$1] = $2; next } { n++; right += label[$2] == label[$1] } END { print right / n }' "$data/places/vtm_virtual_house/labels.txt" "$1"; }
-# figures NAME SET: R@1 / AP / recall at full precision, or the share matched with an image of their place
+# figures NAME: R@1 / AP / recall at full precision
 figures() {
-  case $2 in
-    vtm_virtual_house) digits "$(matched_right "$out/$1.txt")" ;;
-    *) echo "$(digits "$(number "$out/$1.json" r_at_1)") / $(digits "$(number "$out/$1.json" ap)") / $(digits "$(number "$out/$1.json" recall_at_100p)")" ;;
-  esac
+  echo "$(digits "$(number "$out/$1.json" r_at_1)") / $(digits "$(number "$out/$1.json" ap)") / $(digits "$(number "$out/$1.json" recall_at_100p)")"
 }

@@ -62,7 +62,7 @@ for cues in tiny colour gradients gabor corners colour,gradients,gabor,corners t
   set --
   for s in $sets; do
     found places-cues "$s" --appearance "$cues"
-    set -- "$@" "$(figures places-cues "$s")"
+    set -- "$@" "$(figures places-cues)"
   done
   cells "$cues" "$@"
 done

@@ -38,9 +38,9 @@ otherwise. Figures of pose graphs are explained in [optimize](optimize.md).
 Times differ between machines by a factor of two and more. The foot of each page names its machine
 and the CPU time of a fixed reference run (`scripts/results.d/reference_run.cpp`), the median of
 runs before and after the section: times of two sittings compare by their ratios to it. Sections
-measured before it existed name the machine alone. [Instructions](results/instructions.md) do not
-depend on the machine. `scripts/results --against BASELINE` compares every figure of a table with an
-older revision, within the tolerances of `scripts/results.d/tolerances.txt`.
+measured before it existed name the machine alone. `scripts/results --against BASELINE` compares
+every figure of a table with an older revision, within the tolerances of
+`scripts/results.d/tolerances.txt`.
 """
 
 

@@ -1,7 +1,7 @@
 """Reads the pages of docs/results: sections, tables, rows, and the figures of a cell.
 
 A section is a page of docs/results, named by its file, or a part of a single file between lines
-`<!-- section: NAME -->`, which is how revisions before the pages have them in docs/results.md.
+`<!-- section: NAME -->`, the form in which a run keeps its baseline.
 """
 
 import dataclasses

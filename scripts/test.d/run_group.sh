@@ -23,8 +23,13 @@ run_group() {
     [ ! -f "$results/$name.xml" ] || echo "$name"
   done | sed 's/[.]/[.]/g' | paste -sd '|' -)
   if [ -n "$before" ]; then set -- "$@" -E "^($before)\$"; else set -- "$@" --no-tests=error; fi
+  # What a group costs is known if all of it runs.
+  rm -f "$build/cost.$group"
+  cost=$build/cost.$group
+  [ -z "$before" ] || cost=/dev/null
   status=0
-  ctest --test-dir "$build" --output-on-failure -j"$(nproc)" "$@" --output-log "$log" || status=$?
+  scripts/test.d/cost.py run "$cost" \
+    ctest --test-dir "$build" --output-on-failure -j"$(nproc)" "$@" --output-log "$log" || status=$?
   note_passed
   # Only an incomplete group goes on: the next call runs a complete one again.
   [ "$status" != 0 ] || sed -i '1s/$/ complete/' "$passed"

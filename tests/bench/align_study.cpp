@@ -5,8 +5,8 @@
 // corners of a convex quadrilateral. On rendered templates also how many steps ESM takes from 4 px
 // to a hundredth pixel, and how much further than ESM alone swarm and ESM reach.
 //   bench_align_study OUT_PREFIX [TRIALS=20] [PLANAR_HOMOGRAPHY_FOLDER]
-// writes OUT_PREFIX.tsv, OUT_PREFIX.md, OUT_PREFIX_optimizers.png, OUT_PREFIX_similarities.png
-// and, of rendered templates, OUT_PREFIX_targets.tsv.
+// writes OUT_PREFIX.md, OUT_PREFIX_optimizers.png, OUT_PREFIX_similarities.png and, of rendered
+// templates, OUT_PREFIX_targets.tsv.
 #include <fmt/format.h>
 #include <placegraph/frontend/internal/align/aligner.h>
 #include <placegraph/frontend/internal/align/grey_pyramid.h>
@@ -54,7 +54,6 @@ using Key = std::tuple<std::size_t, int, int, double>;
 struct Tally {
   int trials = 0, converged = 0, confident = 0;  ///< confident: it said ok and was not
   double cpu_s = 0;
-  std::vector<double> errors_px;
   double rate() const { return trials > 0 ? static_cast<double>(converged) / trials : 0; }
 };
 using Study = std::map<Key, Tally>;
@@ -200,30 +199,12 @@ void run_trial(const Trial& trial, std::size_t condition, const Matrix3d& start,
       const double error_px =
           trial.planar_template.corner_distance_px(result.warp.H_cur_ref(), trial.H_cur_ref);
       ++tally.trials;
-      tally.errors_px.push_back(error_px);
       if (error_px < trial.tolerance_px)
         ++tally.converged;
       else
         tally.confident += result.outcome ? 1 : 0;
     }
   }
-}
-
-std::string table(const Study& study) {
-  std::string text =
-      "condition\toptimizer\tsimilarity\toffset_px\ttrials\tconverged\tmedian_error_px\t"
-      "wrong_but_ok\tcpu_ms\n";
-  for (const auto& [key, tally] : study) {
-    const auto& [condition, optimizer, similarity, offset] = key;
-    std::vector<double> errors = tally.errors_px;
-    std::sort(errors.begin(), errors.end());
-    text += fmt::format(
-        "{}\t{}\t{}\t{:g}\t{}\t{:.3f}\t{:.3f}\t{}\t{:.2f}\n", kConditions[condition],
-        align_optimizer_names()[static_cast<std::size_t>(optimizer)],
-        similarity_names()[static_cast<std::size_t>(similarity)], offset, tally.trials,
-        tally.rate(), errors[errors.size() / 2], tally.confident, 1e3 * tally.cpu_s / tally.trials);
-  }
-  return text;
 }
 
 placegraph::bench::RateCurve curve_of(const Study& study, std::size_t condition, int optimizer,
@@ -361,19 +342,10 @@ std::string reach_rows() {
       }
     }
   }
-  std::string text;
-  for (const AlignOptimizer optimizer : both) {
-    text += align_optimizer_names()[static_cast<std::size_t>(optimizer)] +
-            ", share converged by offset\t";
-    for (const auto& [key, tally] : study)
-      if (std::get<1>(key) == static_cast<int>(optimizer))
-        text += fmt::format("{:g}: {:.2f}  ", std::get<3>(key), tally.rate());
-    text += "\n";
-  }
   const double alone = offset_at_90(study, 0, static_cast<int>(both[0]), Similarity::kZncc);
   const double hybrid = offset_at_90(study, 0, static_cast<int>(both[1]), Similarity::kZncc);
-  return text + fmt::format("esm at 90 % [px]\t{:g}\nswarm_esm at 90 % [px]\t{:g}\nratio\t{:.2f}\n",
-                            alone, hybrid, hybrid / alone);
+  return fmt::format("esm at 90 % [px]\t{:g}\nswarm_esm at 90 % [px]\t{:g}\nratio\t{:.2f}\n", alone,
+                     hybrid, hybrid / alone);
 }
 
 void write_text(const std::string& path, const std::string& text) {
@@ -403,11 +375,9 @@ void run(int argc, char** argv) {
     }
     std::fprintf(stderr, "trial %d of %d\n", i + 1, trials);
     // A study that is cut short leaves what it has.
-    write_text(prefix + ".tsv", table(study));
     write_text(prefix + ".md", reach_table(study));
     draw(prefix, study);
   }
-  std::fputs(table(study).c_str(), stdout);
   if (photographs.empty()) write_text(prefix + "_targets.tsv", precision_rows() + reach_rows());
 }
 

@@ -1,18 +1,16 @@
 // Planes in point clouds with known labels: found by each method, with and without noise added.
-//   bench_cloud_planes_study castle FOLDER | synpeb FILE | world NAME | generated SEED
+//   bench_cloud_planes_study castle FOLDER | synpeb FILE | generated SEED
 #include <fmt/format.h>
 #include <placegraph/eval/internal/scene/plane_check.h>
 #include <placegraph/frontend/internal/cloud_planes/cloud_planes.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/geometry/se3.h>
 #include <placegraph/graph/internal/core/angle.h>
-#include <placegraph/graph/internal/core/median.h>
 #include <placegraph/graph/internal/core/random.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/internal/files/text_file.h>
 #include <placegraph/io/internal/measurements/point_cloud_file.h>
 #include <placegraph/io/internal/synthetic/worlds/cloud_scene.h>
-#include <placegraph/io/internal/synthetic/worlds/synthetic_world.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -100,34 +98,6 @@ std::vector<Sample> read_synpeb(const std::string& file) {
   return {sample};
 }
 
-/// Frames of a rendered world.
-std::vector<Sample> render_world(const std::string& name) {
-  constexpr std::size_t kFrames = 12;
-  SyntheticOptions options;
-  options.world = name;
-  options.seed = 77;
-  const SyntheticWorld world(options);
-  // Faces in one plane are one.
-  const auto planes = world.planes();
-  std::vector<int> same_plane(planes.size(), 0);
-  for (std::size_t a = 1; a < planes.size(); ++a)
-    for (std::size_t b = 1; b <= a && same_plane[a] == 0; ++b)
-      if ((planes[a] - planes[b]).norm() < 1e-4 || (planes[a] + planes[b]).norm() < 1e-4)
-        same_plane[a] = static_cast<int>(b);
-  std::vector<Sample> samples;
-  for (std::size_t k = 0; k < kFrames; ++k) {
-    const SyntheticFrame seen =
-        world.render(world.size() * k / kFrames, {.depth = true, .planes = true});
-    Sample sample;
-    sample.name = fmt::format("{} {}", name, k);
-    sample.cloud = cloud_of_depth(seen.frame.depth, world.calibration().camera, 0);
-    sample.truth.assign(seen.planes.begin<std::uint16_t>(), seen.planes.end<std::uint16_t>());
-    for (int& label : sample.truth) label = same_plane[static_cast<std::size_t>(label)];
-    samples.push_back(std::move(sample));
-  }
-  return samples;
-}
-
 std::vector<Sample> generate(std::uint64_t seed) {
   constexpr std::uint64_t kClouds = 20, kStream = 1'000'000;  // none that models are trained on
   std::vector<Sample> samples;
@@ -150,48 +120,28 @@ PointCloud with_noise(PointCloud cloud, double sigma_m, double sigma_share, Rand
 }
 
 void study(const std::vector<Sample>& samples, const std::string& data, double sigma_m,
-           double sigma_share, int min_points, bool verbose) {
+           double sigma_share, int min_points) {
   for (const auto& [name, method] : kMethods) {
     CloudPlanesOptions options;
     options.method = method;
     const PlanarityModel planarity = built_in_planarity();
     PlaneCheck all;
     std::vector<double> angles, cpu;
-    int found = 0;
     for (const Sample& sample : samples) {
       Random random(7);
       const PointCloud cloud = with_noise(sample.cloud, sigma_m, sigma_share, random);
       const std::clock_t begin = std::clock();
       const CloudPlanesResult result = find_cloud_planes(cloud, options, planarity);
       cpu.push_back(1e3 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
-      if (verbose && method == CloudPlanesMethod::kCuts)
-        fmt::print(stderr, "{}: noise {:.3g} power {} least {:.3g} at 0.9 {:.3g}\n", sample.name,
-                   result.noise.at_1m, result.noise.power, result.noise.least_m,
-                   result.noise.sigma(0.9));
       const PlaneCheck check = check_planes(sample.truth, result.labels, {0.8, min_points});
-      found += static_cast<int>(result.planes.size());
       all.truth += check.truth, all.correct += check.correct, all.missed += check.missed;
       all.over_segmented += check.over_segmented, all.under_segmented += check.under_segmented;
-      all.noise += check.noise, all.extra_pieces += check.extra_pieces;
+      all.noise += check.noise;
       for (const PlaneCheckMatch& match : check.matches) {
-        if (verbose && match.found == 0 && method == CloudPlanesMethod::kCuts) {
-          std::map<int, int> segments;
-          for (std::size_t i = 0; i < sample.truth.size(); ++i)
-            if (sample.truth[i] == match.truth) ++segments[result.labels[i]];
-          std::string text;
-          for (const auto& [label, n] : segments)
-            text +=
-                fmt::format(" {}:{}/{}", label, n, label > 0 ? result.planes[label - 1].points : 0);
-          fmt::print(stderr, "{} missed {} of {} points:{}\n", sample.name, match.truth,
-                     match.points, text);
-        }
         const auto normal = sample.normals.find(match.truth);
         if (match.found == 0 || normal == sample.normals.end()) continue;
         const Eigen::Vector3d& n = result.planes[match.found - 1].plane.normal;
         angles.push_back(rad_to_deg(std::asin(std::min(1.0, n.cross(normal->second).norm()))));
-        if (verbose && angles.back() > 1 && method == CloudPlanesMethod::kCuts)
-          fmt::print(stderr, "{}: plane {} of {} points is {:.2f} deg off\n", sample.name,
-                     match.truth, match.points, angles.back());
       }
     }
     const auto number = [](std::vector<double> values, double share) {
@@ -200,30 +150,29 @@ void study(const std::vector<Sample>& samples, const std::string& data, double s
       return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
     };
     const double noise = sigma_m > 0 ? 1e3 * sigma_m : 100 * sigma_share;
-    fmt::print("{}\t{:g}\t{}\t{}\t{}\t{:.3f}\t{:.3f}\t{}\t{}\t{}\t{}\t{:.3f}\t{:.3f}\t{:.0f}\t{}\n",
-               data, noise, name, all.truth, all.correct, all.correct_share(),
-               all.over_segmented_per_plane(), all.extra_pieces, all.under_segmented, all.missed,
-               all.noise, number(angles, 0.5), number(angles, 1), number(cpu, 0.5), found);
+    fmt::print("{}\t{:g}\t{}\t{}\t{}\t{:.3f}\t{:.3f}\t{}\t{}\t{}\t{:.3f}\t{:.3f}\t{:.0f}\n", data,
+               noise, name, all.truth, all.correct, all.correct_share(),
+               all.over_segmented_per_plane(), all.under_segmented, all.missed, all.noise,
+               number(angles, 0.5), number(angles, 1), number(cpu, 0.5));
   }
 }
 
 int run(const std::vector<std::string>& arguments) {
   require(arguments.size() >= 2,
-          "bench_cloud_planes_study castle FOLDER | synpeb FILE | world NAME | generated SEED");
-  const bool castle = arguments[0] == "castle", verbose = arguments.size() > 2;
+          "bench_cloud_planes_study castle FOLDER | synpeb FILE | generated SEED");
+  const bool castle = arguments[0] == "castle";
   const std::vector<Sample> samples = castle                     ? read_castle(arguments[1])
                                       : arguments[0] == "synpeb" ? read_synpeb(arguments[1])
-                                      : arguments[0] == "world"  ? render_world(arguments[1])
                                       : arguments[0] == "generated"
                                           ? generate(std::stoull(arguments[1]))
                                           : std::vector<Sample>{};
   require(!samples.empty(), arguments[0] + ": no such data");
   fmt::print(
-      "data\tnoise\tmethod\tplanes\tcorrect\tshare\tover_a_plane\textra\tunder\tmissed\tfalse\t"
-      "normal_median_deg\tnormal_worst_deg\tcpu_ms\tfound\n");
+      "data\tnoise\tmethod\tplanes\tcorrect\tshare\tover_a_plane\tunder\tmissed\tfalse\t"
+      "normal_median_deg\tnormal_worst_deg\tcpu_ms\n");
   for (const double noise : {0.0, 1.0, 2.0})
     study(samples, arguments[0], castle ? 1e-3 * noise : 0, castle ? 0 : 1e-2 * noise,
-          castle ? 300 : 100, verbose);
+          castle ? 300 : 100);
   return 0;
 }
 

@@ -51,10 +51,9 @@ std::size_t bytes_of(const CueGrid& grid) {
 }
 
 std::size_t bytes_of(const PlaceView& view) {
-  std::size_t bytes = bytes_of(view.tiny.front()) + bytes_of(view.gradients.front()) +
-                      bytes_of(view.colour) + bytes_of(view.coarse);
-  bytes += bytes_of(view.gabor);
-  return bytes + 2 * view.thumbnail.size() * sizeof(std::int16_t) +
+  return bytes_of(view.tiny.front()) + bytes_of(view.gradients.front()) + bytes_of(view.colour) +
+         bytes_of(view.coarse) + bytes_of(view.gabor) +
+         2 * view.thumbnail.size() * sizeof(std::int16_t) +
          view.corners.size() * sizeof(Feature);
 }
 

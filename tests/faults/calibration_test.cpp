@@ -1,7 +1,7 @@
 #include "tests/faults/small_recording.h"
 
 namespace placegraph::faults::test {
-namespace {
+namespace calibration_test {
 
 TEST(FaultCalibration, StatesOtherIntrinsics) {
   const Recording recording = small_recording();
@@ -60,5 +60,5 @@ TEST(FaultCalibration, DistortsAsTheLensModelSays) {
   }
 }
 
-}  // namespace
+}  // namespace calibration_test
 }  // namespace placegraph::faults::test

@@ -1,7 +1,7 @@
 #include "tests/faults/small_recording.h"
 
 namespace placegraph::faults::test {
-namespace {
+namespace depth_test {
 
 TEST(FaultDepth, LeavesImagesAsTheyAre) {
   const Recording recording = small_recording();
@@ -75,5 +75,5 @@ TEST(FaultDepth, OffsetLeavesWhatWasNotMeasured) {
   EXPECT_EQ(faulty(recording, "depth_offset").frames[3].depth.at<float>(4, 4), 0);
 }
 
-}  // namespace
+}  // namespace depth_test
 }  // namespace placegraph::faults::test

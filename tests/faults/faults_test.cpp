@@ -4,7 +4,7 @@
 #include "tests/faults/small_recording.h"
 
 namespace placegraph::faults::test {
-namespace {
+namespace faults_test {
 
 bool equal_frames(const Recording& a, const Recording& b, std::size_t index) {
   const Frame &f = a.frames[index], &g = b.frames[index];
@@ -79,5 +79,5 @@ TEST(Faults, GroupsAlternate) {
   EXPECT_EQ(group_of(2), "fixed");
 }
 
-}  // namespace
+}  // namespace faults_test
 }  // namespace placegraph::faults::test

@@ -1,7 +1,7 @@
 #include "tests/faults/small_recording.h"
 
 namespace placegraph::faults::test {
-namespace {
+namespace motion_test {
 
 TEST(FaultMotion, OrdersFollowThePath) {
   const Recording recording = small_recording();
@@ -102,5 +102,5 @@ TEST(FaultMotion, UpsideDownRigHasItsRightCameraLeft) {
   EXPECT_LT((right - recording.T_world_cam[3].translation()).norm(), 1e-9);
 }
 
-}  // namespace
+}  // namespace motion_test
 }  // namespace placegraph::faults::test

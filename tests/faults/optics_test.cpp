@@ -1,7 +1,7 @@
 #include "tests/faults/small_recording.h"
 
 namespace placegraph::faults::test {
-namespace {
+namespace optics_test {
 
 TEST(FaultOptics, BlackImagesAreWhereTheyShouldBe) {
   const Recording recording = small_recording();
@@ -85,5 +85,5 @@ TEST(FaultOptics, RollingShutterShearsInTheSenseOfTheRotation) {
             5);
 }
 
-}  // namespace
+}  // namespace optics_test
 }  // namespace placegraph::faults::test

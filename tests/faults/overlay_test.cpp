@@ -1,7 +1,7 @@
 #include "tests/faults/small_recording.h"
 
 namespace placegraph::faults::test {
-namespace {
+namespace overlay_test {
 
 double fraction(const Recording& recording, const std::string& name) {
   const Recording out = faulty(recording, name);
@@ -43,5 +43,5 @@ TEST(FaultOverlay, TimeTextChangesWithTheFrame) {
   EXPECT_FALSE(equal(out.frames[0].image, out.frames[1].image));
 }
 
-}  // namespace
+}  // namespace overlay_test
 }  // namespace placegraph::faults::test

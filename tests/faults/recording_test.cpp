@@ -6,7 +6,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph::faults::test {
-namespace {
+namespace recording_test {
 
 TEST(FaultRecording, IsReadAsItWasWritten) {
   const placegraph::test::TemporaryFolder folder;
@@ -62,5 +62,5 @@ TEST(FaultRecording, ReadsFewerAndSmallerFrames) {
   EXPECT_THROW(read_recording(folder / "sequence", options), ArgumentError);
 }
 
-}  // namespace
+}  // namespace recording_test
 }  // namespace placegraph::faults::test

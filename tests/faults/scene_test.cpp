@@ -1,7 +1,7 @@
 #include "tests/faults/small_recording.h"
 
 namespace placegraph::faults::test {
-namespace {
+namespace scene_test {
 
 TEST(FaultScene, MovingObjectFillsAThirdOfTheImageAndIsNearInDepth) {
   const Recording recording = small_recording(), out = faulty(recording, "moving_object");
@@ -43,5 +43,5 @@ TEST(FaultScene, SnowAndFlareBrighten) {
             mean_of(recording.frames[0].image) + 5);
 }
 
-}  // namespace
+}  // namespace scene_test
 }  // namespace placegraph::faults::test

@@ -1,7 +1,7 @@
 #include "tests/faults/small_recording.h"
 
 namespace placegraph::faults::test {
-namespace {
+namespace stereo_test {
 
 TEST(FaultStereo, ExchangesTheCamerasWithTheirPoses) {
   const Recording recording = small_recording(), out = faulty(recording, "cameras_swapped");
@@ -56,5 +56,5 @@ TEST(FaultStereo, SpoilsTheRightImage) {
   EXPECT_LT(contrast_of(right("right_blurred")), contrast_of(recording.frames[4].right));
 }
 
-}  // namespace
+}  // namespace stereo_test
 }  // namespace placegraph::faults::test

@@ -1,7 +1,7 @@
 #include "tests/faults/small_recording.h"
 
 namespace placegraph::faults::test {
-namespace {
+namespace timing_test {
 
 std::vector<int> sources(const Recording& recording, const Recording& out) {
   std::vector<int> numbers;
@@ -94,5 +94,5 @@ TEST(FaultTiming, StampsAreWrongAsTheyAreCalled) {
   EXPECT_NE(stamp("times_jittered", 8) - stamp("times_jittered", 7), 100000000);
 }
 
-}  // namespace
+}  // namespace timing_test
 }  // namespace placegraph::faults::test

@@ -11,7 +11,7 @@
 #include "tests/support/scenes/street_files.h"
 
 namespace placegraph {
-namespace {
+namespace configs_test {
 
 using namespace test;
 namespace fs = std::filesystem;
@@ -130,5 +130,5 @@ TEST_F(OnDisk, EurocRuns) {
   run("euroc.yaml", Sensor::kStereo);
 }
 
-}  // namespace
+}  // namespace configs_test
 }  // namespace placegraph

@@ -10,7 +10,7 @@
 #include "tests/support/trajectories.h"
 
 namespace placegraph {
-namespace {
+namespace examples_test {
 
 using namespace test;
 
@@ -164,5 +164,5 @@ TEST(Examples, OptimizeG2oLowersTheCost) {
   EXPECT_LT((last.translation() - Eigen::Vector2d(2, 0)).norm(), 1e-6);
 }
 
-}  // namespace
+}  // namespace examples_test
 }  // namespace placegraph

@@ -6,7 +6,7 @@
 #include "tests/support/paths.h"
 
 namespace placegraph {
-namespace {
+namespace kill_test {
 
 TEST(KilledRun, GoesOnFromWhatItHadSaved) {
   const test::TemporaryFolder dir;
@@ -39,5 +39,5 @@ TEST(KilledRun, GoesOnFromWhatItHadSaved) {
   for (const double each : ate) EXPECT_LT(each, 2 * ate.front() + 0.01);
 }
 
-}  // namespace
+}  // namespace kill_test
 }  // namespace placegraph

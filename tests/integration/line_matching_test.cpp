@@ -11,7 +11,7 @@
 #include "tests/support/segment_groups.h"
 
 namespace placegraph {
-namespace {
+namespace line_matching_test {
 
 struct Pair {
   const char *name, *image_a, *image_b, *number_b;
@@ -61,5 +61,5 @@ TEST_P(LineMatching, IsPreciseAndFindsMostEdges) {
 INSTANTIATE_TEST_SUITE_P(Segments, LineMatching, testing::Values("lsd", "ed"),
                          [](const auto& test) { return std::string(test.param); });
 
-}  // namespace
+}  // namespace line_matching_test
 }  // namespace placegraph

@@ -12,7 +12,7 @@
 #include <iostream>
 
 namespace placegraph {
-namespace {
+namespace manhattan_run_test {
 
 const SyntheticWorld& corridor() {
   static const SyntheticWorld world([] {
@@ -95,5 +95,5 @@ TEST(SlamInARenderedCorridor, TakesDirectionsOfARectangularWorld) {
             0.3 * kRadPerDeg);
 }
 
-}  // namespace
+}  // namespace manhattan_run_test
 }  // namespace placegraph

@@ -8,7 +8,7 @@
 #include "tests/support/scenes/scene.h"
 
 namespace placegraph {
-namespace {
+namespace real_data_test {
 
 using namespace test;
 
@@ -167,5 +167,5 @@ TEST(RealData, PlanarBoardIsFollowedToACentimetre) {
   EXPECT_LE(judged.result.ape.error_m.rmse, 0.01);
 }
 
-}  // namespace
+}  // namespace real_data_test
 }  // namespace placegraph

@@ -10,7 +10,7 @@
 #include "tests/support/scenes/scene_images.h"
 
 namespace placegraph {
-namespace {
+namespace scene_training_test {
 
 TEST(SceneView, TakesAnySizeAndGreyPicturesAndRefusesTinyOnes) {
   for (const cv::Size size : {cv::Size(240, 180), {641, 479}, {97, 333}}) {
@@ -19,7 +19,13 @@ TEST(SceneView, TakesAnySizeAndGreyPicturesAndRefusesTinyOnes) {
     EXPECT_EQ(view.features.count, view.superpixels.count);
     EXPECT_EQ(view.features.dimension, kSuperpixelFeatures);
   }
-  EXPECT_GT(view_scene(Image(100, 120, CV_8UC1, cv::Scalar(9))).superpixels.count, 0);
+  // A grey picture is one of three equal channels.
+  const Image grey = test::draw_street(4).bgr;
+  Image one, three;
+  cv::extractChannel(grey, one, 1);
+  cv::merge(std::vector<Image>(3, one), three);
+  EXPECT_EQ(cv::norm(view_scene(one).superpixels.index, view_scene(three).superpixels.index), 0);
+  EXPECT_EQ(view_scene(one).features.values, view_scene(three).features.values);
   EXPECT_THROW((void)view_scene(Image(20, 400, CV_8UC3)), ArgumentError);
   EXPECT_THROW((void)view_scene(Image()), ArgumentError);
 }
@@ -83,5 +89,5 @@ TEST(SceneTraining, KeepsTheTreesOfAModelThatLearnsMore) {
   EXPECT_FALSE(grown.problem());
 }
 
-}  // namespace
+}  // namespace scene_training_test
 }  // namespace placegraph

@@ -12,7 +12,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph {
-namespace {
+namespace slam_events_test {
 
 using namespace test;
 
@@ -205,5 +205,5 @@ TEST(SnapshotOfARun, IsAValueThatOutlivesIt) {
   EXPECT_EQ(map.frames.size(), 8u);
 }
 
-}  // namespace
+}  // namespace slam_events_test
 }  // namespace placegraph

@@ -8,7 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 namespace placegraph {
-namespace {
+namespace slam_rgbd_test {
 
 struct DepthSetting {
   int width, height;
@@ -55,5 +55,5 @@ INSTANTIATE_TEST_SUITE_P(Sensors, SlamWithDepth,
                                          DepthSetting{161, 121, 100, 0.08},
                                          DepthSetting{320, 240, 3, 0.05}));
 
-}  // namespace
+}  // namespace slam_rgbd_test
 }  // namespace placegraph

@@ -8,7 +8,7 @@
 #include "tests/support/scenes/street.h"
 
 namespace placegraph {
-namespace {
+namespace slam_rotation_test {
 
 using namespace test;
 
@@ -93,5 +93,5 @@ TEST(SlamThatRotatesInPlace, ForgetsWhatItSawBeforeTheDarkIfNothingWasPlacedYet)
   }
 }
 
-}  // namespace
+}  // namespace slam_rotation_test
 }  // namespace placegraph

@@ -6,7 +6,7 @@
 #include "tests/support/scenes/street.h"
 
 namespace placegraph {
-namespace {
+namespace slam_surfaces_test {
 
 using namespace test;
 
@@ -87,5 +87,5 @@ TEST(SlamBySurfaces, AreLostInTheDarkAndSaySo) {
   EXPECT_TRUE(run.map.trajectory_online.poses[7].T_world_body);
 }
 
-}  // namespace
+}  // namespace slam_surfaces_test
 }  // namespace placegraph

@@ -11,7 +11,7 @@
 #include "tests/support/scenes/street.h"
 
 namespace placegraph {
-namespace {
+namespace slam_test {
 
 using namespace test;
 
@@ -438,5 +438,5 @@ TEST(RunSequence, RunsAPartAndReportsItsProgress) {
   EXPECT_EQ(run.map.frames.front().frame, FrameId(3));
 }
 
-}  // namespace
+}  // namespace slam_test
 }  // namespace placegraph

@@ -14,7 +14,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph {
-namespace {
+namespace way_back_test {
 
 using test::Recognition;
 
@@ -116,5 +116,5 @@ TEST(WayBackThroughARenderedTown, IsTheShortestAndEveryPlaceOnItIsRecognized) {
   EXPECT_FALSE(memory.relocalize(elsewhere, 0));
 }
 
-}  // namespace
+}  // namespace way_back_test
 }  // namespace placegraph

@@ -12,7 +12,7 @@
 #include "tests/support/data.h"
 
 namespace placegraph {
-namespace {
+namespace york_urban_test {
 
 namespace fs = std::filesystem;
 
@@ -95,5 +95,5 @@ TEST(YorkUrban, WorldsAndVanishingPointsAreThoseThatPeopleMarked) {
   EXPECT_LE(false_rate, 1);
 }
 
-}  // namespace
+}  // namespace york_urban_test
 }  // namespace placegraph

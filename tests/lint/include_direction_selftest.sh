@@ -86,17 +86,10 @@ plant graph/internal/geometry/so3.h '#include <placegraph/graph/map.h>' \
 plant graph/core/a.h '#include <placegraph/graph/internal/geometry/so3.h>' \
   'graph/core may not include placegraph/graph/internal/geometry/so3.h'
 plant graph/map.h '#include <placegraph/io/graphs/g2o.h>' 'graph may not include placegraph/io/graphs/g2o.h'
-plant graph/map.h '#include "backend/x.h"' 'graph may not include backend/x.h'
-plant frontend/tracker.cpp '#include <placegraph/frontend/lines/line.h>' \
-  'frontend may not include placegraph/frontend/lines/line.h'
 plant backend/factors/b.h '#include <placegraph/backend/solver/a.h>' \
   'backend/factors may not include placegraph/backend/solver/a.h'
-for from in frontend/lines backend/factors io/files eval; do
-  for to in frontend/lines backend/factors io/files eval pipeline apps; do
-    [ $from = $to ] || plant $from/a.h "#  include <placegraph/$to/x.h>" \
-      "$from may not include placegraph/$to/x.h"
-  done
-done
+plant eval/a.h '#  include <placegraph/pipeline/x.h>' 'eval may not include placegraph/pipeline/x.h'
+plant io/files/a.h '#include <placegraph/frontend/lines/x.h>' 'io/files may not include placegraph/frontend/lines/x.h'
 plant pipeline/slam.cpp '#include <apps/support/output.h>' 'pipeline may not include apps/support/output.h'
 plant apps/main.cpp '#include <placegraph/io/files/file.h>' 'apps may not include placegraph/io/files/file.h'
 plant io/files/file.cpp '#include "tests/support/data.h"' 'io/files may not include tests/support/data.h'
@@ -159,21 +152,29 @@ expect 'an image in the graph' \
   'graph/map.h:3: graph must do without OpenCV: placegraph/graph/image/frame.h'
 
 # What only programs do.
-for line in 'std::cout << 1;' 'x(); std::cerr<<1;' 'std::printf("a");' '  printf("a");' \
-  'puts("a");' 'fmt::print("a");' 'std::fprintf(stderr, "a");' 'fputs("a", stdout);'; do
-  plant eval/a.cpp "$line" 'a library prints'
-done
-for line in 'std::exit(1);' '  exit(1);' 'if (x) abort();' 'std::terminate();' '::_exit(2);'; do
-  plant pipeline/slam.cpp "$line" 'a library ends the process'
-done
+# All lines at once: each is a fault of its own.
+several() {
+  clean_tree
+  file=$1 message=$2 expected=
+  shift 2
+  for line in "$@"; do
+    printf '%s\n' "$line" >> "$file"
+    expected="$expected$file:$(($(wc -l < "$file"))): $message
+"
+  done
+  expect "$file: all that $message" "${expected%
+}"
+}
+several eval/a.cpp 'a library prints' 'std::cout << 1;' 'x(); std::cerr<<1;' 'std::printf("a");' '  printf("a");' \
+  'puts("a");' 'fmt::print("a");' 'std::fprintf(stderr, "a");' 'fputs("a", stdout);'
+several pipeline/slam.cpp 'a library ends the process' 'std::exit(1);' '  exit(1);' 'if (x) abort();' \
+  'std::terminate();' '::_exit(2);'
 
 # Commands are functions: the command line alone knows the option parser and prints.
 plant apps/run.h '#include <CLI/App.hpp>' 'only cmd_* may include CLI/App.hpp'
 plant apps/recmd_run.cpp '#include <CLI/CLI.hpp>' 'only cmd_* may include CLI/CLI.hpp'
-for line in 'std::cout << 1;' 'x(); std::cerr<<1;' 'std::printf("a");' '  std::fprintf(stderr, "a");' \
-  'std::puts("a");' 'fmt::print("a");' 'fputs("a", stdout);'; do
-  plant apps/run.cpp "$line" 'only cmd_* may print'
-done
+several apps/run.cpp 'only cmd_* may print' 'std::cout << 1;' 'x(); std::cerr<<1;' 'std::printf("a");' \
+  '  std::fprintf(stderr, "a");' 'std::puts("a");' 'fmt::print("a");' 'fputs("a", stdout);'
 clean_tree
 mkdir apps/support
 sed 's/^apps: /apps\/support: graph\/core\n&apps\/support /' $table > edited

@@ -7,7 +7,8 @@ compiler=$2
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir "$work/cmake"
-cp "$launcher" "$work/cmake/"
+cp "$launcher" "$(dirname "$launcher")/compile_cost.sh" "$work/cmake/"
+export PLACEGRAPH_COSTS="$work/costs"
 cd "$work"
 export CCACHE_DIR="$work/cache"
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 namespace placegraph {
-namespace {
+namespace lie_test {
 
 using std::numbers::pi;
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
@@ -337,5 +337,5 @@ TYPED_TEST(LieGroup, LeftJacobianIsTheAdjointTimesTheRightOne) {
   }
 }
 
-}  // namespace
+}  // namespace lie_test
 }  // namespace placegraph

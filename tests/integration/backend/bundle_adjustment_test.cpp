@@ -5,7 +5,7 @@
 #include "tests/support/data.h"
 
 namespace placegraph {
-namespace {
+namespace bundle_adjustment_test {
 
 TEST(BundleAdjustment, ReachesTheKnownMinimumOfLadybug) {
   PLACEGRAPH_DATA_OR_SKIP(path, "bal/problem-49-7776-pre.txt");
@@ -18,5 +18,5 @@ TEST(BundleAdjustment, ReachesTheKnownMinimumOfLadybug) {
   RecordProperty("iterations", report.iterations);
 }
 
-}  // namespace
+}  // namespace bundle_adjustment_test
 }  // namespace placegraph

@@ -8,7 +8,7 @@
 #include "tests/support/data.h"
 
 namespace placegraph {
-namespace {
+namespace false_loops_test {
 
 Eigen::Matrix3Xd positions(const PoseGraph& graph) {
   Eigen::Matrix3Xd result =
@@ -79,5 +79,5 @@ INSTANTIATE_TEST_SUITE_P(Published, NoFalseLoops,
                            return name;
                          });
 
-}  // namespace
+}  // namespace false_loops_test
 }  // namespace placegraph

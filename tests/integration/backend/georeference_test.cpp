@@ -5,7 +5,7 @@
 #include "tests/support/gps_scenario.h"
 
 namespace placegraph {
-namespace {
+namespace georeference_test {
 
 using test::GpsScenario;
 using test::GpsScenarioOptions;
@@ -115,5 +115,5 @@ TEST(Georeference, FindsTheHorizontalLeverArmOfKitti00AndSaysHowVagueTheVertical
   EXPECT_LT(result.lever_arm_covariance(2, 2), 0.25 * 0.25);
 }
 
-}  // namespace
+}  // namespace georeference_test
 }  // namespace placegraph

@@ -7,7 +7,7 @@
 #include "tests/support/data.h"
 
 namespace placegraph {
-namespace {
+namespace incremental_growth_test {
 
 /// After every 100th step the incremental cost is held against the batch optimum of what has
 /// arrived, found from the incremental poses; at the end within 1e-4.
@@ -43,5 +43,5 @@ TEST(IncrementalGrowth, StaysWithinOnePercentOfTheBatchAfterEveryHundredthStepOf
   expect_near_the_batch(read_g2o(path));
 }
 
-}  // namespace
+}  // namespace incremental_growth_test
 }  // namespace placegraph

@@ -8,7 +8,7 @@
 #include "tests/support/data.h"
 
 namespace placegraph {
-namespace {
+namespace pose_graph_optima_test {
 
 /// The lowest known costs of published graphs, from other solvers driven to 1e-15.
 struct KnownOptimum {
@@ -54,5 +54,5 @@ INSTANTIATE_TEST_SUITE_P(Published, PoseGraphOptima,
                            return name;
                          });
 
-}  // namespace
+}  // namespace pose_graph_optima_test
 }  // namespace placegraph

@@ -10,7 +10,7 @@
 #include "tests/support/data.h"
 
 namespace placegraph {
-namespace {
+namespace pose_graph_starts_test {
 
 using namespace synthetic;
 
@@ -75,5 +75,5 @@ INSTANTIATE_TEST_SUITE_P(Published, ScatteredStart,
                            return name;
                          });
 
-}  // namespace
+}  // namespace pose_graph_starts_test
 }  // namespace placegraph

@@ -7,7 +7,7 @@
 #include "tests/support/cli_test.h"
 
 namespace placegraph {
-namespace {
+namespace bad_input_cli_test {
 
 namespace fs = std::filesystem;
 using test::CommandResult;
@@ -68,5 +68,5 @@ TEST_F(BadInput, MessagesAreShortAndPrintable) {
   EXPECT_LT(result.err.size(), 1000u);
 }
 
-}  // namespace
+}  // namespace bad_input_cli_test
 }  // namespace placegraph

@@ -11,7 +11,7 @@
 #include "tests/support/paths.h"
 
 namespace placegraph {
-namespace {
+namespace cli_test {
 
 namespace fs = std::filesystem;
 using test::CommandResult;
@@ -311,5 +311,5 @@ TEST_F(Cli, EvalReproducesAPublishedRow) {
   EXPECT_NEAR(json.at("ate_rmse_m").get<double>(), 1.30345, 5e-6);
 }
 
-}  // namespace
+}  // namespace cli_test
 }  // namespace placegraph

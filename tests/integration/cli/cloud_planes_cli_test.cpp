@@ -14,7 +14,7 @@
 #include "tests/support/scenes/clouds.h"
 
 namespace placegraph {
-namespace {
+namespace cloud_planes_cli_test {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -214,5 +214,5 @@ TEST_F(CloudPlanesCli, FindsThePlanesOfTheCastleAndTheRangeScan) {
   EXPECT_GE(found["correct"], 9);
 }
 
-}  // namespace
+}  // namespace cloud_planes_cli_test
 }  // namespace placegraph

@@ -20,7 +20,7 @@
 #include "tests/support/cli_test.h"
 
 namespace placegraph {
-namespace {
+namespace command_line_test {
 
 using apps::commands_of;
 using ::testing::AllOf;
@@ -199,5 +199,5 @@ TEST_F(Misspelled, BashCompletesByTheScript) {
   EXPECT_EQ(completed("placegraph run s", 2), "\n");  // bash completes a file
 }
 
-}  // namespace
+}  // namespace command_line_test
 }  // namespace placegraph

@@ -8,7 +8,7 @@
 #include "tests/support/cli_test.h"
 
 namespace placegraph {
-namespace {
+namespace dense_cli_test {
 
 namespace fs = std::filesystem;
 using test::CommandResult;
@@ -134,5 +134,5 @@ TEST_F(DenseCli, BundlesOfColmapAreAdjusted) {
   EXPECT_FALSE(fs::exists(dir / "other"));
 }
 
-}  // namespace
+}  // namespace dense_cli_test
 }  // namespace placegraph

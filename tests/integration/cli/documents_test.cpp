@@ -15,7 +15,7 @@
 #include "tests/support/paths.h"
 
 namespace placegraph {
-namespace {
+namespace documents_test {
 
 namespace fs = std::filesystem;
 
@@ -112,5 +112,5 @@ TEST(Documents, ShowCommandsThatTheProgramHas) {
   }
 }
 
-}  // namespace
+}  // namespace documents_test
 }  // namespace placegraph

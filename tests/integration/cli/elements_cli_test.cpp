@@ -5,7 +5,7 @@
 #include "tests/support/cli_test.h"
 
 namespace placegraph {
-namespace {
+namespace elements_cli_test {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -17,7 +17,7 @@ class ElementsCli : public test::CliTest {
   static void SetUpTestSuite() {
     made = new test::TemporaryFolder;
     const CommandResult result = test::run_placegraph(
-        "synth sequence corridor-loop --frames 40 --difficulty standard --mono --out walk",
+        "synth sequence corridor-loop --frames 40 --size 320x240 --difficulty standard --mono --out walk",
         made->path());
     ASSERT_EQ(result.code, 0) << result.err;
   }
@@ -63,5 +63,5 @@ TEST_F(ElementsCli, RefusesWrongListsInOneLineAndLeavesNothing) {
   EXPECT_FALSE(fs::exists(dir / "out"));
 }
 
-}  // namespace
+}  // namespace elements_cli_test
 }  // namespace placegraph

@@ -6,7 +6,7 @@
 #include "tests/support/cli_test.h"
 
 namespace placegraph {
-namespace {
+namespace eval_edges_cli_test {
 
 using test::write_file;
 using ::testing::HasSubstr;
@@ -85,5 +85,5 @@ TEST_F(EvalEdges, NamesWhatIsWrongWithItsInput) {
   expect_usage_error("eval edges poses.txt none", "none");
 }
 
-}  // namespace
+}  // namespace eval_edges_cli_test
 }  // namespace placegraph

@@ -12,7 +12,7 @@
 // values, which tests of the commands know.)
 
 namespace placegraph {
-namespace {
+namespace field_cases_test {
 
 namespace fs = std::filesystem;
 
@@ -49,5 +49,5 @@ TEST(FieldCasesFolder, IsThere) {
   if (judging_cases().empty()) GTEST_SKIP() << "cases absent: " << test::cases_dir();
 }
 
-}  // namespace
+}  // namespace field_cases_test
 }  // namespace placegraph

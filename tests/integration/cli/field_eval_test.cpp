@@ -4,7 +4,7 @@
 #include "tests/support/data.h"
 
 namespace placegraph {
-namespace {
+namespace field_eval_test {
 
 using nlohmann::json;
 using testing::HasSubstr;
@@ -109,5 +109,5 @@ TEST_F(FieldCounts, LosesNoFrameToATruthThatIsDenserByAFifth) {
   EXPECT_THAT(result.err, HasSubstr("32 of the estimate's 80 poses have no ground truth"));
 }
 
-}  // namespace
+}  // namespace field_eval_test
 }  // namespace placegraph

@@ -8,7 +8,7 @@
 #include "tests/support/data.h"
 
 namespace placegraph {
-namespace {
+namespace field_graph_test {
 
 using nlohmann::json;
 using test::CommandResult;
@@ -219,5 +219,5 @@ TEST_F(FieldGraphs, TimeStampsBehindVerticesArePassedOverAndThatIsSaid) {
                      "stamps.g2o:1: a number too many for a vertex");
 }
 
-}  // namespace
+}  // namespace field_graph_test
 }  // namespace placegraph

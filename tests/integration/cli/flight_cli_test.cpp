@@ -6,7 +6,7 @@
 #include "tests/support/cli_test.h"
 
 namespace placegraph::test {
-namespace {
+namespace flight_cli_test {
 
 using nlohmann::json;
 using ::testing::HasSubstr;
@@ -173,5 +173,5 @@ TEST_F(FlightCli, WorldsOfOtherKindsHaveNoFlight) {
   expect_usage_error("synth sequence flight --out town --stereo", "has one camera");
 }
 
-}  // namespace
+}  // namespace flight_cli_test
 }  // namespace placegraph::test

@@ -8,7 +8,7 @@
 #include "tests/support/cli_test.h"
 
 namespace placegraph {
-namespace {
+namespace georeference_cli_test {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -228,5 +228,5 @@ TEST_F(GeoreferenceCli, TakesDataThatAllowNoAnswerAsExitCodeOne) {
   expect_failure(kGood, 1, "fixes agree");
 }
 
-}  // namespace
+}  // namespace georeference_cli_test
 }  // namespace placegraph

@@ -4,7 +4,7 @@
 #include "tests/unit/io/datasets/tiny_images.h"
 
 namespace placegraph {
-namespace {
+namespace inspect_cli_test {
 
 using nlohmann::json;
 using testing::HasSubstr;
@@ -82,5 +82,5 @@ TEST_F(Inspect, RefusesABrokenSequence) {
   expect_usage_error("inspect s", "calibration.yaml:3");
 }
 
-}  // namespace
+}  // namespace inspect_cli_test
 }  // namespace placegraph

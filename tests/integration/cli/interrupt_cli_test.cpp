@@ -4,18 +4,21 @@
 #include "tests/support/cli_test.h"
 
 namespace placegraph {
-namespace {
+namespace interrupt_cli_test {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
 class InterruptedRun : public test::CliTest {
  protected:
-  void SetUp() override {
-    const auto made =
-        run("synth sequence corridor-loop --frames 240 --size 320x240 --stereo --out w");
-    ASSERT_EQ(made.code, 0) << made.err;
+  static void SetUpTestSuite() {
+    made = new test::TemporaryFolder;
+    const auto result = test::run_placegraph(
+        "synth sequence corridor-loop --frames 240 --size 320x240 --stereo --out w", made->path());
+    ASSERT_EQ(result.code, 0) << result.err;
   }
+  static void TearDownTestSuite() { delete made; }
+  static inline test::TemporaryFolder* made = nullptr;
   /// Starts the run, sends the signal when its first place is saved, and waits for its end.
   int run_and_send(const std::string& signal) {
     // A shell would start the run with SIGINT ignored.
@@ -28,7 +31,7 @@ class InterruptedRun : public test::CliTest {
                      "run.send_signal(getattr(signal, 'SIG' + sys.argv[1]))\n"
                      "sys.exit(run.wait() % 256)\n");
     const std::string command = "cd '" + dir.path() + "' && python3 interrupt.py " + signal + " '" +
-                                test::program() + "' run w --out out";
+                                test::program() + "' run '" + *made / "w" + "' --out out";
     return WEXITSTATUS(std::system(command.c_str()));
   }
 };
@@ -57,5 +60,5 @@ TEST_F(InterruptedRun, EndsByTerminationAndByHangUpToo) {
   }
 }
 
-}  // namespace
+}  // namespace interrupt_cli_test
 }  // namespace placegraph

@@ -8,7 +8,7 @@
 #include "tests/support/data.h"
 
 namespace placegraph {
-namespace {
+namespace landmark_graph_cli_test {
 
 using nlohmann::json;
 using test::CommandResult;
@@ -278,5 +278,5 @@ TEST_F(LandmarkGraphs, AreRefusedWhereOnlyPosesAreTaken) {
   EXPECT_THAT(poses.out, HasSubstr("2 landmarks left out"));
 }
 
-}  // namespace
+}  // namespace landmark_graph_cli_test
 }  // namespace placegraph

@@ -9,7 +9,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace lines_cli_test {
 
 using test::CommandResult;
 using test::read_file;
@@ -113,11 +113,11 @@ TEST_F(LinesAloneCli, AreEnoughForOneCameraOfKnownHeightInACorridor) {
 }
 
 TEST_F(LinesAloneCli, SayThatNothingCouldBePosedWhereTheyAreTooFew) {
-  ASSERT_EQ(run("synth sequence corridor-loop --frames 3 --out w").code, 0);
+  ASSERT_EQ(run("synth sequence corridor-loop --frames 3 --size 320x240 --out w").code, 0);
   const CommandResult result = run("run w --sensor mono --cues lines --no-loops --out o");
   EXPECT_EQ(result.code, 1);
   EXPECT_THAT(result.err, HasSubstr("no frame could be posed"));
 }
 
-}  // namespace
+}  // namespace lines_cli_test
 }  // namespace placegraph

@@ -7,7 +7,7 @@
 #include "tests/support/data.h"
 
 namespace placegraph {
-namespace {
+namespace loops_cli_test {
 
 using test::write_file;
 using ::testing::HasSubstr;
@@ -92,5 +92,5 @@ TEST_F(Loops, ScoresAPublishedDetectorAsPublished) {
   EXPECT_NEAR(json.at("ap").get<double>(), 0.814, 0.002);
 }
 
-}  // namespace
+}  // namespace loops_cli_test
 }  // namespace placegraph

@@ -13,7 +13,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace markers_cli_test {
 
 using namespace test;
 using ::testing::HasSubstr;
@@ -115,5 +115,5 @@ TEST(SimulatedTags, CornersAndPosesAreThoseOfTheFile) {
   }
 }
 
-}  // namespace
+}  // namespace markers_cli_test
 }  // namespace placegraph

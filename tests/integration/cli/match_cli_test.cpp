@@ -9,7 +9,7 @@
 #include "tests/support/pictures.h"
 
 namespace placegraph {
-namespace {
+namespace match_cli_test {
 
 using test::write_file;
 using ::testing::HasSubstr;
@@ -151,5 +151,5 @@ TEST_F(Match, KeepsItsTargetsOnARealCorridor) {
   EXPECT_GE(json.at("recall_at_100p").get<double>(), 0.6);
 }
 
-}  // namespace
+}  // namespace match_cli_test
 }  // namespace placegraph

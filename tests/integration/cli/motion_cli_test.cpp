@@ -7,7 +7,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace motion_cli_test {
 
 using nlohmann::json;
 using test::CommandResult;
@@ -135,5 +135,5 @@ TEST_F(MotionCli, SaysWhatIsWrong) {
   EXPECT_TRUE(json::parse(result.out)["T_ref_cur"].is_null());
 }
 
-}  // namespace
+}  // namespace motion_cli_test
 }  // namespace placegraph

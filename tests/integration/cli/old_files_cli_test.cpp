@@ -5,7 +5,7 @@
 #include "tests/support/paths.h"
 
 namespace placegraph {
-namespace {
+namespace old_files_cli_test {
 
 using test::CommandResult;
 using ::testing::HasSubstr;
@@ -105,5 +105,5 @@ TEST_F(OldFiles, ShortFormsStayWithoutANote) {
   EXPECT_THAT(run("eval a b").err, HasSubstr("(see placegraph eval trajectory --help)"));
 }
 
-}  // namespace
+}  // namespace old_files_cli_test
 }  // namespace placegraph

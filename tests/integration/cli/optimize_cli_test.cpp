@@ -9,7 +9,7 @@
 #include "tests/support/data.h"
 
 namespace placegraph {
-namespace {
+namespace optimize_cli_test {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -274,5 +274,5 @@ TEST_F(OptimizeCli, ReachesAPublishedOptimum) {
   EXPECT_LE(optimized(intel + " -o out.g2o --cost g2o").at("chi2_g2o"), 45.00469581 * (1 + 1e-6));
 }
 
-}  // namespace
+}  // namespace optimize_cli_test
 }  // namespace placegraph

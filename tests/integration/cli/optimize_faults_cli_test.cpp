@@ -2,7 +2,7 @@
 #include "tests/support/cli_test.h"
 
 namespace placegraph {
-namespace {
+namespace optimize_faults_cli_test {
 
 namespace fs = std::filesystem;
 using test::CommandResult;
@@ -158,5 +158,5 @@ TEST_F(OptimizeFaults, GrowsNoGraphTheWayOthersAreSolved) {
                        "--incremental goes with");
 }
 
-}  // namespace
+}  // namespace optimize_faults_cli_test
 }  // namespace placegraph

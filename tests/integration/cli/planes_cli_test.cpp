@@ -10,7 +10,7 @@
 #include "tests/support/scenes/planes_world.h"
 
 namespace placegraph {
-namespace {
+namespace planes_cli_test {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -142,5 +142,5 @@ TEST_F(PlanesCli, AgreesWithPeopleOnRealPairs) {
   EXPECT_LE(median, 0.10);
 }
 
-}  // namespace
+}  // namespace planes_cli_test
 }  // namespace placegraph

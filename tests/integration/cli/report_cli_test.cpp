@@ -6,7 +6,7 @@
 #include "tests/support/report_page.h"
 
 namespace placegraph {
-namespace {
+namespace report_cli_test {
 
 using nlohmann::json;
 using test::CommandResult;
@@ -108,5 +108,5 @@ TEST_F(ReportCli, ReportRefusesWhatIsNoRun) {
   EXPECT_FALSE(std::filesystem::exists(dir / "page.html"));
 }
 
-}  // namespace
+}  // namespace report_cli_test
 }  // namespace placegraph

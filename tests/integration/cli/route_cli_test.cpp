@@ -6,7 +6,7 @@
 #include "tests/support/cli_test.h"
 
 namespace placegraph {
-namespace {
+namespace route_cli_test {
 
 using test::read_file;
 using test::write_file;
@@ -85,5 +85,5 @@ TEST_F(RouteCli, NamesWhatIsWrongWithItsInput) {
   expect_usage_error("map route run --from 0 --to 1", "not those of graph.g2o");
 }
 
-}  // namespace
+}  // namespace route_cli_test
 }  // namespace placegraph

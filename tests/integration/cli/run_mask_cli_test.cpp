@@ -5,7 +5,7 @@
 #include "tests/unit/io/datasets/tiny_images.h"
 
 namespace placegraph {
-namespace {
+namespace run_mask_cli_test {
 
 using testing::HasSubstr;
 
@@ -54,5 +54,5 @@ TEST_F(RunMask, IsAnOptionOfFilesToo) {
   expect_usage_error("run s --out out --config o.yaml", "small.png");
 }
 
-}  // namespace
+}  // namespace run_mask_cli_test
 }  // namespace placegraph

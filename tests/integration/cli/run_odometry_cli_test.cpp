@@ -10,7 +10,7 @@
 #include "tests/support/cli_test.h"
 
 namespace placegraph {
-namespace {
+namespace run_odometry_cli_test {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -152,5 +152,5 @@ TEST_F(RunOdometryCli, ABrokenFileGivesOneLineAndNothingIsWritten) {
   EXPECT_EQ(read_file(dir / "old/result.json"), "mine");
 }
 
-}  // namespace
+}  // namespace run_odometry_cli_test
 }  // namespace placegraph

@@ -2,7 +2,7 @@
 #include "tests/support/cli_test.h"
 
 namespace placegraph {
-namespace {
+namespace synth_cli_test {
 
 namespace fs = std::filesystem;
 using test::read_file;
@@ -104,5 +104,5 @@ TEST_F(SynthCli, DoesNotWriteIntoAFolderThatHoldsSomething) {
   EXPECT_EQ(read_file(dir / "full/notes.txt"), "mine");
 }
 
-}  // namespace
+}  // namespace synth_cli_test
 }  // namespace placegraph

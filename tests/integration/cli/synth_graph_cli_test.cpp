@@ -5,7 +5,7 @@
 #include "tests/support/cli_test.h"
 
 namespace placegraph {
-namespace {
+namespace synth_graph_cli_test {
 
 namespace fs = std::filesystem;
 using test::CommandResult;
@@ -89,5 +89,5 @@ TEST_F(SynthGraphCli, RefusesWhatDoesNotBelongTogether) {
   EXPECT_FALSE(fs::exists(dir / "a.g2o"));
 }
 
-}  // namespace
+}  // namespace synth_graph_cli_test
 }  // namespace placegraph

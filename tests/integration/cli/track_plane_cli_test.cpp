@@ -12,7 +12,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace track_plane_cli_test {
 
 namespace fs = std::filesystem;
 using Eigen::Matrix3d;
@@ -218,5 +218,5 @@ TEST_F(TrackPlaneCli, FollowsTheBoardOfARealSequence) {
   EXPECT_LT(rmse_px, 1.2);
 }
 
-}  // namespace
+}  // namespace track_plane_cli_test
 }  // namespace placegraph

@@ -5,7 +5,7 @@
 #include "tests/unit/io/datasets/tiny_images.h"
 
 namespace placegraph {
-namespace {
+namespace unposed_cli_test {
 
 using nlohmann::json;
 using testing::HasSubstr;
@@ -82,5 +82,5 @@ TEST_F(Unposed, DepthSaysWhatItLacks) {
   expect_reason("0 of 0 tracked points with a measured depth");
 }
 
-}  // namespace
+}  // namespace unposed_cli_test
 }  // namespace placegraph

@@ -7,7 +7,7 @@
 #include "tests/support/scenes/manhattan_scene.h"
 
 namespace placegraph {
-namespace {
+namespace vanishing_cli_test {
 
 using nlohmann::json;
 using test::CommandResult;
@@ -109,5 +109,5 @@ TEST_F(VanishingCli, SaysWhatIsWrong) {
   expect_usage_error("vanishing lines.txt --calib K2.txt", "K2.txt:1: a camera has 6 numbers");
 }
 
-}  // namespace
+}  // namespace vanishing_cli_test
 }  // namespace placegraph

@@ -8,7 +8,7 @@
 
 /// The two engines are independent of each other: each is the other's oracle.
 namespace placegraph {
-namespace {
+namespace engines_test {
 
 using test::Walk;
 
@@ -124,5 +124,5 @@ TYPED_TEST(Engines, FromABadStartTheDoglegNeverEndsAboveWhereItBegan) {
   }
 }
 
-}  // namespace
+}  // namespace engines_test
 }  // namespace placegraph

@@ -6,7 +6,7 @@
 #include "tests/support/scenes/swaying_body.h"
 
 namespace placegraph {
-namespace {
+namespace error_state_filter_test {
 
 using test::SwayingBody;
 
@@ -46,5 +46,5 @@ TEST(PositionFilterConsistency, ErrsAsItsCovarianceSaysOverManyFlights) {
   EXPECT_LT(std::sqrt(square_m2 / judged), 0.03);
 }
 
-}  // namespace
+}  // namespace error_state_filter_test
 }  // namespace placegraph

@@ -9,7 +9,7 @@
 
 /// Constraints that are replaced and removed all the time, against the batch optimum.
 namespace placegraph {
-namespace {
+namespace incremental_replacement_test {
 
 using test::IncrementalWalk;
 
@@ -120,5 +120,5 @@ TYPED_TEST(IncrementalReplacement, ANodeWithoutConstraintsStaysWhereItIs) {
   EXPECT_LT((T_19_20.inverse() * std::get<TypeParam>(back.T_from_to)).log().norm(), 1e-6);
 }
 
-}  // namespace
+}  // namespace incremental_replacement_test
 }  // namespace placegraph

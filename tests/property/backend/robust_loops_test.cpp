@@ -6,7 +6,7 @@
 #include "tests/support/scenes/looped_walk.h"
 
 namespace placegraph {
-namespace {
+namespace robust_loops_test {
 
 using test::LoopedWalk;
 using test::LoopedWalkOptions;
@@ -187,5 +187,5 @@ TYPED_TEST(RobustLoopsOf, ACommonFactorOfAllInformationChangesNothing) {
   }
 }
 
-}  // namespace
+}  // namespace robust_loops_test
 }  // namespace placegraph

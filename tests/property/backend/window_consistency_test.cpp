@@ -6,7 +6,7 @@
 #include "tests/support/scenes/window_world.h"
 
 namespace placegraph {
-namespace {
+namespace window_consistency_test {
 
 using test::drive_window;
 using test::make_window_world;
@@ -132,5 +132,5 @@ INSTANTIATE_TEST_SUITE_P(Of, WindowConsistency,
                                          Case{"mono_over_ground", mono_over_ground()}),
                          [](const auto& c) { return std::string(c.param.name); });
 
-}  // namespace
+}  // namespace window_consistency_test
 }  // namespace placegraph

@@ -6,7 +6,7 @@
 #include "tests/support/trajectories.h"
 
 namespace placegraph {
-namespace {
+namespace invariance_test {
 
 using test::isometry;
 
@@ -143,5 +143,5 @@ TEST_F(Invariance, OdometryThatOnlyDriftsRaisesNoWarning) {
   });
 }
 
-}  // namespace
+}  // namespace invariance_test
 }  // namespace placegraph

@@ -6,7 +6,7 @@
 #include <set>
 
 namespace placegraph {
-namespace {
+namespace loop_benchmark_test {
 
 constexpr int kTrials = 40, kImages = 60, kMinAge = 10;
 
@@ -102,5 +102,5 @@ TEST(LoopBenchmark, IsNotTouchedByPredictionsThatAreTooYoung) {
   });
 }
 
-}  // namespace
+}  // namespace loop_benchmark_test
 }  // namespace placegraph

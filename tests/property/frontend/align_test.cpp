@@ -6,7 +6,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace align_test {
 
 using namespace test;
 using Eigen::Matrix3d;
@@ -186,5 +186,5 @@ TEST(Aligner, FindsRigidMotionBeforeAPlaneAndAlongIt) {
   }
 }
 
-}  // namespace
+}  // namespace align_test
 }  // namespace placegraph

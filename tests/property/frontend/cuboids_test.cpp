@@ -11,7 +11,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace cuboids_test {
 
 using synthetic::LabelledCloud;
 using synthetic::Solid;
@@ -143,5 +143,5 @@ TEST(Cuboids, OfFurnishedRoomsAreFoundAndHardlyAnyOther) {
   EXPECT_LT(rotations_deg[rotations_deg.size() / 2], 0.3);
 }
 
-}  // namespace
+}  // namespace cuboids_test
 }  // namespace placegraph

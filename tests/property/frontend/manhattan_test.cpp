@@ -7,7 +7,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace manhattan_test {
 
 double error_of(const SO3& R_cam_manhattan, const SO3& truth) {
   return (nearest_axes(R_cam_manhattan, truth).inverse() * truth).log().norm();
@@ -141,5 +141,5 @@ TEST(Manhattan, AxesThatAreNotQuiteAtRightAnglesWidenTheCovariance) {
   EXPECT_GE(within, kScenes * 3 / 4);  // three angles are few to tell a variance by
 }
 
-}  // namespace
+}  // namespace manhattan_test
 }  // namespace placegraph

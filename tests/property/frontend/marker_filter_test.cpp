@@ -10,7 +10,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace marker_filter_test {
 
 using namespace test;
 
@@ -75,5 +75,5 @@ TEST(MarkerFilterProperty, ChoosesTheMirroredPoseInNoViewAndDecidesMostNearOnes)
   EXPECT_LT(nees / decided, 2);
 }
 
-}  // namespace
+}  // namespace marker_filter_test
 }  // namespace placegraph

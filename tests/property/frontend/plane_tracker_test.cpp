@@ -8,7 +8,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace plane_tracker_test {
 
 using namespace test;
 using Eigen::Matrix3d;
@@ -203,5 +203,5 @@ TEST(PlaneTracker, GivesTheSameBitsOnAnyNumberOfThreads) {
   EXPECT_EQ(tracks[0].robust_similarity, tracks[1].robust_similarity);
 }
 
-}  // namespace
+}  // namespace plane_tracker_test
 }  // namespace placegraph

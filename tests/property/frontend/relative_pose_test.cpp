@@ -10,7 +10,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace relative_pose_test {
 
 using namespace test;
 
@@ -109,5 +109,5 @@ TEST(RelativePose, OfAnyTwoCloudsIsRecoveredAndSwappedIsItsInverse) {
   }
 }
 
-}  // namespace
+}  // namespace relative_pose_test
 }  // namespace placegraph

@@ -5,7 +5,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace segment_matcher_test {
 
 /// A wall of tiles seen twice; homographies from the wall.
 class TwoViews : public testing::Test {
@@ -39,5 +39,5 @@ TEST_F(TwoViews, AreMatchedThroughPerspective) {
   expect_truth(0.7);
 }
 
-}  // namespace
+}  // namespace segment_matcher_test
 }  // namespace placegraph

@@ -5,7 +5,7 @@
 #include <cmath>
 
 namespace placegraph {
-namespace {
+namespace flight_world_test {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -122,5 +122,5 @@ TEST(FlightWorld, FlowLeadsToWhereTheFloorIsInTheNextImage) {
   EXPECT_GT(exact, 170);  // of 192
 }
 
-}  // namespace
+}  // namespace flight_world_test
 }  // namespace placegraph

@@ -12,7 +12,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph {
-namespace {
+namespace flight_writer_test {
 
 using test::message_of;
 using test::TemporaryFolder;
@@ -61,5 +61,5 @@ TEST(FlightWriter, RefusesWorldsThatDoNotFly) {
               testing::HasSubstr("is not a flight"));
 }
 
-}  // namespace
+}  // namespace flight_writer_test
 }  // namespace placegraph

@@ -4,7 +4,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph {
-namespace {
+namespace g2o_test {
 
 using test::TemporaryFolder;
 
@@ -87,5 +87,5 @@ TEST(G2o, IsTheSameAfterWritingAndReading) {
   }
 }
 
-}  // namespace
+}  // namespace g2o_test
 }  // namespace placegraph

@@ -6,7 +6,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph {
-namespace {
+namespace map_database_test {
 
 using test::random_map;
 
@@ -98,5 +98,5 @@ TEST(MapDatabaseProperty, CommitsAddUpToTheWholeMap) {
   }
 }
 
-}  // namespace
+}  // namespace map_database_test
 }  // namespace placegraph

@@ -7,7 +7,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph {
-namespace {
+namespace pose_graph_file_test {
 
 using test::TemporaryFolder;
 
@@ -116,5 +116,5 @@ TEST(PoseGraphFile, GivesTheSameGraphInEveryFormFromKnownPoses) {
   }
 }
 
-}  // namespace
+}  // namespace pose_graph_file_test
 }  // namespace placegraph

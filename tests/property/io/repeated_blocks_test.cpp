@@ -5,7 +5,7 @@
 #include <opencv2/core.hpp>
 
 namespace placegraph {
-namespace {
+namespace repeated_blocks_test {
 
 constexpr double kBlock_m = 64;
 
@@ -52,5 +52,5 @@ TEST(RepeatedBlocks, AreDrivenOnce) {
   EXPECT_GT(poses.back().translation().z() - poses.front().translation().z(), 6.5 * kBlock_m);
 }
 
-}  // namespace
+}  // namespace repeated_blocks_test
 }  // namespace placegraph

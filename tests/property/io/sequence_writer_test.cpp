@@ -8,7 +8,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph {
-namespace {
+namespace sequence_writer_test {
 
 namespace fs = std::filesystem;
 using test::message_of;
@@ -105,5 +105,5 @@ TEST(SequenceWriter, NeverReplacesAFolderUnlessForcedAndLeavesNothingHalfDone) {
   EXPECT_TRUE(fs::exists(folder / "out/image_0/000001.png"));
 }
 
-}  // namespace
+}  // namespace sequence_writer_test
 }  // namespace placegraph

@@ -11,7 +11,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace synthetic_world_test {
 
 using synthetic::Difficulty;
 using synthetic::Face;
@@ -404,5 +404,5 @@ TEST(KittiDrive, PitchAndRollAgainstTheFittedRoadStaySmallOnHillyDrives) {
   }
 }
 
-}  // namespace
+}  // namespace synthetic_world_test
 }  // namespace placegraph

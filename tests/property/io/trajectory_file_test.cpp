@@ -4,7 +4,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph {
-namespace {
+namespace trajectory_file_test {
 
 using test::read_file;
 using test::TemporaryFolder;
@@ -68,5 +68,5 @@ TEST(Trajectory, IsTheSameLessItsLostFramesInTumAndEurocForm) {
   }
 }
 
-}  // namespace
+}  // namespace trajectory_file_test
 }  // namespace placegraph

@@ -5,7 +5,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace delay_line_test {
 
 struct Numbered {
   std::int64_t stamp_ns = 0;
@@ -42,5 +42,5 @@ TEST(DelayLineLaw, DeliversAllInOrderAsSoonAsTheirDelayHasPassed) {
   }
 }
 
-}  // namespace
+}  // namespace delay_line_test
 }  // namespace placegraph

@@ -4,7 +4,7 @@
 #include "tests/support/scenes/flight_measurements.h"
 
 namespace placegraph {
-namespace {
+namespace flight_test {
 
 using test::fly_without_images;
 
@@ -151,5 +151,5 @@ TEST(FlightLaw, RotatingTheWorldAboutTheVerticalRotatesTheStates) {
   EXPECT_GT(frames_with_state, 100);
 }
 
-}  // namespace
+}  // namespace flight_test
 }  // namespace placegraph

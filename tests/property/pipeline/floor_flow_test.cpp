@@ -4,7 +4,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace floor_flow_test {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -90,5 +90,5 @@ TEST(FloorFlowLaw, RotatingTheWorldAboutTheVerticalChangesNothing) {
   }
 }
 
-}  // namespace
+}  // namespace floor_flow_test
 }  // namespace placegraph

@@ -8,7 +8,7 @@
 #include "tests/support/scenes/swaying_body.h"
 
 namespace placegraph {
-namespace {
+namespace inertial_window_test {
 
 using test::SwayingBody;
 
@@ -81,5 +81,5 @@ TEST(InertialWindowConsistency, IsAsGoodAsTheFilterAtOnceAndBetterASecondLater) 
   EXPECT_LT(oldest.rmse_m(), filtered.rmse_m());
 }
 
-}  // namespace
+}  // namespace inertial_window_test
 }  // namespace placegraph

@@ -6,7 +6,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace initializer_test {
 
 using namespace test;
 
@@ -146,5 +146,5 @@ TEST(TwoViewLaws, ARotationBackIsTheInverse) {
   }
 }
 
-}  // namespace
+}  // namespace initializer_test
 }  // namespace placegraph

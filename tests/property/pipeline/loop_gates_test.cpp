@@ -7,7 +7,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace loop_gates_test {
 
 using namespace test;
 
@@ -86,5 +86,5 @@ TEST(LoopGateLaws, TheUnitOfLengthChangesNoDecision) {
   }
 }
 
-}  // namespace
+}  // namespace loop_gates_test
 }  // namespace placegraph

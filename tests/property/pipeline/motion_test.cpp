@@ -7,7 +7,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace motion_test {
 
 using namespace test;
 
@@ -297,5 +297,5 @@ TEST(LocalMapLaws, RelativePosesDoNotDependOnTheFrame) {
   }
 }
 
-}  // namespace
+}  // namespace motion_test
 }  // namespace placegraph

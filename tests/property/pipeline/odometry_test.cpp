@@ -7,7 +7,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace odometry_test {
 
 using namespace test;
 
@@ -208,5 +208,5 @@ TEST(OdometryLaws, SurfacesOfALargerWorldAreALongerWay) {
   }
 }
 
-}  // namespace
+}  // namespace odometry_test
 }  // namespace placegraph

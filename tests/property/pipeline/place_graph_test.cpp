@@ -6,7 +6,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace place_graph_test {
 
 using namespace test;
 
@@ -156,5 +156,5 @@ TEST(PlaceGraphLaw, SeparatingUndoesMerging) {
   }
 }
 
-}  // namespace
+}  // namespace place_graph_test
 }  // namespace placegraph

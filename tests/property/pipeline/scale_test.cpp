@@ -7,7 +7,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace scale_test {
 
 using namespace test;
 
@@ -140,5 +140,5 @@ TEST(FloorScaleLaws, AHigherCameraMakesALargerScene) {
   }
 }
 
-}  // namespace
+}  // namespace scale_test
 }  // namespace placegraph

@@ -7,7 +7,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace tracking_test {
 
 using namespace test;
 
@@ -190,5 +190,5 @@ TEST(LensStretchesLaws, TheDeviationIsThatOfTheMean) {
   EXPECT_LT(squared, 1.2);
 }
 
-}  // namespace
+}  // namespace tracking_test
 }  // namespace placegraph

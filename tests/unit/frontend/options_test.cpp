@@ -29,7 +29,7 @@
 #include <set>
 
 namespace placegraph {
-namespace {
+namespace options_test {
 
 template <class Options>
 class FrontendOptions : public testing::Test {};
@@ -91,5 +91,5 @@ TYPED_TEST(FrontendOptions, HaveSoundDefaultsAndEveryNumberHasARange) {
   EXPECT_GT(broken, 0);
 }
 
-}  // namespace
+}  // namespace options_test
 }  // namespace placegraph

@@ -2,7 +2,7 @@
 #include <placegraph/graph/landmark.h>
 
 namespace placegraph {
-namespace {
+namespace landmark_test {
 
 TEST(HammingDistance, CountsDifferingBitsOverAllWords) {
   const BinaryDescriptor zero{};
@@ -24,5 +24,5 @@ TEST(HammingDistance, OfManyIsThatOfEach) {
   EXPECT_EQ(distances[2], 0);
 }
 
-}  // namespace
+}  // namespace landmark_test
 }  // namespace placegraph

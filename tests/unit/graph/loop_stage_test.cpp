@@ -2,7 +2,7 @@
 #include <placegraph/graph/loop_stage.h>
 
 namespace placegraph {
-namespace {
+namespace loop_stage_test {
 
 TEST(LoopStage, IsReadBackFromItsNameAndTheModelOfTheLoop) {
   for (int i = 0; i <= kLoopStageCount; ++i) {  // with kManual
@@ -26,5 +26,5 @@ TEST(LoopStage, OtherNamesAreNone) {
     EXPECT_FALSE(loop_stage(name, LoopModel::kNone)) << name;
 }
 
-}  // namespace
+}  // namespace loop_stage_test
 }  // namespace placegraph

@@ -7,7 +7,7 @@
 #include <numbers>
 
 namespace placegraph {
-namespace {
+namespace map_revisits_test {
 
 /// A frame a metre along x, each a keyframe of the place given for it, at `x[i]`.
 Map walk(const std::vector<int>& places, const std::vector<double>& x) {
@@ -59,5 +59,5 @@ TEST(MapRevisits, LookTheSameWay) {
   EXPECT_THROW((void)map_revisits(map, {.min_age = 0}), ArgumentError);
 }
 
-}  // namespace
+}  // namespace map_revisits_test
 }  // namespace placegraph

@@ -6,7 +6,7 @@
 #include <numbers>
 
 namespace placegraph {
-namespace {
+namespace map_test {
 
 /// Two places, the second of `component`; keyframes 100 (anchor) and 101 hang on the first, 200 on
 /// the second; frames: 0 on 100, 1 on 101, 2 lost, 3 on 200.
@@ -161,5 +161,5 @@ TEST(Map, ACopyIsASnapshot) {
 
 TEST(Map, OfNothingHasAnEmptyTrajectory) { EXPECT_EQ(Map().trajectory_optimized().size(), 0u); }
 
-}  // namespace
+}  // namespace map_test
 }  // namespace placegraph

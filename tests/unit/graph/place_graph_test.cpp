@@ -6,7 +6,7 @@
 #include <vector>
 
 namespace placegraph {
-namespace {
+namespace place_graph_test {
 
 using testing::ElementsAre;
 
@@ -103,5 +103,5 @@ TEST(PlaceGraph, IsOneOfSimilaritiesIfItsConstraintsAre) {
   EXPECT_EQ(graph.places[1].scale, 2.5);
 }
 
-}  // namespace
+}  // namespace place_graph_test
 }  // namespace placegraph

@@ -3,7 +3,7 @@
 #include <placegraph/graph/place_transitions.h>
 
 namespace placegraph {
-namespace {
+namespace place_transitions_test {
 
 /// Keyframe i is of place `places[i]`; frame i hangs on keyframe i, or is lost where it is -1.
 Map map_of(const std::vector<int>& places, const std::vector<int>& components) {
@@ -55,5 +55,5 @@ TEST(PlaceTransitions, RefuseAFrameWhoseKeyframeIsNotThere) {
   EXPECT_THROW((void)place_transitions(map), ArgumentError);
 }
 
-}  // namespace
+}  // namespace place_transitions_test
 }  // namespace placegraph

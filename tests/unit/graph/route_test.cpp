@@ -10,7 +10,7 @@
 #include "tests/support/message_of.h"
 
 namespace placegraph {
-namespace {
+namespace route_test {
 
 /// Places 0 to 5 along x, two metres apart, each turned a little; a loop joins 1 and 4, which lies
 /// beside it; place 9 stands alone.
@@ -141,5 +141,5 @@ TEST(Route, SaysThatNothingJoinsTwoPlacesAndRefusesUnknownOnes) {
   EXPECT_THROW((void)shortest_route(places(), PlaceId(7), PlaceId(0)), ArgumentError);
 }
 
-}  // namespace
+}  // namespace route_test
 }  // namespace placegraph

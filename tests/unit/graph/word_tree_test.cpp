@@ -2,7 +2,7 @@
 #include <placegraph/graph/internal/word_tree.h>
 
 namespace placegraph {
-namespace {
+namespace word_tree_test {
 
 WordTree tree_of(std::vector<WordTree::Node> nodes, int words) {
   WordTree tree;
@@ -35,5 +35,5 @@ TEST(WordTree, NamesTheNodeThatIsWrong) {
   EXPECT_EQ(tree.problem(), "not one centre per node");
 }
 
-}  // namespace
+}  // namespace word_tree_test
 }  // namespace placegraph

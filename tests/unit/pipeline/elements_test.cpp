@@ -6,7 +6,7 @@
 #include "tests/support/message_of.h"
 
 namespace placegraph {
-namespace {
+namespace elements_test {
 
 TEST(Elements, AreNamedJoinedByCommas) {
   const Elements elements = parse_elements("motion, spatial,semantics");
@@ -55,5 +55,5 @@ TEST(Elements, NeedAModelOfSurfacesForContextAndSemantics) {
   }
 }
 
-}  // namespace
+}  // namespace elements_test
 }  // namespace placegraph

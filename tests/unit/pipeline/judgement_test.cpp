@@ -6,7 +6,7 @@
 #include "tests/support/scenes/scene.h"
 
 namespace placegraph {
-namespace {
+namespace judgement_test {
 
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -146,5 +146,5 @@ TEST(Judgement, ListsLostSpansAndComponents) {
                         "frames 5 to 6"));
 }
 
-}  // namespace
+}  // namespace judgement_test
 }  // namespace placegraph

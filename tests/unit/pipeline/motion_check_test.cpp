@@ -4,7 +4,7 @@
 #include <placegraph/pipeline/internal/motion_check.h>
 
 namespace placegraph {
-namespace {
+namespace motion_check_test {
 
 using testing::HasSubstr;
 
@@ -185,5 +185,5 @@ TEST(OddSpeed, IsFasterThanAnyVehicle) {
   EXPECT_FALSE(odd_speed(counted));
 }
 
-}  // namespace
+}  // namespace motion_check_test
 }  // namespace placegraph

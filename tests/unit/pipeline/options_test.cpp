@@ -5,7 +5,7 @@
 #include <set>
 
 namespace placegraph {
-namespace {
+namespace options_test {
 
 template <class Options>
 class PipelineOptions : public testing::Test {};
@@ -66,5 +66,5 @@ TEST(RunOptions, NamesItsSensors) {
   EXPECT_STREQ(to_string(Sensor::kRgbd), "rgbd");
 }
 
-}  // namespace
+}  // namespace options_test
 }  // namespace placegraph

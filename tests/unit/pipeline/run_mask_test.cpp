@@ -9,7 +9,7 @@
 #include "tests/unit/io/datasets/tiny_images.h"
 
 namespace placegraph {
-namespace {
+namespace run_mask_test {
 
 using namespace test;
 
@@ -48,5 +48,5 @@ TEST(RunMask, RefusesFilesThatAreNoMaskOfTheImages) {
     EXPECT_THROW(RunMask(dir / name, kCamera), FileError) << name;
 }
 
-}  // namespace
+}  // namespace run_mask_test
 }  // namespace placegraph

@@ -7,7 +7,7 @@
 #include "tests/support/scenes/street.h"
 
 namespace placegraph {
-namespace {
+namespace stereo_check_test {
 
 using testing::HasSubstr;
 
@@ -82,5 +82,5 @@ TEST(StereoCheck, DoesNotJudgeWhatShowsNothing) {
   EXPECT_FALSE(odd_rows(check_rows(test::StreetDataset(4, 0, 4)), kCamera));
 }
 
-}  // namespace
+}  // namespace stereo_check_test
 }  // namespace placegraph

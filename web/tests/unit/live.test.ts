@@ -4,6 +4,8 @@ import {
   type FrameEvent,
   type LiveEvent,
   type Snapshot,
+  type Stage,
+  EVENT_KINDS,
   decodeEvent,
   decodeLiveImage,
   decodeSnapshot,
@@ -205,53 +207,114 @@ describe("a run that goes on", () => {
     expect([...run.loops.values()].filter((loop) => loop.accepted)).toHaveLength(100);
   });
 
-  it("ends in the state of the program whenever events and snapshots come", () => {
+  it("ends in the state of the program whatever events come, and whenever they and snapshots do", () => {
+    const kinds = new Set<string>();
     for (let seed = 0; seed < 300; seed++) {
-      const { run, xs, done } = randomStory(new Random(seed));
+      const { run, truth, sent } = randomStory(new Random(seed));
+      for (const { kind } of sent) kinds.add(kind);
       expect(run.stale, `seed ${seed}`).toBe(false);
-      expect(positions(run), `seed ${seed}`).toEqual(xs.map(Math.fround));
-      expect(run.phase, `seed ${seed}`).toBe(done ? "done" : "running");
+      const poses = positions(run).filter((_, row) => run.frames.isPosed(row));
+      expect(poses, `seed ${seed}`).toEqual(truth.xs.filter((x) => x !== null).map(Math.fround));
+      expect(run.frames.count, `seed ${seed}`).toBe(truth.xs.length);
+      expect(run.phase, `seed ${seed}`).toBe(truth.done ? "done" : "running");
+      expect(run.paused, `seed ${seed}`).toBe(truth.paused);
+      expect(run.stages, `seed ${seed}`).toEqual(truth.stages);
+      expect([...run.loops.keys()].sort(), `seed ${seed}`).toEqual([...truth.loops.keys()].sort());
+      for (const [key, accepted] of truth.loops)
+        expect(run.loops.get(key)?.accepted, `seed ${seed}, loop ${key}`).toBe(accepted);
     }
+    expect([...kinds].sort()).toEqual([...EVENT_KINDS].sort());
   });
 });
 
-/** A program that tracks, moves, begins again and ends; its events arrive in order, its snapshots late. */
-function randomStory(random: Random): { run: LiveRun; xs: number[]; done: boolean } {
+/** What a program that tracks knows: a position of each frame, or null where it is lost. */
+interface Truth {
+  xs: (number | null)[];
+  loops: Map<string, boolean>;
+  stages: Stage[];
+  version: number;
+  paused: boolean;
+  done: boolean;
+}
+
+function snapshotOf({ xs, loops, version, paused, done }: Truth): Snapshot {
+  const posed = Array.from(xs.keys()).filter((id) => xs[id] !== null);
+  const whole = snapshot(version, xs.map((x) => x ?? 0), done);
+  return decodeSnapshot({
+    version,
+    total: 20,
+    done: xs.length,
+    paused,
+    finished: done,
+    frame_ids: column("i32", Array.from(xs.keys())),
+    component: column("i32", Array.from(xs.keys(), (id) => (posed.includes(id) ? 0 : -1))),
+    pose: column("f32", Array.from(whole.pose), 7),
+    landmarks: column("f32", [0, 0, 1], 3),
+    loops: Array.from(loops, ([key, accepted]) => {
+      const [query, match] = key.split(" ").map(Number);
+      return { ...LOOP, query_frame: query, match_frame: match, accepted, stage: accepted ? "accepted" : "geometry" };
+    }),
+  });
+}
+
+/**
+ * A program that tracks, is lost, finds loops, moves its map, is paused, begins again and ends; its events arrive in
+ * order, its snapshots late.
+ */
+function randomStory(random: Random): { run: LiveRun; truth: Truth; sent: LiveEvent[] } {
   const run = new LiveRun();
+  const truth: Truth = { xs: [], loops: new Map(), stages: [], version: 0, paused: false, done: false };
+  const sent: LiveEvent[] = [];
   const events: LiveEvent[] = [];
-  let xs: number[] = [];
-  let version = 0;
-  let done = false;
   let asked: Snapshot | null = null;
-  for (let step = 0; step < 60; step++) {
-    const what = random.uniform();
-    if (what < 0.4 && !done) {
+  const send = (event: LiveEvent) => {
+    sent.push(event);
+    events.push(event);
+  };
+  const tell = (what: number) => {
+    if (what < 0.5) {
+      if (truth.done) return;
+      const lost = random.uniform() < 0.2;
       const x = random.between(0, 100);
-      events.push(frameEvent(xs.length, x));
-      xs.push(x);
-    } else if (what < 0.5) {
-      xs = xs.map((x) => x + 1);
-      events.push({ kind: "moved", version: ++version });
-    } else if (what < 0.53) {
-      xs = [];
-      done = false;
-      events.push({ kind: "reset", version: ++version });
-    } else if (what < 0.55) {
-      done = true;
-      events.push({ kind: "done", verdict: null });
-    } else if (what < 0.75) {
-      for (const event of events.splice(0, 1 + Math.floor(3 * random.uniform()))) run.apply(event);
-    } else if (asked === null) {
-      asked = snapshot(version, xs, done);
+      send(frameEvent(truth.xs.length, x, lost));
+      truth.xs.push(lost ? null : x);
+    } else if (what < 0.65 && truth.xs.length > 1) {
+      const query = Math.floor(random.between(1, truth.xs.length - 1e-9));
+      if (truth.loops.has(`${query} 0`)) return; // a pair is decided once
+      const accepted = random.uniform() < 0.5;
+      send(decodeEvent("loop", { ...LOOP, query_frame: query, match_frame: 0, accepted }));
+      truth.loops.set(`${query} 0`, accepted);
+    } else if (what < 0.78) {
+      truth.xs = truth.xs.map((x) => (x === null ? null : x + 1));
+      send({ kind: "moved", version: ++truth.version });
+    } else if (what < 0.84) {
+      truth.stages = [{ name: "loops", cpuS: random.uniform(), calls: 1 }];
+      send({ kind: "stages", stages: truth.stages });
+    } else if (what < 0.92) {
+      truth.paused = !truth.paused;
+      send({ kind: "control", paused: truth.paused });
+    } else if (what < 0.96) {
+      Object.assign(truth, { xs: [], loops: new Map(), done: false });
+      send({ kind: "reset", version: ++truth.version });
     } else {
+      truth.done = true;
+      send({ kind: "done", verdict: null });
+    }
+  };
+  for (let step = 0; step < 80; step++) {
+    const what = random.uniform();
+    if (what < 0.6) tell(random.uniform());
+    else if (what < 0.8) for (const event of events.splice(0, 1 + Math.floor(3 * random.uniform()))) run.apply(event);
+    else if (asked === null) asked = snapshotOf(truth);
+    else {
       run.take(asked);
       asked = null;
     }
   }
   for (const event of events) run.apply(event);
   if (asked) run.take(asked);
-  if (run.stale) run.take(snapshot(version, xs, done));
-  return { run, xs, done };
+  if (run.stale) run.take(snapshotOf(truth));
+  return { run, truth, sent };
 }
 
 describe("the shown positions", () => {

@@ -14,7 +14,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph::apps {
-namespace {
+namespace eval_edges_test {
 
 using nlohmann::json;
 using test::message_of;
@@ -239,5 +239,5 @@ TEST(EvalNoise, ReportsWhatTheTruthSaysOfItself) {
   EXPECT_THAT(to_text(result), HasSubstr("direction of motion lateral "));
 }
 
-}  // namespace
+}  // namespace eval_edges_test
 }  // namespace placegraph::apps

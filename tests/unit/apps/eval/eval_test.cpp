@@ -12,7 +12,7 @@
 #include "tests/support/trajectories.h"
 
 namespace placegraph::apps {
-namespace {
+namespace eval_test {
 
 using test::message_of;
 using testing::HasSubstr;
@@ -180,5 +180,5 @@ TEST_F(EvalCommand, RefusesArgumentsThatMeanNothing) {
   expect_refused("mine.csv: exists already; --force overwrites it");
 }
 
-}  // namespace
+}  // namespace eval_test
 }  // namespace placegraph::apps

@@ -10,7 +10,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph::apps {
-namespace {
+namespace loops_test {
 
 using nlohmann::json;
 using test::message_of;
@@ -123,5 +123,5 @@ TEST_F(LoopsCommand, RefusesArgumentsThatMeanNothing) {
   EXPECT_FALSE(std::filesystem::exists(arguments.plot));
 }
 
-}  // namespace
+}  // namespace loops_test
 }  // namespace placegraph::apps

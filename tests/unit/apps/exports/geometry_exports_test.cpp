@@ -17,7 +17,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph::apps {
-namespace {
+namespace geometry_exports_test {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -331,5 +331,5 @@ TEST_F(GeometryExports, DenseFormsNeedVoxelsLandmarksAndImages) {
   EXPECT_FALSE(fs::exists(folder / "c.ply"));
 }
 
-}  // namespace
+}  // namespace geometry_exports_test
 }  // namespace placegraph::apps

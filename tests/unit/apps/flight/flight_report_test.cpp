@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 namespace placegraph::apps {
-namespace {
+namespace flight_report_test {
 
 using nlohmann::json;
 
@@ -105,5 +105,5 @@ TEST(FramesCsv, HasALineAnImage) {
   EXPECT_THAT(csv, testing::HasSubstr("\n8000000000,1,1,0,0.000,1,0,1.00000,1.00000,1.00000,\n"));
 }
 
-}  // namespace
+}  // namespace flight_report_test
 }  // namespace placegraph::apps

@@ -7,7 +7,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph::apps {
-namespace {
+namespace flight_test {
 
 using test::message_of;
 using testing::HasSubstr;
@@ -78,5 +78,5 @@ TEST(OpenFlight, RefusesAFolderOfAnotherLayout) {
               HasSubstr("is no folder with mav0/cam0/data.csv"));
 }
 
-}  // namespace
+}  // namespace flight_test
 }  // namespace placegraph::apps

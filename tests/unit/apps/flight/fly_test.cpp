@@ -11,7 +11,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph::apps {
-namespace {
+namespace fly_test {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -115,5 +115,5 @@ TEST(FlightText, SaysHowWellItIsKnown) {
   EXPECT_EQ(json::parse(to_json(result)), result.summary);
 }
 
-}  // namespace
+}  // namespace fly_test
 }  // namespace placegraph::apps

@@ -11,7 +11,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph::apps {
-namespace {
+namespace bundle_test {
 
 using test::message_of;
 using testing::HasSubstr;
@@ -121,5 +121,5 @@ TEST(BundleText, SaysWhatWasFound) {
   EXPECT_EQ(json["cost"], 0.25);
 }
 
-}  // namespace
+}  // namespace bundle_test
 }  // namespace placegraph::apps

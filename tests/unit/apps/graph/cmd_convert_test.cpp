@@ -9,7 +9,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph {
-namespace {
+namespace cmd_convert_test {
 
 using test::message_of;
 using test::read_file;
@@ -145,5 +145,5 @@ TEST(ConvertCommandLine, AsksForTimesWhereTheFormNeedsThem) {
   EXPECT_THROW(convert({folder / "none", folder / "out.kitti"}), CLI::ParseError);
 }
 
-}  // namespace
+}  // namespace cmd_convert_test
 }  // namespace placegraph

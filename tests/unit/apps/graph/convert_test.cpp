@@ -13,7 +13,7 @@
 #include "tests/support/trajectories.h"
 
 namespace placegraph::apps {
-namespace {
+namespace convert_test {
 
 using test::message_of;
 using testing::HasSubstr;
@@ -148,5 +148,5 @@ TEST(ConvertText, CountsWhatAGraphHas) {
             "a.g2o\n");
 }
 
-}  // namespace
+}  // namespace convert_test
 }  // namespace placegraph::apps

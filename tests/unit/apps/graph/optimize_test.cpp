@@ -14,7 +14,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph::apps {
-namespace {
+namespace optimize_test {
 
 using nlohmann::json;
 using test::message_of;
@@ -217,5 +217,5 @@ TEST_F(OptimizeCommand, RefusesOfLandmarksWhatBelongsToPosesAlone) {
   expect_refused("has priors or point landmarks, which --robust");
 }
 
-}  // namespace
+}  // namespace optimize_test
 }  // namespace placegraph::apps

@@ -9,7 +9,7 @@
 #include "tests/unit/io/datasets/tiny_images.h"
 
 namespace placegraph::apps {
-namespace {
+namespace lines_detect_test {
 
 using test::message_of;
 using testing::HasSubstr;
@@ -70,5 +70,5 @@ TEST_F(LinesDetectCommand, KeepsAFileThatIsThereAndNamesAnImageThatIsNot) {
   EXPECT_THAT(message_of([&] { lines_detect(arguments); }), HasSubstr("absent.png: "));
 }
 
-}  // namespace
+}  // namespace lines_detect_test
 }  // namespace placegraph::apps

@@ -12,7 +12,7 @@
 #include "tests/unit/io/datasets/tiny_images.h"
 
 namespace placegraph::apps {
-namespace {
+namespace lines_match_test {
 
 using test::message_of;
 using testing::HasSubstr;
@@ -89,5 +89,5 @@ TEST_F(LinesMatchCommand, NamesTheLineOfABrokenFileAndCountsWhatItNeedsTwoOf) {
   EXPECT_EQ(message_of<ArgumentError>([&] { lines_match(arguments); }), "IMAGES: two are needed");
 }
 
-}  // namespace
+}  // namespace lines_match_test
 }  // namespace placegraph::apps

@@ -14,7 +14,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph::apps {
-namespace {
+namespace lines_track_test {
 
 using test::message_of;
 using testing::HasSubstr;
@@ -102,5 +102,5 @@ TEST(LinesTrackText, SaysWhatTheTruthSays) {
   EXPECT_EQ(LineTracksJudgement{}.wrong_percent(), 0);
 }
 
-}  // namespace
+}  // namespace lines_track_test
 }  // namespace placegraph::apps

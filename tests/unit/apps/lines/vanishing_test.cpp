@@ -10,7 +10,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph::apps {
-namespace {
+namespace vanishing_test {
 
 using test::message_of;
 using testing::HasSubstr;
@@ -108,5 +108,5 @@ TEST(VanishingText, SaysWhatAPointIsToTheWorlds) {
   EXPECT_EQ(json["points"][1]["across"]["axis"], 1);
 }
 
-}  // namespace
+}  // namespace vanishing_test
 }  // namespace placegraph::apps

@@ -12,7 +12,7 @@
 #include "tests/unit/apps/saved_map/posed_map.h"
 
 namespace placegraph::apps {
-namespace {
+namespace explain_test {
 
 using nlohmann::json;
 using test::message_of;
@@ -203,5 +203,5 @@ TEST(ExplainText, SaysWhatIsKnownLineByLine) {
   EXPECT_EQ(json::parse(to_json(result)), result.explanation);
 }
 
-}  // namespace
+}  // namespace explain_test
 }  // namespace placegraph::apps

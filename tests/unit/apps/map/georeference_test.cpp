@@ -17,7 +17,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph::apps {
-namespace {
+namespace georeference_test {
 
 using nlohmann::json;
 using test::message_of;
@@ -253,5 +253,5 @@ TEST_F(GeoreferenceCommand, WritesNothingWhereTheFixesAreOfAnotherTime) {
   expect_nothing_written<NoResult>("no time in common");
 }
 
-}  // namespace
+}  // namespace georeference_test
 }  // namespace placegraph::apps

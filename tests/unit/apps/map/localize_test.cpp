@@ -12,7 +12,7 @@
 #include "tests/unit/apps/saved_map/walked_rooms.h"
 
 namespace placegraph::apps {
-namespace {
+namespace localize_test {
 
 using nlohmann::json;
 using test::message_of;
@@ -140,5 +140,5 @@ TEST(LocalizeText, CountsWhatBecameOfTheImages) {
             "appearance, 1 by geometry), 12.3 ms CPU an image, written to placed.txt\n");
 }
 
-}  // namespace
+}  // namespace localize_test
 }  // namespace placegraph::apps

@@ -11,7 +11,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph::apps {
-namespace {
+namespace route_test {
 
 using nlohmann::json;
 using test::message_of;
@@ -130,5 +130,5 @@ TEST_F(RouteCommand, KeepsAFileThatIsThereUnlessItIsForced) {
   EXPECT_EQ(test::read_file(arguments.out), "mine");
 }
 
-}  // namespace
+}  // namespace route_test
 }  // namespace placegraph::apps

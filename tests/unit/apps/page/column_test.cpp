@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 namespace placegraph::apps {
-namespace {
+namespace column_test {
 
 TEST(ReportColumn, HasLittleEndianValues) {
   const nlohmann::json numbers = column(std::vector<std::int32_t>{1, -1, 256, 0}, 2);
@@ -28,5 +28,5 @@ TEST(ReportColumn, NamesEveryTextOnce) {
   EXPECT_EQ(texts["index"], column(std::vector<std::int32_t>{0, -1, 1, 0}));
 }
 
-}  // namespace
+}  // namespace column_test
 }  // namespace placegraph::apps

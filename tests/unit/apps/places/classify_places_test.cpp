@@ -9,7 +9,7 @@
 #include "tests/unit/apps/places/twelve_views.h"
 
 namespace placegraph::apps {
-namespace {
+namespace classify_places_test {
 
 using test::message_of;
 using testing::HasSubstr;
@@ -135,5 +135,5 @@ TEST(ClassifyPlacesText, SaysWhatWasLearnedAndHowWell) {
             "predictions.txt\n");
 }
 
-}  // namespace
+}  // namespace classify_places_test
 }  // namespace placegraph::apps

@@ -10,7 +10,7 @@
 #include "tests/unit/apps/places/twelve_views.h"
 
 namespace placegraph::apps {
-namespace {
+namespace match_test {
 
 namespace fs = std::filesystem;
 using test::message_of;
@@ -146,5 +146,5 @@ TEST(MatchText, SaysHowManyHaveAnAnswer) {
   EXPECT_EQ(to_text(result), "20 images, 3 queries, 12.3 ms CPU an image, written to found.txt\n");
 }
 
-}  // namespace
+}  // namespace match_test
 }  // namespace placegraph::apps

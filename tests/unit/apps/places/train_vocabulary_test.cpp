@@ -9,7 +9,7 @@
 #include "tests/unit/apps/places/twelve_views.h"
 
 namespace placegraph::apps {
-namespace {
+namespace train_vocabulary_test {
 
 using test::message_of;
 using testing::HasSubstr;
@@ -74,5 +74,5 @@ TEST(TrainVocabularyText, IsOneLine) {
             "97 float words learned from 12 images, written to words.pgw\n");
 }
 
-}  // namespace
+}  // namespace train_vocabulary_test
 }  // namespace placegraph::apps

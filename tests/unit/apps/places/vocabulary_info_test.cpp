@@ -8,7 +8,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph::apps {
-namespace {
+namespace vocabulary_info_test {
 
 using test::message_of;
 using testing::HasSubstr;
@@ -55,5 +55,5 @@ TEST(VocabularyInfoText, IsOneLine) {
             "words.pgw: 97 binary words, 102 nodes, read in 4 ms\n");
 }
 
-}  // namespace
+}  // namespace vocabulary_info_test
 }  // namespace placegraph::apps

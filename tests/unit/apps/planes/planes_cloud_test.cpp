@@ -13,7 +13,7 @@
 #include "tests/unit/io/datasets/tiny_images.h"
 
 namespace placegraph::apps {
-namespace {
+namespace planes_cloud_test {
 
 using test::message_of;
 using testing::HasSubstr;
@@ -157,5 +157,5 @@ TEST_F(PlanesCloudCommand, NamesWhatItCannotUseAndWritesNothing) {
   EXPECT_FALSE(std::filesystem::exists(arguments.out));
 }
 
-}  // namespace
+}  // namespace planes_cloud_test
 }  // namespace placegraph::apps

@@ -10,7 +10,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph::apps {
-namespace {
+namespace planes_two_view_test {
 
 using test::message_of;
 using testing::HasSubstr;
@@ -116,5 +116,5 @@ TEST_F(PlanesTwoViewCommand, RefusesAMotionWithoutACameraOrInTheSameFile) {
             "--motion: the same file as --out");
 }
 
-}  // namespace
+}  // namespace planes_two_view_test
 }  // namespace placegraph::apps

@@ -12,7 +12,7 @@
 #include "tests/unit/io/datasets/tiny_images.h"
 
 namespace placegraph::apps {
-namespace {
+namespace track_plane_test {
 
 using Eigen::Matrix3d;
 using test::message_of;
@@ -129,5 +129,5 @@ TEST_F(TrackPlaneCommand, NamesWhatItCannotUse) {
             *arguments.calib + ": is for images of 640x240, these are 320x240");
 }
 
-}  // namespace
+}  // namespace track_plane_test
 }  // namespace placegraph::apps

@@ -9,7 +9,7 @@
 #include "tests/support/trajectories.h"
 
 namespace placegraph::apps {
-namespace {
+namespace report_eval_test {
 
 using nlohmann::json;
 using testing::ElementsAre;
@@ -116,5 +116,5 @@ TEST_F(EvalReport, NamesAreNoTags) {
   EXPECT_THAT(report["pictures"][0]["svg"].get<std::string>(), Not(HasSubstr("<img")));
 }
 
-}  // namespace
+}  // namespace report_eval_test
 }  // namespace placegraph::apps

@@ -8,7 +8,7 @@
 #include "tests/support/report_page.h"
 
 namespace placegraph::apps {
-namespace {
+namespace report_graph_test {
 
 using nlohmann::json;
 
@@ -45,5 +45,5 @@ TEST(GraphPage, HasPosesConstraintsAndTheirChi2) {
   EXPECT_EQ(graph["figures"][0]["value"], 3.5);
 }
 
-}  // namespace
+}  // namespace report_graph_test
 }  // namespace placegraph::apps

@@ -13,7 +13,7 @@
 #include "tests/support/report_page.h"
 
 namespace placegraph::apps {
-namespace {
+namespace report_loops_test {
 
 using nlohmann::json;
 using testing::HasSubstr;
@@ -146,5 +146,5 @@ TEST_F(LoopsReport, NamesAreNoTags) {
   EXPECT_THAT(report["pictures"][0]["svg"].get<std::string>(), Not(HasSubstr("<img")));
 }
 
-}  // namespace
+}  // namespace report_loops_test
 }  // namespace placegraph::apps

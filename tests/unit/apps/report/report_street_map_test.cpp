@@ -11,7 +11,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph::apps {
-namespace {
+namespace report_street_map_test {
 
 using nlohmann::json;
 
@@ -69,5 +69,5 @@ TEST(ReportStreetMap, IsNotReadInTheAxesOfTheEarth) {
   EXPECT_FALSE(read_street_map(folder / ""));
 }
 
-}  // namespace
+}  // namespace report_street_map_test
 }  // namespace placegraph::apps

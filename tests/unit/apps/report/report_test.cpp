@@ -19,7 +19,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph::apps {
-namespace {
+namespace report_test {
 
 using nlohmann::json;
 using testing::AllOf;
@@ -253,5 +253,5 @@ TEST(ReportPage, HasOnePlaceForItsData) {
               HasSubstr("\"a\":\"\\u003c/script>\xef\xbf\xbd\""));
 }
 
-}  // namespace
+}  // namespace report_test
 }  // namespace placegraph::apps

@@ -11,7 +11,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph::apps {
-namespace {
+namespace component_files_test {
 
 /// Five frames of component 0 and three of component 1, a metre apart.
 Map two_components() {
@@ -64,5 +64,5 @@ TEST(ComponentFiles, AreNotMentionedForOneComponent) {
   EXPECT_EQ(components_text(describe_components(map)), "");
 }
 
-}  // namespace
+}  // namespace component_files_test
 }  // namespace placegraph::apps

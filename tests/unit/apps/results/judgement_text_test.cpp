@@ -5,7 +5,7 @@
 #include "apps/results/judgement_text.h"
 
 namespace placegraph::apps {
-namespace {
+namespace judgement_text_test {
 
 TEST(JudgementText, IsOneLineForAGoodRun) {
   Judgement judgement;
@@ -46,5 +46,5 @@ TEST(JudgementText, IsMadeOfTheKeysOfResultJson) {
                 {{{"cause", "few_posed"}, {"text", "none"}, {"advice", "more light"}}}));
 }
 
-}  // namespace
+}  // namespace judgement_text_test
 }  // namespace placegraph::apps

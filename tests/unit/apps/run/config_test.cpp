@@ -9,7 +9,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph::apps {
-namespace {
+namespace config_test {
 
 using test::message_of;
 using testing::HasSubstr;
@@ -87,5 +87,5 @@ TEST(ConfigCommand, KeepsAFileThatIsThereUnlessItIsForced) {
   EXPECT_EQ(test::read_file(arguments.out), "mine");
 }
 
-}  // namespace
+}  // namespace config_test
 }  // namespace placegraph::apps

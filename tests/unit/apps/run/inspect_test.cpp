@@ -10,7 +10,7 @@
 #include "tests/unit/io/datasets/tiny_images.h"
 
 namespace placegraph::apps {
-namespace {
+namespace inspect_test {
 
 using nlohmann::json;
 using test::message_of;
@@ -75,5 +75,5 @@ TEST_F(InspectCommand, RefusesAFolderWithoutImages) {
   EXPECT_THROW(inspect(arguments), UnknownLayout);
 }
 
-}  // namespace
+}  // namespace inspect_test
 }  // namespace placegraph::apps

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace placegraph::apps {
-namespace {
+namespace run_messages_test {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -97,5 +97,5 @@ TEST_F(Messages, HaveTimeAndLevelForDebugging) {
   EXPECT_THAT(lines[1], HasSubstr("event    frame 90: loop with frame 3 refused at stage "));
 }
 
-}  // namespace
+}  // namespace run_messages_test
 }  // namespace placegraph::apps

@@ -10,7 +10,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph::apps {
-namespace {
+namespace run_options_test {
 
 using test::message_of;
 using testing::HasSubstr;
@@ -129,5 +129,5 @@ TEST(RunOptionsOfASavedMap, OfVersion010AreRead) {
   }
 }
 
-}  // namespace
+}  // namespace run_options_test
 }  // namespace placegraph::apps

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace placegraph::apps {
-namespace {
+namespace run_report_test {
 
 using nlohmann::json;
 
@@ -60,5 +60,5 @@ TEST(RunReportText, IsResultJsonForMachines) {
   EXPECT_EQ(json::parse(to_json(report)), report.summary);
 }
 
-}  // namespace
+}  // namespace run_report_test
 }  // namespace placegraph::apps

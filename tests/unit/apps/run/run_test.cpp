@@ -10,7 +10,7 @@
 #include "tests/support/scenes/street_files.h"
 
 namespace placegraph::apps {
-namespace {
+namespace run_test {
 
 using nlohmann::json;
 using test::message_of;
@@ -125,5 +125,5 @@ TEST_F(RunCommandFunction, LeavesNoFolderBehindWhereThereIsNothingToRun) {
   EXPECT_FALSE(fs::exists(arguments.out));
 }
 
-}  // namespace
+}  // namespace run_test
 }  // namespace placegraph::apps

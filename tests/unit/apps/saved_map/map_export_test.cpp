@@ -14,7 +14,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph::apps {
-namespace {
+namespace map_export_test {
 
 using test::message_of;
 using testing::HasSubstr;
@@ -107,5 +107,5 @@ TEST_F(MapExportCommand, RefusesWhatItCannotDo) {
   EXPECT_EQ(test::read_file(folder / "g.g2o"), "mine");
 }
 
-}  // namespace
+}  // namespace map_export_test
 }  // namespace placegraph::apps

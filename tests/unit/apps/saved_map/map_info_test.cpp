@@ -7,7 +7,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph::apps {
-namespace {
+namespace map_info_test {
 
 using nlohmann::json;
 using test::message_of;
@@ -129,5 +129,5 @@ TEST(MapInfoText, SaysItInSixLines) {
   EXPECT_EQ(json::parse(to_json(result)), result.summary);
 }
 
-}  // namespace
+}  // namespace map_info_test
 }  // namespace placegraph::apps

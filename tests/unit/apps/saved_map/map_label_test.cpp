@@ -10,7 +10,7 @@
 #include "tests/unit/apps/saved_map/walked_rooms.h"
 
 namespace placegraph::apps {
-namespace {
+namespace map_label_test {
 
 using nlohmann::json;
 using test::message_of;
@@ -88,5 +88,5 @@ TEST(MapLabelText, IsOneLine) {
             "m.db: 3 of 4 places labelled (50 views; cross-validated accuracy 0.900)\n");
 }
 
-}  // namespace
+}  // namespace map_label_test
 }  // namespace placegraph::apps

@@ -10,7 +10,7 @@
 #include "tests/unit/apps/saved_map/walked_rooms.h"
 
 namespace placegraph::apps {
-namespace {
+namespace map_learn_test {
 
 using test::message_of;
 using testing::HasSubstr;
@@ -74,5 +74,5 @@ TEST_F(MapLearnCommand, NamesTheImageThatIsGreyAmongOthers) {
   EXPECT_EQ(test::read_file(arguments.out), "mine");
 }
 
-}  // namespace
+}  // namespace map_learn_test
 }  // namespace placegraph::apps

@@ -12,7 +12,7 @@
 #include "tests/unit/apps/saved_map/posed_map.h"
 
 namespace placegraph::apps {
-namespace {
+namespace map_plan_test {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -83,5 +83,5 @@ TEST(MapPlanText, IsOneLine) {
   EXPECT_EQ(json::parse(to_json(result)), result.summary);
 }
 
-}  // namespace
+}  // namespace map_plan_test
 }  // namespace placegraph::apps

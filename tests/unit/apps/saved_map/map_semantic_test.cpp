@@ -12,7 +12,7 @@
 #include "tests/unit/apps/saved_map/posed_map.h"
 
 namespace placegraph::apps {
-namespace {
+namespace map_semantic_test {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -84,5 +84,5 @@ TEST(MapSemanticText, IsOneLine) {
   EXPECT_EQ(json::parse(to_json(result)), result.summary);
 }
 
-}  // namespace
+}  // namespace map_semantic_test
 }  // namespace placegraph::apps

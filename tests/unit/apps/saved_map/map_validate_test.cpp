@@ -9,7 +9,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph::apps {
-namespace {
+namespace map_validate_test {
 
 using test::message_of;
 using testing::HasSubstr;
@@ -82,5 +82,5 @@ TEST(MapValidateText, IsOneLine) {
             "m.db: valid, broken off, 1 places, 2 frames\n");
 }
 
-}  // namespace
+}  // namespace map_validate_test
 }  // namespace placegraph::apps

@@ -8,7 +8,7 @@
 #include "tests/unit/io/datasets/tiny_images.h"
 
 namespace placegraph::apps {
-namespace {
+namespace scene_check_test {
 
 using test::message_of;
 using testing::HasSubstr;
@@ -98,5 +98,5 @@ TEST_F(SceneCheckCommand, NamesTheFileThatIsMissingOrNoLabelImage) {
               HasSubstr("ours/a.png: missing: the labels of "));
 }
 
-}  // namespace
+}  // namespace scene_check_test
 }  // namespace placegraph::apps

@@ -12,7 +12,7 @@
 #include "tests/unit/io/datasets/tiny_images.h"
 
 namespace placegraph::apps {
-namespace {
+namespace scene_images_test {
 
 namespace fs = std::filesystem;
 using test::message_of;
@@ -113,5 +113,5 @@ TEST(ScenePictureText, LeavesOutClassesThatAreNowhere) {
   EXPECT_THAT(to_text(result), HasSubstr("written to out as class numbers (dark images)\n"));
 }
 
-}  // namespace
+}  // namespace scene_images_test
 }  // namespace placegraph::apps

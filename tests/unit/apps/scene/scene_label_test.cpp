@@ -11,7 +11,7 @@
 #include "tests/unit/apps/scene/drawn_set.h"
 
 namespace placegraph::apps {
-namespace {
+namespace scene_label_test {
 
 using test::message_of;
 using testing::HasSubstr;
@@ -109,5 +109,5 @@ TEST(SceneLabelOfRooms, LeavesAStreetAsItIs) {
   EXPECT_EQ(scene_label(arguments).pixels, result.pixels);
 }
 
-}  // namespace
+}  // namespace scene_label_test
 }  // namespace placegraph::apps

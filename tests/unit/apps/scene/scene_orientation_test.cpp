@@ -13,7 +13,7 @@
 #include "tests/support/scenes/street_files.h"
 
 namespace placegraph::apps {
-namespace {
+namespace scene_orientation_test {
 
 using test::message_of;
 using testing::HasSubstr;
@@ -141,5 +141,5 @@ TEST(SceneOrientationText, SaysWhatOneImageAndWhatASequenceShows) {
             "walk: 3 of 4 images labelled, 75.0 % of their pixels; 20 ms CPU an image\n");
 }
 
-}  // namespace
+}  // namespace scene_orientation_test
 }  // namespace placegraph::apps

@@ -11,7 +11,7 @@
 #include "tests/unit/io/datasets/tiny_images.h"
 
 namespace placegraph::apps {
-namespace {
+namespace scene_popup_test {
 
 using test::message_of;
 using testing::HasSubstr;
@@ -123,5 +123,5 @@ TEST(ScenePopupText, IsOneLine) {
   EXPECT_FALSE(nlohmann::json::parse(to_json(result)).contains("foot_px"));
 }
 
-}  // namespace
+}  // namespace scene_popup_test
 }  // namespace placegraph::apps

@@ -1,15 +1,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <thread>
+#include <vector>
 
 #include "apps/server/event_log.h"
+#include "tests/support/sleeping_thread.h"
 
 namespace placegraph::apps {
-namespace {
+namespace event_log_test {
 
 using ::testing::HasSubstr;
-using ::testing::Not;
 using ::testing::StartsWith;
 
 TEST(EventLog, ReadersGetTheEventsFromTheirBeginOn) {
@@ -22,25 +24,62 @@ TEST(EventLog, ReadersGetTheEventsFromTheirBeginOn) {
   EXPECT_EQ(*reader->next(), "id: 1\nevent: frame\ndata: 2\n\nid: 2\nevent: loop\ndata: {}\n\n");
 }
 
+// A reader that nothing wakes finds its event when its keep-alive is due. The keep-alives of a log
+// without events, which are as far apart, count such waits.
 TEST(EventLog, AnEventWakesAWaitingReader) {
-  const auto log = std::make_shared<EventLog>();
-  const auto reader = log->reader();
+  constexpr int kEvents = 6;
+  const auto log = std::make_shared<EventLog>(), quiet = std::make_shared<EventLog>();
+  const auto reader = log->reader(), other = quiet->reader();
   (void)reader->next();
-  std::thread writer([&] { log->add("frame", "7"); });
-  std::string text;
-  while (text.find("data: 7") == std::string::npos) text += *reader->next();
-  writer.join();
+  (void)other->next();
+  int keep_alives = 0;
+  std::thread counting([&] {
+    while (other->next()) ++keep_alives;
+  });
+  for (int i = 0; i < kEvents; ++i) {
+    std::string text;
+    test::ObservedThread waiting([&] { text = *reader->next(); });
+    waiting.await_sleep();
+    EXPECT_FALSE(waiting.ended());
+    log->add("frame", "7");
+    waiting.join();
+    EXPECT_EQ(text, "id: " + std::to_string(i) + "\nevent: frame\ndata: 7\n\n");
+  }
+  quiet->close();
+  counting.join();
+  EXPECT_LT(keep_alives, kEvents / 2);
 }
 
-TEST(EventLog, AReaderThatFallsBehindGetsAReset) {
+TEST(EventLog, ItsEndWakesAWaitingReader) {
   const auto log = std::make_shared<EventLog>();
   const auto reader = log->reader();
   (void)reader->next();
-  for (int i = 0; i < 5000; ++i) log->add("frame", std::to_string(i));
-  std::string text = *reader->next();
-  EXPECT_THAT(text, StartsWith("event: reset\ndata: {\"version\":0}\n"));
-  while (text.find("data: 4999\n") == std::string::npos) text += *reader->next();
-  EXPECT_THAT(text, Not(HasSubstr("data: 3\n")));
+  std::optional<std::string> text;
+  test::ObservedThread waiting([&] { text = reader->next(); });
+  waiting.await_sleep();
+  log->close();
+  waiting.join();
+  EXPECT_FALSE(text);
+}
+
+TEST(EventLog, AReaderThatFallsBehindGetsAResetAndTheNewestEvents) {
+  const auto log = std::make_shared<EventLog>();
+  const auto reader = log->reader();
+  (void)reader->next();
+  constexpr int kEvents = 5000;
+  for (int i = 0; i < kEvents; ++i) log->add("frame", std::to_string(i));
+  log->close();
+  const std::string first = *reader->next(), reset = "event: reset\ndata: {\"version\":0}\n\n";
+  ASSERT_THAT(first, StartsWith(reset + "id: "));
+  std::string text = first.substr(reset.size());
+  while (const auto more = reader->next()) text += *more;
+  const int oldest = std::stoi(text.substr(4));
+  EXPECT_GT(oldest, 0);
+  std::string expected;
+  for (int i = oldest; i < kEvents; ++i)
+    expected +=
+        "id: " + std::to_string(i) + "\nevent: frame\ndata: " + std::to_string(i) + "\n\n";
+  EXPECT_TRUE(text == expected) << "from " << oldest;
 }
 
 TEST(EventLog, EndsAfterTheLastEvent) {
@@ -74,5 +113,5 @@ TEST(EventLog, HasNoMoreReadersThanThreads) {
   EXPECT_NE(log->reader(), nullptr);
 }
 
-}  // namespace
+}  // namespace event_log_test
 }  // namespace placegraph::apps

@@ -3,7 +3,7 @@
 #include "apps/server/request_check.h"
 
 namespace placegraph::apps {
-namespace {
+namespace request_check_test {
 
 const ServerIdentity kServer{4711, "0123456789abcdef0123456789abcdef"};
 const std::string kRoot = "/" + kServer.token + "/";
@@ -114,5 +114,5 @@ TEST(RequestCheck, ATokenHas32DigitsAndIsNew) {
   EXPECT_EQ(address_of({80, "ab"}), "http://127.0.0.1:80/ab/");
 }
 
-}  // namespace
+}  // namespace request_check_test
 }  // namespace placegraph::apps

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace placegraph::apps {
-namespace {
+namespace spellings_test {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
@@ -55,5 +55,5 @@ TEST(PresentSpelling, MakesFlagsOfHelpAndVersion) {
   EXPECT_THAT(present_spelling({"version"}).words, ElementsAre("--version"));
 }
 
-}  // namespace
+}  // namespace spellings_test
 }  // namespace placegraph::apps

@@ -6,11 +6,12 @@
 
 #include <filesystem>
 
+#include "apps/shipped/scene_models.h"
 #include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph::apps {
-namespace {
+namespace shipped_files_test {
 
 using ::testing::AllOf;
 using ::testing::EndsWith;
@@ -36,5 +37,26 @@ TEST(ConfigPath, NamesSimilarOrAllShippedFiles) {
               AllOf(HasSubstr("installed files are "), HasSubstr("kitti_stereo, ")));
 }
 
-}  // namespace
+TEST(ConfigPath, AFileGoesBeforeAShippedOneOfItsName) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path before = std::filesystem::current_path();
+  folder.write("kitti_mono", "seed: 1\n");
+  std::filesystem::current_path(folder.path());
+  EXPECT_EQ(config_path("kitti_mono"), "kitti_mono");
+  std::filesystem::current_path(before);
+}
+
+TEST(SceneModelPath, IsWhatIsGivenOrNamesTheCommandThatMakesIt) {
+  const test::TemporaryFolder folder;
+  const std::string mine = folder.write("mine.pgscene", "");
+  EXPECT_EQ(scene_model_path(SceneModel::Kind::kUrban, mine), mine);
+  EXPECT_EQ(test::message_of([&] {
+              (void)scene_model_path(SceneModel::Kind::kSurfaces, folder / "none");
+            }),
+            folder / "none: no such model; `placegraph train surfaces DATA --out "
+                     "surfaces.pgscene` makes one");
+  EXPECT_THROW((void)load_scene_model(SceneModel::Kind::kUrban, mine), FileError);
+}
+
+}  // namespace shipped_files_test
 }  // namespace placegraph::apps

@@ -9,7 +9,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph::apps {
-namespace {
+namespace output_folder_test {
 
 TEST(OutputFolder, IsLockedWhileTheWorkGoesOn) {
   const test::TemporaryFolder folder;
@@ -35,5 +35,5 @@ TEST(OutputFolder, IsRemovedIfItWasMadeAndNothingWasWritten) {
   EXPECT_TRUE(std::filesystem::exists(folder / "a/b/result.txt"));
 }
 
-}  // namespace
+}  // namespace output_folder_test
 }  // namespace placegraph::apps

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace placegraph::apps {
-namespace {
+namespace progress_test {
 
 Pace::Clock::time_point at(double seconds) {
   return Pace::Clock::time_point(
@@ -33,5 +33,5 @@ TEST(ProgressText, TellsTheTimeLeftByTheRate) {
   EXPECT_EQ(progress_text(1, 282, std::nullopt, "frames"), "1/282 frames");
 }
 
-}  // namespace
+}  // namespace progress_test
 }  // namespace placegraph::apps

@@ -7,7 +7,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph {
-namespace {
+namespace write_png_test {
 
 TEST(WritePng, WritesTheBytesOfTheEncoderWhateverTheName) {
   const test::TemporaryFolder folder;
@@ -20,5 +20,5 @@ TEST(WritePng, WritesTheBytesOfTheEncoderWhateverTheName) {
   EXPECT_NE(encode_png(image, {.level = 9}), encode_png(image));
 }
 
-}  // namespace
+}  // namespace write_png_test
 }  // namespace placegraph

@@ -13,7 +13,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph::apps {
-namespace {
+namespace synth_graph_test {
 
 using test::edge_of;
 using test::message_of;
@@ -145,5 +145,5 @@ TEST(SynthGraphText, SaysWhatWasWritten) {
             "grid-world: 20 poses, 27 constraints, written to a.g2o\n");
 }
 
-}  // namespace
+}  // namespace synth_graph_test
 }  // namespace placegraph::apps

@@ -9,7 +9,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph::apps {
-namespace {
+namespace synth_test {
 
 namespace fs = std::filesystem;
 using test::message_of;
@@ -114,5 +114,5 @@ TEST(SynthText, SaysWhatWasRendered) {
   EXPECT_THAT(to_text(result), HasSubstr("32 m, rgbd (clean)"));
 }
 
-}  // namespace
+}  // namespace synth_test
 }  // namespace placegraph::apps

@@ -10,7 +10,7 @@
 #include "tests/unit/apps/scene/drawn_set.h"
 
 namespace placegraph::apps {
-namespace {
+namespace environment_samples_test {
 
 using test::message_of;
 using testing::HasSubstr;
@@ -87,5 +87,5 @@ TEST_F(EnvironmentSamples, ATownIsAStreetSeenAsOftenAsAskedFor) {
   for (const EnvironmentSample& sample : samples) EXPECT_EQ(sample.kind, Environment::kStreet);
 }
 
-}  // namespace
+}  // namespace environment_samples_test
 }  // namespace placegraph::apps

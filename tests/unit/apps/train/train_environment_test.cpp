@@ -11,7 +11,7 @@
 #include "tests/unit/apps/scene/drawn_set.h"
 
 namespace placegraph::apps {
-namespace {
+namespace train_environment_test {
 
 using test::message_of;
 using testing::HasSubstr;
@@ -82,5 +82,5 @@ TEST(TrainEnvironmentText, HasALineForEveryKindThatOccurs) {
   EXPECT_EQ(json["left_out"].size(), 1u);
 }
 
-}  // namespace
+}  // namespace train_environment_test
 }  // namespace placegraph::apps

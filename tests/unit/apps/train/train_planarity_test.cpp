@@ -9,7 +9,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph::apps {
-namespace {
+namespace train_planarity_test {
 
 using test::message_of;
 using testing::HasSubstr;
@@ -87,5 +87,5 @@ TEST(TrainPlanarityText, CountsTheRightPredictions) {
   EXPECT_EQ(json["left_out"]["others_kept"], 0.1);
 }
 
-}  // namespace
+}  // namespace train_planarity_test
 }  // namespace placegraph::apps

@@ -10,7 +10,7 @@
 #include "tests/unit/apps/scene/drawn_set.h"
 
 namespace placegraph::apps {
-namespace {
+namespace train_scene_test {
 
 using test::message_of;
 using testing::HasSubstr;
@@ -132,5 +132,5 @@ TEST(TrainSceneText, SaysWhatWasLearnedAndHowWell) {
   EXPECT_EQ(json["pictures"], 5);
 }
 
-}  // namespace
+}  // namespace train_scene_test
 }  // namespace placegraph::apps

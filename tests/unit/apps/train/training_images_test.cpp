@@ -7,7 +7,7 @@
 #include "tests/unit/apps/scene/drawn_set.h"
 
 namespace placegraph::apps {
-namespace {
+namespace training_images_test {
 
 using test::message_of;
 using testing::HasSubstr;
@@ -81,5 +81,5 @@ TEST_F(SceneTrainingSet, NamesTheFileThatCannotBeRead) {
               HasSubstr("one_2.png"));
 }
 
-}  // namespace
+}  // namespace training_images_test
 }  // namespace placegraph::apps

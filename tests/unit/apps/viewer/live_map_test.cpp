@@ -3,7 +3,7 @@
 #include "apps/viewer/live_map.h"
 
 namespace placegraph::apps {
-namespace {
+namespace live_map_test {
 
 SE3 at(double x) { return SE3(SO3(), Eigen::Vector3d(x, 0, 0)); }
 
@@ -92,5 +92,5 @@ TEST(LiveMap, AFrameWithoutAPoseHasNoComponent) {
   EXPECT_TRUE(map.frames().empty());
 }
 
-}  // namespace
+}  // namespace live_map_test
 }  // namespace placegraph::apps

@@ -11,7 +11,7 @@
 #include "tests/unit/io/datasets/tiny_images.h"
 
 namespace placegraph::apps {
-namespace {
+namespace flow_test {
 
 using test::message_of;
 using testing::EndsWith;
@@ -151,5 +151,5 @@ TEST(FlowText, SaysTheErrorOnlyWhereTheTruthIsKnown) {
   EXPECT_EQ(nlohmann::json::parse(to_json(result))["truth_pixels"], 100);
 }
 
-}  // namespace
+}  // namespace flow_test
 }  // namespace placegraph::apps

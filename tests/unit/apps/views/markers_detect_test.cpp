@@ -10,7 +10,7 @@
 #include "tests/unit/io/datasets/tiny_images.h"
 
 namespace placegraph::apps {
-namespace {
+namespace markers_detect_test {
 
 using test::message_of;
 using testing::HasSubstr;
@@ -128,5 +128,5 @@ TEST_F(MarkersDetectCommand, NamesWhatItCannotUse) {
             "--side: must be a finite number");
 }
 
-}  // namespace
+}  // namespace markers_detect_test
 }  // namespace placegraph::apps

@@ -11,7 +11,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph::apps {
-namespace {
+namespace motion_test {
 
 using test::message_of;
 using testing::HasSubstr;
@@ -191,5 +191,5 @@ TEST_F(MotionCommand, RefusesWhatDoesNotBelongTogether) {
   EXPECT_EQ(refusal(), "--calib is required for --method auto");
 }
 
-}  // namespace
+}  // namespace motion_test
 }  // namespace placegraph::apps

@@ -6,7 +6,7 @@
 #include "tests/support/random_system.h"
 
 namespace placegraph {
-namespace {
+namespace elimination_tree_test {
 
 /// A tree and the dense system that it must agree with.
 class EliminationTreeTest : public ::testing::Test {
@@ -241,5 +241,5 @@ TEST_F(EliminationTreeTest, AMatrixThatIsNotPositiveDefiniteIsRefused) {
   EXPECT_NEAR(tree.model_decrease(), system.gradients[0].squaredNorm() / 2, 1e-12);
 }
 
-}  // namespace
+}  // namespace elimination_tree_test
 }  // namespace placegraph

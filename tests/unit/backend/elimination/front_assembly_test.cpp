@@ -6,7 +6,7 @@
 #include "tests/support/random_system.h"
 
 namespace placegraph {
-namespace {
+namespace front_assembly_test {
 
 constexpr double kRounding = 1e-9;
 
@@ -209,5 +209,5 @@ TEST_P(FrontKernelsTest, APivotThatIsNotPositiveIsRefused) {
   EXPECT_FALSE(FrontKernels<3>::factorize(matrix.data(), rows, frontal));
 }
 
-}  // namespace
+}  // namespace front_assembly_test
 }  // namespace placegraph

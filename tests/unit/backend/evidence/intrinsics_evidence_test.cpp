@@ -8,7 +8,7 @@
 #include <vector>
 
 namespace placegraph {
-namespace {
+namespace intrinsics_evidence_test {
 
 constexpr double kBaseline_m = 0.2;
 
@@ -160,5 +160,5 @@ TEST(IntrinsicsEvidence, AWindowWithoutPointsTellsNothing) {
   EXPECT_EQ(intrinsics_evidence(window.state(), false).information.norm(), 0);
 }
 
-}  // namespace
+}  // namespace intrinsics_evidence_test
 }  // namespace placegraph

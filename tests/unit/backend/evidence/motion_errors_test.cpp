@@ -12,7 +12,7 @@
 #include <vector>
 
 namespace placegraph {
-namespace {
+namespace motion_errors_test {
 
 using E = ImagingErrors;
 
@@ -203,5 +203,5 @@ TEST(MotionErrors, AMotionNeedsTwoKeyframesOfTheWindow) {
   EXPECT_THROW(motion_errors(window, kFrom, KeyframeId(9)), ArgumentError);
 }
 
-}  // namespace
+}  // namespace motion_errors_test
 }  // namespace placegraph

@@ -6,7 +6,7 @@
 #include "tests/support/scenes/window_world.h"
 
 namespace placegraph {
-namespace {
+namespace bundle_adjustment_test {
 
 /// Cameras around a cloud of points, all seen by all.
 Bundle make_bundle(Random& random) {
@@ -92,5 +92,5 @@ TEST(BundleAdjustment, TellsWhyThereIsNoAnswer) {
   EXPECT_THROW((void)adjust_bundle({}, options), ArgumentError);
 }
 
-}  // namespace
+}  // namespace bundle_adjustment_test
 }  // namespace placegraph

@@ -23,7 +23,7 @@
 #include "tests/support/scenes/window_world.h"
 
 namespace placegraph {
-namespace {
+namespace factor_graph_test {
 
 using Point = Eigen::Vector3d;
 
@@ -370,5 +370,5 @@ TEST(FactorGraph, RefusesTermsThatDoNotFitTheirVariables) {
   EXPECT_THROW((void)optimize_factor_graph(good, bad), ArgumentError);
 }
 
-}  // namespace
+}  // namespace factor_graph_test
 }  // namespace placegraph

@@ -14,7 +14,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace fixed_lag_smoother_test {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
@@ -211,5 +211,5 @@ TEST(FactorGraph, ThrowsTheExceptionOfAFactorOrOfTheLog) {
   EXPECT_THROW((void)marginal_covariance(graph, {1}), std::runtime_error);
 }
 
-}  // namespace
+}  // namespace fixed_lag_smoother_test
 }  // namespace placegraph

@@ -17,7 +17,7 @@
 #include "tests/support/scenes/window_world.h"
 
 namespace placegraph {
-namespace {
+namespace graph_factors_test {
 
 using test::evaluate;
 using test::expect_jacobians_match;
@@ -277,5 +277,5 @@ TEST(RadialReprojectionFactor, CannotProjectAPointInThePlaneOfTheCamera) {
   EXPECT_FALSE(factor.compute(SE3(), {500, 0, 0}, {1, 1, 0}, r, nullptr));
 }
 
-}  // namespace
+}  // namespace graph_factors_test
 }  // namespace placegraph

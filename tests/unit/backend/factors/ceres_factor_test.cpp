@@ -9,7 +9,7 @@
 #include "tests/support/jacobian_check.h"
 
 namespace placegraph {
-namespace {
+namespace ceres_factor_test {
 
 TEST(DynamicCeresFactor, IsTheFactorAsOneWhoseTypeIsKnown) {
   const SE3 T_map_cam(SO3::exp({0.1, 0.5, 0.3}), Eigen::Vector3d(1, 2, 3));
@@ -57,5 +57,5 @@ TEST(Variable, DiffersFromOneOfItsOwnKindOnly) {
   EXPECT_LT(minus(loaded, Variable(T)).norm(), 1e-12);
 }
 
-}  // namespace
+}  // namespace ceres_factor_test
 }  // namespace placegraph

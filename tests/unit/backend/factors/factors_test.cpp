@@ -16,7 +16,7 @@
 #include "tests/support/scenes/window_world.h"
 
 namespace placegraph {
-namespace {
+namespace factors_test {
 
 using test::Block;
 using test::pose_block;
@@ -268,5 +268,5 @@ TEST(PoseError, OfThePlaneInTheQuaternionConventionHasTheWholeAngle) {
       1e-12);
 }
 
-}  // namespace
+}  // namespace factors_test
 }  // namespace placegraph

@@ -6,7 +6,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace antenna_trajectory_test {
 
 constexpr std::int64_t kStep_ns = 100'000'000;
 
@@ -69,5 +69,5 @@ TYPED_TEST(AntennaPosition, JacobiansMatchFiniteDifferences) {
       factor, {test::pose_block(T, manifold), test::Block{{c[0], c[1], c[2], c[3]}}}, 1e-8);
 }
 
-}  // namespace
+}  // namespace antenna_trajectory_test
 }  // namespace placegraph

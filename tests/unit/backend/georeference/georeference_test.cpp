@@ -10,7 +10,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace georeference_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -401,5 +401,5 @@ TEST(Georeference, ThrowsForACallersMistakes) {
   EXPECT_THROW((void)georeference(exact_drive(truth), options), ArgumentError);
 }
 
-}  // namespace
+}  // namespace georeference_test
 }  // namespace placegraph

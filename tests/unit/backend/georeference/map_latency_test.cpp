@@ -2,7 +2,7 @@
 #include <placegraph/backend/internal/georeference/map_latency.h>
 
 namespace placegraph {
-namespace {
+namespace map_latency_test {
 
 constexpr std::int64_t kStep_ns = 100'000'000;
 
@@ -100,5 +100,5 @@ TEST(MapDelay, MovesPlanarNodesInThePlane) {
   EXPECT_NEAR(between.translation().norm(), 0.5, 1e-12);
 }
 
-}  // namespace
+}  // namespace map_latency_test
 }  // namespace placegraph

@@ -6,7 +6,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace variance_components_test {
 
 constexpr double kSigma = 0.1;  ///< of the odometry and of the positions, metres and radians
 
@@ -93,5 +93,5 @@ TEST(VarianceComponents, SaysNothingWhereNothingIsChecked) {
   EXPECT_NEAR(claimed_drift(graph).by_rotation, 2.5, 1e-12);
 }
 
-}  // namespace
+}  // namespace variance_components_test
 }  // namespace placegraph

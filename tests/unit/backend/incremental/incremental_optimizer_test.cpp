@@ -10,7 +10,7 @@
 #include "tests/support/scenes/incremental_walk.h"
 
 namespace placegraph {
-namespace {
+namespace incremental_optimizer_test {
 
 using test::IncrementalWalk;
 
@@ -269,5 +269,5 @@ TEST(IncrementalOptimizer, TwoRunsGiveTheSameBits) {
               std::get<SE3>(b.graph.nodes[i].T_world_node).matrix());
 }
 
-}  // namespace
+}  // namespace incremental_optimizer_test
 }  // namespace placegraph

@@ -8,7 +8,7 @@
 #include "tests/support/scenes/swaying_body.h"
 
 namespace placegraph {
-namespace {
+namespace error_state_filter_test {
 
 using Eigen::Vector3d;
 using test::SwayingBody;
@@ -179,5 +179,5 @@ TEST(PositionFilter, LearnsTheBiasesOfItsSensors) {
   EXPECT_LT((state.accel_bias - flight.accel_bias).norm(), 0.03);
 }
 
-}  // namespace
+}  // namespace error_state_filter_test
 }  // namespace placegraph

@@ -5,7 +5,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace inertial_factors_test {
 
 using test::SwayingBody;
 
@@ -164,5 +164,5 @@ TEST(ImuPreintegration, CovarianceIsThatOfManyIntegrations) {
   EXPECT_NEAR(sum / kTrials, 1, 0.25);
 }
 
-}  // namespace
+}  // namespace inertial_factors_test
 }  // namespace placegraph

@@ -6,7 +6,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace inertial_window_test {
 
 using test::SwayingBody;
 using Code = Outcome::Code;
@@ -116,5 +116,5 @@ TEST(InertialWindow, MarginalizationChangesLittle) {
   for (int i = 0; i < 15; ++i) EXPECT_NEAR(sigma_last[i] / sigma[i], 1, 0.05) << i;
 }
 
-}  // namespace
+}  // namespace inertial_window_test
 }  // namespace placegraph

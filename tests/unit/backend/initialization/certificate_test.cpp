@@ -10,7 +10,7 @@
 #include "tests/support/ring.h"
 
 namespace placegraph {
-namespace {
+namespace certificate_test {
 
 using test::ring;
 using test::Walk;
@@ -236,5 +236,5 @@ TEST(PoseGraphInitialization, EveryStartEndsInTheSameMinimumOfAnEasyGraph) {
   }
 }
 
-}  // namespace
+}  // namespace certificate_test
 }  // namespace placegraph

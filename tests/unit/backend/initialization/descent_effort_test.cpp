@@ -2,7 +2,7 @@
 #include <placegraph/backend/internal/initialization/descent_effort.h>
 
 namespace placegraph {
-namespace {
+namespace descent_effort_test {
 
 BlockOrdering ordering() {
   BlockOrdering ordering;
@@ -37,5 +37,5 @@ TEST(DescentEffort, GrowsWithTheRank) {
   }
 }
 
-}  // namespace
+}  // namespace descent_effort_test
 }  // namespace placegraph

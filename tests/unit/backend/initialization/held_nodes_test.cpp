@@ -4,7 +4,7 @@
 #include "tests/support/scenes/pose_walk.h"
 
 namespace placegraph {
-namespace {
+namespace held_nodes_test {
 
 using test::Walk;
 
@@ -73,5 +73,5 @@ TYPED_TEST(HeldNodeConstraintsOf, TiesNothingAcrossComponentsNorWhereOneNodeIsHe
             graph.edges.size());
 }
 
-}  // namespace
+}  // namespace held_nodes_test
 }  // namespace placegraph

@@ -8,7 +8,7 @@
 #include "tests/support/scenes/pose_walk.h"
 
 namespace placegraph {
-namespace {
+namespace incremental_initialization_test {
 
 using test::IncrementalWalk;
 
@@ -81,5 +81,5 @@ TYPED_TEST(ReplayedStartOf, LeavesAllAsItWasWhereNoCostCanBeComputed) {
     EXPECT_EQ(graph.poses[i].matrix(), before[i].matrix());
 }
 
-}  // namespace
+}  // namespace incremental_initialization_test
 }  // namespace placegraph

@@ -6,7 +6,7 @@
 #include "tests/support/scenes/pose_walk.h"
 
 namespace placegraph {
-namespace {
+namespace initialization_test {
 
 using test::Walk;
 
@@ -156,5 +156,5 @@ TEST(IsotropicProblem, NearestRotationProjectsAndSurvivesSingularMatrices) {
   EXPECT_NEAR(nearest_rotation(Eigen::Matrix2d(3 * SO2(0.7).matrix())).angle(), 0.7, 1e-12);
 }
 
-}  // namespace
+}  // namespace initialization_test
 }  // namespace placegraph

@@ -7,7 +7,7 @@
 #include "tests/support/scenes/pose_walk.h"
 
 namespace placegraph {
-namespace {
+namespace lifted_problem_test {
 
 using test::Walk;
 
@@ -149,5 +149,5 @@ TYPED_TEST(LiftedProblemOf, TheHessianIsTheCurvatureOfTheCostAlongTheManifold) {
   EXPECT_LT((H_V - before).norm(), 1e-12 * before.norm());
 }
 
-}  // namespace
+}  // namespace lifted_problem_test
 }  // namespace placegraph

@@ -6,7 +6,7 @@
 #include "tests/support/scenes/pose_walk.h"
 
 namespace placegraph {
-namespace {
+namespace rotation_agreement_test {
 
 /// A turn by `angle_rad` about the last axis.
 template <class Group>
@@ -72,5 +72,5 @@ TEST(RotationAgreement, PointsOfRankDAgreeWhereTheirRotationsDo) {
   EXPECT_TRUE(points_agree<3>(point(0.32), point(0.61)));
 }
 
-}  // namespace
+}  // namespace rotation_agreement_test
 }  // namespace placegraph

@@ -7,7 +7,7 @@
 extern "C" int openblas_get_num_threads();
 
 namespace placegraph {
-namespace {
+namespace blas_threads_test {
 
 TEST(BlasThreads, IsOneAfterItWasAskedFor) {
   use_one_blas_thread();
@@ -26,5 +26,5 @@ TEST(Blas, TheDenseKernelsOfTheSparseSolverAreThoseOfOpenBlas) {
   }
 }
 
-}  // namespace
+}  // namespace blas_threads_test
 }  // namespace placegraph

@@ -10,7 +10,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace block_cholesky_test {
 
 using Pairs = std::vector<std::pair<int, int>>;
 
@@ -200,5 +200,5 @@ TEST(BlockOrdering, IsAPermutationAndPredictsTheFillOfAChain) {
   EXPECT_TRUE(order_blocks(0, 3, {}).position.empty());
 }
 
-}  // namespace
+}  // namespace block_cholesky_test
 }  // namespace placegraph

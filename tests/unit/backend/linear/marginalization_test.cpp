@@ -5,7 +5,7 @@
 #include <Eigen/Dense>
 
 namespace placegraph {
-namespace {
+namespace marginalization_test {
 
 /// Normal equations of `rows` random measurements of `n` variables.
 QuadraticForm random_form(int rows, int n, std::uint64_t seed) {
@@ -76,5 +76,5 @@ TEST(Marginalization, ClampingLeavesGoodMatricesAndRemovesNegativeDirections) {
   EXPECT_GE(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(clamped).eigenvalues()[0], -1e-13);
 }
 
-}  // namespace
+}  // namespace marginalization_test
 }  // namespace placegraph

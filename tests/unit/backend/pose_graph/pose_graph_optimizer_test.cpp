@@ -8,7 +8,7 @@
 #include "tests/support/scenes/pose_walk.h"
 
 namespace placegraph {
-namespace {
+namespace pose_graph_optimizer_test {
 
 using test::constraint;
 using test::difference;
@@ -285,5 +285,5 @@ TEST(PoseGraphOptimizer, TwoRunsGiveTheSameBitsAndTheLogIsHandedOver) {
     EXPECT_EQ(walk.pose(a.graph, i).matrix(), walk.pose(b.graph, i).matrix());
 }
 
-}  // namespace
+}  // namespace pose_graph_optimizer_test
 }  // namespace placegraph

@@ -8,7 +8,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace pose_marginals_test {
 
 template <class Group>
 Group random_pose(Random& random, double translation, double rotation) {
@@ -144,5 +144,5 @@ TEST(PoseMarginals, RefuseUnknownNodes) {
   EXPECT_THROW((void)marginals.covariance(NodeId(4)), Error);
 }
 
-}  // namespace
+}  // namespace pose_marginals_test
 }  // namespace placegraph

@@ -6,7 +6,7 @@
 #include "tests/support/scenes/looped_walk.h"
 
 namespace placegraph {
-namespace {
+namespace robust_optimizer_test {
 
 using test::LoopedWalk;
 
@@ -88,5 +88,5 @@ TEST(RobustOptimizer, RefusesOptionsOutsideTheirRange) {
   EXPECT_THROW(options.check(), ArgumentError);
 }
 
-}  // namespace
+}  // namespace robust_optimizer_test
 }  // namespace placegraph

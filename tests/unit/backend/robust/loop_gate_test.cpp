@@ -3,7 +3,7 @@
 #include <placegraph/graph/internal/core/chi_squared.h>
 
 namespace placegraph {
-namespace {
+namespace loop_gate_test {
 
 constexpr double kProbability = 0.99;
 constexpr LoopGateWidth kWidth{.margin = 1.5, .tail = 3, .nearly_right = 0.01};
@@ -90,5 +90,5 @@ TEST(LoopGate, IsTwentyTimesAsWideForALoopThatSaysNearlyTheRightThing) {
   EXPECT_NEAR(of_loop_off_by(0, 0.033), kOfNoise, 1e-9);
 }
 
-}  // namespace
+}  // namespace loop_gate_test
 }  // namespace placegraph

@@ -5,7 +5,7 @@
 #include <bit>
 
 namespace placegraph {
-namespace {
+namespace max_clique_test {
 
 BitGraph random_graph(int vertices, double density, std::uint64_t seed) {
   Random random(seed);
@@ -97,5 +97,5 @@ TEST(MaxClique, OfNothingIsNothing) {
   EXPECT_EQ(max_clique(BitGraph(3), 10).vertices.size(), 1u);
 }
 
-}  // namespace
+}  // namespace max_clique_test
 }  // namespace placegraph

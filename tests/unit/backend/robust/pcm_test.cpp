@@ -9,7 +9,7 @@
 #include "tests/support/scenes/looped_walk.h"
 
 namespace placegraph {
-namespace {
+namespace pcm_test {
 
 using test::LoopedWalk;
 
@@ -167,5 +167,5 @@ TEST(NeighbouringPairs, AreAsManyAsTheNeighboursAllow) {
   EXPECT_TRUE(other);
 }
 
-}  // namespace
+}  // namespace pcm_test
 }  // namespace placegraph

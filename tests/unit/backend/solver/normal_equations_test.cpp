@@ -3,7 +3,7 @@
 #include <placegraph/backend/internal/solver/normal_equations.h>
 
 namespace placegraph {
-namespace {
+namespace normal_equations_test {
 
 template <class Group>
 class Observations : public testing::Test {
@@ -81,5 +81,5 @@ TYPED_TEST(Observations, AreSolvedToTheLastWhereTheyAgree) {
   EXPECT_LT(solution.cost_final, 1e-12);
 }
 
-}  // namespace
+}  // namespace normal_equations_test
 }  // namespace placegraph

@@ -7,7 +7,7 @@
 #include "tests/support/ids.h"
 
 namespace placegraph {
-namespace {
+namespace prior_gauge_test {
 
 Eigen::MatrixXd random_matrix(Random& random, Eigen::Index rows, Eigen::Index cols) {
   Eigen::MatrixXd m(rows, cols);
@@ -124,5 +124,5 @@ TEST(PriorGauge, AForgottenPlaneIsIntegratedOut) {
   EXPECT_LT((prior.J.transpose() * prior.e - b).norm(), 1e-9 * b.norm());
 }
 
-}  // namespace
+}  // namespace prior_gauge_test
 }  // namespace placegraph

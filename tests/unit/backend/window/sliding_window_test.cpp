@@ -7,7 +7,7 @@
 #include "tests/support/scenes/window_world.h"
 
 namespace placegraph {
-namespace {
+namespace sliding_window_test {
 
 using test::angle_rad;
 using test::distance_m;
@@ -405,5 +405,5 @@ TEST(SlidingWindow, RefusesWhatItsContractExcludes) {
   EXPECT_THROW((void)relative_information(window, KeyframeId(5), KeyframeId(5)), ArgumentError);
 }
 
-}  // namespace
+}  // namespace sliding_window_test
 }  // namespace placegraph

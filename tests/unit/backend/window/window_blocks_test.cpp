@@ -6,7 +6,7 @@
 #include "tests/support/scenes/window_factors.h"
 
 namespace placegraph {
-namespace {
+namespace window_blocks_test {
 
 using test::FactorScene;
 
@@ -68,5 +68,5 @@ TEST(WindowBlocks, AreFiniteUnlessANumberIsNot) {
   EXPECT_FALSE(blocks.finite());
 }
 
-}  // namespace
+}  // namespace window_blocks_test
 }  // namespace placegraph

@@ -5,7 +5,7 @@
 #include "tests/support/scenes/window_world.h"
 
 namespace placegraph {
-namespace {
+namespace window_determinism_test {
 
 using test::drive_window;
 using test::make_window_world;
@@ -51,5 +51,5 @@ TEST(WindowDeterminism, TheSameBitsComeFromAnyLayoutOfTheHeap) {
   }
 }
 
-}  // namespace
+}  // namespace window_determinism_test
 }  // namespace placegraph

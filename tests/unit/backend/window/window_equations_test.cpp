@@ -6,7 +6,7 @@
 #include "tests/support/scenes/window_factors.h"
 
 namespace placegraph {
-namespace {
+namespace window_equations_test {
 
 using test::factors_of_every_kind;
 using test::FactorScene;
@@ -140,5 +140,5 @@ TEST(WindowEquations, HoldThePriorAsItStandsWithFirstEstimates) {
   EXPECT_LT((anew.form.b - (state.prior.J * J_delta).transpose() * r).norm(), 1e-9);
 }
 
-}  // namespace
+}  // namespace window_equations_test
 }  // namespace placegraph

@@ -12,7 +12,7 @@
 #include "tests/support/scenes/window_factors.h"
 
 namespace placegraph {
-namespace {
+namespace window_factor_test {
 
 using test::distance_m;
 using test::factors_of_every_kind;
@@ -338,5 +338,5 @@ TEST(WindowFactor, SaysWhetherItMeasuresTheUnitOfLength) {
   EXPECT_TRUE(has_metric_observation(window.state()));
 }
 
-}  // namespace
+}  // namespace window_factor_test
 }  // namespace placegraph

@@ -8,7 +8,7 @@
 #include "tests/support/scenes/window_world.h"
 
 namespace placegraph {
-namespace {
+namespace window_landmarks_test {
 
 using test::distance_m;
 using test::drive_window;
@@ -283,5 +283,5 @@ TEST(WindowLandmarks, RefuseWhatTheirContractExcludes) {
   EXPECT_FALSE(window.plane(PlaneId(8)));
 }
 
-}  // namespace
+}  // namespace window_landmarks_test
 }  // namespace placegraph

@@ -6,7 +6,7 @@
 #include "tests/support/scenes/window_world.h"
 
 namespace placegraph {
-namespace {
+namespace window_manhattan_test {
 
 using test::angle_rad;
 using test::distance_m;
@@ -209,5 +209,5 @@ TEST(WindowWorlds, FaultyOnesAreRefused) {
   EXPECT_EQ(window.manhattan_frames(), std::vector{ManhattanFrameId(1)});
 }
 
-}  // namespace
+}  // namespace window_manhattan_test
 }  // namespace placegraph

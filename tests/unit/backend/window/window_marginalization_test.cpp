@@ -8,7 +8,7 @@
 #include "tests/support/scenes/window_world.h"
 
 namespace placegraph {
-namespace {
+namespace window_marginalization_test {
 
 using test::angle_rad;
 using test::distance_m;
@@ -284,5 +284,5 @@ TEST(WindowRescale, IsRefusedOnceTheScaleIsMeasured) {
   EXPECT_THROW(measured.rescale(2), ArgumentError);
 }
 
-}  // namespace
+}  // namespace window_marginalization_test
 }  // namespace placegraph

@@ -7,7 +7,7 @@
 #include "tests/support/scenes/window_world.h"
 
 namespace placegraph {
-namespace {
+namespace window_motion_test {
 
 using test::angle_rad;
 using test::distance_m;
@@ -120,5 +120,5 @@ TEST(WindowMotion, MustBeSoundAndBetweenTwoKeyframes) {
   EXPECT_THROW(add_motion(window, {KeyframeId(0), KeyframeId(1), step(), skew}), ArgumentError);
 }
 
-}  // namespace
+}  // namespace window_motion_test
 }  // namespace placegraph

@@ -6,7 +6,7 @@
 #include "tests/support/scenes/window_world.h"
 
 namespace placegraph {
-namespace {
+namespace window_planes_test {
 
 using test::angle_rad;
 using test::distance_m;
@@ -238,5 +238,5 @@ TEST(WindowPlanes, FaultyOnesAreRefused) {
       window, window_factor(PlaneObservation{KeyframeId(0), PlaneId(2), Plane3(), I})));
 }
 
-}  // namespace
+}  // namespace window_planes_test
 }  // namespace placegraph

@@ -6,7 +6,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace window_second_camera_test {
 
 const Eigen::Vector3d kRightCamera(0.5, 0, 0);
 
@@ -113,5 +113,5 @@ TEST(SlidingWindowLines, ASecondCameraMustLieElsewhereAndBeFinite) {
   EXPECT_THROW(window.add_line_observation(o), ArgumentError);
 }
 
-}  // namespace
+}  // namespace window_second_camera_test
 }  // namespace placegraph

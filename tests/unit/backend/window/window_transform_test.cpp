@@ -6,7 +6,7 @@
 #include "tests/support/scenes/window_factors.h"
 
 namespace placegraph {
-namespace {
+namespace window_transform_test {
 
 using test::factors_of_every_kind;
 using test::FactorScene;
@@ -124,5 +124,5 @@ TEST(WindowTransform, RefusesAScaleThatIsNoneAndAPriorOfPlanes) {
   EXPECT_TRUE(empty.keyframes.empty());
 }
 
-}  // namespace
+}  // namespace window_transform_test
 }  // namespace placegraph

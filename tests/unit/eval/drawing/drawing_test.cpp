@@ -16,7 +16,7 @@
 #include "svg_check.h"
 
 namespace placegraph {
-namespace {
+namespace drawing_test {
 
 using testing::Contains;
 using testing::ElementsAre;
@@ -212,5 +212,5 @@ TEST(SvgCanvas, ClipsPicturesInOnePageByTheirOwnPanels) {
   EXPECT_NE(clip_of_panel(50), clip_of_panel(50.1));
 }
 
-}  // namespace
+}  // namespace drawing_test
 }  // namespace placegraph

@@ -38,6 +38,25 @@ inline std::vector<std::string> texts_of(const std::string& svg) {
   return texts;
 }
 
+/// The tags of one name of a picture, without their brackets.
+inline std::vector<std::string> tags_of(const std::string& svg, const std::string& name) {
+  std::vector<std::string> tags;
+  for (std::size_t at = 0; (at = svg.find("<" + name + " ", at)) != std::string::npos; ++at)
+    tags.push_back(svg.substr(at + 1, svg.find('>', at) - at - 1));
+  return tags;
+}
+
+/// The numbers in a text, whatever stands between them.
+inline std::vector<double> numbers_in(const std::string& text) {
+  std::vector<double> numbers;
+  for (std::size_t at = 0; (at = text.find_first_of("-.0123456789", at)) != std::string::npos;) {
+    char* end = nullptr;
+    numbers.push_back(std::strtod(text.c_str() + at, &end));
+    at = static_cast<std::size_t>(end - text.c_str());
+  }
+  return numbers;
+}
+
 /// Tags close in the order in which they open, all numbers are finite, and every text lies inside
 /// the view box.
 inline void expect_good_svg(const std::string& svg) {

@@ -13,7 +13,7 @@
 #include "tests/support/trajectories.h"
 
 namespace placegraph {
-namespace {
+namespace loop_benchmark_test {
 
 using test::isometry;
 
@@ -146,5 +146,5 @@ TEST(LoopTruthFromPoses, CountsTheRevisitsOfRealDrives) {
   EXPECT_EQ(judge_loops(revisits, {}).positives, 270);
 }
 
-}  // namespace
+}  // namespace loop_benchmark_test
 }  // namespace placegraph

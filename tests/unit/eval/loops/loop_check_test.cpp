@@ -8,7 +8,7 @@
 #include "tests/support/trajectories.h"
 
 namespace placegraph {
-namespace {
+namespace loop_check_test {
 
 using test::isometry;
 
@@ -58,5 +58,5 @@ TEST(LoopCheck, RefusesNegativeTolerances) {
   EXPECT_THROW(check_loops({}, {}, options), ArgumentError);
 }
 
-}  // namespace
+}  // namespace loop_check_test
 }  // namespace placegraph

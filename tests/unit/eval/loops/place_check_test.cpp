@@ -5,7 +5,7 @@
 #include <placegraph/graph/core/error.h>
 
 namespace placegraph {
-namespace {
+namespace place_check_test {
 
 /// A round of `stations` places 10 m apart along a circle, one view a frame, `rounds` times; the
 /// view of frame i is put into place `place_of(i)`.
@@ -86,5 +86,5 @@ TEST(PlaceCheck, RefusesFramesBeyondTheTruth) {
   EXPECT_THROW((void)check_places(rounds.map, rounds.truth), ArgumentError);
 }
 
-}  // namespace
+}  // namespace place_check_test
 }  // namespace placegraph

@@ -6,7 +6,7 @@
 #include <cmath>
 
 namespace placegraph {
-namespace {
+namespace precision_recall_test {
 
 TEST(PrecisionRecall, SumsPrecisionOverTheRecallGained) {
   // 4 to be found: precision 1, 1, 2/3, 3/4 at recall 1/4, 2/4, 2/4, 3/4.
@@ -52,5 +52,5 @@ TEST(PrecisionRecallPlot, NamesEachSystemWithItsFigures) {
   EXPECT_THROW((void)to_svg(PrecisionRecallPlot{}), ArgumentError);
 }
 
-}  // namespace
+}  // namespace precision_recall_test
 }  // namespace placegraph

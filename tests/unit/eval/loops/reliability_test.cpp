@@ -3,7 +3,7 @@
 #include <placegraph/graph/core/error.h>
 
 namespace placegraph {
-namespace {
+namespace reliability_test {
 
 TEST(Reliability, CountsByTenthsAndWeighsByAnswers) {
   // Four of 0.9, three of them right; one of 0.1 that is wrong.
@@ -29,5 +29,5 @@ TEST(Reliability, RefusesWhatIsNoProbability) {
   EXPECT_THROW((void)reliability_of({{-0.1, true}}), ArgumentError);
 }
 
-}  // namespace
+}  // namespace reliability_test
 }  // namespace placegraph

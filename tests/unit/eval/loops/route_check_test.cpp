@@ -5,7 +5,7 @@
 #include <placegraph/graph/core/error.h>
 
 namespace placegraph {
-namespace {
+namespace route_check_test {
 
 constexpr double kSide_m = 40;
 
@@ -119,5 +119,5 @@ TEST(RouteCheck, CountsPairsThatNothingJoinsAndRefusesPlacesWithoutTruth) {
   EXPECT_THROW((void)driven_roads(truth, options), ArgumentError);
 }
 
-}  // namespace
+}  // namespace route_check_test
 }  // namespace placegraph

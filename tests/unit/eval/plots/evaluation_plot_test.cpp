@@ -10,7 +10,7 @@
 #include "../drawing/svg_check.h"
 
 namespace placegraph {
-namespace {
+namespace evaluation_plot_test {
 
 using testing::Contains;
 using testing::ElementsAre;
@@ -161,5 +161,5 @@ TEST(Distributions, AViolinIsWidestWhereMostValuesAre) {
   test::expect_good_svg(to_svg(figure));
 }
 
-}  // namespace
+}  // namespace evaluation_plot_test
 }  // namespace placegraph

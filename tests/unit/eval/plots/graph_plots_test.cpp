@@ -8,7 +8,7 @@
 #include "../drawing/svg_check.h"
 
 namespace placegraph {
-namespace {
+namespace graph_plots_test {
 
 using testing::HasSubstr;
 using testing::Not;
@@ -155,5 +155,5 @@ TEST(GrowthPlot, RefusesWhatHasNoLogarithm) {
   EXPECT_THROW(to_svg(plot), ArgumentError);
 }
 
-}  // namespace
+}  // namespace graph_plots_test
 }  // namespace placegraph

@@ -15,7 +15,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph {
-namespace {
+namespace floor_plan_check_test {
 
 using Eigen::Vector2d;
 
@@ -136,5 +136,5 @@ TEST(OrientationCheck, CountsPixelsThatAreRight) {
   EXPECT_EQ(check.right, 1U);
 }
 
-}  // namespace
+}  // namespace floor_plan_check_test
 }  // namespace placegraph

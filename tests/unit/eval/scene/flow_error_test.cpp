@@ -5,7 +5,7 @@
 #include <limits>
 
 namespace placegraph {
-namespace {
+namespace flow_error_test {
 
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
@@ -37,5 +37,5 @@ TEST(FlowError, RefusesOtherImages) {
   EXPECT_THROW((void)flow_error(Image(2, 2, CV_32FC1), Image(2, 2, CV_32FC2)), ArgumentError);
 }
 
-}  // namespace
+}  // namespace flow_error_test
 }  // namespace placegraph

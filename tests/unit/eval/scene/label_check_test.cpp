@@ -6,7 +6,7 @@
 #include <opencv2/core.hpp>
 
 namespace placegraph {
-namespace {
+namespace label_check_test {
 
 Image row_of(const std::vector<std::uint8_t>& values) { return Image(values, true).reshape(1, 1); }
 
@@ -50,5 +50,5 @@ TEST(LabelCheck, RefusesImagesThatDoNotAgree) {
   EXPECT_THROW(LabelCheck(0), ArgumentError);
 }
 
-}  // namespace
+}  // namespace label_check_test
 }  // namespace placegraph

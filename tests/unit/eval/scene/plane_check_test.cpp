@@ -3,7 +3,7 @@
 #include <placegraph/graph/core/error.h>
 
 namespace placegraph {
-namespace {
+namespace plane_check_test {
 
 /// `count` times each label.
 std::vector<int> labels(const std::vector<std::pair<int, int>>& runs) {
@@ -58,5 +58,5 @@ TEST(PlaneCheck, RefusesWhatCannotBe) {
   EXPECT_EQ(check_planes({}, {}, {0.8, 0}).correct_share(), 0);
 }
 
-}  // namespace
+}  // namespace plane_check_test
 }  // namespace placegraph

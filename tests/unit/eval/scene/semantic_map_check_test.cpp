@@ -7,7 +7,7 @@
 #include "../drawing/svg_check.h"
 
 namespace placegraph {
-namespace {
+namespace semantic_map_check_test {
 
 /// A road at y = 1.6 from (0, 0) to (6, 6), a wall at x = 3.1 up to y = -2.
 LabelledMesh street() {
@@ -91,5 +91,5 @@ TEST(SemanticMapPlot, DrawsCellsInTheirColours) {
   test::expect_good_svg(semantic_map_svg(map_of({}), {}));
 }
 
-}  // namespace
+}  // namespace semantic_map_check_test
 }  // namespace placegraph

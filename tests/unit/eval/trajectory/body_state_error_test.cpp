@@ -4,7 +4,7 @@
 #include <cmath>
 
 namespace placegraph {
-namespace {
+namespace body_state_error_test {
 
 using Eigen::Vector3d;
 
@@ -71,5 +71,5 @@ TEST(BodyStateError, RefusesWhatCannotBeCompared) {
   EXPECT_TRUE(std::isnan(error.anees));
 }
 
-}  // namespace
+}  // namespace body_state_error_test
 }  // namespace placegraph

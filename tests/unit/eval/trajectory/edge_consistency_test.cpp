@@ -7,7 +7,7 @@
 #include <cmath>
 
 namespace placegraph {
-namespace {
+namespace edge_consistency_test {
 
 const SE3 kStep(SO3::exp({0.1, -0.2, 0.3}), Eigen::Vector3d(1, 2, 3));
 
@@ -289,5 +289,5 @@ TEST(TruthMount, StaysAtThePriorOnAStraightLine) {
   EXPECT_LT(mount.T_truth_cam.log().norm(), 1e-9);
 }
 
-}  // namespace
+}  // namespace edge_consistency_test
 }  // namespace placegraph

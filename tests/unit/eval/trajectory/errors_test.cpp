@@ -10,7 +10,7 @@
 #include "tests/support/trajectories.h"
 
 namespace placegraph {
-namespace {
+namespace errors_test {
 
 using test::isometry;
 
@@ -163,5 +163,5 @@ TEST(KittiSegments, RefuseAnEmptyListAndNegativeLengths) {
   EXPECT_THROW(lengths({5}, 0).check(), ArgumentError);
 }
 
-}  // namespace
+}  // namespace errors_test
 }  // namespace placegraph

@@ -6,7 +6,7 @@
 #include "tests/support/trajectories.h"
 
 namespace placegraph {
-namespace {
+namespace evaluate_test {
 
 using test::isometry;
 using test::winding_drive;
@@ -252,5 +252,5 @@ TEST(EvaluationOptions, NameTheFieldThatIsOutOfRange) {
   }
 }
 
-}  // namespace
+}  // namespace evaluate_test
 }  // namespace placegraph

@@ -6,7 +6,7 @@
 #include "tests/support/data.h"
 
 namespace placegraph {
-namespace {
+namespace golden_test {
 
 // Published rows of KITTI 00, computed by an independent script: to half a unit of the last digit.
 struct Golden {
@@ -51,5 +51,5 @@ TEST(Golden, ReproducesTheFiguresOfSptamOnKitti00) {
   EXPECT_THAT(se3.warnings, ::testing::ElementsAre(::testing::HasSubstr("1 frame later")));
 }
 
-}  // namespace
+}  // namespace golden_test
 }  // namespace placegraph

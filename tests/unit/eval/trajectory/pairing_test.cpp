@@ -5,7 +5,7 @@
 #include "tests/support/trajectories.h"
 
 namespace placegraph {
-namespace {
+namespace pairing_test {
 
 using test::winding_drive;
 using ::testing::HasSubstr;
@@ -153,5 +153,5 @@ TEST(Pairing, NamesAnotherUnitOrClockWhereStampsDoNotOverlap) {
               HasSubstr("of another clock"));
 }
 
-}  // namespace
+}  // namespace pairing_test
 }  // namespace placegraph

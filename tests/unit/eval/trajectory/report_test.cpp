@@ -13,7 +13,7 @@
 #include "tests/support/trajectories.h"
 
 namespace placegraph {
-namespace {
+namespace report_test {
 
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
@@ -145,5 +145,5 @@ TEST(Plot, StaysFiniteWithoutAnyPose) {
   EXPECT_EQ(to_svg(plot).find("inf"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace report_test
 }  // namespace placegraph

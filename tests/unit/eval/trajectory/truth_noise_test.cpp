@@ -6,7 +6,7 @@
 #include <cmath>
 
 namespace placegraph {
-namespace {
+namespace truth_noise_test {
 
 Trajectory trajectory_of(const std::vector<SE3>& poses) {
   Trajectory result;
@@ -179,5 +179,5 @@ TEST(TruthNoise, NeedsPosesInARow) {
   EXPECT_TRUE(estimate_truth_noise(gaps).outcome);
 }
 
-}  // namespace
+}  // namespace truth_noise_test
 }  // namespace placegraph

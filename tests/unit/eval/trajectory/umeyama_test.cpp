@@ -5,7 +5,7 @@
 #include "tests/support/trajectories.h"
 
 namespace placegraph {
-namespace {
+namespace umeyama_test {
 
 using test::isometry;
 
@@ -125,5 +125,5 @@ TEST(Align, SaysThatNoPosedFrameIsTooFew) {
         << to_string(alignment);
 }
 
-}  // namespace
+}  // namespace umeyama_test
 }  // namespace placegraph

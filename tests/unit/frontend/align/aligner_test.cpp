@@ -10,7 +10,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace aligner_test {
 
 using namespace test;
 using Code = Outcome::Code;
@@ -193,5 +193,5 @@ TEST(AlignmentCovariance, CountsBlurredNoiseAsFewerSamples) {
   EXPECT_GT(share[1], 0.05);
 }
 
-}  // namespace
+}  // namespace aligner_test
 }  // namespace placegraph

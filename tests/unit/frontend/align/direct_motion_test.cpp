@@ -11,7 +11,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace direct_motion_test {
 
 using namespace test;
 using Code = Outcome::Code;
@@ -156,5 +156,5 @@ TEST(DirectMotion, SaysWhyThereIsNone) {
   EXPECT_FALSE(strange.align(street.T_ref_cur).outcome);
 }
 
-}  // namespace
+}  // namespace direct_motion_test
 }  // namespace placegraph

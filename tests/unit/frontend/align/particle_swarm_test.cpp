@@ -7,7 +7,7 @@
 #include <numbers>
 
 namespace placegraph {
-namespace {
+namespace particle_swarm_test {
 
 using Eigen::VectorXd;
 
@@ -82,5 +82,5 @@ TEST(GeneticSearch, FindsTheLeastOfManyMinimaWithTheSameBitsOnAnyNumberOfThreads
   EXPECT_LE(one.evaluations, 40 + 38 * 150);
 }
 
-}  // namespace
+}  // namespace particle_swarm_test
 }  // namespace placegraph

@@ -7,7 +7,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace planar_warp_test {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
@@ -111,5 +111,5 @@ TEST(PlanarWarp, MapsNoPixelBeyondTheHorizon) {
   EXPECT_FALSE(map_pixel(H, {101, 0}));
 }
 
-}  // namespace
+}  // namespace planar_warp_test
 }  // namespace placegraph

@@ -10,7 +10,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace plane_tracker_test {
 
 using namespace test;
 using Eigen::Matrix3d;
@@ -189,5 +189,5 @@ TEST(NullDistribution, KnowsATextureThatRepeats) {
                ArgumentError);
 }
 
-}  // namespace
+}  // namespace plane_tracker_test
 }  // namespace placegraph

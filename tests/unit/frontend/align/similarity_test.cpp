@@ -7,7 +7,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace similarity_test {
 
 using test::seeded_random;
 using Values = std::vector<double>;
@@ -99,5 +99,5 @@ TEST(PhotometricFit, FindsGainAndBiasUnderOcclusion) {
   EXPECT_EQ(fit.weight[0], 0);
 }
 
-}  // namespace
+}  // namespace similarity_test
 }  // namespace placegraph

@@ -7,7 +7,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace template_finder_test {
 
 using namespace test;
 using Eigen::Matrix3d;
@@ -36,5 +36,5 @@ TEST(TemplateFinder, ProposesNothingWhereThereIsNothing) {
   EXPECT_THROW(TemplateFinder(blank, {{20, 20}, {60, 20}}, {}), ArgumentError);
 }
 
-}  // namespace
+}  // namespace template_finder_test
 }  // namespace placegraph

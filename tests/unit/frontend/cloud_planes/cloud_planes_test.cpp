@@ -7,7 +7,7 @@
 #include "tests/support/scenes/clouds.h"
 
 namespace placegraph {
-namespace {
+namespace cloud_planes_test {
 
 using test::look_at;
 using test::regions_found;
@@ -150,5 +150,5 @@ TEST(CloudPlanes, FindsNoneInNoiseAndRefusesWhatCannotBe) {
   EXPECT_THROW((void)find(PointCloud{}, options), ArgumentError);
 }
 
-}  // namespace
+}  // namespace cloud_planes_test
 }  // namespace placegraph

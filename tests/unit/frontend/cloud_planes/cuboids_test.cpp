@@ -8,7 +8,7 @@
 #include "tests/support/scenes/clouds.h"
 
 namespace placegraph {
-namespace {
+namespace cuboids_test {
 
 using test::look_at;
 using test::Seen;
@@ -132,5 +132,5 @@ TEST(Cuboids, LabelsMustFitThePoints) {
   EXPECT_THROW(options.check(), ArgumentError);
 }
 
-}  // namespace
+}  // namespace cuboids_test
 }  // namespace placegraph

@@ -7,7 +7,7 @@
 #include "tests/support/scenes/clouds.h"
 
 namespace placegraph {
-namespace {
+namespace depth_planes_test {
 
 /// What a depth camera of 320x240 sees of the nearest of planes n^T X = d.
 struct Observation {
@@ -182,5 +182,5 @@ TEST(DepthPlanes, RefuseAnImageOfAnotherKind) {
   EXPECT_THROW((void)find_depth_planes(render_view(kCorner, {}), c, options), ArgumentError);
 }
 
-}  // namespace
+}  // namespace depth_planes_test
 }  // namespace placegraph

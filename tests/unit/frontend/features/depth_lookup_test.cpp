@@ -6,7 +6,7 @@
 #include "tests/support/scenes/texture.h"
 
 namespace placegraph {
-namespace {
+namespace depth_lookup_test {
 
 using namespace test;
 const Camera kCamera = pinhole(160, 120, 130);
@@ -109,5 +109,5 @@ TEST(DepthLookup, RefusesDepthThatIsNotInMetres) {
                ArgumentError);
 }
 
-}  // namespace
+}  // namespace depth_lookup_test
 }  // namespace placegraph

@@ -5,7 +5,7 @@
 #include "tests/support/scenes/texture.h"
 
 namespace placegraph {
-namespace {
+namespace detector_test {
 
 using namespace test;
 constexpr int kWidth = 240, kHeight = 180;
@@ -56,5 +56,5 @@ TEST(Detector, RefusesColourImages) {
   EXPECT_THROW(detect_features(Image(kHeight, kWidth, CV_8UC3), {}), ArgumentError);
 }
 
-}  // namespace
+}  // namespace detector_test
 }  // namespace placegraph

@@ -8,7 +8,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace matcher_test {
 
 using namespace test;
 const Camera kCamera = pinhole(640, 480, 500);
@@ -115,5 +115,5 @@ TEST(Matcher, FindsTheShiftBetweenTwoPictures) {
   EXPECT_GT(right, 0.9 * matches.size());
 }
 
-}  // namespace
+}  // namespace matcher_test
 }  // namespace placegraph

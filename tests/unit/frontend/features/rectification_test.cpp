@@ -6,7 +6,7 @@
 #include <cmath>
 
 namespace placegraph {
-namespace {
+namespace rectification_test {
 
 constexpr double kSigmaPx = 0.3;
 
@@ -94,5 +94,5 @@ TEST(RectificationEstimator, RefusesWhatIsNoDisparity) {
   EXPECT_THROW(RectificationEstimator{options}, ArgumentError);
 }
 
-}  // namespace
+}  // namespace rectification_test
 }  // namespace placegraph

@@ -2,7 +2,7 @@
 #include <placegraph/frontend/internal/features/row_offsets.h>
 
 namespace placegraph {
-namespace {
+namespace row_offsets_test {
 
 /// Samples all over the image whose rows are off by `rows(ray)` and noise; a share of them is
 /// wrong.
@@ -65,5 +65,5 @@ TEST(RowOffsets, AreUnknownFromFewOrContradictingMatches) {
   EXPECT_TRUE(!found.outcome || found.inliers < 50);
 }
 
-}  // namespace
+}  // namespace row_offsets_test
 }  // namespace placegraph

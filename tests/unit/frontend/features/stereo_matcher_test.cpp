@@ -6,7 +6,7 @@
 #include "tests/support/scenes/texture.h"
 
 namespace placegraph {
-namespace {
+namespace stereo_matcher_test {
 
 using namespace test;
 const Camera kCamera = pinhole(320, 120, 250);
@@ -137,5 +137,5 @@ TEST(StereoMatcher, SaysNothingAtTheBorderAndRefusesOtherSizes) {
                ArgumentError);
 }
 
-}  // namespace
+}  // namespace stereo_matcher_test
 }  // namespace placegraph

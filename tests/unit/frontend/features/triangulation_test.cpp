@@ -5,7 +5,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace triangulation_test {
 
 using namespace test;
 using Code = Outcome::Code;
@@ -83,5 +83,5 @@ TEST(Triangulation, RefusesObservationsThatContradictEachOther) {
   EXPECT_GT(result.max_error_px, 2);
 }
 
-}  // namespace
+}  // namespace triangulation_test
 }  // namespace placegraph

@@ -5,7 +5,7 @@
 #include <opencv2/core.hpp>
 
 namespace placegraph {
-namespace {
+namespace depth_agreement_test {
 
 constexpr int kWidth = 40, kHeight = 30;
 constexpr double kFocal_px = 50, kSigma_px = 0.3;
@@ -102,5 +102,5 @@ TEST(AgreedDepth, IsCertainOnEitherSideOfAStepInDepthButNotOnIt) {
   EXPECT_EQ(certain_with_step(2).at<std::uint8_t>(14, 20), 255);  // a slope is no step
 }
 
-}  // namespace
+}  // namespace depth_agreement_test
 }  // namespace placegraph

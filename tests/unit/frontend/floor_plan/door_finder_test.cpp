@@ -4,7 +4,7 @@
 #include <algorithm>
 
 namespace placegraph {
-namespace {
+namespace door_finder_test {
 
 constexpr double kStep = WallProfile::kStep_m;
 
@@ -128,5 +128,5 @@ TEST(DoorsOf, OneJambIsEnoughWhereTheCameraWentThrough) {
   }
 }
 
-}  // namespace
+}  // namespace door_finder_test
 }  // namespace placegraph

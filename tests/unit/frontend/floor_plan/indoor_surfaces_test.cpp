@@ -5,7 +5,7 @@
 #include <placegraph/graph/internal/core/angle.h>
 
 namespace placegraph {
-namespace {
+namespace indoor_surfaces_test {
 
 Camera small_camera() {
   Camera camera;
@@ -238,5 +238,5 @@ TEST(FloorPlan, HasNoWallWhereTheCameraWent) {
   EXPECT_NEAR(left[1].from_m, 3.5, 1e-9);
 }
 
-}  // namespace
+}  // namespace indoor_surfaces_test
 }  // namespace placegraph

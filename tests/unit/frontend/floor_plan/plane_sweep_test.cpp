@@ -9,7 +9,7 @@
 #include <opencv2/core.hpp>
 
 namespace placegraph {
-namespace {
+namespace plane_sweep_test {
 
 /// Least cost of a path that comes from (-du, -dv) and ends at a pixel on a level, as defined, with
 /// the least of the pixel before taken off.
@@ -239,5 +239,5 @@ TEST(PlaneSweep, RefusesWhatItCannotSweep) {
   EXPECT_THROW((void)sweep_planes(image, test_camera(), {}, options), ArgumentError);
 }
 
-}  // namespace
+}  // namespace plane_sweep_test
 }  // namespace placegraph

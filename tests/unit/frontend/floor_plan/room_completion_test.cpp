@@ -4,7 +4,7 @@
 #include <opencv2/core.hpp>
 
 namespace placegraph {
-namespace {
+namespace room_completion_test {
 
 /// Forty columns and thirty rows with a room over columns 5 to 29 and rows 5 to 19.
 RoomGrid one_room() {
@@ -122,5 +122,5 @@ TEST(FillBoxes, TakesNothingFromOtherRooms) {
   EXPECT_EQ(cells_of(grid, 2, {4, 4, 16, 10}), 30);
 }
 
-}  // namespace
+}  // namespace room_completion_test
 }  // namespace placegraph

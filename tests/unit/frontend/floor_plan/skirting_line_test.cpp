@@ -6,7 +6,7 @@
 #include "tests/support/scenes/corridor_view.h"
 
 namespace placegraph {
-namespace {
+namespace skirting_line_test {
 
 using test::CorridorView;
 constexpr double kHeight_m = CorridorView::kHeight_m, kHalfWidth_m = CorridorView::kHalfWidth_m,
@@ -79,5 +79,5 @@ TEST(SkirtingLine, RefusesWhatDoesNotFit) {
                   .empty());
 }
 
-}  // namespace
+}  // namespace skirting_line_test
 }  // namespace placegraph

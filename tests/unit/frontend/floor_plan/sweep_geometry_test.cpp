@@ -5,7 +5,7 @@
 #include <cmath>
 
 namespace placegraph {
-namespace {
+namespace sweep_geometry_test {
 
 Camera test_camera() { return {160, 120, 130, 120, 79.5, 59.5}; }
 const SE3 kMoved(SO3::exp({0.05, -0.1, 0.02}), Eigen::Vector3d(-0.3, 0.1, -0.2));
@@ -75,5 +75,5 @@ TEST(SweepGeometry, OfThreeViewsTwoAreTheBetterHalf) {
   EXPECT_EQ(geometry_of({kMoved, kMoved, kMoved}).better_half(), 2U);
 }
 
-}  // namespace
+}  // namespace sweep_geometry_test
 }  // namespace placegraph

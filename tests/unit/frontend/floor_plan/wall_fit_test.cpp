@@ -5,7 +5,7 @@
 #include <cmath>
 
 namespace placegraph {
-namespace {
+namespace wall_fit_test {
 
 constexpr double kNoise_m = 0.01;
 constexpr WallTolerance kTolerance{
@@ -127,5 +127,5 @@ TEST(JoinWalls, JoinsPiecesThatDriftHasPutApart) {
   EXPECT_EQ(joined(0.2, 0.1).size(), 2U);            // a step
 }
 
-}  // namespace
+}  // namespace wall_fit_test
 }  // namespace placegraph

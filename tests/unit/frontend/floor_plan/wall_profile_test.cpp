@@ -4,7 +4,7 @@
 #include <algorithm>
 
 namespace placegraph {
-namespace {
+namespace wall_profile_test {
 
 constexpr DoorShape kDoor{
     .max_width_m = 2.2, .min_head_m = 1.8, .min_recess_m = 0.025, .max_recess_m = 0.16};
@@ -171,5 +171,5 @@ TEST(PlanesOf, JoinsPiecesOfOneSideThatLieInOnePlane) {
   EXPECT_EQ(planes.front().to_m, 6);
 }
 
-}  // namespace
+}  // namespace wall_profile_test
 }  // namespace placegraph

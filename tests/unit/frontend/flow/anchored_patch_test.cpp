@@ -8,7 +8,7 @@
 #include "tests/support/scenes/texture.h"
 
 namespace placegraph {
-namespace {
+namespace anchored_patch_test {
 
 using test::Texture;
 constexpr int kWidth = 120, kHeight = 100;
@@ -133,5 +133,5 @@ TEST(AnchoredPatch, IsNotComparedAfterStrongWarps) {
   EXPECT_FALSE(AnchoredPatch::is_comparable(A));  // mirrored
 }
 
-}  // namespace
+}  // namespace anchored_patch_test
 }  // namespace placegraph

@@ -8,7 +8,7 @@
 #include "tests/support/scenes/texture.h"
 
 namespace placegraph {
-namespace {
+namespace corners_test {
 
 using test::texture_image;
 const Image kTextured = texture_image(131, 97, {7, 24, 2, 50});
@@ -71,5 +71,5 @@ TEST(Corners, RefuseOtherSizesTypesAndNarrowBorders) {
   EXPECT_TRUE(find_corners(Image::zeros(12, 12, CV_8UC1), 1e-4, 8).empty());
 }
 
-}  // namespace
+}  // namespace corners_test
 }  // namespace placegraph

@@ -7,7 +7,7 @@
 #include <cmath>
 
 namespace placegraph {
-namespace {
+namespace flow_cues_test {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -183,5 +183,5 @@ TEST(LateralBalance, TellsWhichWallIsNearer) {
   EXPECT_GT(balance.sigma, 0);
 }
 
-}  // namespace
+}  // namespace flow_cues_test
 }  // namespace placegraph

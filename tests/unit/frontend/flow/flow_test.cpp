@@ -11,7 +11,7 @@
 #include "tests/support/scenes/texture.h"
 
 namespace placegraph {
-namespace {
+namespace flow_test {
 
 using Eigen::Vector2d;
 using test::Texture;
@@ -271,5 +271,5 @@ TEST(FlowVector, AreSampledWhereThereIsTextureAndNotWhereThereIsNoise) {
   EXPECT_THROW((void)sampled_flow(image, Image(), 16), ArgumentError);
 }
 
-}  // namespace
+}  // namespace flow_test
 }  // namespace placegraph

@@ -11,7 +11,7 @@
 #include "tests/support/scenes/texture.h"
 
 namespace placegraph {
-namespace {
+namespace point_tracker_test {
 
 using test::Texture;
 using test::texture_image;
@@ -268,5 +268,5 @@ TEST(PointTracker, RefusesAnotherSizeOrTypeAndWrongCounts) {
   EXPECT_FALSE(tracker.tracks().empty());
 }
 
-}  // namespace
+}  // namespace point_tracker_test
 }  // namespace placegraph

@@ -5,7 +5,7 @@
 #include <opencv2/core.hpp>
 
 namespace placegraph {
-namespace {
+namespace field_fitting_test {
 
 constexpr int kClasses = 2;
 
@@ -102,5 +102,5 @@ TEST(FitField, SharpensWhatIsTooDoubtfulAndSoftensWhatIsTooSure) {
   EXPECT_LT(sure.sharpness, 1);
 }
 
-}  // namespace
+}  // namespace field_fitting_test
 }  // namespace placegraph

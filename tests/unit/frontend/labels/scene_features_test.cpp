@@ -13,7 +13,7 @@
 #include "tests/support/scenes/scene_images.h"
 
 namespace placegraph {
-namespace {
+namespace scene_features_test {
 
 TEST(BoxSums, GivesTheRoundedMeanOfTheBoxWithinTheImage) {
   // 2 x 3 pixels of two channels: 0, 10, 20 / 30, 40, 50 and all 7.
@@ -108,5 +108,5 @@ TEST(SceneVariants, KeepTheirColourInAnyLightOrHaveNone) {
   EXPECT_LT(grey, 31);
 }
 
-}  // namespace
+}  // namespace scene_features_test
 }  // namespace placegraph

@@ -6,7 +6,7 @@
 #include <opencv2/core.hpp>
 
 namespace placegraph {
-namespace {
+namespace scene_training_set_test {
 
 constexpr int kClasses = 2;
 
@@ -105,5 +105,5 @@ TEST(SceneTrainingSet, ContextIsWhatTheFirstForestSaysAround) {
   }
 }
 
-}  // namespace
+}  // namespace scene_training_set_test
 }  // namespace placegraph

@@ -9,7 +9,7 @@
 #include <opencv2/core.hpp>
 
 namespace placegraph {
-namespace {
+namespace scene_training_test {
 
 /// Rows of two bytes; the class is whether their sum exceeds 255. In five blocks.
 ForestTrainingSet diagonal_training_set(int rows) {
@@ -121,5 +121,5 @@ TEST(LabelField, TheTableDecidesWhatLiesAbove) {
   EXPECT_GT(marginals[5], 0.6f);  // what lies under a 1 is no 0
 }
 
-}  // namespace
+}  // namespace scene_training_test
 }  // namespace placegraph

@@ -5,7 +5,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace floor_from_lines_test {
 
 using namespace test;
 using Code = Outcome::Code;
@@ -101,5 +101,5 @@ TEST(FloorFromLines, NeedsAVertical) {
             Code::kTooFewData);
 }
 
-}  // namespace
+}  // namespace floor_from_lines_test
 }  // namespace placegraph

@@ -5,7 +5,7 @@
 #include "tests/support/scenes/scene.h"
 
 namespace placegraph {
-namespace {
+namespace line_depth_test {
 
 const Camera kCamera = test::pinhole(160, 120, 140);
 
@@ -68,5 +68,5 @@ TEST(LineDepth, AVirtualCameraSeesTheLineOfThoseDepths) {
   EXPECT_GT(second_camera.second_in_cam.norm(), 0);
 }
 
-}  // namespace
+}  // namespace line_depth_test
 }  // namespace placegraph

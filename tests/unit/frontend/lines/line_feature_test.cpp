@@ -10,7 +10,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace line_feature_test {
 
 using namespace test;
 
@@ -108,5 +108,5 @@ TEST(LineFeature, MatchesLinesWhereThePoseExpectsThem) {
   EXPECT_LT(match_lines_guided(kCamera, views.a, views.b, elsewhere, {}).size(), 5u);
 }
 
-}  // namespace
+}  // namespace line_feature_test
 }  // namespace placegraph

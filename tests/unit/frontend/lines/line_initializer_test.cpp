@@ -5,7 +5,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace line_initializer_test {
 
 using namespace test;
 using Code = Outcome::Code;
@@ -73,5 +73,5 @@ TEST(LineInitializer, SaysNothingOfACameraThatStandsOrOnlyRotates) {
   EXPECT_FALSE(start.outcome);
 }
 
-}  // namespace
+}  // namespace line_initializer_test
 }  // namespace placegraph

@@ -7,7 +7,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace line_stereo_test {
 
 /// A tilted wall in the right eye: disparity 8 + 0.05 u - 0.02 v.
 Eigen::Matrix3d right_of_left() {
@@ -50,5 +50,5 @@ TEST(LineStereo, FindsNothingInAnotherPicture) {
   EXPECT_THROW(match_stereo_segments(left, Image(), segments, {}, {}, {}), ArgumentError);
 }
 
-}  // namespace
+}  // namespace line_stereo_test
 }  // namespace placegraph

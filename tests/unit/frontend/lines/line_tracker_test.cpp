@@ -8,7 +8,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace line_tracker_test {
 
 using Eigen::Vector2d;
 
@@ -198,5 +198,5 @@ TEST(ImageLine, CarriersStandForTheLineWithItsCovariance) {
   EXPECT_THROW(ImageLine().carriers(), ArgumentError);
 }
 
-}  // namespace
+}  // namespace line_tracker_test
 }  // namespace placegraph

@@ -6,7 +6,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace pose_from_lines_test {
 
 using namespace test;
 using Code = Outcome::Code;
@@ -179,5 +179,5 @@ TEST(PoseFromLines, RefusesTooFewLinesAndLinesThatAgreeOnNothing) {
             Code::kTooFewData);
 }
 
-}  // namespace
+}  // namespace pose_from_lines_test
 }  // namespace placegraph

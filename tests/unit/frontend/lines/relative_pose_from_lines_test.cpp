@@ -5,7 +5,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace relative_pose_from_lines_test {
 
 using namespace test;
 using Code = Outcome::Code;
@@ -227,5 +227,5 @@ TEST(MotionFromFloorLines, OfOneDirectionLeavesTheWayAlongItOpen) {
       Code::kTooFewData);
 }
 
-}  // namespace
+}  // namespace relative_pose_from_lines_test
 }  // namespace placegraph

@@ -2,7 +2,7 @@
 #include <placegraph/frontend/internal/lines/track_consistency.h>
 
 namespace placegraph {
-namespace {
+namespace track_consistency_test {
 
 Camera camera() {
   Camera c;
@@ -50,5 +50,5 @@ TEST(TrackConsistency, TwoObservationsAlwaysAgree) {
   EXPECT_FALSE(judge_line_track(camera(), {upright(0.3, 0), upright(0.9, 1)}).judged);
 }
 
-}  // namespace
+}  // namespace track_consistency_test
 }  // namespace placegraph

@@ -5,7 +5,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace vanishing_direction_tracker_test {
 
 using namespace test;
 
@@ -71,5 +71,5 @@ TEST(VanishingDirectionTracker, OfOneDirectionLeavesTheRotationAboutItOpen) {
   EXPECT_LT(about, 1e-3 * across);
 }
 
-}  // namespace
+}  // namespace vanishing_direction_tracker_test
 }  // namespace placegraph

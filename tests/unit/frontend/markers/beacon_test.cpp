@@ -7,7 +7,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace beacon_test {
 
 using namespace test;
 using Code = Outcome::Code;
@@ -107,5 +107,5 @@ TEST(BeaconPose, GivesSpotsToTheBeaconsExpectedThere) {
       3u);
 }
 
-}  // namespace
+}  // namespace beacon_test
 }  // namespace placegraph

@@ -7,7 +7,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace marker_detector_test {
 
 using namespace test;
 
@@ -126,5 +126,5 @@ TEST(SquareFit, RefusesWhatHasNoSides) {
   EXPECT_LT((fit->corners_px[2] - Eigen::Vector2d(60.5, 60.5)).norm(), 0.02);
 }
 
-}  // namespace
+}  // namespace marker_detector_test
 }  // namespace placegraph

@@ -11,7 +11,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace marker_filter_test {
 
 using namespace test;
 using Code = Outcome::Code;
@@ -227,5 +227,5 @@ TEST(MarkerFilter, ExpectsMarkersWhereTheyAreSeen) {
   EXPECT_LT(*squares[0].within_px, 0.15 * kCamera.fx);  // at 1 m: four times 0.02 m and 0.01 rad
 }
 
-}  // namespace
+}  // namespace marker_filter_test
 }  // namespace placegraph

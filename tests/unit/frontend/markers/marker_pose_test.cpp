@@ -8,7 +8,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace marker_pose_test {
 
 using namespace test;
 using Code = Outcome::Code;
@@ -74,5 +74,5 @@ TEST(MarkerPose, RefusesCornersThatAreNoFace) {
   EXPECT_THROW((void)estimate_marker_poses(observation, 0, kCamera), ArgumentError);
 }
 
-}  // namespace
+}  // namespace marker_pose_test
 }  // namespace placegraph

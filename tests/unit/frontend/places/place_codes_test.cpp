@@ -11,7 +11,7 @@
 #include <opencv2/imgproc.hpp>
 
 namespace placegraph {
-namespace {
+namespace place_codes_test {
 
 FloatDescriptors random_rows(Eigen::Index rows, Eigen::Index columns, Random& random) {
   FloatDescriptors result(rows, columns);
@@ -263,5 +263,5 @@ TEST(CodeDatabase, RefusesAVocabularyOfAnotherKind) {
                ArgumentError);
 }
 
-}  // namespace
+}  // namespace place_codes_test
 }  // namespace placegraph

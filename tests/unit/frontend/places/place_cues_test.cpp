@@ -13,7 +13,7 @@
 #include <opencv2/imgproc.hpp>
 
 namespace placegraph {
-namespace {
+namespace place_cues_test {
 
 Image random_image(int width, int height, int channels, std::uint64_t seed) {
   Random random(seed, 0);
@@ -189,5 +189,5 @@ TEST(GaborCue, IsTheSameInOtherLightAndOtherForAnotherTexture) {
   EXPECT_EQ(best_alignment(blank, gabor_cue(image), {}), 0);
 }
 
-}  // namespace
+}  // namespace place_cues_test
 }  // namespace placegraph

@@ -8,7 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 namespace placegraph {
-namespace {
+namespace place_recognizer_test {
 
 /// A picture of its own for every place, seen shifted by `shift_px` and brighter by `gain`.
 Image picture(int place, int shift_px = 0, double gain = 1, int channels = 3) {
@@ -152,5 +152,5 @@ TEST(SequenceFilter, TakesRangesThatGrowAndEndsAtAnEmptyList) {
   EXPECT_THROW(filter.update(seen(0, 5), 0, 3), ArgumentError);
 }
 
-}  // namespace
+}  // namespace place_recognizer_test
 }  // namespace placegraph

@@ -9,7 +9,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace places_test {
 
 using namespace test;
 
@@ -171,5 +171,5 @@ TEST(PlaceDatabase, LivesWithViewsThatShowNothing) {
   EXPECT_TRUE(database.query(views.see(0, 0), 5, any).empty());
 }
 
-}  // namespace
+}  // namespace places_test
 }  // namespace placegraph

@@ -7,7 +7,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace recognition_probability_test {
 
 const NearViews kNext = [](int a, int b) { return std::abs(a - b) <= 1; };
 bool any(int) { return true; }
@@ -89,5 +89,5 @@ TEST(RecognitionProbability, WithoutAnswersThereIsNothingToLearnFrom) {
   EXPECT_THROW(RecognitionProbability({}, {{0, 1, true}}), ArgumentError);
 }
 
-}  // namespace
+}  // namespace recognition_probability_test
 }  // namespace placegraph

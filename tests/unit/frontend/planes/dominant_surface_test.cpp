@@ -7,7 +7,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace dominant_surface_test {
 
 using namespace test;
 using Code = Outcome::Code;
@@ -149,5 +149,5 @@ TEST(DominantSurface, RefusesWallsOfNoiseAndMasksOfAnotherSize) {
   EXPECT_THROW(DominantSurface(inside_out, kCamera, tilted(0)), ArgumentError);
 }
 
-}  // namespace
+}  // namespace dominant_surface_test
 }  // namespace placegraph

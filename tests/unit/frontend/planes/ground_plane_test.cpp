@@ -8,7 +8,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace ground_plane_test {
 
 using namespace test;
 using Code = Outcome::Code;
@@ -176,5 +176,5 @@ TEST(GroundPlane, RefusesOtherSizesAndPlanesBehindTheCamera) {
   EXPECT_THROW(options.check(), ArgumentError);
 }
 
-}  // namespace
+}  // namespace ground_plane_test
 }  // namespace placegraph

@@ -8,7 +8,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace homography_fit_test {
 
 using namespace test;
 using Eigen::Matrix3d;
@@ -150,5 +150,5 @@ TEST(RefineHomography, SaysWhereTheMatchesFixNothing) {
             Outcome::Code::kDegenerate);
 }
 
-}  // namespace
+}  // namespace homography_fit_test
 }  // namespace placegraph

@@ -6,7 +6,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace homography_test {
 
 using namespace test;
 const Camera kCamera = pinhole(640, 480, 500);
@@ -114,5 +114,5 @@ TEST(Homography, RefusesWhatIsNone) {
   EXPECT_THROW(homography_from_plane(kK, SE3(), {Eigen::Vector3d::UnitY(), 0}), ArgumentError);
 }
 
-}  // namespace
+}  // namespace homography_test
 }  // namespace placegraph

@@ -6,7 +6,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace inverse_depth_plane_test {
 
 using test::seeded_random;
 using Code = Outcome::Code;
@@ -78,5 +78,5 @@ TEST(InverseDepthPlane, ConvertsItsCovarianceIntoDegreesAndShares) {
   EXPECT_NEAR(sigma_normal_rad({0, 0.5, 0}, covariance), 0.01, 1e-12);
 }
 
-}  // namespace
+}  // namespace inverse_depth_plane_test
 }  // namespace placegraph

@@ -7,7 +7,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace label_expansion_test {
 
 TEST(LabelExpansion, TakesTheCheapestLabelOfEachItemWhereNothingJoinsThem) {
   LabelProblem problem;
@@ -66,5 +66,5 @@ TEST(LabelExpansion, RefusesProblemsThatDoNotFit) {
   EXPECT_THROW(expand_labels({Eigen::MatrixXd::Zero(2, 2), {}, -1}, labels), ArgumentError);
 }
 
-}  // namespace
+}  // namespace label_expansion_test
 }  // namespace placegraph

@@ -6,7 +6,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace motion_from_planes_test {
 
 using namespace test;
 
@@ -148,5 +148,5 @@ TEST(MotionFromPlanes, SaysThatPlanesMoveEachTheirOwnWay) {
   EXPECT_EQ(result.outcome.code, Outcome::Code::kInconsistent);
 }
 
-}  // namespace
+}  // namespace motion_from_planes_test
 }  // namespace placegraph

@@ -8,7 +8,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace planar_regions_test {
 
 using namespace test;
 
@@ -127,5 +127,5 @@ TEST(PlanarRegions, AreTheSameBitsForTheSameSeed) {
   EXPECT_EQ(first.description_length, second.description_length);
 }
 
-}  // namespace
+}  // namespace planar_regions_test
 }  // namespace placegraph

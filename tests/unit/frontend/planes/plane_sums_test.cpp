@@ -12,7 +12,7 @@
 #include "tests/support/message_of.h"
 
 namespace placegraph {
-namespace {
+namespace plane_sums_test {
 
 FitPoint along_ray(const Eigen::Vector3d& p, double weight) {
   return {p / p.z(), 1 / p.z(), weight};
@@ -175,5 +175,5 @@ TEST(Planarity, RefusesOtherTexts) {
             "m.txt:1: a stump is: feature threshold below above");
 }
 
-}  // namespace
+}  // namespace plane_sums_test
 }  // namespace placegraph

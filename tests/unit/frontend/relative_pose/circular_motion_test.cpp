@@ -6,7 +6,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace circular_motion_test {
 
 using namespace test;
 using Code = Outcome::Code;
@@ -82,5 +82,5 @@ TEST(CircularMotion, RefusesTooFewPointsAndUnequalViews) {
   EXPECT_THROW((void)estimate_circular_motion(kCamera, scene.px[0], {}, SO3(), {}), ArgumentError);
 }
 
-}  // namespace
+}  // namespace circular_motion_test
 }  // namespace placegraph

@@ -6,7 +6,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace epipolar_error_test {
 
 using namespace test;
 
@@ -59,5 +59,5 @@ TEST(RaysOf, HaveDepthOne) {
   EXPECT_TRUE(rays[1].isApprox(Eigen::Vector3d(1, 0, 1)));
 }
 
-}  // namespace
+}  // namespace epipolar_error_test
 }  // namespace placegraph

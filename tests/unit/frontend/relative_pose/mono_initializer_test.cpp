@@ -6,7 +6,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace mono_initializer_test {
 
 using namespace test;
 using Code = Outcome::Code;
@@ -116,5 +116,5 @@ TEST(MonoInitializer, HandsOnWhatTheTwoViewsSay) {
   EXPECT_EQ(initialize(scene, false, random).outcome.code, Code::kNoConsensus);
 }
 
-}  // namespace
+}  // namespace mono_initializer_test
 }  // namespace placegraph

@@ -7,7 +7,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace pose_2d2d_test {
 
 using namespace test;
 using Code = Outcome::Code;
@@ -82,5 +82,5 @@ TEST(Pose2d2d, SaysThatACameraAtRestHasNoTranslation) {
             Code::kDegenerate);
 }
 
-}  // namespace
+}  // namespace pose_2d2d_test
 }  // namespace placegraph

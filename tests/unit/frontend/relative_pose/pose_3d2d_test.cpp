@@ -6,7 +6,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace pose_3d2d_test {
 
 using namespace test;
 using Code = Outcome::Code;
@@ -124,5 +124,5 @@ TEST(Pose3d2d, SaysWhenThereAreTooFewPointsOrNoConsensus) {
                ArgumentError);
 }
 
-}  // namespace
+}  // namespace pose_3d2d_test
 }  // namespace placegraph

@@ -8,7 +8,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace pose_3d3d_test {
 
 using namespace test;
 using Code = Outcome::Code;
@@ -127,5 +127,5 @@ TEST(Pose3d3d, RefusesWhatCannotBe) {
   EXPECT_THROW((void)estimate_pose_3d3d(clouds.ref, {}, {}, random), ArgumentError);
 }
 
-}  // namespace
+}  // namespace pose_3d3d_test
 }  // namespace placegraph

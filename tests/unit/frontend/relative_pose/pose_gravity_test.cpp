@@ -7,7 +7,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace pose_gravity_test {
 
 using namespace test;
 using Code = Outcome::Code;
@@ -110,5 +110,5 @@ TEST(PoseWithGravity, RefusesWhatCannotBe) {
       ArgumentError);
 }
 
-}  // namespace
+}  // namespace pose_gravity_test
 }  // namespace placegraph

@@ -7,7 +7,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace relative_pose_test {
 
 using namespace test;
 using Code = Outcome::Code;
@@ -118,5 +118,5 @@ TEST(RelativePoseOfTwoViews, SaysWhyThereIsNone) {
                ArgumentError);
 }
 
-}  // namespace
+}  // namespace relative_pose_test
 }  // namespace placegraph

@@ -6,7 +6,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace rotation_2d2d_test {
 
 using namespace test;
 using Code = Outcome::Code;
@@ -73,5 +73,5 @@ TEST(Rotation2d2d, RefusesTooFewPointsAndListsOfUnequalLength) {
                ArgumentError);
 }
 
-}  // namespace
+}  // namespace rotation_2d2d_test
 }  // namespace placegraph

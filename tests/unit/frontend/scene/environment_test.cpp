@@ -8,7 +8,7 @@
 #include "tests/support/message_of.h"
 
 namespace placegraph {
-namespace {
+namespace environment_test {
 
 using Shares = std::array<double, kEnvironmentCount>;
 
@@ -136,5 +136,5 @@ TEST(EnvironmentFilter, SaysUnknownWhereViewsSayNothing) {
   EXPECT_THROW(EnvironmentFilter{wrong}, ArgumentError);
 }
 
-}  // namespace
+}  // namespace environment_test
 }  // namespace placegraph

@@ -3,7 +3,7 @@
 #include <placegraph/graph/core/error.h>
 
 namespace placegraph {
-namespace {
+namespace orientation_map_test {
 
 /// A box room, 4 m wide, 2.4 m high, its far wall 5 m away, looked into along z: the edges of the
 /// far wall and the four that lead to it.
@@ -69,5 +69,5 @@ TEST(OrientationMap, SaysNothingOfEdgesOfOneAxis) {
                ArgumentError);
 }
 
-}  // namespace
+}  // namespace orientation_map_test
 }  // namespace placegraph

@@ -8,7 +8,7 @@
 #include <opencv2/core.hpp>
 
 namespace placegraph {
-namespace {
+namespace popup_test {
 
 /// 100 x 80 pixels, the horizon of a level camera in row 39.5.
 GroundView small_view() {
@@ -86,5 +86,5 @@ TEST(Horizon, IsWhereLevelAndUprightEdgesSay) {
   EXPECT_EQ(none.down, Eigen::Vector3d::UnitY());
 }
 
-}  // namespace
+}  // namespace popup_test
 }  // namespace placegraph

@@ -5,7 +5,7 @@
 #include <opencv2/core.hpp>
 
 namespace placegraph {
-namespace {
+namespace scene_masks_test {
 
 /// Four superpixels of 40 x 10, one above the other: sky, vertical, object, ground.
 SceneView layered() {
@@ -70,5 +70,5 @@ TEST(SurfaceShares, AreThoseOfTheUpperAndTheLowerHalf) {
   EXPECT_NEAR(shares.below[3], 0.5, 1e-6);
 }
 
-}  // namespace
+}  // namespace scene_masks_test
 }  // namespace placegraph

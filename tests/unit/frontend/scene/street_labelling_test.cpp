@@ -6,7 +6,7 @@
 #include <opencv2/core.hpp>
 
 namespace placegraph {
-namespace {
+namespace street_labelling_test {
 
 const Camera kCamera{320, 160, 200, 200, 159.5, 79.5};
 constexpr double kBaseline_m = 0.5;
@@ -132,5 +132,5 @@ TEST(SeenThrough, FollowsTheMotionOfTheCamera) {
                            kBaseline_m)[0]);
 }
 
-}  // namespace
+}  // namespace street_labelling_test
 }  // namespace placegraph

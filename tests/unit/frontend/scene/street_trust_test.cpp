@@ -5,7 +5,7 @@
 #include <numeric>
 
 namespace placegraph {
-namespace {
+namespace street_trust_test {
 
 /// Street, road, corridor, room, hall.
 constexpr EnvironmentProbabilities kStreetLike{0.7, 0.1, 0.1, 0.05, 0.05};
@@ -86,5 +86,5 @@ TEST_F(StreetLabels, AreUnknownWhereTheClassIsUncertain) {
   EXPECT_THROW(labels(1.5), ArgumentError);
 }
 
-}  // namespace
+}  // namespace street_trust_test
 }  // namespace placegraph

@@ -9,7 +9,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace segment_detector_test {
 
 using Eigen::Vector2d;
 
@@ -124,5 +124,5 @@ TEST(SegmentDetector, WantsAGreyImage) {
   EXPECT_THROW((void)detect_segments(Image(50, 50, CV_8UC3), {}), Error);
 }
 
-}  // namespace
+}  // namespace segment_detector_test
 }  // namespace placegraph

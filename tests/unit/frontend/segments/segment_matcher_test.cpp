@@ -10,7 +10,7 @@
 #include "tests/support/scenes/texture.h"
 
 namespace placegraph {
-namespace {
+namespace segment_matcher_test {
 
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
@@ -99,5 +99,5 @@ TEST(SegmentMatcher, RefusesWhatIsNoImageOrSegment) {
   EXPECT_THROW((void)match_segments(blank, {{{1, 1}, {1, 1}}}, blank, {}, {}), Error);
 }
 
-}  // namespace
+}  // namespace segment_matcher_test
 }  // namespace placegraph

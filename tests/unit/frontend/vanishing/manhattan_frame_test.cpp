@@ -5,7 +5,7 @@
 #include "tests/support/scenes/manhattan_scene.h"
 
 namespace placegraph {
-namespace {
+namespace manhattan_frame_test {
 
 using Code = Outcome::Code;
 
@@ -96,5 +96,5 @@ TEST(ManhattanFrame, ClutterShowsNoAxisToTrack) {
       ArgumentError);
 }
 
-}  // namespace
+}  // namespace manhattan_frame_test
 }  // namespace placegraph

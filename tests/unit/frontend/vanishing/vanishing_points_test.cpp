@@ -6,7 +6,7 @@
 #include "tests/support/scenes/manhattan_scene.h"
 
 namespace placegraph {
-namespace {
+namespace vanishing_points_test {
 
 using Code = Outcome::Code;
 
@@ -262,5 +262,5 @@ TEST(DirectionPrior, WithoutAxesSaysNothing) {
   EXPECT_EQ(fit.v, Eigen::Vector3d::UnitZ());
 }
 
-}  // namespace
+}  // namespace vanishing_points_test
 }  // namespace placegraph

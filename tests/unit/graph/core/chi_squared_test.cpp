@@ -6,7 +6,7 @@
 #include <utility>
 
 namespace placegraph {
-namespace {
+namespace chi_squared_test {
 
 TEST(ChiSquared, TailsAreThoseOfTheTables) {
   EXPECT_NEAR(chi_squared_tail(3.841458821, 1), 0.05, 1e-9);
@@ -39,5 +39,5 @@ TEST(ChiSquared, RefusesAProbabilityThatIsNone) {
   EXPECT_THROW(chi_squared_quantile(NAN, 3), ArgumentError);
 }
 
-}  // namespace
+}  // namespace chi_squared_test
 }  // namespace placegraph

@@ -3,7 +3,7 @@
 #include <placegraph/graph/internal/core/disjoint_sets.h>
 
 namespace placegraph {
-namespace {
+namespace disjoint_sets_test {
 
 using testing::ElementsAre;
 
@@ -21,5 +21,5 @@ TEST(DisjointSets, AreNumberedInTheOrderOfTheirLowestMembers) {
 
 TEST(DisjointSets, MayBeEmpty) { EXPECT_THAT(DisjointSets(0).numbers(), ElementsAre()); }
 
-}  // namespace
+}  // namespace disjoint_sets_test
 }  // namespace placegraph

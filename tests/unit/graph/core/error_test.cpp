@@ -5,7 +5,7 @@
 #include <string>
 
 namespace placegraph {
-namespace {
+namespace error_test {
 
 TEST(FileError, NamesPathAndLine) {
   EXPECT_STREQ(FileError("a/b.txt", 12, "not a number").what(), "a/b.txt:12: not a number");
@@ -47,5 +47,5 @@ TEST(Outcome, EveryCodeHasWordsOfItsOwn) {
   EXPECT_STREQ(to_string(Code::kNotAttempted), "not attempted");
 }
 
-}  // namespace
+}  // namespace error_test
 }  // namespace placegraph

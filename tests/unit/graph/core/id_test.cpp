@@ -16,7 +16,7 @@
 #include <vector>
 
 namespace placegraph {
-namespace {
+namespace id_test {
 
 using CatId = Id<struct CatTag>;
 using DogId = Id<struct DogTag>;
@@ -106,5 +106,5 @@ TEST(Id, IsANumberInJson) {
   EXPECT_THROW((void)nlohmann::json("three").get<CatId>(), nlohmann::json::exception);
 }
 
-}  // namespace
+}  // namespace id_test
 }  // namespace placegraph

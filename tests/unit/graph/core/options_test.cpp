@@ -10,7 +10,7 @@
 #include <vector>
 
 namespace placegraph {
-namespace {
+namespace options_test {
 
 enum class Metric { kSsd, kZncc };
 
@@ -160,5 +160,5 @@ TEST(ListOptions, KnowsLevelsAndFormerPaths) {
                                           "plain.a 1 ", "plain.b 0 "));
 }
 
-}  // namespace
+}  // namespace options_test
 }  // namespace placegraph

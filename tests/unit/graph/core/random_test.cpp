@@ -9,7 +9,7 @@
 #include <vector>
 
 namespace placegraph {
-namespace {
+namespace random_test {
 
 TEST(Random, GivesTheReferenceSequenceOfPcg32) {
   // The demo of the PCG reference implementation: seed 42, stream 54.
@@ -126,5 +126,5 @@ TEST(Random, SampleOfMoreThanThereAreIsRefused) {
   EXPECT_THROW(random.sample(3, -1, sample), ArgumentError);
 }
 
-}  // namespace
+}  // namespace random_test
 }  // namespace placegraph

@@ -9,7 +9,7 @@
 #include <vector>
 
 namespace placegraph {
-namespace {
+namespace ransac_test {
 
 /// y = slope x + offset.
 struct Line {
@@ -146,5 +146,5 @@ TEST(RansacOptions, CheckNamesTheField) {
   EXPECT_THROW(options.check(), ArgumentError);
 }
 
-}  // namespace
+}  // namespace ransac_test
 }  // namespace placegraph

@@ -5,7 +5,7 @@
 #include <limits>
 
 namespace placegraph {
-namespace {
+namespace robust_kernel_test {
 
 using Kind = RobustKernel::Kind;
 
@@ -68,5 +68,5 @@ TEST(RobustKernel, ValuesByHand) {
   EXPECT_EQ((RobustKernel{Kind::kTruncated, 2}.evaluate(4.1).first), 0);
 }
 
-}  // namespace
+}  // namespace robust_kernel_test
 }  // namespace placegraph

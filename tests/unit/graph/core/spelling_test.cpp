@@ -3,7 +3,7 @@
 #include <placegraph/graph/internal/core/spelling.h>
 
 namespace placegraph {
-namespace {
+namespace spelling_test {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
@@ -33,5 +33,5 @@ TEST(DidYouMean, NamesTheSpellingsOrNothing) {
   EXPECT_EQ(did_you_mean("qqqq", {"eval"}), "");
 }
 
-}  // namespace
+}  // namespace spelling_test
 }  // namespace placegraph

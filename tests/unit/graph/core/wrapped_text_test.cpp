@@ -2,7 +2,7 @@
 #include <placegraph/graph/internal/core/wrapped_text.h>
 
 namespace placegraph {
-namespace {
+namespace wrapped_text_test {
 
 TEST(WrappedText, LinesAreAtMostAsLongAsTheWidth) {
   EXPECT_EQ(wrapped_text("one two three four", "", 9), "one two\nthree\nfour\n");
@@ -24,5 +24,5 @@ TEST(WrappedText, SpacesAndLineBreaksOfTheTextSeparateWords) {
   EXPECT_EQ(wrapped_text("", ""), "\n");
 }
 
-}  // namespace
+}  // namespace wrapped_text_test
 }  // namespace placegraph

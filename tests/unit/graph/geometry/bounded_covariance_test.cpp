@@ -2,7 +2,7 @@
 #include <placegraph/graph/internal/geometry/bounded_covariance.h>
 
 namespace placegraph {
-namespace {
+namespace bounded_covariance_test {
 
 TEST(BoundedCovariance, IsTheInverseOfInformation) {
   Matrix6d root = Matrix6d::Identity();
@@ -38,5 +38,5 @@ TEST(BoundedCovariance, AFloorHoldsTheEigenvaluesOfAMatrixThatCanBeInverted) {
   EXPECT_NEAR(bounded_inverse(matrix, 1e-2)(0, 0), 1, 1e-12);
 }
 
-}  // namespace
+}  // namespace bounded_covariance_test
 }  // namespace placegraph

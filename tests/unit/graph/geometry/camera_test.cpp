@@ -12,7 +12,7 @@
 #include <vector>
 
 namespace placegraph {
-namespace {
+namespace camera_test {
 
 Camera pinhole() {
   Camera camera;
@@ -249,5 +249,5 @@ TEST(Calibration, CheckNamesTheFieldThatIsWrong) {
       HasSubstr("T_cam_depth"));
 }
 
-}  // namespace
+}  // namespace camera_test
 }  // namespace placegraph

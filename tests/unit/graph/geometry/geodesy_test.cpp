@@ -7,7 +7,7 @@
 #include <limits>
 
 namespace placegraph {
-namespace {
+namespace geodesy_test {
 
 constexpr double kA = 6378137.0, kB = 6356752.314245179;  // axes of WGS84 [m]
 
@@ -53,5 +53,5 @@ TEST(EnuFrame, RefusesWhatIsNoPosition) {
   EXPECT_THROW(EnuFrame({0, 540, 0}), ArgumentError);
 }
 
-}  // namespace
+}  // namespace geodesy_test
 }  // namespace placegraph

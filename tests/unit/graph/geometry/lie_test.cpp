@@ -7,7 +7,7 @@
 #include <numbers>
 
 namespace placegraph {
-namespace {
+namespace lie_test {
 
 using std::numbers::pi;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -125,5 +125,5 @@ TEST(Sim3, RefusesAScaleThatIsNotPositive) {
     EXPECT_THROW(Sim3(SO3(), Eigen::Vector3d::Zero(), scale), ArgumentError) << scale;
 }
 
-}  // namespace
+}  // namespace lie_test
 }  // namespace placegraph

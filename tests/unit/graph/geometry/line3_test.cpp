@@ -5,7 +5,7 @@
 #include <cmath>
 
 namespace placegraph {
-namespace {
+namespace line3_test {
 
 TEST(Line3, HasMomentAndDirectionOfItsPointsUpToOneFactor) {
   const Eigen::Vector3d point(1, 2, 3), direction(0, 2, 0);
@@ -62,5 +62,5 @@ TEST(Line3, RefusesADirectionOfZero) {
   EXPECT_THROW((void)Line3::from_direction({1, std::nan(""), 3}, {0, 1, 0}), ArgumentError);
 }
 
-}  // namespace
+}  // namespace line3_test
 }  // namespace placegraph

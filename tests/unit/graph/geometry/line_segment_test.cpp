@@ -9,7 +9,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace line_segment_test {
 
 const LineSegment kAlongU{{10, 5}, {30, 5}};
 
@@ -99,5 +99,5 @@ TEST(Collinearity, SeesAngleDistanceAndGap) {
   EXPECT_DOUBLE_EQ(collinearity(kAlongU, {{20, 0}, {20, 9}}).angle_rad, std::numbers::pi / 2);
 }
 
-}  // namespace
+}  // namespace line_segment_test
 }  // namespace placegraph

@@ -6,7 +6,7 @@
 #include <cmath>
 
 namespace placegraph {
-namespace {
+namespace plane3_test {
 
 TEST(Plane3, HasTheNormalAndDistanceItWasMadeOf) {
   const Plane3 plane({0, 3, 4}, 1.65);
@@ -96,5 +96,5 @@ TEST(Plane3, RefusesANormalOfZero) {
   EXPECT_THROW((void)plane_information(Plane3(), 0, 1), ArgumentError);
 }
 
-}  // namespace
+}  // namespace plane3_test
 }  // namespace placegraph

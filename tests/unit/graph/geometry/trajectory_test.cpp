@@ -13,7 +13,7 @@
 #include <vector>
 
 namespace placegraph {
-namespace {
+namespace trajectory_test {
 
 using Pairs = std::vector<std::pair<int, int>>;
 
@@ -170,5 +170,5 @@ TEST(Interpolate, GivesNothingAcrossAGap) {
   EXPECT_TRUE(interpolate(at_ms({0, 1000}), 500'000'000));
 }
 
-}  // namespace
+}  // namespace trajectory_test
 }  // namespace placegraph

@@ -10,7 +10,7 @@
 #include "same_image.h"
 
 namespace placegraph {
-namespace {
+namespace jpeg_codec_test {
 
 using test::same_image;
 
@@ -145,5 +145,5 @@ TEST(JpegCodec, KnowsAJpegByItsFirstBytes) {
   EXPECT_TRUE(decode_jpeg("\xff\xd8").empty());
 }
 
-}  // namespace
+}  // namespace jpeg_codec_test
 }  // namespace placegraph

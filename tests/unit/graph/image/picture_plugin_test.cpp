@@ -12,7 +12,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph {
-namespace {
+namespace picture_plugin_test {
 
 using test::message_of;
 using test::TemporaryFolder;
@@ -152,5 +152,5 @@ TEST(PicturePlugin, WritesAVideoFrameByFrame) {
   EXPECT_EQ(plugin.create_video(folder / "none/v.avi", 64, 48, 10), nullptr);
 }
 
-}  // namespace
+}  // namespace picture_plugin_test
 }  // namespace placegraph

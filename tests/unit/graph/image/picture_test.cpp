@@ -11,7 +11,7 @@
 #include "tests/support/message_of.h"
 
 namespace placegraph {
-namespace {
+namespace picture_test {
 
 using test::message_of;
 using test::same_image;
@@ -62,5 +62,5 @@ TEST(Picture, OnlyPngAndJpegAreKnownToBeTruncated) {
   EXPECT_FALSE(is_truncated_picture(""));
 }
 
-}  // namespace
+}  // namespace picture_test
 }  // namespace placegraph

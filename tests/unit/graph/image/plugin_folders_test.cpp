@@ -8,7 +8,7 @@
 #include <set>
 
 namespace placegraph {
-namespace {
+namespace plugin_folders_test {
 
 namespace fs = std::filesystem;
 
@@ -40,5 +40,5 @@ TEST(PluginFolders, AnEmptyNameIsNone) {
   unsetenv("PLACEGRAPH_PLUGIN_DIR");
 }
 
-}  // namespace
+}  // namespace plugin_folders_test
 }  // namespace placegraph

@@ -12,7 +12,7 @@
 #include "same_image.h"
 
 namespace placegraph {
-namespace {
+namespace png_codec_test {
 
 using test::same_image;
 
@@ -139,5 +139,5 @@ TEST(PngCodec, KnowsAPngByItsFirstBytes) {
   EXPECT_TRUE(decode_png("", DecodedPixels::kAsStored).empty());
 }
 
-}  // namespace
+}  // namespace png_codec_test
 }  // namespace placegraph

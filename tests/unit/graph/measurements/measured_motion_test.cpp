@@ -7,7 +7,7 @@
 #include "tests/support/scenes/scene.h"
 
 namespace placegraph {
-namespace {
+namespace measured_motion_test {
 
 using namespace test;
 
@@ -88,5 +88,5 @@ TEST(MeasuredMotion, RefusesStepsThatAreNone) {
   EXPECT_THROW(MeasuredMotion({{0, 5, pose({0, 0, 0}, {NAN, 0, 0}), {}}}), ArgumentError);
 }
 
-}  // namespace
+}  // namespace measured_motion_test
 }  // namespace placegraph

@@ -3,7 +3,7 @@
 #include <placegraph/graph/internal/measurements/stamp_plausibility.h>
 
 namespace placegraph {
-namespace {
+namespace stamp_plausibility_test {
 
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -61,5 +61,5 @@ TEST(OtherClock, NamesFactorOrOffset) {
   EXPECT_THAT(other_clock(truth, stamps(0, 7'000'000, 4), "the estimate"), IsEmpty());
 }
 
-}  // namespace
+}  // namespace stamp_plausibility_test
 }  // namespace placegraph

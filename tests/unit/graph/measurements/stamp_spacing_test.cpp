@@ -3,7 +3,7 @@
 #include <placegraph/graph/internal/measurements/stamp_spacing.h>
 
 namespace placegraph {
-namespace {
+namespace stamp_spacing_test {
 
 using testing::ElementsAre;
 using testing::IsEmpty;
@@ -34,5 +34,5 @@ TEST(StampSpacing, OfOneStampIsZero) {
   EXPECT_THAT(spacing.gaps, IsEmpty());
 }
 
-}  // namespace
+}  // namespace stamp_spacing_test
 }  // namespace placegraph

@@ -4,7 +4,7 @@
 #include <placegraph/graph/pose_graph/graph_parts.h>
 
 namespace placegraph {
-namespace {
+namespace graph_parts_test {
 
 using testing::ElementsAre;
 using testing::IsEmpty;
@@ -49,5 +49,5 @@ TEST(GraphParts, AreNotMadeOfAGraphWithUnknownNodes) {
   EXPECT_THROW(split_components(graph), ArgumentError);
 }
 
-}  // namespace
+}  // namespace graph_parts_test
 }  // namespace placegraph

@@ -5,7 +5,7 @@
 #include <limits>
 
 namespace placegraph {
-namespace {
+namespace node_index_test {
 
 constexpr std::int64_t kMin = std::numeric_limits<std::int64_t>::min();
 constexpr std::int64_t kMax = std::numeric_limits<std::int64_t>::max();
@@ -47,5 +47,5 @@ TEST(NodeIndex, CountsTheFirstOfEqualIds) {
   EXPECT_EQ(NodeIndex(nodes({kMin, 5, kMax, 5})).at(NodeId(5)), 1);
 }
 
-}  // namespace
+}  // namespace node_index_test
 }  // namespace placegraph

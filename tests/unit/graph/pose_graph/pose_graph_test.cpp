@@ -10,7 +10,7 @@
 #include <vector>
 
 namespace placegraph {
-namespace {
+namespace pose_graph_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -232,5 +232,5 @@ TEST(PoseGraph, OdometryIsIntegratedOnFromAFixedPoseWhichStays) {
   EXPECT_EQ(position_of(graph, 2), Eigen::Vector3d(6, 0, 0));
 }
 
-}  // namespace
+}  // namespace pose_graph_test
 }  // namespace placegraph

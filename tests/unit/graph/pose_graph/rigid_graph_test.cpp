@@ -2,7 +2,7 @@
 #include <placegraph/graph/internal/pose_graph/rigid_graph.h>
 
 namespace placegraph {
-namespace {
+namespace rigid_graph_test {
 
 /// Nodes of other units; edges are measured exactly.
 PoseGraph scaled_walk() {
@@ -51,5 +51,5 @@ TEST(RigidGraph, LeavesPosesAsTheyAre) {
   EXPECT_EQ(rigid_graph(graph).nodes[0].id, NodeId(3));
 }
 
-}  // namespace
+}  // namespace rigid_graph_test
 }  // namespace placegraph

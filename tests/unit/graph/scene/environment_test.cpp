@@ -2,7 +2,7 @@
 #include <placegraph/graph/scene/environment.h>
 
 namespace placegraph {
-namespace {
+namespace environment_test {
 
 TEST(Environment, HasANameForEveryKindThatLeadsBackToIt) {
   for (int k = 0; k < kEnvironmentCount; ++k) {
@@ -30,5 +30,5 @@ TEST(Environment, TrustsLabelsOfStreetsOutdoorsOnly) {
   EXPECT_TRUE(assumptions_of(Environment::kHall).manhattan_frame);
 }
 
-}  // namespace
+}  // namespace environment_test
 }  // namespace placegraph

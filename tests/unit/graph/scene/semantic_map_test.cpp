@@ -5,7 +5,7 @@
 #include <cmath>
 
 namespace placegraph {
-namespace {
+namespace semantic_map_test {
 
 const std::vector<std::string> kClasses = {"Road", "Building", "Tree"};
 
@@ -114,5 +114,5 @@ TEST(TopView, ShowsWhatStandsOverTheGround) {
   EXPECT_EQ(map.cells[static_cast<std::size_t>(view.at(1, 0))].label, 0);
 }
 
-}  // namespace
+}  // namespace semantic_map_test
 }  // namespace placegraph

@@ -3,7 +3,7 @@
 #include "tests/support/message_of.h"
 
 namespace placegraph {
-namespace {
+namespace calibration_plausibility_test {
 
 using test::message_of;
 using testing::ElementsAre;
@@ -104,5 +104,5 @@ TEST(PlausibleCamera, HasNoNormalizedIntrinsics) {
       HasSubstr("c.yaml: fx, fy: 0.8, 0.8 are no focal lengths [px] of a 640x480 image"));
 }
 
-}  // namespace
+}  // namespace calibration_plausibility_test
 }  // namespace placegraph

@@ -4,7 +4,7 @@
 #include <opencv2/imgproc.hpp>
 
 namespace placegraph {
-namespace {
+namespace camera_change_test {
 
 Camera camera(int width, int height, double focal) {
   return {.width = width,
@@ -72,5 +72,5 @@ TEST(CameraChange, MasksWhatIsNotSeen) {
   EXPECT_EQ(frame.mask.at<std::uint8_t>(60, 140), 0);  // its surroundings are not seen
 }
 
-}  // namespace
+}  // namespace camera_change_test
 }  // namespace placegraph

@@ -7,7 +7,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph {
-namespace {
+namespace camera_file_test {
 
 TEST(CameraFile, ReadsSixNumbersAfterAComment) {
   const test::TemporaryFolder dir;
@@ -40,5 +40,5 @@ TEST(CameraFile, NamesWhatIsWrong) {
   EXPECT_THROW((void)read_camera_file(dir / "absent.txt"), FileError);
 }
 
-}  // namespace
+}  // namespace camera_file_test
 }  // namespace placegraph

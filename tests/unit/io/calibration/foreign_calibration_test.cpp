@@ -5,7 +5,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph {
-namespace {
+namespace foreign_calibration_test {
 
 using test::message_of;
 using test::TemporaryFolder;
@@ -177,5 +177,5 @@ TEST(ForeignCalibration, NamesWhatTheRightCameraLacks) {
               HasSubstr("c.yaml:3: OpenCV's calibration: rotation: the matrix is"));
 }
 
-}  // namespace
+}  // namespace foreign_calibration_test
 }  // namespace placegraph

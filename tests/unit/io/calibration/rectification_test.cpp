@@ -7,7 +7,7 @@
 #include <opencv2/core.hpp>
 
 namespace placegraph {
-namespace {
+namespace rectification_test {
 
 Camera radial_tangential() {
   return {752,
@@ -159,5 +159,5 @@ TEST(RectifyStereo, RefusesSwappedCamerasStackedCamerasAndUnlikeLenses) {
   EXPECT_THROW(rectify_stereo(camera, smaller, right), ArgumentError);
 }
 
-}  // namespace
+}  // namespace rectification_test
 }  // namespace placegraph

@@ -6,7 +6,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph {
-namespace {
+namespace yaml_config_test {
 
 using test::message_of;
 using test::TemporaryFolder;
@@ -276,5 +276,5 @@ TEST_F(FormerKeys, AreNotSuggestedForUnknownOnes) {
               HasSubstr("direct.levles: unknown key; did you mean levels?"));
 }
 
-}  // namespace
+}  // namespace yaml_config_test
 }  // namespace placegraph

@@ -6,7 +6,7 @@
 #include "tiny_images.h"
 
 namespace placegraph {
-namespace {
+namespace dataset_summary_test {
 
 using test::TemporaryFolder;
 using test::tiny_depth;
@@ -54,5 +54,5 @@ TEST(DatasetSummary, SaysWhatGivesMetres) {
   EXPECT_THAT(metric_by(Sensor::kRgbd, calibration), HasSubstr("depth"));
 }
 
-}  // namespace
+}  // namespace dataset_summary_test
 }  // namespace placegraph

@@ -4,7 +4,7 @@
 #include "tiny_images.h"
 
 namespace placegraph {
-namespace {
+namespace euroc_test {
 
 using test::message_of;
 using test::TemporaryFolder;
@@ -172,5 +172,5 @@ TEST(Euroc, NamesTheFileAndLineOfEveryFault) {
   EXPECT_THAT(message(truth, "250,20,0,0,1", "250,20,0,0,2"), HasSubstr("data.csv:3: the quat"));
 }
 
-}  // namespace
+}  // namespace euroc_test
 }  // namespace placegraph

@@ -7,7 +7,7 @@
 #include "tiny_images.h"
 
 namespace placegraph {
-namespace {
+namespace image_folder_test {
 
 using test::message_of;
 using test::TemporaryFolder;
@@ -280,5 +280,5 @@ TEST(VideoFile, IsRefusedWithoutCalibrationOfAnotherSizeOrUnreadable) {
   EXPECT_THAT(message("text.avi"), HasSubstr("text.avi: is not a readable video"));
 }
 
-}  // namespace
+}  // namespace image_folder_test
 }  // namespace placegraph

@@ -6,7 +6,7 @@
 #include "tiny_images.h"
 
 namespace placegraph {
-namespace {
+namespace image_levels_test {
 
 using test::TemporaryFolder;
 using test::write_image;
@@ -73,5 +73,5 @@ TEST(ImageLevels, PassOverWhatCannotBeRead) {
   EXPECT_THAT(sample_levels({}).notes, IsEmpty());
 }
 
-}  // namespace
+}  // namespace image_levels_test
 }  // namespace placegraph

@@ -4,7 +4,7 @@
 #include "tiny_images.h"
 
 namespace placegraph {
-namespace {
+namespace kitti_drive_test {
 
 using test::message_of;
 using test::TemporaryFolder;
@@ -100,5 +100,5 @@ TEST(KittiOdometryNearly, ReportsMissingFiles) {
               HasSubstr("calibration.yaml is missing"));
 }
 
-}  // namespace
+}  // namespace kitti_drive_test
 }  // namespace placegraph

@@ -8,7 +8,7 @@
 #include "tiny_images.h"
 
 namespace placegraph {
-namespace {
+namespace kitti_odometry_test {
 
 using test::message_of;
 using test::TemporaryFolder;
@@ -319,5 +319,5 @@ INSTANTIATE_TEST_SUITE_P(
         RealSequence{"cube_planar200", 200, 752, 480, {Sensor::kMono}}),
     [](const auto& test) { return std::string(test.param.name); });
 
-}  // namespace
+}  // namespace kitti_odometry_test
 }  // namespace placegraph

@@ -4,7 +4,7 @@
 #include "tiny_images.h"
 
 namespace placegraph {
-namespace {
+namespace seven_scenes_test {
 
 using test::message_of;
 using test::TemporaryFolder;
@@ -94,5 +94,5 @@ TEST(IclNuim, CountsFramesAndInvertsTheTruth) {
   EXPECT_NEAR(poses[2].T_world_body->linear().determinant(), 1, 1e-9);
 }
 
-}  // namespace
+}  // namespace seven_scenes_test
 }  // namespace placegraph

@@ -4,7 +4,7 @@
 #include "tiny_images.h"
 
 namespace placegraph {
-namespace {
+namespace tum_rgbd_test {
 
 using test::message_of;
 using test::TemporaryFolder;
@@ -169,5 +169,5 @@ TEST(TumRgbd, NamesTheFileAndLineOfEveryFault) {
               HasSubstr("s: the intrinsics are unknown"));
 }
 
-}  // namespace
+}  // namespace tum_rgbd_test
 }  // namespace placegraph

@@ -8,7 +8,7 @@
 #include "tests/support/message_of.h"
 
 namespace placegraph {
-namespace {
+namespace colmap_model_test {
 
 using testing::HasSubstr;
 
@@ -119,5 +119,5 @@ TEST(ColmapModel, RefusesWhatItCannotHold) {
   EXPECT_THAT(to_colmap(model, NumberForm::kBinary).images, HasSubstr("my images/0.png"));
 }
 
-}  // namespace
+}  // namespace colmap_model_test
 }  // namespace placegraph

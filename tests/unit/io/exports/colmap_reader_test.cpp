@@ -5,7 +5,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph {
-namespace {
+namespace colmap_reader_test {
 
 using test::message_of;
 using testing::HasSubstr;
@@ -153,5 +153,5 @@ TEST_F(ColmapReader, LensesAreWrittenAsTheyAreRead) {
     }
 }
 
-}  // namespace
+}  // namespace colmap_reader_test
 }  // namespace placegraph

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 namespace placegraph {
-namespace {
+namespace gltf_scene_test {
 
 using nlohmann::json;
 
@@ -142,5 +142,5 @@ TEST(GltfScene, SurfaceHasNormalsColoursAndIndices) {
             3);
 }
 
-}  // namespace
+}  // namespace gltf_scene_test
 }  // namespace placegraph

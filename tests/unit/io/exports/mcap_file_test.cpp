@@ -7,7 +7,7 @@
 #include <map>
 
 namespace placegraph {
-namespace {
+namespace mcap_file_test {
 
 constexpr std::size_t kMagic = 8, kHead = 9;  // bytes of the magic and of a record's head
 
@@ -131,5 +131,5 @@ TEST(Base64, IsThatOfItsSpecification) {
   EXPECT_EQ(to_base64("\xff\xfe"), "//4=");
 }
 
-}  // namespace
+}  // namespace mcap_file_test
 }  // namespace placegraph

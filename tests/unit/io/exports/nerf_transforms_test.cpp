@@ -5,7 +5,7 @@
 #include <numbers>
 
 namespace placegraph {
-namespace {
+namespace nerf_transforms_test {
 
 TEST(NerfTransforms, HaveTheCameraAndItsPosesInOpenGlsAxes) {
   const Camera camera{640, 480, 500, 501, 319.5, 239.5, Distortion::kNone, {}};
@@ -38,5 +38,5 @@ TEST(NerfTransforms, TakeNoDistortion) {
   EXPECT_THROW(to_nerf_transforms(camera, {}), ArgumentError);
 }
 
-}  // namespace
+}  // namespace nerf_transforms_test
 }  // namespace placegraph

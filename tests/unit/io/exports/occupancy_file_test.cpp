@@ -2,7 +2,7 @@
 #include <placegraph/io/internal/exports/occupancy_file.h>
 
 namespace placegraph {
-namespace {
+namespace occupancy_file_test {
 
 OccupancyGrid small_grid() {
   OccupancyGrid grid;
@@ -33,5 +33,5 @@ TEST(OccupancyFile, NeedsAllItsCells) {
   EXPECT_THROW(to_pgm({}), ArgumentError);
 }
 
-}  // namespace
+}  // namespace occupancy_file_test
 }  // namespace placegraph

@@ -8,7 +8,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph {
-namespace {
+namespace ply_points_test {
 
 const std::vector<ColouredPoint> kTwo = {
     {{1.5, -2.25, 1e-3}, {255, 0, 17}, 0.125},
@@ -40,8 +40,8 @@ TEST(PlyPoints, HaveColoursAndDeviations) {
 }
 
 TEST(PlyPoints, TakeNoCommentOfTwoLines) {
-  EXPECT_THROW(to_ply({}, NumberForm::kText, {"a\nend_header"}), ArgumentError);
+  EXPECT_THROW(to_ply(std::vector<ColouredPoint>(), NumberForm::kText, {"a\nend_header"}), ArgumentError);
 }
 
-}  // namespace
+}  // namespace ply_points_test
 }  // namespace placegraph

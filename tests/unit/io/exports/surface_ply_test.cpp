@@ -7,7 +7,7 @@
 #include "tests/support/message_of.h"
 
 namespace placegraph {
-namespace {
+namespace surface_ply_test {
 
 using testing::HasSubstr;
 
@@ -54,5 +54,5 @@ TEST(SurfacePly, CommentsAreOneLine) {
               HasSubstr("a comment is one line"));
 }
 
-}  // namespace
+}  // namespace surface_ply_test
 }  // namespace placegraph

@@ -4,7 +4,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph {
-namespace {
+namespace atomic_file_test {
 
 using test::message_of;
 using test::read_file;
@@ -92,5 +92,5 @@ TEST(OutputFolder, IsMadeWithItsParentsAndKeepsWhatItHolds) {
   EXPECT_THROW(make_output_folder(""), ArgumentError);
 }
 
-}  // namespace
+}  // namespace atomic_file_test
 }  // namespace placegraph

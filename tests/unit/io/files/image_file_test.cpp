@@ -8,7 +8,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph {
-namespace {
+namespace image_file_test {
 
 namespace fs = std::filesystem;
 using test::message_of;
@@ -56,5 +56,5 @@ TEST(ImageFile, OfSixteenBitsTheUpperEightAreKept) {
   }
 }
 
-}  // namespace
+}  // namespace image_file_test
 }  // namespace placegraph

@@ -9,7 +9,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph {
-namespace {
+namespace name_order_test {
 
 using Names = std::vector<std::string>;
 
@@ -53,5 +53,5 @@ TEST(ImageList, RefusesTwoImagesOfOneName) {
               testing::HasSubstr("2.png: is the same frame as 2.jpg"));
 }
 
-}  // namespace
+}  // namespace name_order_test
 }  // namespace placegraph

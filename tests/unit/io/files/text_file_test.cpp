@@ -7,7 +7,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph {
-namespace {
+namespace text_file_test {
 
 using test::message_of;
 using test::TemporaryFolder;
@@ -136,5 +136,5 @@ TEST(Quotes, HideWhatCannotBePrintedAndCutWhatIsLong) {
   EXPECT_EQ(in_quotes(std::string(50, 'x')), "'" + std::string(40, 'x') + "...'");
 }
 
-}  // namespace
+}  // namespace text_file_test
 }  // namespace placegraph

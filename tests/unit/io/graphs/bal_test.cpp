@@ -7,7 +7,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph {
-namespace {
+namespace bal_test {
 
 using test::message_of;
 using test::TemporaryFolder;
@@ -110,5 +110,5 @@ TEST(Bal, RefusesToWriteWhatIsNoBundle) {
               HasSubstr("focal length"));
 }
 
-}  // namespace
+}  // namespace bal_test
 }  // namespace placegraph

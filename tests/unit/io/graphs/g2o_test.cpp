@@ -5,7 +5,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph {
-namespace {
+namespace g2o_test {
 
 using test::message_of;
 using test::TemporaryFolder;
@@ -221,5 +221,5 @@ INSTANTIATE_TEST_SUITE_P(
       return name;
     });
 
-}  // namespace
+}  // namespace g2o_test
 }  // namespace placegraph

@@ -6,7 +6,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph {
-namespace {
+namespace geo_export_test {
 
 using nlohmann::json;
 using test::message_of;
@@ -128,5 +128,5 @@ TEST(GeoExport, LeavesNoFileBehindWhenItRefuses) {
   EXPECT_THROW(write_kml(folder / "absent/map.kml", document()), FileError);
 }
 
-}  // namespace
+}  // namespace geo_export_test
 }  // namespace placegraph

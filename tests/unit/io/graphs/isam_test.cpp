@@ -5,7 +5,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph {
-namespace {
+namespace isam_test {
 
 using test::edge_of;
 using test::message_of;
@@ -88,5 +88,5 @@ TEST(Isam, HasToHaveEdges) {
   EXPECT_THAT(message_of([&] { read_isam(path); }), HasSubstr("a.txt: holds no vertices"));
 }
 
-}  // namespace
+}  // namespace isam_test
 }  // namespace placegraph

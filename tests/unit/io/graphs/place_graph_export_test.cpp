@@ -3,7 +3,7 @@
 #include <placegraph/io/graphs/place_graph_export.h>
 
 namespace placegraph {
-namespace {
+namespace place_graph_export_test {
 
 using testing::HasSubstr;
 using testing::Not;
@@ -56,5 +56,5 @@ TEST(PlaceGraphExport, WritesAnEmptyGraph) {
   EXPECT_THAT(to_dot({}, {}), HasSubstr("}"));
 }
 
-}  // namespace
+}  // namespace place_graph_export_test
 }  // namespace placegraph

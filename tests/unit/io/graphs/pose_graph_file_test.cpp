@@ -7,7 +7,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph {
-namespace {
+namespace pose_graph_file_test {
 
 using test::message_of;
 using test::TemporaryFolder;
@@ -118,5 +118,5 @@ TEST(PoseGraphFile, MayHaveCommentsBehindItsNumbers) {
       1u);
 }
 
-}  // namespace
+}  // namespace pose_graph_file_test
 }  // namespace placegraph

@@ -2,7 +2,7 @@
 #include <placegraph/io/internal/graphs/printed_rounding.h>
 
 namespace placegraph {
-namespace {
+namespace printed_rounding_test {
 
 TEST(PrintedRounding, IsHalfAUnitOfTheLastDigit) {
   EXPECT_DOUBLE_EQ(printed_rounding("100.1"), 0.05);
@@ -26,5 +26,5 @@ TEST(PrintedRounding, IsTakenOutOfWhatItMadeIndefinite) {
   EXPECT_NE(fault_of(without_rounding(rank_one, 0.1)), nullptr);
 }
 
-}  // namespace
+}  // namespace printed_rounding_test
 }  // namespace placegraph

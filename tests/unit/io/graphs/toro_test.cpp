@@ -8,7 +8,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph {
-namespace {
+namespace toro_test {
 
 using test::edge_of;
 using test::message_of;
@@ -88,5 +88,5 @@ INSTANTIATE_TEST_SUITE_P(
         std::pair{"EDGE3 0 1 0 0 0 0 0 0 1", "a.graph:3: EDGE3: expected 29 numbers, found 9"},
         std::pair{"EQUIV 0 1", "a.graph:3: 'EQUIV': unknown tag"}));
 
-}  // namespace
+}  // namespace toro_test
 }  // namespace placegraph

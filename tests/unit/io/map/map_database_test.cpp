@@ -11,7 +11,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph {
-namespace {
+namespace map_database_test {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -279,5 +279,5 @@ TEST(MapDatabase, WhatIsCommittedIsThereWithoutAnEnd) {
   EXPECT_EQ(check_map_file(dir / "left.db"), "ok");
 }
 
-}  // namespace
+}  // namespace map_database_test
 }  // namespace placegraph

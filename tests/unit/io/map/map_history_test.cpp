@@ -7,7 +7,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph {
-namespace {
+namespace map_history_test {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -218,5 +218,5 @@ INSTANTIATE_TEST_SUITE_P(
         Damage{"UPDATE separated SET other = 99 WHERE number = 1", "separated, row 1",
                "other 99 is not a keyframe of the map"}));
 
-}  // namespace
+}  // namespace map_history_test
 }  // namespace placegraph

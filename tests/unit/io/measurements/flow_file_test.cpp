@@ -12,7 +12,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph {
-namespace {
+namespace flow_file_test {
 
 using testing::HasSubstr;
 
@@ -61,5 +61,5 @@ TEST(FlowFile, BrokenFilesAreNamedWithWhatIsWrong) {
   EXPECT_THROW(write_flow(folder / "f.flo", Image(3, 3, CV_8UC1)), ArgumentError);
 }
 
-}  // namespace
+}  // namespace flow_file_test
 }  // namespace placegraph

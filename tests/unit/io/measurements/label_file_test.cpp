@@ -7,7 +7,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph {
-namespace {
+namespace label_file_test {
 
 using ::testing::HasSubstr;
 
@@ -33,5 +33,5 @@ TEST(LabelFile, NamesTheBrokenLine) {
   EXPECT_THAT(refusal(""), HasSubstr("labels.txt: no label in it"));
 }
 
-}  // namespace
+}  // namespace label_file_test
 }  // namespace placegraph

@@ -7,7 +7,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph {
-namespace {
+namespace loop_file_test {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -129,5 +129,5 @@ TEST_F(LoopFile, NamesTheLineOfBrokenGroundTruth) {
   EXPECT_THAT(truth_refusal("0 1\n1\n"), HasSubstr("gt.txt:2: 1 columns in a matrix of 2"));
 }
 
-}  // namespace
+}  // namespace loop_file_test
 }  // namespace placegraph

@@ -4,7 +4,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph {
-namespace {
+namespace marker_layout_file_test {
 
 using test::message_of;
 using test::TemporaryFolder;
@@ -86,5 +86,5 @@ TEST(MarkerLayoutFile, NamesFileAndLineOfWhatIsWrong) {
   EXPECT_THAT(refused(""), HasSubstr("expected dictionary"));
 }
 
-}  // namespace
+}  // namespace marker_layout_file_test
 }  // namespace placegraph

@@ -6,7 +6,7 @@
 #include "tests/support/command.h"
 
 namespace placegraph {
-namespace {
+namespace match_file_test {
 
 using test::TemporaryFolder;
 using test::write_file;
@@ -63,5 +63,5 @@ TEST(MatchFile, NamesTheLineThatIsBroken) {
   EXPECT_THROW((void)read_matches(dir / "none.txt"), FileError);
 }
 
-}  // namespace
+}  // namespace match_file_test
 }  // namespace placegraph

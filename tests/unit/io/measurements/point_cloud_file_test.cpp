@@ -10,7 +10,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph {
-namespace {
+namespace point_cloud_file_test {
 
 using ::testing::HasSubstr;
 
@@ -125,5 +125,5 @@ TEST(PointCloudFile, ReadsLabelsInEitherForm) {
                 HasSubstr("c.txt:1: "));
 }
 
-}  // namespace
+}  // namespace point_cloud_file_test
 }  // namespace placegraph

@@ -7,7 +7,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph {
-namespace {
+namespace segment_file_test {
 
 TEST(SegmentFile, ReadsWhatItWrote) {
   const test::TemporaryFolder dir;
@@ -47,5 +47,5 @@ TEST(SegmentFile, NamesTheLineThatIsNoSegment) {
   EXPECT_THROW((void)read_segments(dir / "absent.txt"), FileError);
 }
 
-}  // namespace
+}  // namespace segment_file_test
 }  // namespace placegraph

@@ -8,7 +8,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph {
-namespace {
+namespace scene_model_file_test {
 
 using ::testing::HasSubstr;
 
@@ -140,5 +140,5 @@ TEST_F(ClassList, NamesTheLineItCannotRead) {
   EXPECT_THAT(refusal_of("11 void -\n"), HasSubstr("no class is scored"));
 }
 
-}  // namespace
+}  // namespace scene_model_file_test
 }  // namespace placegraph

@@ -12,7 +12,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph {
-namespace {
+namespace vocabulary_file_test {
 
 using ::testing::HasSubstr;
 
@@ -94,5 +94,5 @@ TEST_F(VocabularyFile, WritesNoTreeThatIsNone) {
   EXPECT_THROW(write_vocabulary(path, tree), ArgumentError);
 }
 
-}  // namespace
+}  // namespace vocabulary_file_test
 }  // namespace placegraph

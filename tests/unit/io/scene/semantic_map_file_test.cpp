@@ -11,7 +11,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph {
-namespace {
+namespace semantic_map_file_test {
 
 using nlohmann::json;
 using testing::HasSubstr;
@@ -168,5 +168,5 @@ TEST_F(LabelledMeshFile, NamesTheLineItCannotRead) {
   EXPECT_THAT(refusal_of(changed("1.250", "inf")), HasSubstr("x"));
 }
 
-}  // namespace
+}  // namespace semantic_map_file_test
 }  // namespace placegraph

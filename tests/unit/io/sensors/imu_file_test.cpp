@@ -4,7 +4,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph {
-namespace {
+namespace imu_file_test {
 
 using test::message_of;
 using test::TemporaryFolder;
@@ -70,5 +70,5 @@ TEST(ImuFile, NamesFileAndLineOfWhatIsWrong) {
   EXPECT_THAT(message_of([] { (void)read_imu("/nowhere"); }), HasSubstr("/nowhere/sensor.yaml"));
 }
 
-}  // namespace
+}  // namespace imu_file_test
 }  // namespace placegraph

@@ -7,7 +7,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph {
-namespace {
+namespace odometry_file_test {
 
 using namespace test;
 
@@ -85,5 +85,5 @@ TEST_F(OdometryFile, RefusesWhatIsNone) {
   EXPECT_THROW(read_odometry(path() + ".none", {}, {}), FileError);
 }
 
-}  // namespace
+}  // namespace odometry_file_test
 }  // namespace placegraph

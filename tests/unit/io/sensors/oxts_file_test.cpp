@@ -6,7 +6,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph {
-namespace {
+namespace oxts_file_test {
 
 using test::message_of;
 using test::TemporaryFolder;
@@ -123,5 +123,5 @@ TEST(KittiRaw, SaysWhatIsMissing) {
               HasSubstr("times_oxts.txt: cannot be opened"));
 }
 
-}  // namespace
+}  // namespace oxts_file_test
 }  // namespace placegraph

@@ -4,7 +4,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph {
-namespace {
+namespace body_state_file_test {
 
 using test::message_of;
 using test::TemporaryFolder;
@@ -54,5 +54,5 @@ TEST(BodyStateFile, NamesFileAndLineOfWhatIsWrong) {
   EXPECT_THAT(refused(""), HasSubstr("holds no states"));
 }
 
-}  // namespace
+}  // namespace body_state_file_test
 }  // namespace placegraph

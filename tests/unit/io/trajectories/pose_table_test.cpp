@@ -4,7 +4,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph {
-namespace {
+namespace pose_table_test {
 
 using test::message_of;
 using test::TemporaryFolder;
@@ -141,5 +141,5 @@ TEST_F(PoseTableOf, UnknownNumbersOfFieldsAreCounted) {
   EXPECT_THAT(refusal("t,x,y,z\n"), HasSubstr("p: holds no poses"));
 }
 
-}  // namespace
+}  // namespace pose_table_test
 }  // namespace placegraph

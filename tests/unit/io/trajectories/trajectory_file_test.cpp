@@ -6,7 +6,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph {
-namespace {
+namespace trajectory_file_test {
 
 using test::message_of;
 using test::TemporaryFolder;
@@ -229,5 +229,5 @@ TEST(Trajectory, OfKitti00HasAllItsPoses) {
   EXPECT_EQ(read_trajectory(path).posed(), 4541u);
 }
 
-}  // namespace
+}  // namespace trajectory_file_test
 }  // namespace placegraph

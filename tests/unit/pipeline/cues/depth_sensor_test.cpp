@@ -4,7 +4,7 @@
 #include "tests/support/scenes/street.h"
 
 namespace placegraph {
-namespace {
+namespace depth_sensor_test {
 
 using namespace test;
 
@@ -104,5 +104,5 @@ TEST(DepthSensor, AMonocularCameraMeasuresNone) {
   for (const auto& depth : depths) EXPECT_FALSE(depth);
 }
 
-}  // namespace
+}  // namespace depth_sensor_test
 }  // namespace placegraph

@@ -8,7 +8,7 @@
 #include "tests/support/scenes/street.h"
 
 namespace placegraph {
-namespace {
+namespace direct_cue_test {
 
 using namespace test;
 using Code = Outcome::Code;
@@ -218,5 +218,5 @@ TEST(DirectCue, AResetForgetsTheReference) {
   EXPECT_EQ(cue.search({SE3()}, Vector6d::Ones()).outcome.code, Code::kTooFewData);
 }
 
-}  // namespace
+}  // namespace direct_cue_test
 }  // namespace placegraph

@@ -6,7 +6,7 @@
 #include "tests/support/scenes/street.h"
 
 namespace placegraph {
-namespace {
+namespace keyframe_alignment_test {
 
 using namespace test;
 
@@ -132,5 +132,5 @@ TEST(KeyframeAlignment, WithoutSurfacesThereIsNoMotion) {
   EXPECT_TRUE(a.window.factors().empty());
 }
 
-}  // namespace
+}  // namespace keyframe_alignment_test
 }  // namespace placegraph

@@ -7,7 +7,7 @@
 #include "tests/support/scenes/corridor_view.h"
 
 namespace placegraph {
-namespace {
+namespace manhattan_cue_test {
 
 /// A keyframe that sees the corridor, or other edges.
 struct Keyframe0 {
@@ -243,5 +243,5 @@ TEST(WithHeading, WithoutAHeadingOrItsManhattanFrameAPoseStays) {
   EXPECT_EQ(moved(rotated.manhattan_rotation), 0);
 }
 
-}  // namespace
+}  // namespace manhattan_cue_test
 }  // namespace placegraph

@@ -7,7 +7,7 @@
 #include "tests/support/scenes/window_world.h"
 
 namespace placegraph {
-namespace {
+namespace manhattan_frames_test {
 
 using test::make_window_world;
 using test::WindowWorld;
@@ -151,5 +151,5 @@ TEST(ManhattanFrames, FaultyOptionsAreRefused) {
   EXPECT_THROW(ManhattanFrames{options}, ArgumentError);
 }
 
-}  // namespace
+}  // namespace manhattan_frames_test
 }  // namespace placegraph

@@ -8,7 +8,7 @@
 #include "tests/support/scenes/window_world.h"
 
 namespace placegraph {
-namespace {
+namespace plane_cue_test {
 
 using test::make_window_world;
 using test::WindowWorld;
@@ -199,5 +199,5 @@ TEST(PlaneCue, RefuseOptionsThatCannotBe) {
   EXPECT_THROW(PlaneCue{options}, ArgumentError);
 }
 
-}  // namespace
+}  // namespace plane_cue_test
 }  // namespace placegraph

@@ -6,7 +6,7 @@
 #include "tests/support/scenes/street.h"
 
 namespace placegraph {
-namespace {
+namespace point_cue_test {
 
 using namespace test;
 
@@ -273,5 +273,5 @@ TEST(PointCue, DepthsOfLandmarksAreOfTheKeyframeAskedFor) {
   }
 }
 
-}  // namespace
+}  // namespace point_cue_test
 }  // namespace placegraph

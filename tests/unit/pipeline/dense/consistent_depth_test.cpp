@@ -4,7 +4,7 @@
 #include "tests/unit/pipeline/dense/rendered_depth.h"
 
 namespace placegraph {
-namespace {
+namespace consistent_depth_test {
 
 using test::GivenDepth;
 using test::plane_depth;
@@ -76,5 +76,5 @@ TEST(ConsistentDepth, ReadsEveryImageOnce) {
   EXPECT_EQ(given.reads, 20);
 }
 
-}  // namespace
+}  // namespace consistent_depth_test
 }  // namespace placegraph

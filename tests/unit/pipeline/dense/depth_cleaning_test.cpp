@@ -4,7 +4,7 @@
 #include "tests/unit/pipeline/dense/rendered_depth.h"
 
 namespace placegraph {
-namespace {
+namespace depth_cleaning_test {
 
 using test::rendered_depth;
 
@@ -66,5 +66,5 @@ TEST(EstimateNormals, DropsGrazingSurfacesAndLonePixels) {
   EXPECT_EQ(cv::countNonZero(lone.depth), 0);
 }
 
-}  // namespace
+}  // namespace depth_cleaning_test
 }  // namespace placegraph

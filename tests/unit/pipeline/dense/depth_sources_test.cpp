@@ -7,7 +7,7 @@
 #include "tests/support/scenes/observed_map.h"
 
 namespace placegraph {
-namespace {
+namespace depth_sources_test {
 
 constexpr double kWall = 3;  // its depth
 
@@ -144,5 +144,5 @@ TEST(DepthSources, NeedWhatTheyAreMadeOf) {
               testing::HasSubstr("needs a range of depths"));
 }
 
-}  // namespace
+}  // namespace depth_sources_test
 }  // namespace placegraph

@@ -6,7 +6,7 @@
 #include <set>
 
 namespace placegraph {
-namespace {
+namespace marching_cubes_test {
 
 Eigen::Vector3d corner(int i) { return {double(i & 1), double(i >> 1 & 1), double(i >> 2 & 1)}; }
 
@@ -99,5 +99,5 @@ TEST(MarchingCubes, NeighboursFitTogether) {
       }
 }
 
-}  // namespace
+}  // namespace marching_cubes_test
 }  // namespace placegraph

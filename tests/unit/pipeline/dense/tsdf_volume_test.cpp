@@ -10,7 +10,7 @@
 #include "tests/unit/pipeline/dense/rendered_depth.h"
 
 namespace placegraph {
-namespace {
+namespace tsdf_volume_test {
 
 using test::message_of;
 using test::rendered_depth;
@@ -102,5 +102,5 @@ TEST(MeshParts, SmallOnesAreRemoved) {
   EXPECT_TRUE(mesh.positions.empty());
 }
 
-}  // namespace
+}  // namespace tsdf_volume_test
 }  // namespace placegraph

@@ -9,7 +9,7 @@
 #include "tests/unit/pipeline/dense/rendered_depth.h"
 
 namespace placegraph {
-namespace {
+namespace voxel_cloud_test {
 
 using test::message_of;
 using test::rendered_depth;
@@ -75,5 +75,5 @@ TEST(VoxelCloud, RefusesVoxelsThatAreNoneOrTooMany) {
               HasSubstr("too small for the extent"));
 }
 
-}  // namespace
+}  // namespace voxel_cloud_test
 }  // namespace placegraph

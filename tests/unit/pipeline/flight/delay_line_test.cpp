@@ -5,7 +5,7 @@
 #include <cmath>
 
 namespace placegraph {
-namespace {
+namespace delay_line_test {
 
 struct Reading {
   std::int64_t stamp_ns = 0;
@@ -59,5 +59,5 @@ TEST(DelayLine, RefusesMeasurementsOutOfOrderAndNegativeDelays) {
   EXPECT_THROW(DelayLine<Reading>(std::nan("")), ArgumentError);
 }
 
-}  // namespace
+}  // namespace delay_line_test
 }  // namespace placegraph

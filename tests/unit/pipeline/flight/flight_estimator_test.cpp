@@ -9,7 +9,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace flight_estimator_test {
 
 using Code = Outcome::Code;
 using Eigen::Vector2d;
@@ -338,5 +338,5 @@ TEST(FlightEstimator, StartsWithTheMarkersOfAnImageWhereItMayLookForThem) {
   EXPECT_LT((begun.state.T_world_body.translation() - T_world_body.translation()).norm(), 5e-3);
 }
 
-}  // namespace
+}  // namespace flight_estimator_test
 }  // namespace placegraph

@@ -5,7 +5,7 @@
 #include "tests/support/scenes/texture.h"
 
 namespace placegraph {
-namespace {
+namespace floor_flow_test {
 
 using Code = Outcome::Code;
 using Eigen::Matrix3d;
@@ -239,5 +239,5 @@ TEST(FloorFlow, SaysWhyThereIsNoMeasurement) {
   EXPECT_FALSE(disabled.observation);
 }
 
-}  // namespace
+}  // namespace floor_flow_test
 }  // namespace placegraph

@@ -4,7 +4,7 @@
 #include <cmath>
 
 namespace placegraph {
-namespace {
+namespace imu_buffer_test {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
@@ -111,5 +111,5 @@ TEST(ImuBuffer, RefusesSamplesThatAreNotFiniteOrOutOfOrderAndDoesNotKeepThem) {
   EXPECT_EQ(buffer.samples().size(), 1u);
 }
 
-}  // namespace
+}  // namespace imu_buffer_test
 }  // namespace placegraph

@@ -7,7 +7,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace marker_map_test {
 
 using namespace test;
 using Code = Outcome::Code;
@@ -139,5 +139,5 @@ TEST(MarkerMap, SaysWhereNothingWasSeenOftenEnough) {
   EXPECT_THROW((void)map_markers(walk.frames, {}, {{4, -0.2}}, walk.camera), ArgumentError);
 }
 
-}  // namespace
+}  // namespace marker_map_test
 }  // namespace placegraph

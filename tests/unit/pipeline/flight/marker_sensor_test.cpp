@@ -6,7 +6,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace marker_sensor_test {
 
 using Code = Outcome::Code;
 using Eigen::Vector3d;
@@ -236,5 +236,5 @@ TEST(MarkerSensor, RefusesLayoutsWithoutMarksAndOptionsOutOfRange) {
   EXPECT_THROW((void)sensor_of(four_markers(), {.max_markers = 0}), ArgumentError);
 }
 
-}  // namespace
+}  // namespace marker_sensor_test
 }  // namespace placegraph

@@ -4,7 +4,7 @@
 #include <numbers>
 
 namespace placegraph {
-namespace {
+namespace start_state_test {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
@@ -73,5 +73,5 @@ TEST(StartState, KeepsTheBiasesThatWereKnownBeforeAndNothingElse) {
     }
 }
 
-}  // namespace
+}  // namespace start_state_test
 }  // namespace placegraph

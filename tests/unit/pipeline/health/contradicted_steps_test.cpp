@@ -4,7 +4,7 @@
 #include <string>
 
 namespace placegraph {
-namespace {
+namespace contradicted_steps_test {
 
 /// Frames 0, 1, ...: 'x' where the images contradict the rotation.
 ContradictedSteps after(const std::string& steps) {
@@ -56,5 +56,5 @@ TEST(ContradictedSteps, ARowThatIsEndedDoesNotGoOn) {
   EXPECT_TRUE(contradicted.note());
 }
 
-}  // namespace
+}  // namespace contradicted_steps_test
 }  // namespace placegraph

@@ -2,7 +2,7 @@
 #include <placegraph/pipeline/internal/health/depth_range.h>
 
 namespace placegraph {
-namespace {
+namespace depth_range_test {
 
 /// A floor that recedes from 0.7 to 4 m, with a part that was not measured, in another unit.
 std::optional<DataNote> note_for(double unit) {
@@ -43,5 +43,5 @@ TEST(DepthRange, NeedsDepths) {
   EXPECT_FALSE(range.note());
 }
 
-}  // namespace
+}  // namespace depth_range_test
 }  // namespace placegraph

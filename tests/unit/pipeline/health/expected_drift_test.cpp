@@ -7,7 +7,7 @@
 #include "tests/support/scenes/scene.h"
 
 namespace placegraph {
-namespace {
+namespace expected_drift_test {
 
 /// A path of places a metre apart, whose distances are each known to `sigma_m`.
 RunResult path_of(int places, double sigma_m) {
@@ -88,5 +88,5 @@ TEST(ExpectedDrift, IgnoresComponentsThatAreNotJoined) {
   EXPECT_NEAR(*judge(run, {}, 0.5).expected_drift_m, 0.01 * std::sqrt(3 * 15), 1e-4);
 }
 
-}  // namespace
+}  // namespace expected_drift_test
 }  // namespace placegraph

@@ -5,7 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 namespace placegraph {
-namespace {
+namespace flow_check_test {
 
 Camera camera() {
   Camera camera;
@@ -105,5 +105,5 @@ TEST(FlowCheck, OneComparisonAloneIsNotReported) {
   EXPECT_TRUE(check.note());
 }
 
-}  // namespace
+}  // namespace flow_check_test
 }  // namespace placegraph

@@ -4,7 +4,7 @@
 #include "tests/support/scenes/scene.h"
 
 namespace placegraph {
-namespace {
+namespace image_motion_test {
 
 using namespace test;
 
@@ -74,5 +74,5 @@ TEST(ImageMotion, ContradictoryPointsShowNone) {
   EXPECT_FALSE(motion(noise));
 }
 
-}  // namespace
+}  // namespace image_motion_test
 }  // namespace placegraph

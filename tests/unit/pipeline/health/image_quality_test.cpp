@@ -6,7 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 namespace placegraph {
-namespace {
+namespace image_quality_test {
 
 using testing::HasSubstr;
 
@@ -101,5 +101,5 @@ TEST(ImageQuality, NamesLightThatChangesFromImageToImage) {
   EXPECT_THAT(note_for(images)->advice, HasSubstr("fix exposure"));
 }
 
-}  // namespace
+}  // namespace image_quality_test
 }  // namespace placegraph

@@ -4,7 +4,7 @@
 #include <cmath>
 
 namespace placegraph {
-namespace {
+namespace intrinsics_check_test {
 
 using Evidence = IntrinsicsEvidence;
 
@@ -76,5 +76,5 @@ TEST(IntrinsicsCheck, AFocalLengthThatADistortionExplainsIsNotReported) {
   EXPECT_TRUE(check.notes().empty());
 }
 
-}  // namespace
+}  // namespace intrinsics_check_test
 }  // namespace placegraph

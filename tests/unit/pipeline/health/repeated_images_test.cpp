@@ -3,7 +3,7 @@
 #include <placegraph/pipeline/internal/health/repeated_images.h>
 
 namespace placegraph {
-namespace {
+namespace repeated_images_test {
 
 /// A note for images that are each of one grey level.
 std::optional<DataNote> note_for(const std::vector<int>& levels) {
@@ -41,5 +41,5 @@ TEST(RepeatedImages, ArePartsOfLargerOnesToo) {
   EXPECT_TRUE(repeated.note());
 }
 
-}  // namespace
+}  // namespace repeated_images_test
 }  // namespace placegraph

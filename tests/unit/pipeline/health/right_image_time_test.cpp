@@ -6,7 +6,7 @@
 #include "tests/support/scenes/street.h"
 
 namespace placegraph {
-namespace {
+namespace right_image_time_test {
 
 using testing::HasSubstr;
 
@@ -113,5 +113,5 @@ TEST(RightImageTime, MatchesTheImagesOfADrive) {
   EXPECT_TRUE(note_of_drive(-1));
 }
 
-}  // namespace
+}  // namespace right_image_time_test
 }  // namespace placegraph

@@ -5,7 +5,7 @@
 #include <vector>
 
 namespace placegraph {
-namespace {
+namespace scale_check_test {
 
 std::optional<DataNote> note_for(const std::vector<double>& factors) {
   ScaleCheck check;
@@ -46,5 +46,5 @@ TEST(ScaleCheck, ReportsAWideScatter) {
       << note->text;
 }
 
-}  // namespace
+}  // namespace scale_check_test
 }  // namespace placegraph

@@ -6,7 +6,7 @@
 #include "tests/support/scenes/scene.h"
 
 namespace placegraph {
-namespace {
+namespace standing_patches_test {
 
 using namespace test;
 
@@ -112,5 +112,5 @@ TEST(StandingPatches, AreProvenByRotationsSinceTheyWereTaken) {
   EXPECT_LT(cv::countNonZero(cells), 0.4 * kFixed.area());
 }
 
-}  // namespace
+}  // namespace standing_patches_test
 }  // namespace placegraph

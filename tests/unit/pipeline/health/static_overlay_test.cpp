@@ -9,7 +9,7 @@
 #include "tests/support/scenes/street.h"
 
 namespace placegraph {
-namespace {
+namespace static_overlay_test {
 
 using namespace test;
 using ::testing::HasSubstr;
@@ -70,7 +70,7 @@ TEST(StaticOverlay, IsFoundWhereTheCameraRotates) {
 
 TEST(StaticOverlay, IsNotSeenInCleanImagesAndCostsNoTrackingThere) {
   for (const auto& drive : {looking_around, straight_ahead, at_rest}) {
-    const StaticOverlay overlay = watched(StreetDataset(40, 0, 0, false, drive));
+    const StaticOverlay overlay = watched(StreetDataset(20, 0, 0, false, drive));
     EXPECT_TRUE(overlay.mask().empty());
     EXPECT_LT(overlay.tracked_images(), 10);
   }
@@ -172,5 +172,5 @@ TEST(RunWithAStaticOverlay, IsTheSameWithoutOne) {
   }
 }
 
-}  // namespace
+}  // namespace static_overlay_test
 }  // namespace placegraph

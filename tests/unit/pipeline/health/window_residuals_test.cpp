@@ -6,7 +6,7 @@
 #include <placegraph/pipeline/internal/health/window_residuals.h>
 
 namespace placegraph {
-namespace {
+namespace window_residuals_test {
 
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -93,5 +93,5 @@ TEST(ResidualCheck, DoesNotJudgeAFewPoints) {
   EXPECT_THAT(check.notes(), IsEmpty());
 }
 
-}  // namespace
+}  // namespace window_residuals_test
 }  // namespace placegraph

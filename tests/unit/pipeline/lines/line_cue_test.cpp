@@ -9,7 +9,7 @@
 #include "tests/unit/pipeline/lines/edge_tracks.h"
 
 namespace placegraph {
-namespace {
+namespace line_cue_test {
 
 using namespace test;
 
@@ -263,5 +263,5 @@ TEST(LineCue, AResetForgetsEverything) {
   EXPECT_TRUE(c.cue.placed(c.window).empty());
 }
 
-}  // namespace
+}  // namespace line_cue_test
 }  // namespace placegraph

@@ -4,7 +4,7 @@
 #include "tests/unit/pipeline/lines/edge_tracks.h"
 
 namespace placegraph {
-namespace {
+namespace line_prediction_test {
 
 using namespace test;
 
@@ -105,5 +105,5 @@ TEST(LinePrediction, WithoutLinesBesideThemTracksLieAtTheDepthGivenAndDriftOn) {
   EXPECT_NEAR((drifted[0].end - at_4[0].end - 2.5 * at_4[0].normal()).norm(), 0, 1e-9);
 }
 
-}  // namespace
+}  // namespace line_prediction_test
 }  // namespace placegraph

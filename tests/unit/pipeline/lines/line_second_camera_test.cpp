@@ -4,7 +4,7 @@
 #include "tests/unit/pipeline/lines/edge_tracks.h"
 
 namespace placegraph {
-namespace {
+namespace line_second_camera_test {
 
 using namespace test;
 
@@ -109,5 +109,5 @@ TEST(LineSecondCamera, ThereIsNoSampleWithoutASecondCameraOrWithTooLittleMotion)
       disparity_of_line(window_with_line(3, true, 0.025), LineId(7), calibration, {}, options));
 }
 
-}  // namespace
+}  // namespace line_second_camera_test
 }  // namespace placegraph

@@ -4,7 +4,7 @@
 #include "tests/unit/pipeline/lines/edge_tracks.h"
 
 namespace placegraph {
-namespace {
+namespace line_tracks_test {
 
 using namespace test;
 
@@ -88,5 +88,5 @@ TEST(LineTracks, EdgesThatLeaveTheImageAreNoFeatures) {
   EXPECT_EQ(features_of_lines(line_camera(), t.tracks, t.window, t.T_odom_cam).size(), 2u);
 }
 
-}  // namespace
+}  // namespace line_tracks_test
 }  // namespace placegraph

@@ -5,7 +5,7 @@
 #include "tests/unit/pipeline/lines/edge_tracks.h"
 
 namespace placegraph {
-namespace {
+namespace line_translation_test {
 
 using namespace test;
 
@@ -98,5 +98,5 @@ TEST(LineTranslation, OnlyTheLastObservationInTheNewestKeyframeCounts) {
   EXPECT_TRUE(corridor.course().empty());
 }
 
-}  // namespace
+}  // namespace line_translation_test
 }  // namespace placegraph

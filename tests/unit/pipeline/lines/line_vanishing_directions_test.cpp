@@ -9,7 +9,7 @@
 #include "tests/support/scenes/boards.h"
 
 namespace placegraph {
-namespace {
+namespace line_vanishing_directions_test {
 
 constexpr int kFrames = 4;
 constexpr double kDepth_m = 5, kBaseline_m = 0.5;
@@ -189,5 +189,5 @@ TEST(LineVanishingDirections, FewLinesPoseAFrameWhoseRotationIsSeen) {
   EXPECT_LT((found.T_ref_cam.translation() - path(1).translation()).norm(), 0.05);
 }
 
-}  // namespace
+}  // namespace line_vanishing_directions_test
 }  // namespace placegraph

@@ -4,7 +4,7 @@
 #include <placegraph/pipeline/internal/local_map/distortion_evidence.h>
 
 namespace placegraph {
-namespace {
+namespace distortion_evidence_test {
 
 Camera ideal_camera() {
   Camera camera;
@@ -93,5 +93,5 @@ TEST(DistortionEvidence, PointsInTwoViewsTellNothing) {
   EXPECT_EQ(evidence.information, 0);
 }
 
-}  // namespace
+}  // namespace distortion_evidence_test
 }  // namespace placegraph

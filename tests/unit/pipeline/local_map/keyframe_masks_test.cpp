@@ -5,7 +5,7 @@
 #include <opencv2/core.hpp>
 
 namespace placegraph {
-namespace {
+namespace keyframe_masks_test {
 
 constexpr int kWidth = 160, kHeight = 120;
 
@@ -149,5 +149,5 @@ TEST(SceneEdges, OfAWideImageAreThoseOfAHalvedOneWithItsCamera) {
   }
 }
 
-}  // namespace
+}  // namespace keyframe_masks_test
 }  // namespace placegraph

@@ -10,7 +10,7 @@
 #include "tests/support/scenes/window_world.h"
 
 namespace placegraph {
-namespace {
+namespace lens_test {
 
 /// Of a window that says k1, to `sigma`.
 DistortionEvidence window_of(double k1, double sigma) {
@@ -325,5 +325,5 @@ TEST(LensCorrection, AMaskOfCorrectedImagesIsThatOfTheGivenOnes) {
       150);  // along its outline
 }
 
-}  // namespace
+}  // namespace lens_test
 }  // namespace placegraph

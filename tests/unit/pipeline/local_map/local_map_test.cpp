@@ -8,7 +8,7 @@
 #include "tests/support/scenes/window_world.h"
 
 namespace placegraph {
-namespace {
+namespace local_map_test {
 
 using namespace test;
 
@@ -302,5 +302,5 @@ TEST(LocalMap, LawTheUnitOfLengthChangesNoRotationAndNoRelativeInformation) {
   EXPECT_LT((a_r - b_r).norm(), 1e-4 * a_r.norm());
 }
 
-}  // namespace
+}  // namespace local_map_test
 }  // namespace placegraph

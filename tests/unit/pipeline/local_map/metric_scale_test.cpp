@@ -4,7 +4,7 @@
 #include "tests/support/scenes/window_world.h"
 
 namespace placegraph {
-namespace {
+namespace metric_scale_test {
 
 using namespace test;
 
@@ -123,5 +123,5 @@ TEST(MetricScale, LawTheUnitOfTheMapChangesTheFactorAlone) {
   }
 }
 
-}  // namespace
+}  // namespace metric_scale_test
 }  // namespace placegraph

@@ -8,7 +8,7 @@
 #include "tests/support/scenes/window_world.h"
 
 namespace placegraph {
-namespace {
+namespace motion_uncertainty_test {
 
 using namespace test;
 using E = ImagingErrors;
@@ -130,5 +130,5 @@ TEST(MotionUncertainty, WithoutAScaleTheLengthOfTheMotionIsKnown) {
             1e-9 * motion.by_imaging_errors.norm());
 }
 
-}  // namespace
+}  // namespace motion_uncertainty_test
 }  // namespace placegraph

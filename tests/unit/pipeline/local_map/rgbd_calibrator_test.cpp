@@ -6,7 +6,7 @@
 #include "tests/support/scenes/window_world.h"
 
 namespace placegraph {
-namespace {
+namespace rgbd_calibrator_test {
 
 using namespace test;
 
@@ -164,5 +164,5 @@ TEST(RgbdErrors, PlaceTheDepthCameraAtTheTimeOfItsImage) {
   EXPECT_LT((corrected.T_cam_depth.matrix() - expected.matrix()).norm(), 1e-12);
 }
 
-}  // namespace
+}  // namespace rgbd_calibrator_test
 }  // namespace placegraph

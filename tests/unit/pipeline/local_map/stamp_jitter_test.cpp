@@ -5,7 +5,7 @@
 #include <cmath>
 
 namespace placegraph {
-namespace {
+namespace stamp_jitter_test {
 
 /// A drive that accelerates and brakes along a curve; each frame is taken `jitter_s` off its stamp,
 /// and every fifth interval is twice as long.
@@ -55,5 +55,5 @@ TEST(StampJitter, ACameraThatStandsSaysNothing) {
   EXPECT_EQ(jitter.sigma_s(), 0);
 }
 
-}  // namespace
+}  // namespace stamp_jitter_test
 }  // namespace placegraph

@@ -4,7 +4,7 @@
 #include "tests/support/scenes/window_world.h"
 
 namespace placegraph {
-namespace {
+namespace stereo_rectifier_test {
 
 using namespace test;
 
@@ -98,5 +98,5 @@ TEST(StereoRectifier, APerfectPairStaysPerfect) {
   EXPECT_NEAR(r.error().by_y_px, 0, 0.05);
 }
 
-}  // namespace
+}  // namespace stereo_rectifier_test
 }  // namespace placegraph

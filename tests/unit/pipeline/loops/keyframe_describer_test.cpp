@@ -6,7 +6,7 @@
 #include "tests/support/scenes/street.h"
 
 namespace placegraph {
-namespace {
+namespace keyframe_describer_test {
 
 using namespace test;
 
@@ -111,5 +111,5 @@ TEST(KeyframeDescriber, RescalingMultipliesAllLengths) {
   EXPECT_LT((rescaled.direction().cross(Eigen::Vector3d::UnitY())).norm(), 1e-9);
 }
 
-}  // namespace
+}  // namespace keyframe_describer_test
 }  // namespace placegraph

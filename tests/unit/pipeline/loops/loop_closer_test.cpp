@@ -5,7 +5,7 @@
 #include "tests/support/scenes/street.h"
 
 namespace placegraph {
-namespace {
+namespace loop_closer_test {
 
 using namespace test;
 
@@ -303,5 +303,5 @@ TEST_F(LoopCloserOnAStreet, GrowsDepthsWithTheUnit) {
   EXPECT_GT(seen, 20);
 }
 
-}  // namespace
+}  // namespace loop_closer_test
 }  // namespace placegraph

@@ -7,7 +7,7 @@
 #include "tests/support/scenes/scene.h"
 
 namespace placegraph {
-namespace {
+namespace loop_gates_test {
 
 using test::pose;
 
@@ -147,5 +147,5 @@ TEST(LoopGates, AgreementIsMeasuredInTheUnitOfTheQuery) {
   EXPECT_FALSE(passes(0.64));
 }
 
-}  // namespace
+}  // namespace loop_gates_test
 }  // namespace placegraph

@@ -3,7 +3,7 @@
 #include <placegraph/pipeline/internal/loops/loop_probability.h>
 
 namespace placegraph {
-namespace {
+namespace loop_probability_test {
 
 LoopRecord record(LoopStage stage, double similarity, int inliers) {
   LoopRecord record;
@@ -41,5 +41,5 @@ TEST(LoopProbability, StayFiniteAtTheBounds) {
     }
 }
 
-}  // namespace
+}  // namespace loop_probability_test
 }  // namespace placegraph

@@ -6,7 +6,7 @@
 #include <limits>
 
 namespace placegraph {
-namespace {
+namespace own_recognizer_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -81,5 +81,5 @@ TEST(RecognizerImage, IsInColourWhereTheFrameIs) {
   EXPECT_EQ(recognizer_image(frame).data, frame.colour.data);
 }
 
-}  // namespace
+}  // namespace own_recognizer_test
 }  // namespace placegraph

@@ -4,7 +4,7 @@
 #include "tests/support/scenes/scene.h"
 
 namespace placegraph {
-namespace {
+namespace explanation_test {
 
 using namespace test;
 
@@ -90,5 +90,5 @@ TEST(Explanation, ALostFrameHasNoPoseAndAnUnknownOneNoAnswer) {
   EXPECT_FALSE(explain_frame(map, FrameId(4)));
 }
 
-}  // namespace
+}  // namespace explanation_test
 }  // namespace placegraph

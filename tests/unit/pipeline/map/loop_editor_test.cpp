@@ -8,7 +8,7 @@
 #include "tests/support/place_links.h"
 
 namespace placegraph {
-namespace {
+namespace loop_editor_test {
 
 using namespace test;
 using ::testing::ElementsAre;
@@ -232,5 +232,5 @@ TEST(LoopEditor, SaysWhyAnEditCannotBeMade) {
               HasSubstr("imported"));
 }
 
-}  // namespace
+}  // namespace loop_editor_test
 }  // namespace placegraph

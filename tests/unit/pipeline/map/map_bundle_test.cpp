@@ -4,7 +4,7 @@
 #include "tests/support/scenes/poses.h"
 
 namespace placegraph {
-namespace {
+namespace map_bundle_test {
 
 constexpr int kViews = 6, kPoints = 120;
 
@@ -85,5 +85,5 @@ TEST_F(MapBundleTest, NeedsLandmarksThatTwoKeyframesObserve) {
   EXPECT_TRUE(bundle.points.empty());
 }
 
-}  // namespace
+}  // namespace map_bundle_test
 }  // namespace placegraph

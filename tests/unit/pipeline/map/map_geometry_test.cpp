@@ -3,7 +3,7 @@
 #include "tests/support/scenes/observed_map.h"
 
 namespace placegraph {
-namespace {
+namespace map_geometry_test {
 
 TEST(MapGeometry, HasTheScalesOfPlacesAndKeyframes) {
   Map map = test::posed_map({SE3(), SE3(SO3(), {0, 0, 4})});
@@ -59,5 +59,5 @@ TEST(MapGeometry, IsThatOfAllComponentsUnlessOneIsNamed) {
   EXPECT_TRUE(geometry.landmarks[2].p_map.isApprox(Eigen::Vector3d(2, 0, 0)));
 }
 
-}  // namespace
+}  // namespace map_geometry_test
 }  // namespace placegraph

@@ -5,7 +5,7 @@
 #include "tests/support/scenes/texture.h"
 
 namespace placegraph {
-namespace {
+namespace map_learner_test {
 
 using namespace test;
 
@@ -89,5 +89,5 @@ TEST(MapLearner, CuesOfNoWeightAreLeftOut) {
   }
 }
 
-}  // namespace
+}  // namespace map_learner_test
 }  // namespace placegraph

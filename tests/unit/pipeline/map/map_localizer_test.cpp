@@ -10,7 +10,7 @@
 #include "tests/support/scenes/texture.h"
 
 namespace placegraph {
-namespace {
+namespace map_localizer_test {
 
 using namespace test;
 
@@ -216,5 +216,5 @@ TEST(MapLocalizer, GeometryMayBeLeftOut) {
   EXPECT_FALSE(found.T_map_cam);
 }
 
-}  // namespace
+}  // namespace map_localizer_test
 }  // namespace placegraph

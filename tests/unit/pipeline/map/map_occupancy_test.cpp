@@ -5,7 +5,7 @@
 #include "tests/support/scenes/observed_map.h"
 
 namespace placegraph {
-namespace {
+namespace map_occupancy_test {
 
 /// A camera at 0, 0.5, 1 m on x that looks along z at a wall of points at z = 4.025 m.
 class MapOccupancyTest : public testing::Test {
@@ -110,5 +110,5 @@ TEST_F(MapOccupancyTest, NeedsMetresAndALimitedNumberOfCells) {
   EXPECT_EQ(occupancy_of(map, 0).outcome.reason, "the map is not metric");
 }
 
-}  // namespace
+}  // namespace map_occupancy_test
 }  // namespace placegraph

@@ -5,7 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 namespace placegraph {
-namespace {
+namespace place_labeller_test {
 
 /// A view of room 0 (red, wide stripes) or 1 (green, narrow ones), a little different every time.
 Image view_of(int room, Random& random) {
@@ -80,5 +80,5 @@ TEST(PlaceLabeller, LeavesAPlaceOfTwoMindsWithoutLabel) {
   EXPECT_LT(labels[0].probability, 0.7);
 }
 
-}  // namespace
+}  // namespace place_labeller_test
 }  // namespace placegraph

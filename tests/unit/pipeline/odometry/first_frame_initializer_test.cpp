@@ -5,7 +5,7 @@
 #include "tests/support/scripted_tracker.h"
 
 namespace placegraph {
-namespace {
+namespace first_frame_initializer_test {
 
 using namespace test;
 using Calls = std::vector<std::string>;
@@ -112,5 +112,5 @@ TEST(Initialization, IsAnUpdateOfTheOdometry) {
   EXPECT_EQ(update.posed_again.size(), 1u);
 }
 
-}  // namespace
+}  // namespace first_frame_initializer_test
 }  // namespace placegraph

@@ -5,7 +5,7 @@
 #include "tests/support/scenes/boards.h"
 
 namespace placegraph {
-namespace {
+namespace line_view_initializer_test {
 
 using namespace test;
 
@@ -190,5 +190,5 @@ TEST(LineViewInitializer, ARestartForgetsTheViewsAndMovesTheStart) {
   EXPECT_LT(distance_m(first.T_odom_reference, T_other), 1e-12);
 }
 
-}  // namespace
+}  // namespace line_view_initializer_test
 }  // namespace placegraph

@@ -5,7 +5,7 @@
 #include "tests/support/scripted_tracker.h"
 
 namespace placegraph {
-namespace {
+namespace local_mapping_test {
 
 using namespace test;
 using Calls = std::vector<std::string>;
@@ -199,5 +199,5 @@ TEST(LocalMapping, TheScaleComesFromTheGroundOrFromLinesOnIt) {
   EXPECT_FALSE(Mapping(kBaseline_m, 1.6).mapping->scale().available());
 }
 
-}  // namespace
+}  // namespace local_mapping_test
 }  // namespace placegraph

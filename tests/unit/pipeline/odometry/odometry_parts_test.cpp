@@ -5,7 +5,7 @@
 #include "tests/support/scenes/street.h"
 
 namespace placegraph {
-namespace {
+namespace odometry_parts_test {
 
 using namespace test;
 
@@ -76,5 +76,5 @@ TEST(OdometryParts, CuesThatNeedAnotherSensorAreRefused) {
   EXPECT_NO_THROW(make_tracker(cues("points,direct"), camera(Sensor::kMono, 1.6), 1, {}, times));
 }
 
-}  // namespace
+}  // namespace odometry_parts_test
 }  // namespace placegraph

@@ -5,7 +5,7 @@
 #include "tests/support/scenes/street.h"
 
 namespace placegraph {
-namespace {
+namespace odometry_test {
 
 using namespace test;
 
@@ -194,5 +194,5 @@ TEST(Odometry, LawAnotherOdometryFrameMovesEveryPoseByThatFrame) {
   }
 }
 
-}  // namespace
+}  // namespace odometry_test
 }  // namespace placegraph

@@ -6,7 +6,7 @@
 #include "tests/support/scenes/street.h"
 
 namespace placegraph {
-namespace {
+namespace two_view_initializer_test {
 
 using namespace test;
 
@@ -216,5 +216,5 @@ TEST(TwoViewInitializer, ARestartForgetsTheViewsAndMovesTheStart) {
   EXPECT_LT(distance_m(first.T_odom_reference, T_other), 1e-12);
 }
 
-}  // namespace
+}  // namespace two_view_initializer_test
 }  // namespace placegraph

@@ -5,7 +5,7 @@
 #include "tests/support/place_links.h"
 
 namespace placegraph {
-namespace {
+namespace keyframe_chain_test {
 
 using namespace test;
 
@@ -145,5 +145,5 @@ TEST(KeyframeChain, RefusesWhatContradictsItself) {
                ArgumentError);
 }
 
-}  // namespace
+}  // namespace keyframe_chain_test
 }  // namespace placegraph

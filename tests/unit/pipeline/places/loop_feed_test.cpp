@@ -7,7 +7,7 @@
 #include "tests/support/place_links.h"
 
 namespace placegraph {
-namespace {
+namespace loop_feed_test {
 
 using namespace test;
 
@@ -97,5 +97,5 @@ TEST(LoopFeed, EarlierLoopsGetWhatWasLearnedLater) {
   EXPECT_NEAR(run.variance_of_first_loop() / before, run.loops.factor(), 1e-6 * run.loops.factor());
 }
 
-}  // namespace
+}  // namespace loop_feed_test
 }  // namespace placegraph

@@ -4,7 +4,7 @@
 #include "tests/unit/pipeline/places/row_of_places.h"
 
 namespace placegraph {
-namespace {
+namespace place_components_test {
 
 using namespace test;
 
@@ -80,5 +80,5 @@ TEST(PlaceComponents, NoPlaceHasAScaleWhereAllAreKnown) {
   EXPECT_LT((map.S_map(1).translation() - before).norm(), kRounding);
 }
 
-}  // namespace
+}  // namespace place_components_test
 }  // namespace placegraph

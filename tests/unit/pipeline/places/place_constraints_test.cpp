@@ -6,7 +6,7 @@
 #include "tests/support/place_links.h"
 
 namespace placegraph {
-namespace {
+namespace place_constraints_test {
 
 using namespace test;
 
@@ -225,5 +225,5 @@ TEST(PlaceConstraints, EveryKindHasItsKernelAndNoneMeasuresWithinAPlace) {
   EXPECT_EQ(since[0].key, constraints[2].key);
 }
 
-}  // namespace
+}  // namespace place_constraints_test
 }  // namespace placegraph

@@ -4,7 +4,7 @@
 #include "tests/support/place_links.h"
 
 namespace placegraph {
-namespace {
+namespace place_history_test {
 
 using namespace test;
 
@@ -96,5 +96,5 @@ TEST(PlaceHistory, WhatContradictsItselfIsRefused) {
   refused(history);
 }
 
-}  // namespace
+}  // namespace place_history_test
 }  // namespace placegraph

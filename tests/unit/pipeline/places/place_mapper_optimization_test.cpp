@@ -7,7 +7,7 @@
 #include "tests/support/place_links.h"
 
 namespace placegraph {
-namespace {
+namespace place_mapper_optimization_test {
 
 using namespace test;
 
@@ -250,5 +250,5 @@ TEST(PlaceOptimization, KeepsALateMeasuredRunWhereALoopHasPutIt) {
   EXPECT_TRUE(mapper.metric());
 }
 
-}  // namespace
+}  // namespace place_mapper_optimization_test
 }  // namespace placegraph

@@ -5,7 +5,7 @@
 #include "tests/support/place_links.h"
 
 namespace placegraph {
-namespace {
+namespace place_mapper_test {
 
 using namespace test;
 
@@ -288,5 +288,5 @@ TEST(PlaceMapper, ARescaledMapIsOptimizedAndPublishedAsAWhole) {
               4 * kLong.translation().norm(), 1e-6);
 }
 
-}  // namespace
+}  // namespace place_mapper_test
 }  // namespace placegraph

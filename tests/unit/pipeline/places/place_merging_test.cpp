@@ -7,7 +7,7 @@
 #include "tests/support/place_links.h"
 
 namespace placegraph {
-namespace {
+namespace place_merging_test {
 
 using namespace test;
 
@@ -166,5 +166,5 @@ TEST(PlaceMerging, OdometryContradictsAMergerThatItsEdgesCannotReach) {
   EXPECT_TRUE(contradicted_mergers(row.chain, row.partition).empty());
 }
 
-}  // namespace
+}  // namespace place_merging_test
 }  // namespace placegraph

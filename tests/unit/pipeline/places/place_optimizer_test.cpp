@@ -5,7 +5,7 @@
 #include "tests/support/place_links.h"
 
 namespace placegraph {
-namespace {
+namespace place_optimizer_test {
 
 using namespace test;
 using Kind = PlaceConstraint::Kind;
@@ -139,5 +139,5 @@ TEST_F(PlaceOptimizerTest, PlacesOfUnknownScaleAreSimilarities) {
   EXPECT_NEAR(optimizer.relative_covariance(PlaceId(0), PlaceId(1))(6, 6), 0.01, 1e-4);
 }
 
-}  // namespace
+}  // namespace place_optimizer_test
 }  // namespace placegraph

@@ -5,7 +5,7 @@
 #include "tests/unit/pipeline/places/row_of_places.h"
 
 namespace placegraph {
-namespace {
+namespace place_partition_test {
 
 using namespace test;
 
@@ -153,5 +153,5 @@ TEST(PlacePartition, ASavedPartitionIsTheSameWhenItIsRestored) {
   EXPECT_THROW(PlacePartition(row.partition.graph_places(row.chain), history), ArgumentError);
 }
 
-}  // namespace
+}  // namespace place_partition_test
 }  // namespace placegraph

@@ -6,7 +6,7 @@
 #include "tests/unit/pipeline/places/row_of_places.h"
 
 namespace placegraph {
-namespace {
+namespace place_reach_test {
 
 using namespace test;
 
@@ -63,5 +63,5 @@ TEST(PlaceReach, AKeyframeWithinReachOfTheAnchorBelongsToItsPart) {
   EXPECT_FALSE(in_reach(pose({0, 0.36, 0}, {0, 0, 1}), 10));  // 20.6 deg
 }
 
-}  // namespace
+}  // namespace place_reach_test
 }  // namespace placegraph

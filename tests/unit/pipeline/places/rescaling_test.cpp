@@ -4,7 +4,7 @@
 #include "tests/support/place_links.h"
 
 namespace placegraph {
-namespace {
+namespace rescaling_test {
 
 using namespace test;
 
@@ -31,5 +31,5 @@ TEST(Rescaling, ALoopIsInTheLengthsOfItsMatchAndItsInformationInThoseOfItsQuery)
   EXPECT_NEAR(both.scale_match_query, 1.5, 1e-12);
 }
 
-}  // namespace
+}  // namespace rescaling_test
 }  // namespace placegraph

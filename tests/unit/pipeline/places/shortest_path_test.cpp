@@ -6,7 +6,7 @@
 #include "tests/support/place_links.h"
 
 namespace placegraph {
-namespace {
+namespace shortest_path_test {
 
 using namespace test;
 
@@ -32,5 +32,5 @@ TEST(ShortestPath, LeadsAlongLinksAndLoops) {
   EXPECT_NEAR(shortest_path(chain, partition, loops, PlaceId(0), PlaceId(2)), 10, 1e-12);
 }
 
-}  // namespace
+}  // namespace shortest_path_test
 }  // namespace placegraph

@@ -5,7 +5,7 @@
 #include "tests/support/scenes/room_lines.h"
 
 namespace placegraph {
-namespace {
+namespace floor_line_scale_test {
 
 using namespace test;
 
@@ -126,5 +126,5 @@ TEST(FloorLineScale, LooksBackByAShareOfItsHeight) {
   EXPECT_THROW(scale(options), ArgumentError);
 }
 
-}  // namespace
+}  // namespace floor_line_scale_test
 }  // namespace placegraph

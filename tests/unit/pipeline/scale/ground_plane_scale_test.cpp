@@ -7,7 +7,7 @@
 #include "tests/support/scenes/texture.h"
 
 namespace placegraph {
-namespace {
+namespace ground_plane_scale_test {
 
 using namespace test;
 constexpr double kHeight_m = 1.6, kStep_m = 0.8, kPitch_rad = 0.04;
@@ -143,5 +143,5 @@ TEST_F(GroundScaleOnARoad, SaysNothingWithoutTextureAndRefusesNoHeight) {
   EXPECT_THROW(GroundPlaneScale({}, kCamera, 0), ArgumentError);
 }
 
-}  // namespace
+}  // namespace ground_plane_scale_test
 }  // namespace placegraph

@@ -7,7 +7,7 @@
 #include "tests/support/scenes/posed_map.h"
 
 namespace placegraph {
-namespace {
+namespace indoor_mapper_test {
 
 using namespace test;
 
@@ -306,5 +306,5 @@ TEST(IndoorMapper, LabelsPlacesOncePerRoom) {
   EXPECT_TRUE(graph.places[2].labels.empty());
 }
 
-}  // namespace
+}  // namespace indoor_mapper_test
 }  // namespace placegraph

@@ -7,7 +7,7 @@
 #include "tests/support/ids.h"
 
 namespace placegraph {
-namespace {
+namespace indoor_plan_test {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -128,5 +128,5 @@ TEST(IndoorPlan, CellsAreOccupiedWhereRaysEndAndFreeWhereTheyPass) {
   for (const float cell : plan_cells(high).log_odds) EXPECT_EQ(cell, 0);
 }
 
-}  // namespace
+}  // namespace indoor_plan_test
 }  // namespace placegraph

@@ -6,7 +6,7 @@
 #include "tests/support/scenes/scene.h"
 
 namespace placegraph {
-namespace {
+namespace map_keyframes_test {
 
 using namespace test;
 
@@ -103,5 +103,5 @@ TEST(MapKeyframes, ApartAreThoseThatMovedOrRotatedEnoughSinceTheOneBefore) {
   EXPECT_EQ(ids, test::ids<KeyframeId>({0, 2, 3, 5}));  // 3 has turned, 5 has moved
 }
 
-}  // namespace
+}  // namespace map_keyframes_test
 }  // namespace placegraph

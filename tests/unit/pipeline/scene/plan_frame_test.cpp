@@ -2,7 +2,7 @@
 #include <placegraph/pipeline/internal/scene/plan_frame.h>
 
 namespace placegraph {
-namespace {
+namespace plan_frame_test {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -43,5 +43,5 @@ TEST(PlanFrame, TheYawIsThatOfTheWallsFirstAxis) {
   EXPECT_NEAR(frame.yaw_rad(), -0.4, 0.06);
 }
 
-}  // namespace
+}  // namespace plan_frame_test
 }  // namespace placegraph

@@ -9,7 +9,7 @@
 #include "tests/support/scenes/posed_map.h"
 
 namespace placegraph {
-namespace {
+namespace urban_mapper_test {
 
 using namespace test;
 
@@ -206,5 +206,5 @@ TEST(UrbanMapper, SharesOfClassesAreOfAllPointsOfAPlace) {
   EXPECT_TRUE(shares[1].empty());
 }
 
-}  // namespace
+}  // namespace urban_mapper_test
 }  // namespace placegraph

@@ -4,7 +4,7 @@
 #include "tests/support/scenes/street.h"
 
 namespace placegraph {
-namespace {
+namespace environment_monitor_test {
 
 using namespace test;
 
@@ -68,5 +68,5 @@ TEST(EnvironmentMonitor, KeyframesThatWereNotSeenLabelNothing) {
   EXPECT_TRUE(none[0].labels.empty());
 }
 
-}  // namespace
+}  // namespace environment_monitor_test
 }  // namespace placegraph

@@ -5,7 +5,7 @@
 #include "tests/support/place_links.h"
 
 namespace placegraph {
-namespace {
+namespace event_feed_test {
 
 using namespace test;
 using testing::ElementsAre;
@@ -14,6 +14,7 @@ using testing::IsEmpty;
 /// What is told, a word and numbers each.
 struct RecordedEvents final : SlamEvents {
   std::vector<std::string> message;
+  KeyframeAdded keyframe;
   MapMoved move;
   void say(const std::string& word, std::int64_t a, std::int64_t b) {
     message.push_back(word + " " + std::to_string(a) + " " + std::to_string(b));
@@ -21,6 +22,7 @@ struct RecordedEvents final : SlamEvents {
   void frame_posed(const FrameResult& f) override { say("posed", f.frame.value(), f.inliers); }
   void frame_lost(const FrameResult& f) override { say("lost", f.frame.value(), f.inliers); }
   void keyframe_added(const KeyframeAdded& k) override {
+    keyframe = k;
     say("keyframe", k.keyframe.value(), k.frame.value());
   }
   void loop_accepted(const LoopRecord& l) override {
@@ -180,15 +182,24 @@ TEST(EventFeed, TellsFramesByWhetherTheyHaveAPose) {
   EXPECT_THAT(recorded.news(), ElementsAre("lost 7 0", "posed 7 0"));
 }
 
-TEST(EventFeed, IsSilentWithoutAListener) {
-  EventFeed feed(nullptr);
-  PlaceMapper mapper = square();
-  feed.take_up(mapper, {});
-  feed.keyframe_added(KeyframeId(0), FrameId(0), mapper);
-  feed.places_changed(mapper);
-  feed.loops_decided({record(1, 0, LoopStage::kAccepted)});
-  feed.frame_done({});
+TEST(EventFeed, TellsAKeyframeWithItsPlaceAndPose) {
+  RecordedEvents recorded;
+  EventFeed feed(&recorded);
+  const PlaceMapper mapper = square();
+  feed.keyframe_added(KeyframeId(5), FrameId(12), mapper);
+  EXPECT_THAT(recorded.news(), ElementsAre("keyframe 5 12"));
+  EXPECT_EQ(recorded.keyframe.place, mapper.place_of(KeyframeId(4)));  // 5 hangs on the place of 4
+  const SE3 off = recorded.keyframe.T_map_cam.inverse() * mapper.T_map_keyframe(KeyframeId(5));
+  EXPECT_EQ(off.translation().norm(), 0);
 }
 
-}  // namespace
+TEST(EventFeed, LooksAtNothingWithoutAListener) {
+  RecordedEvents recorded;
+  const PlaceMapper empty({});  // a keyframe that it does not know is an error where it is told
+  EXPECT_THROW(EventFeed(&recorded).keyframe_added(KeyframeId(0), FrameId(0), empty),
+               std::out_of_range);
+  EXPECT_NO_THROW(EventFeed(nullptr).keyframe_added(KeyframeId(0), FrameId(0), empty));
+}
+
+}  // namespace event_feed_test
 }  // namespace placegraph

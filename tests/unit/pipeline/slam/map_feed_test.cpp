@@ -5,7 +5,7 @@
 #include "tests/support/scenes/street.h"
 
 namespace placegraph {
-namespace {
+namespace map_feed_test {
 
 using namespace test;
 
@@ -229,5 +229,5 @@ TEST(MapFeed, ATakenUpMapSaysWhetherViewsHaveColour) {
   EXPECT_TRUE(run.feed.take_changes(run.sources()).keyframes.back().view.empty());
 }
 
-}  // namespace
+}  // namespace map_feed_test
 }  // namespace placegraph

@@ -4,7 +4,7 @@
 #include "tests/support/scenes/street.h"
 
 namespace placegraph {
-namespace {
+namespace track_recovery_test {
 
 using namespace test;
 
@@ -167,5 +167,5 @@ TEST(TrackRecovery, AComponentApartWaitsForItsBeginning) {
   EXPECT_TRUE(scene.recovery.needed(waits, scene.known()));
 }
 
-}  // namespace
+}  // namespace track_recovery_test
 }  // namespace placegraph

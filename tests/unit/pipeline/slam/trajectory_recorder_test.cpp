@@ -2,7 +2,7 @@
 #include <placegraph/pipeline/internal/slam/trajectory_recorder.h>
 
 namespace placegraph {
-namespace {
+namespace trajectory_recorder_test {
 
 Frame frame(std::int64_t id) {
   Frame f;
@@ -169,5 +169,5 @@ TEST(TrajectoryRecorder, TakesUpASavedMapUpToItsLastKeyframe) {
   EXPECT_EQ(next.first_changed(), 4u);
 }
 
-}  // namespace
+}  // namespace trajectory_recorder_test
 }  // namespace placegraph

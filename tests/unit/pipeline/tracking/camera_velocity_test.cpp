@@ -2,7 +2,7 @@
 #include <placegraph/pipeline/internal/tracking/camera_velocity.h>
 
 namespace placegraph {
-namespace {
+namespace camera_velocity_test {
 
 SE3 rotated(double angle) { return SE3(SO3::exp({0, angle, 0}), Eigen::Vector3d::Zero()); }
 
@@ -35,5 +35,5 @@ TEST(CameraVelocity, IsKnownFromDenseFramesOnly) {
   EXPECT_FALSE(velocity.known());
 }
 
-}  // namespace
+}  // namespace camera_velocity_test
 }  // namespace placegraph

@@ -4,7 +4,7 @@
 #include <placegraph/pipeline/internal/tracking/cue_list.h>
 
 namespace placegraph {
-namespace {
+namespace cue_list_test {
 
 TEST(Cues, AreThoseNamed) {
   const Cues lines = parse_cues("lines");
@@ -32,5 +32,5 @@ TEST(Cues, UnknownRepeatedOrUselessOnesAreRefusedByName) {
   EXPECT_THROW(options.check(), ArgumentError);
 }
 
-}  // namespace
+}  // namespace cue_list_test
 }  // namespace placegraph

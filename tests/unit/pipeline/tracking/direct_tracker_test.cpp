@@ -4,7 +4,7 @@
 #include "tests/support/scenes/street.h"
 
 namespace placegraph {
-namespace {
+namespace direct_tracker_test {
 
 using namespace test;
 
@@ -175,5 +175,5 @@ TEST(DirectTracker, HasNoLinesAndManhattanFramesOnlyIfTheyAreNamed) {
   EXPECT_TRUE(DirectTracker(options, t.calibration, 1, {}, t.times).corrects_rotations());
 }
 
-}  // namespace
+}  // namespace direct_tracker_test
 }  // namespace placegraph

@@ -7,7 +7,7 @@
 #include "tests/support/scenes/street.h"
 
 namespace placegraph {
-namespace {
+namespace feature_tracker_test {
 
 using namespace test;
 
@@ -291,5 +291,5 @@ TEST(FeatureTracker, IntensitiesOfSurfacesJoinKeyframesThatPointsPose) {
   EXPECT_LT(error(t.map.pose(KeyframeId(1)), street_T_world_cam(1)), 0.02);
 }
 
-}  // namespace
+}  // namespace feature_tracker_test
 }  // namespace placegraph

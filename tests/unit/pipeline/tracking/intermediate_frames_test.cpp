@@ -4,7 +4,7 @@
 #include "tests/support/scenes/window_world.h"
 
 namespace placegraph {
-namespace {
+namespace intermediate_frames_test {
 
 using namespace test;
 
@@ -118,5 +118,5 @@ TEST(IntermediateFrames, FollowTheManhattanFrameThatTheySaw) {
   EXPECT_LT((posed[0].second.rotation().inverse() * R_odom_cam).log().norm(), 1e-4);
 }
 
-}  // namespace
+}  // namespace intermediate_frames_test
 }  // namespace placegraph

@@ -2,7 +2,7 @@
 #include <placegraph/pipeline/internal/tracking/keyframe_selector.h>
 
 namespace placegraph {
-namespace {
+namespace keyframe_selector_test {
 
 Camera camera() {
   return {.width = 400, .height = 300, .fx = 300, .fy = 300, .cx = 199.5, .cy = 149.5};
@@ -117,5 +117,5 @@ TEST(KeyframeSelector, DerotatedDisplacementsOfAPureRotationVanish) {
   for (const double px : s.flow_px(rotated, R_keyframe_cam.inverse())) EXPECT_GT(px, 5);
 }
 
-}  // namespace
+}  // namespace keyframe_selector_test
 }  // namespace placegraph

@@ -5,7 +5,7 @@
 #include "tests/support/scenes/boards.h"
 
 namespace placegraph {
-namespace {
+namespace line_pose_test {
 
 using namespace test;
 
@@ -120,5 +120,5 @@ TEST(LinePose, WithoutLinesAndPointsThereIsNoPose) {
                    .outcome);
 }
 
-}  // namespace
+}  // namespace line_pose_test
 }  // namespace placegraph

@@ -4,7 +4,7 @@
 #include "tests/support/scenes/poses.h"
 
 namespace placegraph {
-namespace {
+namespace motion_model_test {
 
 using namespace test;
 
@@ -64,5 +64,5 @@ TEST(MotionModel, LawAnotherOdometryFrameChangesThePredictionByThatFrameAlone) {
   EXPECT_LT(difference(there.predicted(), T_other_odom * here.predicted()), 1e-12);
 }
 
-}  // namespace
+}  // namespace motion_model_test
 }  // namespace placegraph

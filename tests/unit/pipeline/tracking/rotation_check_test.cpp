@@ -8,7 +8,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace rotation_check_test {
 
 using namespace test;
 
@@ -104,5 +104,5 @@ TEST(RotationCheck, PointsInASmallPartOfTheImageLeaveTheRotationOpen) {
             "the points do not determine the rotation");
 }
 
-}  // namespace
+}  // namespace rotation_check_test
 }  // namespace placegraph

@@ -7,7 +7,7 @@
 #include <opencv2/core.hpp>
 
 namespace placegraph {
-namespace {
+namespace place_classifier_test {
 
 constexpr int kPlaces = 3, kViewsOfEach = 8;
 
@@ -146,5 +146,41 @@ TEST(LabelFilter, CountsTransitionsAndHalfAnUnseenOne) {
   EXPECT_THROW(LabelFilter({}), ArgumentError);
 }
 
-}  // namespace
+TEST(LabelFilter, SumsOverAllWaysThroughThePlaces) {
+  // Transitions counted both ways: 0 stays once, 0-1 once, 1-2 twice; and a half each.
+  LabelFilter filter({0, 0, 1, 2, 1});
+  Eigen::Matrix3d counts;  // to, from
+  counts << 1, 1, 0, 1, 0, 2, 0, 2, 0;
+  counts.array() += 0.5;
+  Random random(3);
+  constexpr int kImages = 4;
+  std::vector<Eigen::Vector3d> seen;
+  for (int i = 0; i < kImages; ++i)
+    seen.emplace_back(random.uniform(0.1, 1), random.uniform(0.1, 1), random.uniform(0.1, 1));
+  Eigen::Vector3d sums = Eigen::Vector3d::Zero();
+  for (int code = 0; code < 3 * 3 * 3 * 3 * 3; ++code) {  // a place before, and one an image
+    double way = 1;
+    int from = code % 3, rest = code / 3;
+    for (int i = 0; i < kImages; ++i, rest /= 3) {
+      const int to = rest % 3;
+      way *= counts(to, from) / counts.col(from).sum() * seen[static_cast<std::size_t>(i)][to];
+      from = to;
+    }
+    sums[from] += way;
+  }
+  Eigen::VectorXd posterior;
+  for (const Eigen::Vector3d& probabilities : seen) posterior = filter.update(probabilities);
+  EXPECT_NEAR((posterior - sums / sums.sum()).norm(), 0, 1e-12);
+}
+
+TEST(EntropyShare, IsThatOfASmallerNumberOfEqualOnes) {
+  for (const int n : {2, 5, 16}) {
+    Eigen::VectorXd p = Eigen::VectorXd::Zero(16);
+    p.head(n).setConstant(1.0 / n);
+    EXPECT_NEAR(entropy_share(p), std::log(n) / std::log(16), 1e-12);
+  }
+  EXPECT_EQ(entropy_share(Eigen::VectorXd::Ones(1)), 0);
+}
+
+}  // namespace place_classifier_test
 }  // namespace placegraph

@@ -6,7 +6,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace {
+namespace loop_verifier_test {
 
 using namespace test;
 using Code = Outcome::Code;
@@ -279,5 +279,5 @@ TEST(LoopVerifier, LinesMakeAPoseSurer) {
             (points.information.topLeftCorner<6, 6>() * points.rmse_px * points.rmse_px).trace());
 }
 
-}  // namespace
+}  // namespace loop_verifier_test
 }  // namespace placegraph

@@ -4,7 +4,7 @@
 #include <cmath>
 
 namespace placegraph::synthetic {
-namespace {
+namespace camera_motion_test {
 
 /// A camera that swings and turns within a second.
 SE3 swing(double t) {
@@ -69,5 +69,5 @@ TEST(CameraMotion, OfOnePoseStandsStill) {
   EXPECT_EQ(pose_at({5}, {only}, 7).translation()[2], 3);
 }
 
-}  // namespace
+}  // namespace camera_motion_test
 }  // namespace placegraph::synthetic

@@ -5,7 +5,7 @@
 #include "tests/support/message_of.h"
 
 namespace placegraph {
-namespace {
+namespace defects_test {
 
 using test::message_of;
 using ::testing::HasSubstr;
@@ -92,5 +92,5 @@ TEST(Miscalibrated, WithoutErrorItIsTheSame) {
   EXPECT_EQ(written.depth->camera.cx, truth.camera.cx);
 }
 
-}  // namespace
+}  // namespace defects_test
 }  // namespace placegraph

@@ -4,7 +4,7 @@
 #include <cmath>
 
 namespace placegraph::synthetic {
-namespace {
+namespace vehicle_test {
 
 constexpr double kHeight_m = 0.02;
 
@@ -82,5 +82,5 @@ TEST(Undulation, LiftsAndTiltsACarAsItsWheelsDo) {
   EXPECT_LT(root_mean_square(rest), 0.4 * kHeight_m);
 }
 
-}  // namespace
+}  // namespace vehicle_test
 }  // namespace placegraph::synthetic

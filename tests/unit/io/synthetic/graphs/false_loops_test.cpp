@@ -8,7 +8,7 @@
 #include "tests/support/edge_of.h"
 
 namespace placegraph::synthetic {
-namespace {
+namespace false_loops_test {
 
 using test::edge_of;
 
@@ -92,5 +92,5 @@ TEST(FalseLoops, ShufflingLosesNoConstraintAndMovesMost) {
   EXPECT_EQ(a, b);
 }
 
-}  // namespace
+}  // namespace false_loops_test
 }  // namespace placegraph::synthetic

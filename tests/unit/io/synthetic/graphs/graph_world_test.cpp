@@ -3,7 +3,7 @@
 #include <placegraph/io/internal/synthetic/graphs/graph_world.h>
 
 namespace placegraph::synthetic {
-namespace {
+namespace graph_world_test {
 
 std::size_t loops(const PoseGraph& graph) {
   std::size_t count = 0;
@@ -130,5 +130,5 @@ TEST(GraphWorld, OptionsOutOfRangeAreRefusedByName) {
   EXPECT_THROW((void)make_long_loop({.noise = {.rotation_rad = 0}}), ArgumentError);
 }
 
-}  // namespace
+}  // namespace graph_world_test
 }  // namespace placegraph::synthetic

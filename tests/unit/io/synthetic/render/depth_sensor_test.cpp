@@ -4,7 +4,7 @@
 #include <cmath>
 
 namespace placegraph::synthetic {
-namespace {
+namespace depth_sensor_test {
 
 constexpr int kWidth = 320, kHeight = 240;
 constexpr int kEdge = 160;  ///< first column of the far surface
@@ -149,5 +149,5 @@ TEST(DepthSensor, ASlantedPlaneHasNoEdge) {
       ASSERT_NEAR(1 / depth.at<float>(v, u), floor.at<float>(v, u), 1e-6);
 }
 
-}  // namespace
+}  // namespace depth_sensor_test
 }  // namespace placegraph::synthetic

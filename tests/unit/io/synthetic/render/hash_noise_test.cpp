@@ -5,7 +5,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph::synthetic {
-namespace {
+namespace hash_noise_test {
 
 TEST(HashNoise, FloorsTowardsMinusInfinity) {
   EXPECT_EQ(floor_int(2.0), 2);
@@ -85,5 +85,5 @@ TEST(Octave, AveragesAlongAnElongatedFootprintAsManyThinOnesDo) {
   EXPECT_NEAR(octave(wide, 1.0F, 5), mean, 0.1);  // three samples for 240
 }
 
-}  // namespace
+}  // namespace hash_noise_test
 }  // namespace placegraph::synthetic

@@ -5,7 +5,7 @@
 #include <limits>
 
 namespace placegraph::synthetic {
-namespace {
+namespace height_surface_test {
 
 /// A pass along x = `x` at height `y`, with samples beside it that keep the road level sideways.
 std::vector<Eigen::Vector3d> pass_samples(double x, double y) {
@@ -55,5 +55,5 @@ TEST(GroundMesh, IsTheSurfaceAtVerticesAndContinuousBetween) {
   EXPECT_NEAR(mesh.height(5, 6), 0.5 * (mesh.height(4, 6) + mesh.height(6, 6)), 1e-12);
 }
 
-}  // namespace
+}  // namespace height_surface_test
 }  // namespace placegraph::synthetic

@@ -6,7 +6,7 @@
 #include "tests/support/seed.h"
 
 namespace placegraph::synthetic {
-namespace {
+namespace rasterizer_test {
 
 View small_view() {
   View view;
@@ -164,5 +164,5 @@ TEST(World, FootprintsOverlapOnlyIfTheyShareGround) {
   EXPECT_DOUBLE_EQ(a.distance({1, 0.5}), 0);
 }
 
-}  // namespace
+}  // namespace rasterizer_test
 }  // namespace placegraph::synthetic

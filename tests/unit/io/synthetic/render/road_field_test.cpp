@@ -3,7 +3,7 @@
 #include <placegraph/io/internal/synthetic/render/road_field.h>
 
 namespace placegraph::synthetic {
-namespace {
+namespace road_field_test {
 
 Roadway straight(double x, double length) {
   Roadway roadway;
@@ -40,5 +40,5 @@ TEST(RoadField, RefusesAnExtentThatNoDriveHas) {
   EXPECT_THROW(RoadField({}), ArgumentError);
 }
 
-}  // namespace
+}  // namespace road_field_test
 }  // namespace placegraph::synthetic

@@ -5,7 +5,7 @@
 #include <cmath>
 
 namespace placegraph::synthetic {
-namespace {
+namespace rolling_shutter_test {
 
 constexpr double kSpeed_mps = 2, kReadout_s = 0.04, kDistance_m = 2, kFocal_px = 500;
 
@@ -86,5 +86,5 @@ TEST(RollingShutter, BandsOfAStandingCameraMakeTheWholeImage) {
     }
 }
 
-}  // namespace
+}  // namespace rolling_shutter_test
 }  // namespace placegraph::synthetic

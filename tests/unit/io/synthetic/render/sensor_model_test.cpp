@@ -5,7 +5,7 @@
 #include <opencv2/core.hpp>
 
 namespace placegraph::synthetic {
-namespace {
+namespace sensor_model_test {
 
 struct Flat {
   View view;
@@ -81,5 +81,5 @@ TEST(SensorModel, NamesItsLevelsWhenAskedForAnother) {
   }
 }
 
-}  // namespace
+}  // namespace sensor_model_test
 }  // namespace placegraph::synthetic

@@ -9,7 +9,7 @@
 #include "tests/support/message_of.h"
 
 namespace placegraph {
-namespace {
+namespace defective_world_test {
 
 using synthetic::Rendering;
 using synthetic::Tour;
@@ -162,5 +162,5 @@ TEST(DefectiveWorld, UndulationMovesGroundAndCameraByItsHeight) {
               HasSubstr("undulation_m: only for `town-loop` and pose files"));
 }
 
-}  // namespace
+}  // namespace defective_world_test
 }  // namespace placegraph

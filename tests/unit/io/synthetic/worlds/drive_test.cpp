@@ -8,7 +8,7 @@
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph {
-namespace {
+namespace drive_test {
 
 using synthetic::Tour;
 using test::message_of;
@@ -89,5 +89,5 @@ TEST(Drive, UnknownWorldsAndBadOptionsAreRefused) {
   EXPECT_THAT(message_of<ArgumentError>([&] { SyntheticWorld world(options); }), HasSubstr("size"));
 }
 
-}  // namespace
+}  // namespace drive_test
 }  // namespace placegraph

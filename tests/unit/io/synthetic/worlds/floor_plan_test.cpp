@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 namespace placegraph::synthetic {
-namespace {
+namespace floor_plan_test {
 
 FloorPlan box_with_door() {
   FloorPlan plan;
@@ -45,5 +45,5 @@ TEST(FloorPlan, JsonHoldsTheShiftedPlan) {
   EXPECT_DOUBLE_EQ(door["height_m"], 2);
 }
 
-}  // namespace
+}  // namespace floor_plan_test
 }  // namespace placegraph::synthetic

@@ -3,7 +3,7 @@
 #include <placegraph/io/internal/synthetic/worlds/simulated_flight.h>
 
 namespace placegraph::synthetic {
-namespace {
+namespace simulated_flight_test {
 
 using Eigen::Vector3d;
 
@@ -59,5 +59,5 @@ TEST(SimulatedFlight, RefusesOptionsOutOfRange) {
   EXPECT_THROW((void)simulate_flight(options), ArgumentError);
 }
 
-}  // namespace
+}  // namespace simulated_flight_test
 }  // namespace placegraph::synthetic

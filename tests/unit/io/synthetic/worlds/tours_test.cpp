@@ -2,7 +2,7 @@
 #include <placegraph/io/internal/synthetic/worlds/tours.h>
 
 namespace placegraph::synthetic {
-namespace {
+namespace tours_test {
 
 TEST(SmoothPath, RoundsACornerAndKeepsTheEnds) {
   const auto path = smooth_path({{0, 0}, {0, 50}, {50, 50}}, 0.25, 6);
@@ -47,5 +47,5 @@ TEST(CameraAxes, AreARotationThatLooksForwardAndDown) {
   EXPECT_LT(R.col(1).dot(up), -0.99);
 }
 
-}  // namespace
+}  // namespace tours_test
 }  // namespace placegraph::synthetic

@@ -10,7 +10,7 @@
 #include "tests/support/clean_world.h"
 
 namespace placegraph::synthetic {
-namespace {
+namespace turning_walk_test {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
@@ -106,5 +106,5 @@ TEST(TurningWalk, SeesDepthsOfADeskAndOfARoom) {
   EXPECT_TRUE(world.is_indoor());
 }
 
-}  // namespace
+}  // namespace turning_walk_test
 }  // namespace placegraph::synthetic
