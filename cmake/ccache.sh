@@ -11,7 +11,8 @@
 # Clang's (.pch) holds paths and times of its clone: each clone makes its own, and what is compiled with it
 # is keyed by the checksum beside it (.pch.sum), of the arguments and of the headers that went into it.
 #
-# What a compilation costs is noted beside the cache (compile_cost.sh): of what comes from the cache, too, it is known.
+# What a compilation costs is noted (compile_cost.sh, by its name, because a prefix with blanks would be two words): what
+# comes from the cache has cost something, too.
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 output=
@@ -47,5 +48,5 @@ case $output in
     rm "$headers"
     exit ;;
 esac
-CCACHE_PREFIX="$root/cmake/compile_cost.sh${CCACHE_PREFIX:+ $CCACHE_PREFIX}" CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=true CCACHE_PCH_EXTSUM=true \
+PATH=$root/cmake:$PATH CCACHE_PREFIX="compile_cost.sh${CCACHE_PREFIX:+ $CCACHE_PREFIX}" CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=true CCACHE_PCH_EXTSUM=true \
   CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime exec ccache "$@"
