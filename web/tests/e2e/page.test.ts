@@ -198,6 +198,7 @@ describe("the loops", () => {
     await page.click("#tab-loops");
     await page.getByRole("button", { name: "Stage" }).click();
     const row = page.locator("tr[data-loop]").first();
+    await row.filter({ hasText: "retrieval" }).waitFor(); // the table is drawn in the next frame
     const query = await row.locator("td").first().textContent();
     const stage = await row.locator("td").nth(2).textContent();
     expect(stage).toBe("retrieval");
