@@ -27,6 +27,9 @@
 namespace placegraph {
 namespace factor_laws_test {
 
+/// For messages: the type of a factor.
+const char* name_of(const Factor& factor) { return typeid(factor).name(); }
+
 using Factors = std::vector<std::shared_ptr<const Factor>>;
 
 Eigen::Vector3d random_vector(Random& random, double size) {
@@ -139,7 +142,7 @@ TEST(FactorLaws, AllHaveTheJacobiansOfFiniteDifferencesAnywhere) {
   for (const Factors& factors : {transformable(), others()})
     for (const auto& factor : factors)
       for (int trial = 0; trial < 5; ++trial) {
-        SCOPED_TRACE(typeid(*factor).name());
+        SCOPED_TRACE(name_of(*factor));
         test::expect_jacobians_match(*factor, variables_of(*factor, random), 1e-6);
       }
 }
@@ -153,7 +156,7 @@ TEST(FactorLaws, TheResidualIsTheSameWithAndWithoutDerivatives) {
       const Eigen::VectorXd r = test::evaluate(*factor, variables, &J);
       EXPECT_EQ(r.size(), factor->residual_size());
       EXPECT_LT((r - test::evaluate(*factor, variables)).norm(), 1e-12 * (1 + r.norm()))
-          << typeid(*factor).name();
+          << name_of(*factor);
       for (const Eigen::MatrixXd& J_k : J) EXPECT_LT(J_k.cwiseAbs().maxCoeff(), 1e98);
     }
 }
@@ -185,7 +188,7 @@ TEST(FactorLaws, ATransformedFactorSaysTheSameOfTransformedVariables) {
     }
   const Sim3 S_new_old(SO3::exp({0.1, 0.2, 0.3}), {1, 2, 3}, 2);
   for (const auto& factor : others())
-    EXPECT_EQ(factor->transformed(S_new_old), nullptr) << typeid(*factor).name();
+    EXPECT_EQ(factor->transformed(S_new_old), nullptr) << name_of(*factor);
   EXPECT_EQ(PosePriorFactor<SE2>(SE2(), whitening_of(3)).transformed(S_new_old), nullptr);
   EXPECT_EQ(RelativePoseFactor<Sim3>(Sim3(), whitening_of(7)).transformed(S_new_old), nullptr);
 }
