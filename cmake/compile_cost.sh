@@ -1,7 +1,7 @@
 #!/bin/sh
-# compile_cost.sh COMPILER ARGUMENT...: compiles, and notes the CPU seconds of it for scripts/test.d/cost.py, in the folder
-# that ccache's is beside (PLACEGRAPH_COSTS, or ~/.cache/placegraph_costs), a file for each object of a build folder's name.
-# It holds these seconds and those of the reference program at that time (PLACEGRAPH_REFERENCE_S; 0 if it is not known).
+# compile_cost.sh COMPILER ARGUMENT...: compiles, and notes the CPU seconds for scripts/test.d/cost.py: a file for each
+# object in PLACEGRAPH_COSTS (~/.cache/placegraph_costs without it), below the name of the build folder. The file holds
+# these seconds and those of the reference program at that time (PLACEGRAPH_REFERENCE_S; 0 if they are not known).
 "$@"
 status=$?
 output=

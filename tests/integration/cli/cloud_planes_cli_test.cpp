@@ -20,6 +20,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using test::CommandResult;
 using test::read_file;
+using ::testing::HasSubstr;
 
 class CloudPlanesCli : public test::CliTest {
  protected:
@@ -60,6 +61,46 @@ class CloudPlanesCli : public test::CliTest {
   }
 };
 
+TEST_F(CloudPlanesCli, LabelsTheThreePlanesOfADepthImage) {
+  const test::SeenCloud seen = write_corner();
+  const CommandResult result =
+      run("planes depth.png --calib K.txt --depth-scale 0.001 --out labels.png --ids --json");
+  ASSERT_EQ(result.code, 0) << result.err;
+  const cv::Mat labels = test::read_picture(dir / "labels.png", DecodedPixels::kAsStored);
+  ASSERT_EQ(labels.type(), CV_8UC1);
+  ASSERT_EQ(labels.size(), cv::Size(128, 96));
+  EXPECT_EQ(test::regions_found(seen.labels,
+                                std::vector<int>(labels.begin<uchar>(), labels.end<uchar>())),
+            3);
+  const json report = json::parse(result.out);
+  EXPECT_EQ(report["points"], 128 * 96);
+  ASSERT_EQ(report["planes"].size(), 3u);
+  const json& plane = report["planes"][0];
+  EXPECT_EQ(plane["id"], 1);
+  EXPECT_EQ(plane["covariance"].size(), 9u);
+  EXPECT_GT(plane["probability"], 0.3);
+  EXPECT_GT(plane["points"], report["planes"][1]["points"]);
+  // The same in steps a metre.
+  ASSERT_EQ(run("planes depth.png --calib K.txt --depth-scale 1000 --out again.png --ids").code, 0);
+  EXPECT_EQ(read_file(dir / "again.png"), read_file(dir / "labels.png"));
+}
+
+TEST_F(CloudPlanesCli, TellsTheRoomThatPlanesMake) {
+  write_corner();
+  ASSERT_EQ(run("planes depth.png --calib K.txt --out labels.png --cuboids cuboids.json").code, 0);
+  const json cuboids = json::parse(read_file(dir / "cuboids.json"));
+  ASSERT_EQ(cuboids.size(), 1u);
+  EXPECT_EQ(cuboids[0]["kind"], "room");
+  EXPECT_EQ(cuboids[0]["faces"].size(), 3u);
+  EXPECT_EQ(cuboids[0]["R_sensor_cuboid"].size(), 3u);
+  EXPECT_EQ(cuboids[0]["size_m"].size(), 3u);
+  const std::string again = "planes depth.png --calib K.txt --out other.png --cuboids ";
+  expect_usage_error(again + "cuboids.json", "cuboids.json");
+  expect_usage_error(again + "new.json --off-right-angle 90", "max_off_right_deg");
+  expect_usage_error(again + "other.png", "the same file as --out");
+  EXPECT_FALSE(fs::exists(dir / "other.png"));
+}
+
 TEST_F(CloudPlanesCli, LabelsPointsOfEveryKindOfFile) {
   const test::SeenCloud seen = write_corner();
   for (const std::string file : {"cloud.txt", "cloud.bin", "cloud.ply"}) {
@@ -69,6 +110,20 @@ TEST_F(CloudPlanesCli, LabelsPointsOfEveryKindOfFile) {
   }
   for (const std::string method : {"ransac", "growing"})
     EXPECT_EQ(run("planes cloud.bin --method " + method + " --out " + method).code, 0);
+}
+
+TEST_F(CloudPlanesCli, JudgesByTrueLabels) {
+  write_corner();
+  const CommandResult result =
+      run("planes cloud.txt --truth cloud.txt --truth-same 3=2 --truth-none 1 --out l.txt --json");
+  ASSERT_EQ(result.code, 0) << result.err;
+  const json check = json::parse(result.out)["check"];
+  EXPECT_EQ(check["planes"], 1);  // of two faces
+  EXPECT_EQ(check["over_segmented"], 1);
+  expect_usage_error("planes cloud.txt --truth cloud.txt --truth-same 3 --out m.txt",
+                     "--truth-same");
+  dir.write("few.txt", "1\n2\n");
+  expect_usage_error("planes cloud.txt --truth few.txt --out m.txt", "2 labels for 12288 points");
 }
 
 TEST_F(CloudPlanesCli, FindsNoPlaneWhereThereIsNone) {

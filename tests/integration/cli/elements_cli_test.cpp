@@ -17,7 +17,8 @@ class ElementsCli : public test::CliTest {
   static void SetUpTestSuite() {
     made = new test::TemporaryFolder;
     const CommandResult result = test::run_placegraph(
-        "synth sequence corridor-loop --frames 40 --size 320x240 --difficulty standard --mono --out walk",
+        "synth sequence corridor-loop --frames 40 --size 320x240 --difficulty standard --mono "
+        "--out walk",
         made->path());
     ASSERT_EQ(result.code, 0) << result.err;
   }

@@ -1,12 +1,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "tests/support/cli_test.h"
 
 namespace placegraph {
 namespace eval_edges_cli_test {
 
 using test::write_file;
+using ::testing::HasSubstr;
 
 /// A run of two places one metre apart, whose edge is 0.1 m too long and claims 0.05 m.
 class EvalEdges : public test::CliTest {
@@ -33,6 +36,39 @@ class EvalEdges : public test::CliTest {
                    place(0, 0, 0) + ", " + place(1, 4, frame) + "]}");
   }
 };
+
+TEST_F(EvalEdges, GivesErrorsInClaimedDeviationsBySource) {
+  const auto result = run("eval edges poses.txt run --json");
+  ASSERT_EQ(result.code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(json.at("odometry").at("edges"), 1);
+  EXPECT_NEAR(json.at("odometry").at("mean_nees").get<double>(), 4.0 / 6, 1e-9);
+  EXPECT_EQ(json.at("odometry").at("share_beyond_99"), 0);
+  EXPECT_EQ(json.at("odometry").at("verdict"), "too few edges");
+  EXPECT_THAT(run("eval edges . run").out, HasSubstr("odometry        1"));
+}
+
+TEST_F(EvalEdges, TakesTheNoiseOfTheTruth) {
+  const auto result = run("eval edges poses.txt run --truth-noise 0.05,0 --axes --fit-mount");
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("translation along z"));
+  EXPECT_THAT(result.out, HasSubstr("are not testable: the truth's own noise makes "));
+  expect_usage_error("eval edges poses.txt run --truth-noise 5cm",
+                     "--truth-noise: '5cm' is none of");
+  expect_usage_error("eval edges poses.txt run --truth-noise -1,0", "--truth-noise");
+  const auto refused = run("eval edges poses.txt run --truth-noise estimate");
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_THAT(refused.err, HasSubstr("the truth has no 20 measured poses in a row"));
+}
+
+TEST_F(EvalEdges, NoiseOfATruthThatIsTooShortIsNotEstimated) {
+  const auto refused = run("eval noise poses.txt");
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_THAT(refused.err, HasSubstr("poses.txt: the truth has no 20 measured poses in a row"));
+  expect_usage_error("eval noise none.txt", "none.txt");
+  write_file(dir / "poses.txt", "1 0 0 0 0 1 0 0 0 0 1\n");
+  expect_usage_error("eval noise poses.txt", "poses.txt:1");
+}
 
 TEST_F(EvalEdges, NamesWhatIsWrongWithItsInput) {
   write_places(2);

@@ -78,7 +78,7 @@ TEST_F(FlowCli, TellsWhatFlowTellsAtOnce) {
     ASSERT_EQ(result.code, 0) << result.err;
     const auto cues = nlohmann::json::parse(result.out)["cues"];
     EXPECT_NEAR(cues["time_to_contact"]["time"].get<double>(), 1.9, 0.05 * 1.9) << method;
-    // The deviation is that of an estimate from thousands of pixels: known to a few percent, not exactly.
+    // From thousands of pixels the time is known to a few percent, and not exactly.
     const double deviation = std::sqrt(cues["time_to_contact"]["variance"].get<double>());
     EXPECT_LT(deviation, 0.05 * 1.9) << method;
     EXPECT_GT(deviation, 1e-5 * 1.9) << method;
@@ -94,6 +94,11 @@ TEST_F(FlowCli, TellsWhatFlowTellsAtOnce) {
   expect_usage_error("image flow far.png near.png --flow-cues", "--calib");
   expect_usage_error(command + "--gyro 0 0 0", "--dt");
   expect_usage_error("image flow a.png b.png --flow-cues --calib K.txt", "a.png");
+}
+
+TEST_F(FlowCli, HasNoAnswerOfBlankImages) {
+  test::write_picture(dir / "blank.png", cv::Mat(100, 120, CV_8UC1, cv::Scalar(90)));
+  expect_failure("image flow blank.png blank.png --method lucas-kanade", 1, "no displacement");
 }
 
 TEST_F(FlowCli, RefusesWhatIsNoPicture) {

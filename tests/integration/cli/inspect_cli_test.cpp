@@ -8,6 +8,7 @@ namespace inspect_cli_test {
 
 using nlohmann::json;
 using testing::HasSubstr;
+using testing::Not;
 
 const std::string kCalibration = "width: 8\nheight: 6\nfx: 10\nfy: 11\ncx: 4\ncy: 3\n";
 
@@ -21,6 +22,18 @@ class Inspect : public test::CliTest {
     dir.write("s/times.txt", "0\n0.1\n0.3\n0.4\n");
   }
 };
+
+TEST_F(Inspect, SaysWhatAFolderIsTakenForAndWhatRunWouldUse) {
+  write_sequence();
+  const test::CommandResult result = run("inspect s");
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("s, read as images from s"));
+  EXPECT_THAT(result.out, HasSubstr("4 in 0.40 s, 10 Hz"));
+  EXPECT_THAT(result.out, HasSubstr("1, where about 1 frames are missing; the longest is 0.2 s "
+                                    "after frame 1"));
+  EXPECT_THAT(result.out, HasSubstr("8 x 6 px, fx 10.00 fy 11.00 cx 4.00 cy 3.00"));
+  EXPECT_THAT(result.out, HasSubstr("as mono, cues points,plane; lengths without scale"));
+}
 
 TEST_F(Inspect, GivesTheSameAsJson) {
   write_sequence(kCalibration + "camera_height_m: 165\n");
@@ -38,6 +51,17 @@ TEST_F(Inspect, GivesTheSameAsJson) {
   EXPECT_THAT(found["run"]["metric_by"].get<std::string>(), HasSubstr("165 m"));
   EXPECT_TRUE(std::ranges::any_of(found["notes"],
                                   [](const json& note) { return note["doubts_scale"] == true; }));
+}
+
+TEST_F(Inspect, CountsTheFramesThatCannotBeRead) {
+  write_sequence();
+  dir.write("s/2.png", "no image");
+  EXPECT_EQ(run("inspect s").code, 0);
+  const test::CommandResult result = run("inspect s --read");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_THAT(result.out, HasSubstr("3 of 4 frames can be read"));
+  EXPECT_THAT(result.err, HasSubstr("2.png"));
+  EXPECT_THAT(result.err, HasSubstr("1 of 4 frames cannot be read"));
 }
 
 TEST_F(Inspect, NamesFoldersThatAreNoSequence) {

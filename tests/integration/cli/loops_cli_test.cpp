@@ -10,6 +10,7 @@ namespace placegraph {
 namespace loops_cli_test {
 
 using test::write_file;
+using ::testing::HasSubstr;
 
 class Loops : public test::CliTest {
  protected:
@@ -19,6 +20,53 @@ class Loops : public test::CliTest {
     write_file(dir / "theirs.txt", "10 2 0.9 accepted\n11 3 0.8 accepted\n");
   }
 };
+
+TEST_F(Loops, GivesTheFiguresOfOneSystemAsJson) {
+  const auto result = run("loops --predictions ours.txt --format scores --truth gt.txt --json");
+  ASSERT_EQ(result.code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(json.at("positives"), 2);
+  EXPECT_EQ(json.at("r_at_1"), 0.5);
+  EXPECT_EQ(json.at("ap"), 0.5);
+  EXPECT_EQ(json.at("recall_at_100p"), 0.5);
+  EXPECT_NEAR(json.at("f1_max").get<double>(), 2.0 / 3, 1e-9);
+}
+
+TEST_F(Loops, ComparesSystemsInATableALogAndAPlot) {
+  const auto result = run(
+      "loops --predictions ours.txt theirs.txt --systems ours theirs --truth gt.txt --csv log.csv "
+      "--plot "
+      "pr.svg");
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("theirs"));
+  EXPECT_THAT(result.out, HasSubstr("1.0000"));
+  const std::string log = test::read_file(dir / "log.csv");
+  EXPECT_THAT(log, HasSubstr("ours,11,1,miss,4,0.8,0,\n"));
+  EXPECT_THAT(log, HasSubstr("theirs,11,1,hit,3,0.8,1,accepted\n"));
+  EXPECT_THAT(log, HasSubstr("theirs,12,0,silent,,,0,\n"));
+  EXPECT_THAT(test::read_file(dir / "pr.svg"), HasSubstr("theirs: AP 1.000"));
+  expect_usage_error("loops --predictions ours.txt --truth gt.txt --csv log.csv", "log.csv");
+}
+
+TEST_F(Loops, TakesTheTruthFromPosesAndSaysHow) {
+  std::string poses;
+  for (const double x : {0, 10, 20, 1, 11})
+    poses += "1 0 0 " + std::to_string(x) + " 0 1 0 0 0 0 1 0\n";
+  write_file(dir / "poses.txt", poses);
+  write_file(dir / "found.txt", "3 0 2\n4 0 1\n4 3 9\n");
+  const auto result =
+      run("loops --predictions found.txt --true-poses poses.txt --radius 2 --heading 10 --min-age "
+          "2 --json");
+  ASSERT_EQ(result.code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(json.at("positives"), 2);
+  EXPECT_EQ(json.at("dropped"), 1);
+  EXPECT_EQ(json.at("r_at_1"), 0.5);
+  EXPECT_EQ(json.at("protocol"), "poses within 2 m and 10 deg, candidates at least 2 images older");
+  write_file(dir / "found.txt", "3 0 2\n5 0 1\n");
+  expect_usage_error("loops --predictions found.txt --true-poses poses.txt",
+                     "found.txt:2: image 5, and the poses are of 5");
+}
 
 TEST_F(Loops, RefusesBrokenInputWithItsLine) {
   write_file(dir / "ours.txt", "10 2 0.9\n11 4\n");

@@ -231,6 +231,7 @@ TEST_F(MapCli, ExplainsAFrame) {
   EXPECT_GT(explanation["known_by"]["constraints"]["odometry"], 0);
   EXPECT_GT(explanation["sees"]["surfaces"]["ground"], 0.05);
   EXPECT_EQ(explanation["assumed"]["sensor"], "measured depth");
+  EXPECT_THAT(run("map explain " + whole() + " 20").out, HasSubstr("known by"));
   expect_failure("map explain " + whole() + " 99", 1, "has no frame 99");
   expect_usage_error("map explain " + whole() + " -1", "FRAME");
   expect_usage_error("map explain nowhere 1", "nowhere");

@@ -58,6 +58,28 @@ TEST_F(MarkersCli, WritesIdsCornersAndBothPoses) {
   EXPECT_EQ(test::read_picture(dir / "m.png").cols, 640);
 }
 
+TEST_F(MarkersCli, FindsTheCameraInALayout) {
+  const CommandResult result =
+      run("image markers two.png --calib K.txt --layout markers.yaml --json");
+  ASSERT_EQ(result.code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  ASSERT_FALSE(json["T_world_cam"].is_null());
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(json["T_world_cam"][i][3], pose.translation()[i], 0.01);
+}
+
+TEST_F(MarkersCli, CountsPixelsFromTheCornerWhereAsked) {
+  dir.write("corner.txt", "460 460 322.8 237.6 640 480\n");
+  const auto centre =
+      nlohmann::json::parse(run("image markers two.png --calib K.txt --side 0.2 --json").out);
+  const auto corner = nlohmann::json::parse(
+      run("image markers two.png --calib corner.txt --side 0.2 --pixel-origin corner --json").out);
+  const double a = centre["markers"][0]["corners_px"][0][0];
+  const double b = corner["markers"][0]["corners_px"][0][0];
+  EXPECT_NEAR(b - a, 0.5, 1e-9);
+  const double x = centre["markers"][0]["poses"][0]["T_cam_marker"][0][3];
+  EXPECT_NEAR(corner["markers"][0]["poses"][0]["T_cam_marker"][0][3], x, 1e-9);
+}
+
 TEST_F(MarkersCli, SaysWhatIsWrong) {
   expect_failure("image markers plain.png --calib K.txt", 1, "no marker of apriltag_36h11");
   expect_usage_error("image markers two.png --calib K.txt --dictionary aruco_9x9",

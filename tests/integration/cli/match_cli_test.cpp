@@ -47,6 +47,14 @@ TEST_F(Match, WritesOneBestCandidateAQueryThatTheBenchmarkReads) {
   expect_usage_error("match . --out found.txt", "found.txt");
 }
 
+TEST_F(Match, ComparesWithWhatIsOldEnoughWithoutATruth) {
+  std::filesystem::remove(dir / "gt.txt");
+  expect_usage_error("match . --out found.txt", "12 images, and none is 300 older");
+  const auto matched = run("match images --min-age 6 --out found.txt --appearance tiny,gradients");
+  ASSERT_EQ(matched.code, 0) << matched.err;
+  EXPECT_THAT(test::read_file(dir / "found.txt"), ::testing::StartsWith("6 0 "));
+}
+
 TEST_F(Match, RefusesBrokenInput) {
   expect_usage_error("match none --out found.txt", "none");
   expect_usage_error("match . --out found.txt --appearance smell", "smell");
@@ -86,6 +94,22 @@ TEST_F(Match, LearnsLabelsOfTheTrainingHalfOnly) {
   write_file(dir / "labels.txt", "0 0\n");
   expect_usage_error("places classify . --out no.txt", "labels.txt: no label for training image 1");
   expect_usage_error("places classify . --out no.txt --train 12", "there are 12 images");
+}
+
+TEST_F(Match, TellsPlacesByWordsOfAVocabulary) {
+  const auto trained = run("train vocabulary images --kind float --words 30 --out words.pgw");
+  ASSERT_EQ(trained.code, 0) << trained.err;
+  EXPECT_THAT(trained.out, HasSubstr("float words learned from 12 images"));
+  EXPECT_THAT(run("places vocabulary words.pgw").out, HasSubstr("float words, "));
+  const auto matched = run("match . --out found.txt --vocabulary words.pgw --codes llc");
+  ASSERT_EQ(matched.code, 0) << matched.err;
+  EXPECT_THAT(matched.out, HasSubstr("12 images, 6 queries"));
+  const auto judged = run("loops --predictions found.txt --truth gt.txt --json");
+  EXPECT_GE(nlohmann::json::parse(judged.out).at("r_at_1").get<double>(), 0.8);
+  // So smooth are the images that no key-point is found in them: no word, and no answer.
+  const auto none = run("match . --out none.txt --vocabulary words.pgw --codes bow_float");
+  EXPECT_EQ(none.code, 1);
+  EXPECT_THAT(none.err, HasSubstr("no image has a word in common with an older one"));
 }
 
 TEST_F(Match, RefusesVocabulariesThatDoNotServe) {

@@ -11,6 +11,7 @@ namespace motion_cli_test {
 
 using nlohmann::json;
 using test::CommandResult;
+using ::testing::HasSubstr;
 
 /// A car that turns a little: x right, y down, z ahead, R = R_y(yaw), t along half the turn.
 class MotionCli : public test::CliTest {
@@ -77,6 +78,33 @@ TEST_F(MotionCli, TellsTheMotionByEveryModelThatFits) {
   EXPECT_NEAR(circle["yaw_rad"], 0.1, 1e-5);
   EXPECT_TRUE(circle["covariance"].is_null());
   EXPECT_EQ(estimate("matches.txt --calib K.txt")["model"], "essential");
+}
+
+TEST_F(MotionCli, TellsMetresByPointsOfKnownPlace) {
+  for (const char* form : {"seen.txt --calib K.txt --method 3d2d", "pairs.txt --method 3d3d"}) {
+    SCOPED_TRACE(form);
+    const json report = estimate(form);
+    EXPECT_TRUE(report["metric"].get<bool>());
+    expect_truth(report);
+  }
+  EXPECT_THAT(run("image motion pairs.txt --method 3d3d --out m.json").out, HasSubstr("t_ref_cur"));
+  EXPECT_EQ(json::parse(test::read_file(dir / "m.json"))["model"], "3d3d");
+}
+
+TEST_F(MotionCli, ReportsARotationWithoutATranslation) {
+  std::ostringstream text;
+  text.precision(10);
+  const SE3 pure_rotation = test::pose({0, 0.05, 0}, {0, 0, 0});
+  for (const Eigen::Vector3d& p : scene_.points_ref)
+    if (const auto px = camera_.project(pure_rotation.inverse() * p))
+      text << camera_.project(p)->transpose() << ' ' << px->transpose() << '\n';
+  dir.write("turn.txt", text.str());
+  const json report = estimate("turn.txt --calib K.txt");
+  EXPECT_EQ(report["model"], "rotation");
+  EXPECT_TRUE(report["T_ref_cur"].is_null());
+  EXPECT_TRUE(report["t_ref_cur"].is_null());
+  EXPECT_NEAR(report["R_ref_cur"][0][2], std::sin(0.05), 1e-5);
+  EXPECT_EQ(report["covariance"].size(), 3u);
 }
 
 TEST_F(MotionCli, SaysWhatIsWrong) {

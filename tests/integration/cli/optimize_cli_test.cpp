@@ -173,6 +173,14 @@ TEST_F(OptimizeCli, ReportsEveryIterationOnStandardErrorUnlessQuiet) {
   EXPECT_EQ(read_file(dir / "a.g2o"), read_file(dir / "b.g2o"));
 }
 
+TEST_F(OptimizeCli, OptimizesTheComponentsOfAGraphEachForItselfWhenAsked) {
+  write_file(dir / "two.g2o", ring(12) + ring(30, 100) + "VERTEX_SE2 500 1 2 3\n");
+  const json report = optimized("two.g2o -o out.g2o --components");
+  EXPECT_EQ(report.at("components"), 3);
+  EXPECT_LT(report.at("chi2_log"), 1e-6);
+  EXPECT_THAT(read_file(dir / "out.g2o"), HasSubstr("VERTEX_SE2 500 1 2 3\n"));
+}
+
 TEST_F(OptimizeCli, NamesTheLoopsItRejectsAndLeavesThemOutOfTheCost) {
   write_file(dir / "false.g2o", ring(40, 0, {{3, 21}, {8, 30}}));
   const json report = optimized("false.g2o -o out.g2o --robust gnc");
@@ -236,6 +244,18 @@ TEST_F(OptimizeCli, CertifiesTheIsotropicChordalProblemAndClaimsNoMore) {
 TEST_F(OptimizeCli, CertifiesWithoutTheLoopsThatWereRejected) {
   write_file(dir / "false.g2o", ring(40, 0, {{3, 21}}));
   EXPECT_EQ(optimized("false.g2o -o out.g2o --robust gnc --certify").at("certified"), true);
+}
+
+TEST_F(OptimizeCli, LetsAGraphGrowAndReportsItsSteps) {
+  write_file(dir / "ring.g2o", ring(30) + ring(12, 100));
+  const json report = optimized("ring.g2o -o out.g2o --incremental --components");
+  EXPECT_LT(report.at("chi2_log"), 1e-6);
+  EXPECT_EQ(report.at("steps"), 42);
+  EXPECT_GT(report.at("step_cpu_ms_mean"), 0);
+  EXPECT_GE(report.at("step_cpu_ms_max"), report.at("step_cpu_ms_p95"));
+  EXPECT_NEAR(optimized("in.g2o -o out.g2o --incremental").at("chi2_log").get<double>(),
+              kThreePosesCost, 1e-6);
+  EXPECT_FALSE(optimized("in.g2o -o out.g2o").contains("step_cpu_ms_mean"));
 }
 
 TEST_F(OptimizeCli, DrawsThePosesBeforeAndAfter) {

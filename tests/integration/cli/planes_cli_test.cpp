@@ -17,6 +17,7 @@ using nlohmann::json;
 using test::CommandResult;
 using test::read_file;
 using test::write_file;
+using ::testing::HasSubstr;
 
 class PlanesCli : public test::CliTest {
  protected:
@@ -45,6 +46,25 @@ class PlanesCli : public test::CliTest {
   }
 };
 
+TEST_F(PlanesCli, LabelsMatchesAndTellsTheMotion) {
+  const test::PlanesWorld world = make_world(2);
+  const CommandResult result =
+      run("image two-view-planes matches.txt --out labels.txt --calib calibration.yaml "
+          "--motion motion.json --json");
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_LT(test::misclassification(world.labels, labels_of(dir / "labels.txt")), 0.05);
+  const json report = json::parse(result.out);
+  EXPECT_EQ(report["matches"], 110);
+  EXPECT_EQ(report["regions"].size(), 2u);
+  const json motion = json::parse(read_file(dir / "motion.json"));
+  EXPECT_EQ(motion["outcome"], "ok");
+  ASSERT_EQ(motion["readings"].size(), 1u);
+  EXPECT_EQ(motion["readings"][0]["planes"].size(), 2u);
+  Eigen::Vector3d t;
+  for (int i = 0; i < 3; ++i) t[i] = motion["readings"][0]["t_b_a"][i];
+  EXPECT_LT(test::angle_between(t, world.T_cur_ref.translation()), 0.08);
+}
+
 TEST_F(PlanesCli, TakesTheCameraInEitherFormAndByItsFormerName) {
   const test::PlanesWorld world = make_world(2);
   const Camera& k = world.camera;
@@ -61,6 +81,19 @@ TEST_F(PlanesCli, TakesTheCameraInEitherFormAndByItsFormerName) {
   const std::string motion = motion_by("--calib calibration.yaml");
   EXPECT_EQ(motion_by("--calibration calibration.yaml"), motion);
   EXPECT_EQ(motion_by("--calib K.txt"), motion);
+}
+
+TEST_F(PlanesCli, LabelsAllZeroWhereThereIsNoPlane) {
+  std::string text;
+  Random random(9);
+  for (int i = 0; i < 60; ++i) {
+    for (int k = 0; k < 4; ++k) text += std::to_string(random.uniform(0, 500)) + ' ';
+    text += '\n';
+  }
+  write_file(dir / "matches.txt", text);
+  const CommandResult result = run("image two-view-planes matches.txt --out labels.txt");
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_EQ(labels_of(dir / "labels.txt"), std::vector<int>(60, 0));
 }
 
 TEST_F(PlanesCli, ReadsStrictlyAndNeverOverwritesUnasked) {

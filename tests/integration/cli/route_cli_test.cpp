@@ -10,6 +10,7 @@ namespace route_cli_test {
 
 using test::read_file;
 using test::write_file;
+using ::testing::HasSubstr;
 
 /// A run over four places along x; the last was recognized beside the second.
 class RouteCli : public test::CliTest {
@@ -52,6 +53,25 @@ class RouteCli : public test::CliTest {
             .dump(1));
   }
 };
+
+TEST_F(RouteCli, GivesTheShortestWayItsViewsAndTheWayBack) {
+  auto result = run("map route run --from 0 --to 3 --out way.json --plot way.png");
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("3 places, 3.00 m"));
+  auto path = nlohmann::json::parse(read_file(dir / "way.json"));
+  EXPECT_EQ(path.at("steps").size(), 3u);
+  EXPECT_EQ(path.at("steps")[1].at("place"), 1);
+  EXPECT_EQ(path.at("steps")[1].at("view").at("frame"), 10);
+  EXPECT_NEAR(path.at("steps")[0].at("view_off_travel_deg").get<double>(), 90, 1e-9);
+  EXPECT_NEAR(path.at("steps")[1].at("view_off_travel_deg").get<double>(), 0, 1e-9);
+  EXPECT_TRUE(std::filesystem::exists(dir / "way.png"));
+  result = run("map route run --from 0 --to 3 --backtrack --out way.json --force");
+  ASSERT_EQ(result.code, 0) << result.err;
+  path = nlohmann::json::parse(read_file(dir / "way.json"));
+  EXPECT_EQ(path.at("from"), 3);
+  EXPECT_EQ(path.at("to"), 0);
+  EXPECT_EQ(path.at("steps")[1].at("T_previous_place").at("position_m")[2], -1);
+}
 
 TEST_F(RouteCli, NamesWhatIsWrongWithItsInput) {
   expect_usage_error("map route run --from 0 --to 7", "no place 7");

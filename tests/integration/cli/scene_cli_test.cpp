@@ -49,7 +49,7 @@ class SceneCli : public test::CliTest {
 TEST_F(SceneCli, TrainsLabelsAndJudges) {
   make_set();
   train("surfaces");
-  train("urban");
+  train("urban", "--ablation");
   EXPECT_THAT(read_file(dir / "urban.pgscene.md"), HasSubstr("5 pictures, 2 variants, 5 trees"));
   const CommandResult labelled =
       run("image labels set/val --out labels --model urban.pgscene --surfaces-model "

@@ -24,6 +24,18 @@ TEST_F(SynthCli, HelpBeginsWithAnExample) {
   EXPECT_THAT(result.out, StartsWith("Example: placegraph synth sequence town-loop --out"));
 }
 
+TEST_F(SynthCli, WritesBothCamerasOutdoorsAndDepthIndoors) {
+  const std::string small = " --frames 2 --size 96x48 --threads 1";
+  ASSERT_EQ(run("synth sequence town-loop --out town" + small).code, 0);
+  EXPECT_TRUE(fs::exists(dir / "town/image_0/000001.png"));
+  EXPECT_TRUE(fs::exists(dir / "town/image_1/000001.png"));
+  EXPECT_FALSE(fs::exists(dir / "town/depth_0"));
+  ASSERT_EQ(run("synth sequence corridor-loop --out hall" + small).code, 0);
+  EXPECT_FALSE(fs::exists(dir / "hall/image_1"));
+  EXPECT_TRUE(fs::exists(dir / "hall/depth_0/000001.png"));
+  EXPECT_TRUE(fs::exists(dir / "hall/floorplan.json"));
+}
+
 TEST_F(SynthCli, OneAndTwoThreadsWriteTheSameBytes) {
   const std::string what =
       "synth sequence town-loop --frames 3 --size 96x48 --depth --labels --flow";
@@ -79,6 +91,17 @@ TEST_F(SynthCli, BadArgumentsGiveOneLineAndExitCode2) {
   expect_error("town-loop --out out --depth-holes 2", "--depth-holes");
   expect_error("town-loop --out out --time-jitter-s nan", "--time-jitter-s: is not a number");
   expect_error("warehouse --out out --undulation-m 0.02", "undulation_m: only for `town-loop`");
+}
+
+TEST_F(SynthCli, DoesNotWriteIntoAFolderThatHoldsSomething) {
+  fs::create_directory(dir / "full");
+  test::write_file(dir / "full/notes.txt", "mine");
+  const std::string command = "synth sequence town-loop --frames 1 --size 96x48 --out full";
+  EXPECT_EQ(run(command).code, 2);
+  EXPECT_FALSE(fs::exists(dir / "full/image_0"));
+  EXPECT_EQ(run(command + " --force").code, 0);
+  EXPECT_TRUE(fs::exists(dir / "full/image_0/000000.png"));
+  EXPECT_EQ(read_file(dir / "full/notes.txt"), "mine");
 }
 
 }  // namespace synth_cli_test

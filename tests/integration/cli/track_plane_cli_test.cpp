@@ -73,6 +73,28 @@ class TrackPlaneCli : public test::CliTest {
   const std::string corners = "--template 110,70,210,70,210,160,110,160 ";
 };
 
+TEST_F(TrackPlaneCli, WritesALineAFrameAndSaysWhereItIsLost) {
+  make_sequence();
+  const CommandResult result = run("track plane images " + corners + "--out t.txt --draw seen");
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_THAT(result.out, ::testing::HasSubstr("8 frames, 6 tracked, 2 lost"));
+  const std::vector<Line> lines = lines_of(dir / "t.txt");
+  ASSERT_EQ(lines.size(), 8u);
+  for (const Line& line : lines) {
+    const int frame = static_cast<int>(line.frame);
+    if (frame >= kGone && frame < kBack) {
+      EXPECT_EQ(line.state, "lost");
+      EXPECT_TRUE(std::isnan(line.corners[0].x()) && std::isnan(line.similarity));
+      continue;
+    }
+    EXPECT_EQ(line.state, "tracked");
+    EXPECT_LT(board.error_px(line.corners, view(frame)), 1);
+    EXPECT_GT(line.similarity, 0.9);
+  }
+  for (int frame = 0; frame < kEnd; ++frame)
+    EXPECT_FALSE(test::read_picture(dir / ("seen/00000" + std::to_string(frame) + ".png")).empty());
+}
+
 TEST_F(TrackPlaneCli, TellsEverythingAsJson) {
   make_sequence();
   ASSERT_TRUE(test::write_picture(dir / "template.png", board.picture(Matrix3d::Identity())));
@@ -129,6 +151,16 @@ TEST_F(TrackPlaneCli, RefusesWithOneLineAndLeavesNothingBehind) {
   write_file(dir / "t.txt", "kept");
   expect_usage_error(whole, "--force");
   EXPECT_EQ(read_file(dir / "t.txt"), "kept");
+}
+
+TEST_F(TrackPlaneCli, SaysThatABlankOrAbsentTemplateAllowsNoAnswer) {
+  fs::create_directory(dir / "blank");
+  ASSERT_TRUE(test::write_picture(dir / "blank/0.png", Image(240, 320, CV_8UC1, cv::Scalar(90))));
+  expect_failure("track plane blank " + corners + "--out t.txt", 1, "too little texture");
+  ASSERT_TRUE(test::write_picture(dir / "template.png", board.picture(Matrix3d::Identity())));
+  expect_failure("track plane blank " + corners + "--template-image template.png --out t.txt", 1,
+                 "none of 1 frames");
+  EXPECT_FALSE(fs::exists(dir / "t.txt"));
 }
 
 /// Where the world's plane z = 0 is seen, from KITTI's calib.txt and poses.txt.

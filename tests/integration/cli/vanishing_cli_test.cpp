@@ -64,6 +64,28 @@ TEST_F(VanishingCli, TellsTheWorldAndItsPoints) {
               HasSubstr("3 vanishing points, 1 Manhattan frames"));
 }
 
+TEST_F(VanishingCli, SaysNullWhereNoWorldIsSupported) {
+  Random random(2);
+  std::vector<LineSegment> segments;
+  test::add_clutter(camera_, 100, random, segments);
+  write_lines(segments);
+  const CommandResult result = run("vanishing lines.txt --calib K.txt --json");
+  ASSERT_EQ(result.code, 0) << result.err;
+  const json report = json::parse(result.out);
+  EXPECT_FALSE(report["manhattan_supported"].get<bool>());
+  EXPECT_TRUE(report["R_cam_manhattan"].is_null());
+  EXPECT_TRUE(report["covariance"].is_null());
+  EXPECT_TRUE(report["vanishing_points"].empty());
+  EXPECT_THAT(run("vanishing lines.txt --calib K.txt").out, HasSubstr("no Manhattan frame"));
+}
+
+TEST_F(VanishingCli, TooFewSegmentsAllowNoAnswer) {
+  dir.write("lines.txt", "");
+  expect_failure("vanishing lines.txt --calib K.txt", 1, "lines.txt: 0 segments, 4 needed");
+  dir.write("lines.txt", "10 10 60 12\n");
+  expect_failure("vanishing lines.txt --calib K.txt --json", 1, "lines.txt: 1 segments, 4 needed");
+}
+
 TEST_F(VanishingCli, SaysWhatIsWrong) {
   dir.write("lines.txt", "10 10 60 12\n");
   expect_usage_error("vanishing", "LINES");

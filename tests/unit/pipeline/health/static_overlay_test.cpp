@@ -70,7 +70,7 @@ TEST(StaticOverlay, IsFoundWhereTheCameraRotates) {
 
 TEST(StaticOverlay, IsNotSeenInCleanImagesAndCostsNoTrackingThere) {
   for (const auto& drive : {looking_around, straight_ahead, at_rest}) {
-    const StaticOverlay overlay = watched(StreetDataset(20, 0, 0, false, drive));
+    const StaticOverlay overlay = watched(StreetDataset(40, 0, 0, false, drive));
     EXPECT_TRUE(overlay.mask().empty());
     EXPECT_LT(overlay.tracked_images(), 10);
   }
