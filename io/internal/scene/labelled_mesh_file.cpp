@@ -8,13 +8,13 @@
 namespace placegraph {
 namespace {
 
-struct PlyHeader {
+struct MeshHeader {
   std::int64_t vertices = -1, faces = -1;
 };
 
 /// Reads the header up to end_header; nothing in it sizes an allocation.
-PlyHeader read_header(TextFile& file, LabelledMesh& mesh) {
-  PlyHeader header;
+MeshHeader read_header(TextFile& file, LabelledMesh& mesh) {
+  MeshHeader header;
   std::string_view line;
   std::vector<std::string_view> fields;
   if (!file.next(line) || line != "ply") file.fail("a PLY file begins with \"ply\"");
@@ -66,7 +66,7 @@ std::string to_ply(const LabelledMesh& mesh) {
 LabelledMesh read_labelled_mesh(const std::string& path) {
   TextFile file(path);
   LabelledMesh mesh;
-  const PlyHeader header = read_header(file, mesh);
+  const MeshHeader header = read_header(file, mesh);
   std::string_view line;
   std::vector<std::string_view> fields;
   const auto next = [&](const char* what, std::size_t columns) {

@@ -11,7 +11,7 @@
 namespace placegraph::synthetic {
 namespace {
 
-void require(bool holds, const char* field, const char* what) {
+void require_field(bool holds, const char* field, const char* what) {
   if (!holds) throw ArgumentError(std::string(field) + ": " + what);
 }
 
@@ -113,31 +113,31 @@ void disturb_odometry_rotations(PoseGraph& graph, double sigma_rad, Random& rand
 
 void GraphNoise::check() const {
   const auto fits = [](double sigma) { return sigma >= 1e-9 && sigma <= 1e9; };
-  require(fits(translation_m), "noise.translation_m", "must lie in [1e-9, 1e9]");
-  require(fits(rotation_rad), "noise.rotation_rad", "must lie in [1e-9, 1e9]");
+  require_field(fits(translation_m), "noise.translation_m", "must lie in [1e-9, 1e9]");
+  require_field(fits(rotation_rad), "noise.rotation_rad", "must lie in [1e-9, 1e9]");
 }
 
 void ManhattanWalkOptions::check() const {
   check_poses(poses, 2);
-  require(block_m >= 1, "block_m", "must be at least 1");
-  require(side_blocks >= 0, "side_blocks", "must not be negative");
-  require(loop_share >= 0 && loop_share <= 1, "loop_share", "must lie in [0, 1]");
+  require_field(block_m >= 1, "block_m", "must be at least 1");
+  require_field(side_blocks >= 0, "side_blocks", "must not be negative");
+  require_field(loop_share >= 0 && loop_share <= 1, "loop_share", "must lie in [0, 1]");
   noise.check();
 }
 
 void GridWorldOptions::check() const {
   check_poses(poses, 2);
-  require(loop_share >= 0 && loop_share <= 1, "loop_share", "must lie in [0, 1]");
+  require_field(loop_share >= 0 && loop_share <= 1, "loop_share", "must lie in [0, 1]");
   noise.check();
 }
 
 void LongLoopOptions::check() const {
   check_poses(poses, 10);
-  require(laps > 1 && laps <= poses, "laps", "must be more than 1 and at most one a pose");
-  require(closures >= 1, "closures", "must be at least 1");
-  require(closures <= poses - std::ceil(poses / laps), "closures",
+  require_field(laps > 1 && laps <= poses, "laps", "must be more than 1 and at most one a pose");
+  require_field(closures >= 1, "closures", "must be at least 1");
+  require_field(closures <= poses - std::ceil(poses / laps), "closures",
           "more than poses of the repeated part");
-  require(kind != PoseKind::kSim3, "kind", "must be SE2 or SE3");
+  require_field(kind != PoseKind::kSim3, "kind", "must be SE2 or SE3");
   noise.check();
 }
 
@@ -216,8 +216,8 @@ PoseGraph make_long_loop(const LongLoopOptions& options) {
 }
 
 void add_rotation_noise(PoseGraph& graph, double sigma_rad, std::uint64_t seed) {
-  require(sigma_rad >= 0 && sigma_rad <= 1e9, "sigma_rad", "must lie in [0, 1e9]");
-  require(graph.kind() != PoseKind::kSim3, "graph", "must be SE2 or SE3");
+  require_field(sigma_rad >= 0 && sigma_rad <= 1e9, "sigma_rad", "must lie in [0, 1e9]");
+  require_field(graph.kind() != PoseKind::kSim3, "graph", "must be SE2 or SE3");
   Random random(seed);
   if (graph.kind() == PoseKind::kSE2)
     disturb_odometry_rotations<SE2>(graph, sigma_rad, random);
