@@ -61,11 +61,7 @@ HttpResponse RunView::respond(const HttpRequest& request, const std::string& pat
     const std::lock_guard lock(mutex_);
     return pages_;
   }();
-  if (path == "live/state.json") {
-    json state = live_->state();
-    state["finished"] = pages != nullptr;
-    return json_response(state);
-  }
+  if (path == "live/state.json") return json_response(live_->state());
   if (path == "live/image.json") {
     const auto image = live_->image();
     return image ? json_response(*image) : HttpResponse{204, "", ""};
@@ -85,7 +81,7 @@ void RunView::finish(const std::string& folder, const std::string& verdict) {
     const std::lock_guard lock(mutex_);
     pages_ = std::move(pages);
   }
-  events_->add("done", json{{"verdict", verdict.empty() ? json() : json(verdict)}}.dump());
+  live_->finish(verdict);
   if (!events_->visited()) return;
   note("the run has ended; its page is served until it is closed, or Ctrl-C");
   const Interruption interruption;
