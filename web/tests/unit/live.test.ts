@@ -449,6 +449,9 @@ describe("a served page", () => {
       "no geometric agreement: 9 inliers of 20 needed",
     );
     expect(faultText(404, "The recording is gone.\n")).toBe("The recording is gone.");
+    expect(faultText(500, "out/map.db: database disk image is malformed\n")).toBe(
+      "out/map.db: database disk image is malformed",
+    );
     expect(faultText(500, "")).toBe("The program answers with status 500.");
   });
 
