@@ -1,4 +1,4 @@
-// The command line: `placegraph GROUP COMMAND ...`. Exit codes: apps/support/failure.h.
+// The command line: `placegraph GROUP COMMAND ...`. Exit codes: apps/support/output.h.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -11,7 +11,6 @@
 #include "apps/command_line.h"
 #include "apps/shell/cmd_tree.h"
 #include "apps/shell/spellings.h"
-#include "apps/support/failure.h"
 #include "apps/support/output.h"
 
 namespace {

@@ -12,8 +12,8 @@ namespace placegraph::apps {
 
 /// Server-sent events for any number of browsers.
 ///
-/// Events are numbered from 1 on. Adding one never waits for a reader. A bounded number of events is
-/// kept: a reader that falls behind misses some, and knows it by the numbers. The first event of
+/// Events are numbered from 1 on. Adding one never waits for a reader. A bounded number of events
+/// is kept: a reader that falls behind misses some, and knows it by the numbers. The first event of
 /// every reader is "joined", with the number of the last event before it joined.
 class EventLog : public std::enable_shared_from_this<EventLog> {
  public:

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "apps/shell/cmd_tree.h"
-#include "apps/support/failure.h"
+#include "apps/support/output.h"
 
 namespace placegraph::apps {
 namespace {

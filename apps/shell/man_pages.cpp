@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "apps/shell/cmd_tree.h"
-#include "apps/support/failure.h"
+#include "apps/support/output.h"
 
 namespace placegraph::apps {
 namespace {

@@ -257,7 +257,7 @@ std::optional<json> LiveRun::image() const {
               {"points", column(points, 3)}, {"lines", column(lines, 5)}};
 }
 
-/// Tells whether the run is halted, but for these steps; the caller has locked.
+/// Halts the run but for these steps, or lets it go on; the caller has locked.
 void LiveRun::halt(bool halted, int steps) {
   paused_ = halted;
   steps_ = steps;

@@ -16,9 +16,9 @@ namespace placegraph::apps {
 
 /// What a browser sees of a run that goes on, and its pause.
 ///
-/// Whatever changes is told by an event in the same moment: the state with number N is what the
-/// events up to number N have told, and poses that may be newer. A browser that has a state and all
-/// later events knows the run.
+/// A change is made and its event added under one lock: the state with number N contains the events
+/// up to number N and no later one, but for poses, which may be newer. A browser that has a state
+/// and all later events knows the run.
 ///
 /// The run's thread only notes what happened; pictures are encoded on the threads of the server,
 /// when a browser asks for them. Functions of the server may be called on any thread.
@@ -61,14 +61,14 @@ class LiveRun : public RunWatcher {
   void announce_poses();
 
   std::shared_ptr<EventLog> events_;
-  mutable std::mutex mutex_;  // held while an event is added with what it tells of
+  mutable std::mutex mutex_;  // held while a change is made and its event added
   std::condition_variable permission_;
   LiveMap map_;
   std::vector<LoopRecord> loops_;
-  nlohmann::json last_, verdict_;  // event of the newest frame, without landmarks; null: none
+  nlohmann::json last_, verdict_;  // event of the newest frame without its landmarks; null: none
   nlohmann::json stages_ = nlohmann::json::array();
   std::size_t total_ = 0;
-  std::int64_t began_ = 0;  // number of the event that this run began again, 0 for the first
+  std::int64_t began_ = 0;  // number of the newest event "reset"; 0 before the first
   bool moved_ = false;      // whether poses have changed that are not announced
   std::chrono::steady_clock::time_point announced_at_{};
   bool finished_ = false, paused_ = false;

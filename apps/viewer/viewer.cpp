@@ -10,7 +10,6 @@
 #include <thread>
 
 #include "apps/page/page.h"
-#include "apps/support/failure.h"
 #include "apps/support/output.h"
 
 namespace placegraph::apps {

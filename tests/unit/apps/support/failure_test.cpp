@@ -1,4 +1,4 @@
-#include "apps/support/failure.h"
+#include "apps/support/output.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,8 +10,6 @@
 #include <regex>
 #include <system_error>
 #include <vector>
-
-#include "apps/support/output.h"
 
 namespace placegraph::apps {
 namespace failure_test {

@@ -48,8 +48,8 @@ TEST(Connections, ThoseThatComeAfterTheEndAreShutDownToo) {
   }
 }
 
-// The end comes at different moments: before the first check, while it is made, and after it. A guard
-// that slept until its next check would let this test wait for an hour.
+// The end comes at different moments: before the first check, while it is made, and after it. A
+// guard that slept until its next check would let this test wait for an hour.
 TEST(Connections, TheirEndDoesNotWaitForTheNextCheck) {
   const LocalSocket listener = LocalSocket::listener();
   for (int i = 0; i < 50; ++i) {
