@@ -1,5 +1,4 @@
-// The command line: `placegraph GROUP COMMAND ...`. Exit codes: 0 success, 1 the data allow no
-// result, 2 usage, configuration or file error, 130 a run was interrupted by a signal.
+// The command line: `placegraph GROUP COMMAND ...`. Exit codes: apps/support/output.h.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -16,11 +15,11 @@
 
 namespace {
 
-constexpr int kNoResult = 1, kUsage = 2, kInterrupted = 130;  // 130: as shells report SIGINT
+using placegraph::apps::ExitCode;
 
-int complain(int code, const std::string& message) {
+int complain(ExitCode code, const std::string& message) {
   std::fprintf(stderr, "placegraph: %s\n", placegraph::apps::one_line(message).c_str());
-  return code;
+  return static_cast<int>(code);
 }
 
 /// Every frame allocates and frees its images. Keeping that memory instead of returning it to the
@@ -45,10 +44,11 @@ int parse_and_run(CLI::App& app, placegraph::apps::CommandWords line) {
     return 0;
   } catch (const CLI::Success& asked) {  // --help, --version
     const std::string unknown = placegraph::apps::unknown_command(app);
-    return unknown.empty() ? app.exit(asked) : complain(kUsage, unknown + see_help(app));
+    return unknown.empty() ? app.exit(asked) : complain(ExitCode::kUsage, unknown + see_help(app));
   } catch (const CLI::ParseError& error) {
     const std::string unknown = placegraph::apps::unknown_words(app);
-    return complain(kUsage, (unknown.empty() ? error.what() : unknown) + see_help(app));
+    return complain(ExitCode::kUsage,
+                    (unknown.empty() ? error.what() : unknown) + see_help(app));
   }
 }
 
@@ -62,11 +62,8 @@ int main(int argc, char** argv) {
     const int code = parse_and_run(*app, present_spelling({argv + 1, argv + argc}));
     finish_printing();
     return code;
-  } catch (const NoResult& reason) {
-    return complain(kNoResult, reason.what());
-  } catch (const Interrupted& reason) {
-    return complain(kInterrupted, reason.what());
   } catch (const std::exception& error) {
-    return complain(kUsage, error.what());
+    const Failure failure = failure_of(error);
+    return complain(failure.code, failure.message);
   }
 }

@@ -28,15 +28,12 @@ constexpr double kScaleSigma = 0.02;
 
 /// Members of the places, each once: the time of a keyframe at its place.
 std::vector<NodeVisit> read_visits(const std::string& path) {
-  const json document = read_json(path);
   std::vector<NodeVisit> visits;
-  try {
+  take_json(path, "run", [&](const json& document) {
     for (const json& place : document.at("places"))
       for (const json& member : place.at("members"))
         visits.push_back({member.at("stamp_ns").get<std::int64_t>(), place.at("id").get<NodeId>()});
-  } catch (const json::exception& error) {
-    throw FileError(path, std::string("was not written by `placegraph run`: ") + error.what());
-  }
+  });
   return visits;
 }
 
@@ -65,8 +62,9 @@ GeoreferenceInput read_run(const std::string& folder) {
   input.graph = read_g2o(path("graph.g2o"));
   input.visits = read_visits(path("places.json"));
   input.motion = read_trajectory(path("trajectory_optimized.tum"));
-  if (!read_json(path("result.json")).value("metric", true))
-    input.graph = similarity_graph(input.graph);
+  take_json(path("result.json"), "run", [&](const json& result) {
+    if (!result.value("metric", true)) input.graph = similarity_graph(input.graph);
+  });
   return input;
 }
 

@@ -1,16 +1,19 @@
 #pragma once
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 
 namespace placegraph::apps {
 
-/// Which landmarks of a map a report has: all of them, or every n-th of very many.
+/// Which landmarks of a map a report has: all of them, or every n-th of very many, with the least n
+/// that leaves few enough.
 class LandmarkRows {
  public:
   /// Landmarks beyond this number are left out evenly: no screen shows more.
   static constexpr std::size_t kMost = 200'000;
 
-  explicit LandmarkRows(std::size_t landmarks) : step_(landmarks / kMost + 1) {}
+  explicit LandmarkRows(std::size_t landmarks)
+      : step_(std::max<std::size_t>((landmarks + kMost - 1) / kMost, 1)) {}
 
   /// Distance of the positions in the map of landmarks in two rows that follow each other.
   std::size_t step() const { return step_; }

@@ -15,17 +15,6 @@ namespace {
 
 using nlohmann::json;
 
-FileError not_of_a_run(const std::string& path, const std::string& reason) {
-  return {path, "was not written by `placegraph run`: " + reason};
-}
-
-/// The text of the library's error without the name in brackets before it.
-std::string reason_of(const json::exception& error) {
-  const std::string text = error.what();
-  const std::size_t bracket = text.find("] ");
-  return bracket == std::string::npos ? text : text.substr(bracket + 2);
-}
-
 Place place_of(const json& entry, RunMap& map) {
   Place place;
   place.id = entry.at("id").get<PlaceId>();
@@ -67,13 +56,10 @@ void take_edges(const json& edges, const PoseGraph& written, RunMap& map) {
 void take_result(const std::string& path, const PoseGraph& written, RunMap& map) {
   map.metric = written.kind() != PoseKind::kSim3;
   if (!std::filesystem::exists(path)) return;
-  const json result = read_json(path);
-  try {
+  take_json(path, "run", [&](const json& result) {
     map.metric = result.value("metric", true);
     if (result.contains("frames")) map.frames = result.at("frames").get<std::size_t>();
-  } catch (const json::exception& error) {
-    throw not_of_a_run(path, reason_of(error));
-  }
+  });
 }
 
 }  // namespace
@@ -108,19 +94,14 @@ RunMap read_run_map(const std::string& folder) {
   const std::filesystem::path root(folder);
   const std::string path = (root / "places.json").string();
   const PoseGraph written = read_g2o((root / "graph.g2o").string());
-  const json document = read_json(path);
   RunMap map;
   map.file = path;
-  take_result((root / "result.json").string(), written, map);
-  try {
+  take_json(path, "run", [&](const json& document) {
     for (const json& entry : document.at("places"))
       map.graph.places.push_back(place_of(entry, map));
     take_edges(document.at("edges"), written, map);
-  } catch (const json::exception& error) {
-    throw not_of_a_run(path, reason_of(error));
-  } catch (const ArgumentError& error) {
-    throw not_of_a_run(path, error.what());
-  }
+  });
+  take_result((root / "result.json").string(), written, map);
   return map;
 }
 

@@ -76,17 +76,12 @@ std::optional<SE3> Georeference::at(std::int64_t stamp_ns) const {
 Georeference read_georeference(const std::string& folder, const Map& map) {
   const std::string path = (fs::path(folder) / "georeference.json").string();
   Georeference result;
-  try {
-    const json origin = read_json(path).at("origin");
+  take_json(path, "map georeference", [&](const json& file) {
+    const json& origin = file.at("origin");
     result.origin = {origin.at("latitude_deg").get<double>(),
                      origin.at("longitude_deg").get<double>(), origin.at("height_m").get<double>()};
     result.origin.check();
-  } catch (const json::exception& error) {
-    throw FileError(
-        path, std::string("was not written by `placegraph map georeference`: ") + error.what());
-  } catch (const ArgumentError& error) {
-    throw FileError(path, error.what());
-  }
+  });
   result.trajectory = read_trajectory((fs::path(folder) / "trajectory_enu.tum").string());
   std::map<KeyframeId, SE3> poses;
   for (const Keyframe& keyframe : map.keyframes)

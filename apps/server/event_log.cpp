@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 
 namespace placegraph::apps {
@@ -10,6 +11,10 @@ namespace {
 constexpr std::size_t kMostEvents = 4096, kMostTogether = 256;
 /// By a comment after this time the server notices a browser that has gone.
 constexpr std::chrono::seconds kHeartbeat(2);
+
+std::string event_text(std::int64_t number, const std::string& name, const std::string& data) {
+  return fmt::format("id: {}\nevent: {}\ndata: {}\n\n", number, name, data);
+}
 
 }  // namespace
 
@@ -22,22 +27,18 @@ class EventLog::Reader : public HttpStream {
   }
   std::optional<std::string> next() override {
     std::unique_lock lock(log_->mutex_);
-    const auto end = [&] { return log_->first_ + static_cast<std::int64_t>(log_->events_.size()); };
     if (!begun_) {
       begun_ = true;
-      return ": events\n\n";  // the browser learns that it is connected
+      return event_text(next_ - 1, "joined", "{}");
     }
-    log_->changed_.wait_for(lock, kHeartbeat, [&] { return next_ < end() || log_->closed_; });
-    if (next_ == end()) {
+    log_->changed_.wait_for(lock, kHeartbeat, [&] { return next_ < log_->end() || log_->closed_; });
+    if (next_ == log_->end()) {
       if (log_->closed_) return std::nullopt;
       return ": alive\n\n";
     }
+    next_ = std::max(next_, log_->first_);
     std::string text;
-    if (next_ < log_->first_) {
-      text = "event: reset\ndata: {\"version\":0}\n\n";
-      next_ = log_->first_;
-    }
-    for (std::size_t i = 0; i < kMostTogether && next_ < end(); ++i, ++next_)
+    for (std::size_t i = 0; i < kMostTogether && next_ < log_->end(); ++i, ++next_)
       text += log_->events_[static_cast<std::size_t>(next_ - log_->first_)];
     return text;
   }
@@ -48,15 +49,21 @@ class EventLog::Reader : public HttpStream {
   bool begun_ = false;
 };
 
-void EventLog::add(const std::string& name, const std::string& data) {
+std::int64_t EventLog::add(const std::string& name, const std::string& data) {
   const std::lock_guard lock(mutex_);
-  const std::int64_t number = first_ + static_cast<std::int64_t>(events_.size());
-  events_.push_back(fmt::format("id: {}\nevent: {}\ndata: {}\n\n", number, name, data));
+  const std::int64_t number = end();
+  events_.push_back(event_text(number, name, data));
   if (events_.size() > kMostEvents) {
     events_.pop_front();
     ++first_;
   }
   changed_.notify_all();
+  return number;
+}
+
+std::int64_t EventLog::last() const {
+  const std::lock_guard lock(mutex_);
+  return end() - 1;
 }
 
 void EventLog::close() {
@@ -70,8 +77,7 @@ std::shared_ptr<HttpStream> EventLog::reader() {
   if (readers_ >= kMostReaders) return nullptr;
   ++readers_;
   visited_ = true;
-  return std::make_shared<Reader>(shared_from_this(),
-                                  first_ + static_cast<std::int64_t>(events_.size()));
+  return std::make_shared<Reader>(shared_from_this(), end());
 }
 
 bool EventLog::visited() const {

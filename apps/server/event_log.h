@@ -12,12 +12,15 @@ namespace placegraph::apps {
 
 /// Server-sent events for any number of browsers.
 ///
-/// Adding an event never waits for a reader. A bounded number of events is kept: a reader that
-/// falls behind gets an event "reset" in place of those that it missed.
+/// Events are numbered from 1 on. Adding one never waits for a reader. A bounded number of events
+/// is kept: a reader that falls behind misses some, and knows it by the numbers. The first event of
+/// every reader is "joined", with the number of the last event before it joined.
 class EventLog : public std::enable_shared_from_this<EventLog> {
  public:
-  /// Adds an event: its name and its data in one line.
-  void add(const std::string& name, const std::string& data);
+  /// Adds an event, its name and its data in one line, and returns its number.
+  std::int64_t add(const std::string& name, const std::string& data);
+  /// Number of the newest event; 0 before the first.
+  std::int64_t last() const;
   /// Ends all readers after the events that they have not read.
   void close();
   /// Each reader holds a thread of the server.
@@ -34,10 +37,12 @@ class EventLog : public std::enable_shared_from_this<EventLog> {
   class Reader;
   friend class Reader;
 
+  std::int64_t end() const { return first_ + static_cast<std::int64_t>(events_.size()); }
+
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<std::string> events_;
-  std::int64_t first_ = 0;  // number of the oldest event that is kept
+  std::int64_t first_ = 1;  // number of the oldest event that is kept
   int readers_ = 0;
   bool closed_ = false, visited_ = false;
 };

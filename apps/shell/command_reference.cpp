@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "apps/shell/cmd_tree.h"
+#include "apps/support/output.h"
 
 namespace placegraph::apps {
 namespace {
@@ -66,13 +67,13 @@ constexpr std::pair<std::string_view, std::string_view> kPages[] = {
     {"version", ""},
     {"man", ""}};
 
-constexpr const char* kIntroduction =
+const std::string kIntroduction =
     "Written by `placegraph man docs --markdown` from the definitions that `--help` prints. "
     "`placegraph GROUP VERB ...`; `placegraph help GROUP VERB` prints one entry of this page. "
     "`--quiet`, `--verbose` and `--debug` choose how much `run` says on stderr. "
-    "Exit codes: 0 success, 1 the data allow no result, 2 usage, configuration or file error, 130 "
-    "a "
-    "signal ended a run. Short forms: `eval` (`eval trajectory`), `loops` (`eval loops`), "
+    "Exit codes: " +
+    std::string(kExitCodesText) +
+    ". Short forms: `eval` (`eval trajectory`), `loops` (`eval loops`), "
     "`optimize` (`graph optimize`), `match` (`places match`), `planes` (`image planes`), "
     "`vanishing` (`image vanishing`). Earlier names still work and print one line with the name "
     "used here.";

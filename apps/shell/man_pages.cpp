@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "apps/shell/cmd_tree.h"
+#include "apps/support/output.h"
 
 namespace placegraph::apps {
 namespace {
@@ -75,9 +76,7 @@ void list_pages(const CLI::App& command, std::vector<ManPage>& pages) {
           (is_group ? "\n.I COMMAND\n" : "\n[\\fIOPTIONS\\fR]" + arguments_text(command) + "\n");
   text += commands_text(command) + options_text(command);
   text += ".SH EXAMPLE\n.EX\n" + roff(command.get_footer()) + "\n.EE\n";
-  text +=
-      ".SH EXIT STATUS\n0 success, 1 the data allow no result, 2 usage, configuration or file "
-      "error, 130 a signal ended a run.\n";
+  text += std::string(".SH EXIT STATUS\n") + kExitCodesText + ".\n";
   pages.push_back({name + ".1", text});
   for (const CLI::App* sub : commands_of(command)) list_pages(*sub, pages);
 }

@@ -22,6 +22,23 @@ nlohmann::json read_json(const std::string& path) {
   }
 }
 
+void take_json(const std::string& path, const std::string& command,
+               const std::function<void(const nlohmann::json&)>& take) {
+  const auto another = [&](const std::string& reason) {
+    return FileError(path, "was not written by `placegraph " + command + "`: " + reason);
+  };
+  const nlohmann::json document = read_json(path);
+  try {
+    take(document);
+  } catch (const nlohmann::json::exception& error) {
+    const std::string text = error.what();  // begins with the name of the error in brackets
+    const std::size_t bracket = text.find("] ");
+    throw another(bracket == std::string::npos ? text : text.substr(bracket + 2));
+  } catch (const ArgumentError& error) {
+    throw another(error.what());
+  }
+}
+
 nlohmann::json pose_json(const SE3& T) {
   const Eigen::Vector3d& t = T.translation();
   const Eigen::Quaterniond& q = T.rotation().quaternion();

@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <new>
 
 namespace placegraph::apps {
 namespace fs = std::filesystem;
@@ -61,7 +62,23 @@ int lock_folder(const std::string& path) {
   return -1;
 }
 
+/// Whether an exception is of this kind.
+template <class Kind>
+bool is_kind(const std::exception& error) {
+  return dynamic_cast<const Kind*>(&error) != nullptr;
+}
+
 }  // namespace
+
+Failure failure_of(const std::exception& error) {
+  if (is_kind<NoResult>(error)) return {ExitCode::kNoResult, error.what()};
+  if (is_kind<Interrupted>(error)) return {ExitCode::kInterrupted, error.what()};
+  if (is_kind<Error>(error) || is_kind<std::filesystem::filesystem_error>(error))
+    return {ExitCode::kUsage, error.what()};
+  if (is_kind<std::bad_alloc>(error)) return {ExitCode::kInternal, "there is not enough memory"};
+  return {ExitCode::kInternal,
+          std::string("internal error, please report it with the command: ") + error.what()};
+}
 
 void require_free(const std::string& path, bool force) {
   const fs::path folder = fs::path(path).parent_path();

@@ -1,11 +1,26 @@
 #pragma once
 #include <placegraph/graph/core/log.h>
 
+#include <exception>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace placegraph::apps {
+
+/// How the program ends.
+enum class ExitCode {
+  kSuccess = 0,
+  kNoResult = 1,       ///< the data allow no result
+  kUsage = 2,          ///< usage, configuration or file error
+  kInternal = 3,       ///< no memory, or a fault of the program itself
+  kInterrupted = 130,  ///< a signal ended a run; shells report SIGINT so
+};
+
+/// The exit codes, for users.
+inline constexpr const char* kExitCodesText =
+    "0 success, 1 the data allow no result, 2 usage, configuration or file error, 3 no memory or "
+    "an internal error, 130 a signal ended a run";
 
 /// The data allow no result: `main` prints the reason and exits with code 1.
 class NoResult : public std::runtime_error {
@@ -18,6 +33,18 @@ class Interrupted : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
+
+/// What the program says of an exception, and how it ends.
+struct Failure {
+  ExitCode code = ExitCode::kInternal;
+  std::string message;  ///< for users; one that is internal says so
+};
+
+/// The failure that an exception reports.
+///
+/// Exceptions of placegraph and of the file system are errors of usage or of a file. All others are
+/// internal: a function has broken its contract.
+Failure failure_of(const std::exception& error);
 
 /// Checks that a file can be written to `path`, before the work for its content.
 /// Throws ArgumentError if the file exists and `force` is not set, or if its folder does not exist,

@@ -62,7 +62,9 @@ void LiveMap::move(const MapMoved& moved) {
 }
 
 std::vector<Eigen::Vector3d> LiveMap::add_frame(const FrameResult& result, const FrameView& view) {
-  FrameState& frame = frames_.emplace_back(FrameState{result.frame, newest_, std::nullopt});
+  const TrackedFrame tracked{result.frame,    result.state, result.inliers,
+                             result.keyframe, -1,           std::nullopt};
+  FrameState& frame = frames_.emplace_back(FrameState{tracked, newest_, std::nullopt});
   const PlaceState* place = place_of(newest_);
   std::vector<Eigen::Vector3d> added;
   if (!result.T_map_cam || !place) return added;
@@ -79,15 +81,15 @@ std::vector<Eigen::Vector3d> LiveMap::add_frame(const FrameResult& result, const
   return added;
 }
 
-std::vector<LiveMap::PosedFrame> LiveMap::frames() const {
-  std::vector<PosedFrame> result;
+std::vector<LiveMap::TrackedFrame> LiveMap::frames() const {
+  std::vector<TrackedFrame> result;
   for (const FrameState& frame : frames_) {
-    PosedFrame& posed = result.emplace_back(PosedFrame{frame.frame, -1, std::nullopt});
+    TrackedFrame& tracked = result.emplace_back(frame.tracked);
     const PlaceState* place = place_of(frame.place);
     if (!frame.S_place_frame || !place) continue;
     const Sim3 S = place->S_map_place * *frame.S_place_frame;
-    posed.component = place->component;
-    posed.pose = SE3(S.rotation(), S.translation());
+    tracked.component = place->component;
+    tracked.pose = SE3(S.rotation(), S.translation());
   }
   return result;
 }

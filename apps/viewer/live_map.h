@@ -17,8 +17,11 @@ namespace placegraph::apps {
 /// it. They are for drawing: the map of the run, which is written at its end, is more accurate.
 class LiveMap {
  public:
-  struct PosedFrame {
+  struct TrackedFrame {
     FrameId frame;
+    TrackingState state = TrackingState::kInitializing;
+    int inliers = 0;
+    bool keyframe = false;
     int component = -1;       ///< -1: no pose
     std::optional<SE3> pose;  ///< T_map_cam, by the present poses of places
   };
@@ -35,7 +38,7 @@ class LiveMap {
   std::vector<Eigen::Vector3d> add_frame(const FrameResult& result, const FrameView& view);
 
   std::size_t frame_count() const { return frames_.size(); }
-  std::vector<PosedFrame> frames() const;
+  std::vector<TrackedFrame> frames() const;
   std::vector<Eigen::Vector3d> landmarks() const;
 
  private:
@@ -44,7 +47,7 @@ class LiveMap {
     int component = 0;
   };
   struct FrameState {
-    FrameId frame;
+    TrackedFrame tracked;  // without component and pose
     PlaceId place;
     std::optional<Sim3> S_place_frame;
   };

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "apps/page/column.h"
 #include "apps/support/output.h"
@@ -53,11 +52,37 @@ json positions_json(const std::vector<Eigen::Vector3d>& points) {
   return column(values, 3);
 }
 
-std::string one_line(const json& data) {
-  return data.dump(-1, ' ', false, json::error_handler_t::replace);
+json frames_json(const std::vector<LiveMap::TrackedFrame>& frames) {
+  std::vector<std::int32_t> ids, components, inliers;
+  std::vector<std::uint8_t> keyframes;
+  std::vector<std::string> states;
+  std::vector<float> poses;
+  for (const LiveMap::TrackedFrame& frame : frames) {
+    ids.push_back(static_cast<std::int32_t>(frame.frame.value()));
+    components.push_back(frame.component);
+    inliers.push_back(frame.inliers);
+    keyframes.push_back(frame.keyframe ? 1 : 0);
+    states.emplace_back(state_name(frame.state));
+    if (!frame.pose) {
+      poses.insert(poses.end(), 7, kUnknown);
+      continue;
+    }
+    for (const double number : numbers_of(*frame.pose)) poses.push_back(static_cast<float>(number));
+  }
+  return {{"id", column(ids)},
+          {"component", column(components)},
+          {"pose", column(poses, 7)},
+          {"inliers", column(inliers)},
+          {"state", text_column(states)},
+          {"keyframe", column(keyframes)}};
 }
 
 }  // namespace
+
+/// Adds an event; the caller has locked.
+void LiveRun::tell(const char* name, const json& data) {
+  events_->add(name, data.dump(-1, ' ', false, json::error_handler_t::replace));
+}
 
 void LiveRun::begin(const std::string& /*sequence*/, std::size_t frames) {
   const std::lock_guard lock(mutex_);
@@ -73,34 +98,31 @@ void LiveRun::await_permission(const std::function<bool()>& stop) {
     const auto now = std::chrono::steady_clock::now();
     if (events_->readers() > 0) watched = now;
     if (now - watched < kAlone) continue;
-    paused_ = false;
+    halt(false, 0);
     note("the page was closed: the run goes on");
   }
   if (steps_ > 0) --steps_;
 }
 
 void LiveRun::frame_seen(const Frame& frame, const FrameResult& result, const FrameView& view) {
-  json event = {{"frame", frame.id.value()},
-                {"stamp_s", 1e-9 * static_cast<double>(frame.stamp_ns)},
-                {"state", state_name(result.state)},
-                {"component", result.component},
-                {"inliers", result.inliers},
-                {"confidence", result.confidence ? json(*result.confidence) : json()},
-                {"pose", result.T_map_cam ? json(numbers_of(*result.T_map_cam)) : json()},
-                {"keyframe", result.keyframe},
-                {"reason", result.outcome.reason}};
-  std::vector<Eigen::Vector3d> added;
-  {
-    const std::lock_guard lock(mutex_);
-    added = map_.add_frame(result, view);
-    frame_ = frame;
-    view_ = view;
-    event["index"] = map_.frame_count() - 1;
-    event["total"] = total_;
-  }
-  if (!added.empty()) event["landmarks"] = positions_json(added);
-  events_->add("frame", one_line(event));
   const std::lock_guard lock(mutex_);
+  const std::vector<Eigen::Vector3d> added = map_.add_frame(result, view);
+  frame_ = frame;
+  view_ = view;
+  last_ = {{"frame", frame.id.value()},
+           {"index", map_.frame_count() - 1},
+           {"total", total_},
+           {"stamp_s", 1e-9 * static_cast<double>(frame.stamp_ns)},
+           {"state", state_name(result.state)},
+           {"component", result.component},
+           {"inliers", result.inliers},
+           {"confidence", result.confidence ? json(*result.confidence) : json()},
+           {"pose", result.T_map_cam ? json(numbers_of(*result.T_map_cam)) : json()},
+           {"keyframe", result.keyframe},
+           {"reason", result.outcome.reason}};
+  json event = last_;
+  if (!added.empty()) event["landmarks"] = positions_json(added);
+  tell("frame", event);
   announce_poses();
 }
 
@@ -112,7 +134,9 @@ void LiveRun::stages_measured(const std::vector<StageTimes::Stage>& stages) {
   json data = json::array();
   for (const StageTimes::Stage& stage : stages)
     data.push_back({{"name", stage.name}, {"cpu_s", stage.cpu_s}, {"calls", stage.calls}});
-  events_->add("stages", one_line(data));
+  const std::lock_guard lock(mutex_);
+  stages_ = std::move(data);
+  tell("stages", stages_);
 }
 
 void LiveRun::run_began() {
@@ -120,9 +144,11 @@ void LiveRun::run_began() {
   const bool again = map_.frame_count() > 0;
   map_.clear();
   loops_.clear();
-  ++version_;
-  announced_ = version_;
-  if (again) events_->add("reset", one_line({{"version", version_}}));
+  last_ = json();
+  moved_ = false;
+  if (!again) return;
+  tell("reset", json::object());
+  began_ = events_->last();
 }
 
 void LiveRun::keyframe_added(const KeyframeAdded& keyframe) {
@@ -131,11 +157,9 @@ void LiveRun::keyframe_added(const KeyframeAdded& keyframe) {
 }
 
 void LiveRun::loop_decided(const LoopRecord& loop) {
-  {
-    const std::lock_guard lock(mutex_);
-    loops_.push_back(loop);
-  }
-  events_->add("loop", one_line(loop_json(loop)));
+  const std::lock_guard lock(mutex_);
+  loops_.push_back(loop);
+  tell("loop", loop_json(loop));
 }
 
 void LiveRun::loop_accepted(const LoopRecord& loop) { loop_decided(loop); }
@@ -149,10 +173,10 @@ void LiveRun::place_added(const PlaceAdded& place) {
 /// Announces new poses, if the last announcement is some time ago; the caller has locked.
 void LiveRun::announce_poses() {
   const auto now = std::chrono::steady_clock::now();
-  if (announced_ == version_ || now - announced_at_ < kBetweenAnnouncements) return;
-  announced_ = version_;
+  if (!moved_ || now - announced_at_ < kBetweenAnnouncements) return;
+  moved_ = false;
   announced_at_ = now;
-  events_->add("moved", one_line({{"version", version_}}));
+  tell("moved", json::object());
 }
 
 void LiveRun::places_merged(const PlacesMerged& places) {
@@ -163,18 +187,25 @@ void LiveRun::places_merged(const PlacesMerged& places) {
 void LiveRun::component_joined(const ComponentJoined& component) {
   const std::lock_guard lock(mutex_);
   map_.join(component);
-  ++version_;
+  moved_ = true;
 }
 
 void LiveRun::map_moved(const MapMoved& move) {
   const std::lock_guard lock(mutex_);
   map_.move(move);
-  ++version_;
+  moved_ = true;
+}
+
+void LiveRun::finish(const std::string& verdict) {
+  const std::lock_guard lock(mutex_);
+  finished_ = true;
+  if (!verdict.empty()) verdict_ = verdict;
+  tell("done", {{"verdict", verdict_}});
 }
 
 json LiveRun::state() const {
   json state;
-  std::vector<LiveMap::PosedFrame> frames;
+  std::vector<LiveMap::TrackedFrame> frames;
   std::vector<Eigen::Vector3d> landmarks;
   {
     const std::lock_guard lock(mutex_);
@@ -182,26 +213,18 @@ json LiveRun::state() const {
     landmarks = map_.landmarks();
     json loops = json::array();
     for (const LoopRecord& loop : loops_) loops.push_back(loop_json(loop));
-    state = {{"version", version_},
+    state = {{"number", events_->last()},
+             {"began", began_},
              {"total", total_},
              {"done", map_.frame_count()},
              {"paused", paused_},
+             {"finished", finished_},
+             {"verdict", verdict_},
+             {"last", last_},
+             {"stages", stages_},
              {"loops", std::move(loops)}};
   }
-  std::vector<std::int32_t> ids, components;
-  std::vector<float> poses;
-  for (const LiveMap::PosedFrame& frame : frames) {
-    ids.push_back(static_cast<std::int32_t>(frame.frame.value()));
-    components.push_back(frame.component);
-    if (!frame.pose) {
-      poses.insert(poses.end(), 7, kUnknown);
-      continue;
-    }
-    for (const double number : numbers_of(*frame.pose)) poses.push_back(static_cast<float>(number));
-  }
-  state["frame_ids"] = column(ids);
-  state["component"] = column(components);
-  state["pose"] = column(poses, 7);
+  state["frames"] = frames_json(frames);
   state["landmarks"] = positions_json(landmarks);
   return state;
 }
@@ -234,24 +257,22 @@ std::optional<json> LiveRun::image() const {
               {"points", column(points, 3)}, {"lines", column(lines, 5)}};
 }
 
-void LiveRun::pause(bool paused) {
-  {
-    const std::lock_guard lock(mutex_);
-    paused_ = paused;
-    steps_ = 0;
-  }
+/// Halts the run but for these steps, or lets it go on; the caller has locked.
+void LiveRun::halt(bool halted, int steps) {
+  paused_ = halted;
+  steps_ = steps;
+  tell("control", {{"paused", halted}});
   permission_.notify_all();
-  events_->add("control", one_line({{"paused", paused}}));
+}
+
+void LiveRun::pause(bool paused) {
+  const std::lock_guard lock(mutex_);
+  halt(paused, 0);
 }
 
 void LiveRun::step() {
-  {
-    const std::lock_guard lock(mutex_);
-    paused_ = true;
-    ++steps_;
-  }
-  permission_.notify_all();
-  events_->add("control", one_line({{"paused", true}}));
+  const std::lock_guard lock(mutex_);
+  halt(true, steps_ + 1);
 }
 
 bool LiveRun::paused() const {

@@ -1,9 +1,9 @@
 #include "apps/viewer/map_images.h"
 
-#include <fmt/format.h>
-#include <placegraph/graph/core/error.h>
 #include <placegraph/graph/internal/image/jpeg_codec.h>
 #include <placegraph/io/datasets/open_dataset.h>
+
+#include <filesystem>
 
 #include "apps/viewer/jpeg_url.h"
 
@@ -12,16 +12,16 @@ namespace placegraph::apps {
 MapImages::MapImages(const MapOrigin& origin)
     : sequence_(origin.sequence), sensor_(origin.sensor), lens_k1_(origin.lens_k1) {}
 
-std::string MapImages::jpeg(FrameId frame) {
+std::optional<std::string> MapImages::jpeg(FrameId frame) {
   const std::lock_guard lock(mutex_);
   if (!dataset_) {
+    if (!std::filesystem::exists(sequence_)) return std::nullopt;
     dataset_ = open_dataset(sequence_);
     lens_.emplace(dataset_->calibration(sensor_));
     if (lens_k1_ != 0) lens_->add(lens_k1_);
   }
   const std::int64_t index = frame.value();
-  require(index >= 0 && index < static_cast<std::int64_t>(dataset_->size()),
-          fmt::format("the recording has no frame {}", index));
+  if (index < 0 || index >= static_cast<std::int64_t>(dataset_->size())) return std::nullopt;
   const Frame read = dataset_->frame(static_cast<std::size_t>(index), sensor_);
   const Image& image = read.colour.empty() ? read.image : read.colour;
   return encode_jpeg(lens_k1_ == 0 ? image : lens_->corrected(image), kJpegQuality);

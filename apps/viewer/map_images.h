@@ -16,11 +16,11 @@ class MapImages {
  public:
   explicit MapImages(const MapOrigin& origin);
 
-  /// The (left) image of a frame as a JPEG file. Any thread may call this function.
+  /// The (left) image of a frame as a JPEG file; nothing if the recording does not have the frame,
+  /// or is not at its place any more. Any thread may call this function.
   ///
-  /// Throws ArgumentError for a frame that the recording does not have, Error if the recording or
-  /// the image cannot be read.
-  std::string jpeg(FrameId frame);
+  /// Throws Error if the recording or the image cannot be read.
+  std::optional<std::string> jpeg(FrameId frame);
 
  private:
   std::string sequence_;

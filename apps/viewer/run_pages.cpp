@@ -131,9 +131,13 @@ HttpResponse RunPages::of_frame(const std::string& path) {
   const std::optional<FramePath> at = frame_path(path);
   if (!at || at->run >= runs_.size()) return text_response(404, "no such page");
   if (at->rest == "image.jpg") {
+    auto jpeg = runs_[at->run].images->jpeg(FrameId(at->frame));
+    if (!jpeg)
+      return text_response(404, fmt::format("no frame {} in {}", at->frame,
+                                            stored(at->run)->origin.sequence));
     HttpResponse response;
     response.type = "image/jpeg";
-    response.body = runs_[at->run].images->jpeg(FrameId(at->frame));
+    response.body = std::move(*jpeg);
     return response;
   }
   if (at->rest != "observations.json") return text_response(404, "no such page");
@@ -150,7 +154,7 @@ HttpResponse RunPages::respond(const std::string& path) {
     if (path == "report.json") return report();
     return of_frame(path);
   } catch (const Error& error) {
-    return text_response(404, error.what());
+    return text_response(500, error.what());
   }
 }
 

@@ -23,8 +23,10 @@ class RunPages {
   /// program. Throws FileError for a map that cannot be read.
   RunPages(const std::vector<std::string>& runs, std::string program);
 
-  /// Answers "report.json", "runs/R/frames/F/image.jpg" and "runs/R/frames/F/observations.json";
-  /// 404 for all other paths.
+  /// Answers "report.json", "runs/R/frames/F/image.jpg" and "runs/R/frames/F/observations.json".
+  ///
+  /// 404 with the reason for other paths and for frames and recordings that are not there; 500 with
+  /// the reason for a map, a recording or a file beside them that is damaged.
   HttpResponse respond(const std::string& path);
   /// Shows another state of the first run's map from now on; `edited`: not as the run left it, so
   /// that what lies beside the map does not belong to it.

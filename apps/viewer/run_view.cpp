@@ -23,7 +23,8 @@ constexpr std::chrono::seconds kAbsence(5);
 RunView::RunView(const ViewerOptions& options, const std::string& title, std::string program)
     : program_(std::move(program)),
       events_(std::make_shared<EventLog>()),
-      live_(std::make_unique<LiveRun>(events_)) {
+      live_(std::make_unique<LiveRun>(events_)),
+      without_pages_(text_response(404, "no such page while the run goes on")) {
   viewer_ = std::make_unique<Viewer>(options,
                                      json{{"format", "placegraph-live-1"},
                                           {"kind", "run"},
@@ -57,15 +58,7 @@ HttpResponse RunView::respond(const HttpRequest& request, const std::string& pat
   if (request.method == "POST")
     return path == "control" ? control(request.body)
                              : text_response(405, "only GET is answered here");
-  const std::shared_ptr<RunPages> pages = [&] {
-    const std::lock_guard lock(mutex_);
-    return pages_;
-  }();
-  if (path == "live/state.json") {
-    json state = live_->state();
-    state["finished"] = pages != nullptr;
-    return json_response(state);
-  }
+  if (path == "live/state.json") return json_response(live_->state());
   if (path == "live/image.json") {
     const auto image = live_->image();
     return image ? json_response(*image) : HttpResponse{204, "", ""};
@@ -76,16 +69,31 @@ HttpResponse RunView::respond(const HttpRequest& request, const std::string& pat
     response.stream = events_->reader();
     return response.stream ? response : text_response(503, "too many browsers");
   }
-  return pages ? pages->respond(path) : text_response(404, "no such page while the run goes on");
+  std::unique_lock lock(mutex_);
+  const std::shared_ptr<RunPages> pages = pages_;
+  if (!pages) return without_pages_;
+  lock.unlock();
+  return pages->respond(path);
+}
+
+/// The run has ended: its map is served from now on, or what is wrong with it.
+void RunView::serve_map(const std::string& folder) {
+  std::shared_ptr<RunPages> pages;
+  HttpResponse without_pages = text_response(404, "the run has no map");
+  try {
+    if (std::filesystem::exists(std::filesystem::path(folder) / "map.db"))
+      pages = std::make_shared<RunPages>(std::vector{folder}, program_);
+  } catch (const Error& error) {
+    without_pages = text_response(500, error.what());
+  }
+  const std::lock_guard lock(mutex_);
+  pages_ = std::move(pages);
+  without_pages_ = std::move(without_pages);
 }
 
 void RunView::finish(const std::string& folder, const std::string& verdict) {
-  if (std::filesystem::exists(std::filesystem::path(folder) / "map.db")) {
-    auto pages = std::make_shared<RunPages>(std::vector{folder}, program_);
-    const std::lock_guard lock(mutex_);
-    pages_ = std::move(pages);
-  }
-  events_->add("done", json{{"verdict", verdict.empty() ? json() : json(verdict)}}.dump());
+  serve_map(folder);
+  live_->finish(verdict);
   if (!events_->visited()) return;
   note("the run has ended; its page is served until it is closed, or Ctrl-C");
   const Interruption interruption;

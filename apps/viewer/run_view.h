@@ -23,12 +23,14 @@ class RunView : public RunDisplay {
  private:
   HttpResponse respond(const HttpRequest& request, const std::string& path);
   HttpResponse control(const std::string& body);
+  void serve_map(const std::string& folder);
 
   std::string program_;
   std::shared_ptr<EventLog> events_;
   std::unique_ptr<LiveRun> live_;
   std::mutex mutex_;
-  std::shared_ptr<RunPages> pages_;  // once the run has ended
+  std::shared_ptr<RunPages> pages_;  // once the run has ended with a map that can be read
+  HttpResponse without_pages_;       // what the server answers in their place
   std::unique_ptr<Viewer> viewer_;   // ends first
 };
 

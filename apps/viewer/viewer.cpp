@@ -57,8 +57,9 @@ Viewer::Viewer(const ViewerOptions& options, nlohmann::json start, Responder res
     try {
       return with_headers(respond(request, path));
     } catch (const std::exception& error) {
-      warn(std::string("the viewer: ") + error.what());
-      return with_headers(text_response(500, "the program cannot answer this request"));
+      const std::string message = failure_of(error).message;
+      warn("the viewer: " + message);
+      return with_headers(text_response(500, message));
     }
   };
   server_ = bind_http(options.port, std::move(handlers));

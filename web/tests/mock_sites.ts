@@ -174,11 +174,12 @@ export class RunSite implements Site {
   private readonly run = decodeReport(sampleReport([runWith(LOOPS)])).runs[0];
   private readonly streams = new Set<ServerResponse>();
   private done = 0;
-  private version = 0;
   private moved = false;
   private paused = false;
   private finished = false;
-  private id = 0;
+  /** Number of the newest event, and of the one that the run began again. */
+  private number = 0;
+  private began = 0;
   private timer: NodeJS.Timeout | undefined;
 
   /** The run waits when `holdAt` frames are done. */
@@ -203,7 +204,7 @@ export class RunSite implements Site {
 
   stream(response: ServerResponse): void {
     this.streams.add(response);
-    response.write(": begin\n\n");
+    response.write(eventText(this.number, "joined", {}));
     this.timer ??= setTimeout(() => this.tick(), 800);
     response.on("close", () => this.streams.delete(response));
   }
@@ -229,7 +230,8 @@ export class RunSite implements Site {
     this.holdAt = holdAt;
     this.done = 0;
     this.moved = false;
-    this.send("reset", { version: ++this.version });
+    this.send("reset", {});
+    this.began = this.number;
   }
 
   private tick(): void {
@@ -251,29 +253,42 @@ export class RunSite implements Site {
   private frame(): void {
     const row = this.done++;
     const { frames } = this.run;
-    const lost = this.isLost(row);
-    this.send("frame", {
-      frame: frames.id[row],
-      index: row,
-      total: frames.count,
-      stamp_s: frames.stamp[row],
-      state: row < 2 ? "initializing" : lost ? "lost" : "tracking",
-      component: lost ? -1 : 0,
-      inliers: lost ? 0 : (frames.inliers?.[row] ?? 0),
-      confidence: lost ? null : 0.9,
-      pose: lost ? null : this.pose(row),
-      keyframe: keyframeOf(this.run, row) >= 0,
-      reason: lost ? "too few points agree with the motion" : "",
-    });
+    this.send("frame", this.frameJson(row));
     for (const loop of LOOPS.filter(({ query }) => query === frames.id[row])) this.send("loop", loopJson(loop));
     if (frames.id[row] === 40) this.move();
     if (row % 5 === 0) this.send("stages", stages(row));
     if (this.done === frames.count) this.finish();
   }
 
+  private stateName(row: number): string {
+    return row < 2 ? "initializing" : this.isLost(row) ? "lost" : "tracking";
+  }
+
+  private inliers(row: number): number {
+    return this.isLost(row) ? 0 : (this.run.frames.inliers?.[row] ?? 0);
+  }
+
+  private frameJson(row: number): object {
+    const { frames } = this.run;
+    const lost = this.isLost(row);
+    return {
+      frame: frames.id[row],
+      index: row,
+      total: frames.count,
+      stamp_s: frames.stamp[row],
+      state: this.stateName(row),
+      component: lost ? -1 : 0,
+      inliers: this.inliers(row),
+      confidence: lost ? null : 0.9,
+      pose: lost ? null : this.pose(row),
+      keyframe: keyframeOf(this.run, row) >= 0,
+      reason: lost ? "too few points agree with the motion" : "",
+    };
+  }
+
   private move(): void {
     this.moved = true;
-    this.send("moved", { version: ++this.version });
+    this.send("moved", {});
   }
 
   private finish(): void {
@@ -290,6 +305,7 @@ export class RunSite implements Site {
 
   private state(): object {
     const rows = Array.from({ length: this.done }, (_, row) => row);
+    const numbers = (of: (row: number) => number): ReturnType<typeof column> => column("i32", rows.map(of));
     const { id } = this.run.frames;
     const { count, keyframe, position } = this.run.landmarks;
     const seen: number[] = [];
@@ -297,24 +313,30 @@ export class RunSite implements Site {
       if (this.run.keyframes.frame[keyframe[i]] < this.done) seen.push(...position.subarray(3 * i, 3 * i + 3));
     }
     return {
-      version: this.version,
+      number: this.number,
+      began: this.began,
       total: this.run.frames.count,
       done: this.done,
       paused: this.paused,
       finished: this.finished,
-      frame_ids: column(
-        "i32",
-        rows.map((row) => id[row]),
-      ),
-      component: column(
-        "i32",
-        rows.map((row) => (this.isLost(row) ? -1 : 0)),
-      ),
-      pose: column(
-        "f32",
-        rows.flatMap((row) => this.pose(row)),
-        7,
-      ),
+      verdict: this.finished ? "good" : null,
+      last: this.done > 0 ? this.frameJson(this.done - 1) : null,
+      stages: this.done > 0 ? stages(this.done - 1) : [],
+      frames: {
+        id: numbers((row) => id[row]),
+        component: numbers((row) => (this.isLost(row) ? -1 : 0)),
+        pose: column(
+          "f32",
+          rows.flatMap((row) => this.pose(row)),
+          7,
+        ),
+        inliers: numbers((row) => this.inliers(row)),
+        state: labels(rows.map((row) => this.stateName(row))),
+        keyframe: column(
+          "u8",
+          rows.map((row) => (keyframeOf(this.run, row) >= 0 ? 1 : 0)),
+        ),
+      },
       landmarks: column("f32", seen, 3),
       loops: LOOPS.filter(({ query }) => query < this.done).map(loopJson),
     };
@@ -338,9 +360,13 @@ export class RunSite implements Site {
   }
 
   private send(event: string, data: object): void {
-    for (const stream of this.streams)
-      stream.write(`id: ${++this.id}\nevent: ${event}\ndata: ${JSON.stringify(data)}\n\n`);
+    const text = eventText(++this.number, event, data);
+    for (const stream of this.streams) stream.write(text);
   }
+}
+
+function eventText(number: number, event: string, data: object): string {
+  return `id: ${number}\nevent: ${event}\ndata: ${JSON.stringify(data)}\n\n`;
 }
 
 function loopJson({ query, match, stage }: Loop): object {

@@ -7,15 +7,14 @@
 #include <cstdlib>
 #include <filesystem>
 #include <set>
-#include <utility>
-#include <vector>
 
 namespace placegraph::apps {
 namespace {
 
 /// A request must be complete after this time.
 constexpr std::chrono::seconds kMostReading(10);
-constexpr std::chrono::milliseconds kBetweenChecks(500), kBetweenChecksAtEnd(20);
+/// Connections that come after the end are soon shut down.
+constexpr std::chrono::milliseconds kBetweenChecksAtEnd(20);
 
 int port_of(const sockaddr_in& address) { return ntohs(address.sin_port); }
 
@@ -39,18 +38,29 @@ std::vector<std::pair<int, int>> connections_to(int port) {
 }  // namespace
 
 Connections::~Connections() {
-  ended_ = true;
+  {
+    const std::lock_guard lock(mutex_);
+    ended_ = true;
+  }
+  changed_.notify_all();
   if (thread_.joinable()) thread_.join();
 }
 
 void Connections::guard(int port) {
-  port_ = port;
-  thread_ = std::thread([this] {
-    while (!ended_) {
-      check();
-      std::this_thread::sleep_for(closing_ ? kBetweenChecksAtEnd : kBetweenChecks);
-    }
-  });
+  thread_ = std::thread([this, port] { watch(port); });
+}
+
+void Connections::watch(int port) {
+  std::unique_lock lock(mutex_);
+  while (!ended_) {
+    lock.unlock();
+    const auto open = connections_to(port);
+    lock.lock();
+    check(open);
+    const bool closing = closing_;
+    changed_.wait_for(lock, closing ? kBetweenChecksAtEnd : between_checks_,
+                      [&] { return ended_ || closing_ != closing; });
+  }
 }
 
 void Connections::begin_response(int peer_port) {
@@ -63,10 +73,9 @@ void Connections::end_response(int peer_port) {
   peers_[peer_port] = {false, Clock::now()};
 }
 
-void Connections::check() {
-  const auto open = connections_to(port_);
+/// Shuts down what is due of the open connections; the caller has locked.
+void Connections::check(const std::vector<std::pair<int, int>>& open) {
   const auto now = Clock::now();
-  const std::lock_guard lock(mutex_);
   std::set<int> present;
   for (const auto& [descriptor, peer_port] : open) {
     present.insert(peer_port);
@@ -77,6 +86,12 @@ void Connections::check() {
   std::erase_if(peers_, [&](const auto& peer) { return !present.contains(peer.first); });
 }
 
-void Connections::close() { closing_ = true; }
+void Connections::close() {
+  {
+    const std::lock_guard lock(mutex_);
+    closing_ = true;
+  }
+  changed_.notify_all();
+}
 
 }  // namespace placegraph::apps

@@ -1,9 +1,11 @@
 #pragma once
-#include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <map>
 #include <mutex>
 #include <thread>
+#include <utility>
+#include <vector>
 
 namespace placegraph::apps {
 
@@ -11,7 +13,9 @@ namespace placegraph::apps {
 /// of them when the server ends. The library limits single reads only.
 class Connections {
  public:
-  Connections() = default;
+  /// They are looked at this often; `close` and the end of the object do not wait for it.
+  explicit Connections(std::chrono::milliseconds between_checks = std::chrono::milliseconds(500))
+      : between_checks_(between_checks) {}
   ~Connections();
 
   /// Begins to watch the connections to this port, on a thread of its own.
@@ -29,11 +33,13 @@ class Connections {
     bool responding = false;  // now
     Clock::time_point since;
   };
-  void check();
+  void watch(int port);
+  void check(const std::vector<std::pair<int, int>>& open);  // descriptors, ports of the peers
 
-  std::atomic<int> port_ = 0;
-  std::atomic<bool> closing_ = false, ended_ = false;
+  const std::chrono::milliseconds between_checks_;
   std::mutex mutex_;
+  std::condition_variable changed_;
+  bool closing_ = false, ended_ = false;
   std::map<int, Peer> peers_;
   std::thread thread_;
 };

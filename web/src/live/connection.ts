@@ -16,7 +16,6 @@ export class Connection {
   fault = "";
   private source: EventSource | null = null;
   private reading = false;
-  private gaps = 0;
   private timer = 0;
   private framesRead = -1;
   private notBefore = -Infinity;
@@ -32,14 +31,11 @@ export class Connection {
     const source = new EventSource("events");
     this.source = source;
     for (const kind of EVENT_KINDS) {
-      source.addEventListener(kind, (event) => this.receive(kind, (event as MessageEvent<string>).data));
+      source.addEventListener(kind, (event) => this.receive(kind, event as MessageEvent<string>));
     }
     source.addEventListener("open", () => {
       this.link = "live";
-      this.gaps++;
-      this.run.markStale();
       this.onChange(null);
-      void this.readState();
     });
     source.addEventListener("error", () => {
       if (this.closed) return;
@@ -58,10 +54,10 @@ export class Connection {
     window.clearTimeout(this.timer);
   }
 
-  private receive(kind: (typeof EVENT_KINDS)[number], data: string): void {
+  private receive(kind: (typeof EVENT_KINDS)[number], { data, lastEventId }: MessageEvent<string>): void {
     let event: LiveEvent | null = null;
     try {
-      event = decodeEvent(kind, JSON.parse(data));
+      event = { ...decodeEvent(kind, JSON.parse(data)), number: Number(lastEventId) };
       this.run.apply(event);
     } catch (error) {
       this.fault = error instanceof Error ? error.message : "An event cannot be read.";
@@ -80,12 +76,10 @@ export class Connection {
       return;
     }
     this.reading = true;
-    const { gaps } = this;
     let wait = REFRESH_MS;
     try {
       const snapshot = decodeSnapshot(await getJson("live/state.json"));
       if (this.run.take(snapshot)) this.framesRead = this.run.frames.count;
-      if (gaps !== this.gaps) this.run.markStale();
       if (this.run.stale) wait = 100;
     } catch (error) {
       this.fault = error instanceof Error ? error.message : "The state of the run cannot be read.";

@@ -1,9 +1,10 @@
 /** What a run that goes on tells: the events of the stream, the snapshot of its state, its current image. */
 import type { Values } from "../data/column";
 import { asBoolean, asNumber, asNumberOrNaN, asObject, asOneOf, asText, listOf, orNull } from "../data/fields";
-import { readColumn } from "../data/table_reader";
+import { TableReader, readColumn } from "../data/table_reader";
 
-export type FrameState = "tracking" | "lost" | "initializing";
+export const FRAME_STATES = ["tracking", "lost", "initializing"] as const;
+export type FrameState = (typeof FRAME_STATES)[number];
 
 export interface FrameEvent {
   /** Id of the frame. */
@@ -40,19 +41,24 @@ export interface Stage {
   calls: number;
 }
 
-export type LiveEvent =
+/** What happened; "joined": the stream of events has begun. */
+export type News =
+  | { kind: "joined" }
   | { kind: "frame"; frame: FrameEvent }
   | { kind: "loop"; loop: LiveLoop }
-  | { kind: "moved"; version: number }
-  | { kind: "reset"; version: number }
+  | { kind: "moved" }
+  | { kind: "reset" }
   | { kind: "stages"; stages: Stage[] }
   | { kind: "control"; paused: boolean }
   | { kind: "done"; verdict: string | null };
 
-export const EVENT_KINDS = ["frame", "loop", "moved", "reset", "stages", "control", "done"] as const;
+/** News with its number: events are numbered from 1 on, and "joined" has the number of the event before it. */
+export type LiveEvent = News & { number: number };
+
+export const EVENT_KINDS = ["joined", "frame", "loop", "moved", "reset", "stages", "control", "done"] as const;
 
 /** Throws an error with a plain sentence where the data are no event of this kind. */
-export function decodeEvent(kind: (typeof EVENT_KINDS)[number], value: unknown): LiveEvent {
+export function decodeEvent(kind: (typeof EVENT_KINDS)[number], value: unknown): News {
   if (kind === "stages") return { kind, stages: listOf(value, kind, readStage) };
   const json = asObject(value, `The event "${kind}"`);
   switch (kind) {
@@ -60,9 +66,10 @@ export function decodeEvent(kind: (typeof EVENT_KINDS)[number], value: unknown):
       return { kind, frame: readFrame(json) };
     case "loop":
       return { kind, loop: readLoop(json, kind) };
+    case "joined":
     case "moved":
     case "reset":
-      return { kind, version: asNumber(json["version"], `${kind}.version`) };
+      return { kind };
     case "control":
       return { kind, paused: asBoolean(json["paused"], `${kind}.paused`) };
     case "done":
@@ -79,7 +86,7 @@ function readFrame(json: Record<string, unknown>): FrameEvent {
     index: asNumber(...at("index")),
     total: asNumber(...at("total")),
     stamp: asNumberOrNaN(...at("stamp_s")),
-    state: asOneOf(json["state"], ["tracking", "lost", "initializing"] as const, "frame.state"),
+    state: asOneOf(json["state"], FRAME_STATES, "frame.state"),
     component: asNumber(...at("component")),
     inliers: asNumberOrNaN(...at("inliers")),
     confidence: asNumberOrNaN(json["confidence"] ?? null, "frame.confidence"),
@@ -113,34 +120,65 @@ function readStage(value: unknown, where: string): Stage {
 
 /** Everything that a run has so far. */
 export interface Snapshot {
-  version: number;
+  /** Number of the last event that it contains. */
+  number: number;
+  /** Number of the event that the run began again; 0 for the first time. */
+  began: number;
   total: number;
   done: number;
   paused: boolean;
   finished: boolean;
-  count: number;
-  ids: Values;
-  component: Values;
-  pose: Values;
+  verdict: string | null;
+  /** The newest frame, without its landmarks. */
+  last: FrameEvent | null;
+  stages: Stage[];
+  frames: FrameColumns;
   landmarks: Values;
   loops: LiveLoop[];
 }
 
+/** Frames in the order of their ids. */
+export interface FrameColumns {
+  count: number;
+  id: Values;
+  component: Values;
+  pose: Values;
+  inliers: Values;
+  /** Indices into FRAME_STATES; -1: unknown. */
+  state: Int8Array;
+  keyframe: Values;
+}
+
 export function decodeSnapshot(value: unknown): Snapshot {
   const json = asObject(value, "The state of the run");
-  const { values: ids, rows } = readColumn(json["frame_ids"], "frame_ids", 1);
   return {
-    version: asNumber(json["version"], "version"),
+    number: asNumber(json["number"], "number"),
+    began: asNumber(json["began"], "began"),
     total: asNumber(json["total"], "total"),
     done: asNumber(json["done"], "done"),
     paused: asBoolean(json["paused"], "paused"),
     finished: asBoolean(json["finished"], "finished"),
-    count: rows,
-    ids,
-    component: readColumn(json["component"], "component", 1, rows).values,
-    pose: readColumn(json["pose"], "pose", 7, rows).values,
+    verdict: orNull(json["verdict"], "verdict", asText),
+    last: orNull(json["last"], "last", (last, where) => readFrame(asObject(last, where))),
+    stages: listOf(json["stages"], "stages", readStage),
+    frames: readFrames(json["frames"]),
     landmarks: readColumn(json["landmarks"], "landmarks", 3).values,
     loops: listOf(json["loops"], "loops", readLoop),
+  };
+}
+
+function readFrames(value: unknown): FrameColumns {
+  const table = new TableReader(value, "frames", "id");
+  const { table: names, index } = table.labels("state");
+  const codes = names.map((name) => FRAME_STATES.indexOf(name as FrameState));
+  return {
+    count: table.rows,
+    id: table.column("id"),
+    component: table.column("component"),
+    pose: table.column("pose", 7),
+    inliers: table.column("inliers"),
+    state: Int8Array.from(index, (i) => codes[i] ?? -1),
+    keyframe: table.column("keyframe"),
   };
 }
 

@@ -1,7 +1,4 @@
-import type { FrameEvent, FrameState, Snapshot } from "./events";
-
-const STATES: FrameState[] = ["tracking", "lost", "initializing"];
-const UNKNOWN_STATE = 255;
+import { type FrameColumns, type FrameEvent, type FrameState, FRAME_STATES } from "./events";
 
 /** Columns with room for `capacity` frames: 43 bytes a frame. */
 function columns(capacity: number): {
@@ -9,7 +6,7 @@ function columns(capacity: number): {
   component: Int32Array;
   pose: Float32Array;
   inliers: Float32Array;
-  state: Uint8Array;
+  state: Int8Array;
   keyframe: Uint8Array;
 } {
   return {
@@ -17,7 +14,7 @@ function columns(capacity: number): {
     component: new Int32Array(capacity),
     pose: new Float32Array(7 * capacity),
     inliers: new Float32Array(capacity),
-    state: new Uint8Array(capacity),
+    state: new Int8Array(capacity),
     keyframe: new Uint8Array(capacity),
   };
 }
@@ -25,7 +22,7 @@ function columns(capacity: number): {
 /** The frames of a run that goes on, in the order of their ids. */
 export class FrameLog {
   count = 0;
-  /** Counts how often a frame was put between others, so that rows have changed. */
+  /** Counts how often rows have become those of other frames. */
   shifts = 0;
   private changed = Infinity;
   private data = columns(256);
@@ -48,13 +45,12 @@ export class FrameLog {
     return this.data.pose;
   }
 
-  /** NaN for frames that are known by a snapshot only. */
   inliers(row: number): number {
     return this.data.inliers[row];
   }
 
   state(row: number): FrameState | null {
-    return STATES[this.data.state[row]] ?? null;
+    return FRAME_STATES[this.data.state[row]] ?? null;
   }
 
   isKeyframe(row: number): boolean {
@@ -85,19 +81,20 @@ export class FrameLog {
     this.data.component[row] = frame.pose === null ? -1 : frame.component;
     for (let k = 0; k < 7; k++) this.data.pose[7 * row + k] = frame.pose?.[k] ?? NaN;
     this.data.inliers[row] = frame.inliers;
-    this.data.state[row] = STATES.indexOf(frame.state);
+    this.data.state[row] = FRAME_STATES.indexOf(frame.state);
     this.data.keyframe[row] = frame.keyframe ? 1 : 0;
     return row;
   }
 
-  /** Takes poses and components of a snapshot; frames that it does not have stay as they are. */
-  merge(snapshot: Snapshot): void {
-    for (let i = 0; i < snapshot.count; i++) {
-      const known = this.row(snapshot.ids[i]);
-      const row = known >= 0 ? known : this.insert(snapshot.ids[i]);
-      this.data.component[row] = snapshot.component[i];
-      for (let k = 0; k < 7; k++) this.data.pose[7 * row + k] = snapshot.pose[7 * i + k];
-    }
+  /** Has these frames from now on, and no others. */
+  load({ count, ...frames }: FrameColumns): void {
+    const both = Math.min(this.count, count);
+    if (this.data.id.subarray(0, both).some((id, row) => id !== frames.id[row])) this.shifts++;
+    while (this.data.id.length < count) this.grow();
+    for (const name of Object.keys(frames) as (keyof typeof frames)[]) this.data[name].set(frames[name]);
+    this.count = count;
+    this.rows.clear();
+    for (let row = 0; row < count; row++) this.rows.set(frames.id[row], row);
   }
 
   /** A new row for an id, with nothing known of it. Ids come in ascending order, but for joins in the middle of a run. */
@@ -112,7 +109,7 @@ export class FrameLog {
     this.data.component[row] = -1;
     this.data.pose.fill(NaN, 7 * row, 7 * row + 7);
     this.data.inliers[row] = NaN;
-    this.data.state[row] = UNKNOWN_STATE;
+    this.data.state[row] = -1;
     this.data.keyframe[row] = 0;
     return row;
   }

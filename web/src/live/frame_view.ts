@@ -57,7 +57,7 @@ export class FrameView {
       try {
         const [bitmap, observations] = await Promise.all([
           frameImage(wanted.index, id).then((blob) => createImageBitmap(blob)),
-          isKeyframe ? frameObservations(wanted.index, id).catch(() => null) : null,
+          isKeyframe ? frameObservations(wanted.index, id).catch(reasonOf) : null,
         ]);
         this.take(wanted, bitmap, observations);
       } catch (error) {
@@ -65,26 +65,28 @@ export class FrameView {
         if (this.wanted !== wanted) continue;
         window.clearTimeout(this.timer);
         this.showThumbnail(wanted);
-        const why = error instanceof Error ? error.message : "It cannot be had.";
-        this.note.textContent = `The thumbnail is shown, as the full image is not there: ${why}`;
+        this.note.textContent = `The thumbnail is shown, as the full image is not there: ${reasonOf(error)}`;
       }
     }
     this.busy = false;
   }
 
-  private take(wanted: Wanted, bitmap: ImageBitmap, observations: Observations | null): void {
+  /** `seen`: the observations, why they cannot be had, or nothing for a frame that is no keyframe. */
+  private take(wanted: Wanted, bitmap: ImageBitmap, seen: Observations | string | null): void {
+    const observations = typeof seen === "string" ? null : seen;
     window.clearTimeout(this.timer);
     this.bitmap?.close();
     this.bitmap = bitmap;
     this.observations = observations;
     this.shown = wanted;
     const id = wanted.run.frames.id[wanted.row];
-    const seen = observations?.landmark.filter((landmark) => landmark >= 0).length ?? 0;
-    const points = observations ? `, ${plural(observations.count, "point")}, ${seen} with a landmark` : "";
+    const known = observations?.landmark.filter((landmark) => landmark >= 0).length ?? 0;
+    const points = observations ? `, ${plural(observations.count, "point")}, ${known} with a landmark` : "";
     this.canvas.setAttribute("aria-label", `Image of frame ${id}`);
     this.element.dataset["image"] = String(id);
     this.caption.textContent = `Frame ${id}, ${bitmap.width} × ${bitmap.height} pixels${points}`;
-    this.note.textContent = observations ? "Rest on a point to see its landmark in the scene (○: it has none)." : "";
+    if (typeof seen === "string") this.note.textContent = `The points cannot be shown: ${seen}`;
+    else this.note.textContent = seen ? "Rest on a point to see its landmark in the scene (○: it has none)." : "";
     if (wanted === this.wanted) this.store.set({ observed: observations?.landmark ?? null, landmark: -1 });
     this.draw();
   }
@@ -155,4 +157,8 @@ function drawObservations(
   context.lineWidth = 2 * unit;
   circle(at, 6 * unit);
   context.stroke();
+}
+
+function reasonOf(error: unknown): string {
+  return error instanceof Error ? error.message : "The fault is unknown.";
 }

@@ -26,7 +26,7 @@ export class LiveMap {
   private readonly motion = new LiveMotion();
   private readonly path = new LivePath(TRAJECTORY);
   private extras = new Group();
-  private seen = { moves: -1, resets: 0, shifts: 0, component: -1, upright: false };
+  private seen = { moves: -1, began: 0, shifts: 0, component: -1, upright: false };
   private newest = { key: "", since: -Infinity };
   private shownLandmarks = { count: 0, moves: -1, upright: false, at: -Infinity };
 
@@ -58,15 +58,15 @@ export class LiveMap {
   /** Takes what the run has now. */
   update(): void {
     const { run, seen } = this;
-    const { moves, resets, component } = run;
+    const { moves, began, component } = run;
     const { shifts } = run.frames;
-    if (resets !== seen.resets || shifts !== seen.shifts || component !== seen.component) {
+    if (began !== seen.began || shifts !== seen.shifts || component !== seen.component) {
       this.motion.clear();
       seen.upright = false;
     } else if (moves !== seen.moves) {
       this.motion.start(run.frames, performance.now());
     }
-    this.seen = { moves, resets, shifts, component, upright: seen.upright || this.stand(component) };
+    this.seen = { moves, began, shifts, component, upright: seen.upright || this.stand(component) };
     this.showLandmarks();
   }
 

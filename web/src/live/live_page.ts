@@ -1,5 +1,4 @@
 /** The page of a run that goes on. */
-import { asBoolean, asObject } from "../data/fields";
 import { formatCount } from "../data/format";
 import { button, el } from "../page/dom";
 import { LIVE_MOUSE, helpDialog } from "../page/help";
@@ -150,8 +149,7 @@ export class LivePage {
 
   private async control(action: Control): Promise<void> {
     try {
-      const json = asObject(await postJson("control", { action }), "The answer");
-      this.run.setPaused(asBoolean(json["paused"], "paused"));
+      await postJson("control", { action });
       this.say("");
     } catch (error) {
       this.say(error instanceof Error ? error.message : "The run cannot be controlled.");

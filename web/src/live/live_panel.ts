@@ -1,7 +1,7 @@
 /** The side panel of a live run: the image, the newest frame, the times, what has happened. */
 import { formatCount, formatNumber, formatPercent } from "../data/format";
 import { el, facts } from "../page/dom";
-import type { FrameEvent, LiveEvent } from "./events";
+import type { FrameEvent, News } from "./events";
 import { LiveImageView } from "./live_image";
 import type { LiveRun } from "./live_run";
 import { stageBars } from "./stage_bars";
@@ -41,7 +41,7 @@ export class LivePanel {
   }
 
   /** Notes an event for the list of what happened. */
-  note(event: LiveEvent): void {
+  note(event: News): void {
     const text = sentenceOf(event, this.lastState);
     if (event.kind === "frame") this.lastState = event.frame.state;
     if (text === null) return;
@@ -111,7 +111,7 @@ function factsOf(frame: FrameEvent, run: LiveRun): [string, string][] {
 }
 
 /** A line for the list of what happened; nothing for what happens all the time. */
-export function sentenceOf(event: LiveEvent, stateBefore: string): string | null {
+export function sentenceOf(event: News, stateBefore: string): string | null {
   switch (event.kind) {
     case "frame":
       return event.frame.state !== stateBefore && (event.frame.state !== "tracking" || stateBefore === "lost")
@@ -122,14 +122,14 @@ export function sentenceOf(event: LiveEvent, stateBefore: string): string | null
       const found = Number.isFinite(inliers) ? `, ${formatNumber(inliers)} inliers` : "";
       return accepted ? `The loop of frames ${query} and ${match} is accepted${found}.` : null;
     }
-    case "moved":
-      return null;
     case "reset":
-      return "The run has begun again, or this page was too slow: its state is read again.";
+      return "The run has begun again.";
     case "control":
       return event.paused ? "The run is paused." : "The run goes on.";
     case "done":
       return "The run is done.";
+    case "joined":
+    case "moved":
     case "stages":
       return null;
   }

@@ -8,9 +8,8 @@ const REFUSED_KEPT = 2000;
 export type Phase = "running" | "done";
 
 /**
- * What the page knows of a run that goes on. Events add to it; after `moved`, `reset` or a gap in the
- * stream it is stale until a snapshot that is new enough is taken. In whatever order they come, an
- * event never undoes a newer one.
+ * What the page knows of a run that goes on: its newest snapshot and all events after it, in the order of their numbers.
+ * After `moved` or a gap in the numbers it is stale until a snapshot that is new enough is taken.
  */
 export class LiveRun {
   readonly frames = new FrameLog();
@@ -25,66 +24,43 @@ export class LiveRun {
   verdict: string | null = null;
   /** Counts how often poses of earlier frames have changed. */
   moves = 0;
-  /** Counts how often the run has begun again. */
-  resets = 0;
-  /** The least version that a snapshot must have. */
+  /** Number of the event that the run began again; 0 for the first time. */
+  began = 0;
+  /** Number of the newest event that is known. */
+  private known = 0;
+  /** The events after the newest snapshot. */
+  private recent: LiveEvent[] = [];
+  /** The least number that a snapshot must have. */
   private wanted = 0;
   private old = true;
-  private pauseKnown = false;
 
   /** Whether a snapshot is needed. */
   get stale(): boolean {
     return this.old;
   }
 
+  /** Takes the next event of the stream; one that is in the newest snapshot changes nothing. */
   apply(event: LiveEvent): void {
-    switch (event.kind) {
-      case "frame":
-        return this.addFrame(event.frame);
-      case "loop":
-        return this.addLoop(event.loop);
-      case "moved":
-        return this.want(event.version);
-      case "reset":
-        this.clear();
-        return this.want(event.version);
-      case "stages":
-        this.stages = event.stages;
-        return;
-      case "control":
-        return this.setPaused(event.paused);
-      case "done":
-        this.phase = "done";
-        this.verdict = event.verdict;
-    }
+    // What lies between is missing, and in the next snapshot.
+    const before = event.kind === "joined" ? event.number : event.number - 1;
+    if (before > this.known) this.want(before);
+    this.known = Math.max(this.known, before);
+    if (event.number <= this.known) return;
+    this.known = event.number;
+    this.recent.push(event);
+    if (event.kind === "moved") this.want(event.number);
+    this.change(event);
   }
 
-  /** The stream had a gap: what it would have told is in the next snapshot. */
-  markStale(): void {
-    this.old = true;
-    this.pauseKnown = false;
-  }
-
-  /** The program has said whether it is paused, which holds against a snapshot that may be older. */
-  setPaused(paused: boolean): void {
-    this.paused = paused;
-    this.pauseKnown = true;
-  }
-
-  /** Takes a snapshot; returns false, and stays stale, if it is older than what the events have told of. */
+  /** Takes a snapshot; returns false if it is older than what is known but for the events after it. */
   take(snapshot: Snapshot): boolean {
-    if (snapshot.version < this.wanted) return false;
-    this.wanted = snapshot.version;
+    if (snapshot.number < this.wanted) return false;
+    this.wanted = snapshot.number;
+    this.known = Math.max(this.known, snapshot.number);
+    this.recent = this.recent.filter(({ number }) => number > snapshot.number);
     this.old = false;
-    this.frames.merge(snapshot);
-    this.landmarks.clear();
-    this.landmarks.add(snapshot.landmarks);
-    for (const loop of snapshot.loops) this.addLoop(loop);
-    this.total = Math.max(this.total, snapshot.total);
-    this.done = Math.max(this.done, snapshot.done);
-    if (!this.pauseKnown) this.paused = snapshot.paused;
-    if (snapshot.finished) this.phase = "done";
-    this.moves++;
+    this.show(snapshot);
+    for (const event of this.recent) this.change(event);
     return true;
   }
 
@@ -102,9 +78,47 @@ export class LiveRun {
     return count;
   }
 
-  private want(version: number): void {
-    this.wanted = Math.max(this.wanted, version);
+  private want(number: number): void {
+    this.wanted = Math.max(this.wanted, number);
     this.old = true;
+  }
+
+  /** What the snapshot says, and nothing else. */
+  private show(snapshot: Snapshot): void {
+    this.frames.load(snapshot.frames);
+    this.landmarks.clear();
+    this.landmarks.add(snapshot.landmarks);
+    this.loops.clear();
+    for (const loop of snapshot.loops) this.addLoop(loop);
+    this.stages = snapshot.stages;
+    this.last = snapshot.last;
+    this.total = snapshot.total;
+    this.done = snapshot.done;
+    this.paused = snapshot.paused;
+    this.phase = snapshot.finished ? "done" : "running";
+    this.verdict = snapshot.verdict;
+    this.began = snapshot.began;
+    this.moves++;
+  }
+
+  private change(event: LiveEvent): void {
+    switch (event.kind) {
+      case "frame":
+        return this.addFrame(event.frame);
+      case "loop":
+        return this.addLoop(event.loop);
+      case "reset":
+        return this.beginAgain(event.number);
+      case "stages":
+        this.stages = event.stages;
+        return;
+      case "control":
+        this.paused = event.paused;
+        return;
+      case "done":
+        this.phase = "done";
+        this.verdict = event.verdict;
+    }
   }
 
   private addFrame(frame: FrameEvent): void {
@@ -112,7 +126,7 @@ export class LiveRun {
     if (frame.landmarks) this.landmarks.add(frame.landmarks);
     this.last = frame;
     this.total = frame.total;
-    this.done = Math.max(this.done, frame.index + 1);
+    this.done = frame.index + 1;
   }
 
   private addLoop(loop: LiveLoop): void {
@@ -127,7 +141,7 @@ export class LiveRun {
     }
   }
 
-  private clear(): void {
+  private beginAgain(number: number): void {
     this.frames.clear();
     this.loops.clear();
     this.landmarks.clear();
@@ -135,7 +149,7 @@ export class LiveRun {
     this.done = 0;
     this.phase = "running";
     this.verdict = null;
-    this.resets++;
+    this.began = number;
     this.moves++;
   }
 }

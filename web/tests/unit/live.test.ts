@@ -3,8 +3,8 @@ import { decodeLiveStart } from "../../src/live/live_start";
 import {
   type FrameEvent,
   type LiveEvent,
+  type News,
   type Snapshot,
-  type Stage,
   EVENT_KINDS,
   decodeEvent,
   decodeLiveImage,
@@ -15,7 +15,7 @@ import { faultText } from "../../src/live/http";
 import { LiveMotion, ease } from "../../src/live/live_motion";
 import { sentenceOf } from "../../src/live/live_panel";
 import { LiveRun } from "../../src/live/live_run";
-import { column } from "../encode";
+import { column, labels } from "../encode";
 import { Random } from "../random";
 
 const FRAME = {
@@ -33,7 +33,7 @@ const FRAME = {
 };
 const LOOP = { query_frame: 40, match_frame: 3, stage: "accepted", accepted: true, probability: 0.9, inliers: 54 };
 
-function frameEvent(id: number, x: number, lost = false): { kind: "frame"; frame: FrameEvent } {
+function frameNews(id: number, x: number, lost = false): News & { kind: "frame" } {
   const frame: FrameEvent = {
     frame: id,
     index: id,
@@ -51,25 +51,47 @@ function frameEvent(id: number, x: number, lost = false): { kind: "frame"; frame
   return { kind: "frame", frame };
 }
 
-function snapshot(version: number, xs: number[], finished = false): Snapshot {
+function frameEvent(number: number, id: number, x: number, lost = false): LiveEvent {
+  return { ...frameNews(id, x, lost), number };
+}
+
+/** `xs`: NaN for a frame without a pose. */
+function snapshot(number: number, xs: number[], more: object = {}): Snapshot {
+  const posed = xs.map((x) => !Number.isNaN(x));
   return decodeSnapshot({
-    version,
+    number,
+    began: 0,
     total: 20,
     done: xs.length,
     paused: false,
-    finished,
-    frame_ids: column("i32", Array.from(xs.keys())),
-    component: column(
-      "i32",
-      xs.map(() => 0),
-    ),
-    pose: column(
-      "f32",
-      xs.flatMap((x) => [x, 0, 0, 0, 0, 0, 1]),
-      7,
-    ),
-    landmarks: column("f32", [0, 0, 1], 3),
+    finished: false,
+    verdict: null,
+    last: null,
+    stages: [],
+    frames: {
+      id: column("i32", Array.from(xs.keys())),
+      component: column(
+        "i32",
+        posed.map((is) => (is ? 0 : -1)),
+      ),
+      pose: column(
+        "f32",
+        xs.flatMap((x) => [x, 0, 0, 0, 0, 0, 1]),
+        7,
+      ),
+      inliers: column(
+        "i32",
+        xs.map(() => 100),
+      ),
+      state: labels(posed.map((is) => (is ? "tracking" : "lost"))),
+      keyframe: column(
+        "u8",
+        xs.map(() => 0),
+      ),
+    },
+    landmarks: column("f32", [], 3),
     loops: [],
+    ...more,
   });
 }
 
@@ -85,7 +107,7 @@ describe("the events", () => {
     expect(decodeEvent("loop", LOOP)).toMatchObject({ kind: "loop", loop: { query: 40, match: 3, inliers: 54 } });
     const made = decodeEvent("frame", { ...FRAME, landmarks: column("f32", [1, 2, 3], 3) });
     expect(made.kind === "frame" && Array.from(made.frame.landmarks ?? [])).toEqual([1, 2, 3]);
-    expect(decodeEvent("moved", { version: 3 })).toEqual({ kind: "moved", version: 3 });
+    expect(decodeEvent("moved", {})).toEqual({ kind: "moved" });
     expect(decodeEvent("stages", [{ name: "loops", cpu_s: 0.5, calls: 2 }])).toEqual({
       kind: "stages",
       stages: [{ name: "loops", cpuS: 0.5, calls: 2 }],
@@ -133,73 +155,97 @@ describe("a run that goes on", () => {
     expect(run.stale).toBe(true);
     expect(run.take(snapshot(0, []))).toBe(true);
     expect(run.stale).toBe(false);
-    run.apply(frameEvent(0, 0));
-    run.apply(frameEvent(1, 1));
-    run.apply({ kind: "moved", version: 1 });
+    run.apply(frameEvent(1, 0, 0));
+    run.apply(frameEvent(2, 1, 1));
+    run.apply({ kind: "moved", number: 3 });
     expect(run.stale).toBe(true);
-    expect(run.take(snapshot(0, [0, 1]))).toBe(false);
-    run.apply(frameEvent(2, 2.5));
-    expect(run.take(snapshot(1, [0.2, 1.2]))).toBe(true);
+    expect(run.take(snapshot(2, [0, 1]))).toBe(false);
+    run.apply(frameEvent(4, 2, 2.5));
+    expect(run.take(snapshot(3, [0.2, 1.2]))).toBe(true);
     expect(positions(run)).toEqual([0.2, 1.2, 2.5].map(Math.fround));
     expect(run.stale).toBe(false);
     expect(run.done).toBe(3);
   });
 
-  it("forgets all at a reset, and takes no snapshot from before", () => {
+  it("forgets all at a reset, which holds against a snapshot from before", () => {
     const run = new LiveRun();
-    run.take(snapshot(0, [0, 1, 2]));
-    run.apply(decodeEvent("loop", { ...LOOP, query_frame: 2, match_frame: 0 }));
-    run.apply({ kind: "reset", version: 5 });
+    run.take(snapshot(3, [0, 1, 2]));
+    run.apply({ ...decodeEvent("loop", { ...LOOP, query_frame: 2, match_frame: 0 }), number: 4 });
+    run.apply({ kind: "reset", number: 5 });
     expect(run.frames.count).toBe(0);
     expect(run.loops.size).toBe(0);
-    run.apply(frameEvent(0, 9));
-    expect(run.take(snapshot(4, [0, 1, 2]))).toBe(false);
-    expect(run.take(snapshot(5, [9]))).toBe(true);
-    expect(positions(run)).toEqual([9]);
+    run.apply(frameEvent(6, 0, 9));
+    for (const news of [snapshot(4, [0, 1, 2]), snapshot(5, [], { began: 5 })]) {
+      expect(run.take(news)).toBe(true);
+      expect(positions(run)).toEqual([9]);
+      expect(run.began).toBe(5);
+    }
+  });
+
+  it("is stale after a gap in the stream, and where it joins the stream behind its snapshot", () => {
+    const run = new LiveRun();
+    run.take(snapshot(1, [0]));
+    run.apply({ kind: "joined", number: 1 });
+    run.apply(frameEvent(2, 1, 1));
+    expect(run.stale).toBe(false);
+    run.apply(frameEvent(4, 3, 3));
+    expect(run.stale).toBe(true);
+    expect(run.take(snapshot(2, [0, 1]))).toBe(false);
+    expect(run.take(snapshot(3, [0, 1, 2]))).toBe(true);
+    expect(positions(run)).toEqual([0, 1, 2, 3]);
+    run.apply({ kind: "joined", number: 6 });
+    expect(run.stale).toBe(true);
+    expect(run.take(snapshot(6, [0, 1, 2, 3, 4, 5]))).toBe(true);
+    expect(run.done).toBe(6);
   });
 
   it("is paused as its events say, whatever an older snapshot says", () => {
     const run = new LiveRun();
-    const paused = { ...snapshot(0, []), paused: true };
-    run.take(paused);
+    run.take(snapshot(1, [], { paused: true }));
     expect(run.paused).toBe(true);
-    run.apply({ kind: "control", paused: false });
-    run.take(paused);
+    run.apply({ kind: "control", paused: false, number: 2 });
+    run.take(snapshot(1, [], { paused: true }));
     expect(run.paused).toBe(false);
-    run.markStale();
-    run.take(paused);
+    run.take(snapshot(3, [], { paused: true }));
     expect(run.paused).toBe(true);
   });
 
   it("is done by an event or by a snapshot, and runs again after a reset", () => {
     const run = new LiveRun();
-    run.take(snapshot(0, [0], true));
+    run.take(snapshot(2, [0], { finished: true, verdict: "doubtful" }));
     expect(run.phase).toBe("done");
-    run.apply({ kind: "reset", version: 1 });
+    expect(run.verdict).toBe("doubtful");
+    run.apply({ kind: "reset", number: 3 });
     expect(run.phase).toBe("running");
-    run.apply({ kind: "done", verdict: "good" });
-    run.apply(frameEvent(0, 1));
+    run.apply({ kind: "done", verdict: "good", number: 4 });
+    run.apply(frameEvent(5, 0, 1));
     expect(run.phase).toBe("done");
     expect(run.verdict).toBe("good");
   });
 
   it("is joined in its middle: earlier frames come before those of the events", () => {
     const run = new LiveRun();
-    run.apply(frameEvent(5, 5));
-    run.apply(frameEvent(6, 6, true));
-    run.take(snapshot(0, [0, 1, 2, 3, 4]));
+    run.apply(frameEvent(6, 5, 5));
+    run.apply(frameEvent(7, 6, 6, true));
+    const last = { ...FRAME, frame: 4, index: 4 };
+    run.take(snapshot(5, [0, 1, 2, NaN, 4], { last, stages: [{ name: "loops", cpu_s: 0.5, calls: 2 }] }));
     expect(Array.from({ length: 7 }, (_, row) => run.frames.id(row))).toEqual([0, 1, 2, 3, 4, 5, 6]);
     expect(run.frames.row(5)).toBe(5);
     expect(run.frames.isPosed(6)).toBe(false);
-    expect(run.frames.state(0)).toBeNull();
+    expect(run.frames.state(0)).toBe("tracking");
+    expect(run.frames.state(3)).toBe("lost");
+    expect(run.frames.inliers(0)).toBe(100);
     expect(run.component).toBe(0);
+    expect(run.last?.frame).toBe(6);
+    expect(run.stages).toHaveLength(1);
   });
 
   it("holds 10,000 frames and a bounded number of refused loops", () => {
     const run = new LiveRun();
     for (let id = 0; id < 10000; id++) {
-      run.apply(frameEvent(id, id));
-      run.apply(decodeEvent("loop", { ...LOOP, query_frame: id, accepted: id % 100 === 0, stage: "geometry" }));
+      run.apply(frameEvent(2 * id + 1, id, id));
+      const loop = { ...LOOP, query_frame: id, accepted: id % 100 === 0, stage: "geometry" };
+      run.apply({ ...decodeEvent("loop", loop), number: 2 * id + 2 });
     }
     expect(run.frames.count).toBe(10000);
     expect(run.frames.pose[7 * 9999]).toBe(9999);
@@ -207,126 +253,160 @@ describe("a run that goes on", () => {
     expect([...run.loops.values()].filter((loop) => loop.accepted)).toHaveLength(100);
   });
 
-  it("ends in the state of the program whatever events come, and whenever they and snapshots do", () => {
+  it("is what the program knows, in whatever order events, snapshots, gaps and reloads come", () => {
     const kinds = new Set<string>();
-    for (let seed = 0; seed < 300; seed++) {
-      const { run, truth, sent } = randomStory(new Random(seed));
-      for (const { kind } of sent) kinds.add(kind);
-      expect(run.stale, `seed ${seed}`).toBe(false);
-      const poses = positions(run).filter((_, row) => run.frames.isPosed(row));
-      expect(poses, `seed ${seed}`).toEqual(truth.xs.filter((x) => x !== null).map(Math.fround));
-      expect(run.frames.count, `seed ${seed}`).toBe(truth.xs.length);
-      expect(run.phase, `seed ${seed}`).toBe(truth.done ? "done" : "running");
-      expect(run.paused, `seed ${seed}`).toBe(truth.paused);
-      expect(run.stages, `seed ${seed}`).toEqual(truth.stages);
-      expect([...run.loops.keys()].sort(), `seed ${seed}`).toEqual([...truth.loops.keys()].sort());
-      for (const [key, accepted] of truth.loops)
-        expect(run.loops.get(key)?.accepted, `seed ${seed}, loop ${key}`).toBe(accepted);
+    for (let seed = 0; seed < 1000; seed++) {
+      const story = new Story(new Random(seed));
+      story.play(100);
+      for (const { kind } of story.events) kinds.add(kind);
+      const fresh = new LiveRun();
+      fresh.take(snapshotOf(story.events));
+      expect(shownBy(story.page), `seed ${seed}`).toEqual(shownBy(fresh));
+      expect(story.page.stale, `seed ${seed}`).toBe(false);
     }
-    expect([...kinds].sort()).toEqual([...EVENT_KINDS].sort());
+    expect([...kinds, "joined"].sort()).toEqual([...EVENT_KINDS].sort());
   });
 });
 
-/** What a program that tracks knows: a position of each frame, or null where it is lost. */
-interface Truth {
-  xs: (number | null)[];
-  loops: Map<string, boolean>;
-  stages: Stage[];
-  version: number;
-  paused: boolean;
-  done: boolean;
+/** All that a page shows of a run. */
+function shownBy(run: LiveRun): object {
+  const { frames, landmarks, last, stages, total, done, paused, phase, verdict, began } = run;
+  const rows = Array.from({ length: frames.count }, (_, row) => row);
+  return {
+    frames: rows.map((row) => [frames.id(row), frames.component(row), frames.state(row), frames.inliers(row)]),
+    positions: positions(run),
+    landmarks: Array.from(landmarks.position.subarray(0, 3 * landmarks.count)),
+    loops: [...run.loops],
+    ...{ last: last?.frame, stages, total, done, paused, phase, verdict, began },
+  };
 }
 
-function snapshotOf({ xs, loops, version, paused, done }: Truth): Snapshot {
-  const posed = Array.from(xs.keys()).filter((id) => xs[id] !== null);
-  const whole = snapshot(version, xs.map((x) => x ?? 0), done);
-  return decodeSnapshot({
-    version,
-    total: 20,
-    done: xs.length,
-    paused,
-    finished: done,
-    frame_ids: column("i32", Array.from(xs.keys())),
-    component: column("i32", Array.from(xs.keys(), (id) => (posed.includes(id) ? 0 : -1))),
-    pose: column("f32", Array.from(whole.pose), 7),
-    landmarks: column("f32", [0, 0, 1], 3),
-    loops: Array.from(loops, ([key, accepted]) => {
-      const [query, match] = key.split(" ").map(Number);
-      return { ...LOOP, query_frame: query, match_frame: match, accepted, stage: accepted ? "accepted" : "geometry" };
-    }),
-  });
-}
+/** An event as the program knows it; a move has the distance that everything moves by. */
+type Told = LiveEvent & { by?: number };
 
-/**
- * A program that tracks, is lost, finds loops, moves its map, is paused, begins again and ends; its events arrive in
- * order, its snapshots late.
- */
-function randomStory(random: Random): { run: LiveRun; truth: Truth; sent: LiveEvent[] } {
-  const run = new LiveRun();
-  const truth: Truth = { xs: [], loops: new Map(), stages: [], version: 0, paused: false, done: false };
-  const sent: LiveEvent[] = [];
-  const events: LiveEvent[] = [];
-  let asked: Snapshot | null = null;
-  const send = (event: LiveEvent) => {
-    sent.push(event);
-    events.push(event);
-  };
-  const tell = (what: number) => {
-    if (what < 0.5) {
-      if (truth.done) return;
-      const lost = random.uniform() < 0.2;
-      const x = random.between(0, 100);
-      send(frameEvent(truth.xs.length, x, lost));
-      truth.xs.push(lost ? null : x);
-    } else if (what < 0.65 && truth.xs.length > 1) {
-      const query = Math.floor(random.between(1, truth.xs.length - 1e-9));
-      if (truth.loops.has(`${query} 0`)) return; // a pair is decided once
-      const accepted = random.uniform() < 0.5;
-      send(decodeEvent("loop", { ...LOOP, query_frame: query, match_frame: 0, accepted }));
-      truth.loops.set(`${query} 0`, accepted);
-    } else if (what < 0.78) {
-      truth.xs = truth.xs.map((x) => (x === null ? null : x + 1));
-      send({ kind: "moved", version: ++truth.version });
-    } else if (what < 0.84) {
-      truth.stages = [{ name: "loops", cpuS: random.uniform(), calls: 1 }];
-      send({ kind: "stages", stages: truth.stages });
-    } else if (what < 0.92) {
-      truth.paused = !truth.paused;
-      send({ kind: "control", paused: truth.paused });
-    } else if (what < 0.96) {
-      Object.assign(truth, { xs: [], loops: new Map(), done: false });
-      send({ kind: "reset", version: ++truth.version });
-    } else {
-      truth.done = true;
-      send({ kind: "done", verdict: null });
-    }
-  };
-  for (let step = 0; step < 80; step++) {
-    const what = random.uniform();
-    if (what < 0.6) tell(random.uniform());
-    else if (what < 0.8) for (const event of events.splice(0, 1 + Math.floor(3 * random.uniform()))) run.apply(event);
-    else if (asked === null) asked = snapshotOf(truth);
-    else {
-      run.take(asked);
-      asked = null;
+/** The snapshot that the program makes after these events. */
+function snapshotOf(events: Told[]): Snapshot {
+  let xs: number[] = [];
+  let marks: number[] = [];
+  let loops: object[] = [];
+  let last: object | null = null;
+  const state = { began: 0, paused: false, finished: false, verdict: null as string | null, stages: [] as object[] };
+  for (const event of events) {
+    if (event.kind === "frame") {
+      const { frame, index, pose } = event.frame;
+      xs.push(pose?.[0] ?? NaN);
+      marks.push(...(event.frame.landmarks ?? []).filter((_, i) => i % 3 === 0));
+      last = { ...FRAME, frame, index };
+    } else if (event.kind === "loop") {
+      const { query, match, ...loop } = event.loop;
+      loops.push({ ...loop, query_frame: query, match_frame: match });
+    } else if (event.kind === "moved") {
+      xs = xs.map((x) => x + (event.by ?? 0));
+      marks = marks.map((x) => x + (event.by ?? 0));
+    } else if (event.kind === "reset") {
+      [xs, marks, loops, last] = [[], [], [], null];
+      Object.assign(state, { began: event.number, finished: false, verdict: null });
+    } else if (event.kind === "stages") {
+      state.stages = event.stages.map(({ name, cpuS, calls }) => ({ name, cpu_s: cpuS, calls }));
+    } else if (event.kind === "control") {
+      state.paused = event.paused;
+    } else if (event.kind === "done") {
+      Object.assign(state, { finished: true, verdict: event.verdict });
     }
   }
-  for (const event of events) run.apply(event);
-  if (asked) run.take(asked);
-  if (run.stale) run.take(snapshotOf(truth));
-  return { run, truth, sent };
+  const landmarks = column(
+    "f32",
+    marks.flatMap((x) => [x, 0, 1]),
+    3,
+  );
+  return snapshot(events.length, xs, { ...state, last, loops, landmarks });
+}
+
+/** A program that tracks, and a page that gets its events late, its snapshots in any order, loses both and is reloaded. */
+class Story {
+  readonly events: Told[] = [];
+  page = new LiveRun();
+  private received = 0;
+  private asked: Snapshot[] = [];
+  private frames = 0;
+
+  constructor(private readonly random: Random) {
+    this.join();
+  }
+
+  play(steps: number): void {
+    for (let step = 0; step < steps; step++) {
+      const what = this.random.uniform();
+      if (what < 0.55) this.tell();
+      else if (what < 0.75) this.receive(this.below(4));
+      else if (what < 0.85) this.asked.push(snapshotOf(this.events));
+      else if (what < 0.93) for (const answer of this.asked.splice(this.below(3), 1)) this.page.take(answer);
+      else if (what < 0.96) this.received = Math.min(this.received + this.below(3), this.events.length);
+      else if (what < 0.98) this.join();
+      else {
+        this.page = new LiveRun();
+        this.asked = [];
+        this.join();
+      }
+    }
+    this.receive(Infinity);
+    this.join();
+    for (const answer of this.asked) this.page.take(answer);
+    if (this.page.stale) this.page.take(snapshotOf(this.events));
+  }
+
+  private below(limit: number): number {
+    return Math.floor(limit * this.random.uniform());
+  }
+
+  /** A stream of events begins: what was not received is lost. */
+  private join(): void {
+    this.received = this.events.length;
+    this.page.apply({ kind: "joined", number: this.received });
+  }
+
+  private receive(count: number): void {
+    for (; count > 0 && this.received < this.events.length; count--) this.page.apply(this.events[this.received++]);
+  }
+
+  private tell(): void {
+    this.events.push({ ...this.news(), number: this.events.length + 1 });
+  }
+
+  private news(): News & { by?: number } {
+    const what = this.random.uniform();
+    if (what < 0.5) {
+      const x = Math.fround(this.random.between(0, 100));
+      const news = frameNews(this.frames++, x, this.random.uniform() < 0.2);
+      if (news.frame.pose !== null && this.random.uniform() < 0.6)
+        news.frame.landmarks = new Float32Array([x, 0, 1, x + 0.5, 0, 1]);
+      return news;
+    }
+    if (what < 0.68) {
+      const accepted = this.random.uniform() < 0.5;
+      return decodeEvent("loop", { ...LOOP, query_frame: 1 + this.below(4), match_frame: 0, accepted });
+    }
+    if (what < 0.78) return { kind: "moved", by: 1 };
+    if (what < 0.84) return { kind: "stages", stages: [{ name: "loops", cpuS: this.random.uniform(), calls: 1 }] };
+    if (what < 0.92) return { kind: "control", paused: this.random.uniform() < 0.5 };
+    if (what < 0.96) {
+      this.frames = 0;
+      return { kind: "reset" };
+    }
+    return { kind: "done", verdict: this.random.uniform() < 0.5 ? null : "good" };
+  }
 }
 
 describe("the shown positions", () => {
   it("move smoothly to the new ones", () => {
     const run = new LiveRun();
-    run.apply(frameEvent(0, 0));
-    run.apply(frameEvent(1, 1));
+    run.apply(frameEvent(1, 0, 0));
+    run.apply(frameEvent(2, 1, 1));
     const motion = new LiveMotion();
     expect(motion.step(run.frames, 0)).toBe(0);
-    run.take(snapshot(0, [0, 3]));
+    run.take(snapshot(2, [0, 3]));
     motion.start(run.frames, 1000);
-    run.apply(frameEvent(2, 5));
+    run.apply(frameEvent(3, 2, 5));
     expect(motion.step(run.frames, 1350)).toBe(0);
     expect(motion.shown[3]).toBeCloseTo(1 + 2 * ease(0.5), 5);
     expect(motion.shown[6]).toBe(5);
@@ -342,7 +422,7 @@ describe("the shown positions", () => {
     const motion = new LiveMotion();
     motion.step(run.frames, 0);
     expect(motion.shown[3]).toBeNaN();
-    run.apply(frameEvent(1, 7));
+    run.apply(frameEvent(1, 1, 7));
     expect(motion.step(run.frames, 10)).toBe(1);
     expect(motion.shown[3]).toBe(7);
   });
@@ -369,6 +449,9 @@ describe("a served page", () => {
       "no geometric agreement: 9 inliers of 20 needed",
     );
     expect(faultText(404, "The recording is gone.\n")).toBe("The recording is gone.");
+    expect(faultText(500, "out/map.db: database disk image is malformed\n")).toBe(
+      "out/map.db: database disk image is malformed",
+    );
     expect(faultText(500, "")).toBe("The program answers with status 500.");
   });
 

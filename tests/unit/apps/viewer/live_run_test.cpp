@@ -3,9 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <random>
 #include <sstream>
+#include <thread>
 
 #include "apps/page/column.h"
 #include "apps/viewer/jpeg_url.h"
@@ -20,13 +23,20 @@ using ::testing::ElementsAre;
 
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
-/// Events as a browser gets them: names and data.
-std::vector<std::pair<std::string, json>> events_in(const std::string& text) {
-  std::vector<std::pair<std::string, json>> events;
+/// An event as a browser gets it.
+struct Event {
+  std::int64_t number = 0;
+  std::string name;
+  json data;
+};
+
+std::vector<Event> events_in(const std::string& text) {
+  std::vector<Event> events;
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
-    if (line.starts_with("event: ")) events.emplace_back(line.substr(7), json());
-    if (line.starts_with("data: ")) events.back().second = json::parse(line.substr(6));
+    if (line.starts_with("id: ")) events.push_back({std::stoll(line.substr(4)), "", json()});
+    if (line.starts_with("event: ")) events.back().name = line.substr(7);
+    if (line.starts_with("data: ")) events.back().data = json::parse(line.substr(6));
   }
   return events;
 }
@@ -35,7 +45,7 @@ class LiveRunTest : public ::testing::Test {
  protected:
   LiveRunTest() { (void)reader->next(); }
   /// The events since the last call; there must be one.
-  std::vector<std::pair<std::string, json>> events() { return events_in(*reader->next()); }
+  std::vector<Event> events() { return events_in(*reader->next()); }
 
   /// A frame at x = 10 + `number` m, with two landmarks of its own, which becomes a keyframe.
   void see(int number, bool lost = false) {
@@ -87,8 +97,8 @@ TEST_F(LiveRunTest, AFrameIsAnEventWithItsPoseAndItsNewLandmarks) {
   see(1, true);
   const auto seen = events();
   std::vector<json> frames;
-  for (const auto& [name, data] : seen)
-    if (name == "frame") frames.push_back(data);
+  for (const Event& event : seen)
+    if (event.name == "frame") frames.push_back(event.data);
   ASSERT_EQ(frames.size(), 2U);
   EXPECT_EQ(frames[0]["pose"], json({10, 0, 0, 0, 0, 0, 1}));  // x y z qx qy qz qw
   EXPECT_EQ(frames[0]["landmarks"], column(std::vector<float>{10, 0, 5, 10, 0, 6}, 3));
@@ -110,23 +120,25 @@ TEST_F(LiveRunTest, ItsStateHasAllFramesByThePresentPoses) {
   begin();
   see(0);
   see(1, true);
-  const int version = live.state()["version"];
   MapMoved moved;
   moved.poses = {{PlaceId(0), Sim3(SE3(SO3(), Eigen::Vector3d(0, 2, 0)))}};
   live.map_moved(moved);
   const json state = live.state();
-  EXPECT_EQ(state["version"], version + 1);
   EXPECT_EQ(state["total"], 2);
   EXPECT_EQ(state["done"], 2);
-  EXPECT_EQ(state["frame_ids"], column(std::vector<std::int32_t>{0, 1}));
-  EXPECT_EQ(state["component"], column(std::vector<std::int32_t>{0, -1}));
+  EXPECT_EQ(state["last"]["reason"], "too dark");
+  const json& frames = state["frames"];
+  EXPECT_EQ(frames["id"], column(std::vector<std::int32_t>{0, 1}));
+  EXPECT_EQ(frames["component"], column(std::vector<std::int32_t>{0, -1}));
+  EXPECT_EQ(frames["inliers"], column(std::vector<std::int32_t>{30, 0}));
+  EXPECT_EQ(frames["state"], text_column({"tracking", "lost"}));
+  EXPECT_EQ(frames["keyframe"], column(std::vector<std::uint8_t>{1, 0}));
   std::vector<float> poses = {10, 2, 0, 0, 0, 0, 1};
   poses.insert(poses.end(), 7, kUnknown);
-  EXPECT_EQ(state["pose"], column(poses, 7));
+  EXPECT_EQ(frames["pose"], column(poses, 7));
   EXPECT_EQ(state["landmarks"], column(std::vector<float>{10, 2, 5, 10, 2, 6}, 3));
   live.component_joined({0, 3});
-  EXPECT_EQ(live.state()["component"], column(std::vector<std::int32_t>{3, -1}));
-  EXPECT_EQ(live.state()["version"], version + 2);
+  EXPECT_EQ(live.state()["frames"]["component"], column(std::vector<std::int32_t>{3, -1}));
 }
 
 TEST_F(LiveRunTest, MotionsOfTheMapAreAnnouncedWithTheNextFrame) {
@@ -137,8 +149,114 @@ TEST_F(LiveRunTest, MotionsOfTheMapAreAnnouncedWithTheNextFrame) {
   see(1);
   const auto seen = events();
   ASSERT_EQ(seen.size(), 2U);
-  EXPECT_EQ(seen[1].first, "moved");
-  EXPECT_EQ(seen[1].second["version"], live.state()["version"]);
+  EXPECT_EQ(seen[1].name, "moved");
+  EXPECT_EQ(live.state()["number"], seen[1].number);
+}
+
+TEST_F(LiveRunTest, ItsEndIsInItsStateAsInItsLastEvent) {
+  EXPECT_EQ(live.state()["finished"], false);
+  live.finish("doubtful");
+  const auto seen = events();
+  ASSERT_EQ(seen.size(), 1U);
+  EXPECT_EQ(seen[0].name, "done");
+  EXPECT_EQ(seen[0].data["verdict"], "doubtful");
+  const json state = live.state();
+  EXPECT_EQ(state["finished"], true);
+  EXPECT_EQ(state["verdict"], "doubtful");
+}
+
+/// What a browser knows after these events.
+struct Known {
+  std::size_t done = 0;
+  std::int64_t began = 0;
+  json loops = json::array(), last, stages = json::array();
+  std::string landmarks;  // in base64, which has whole letters for two landmarks
+  bool paused = false;
+
+  void apply(const Event& event) {
+    if (event.name == "frame") {
+      ++done;
+      last = event.data;
+      if (last.contains("landmarks"))
+        landmarks += last["landmarks"]["data"].get<std::string>();
+      last.erase("landmarks");
+    } else if (event.name == "loop") {
+      loops.push_back(event.data);
+    } else if (event.name == "reset") {
+      done = 0;
+      began = event.number;
+      loops = json::array();
+      last = json();
+      landmarks.clear();
+    } else if (event.name == "stages") {
+      stages = event.data;
+    } else if (event.name == "control") {
+      paused = event.data["paused"];
+    }
+  }
+};
+
+// While the run goes on and is paused and let go by a browser, another browser asks for its state
+// again and again. Each of these states must be what the events up to its number have told.
+TEST_F(LiveRunTest, AStateIsWhatTheEventsUpToItsNumberHaveTold) {
+  constexpr int kSteps = 3000;
+  constexpr unsigned kSeed = 3;
+  std::vector<Event> told;
+  std::vector<json> states;
+  std::atomic<bool> ended = false;
+  std::thread following([&] {
+    while (const auto text = reader->next())
+      for (Event& event : events_in(*text)) told.push_back(std::move(event));
+  });
+  std::thread asking([&] {
+    while (!ended) states.push_back(live.state());
+  });
+  std::thread controlling([&] {
+    for (int i = 0; i < kSteps / 4; ++i) live.pause(i % 2 == 0);
+  });
+  std::mt19937 random(kSeed);
+  begin();
+  for (int i = 0, frames = 0; i < kSteps; ++i) {
+    const unsigned what = random() % 16;
+    if (what == 0) {
+      begin();
+      frames = 0;
+    } else if (what < 8) {
+      see(frames++, what == 7);
+    } else if (what < 12) {
+      const LoopStage stage = what < 10 ? LoopStage::kGeometry : LoopStage::kAccepted;
+      const LoopRecord loop{FrameId(i % 5 + 1), FrameId(0), i, stage, {}};
+      loop.accepted() ? live.loop_accepted(loop) : live.loop_refused(loop);
+    } else if (what < 14) {
+      live.map_moved({});
+    } else {
+      live.stages_measured({{"tracking", 0.1 * i, i}});
+    }
+  }
+  controlling.join();
+  ended = true;
+  asking.join();
+  states.push_back(live.state());
+  log->close();
+  following.join();
+  for (std::size_t i = 0; i < told.size(); ++i)
+    ASSERT_EQ(told[i].number, static_cast<std::int64_t>(i) + 1);
+  Known known;
+  std::size_t next = 0;
+  for (const json& state : states) {
+    const std::int64_t number = state["number"];
+    ASSERT_LE(number, static_cast<std::int64_t>(told.size()));
+    while (static_cast<std::int64_t>(next) < number) known.apply(told[next++]);
+    ASSERT_EQ(static_cast<std::int64_t>(next), number);  // a later state has a later number
+    EXPECT_EQ(state["done"], known.done) << number;
+    EXPECT_EQ(state["began"], known.began) << number;
+    EXPECT_EQ(state["loops"], known.loops) << number;
+    EXPECT_EQ(state["last"], known.last) << number;
+    EXPECT_EQ(state["stages"], known.stages) << number;
+    EXPECT_EQ(state["paused"], known.paused) << number;
+    EXPECT_EQ(state["landmarks"]["data"], known.landmarks) << number;
+  }
+  EXPECT_EQ(states.back()["number"], static_cast<std::int64_t>(told.size()));
 }
 
 TEST_F(LiveRunTest, ARunThatBeginsAgainForgetsWhatItHad) {
@@ -155,15 +273,16 @@ TEST_F(LiveRunTest, ARunThatBeginsAgainForgetsWhatItHad) {
                             {"accepted", true}, {"probability", 0.75}, {"inliers", 33}}));
   auto seen = events();
   ASSERT_EQ(seen.size(), 3U);  // the first beginning was no reset
-  EXPECT_EQ(seen[1].first, "loop");
-  EXPECT_EQ(seen[2].second, loops[1]);
+  EXPECT_EQ(seen[1].name, "loop");
+  EXPECT_EQ(seen[2].data, loops[1]);
   live.run_began();
   EXPECT_EQ(live.state()["done"], 0);
   EXPECT_TRUE(live.state()["loops"].empty());
   seen = events();
   ASSERT_EQ(seen.size(), 1U);
-  EXPECT_EQ(seen[0].first, "reset");
-  EXPECT_EQ(seen[0].second["version"], live.state()["version"]);
+  EXPECT_EQ(seen[0].name, "reset");
+  EXPECT_EQ(live.state()["began"], seen[0].number);
+  EXPECT_TRUE(live.state()["last"].is_null());
 }
 
 TEST_F(LiveRunTest, TheNewestImageHasItsTracksAndLines) {
@@ -206,9 +325,9 @@ TEST_F(LiveRunTest, AStepIsOneFrameOfAHaltedRun) {
   EXPECT_FALSE(is_halted(live));
   EXPECT_EQ(live.state()["paused"], false);
   std::vector<bool> announced;
-  for (const auto& [name, data] : events()) {
-    EXPECT_EQ(name, "control");
-    announced.push_back(data["paused"]);
+  for (const Event& event : events()) {
+    EXPECT_EQ(event.name, "control");
+    announced.push_back(event.data["paused"]);
   }
   EXPECT_THAT(announced, ElementsAre(true, true, true, true, false));
 }
@@ -230,8 +349,9 @@ TEST_F(LiveRunTest, StagesAreSentWithTheirTimes) {
   live.stages_measured({{"tracking", 1.6, 4}});  // too soon after the first
   live.pause(false);
   const auto seen = events();
-  ASSERT_EQ(seen.front().first, "stages");
-  EXPECT_EQ(seen.front().second,
+  ASSERT_EQ(seen.front().name, "stages");
+  EXPECT_EQ(live.state()["stages"], seen.front().data);
+  EXPECT_EQ(seen.front().data,
             json::parse(R"([{"name": "tracking", "cpu_s": 1.5, "calls": 3},
                             {"name": "mapping", "cpu_s": 0.25, "calls": 1}])"));
 }

@@ -87,7 +87,8 @@ TEST_F(RunPagesTest, ImagesAreThoseOfTheRecording) {
     EXPECT_EQ(response.type, "image/jpeg");
     EXPECT_EQ(response.body, encode_jpeg(test::tiny_grey(8, 6, i), kJpegQuality));
   }
-  EXPECT_EQ(pages.respond("runs/0/frames/3/image.jpg").body, "the recording has no frame 3\n");
+  EXPECT_EQ(pages.respond("runs/0/frames/3/image.jpg").body,
+            "no frame 3 in " + (dir / "seq") + "\n");
   EXPECT_EQ(pages.respond("runs/0/frames/3/image.jpg").status, 404);
   std::filesystem::remove_all(dir / "seq");
   RunPages gone({dir / "town"}, "");  // the map can be shown all the same
@@ -104,6 +105,22 @@ TEST_F(RunPagesTest, OtherPathsAreNotThere) {
         "run/0/frames/1/image.jpg", "/runs/0/frames/1/image.jpg", "runs/0/frames/1/image.png",
         "runs/0/frames/1/observations.json/", "runs/0/frames/0/observations.json"})
     EXPECT_EQ(pages.respond(path).status, 404) << path;  // frame 0 is no keyframe
+}
+
+// Something is there, but cannot be shown: the program says what is wrong with it.
+TEST_F(RunPagesTest, WhatIsDamagedIsNoMissingPage) {
+  dir.write("town/result.json", "{");
+  dir.write("seq/000001.png", "no image");
+  RunPages pages({dir / "town"}, "");
+  const HttpResponse report = pages.respond("report.json");
+  EXPECT_EQ(report.status, 500);
+  EXPECT_THAT(report.body, HasSubstr("result.json: is not valid JSON"));
+  const HttpResponse image = pages.respond("runs/0/frames/1/image.jpg");
+  EXPECT_EQ(image.status, 500);
+  EXPECT_THAT(image.body, HasSubstr("000001.png"));
+  EXPECT_EQ(pages.respond("runs/0/frames/0/image.jpg").status, 200);
+  dir.write("seq/calibration.yaml", "width: 8\n");
+  EXPECT_EQ(RunPages({dir / "town"}, "").respond("runs/0/frames/0/image.jpg").status, 500);
 }
 
 TEST_F(RunPagesTest, WhatLiesBesideAMapDoesNotBelongToAnEditedOne) {

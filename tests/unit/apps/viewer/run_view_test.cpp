@@ -10,6 +10,7 @@
 
 #include "apps/support/output.h"
 #include "tests/support/local_socket.h"
+#include "tests/support/temporary_folder.h"
 
 namespace placegraph::apps {
 namespace run_view_test {
@@ -22,10 +23,9 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-/// The view of a run, one for all tests: each would wait for the end of its own.
 class RunViewTest : public ::testing::Test {
  protected:
-  static void SetUpTestSuite() {
+  void SetUp() override {
     std::string told;
     set_message_sink([&](LogLevel, const std::string& message) { told += message; });
     run_view = std::make_unique<RunView>(ViewerOptions{}, "a </title> run", "placegraph 7");
@@ -36,18 +36,14 @@ class RunViewTest : public ::testing::Test {
     port = std::stoi(match[1]);
     root = match[2];
   }
-  static void TearDownTestSuite() { run_view.reset(); }
-  static std::string get(const std::string& path) { return answer_of(port, "GET " + root + path); }
-  static std::string control(const std::string& body) {
+  std::string get(const std::string& path) const { return answer_of(port, "GET " + root + path); }
+  std::string control(const std::string& body) const {
     return answer_of(port, "POST " + root + "control", "Content-Type: application/json\r\n", body);
   }
-  static std::unique_ptr<RunView> run_view;
-  static int port;
-  static std::string root;
+  std::unique_ptr<RunView> run_view;
+  int port = 0;
+  std::string root;
 };
-std::unique_ptr<RunView> RunViewTest::run_view;
-int RunViewTest::port = 0;
-std::string RunViewTest::root;
 
 TEST_F(RunViewTest, ThePageRunsOnlyTheScriptsOfItsAnswer) {
   std::set<std::string> nonces;
@@ -94,6 +90,22 @@ TEST_F(RunViewTest, WhatIsNotThereYetIsSaid) {
   const json state = json::parse(content_of(get("live/state.json")));
   EXPECT_EQ(state["finished"], false);
   EXPECT_EQ(state["done"], 0);
+}
+
+// No browser follows the events, so each end returns at once.
+TEST_F(RunViewTest, AfterTheRunADamagedMapIsToldApartFromNone) {
+  const test::TemporaryFolder dir;
+  dir.write("empty/notes.txt", "");
+  run_view->finish(dir / "empty", "");
+  const std::string none = get("report.json");
+  EXPECT_THAT(none, StartsWith("HTTP/1.1 404 "));
+  EXPECT_EQ(content_of(none), "the run has no map\n");
+  dir.write("damaged/map.db", "no map");
+  run_view->finish(dir / "damaged", "");
+  const std::string damaged = get("report.json");
+  EXPECT_THAT(damaged, StartsWith("HTTP/1.1 500 "));
+  EXPECT_THAT(content_of(damaged), HasSubstr("damaged/map.db"));
+  EXPECT_EQ(json::parse(content_of(get("live/state.json")))["finished"], true);
 }
 
 }  // namespace run_view_test

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <thread>
 #include <vector>
 
 #include "tests/support/local_socket.h"
@@ -43,6 +45,22 @@ TEST(Connections, ThoseThatComeAfterTheEndAreShutDownToo) {
     guard.begin_response(late.client.port());
     guard.end_response(late.client.port());
     EXPECT_EQ(late.client.receive_all(), "") << i;
+  }
+}
+
+// The end comes at different moments: before the first check, while it is made, and after it. A
+// guard that slept until its next check would let this test wait for an hour.
+TEST(Connections, TheirEndDoesNotWaitForTheNextCheck) {
+  const LocalSocket listener = LocalSocket::listener();
+  for (int i = 0; i < 50; ++i) {
+    const Connection connection(listener);
+    Connections guard{std::chrono::hours(1)};
+    guard.begin_response(connection.client.port());
+    guard.guard(listener.port());
+    for (int moment = 0; moment < 20 * i; ++moment) std::this_thread::yield();
+    if (i % 2 == 0) continue;  // ends without having closed
+    guard.close();
+    EXPECT_EQ(connection.client.receive_all(), "") << i;
   }
 }
 
