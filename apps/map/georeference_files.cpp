@@ -15,6 +15,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "apps/results/run_map.h"
 #include "apps/support/json_file.h"
 
 namespace placegraph::apps {
@@ -65,7 +66,7 @@ GeoreferenceInput read_run(const std::string& folder) {
   input.graph = read_g2o(path("graph.g2o"));
   input.visits = read_visits(path("places.json"));
   input.motion = read_trajectory(path("trajectory_optimized.tum"));
-  if (!read_json(path("result.json")).value("metric", true))
+  if (!metric_of(read_json(path("result.json"))))
     input.graph = similarity_graph(input.graph);
   return input;
 }

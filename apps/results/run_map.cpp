@@ -69,7 +69,7 @@ void take_result(const std::string& path, const PoseGraph& written, RunMap& map)
   if (!std::filesystem::exists(path)) return;
   const json result = read_json(path);
   try {
-    map.metric = result.value("metric", true);
+    map.metric = metric_of(result);
     if (result.contains("frames")) map.frames = result.at("frames").get<std::size_t>();
   } catch (const json::exception& error) {
     throw not_of_a_run(path, reason_of(error));
@@ -77,6 +77,11 @@ void take_result(const std::string& path, const PoseGraph& written, RunMap& map)
 }
 
 }  // namespace
+
+bool metric_of(const json& result) {
+  const auto judgement = result.find("judgement");
+  return (judgement == result.end() ? result : *judgement).value("metric", true);
+}
 
 const char* unit_of(bool metric) { return metric ? "m" : "units"; }
 
