@@ -141,11 +141,7 @@ PreparedRun prepare(RunArguments arguments) {
   if (options.scene.semantics)
     check_urban_models(options.scene.urban,
                        {options.scene.urban_model, options.scene.surfaces_model});
-  if (!arguments.draw.empty()) {
-    require_free_drawings(arguments.draw, arguments.force);
-    require(fs::weakly_canonical(arguments.draw) != fs::weakly_canonical(arguments.out),
-            "--draw: must be another folder than --out");
-  }
+  if (!arguments.draw.empty()) require_free_drawings(arguments.draw, arguments.force);
   prepared.dataset = open_dataset(arguments.sequence);
   prepared.notes = notes_of(*prepared.dataset, options);
   if (const auto note = note_of_unused_imu(arguments.sequence)) prepared.notes.push_back(*note);
