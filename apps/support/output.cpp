@@ -99,8 +99,8 @@ bool is_device(const fs::path& path) {
 std::vector<ResolvedPath> resolved_outputs(const std::vector<NamedPath>& outputs) {
   std::vector<ResolvedPath> paths;
   for (const NamedPath& output : outputs)
-    if (const fs::path path = resolved(output.path); !output.path.empty() && !is_device(path))
-      paths.push_back({output, path});
+    if (!output.path.empty() && !is_device(output.path))
+      paths.push_back({output, resolved(output.path)});
   return paths;
 }
 
@@ -109,8 +109,8 @@ std::vector<ResolvedPath> resolved_inputs(const std::vector<NamedPath>& inputs) 
   std::vector<ResolvedPath> paths;
   std::error_code ignored;
   for (const NamedPath& input : inputs) {
+    if (!fs::exists(input.path, ignored)) continue;
     const fs::path path = resolved(input.path);
-    if (input.path.empty() || !fs::exists(path, ignored)) continue;
     paths.push_back({input, path});
     if (const fs::path map = path / "map.db"; fs::is_regular_file(map, ignored))
       paths.push_back({input, resolved(map)});
