@@ -66,7 +66,7 @@ void add_flight_command(CLI::App& flight) {
       ->capture_default_str();
   command->add_flag("--smooth", a.smooth,
                     "also estimate the states by a fixed-lag smoother of one second");
-  command->add_option("--config", a.config, kConfigText)->type_name(kInput);
+  command->add_option("--config", a.config, kConfigText)->type_name(kInputFile);
   command->add_option("--set", a.settings, kSetText)->allow_extra_args(false);
   command->add_flag("--json", flight_command->json, kJsonText);
   command->add_flag("--profile", flight_command->profile, kProfileText);

@@ -37,7 +37,7 @@ void add_config_command(CLI::App& app) {
   ConfigArguments& a = config_command->arguments;
   CLI::App* command = app.add_subcommand("config", "Print the options of `run` as YAML");
   command->footer("placegraph config --all > my.yaml");
-  command->add_option("--config", a.config, kConfigText)->type_name(kInput);
+  command->add_option("--config", a.config, kConfigText)->type_name(kInputFile);
   command->add_option("--set", a.settings, kSetText)->allow_extra_args(false);
   auto* all = command->add_flag("--all", config_command->all, "options of all levels");
   command->add_option("--level", config_command->level, "last level that is printed")

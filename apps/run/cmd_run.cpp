@@ -118,7 +118,7 @@ void add_run_command(CLI::App& app, const RunPresentation& presentation) {
       ->add_option("--odometry", a.odometry,
                    "motion by other sensors (wheels, laser, IMU); see docs/other_sensors.md")
       ->type_name(kInput);
-  command->add_option("--config", a.config, kConfigText)->type_name(kInput);
+  command->add_option("--config", a.config, kConfigText)->type_name(kInputFile);
   command->add_option("--set", a.settings, kSetText)->allow_extra_args(false);
   command
       ->add_option("--min-posed", a.min_posed,

@@ -6,6 +6,7 @@ namespace placegraph::apps {
 // checked to exist (CLI::ExistingPath and the like) are read, too. See shell/path_options.h.
 inline constexpr const char* kOutput = "OUTPUT";
 inline constexpr const char* kInput = "INPUT";
+inline constexpr const char* kInputFile = "INPUT:FILE";  ///< or the name of what is installed
 
 // Descriptions of flags that several commands share.
 inline constexpr const char* kJsonText = "print the result as JSON";

@@ -20,7 +20,7 @@ void add_synth_graph_command(CLI::App& synth_group) {
           "WORLD", a.world,
           "manhattan-walk (2D), grid-world (3D), long-loop, or the file of a graph that is to be "
           "made harder")
-      ->type_name(kInput)
+      ->type_name(kInputFile)
       ->required();
   command
       ->add_option("-o,--out", a.out, "file for the graph, in g2o format")
