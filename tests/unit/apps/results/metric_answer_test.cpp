@@ -113,7 +113,7 @@ std::map<std::string, bool> drifts(const JudgedRun& judged, const test::Temporar
 
 TEST(MetricAnswer, IsOneInEveryOutput) {
   int measured = 0, withdrawn = 0;
-  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 24; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
     const test::TemporaryFolder folder;
@@ -124,13 +124,13 @@ TEST(MetricAnswer, IsOneInEveryOutput) {
     measured += metric;
     withdrawn += judged.measured && !metric;
   }
-  EXPECT_GE(measured, 6);
-  EXPECT_GE(withdrawn, 6);
+  EXPECT_GE(measured, 3);
+  EXPECT_GE(withdrawn, 3);
 }
 
 TEST(MetricAnswer, IsThatOfTheJudgementInFilesThatHaveTwo) {
   const test::TemporaryFolder folder;
-  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
     const JudgedRun judged = random_run(random);
