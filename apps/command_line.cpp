@@ -41,6 +41,7 @@
 #include "apps/scene/cmd_scene_check.h"
 #include "apps/shell/cmd_shell.h"
 #include "apps/shell/cmd_tree.h"
+#include "apps/shell/path_options.h"
 #include "apps/shell/spellings.h"
 #include "apps/synth/cmd_synth.h"
 #include "apps/synth/cmd_synth_graph.h"
@@ -196,6 +197,8 @@ std::unique_ptr<CLI::App> make_command_line() {
   add_synth_group(*app);
   add_train_group(*app);
   add_shell_commands(*app);
+  CLI::App* const parsed = app.get();
+  app->parse_complete_callback([parsed] { require_distinct_paths(parsed_command(*parsed)); });
   return app;
 }
 

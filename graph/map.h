@@ -78,7 +78,7 @@ struct Map {
   PlaceGraph place_graph;                ///< places, with the keyframes as members
   std::vector<FrameRecord> frames;       ///< every input frame, in order
   std::vector<LoopRecord> loops;         ///< every candidate that was tested, in order
-  bool metric = false;                   ///< whether its scale is known: lengths are in metres
+  bool metric = false;                   ///< whether lengths are in metres: see judge()
   /// Each frame's pose T_map_cam as estimated when it was processed, of the main component alone.
   Trajectory trajectory_online;
 

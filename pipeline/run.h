@@ -57,8 +57,10 @@ struct RunResult {
 
 /// Judges a run by its map, by RunResult::notes and by `notes` on its data and options.
 ///
-/// `min_posed` is the share of frames in [0, 1] that must have a pose.
-Judgement judge(const RunResult& run, const std::vector<DataNote>& notes, double min_posed);
+/// Decides whether lengths are metres: its scale was measured and no finding doubts it. Map::metric
+/// of the run's map then says the same as the judgement. `min_posed` is the share of frames in
+/// [0, 1] that must have a pose.
+Judgement judge(RunResult& run, const std::vector<DataNote>& notes, double min_posed);
 
 /// File in which a run saves its map, after every new place and at the end.
 ///

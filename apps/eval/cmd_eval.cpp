@@ -29,7 +29,7 @@ void run(const EvalCommand& command) {
 }
 
 void add_plot_options(CLI::App& command, EvalArguments& a) {
-  command.add_option("--plot", a.plot, kPlotText);
+  command.add_option("--plot", a.plot, kPlotText)->type_name(kOutput);
   command
       .add_option("--plot-kind", a.plot_kinds,
                   "figures of --plot, joined by commas: overview, xyz, rpy, rpe, lengths, box, "
@@ -92,10 +92,10 @@ void add_eval_trajectory_command(
       ->take_all()
       ->check(CLI::ExistingFile);
   command->add_flag("--json", eval_command->json, kJsonText);
-  command->add_option("--csv", a.csv, "write the details as CSV");
-  command->add_option("--latex", a.latex, "write the figures as a LaTeX table");
+  command->add_option("--csv", a.csv, "write the details as CSV")->type_name(kOutput);
+  command->add_option("--latex", a.latex, "write the figures as a LaTeX table")->type_name(kOutput);
   add_plot_options(*command, a);
-  command->add_option("--report", a.report, kReportText);
+  command->add_option("--report", a.report, kReportText)->type_name(kOutput);
   command->add_flag("--force", a.force, kForceText);
   command->callback([eval_command] { run(*eval_command); });
 }

@@ -74,9 +74,9 @@ void add_eval_loops_command(
       ->check(CLI::Range(0, 1'000'000))
       ->capture_default_str();
   command->add_flag("--json", *json, kJsonText);
-  command->add_option("--csv", a.csv, "write the details as CSV");
-  command->add_option("--plot", a.plot, kPlotText);
-  command->add_option("--report", a.report, kReportText);
+  command->add_option("--csv", a.csv, "write the details as CSV")->type_name(kOutput);
+  command->add_option("--plot", a.plot, kPlotText)->type_name(kOutput);
+  command->add_option("--report", a.report, kReportText)->type_name(kOutput);
   command->add_flag("--force", a.force, kForceText);
   command->callback([arguments, json, write_page] {
     const LoopsResult result = loops(*arguments);

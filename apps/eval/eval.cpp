@@ -169,14 +169,13 @@ std::vector<PlotFile> plot_files(const EvalArguments& arguments) {
 
 void check_outputs(const EvalArguments& arguments) {
   if (!arguments.report.empty()) require_page_name(arguments.report);
-  require(arguments.report.empty() ||
-              (arguments.report != arguments.csv && arguments.report != arguments.latex &&
-               arguments.report != arguments.plot),
-          "--report: " + arguments.report + " is where another output is to be written");
   require_plot_name(arguments.plot);
-  for (const std::string& path : {arguments.csv, arguments.latex, arguments.report})
-    if (!path.empty()) require_free(path, arguments.force);
-  for (const PlotFile& file : plot_files(arguments)) require_free(file.path, arguments.force);
+  std::vector<NamedPath> outputs = {
+      {"--csv", arguments.csv}, {"--latex", arguments.latex}, {"--report", arguments.report}};
+  for (const PlotFile& file : plot_files(arguments)) outputs.push_back({"--plot", file.path});
+  for (const NamedPath& output : outputs)
+    if (!output.path.empty()) require_free(output.path, arguments.force);
+  require_distinct_paths(outputs, {});
   require(arguments.times.size() <= 2, "--times: one file for all, or two: ground truth, estimate");
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <placegraph/eval/internal/plots/precision_recall_plot.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/csv_text.h>
 #include <placegraph/graph/internal/core/id_format.h>
 #include <placegraph/graph/internal/core/json_text.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
@@ -142,18 +143,18 @@ std::string remarks_text(const std::vector<LoopJudgement>& judgements) {
 }
 
 std::string to_log(const std::vector<LoopJudgement>& judgements) {
-  std::string text = "system,query,has_match,verdict,candidate,score,rank,stage\n";
+  CsvText csv;
+  csv.row("system", "query", "has_match", "verdict", "candidate", "score", "rank", "stage");
   for (const LoopJudgement& judgement : judgements)
     for (const JudgedQuery& query : judgement.benchmark.queries) {
       const bool predicted =
           query.verdict == LoopVerdict::kHit || query.verdict == LoopVerdict::kMiss;
       const LoopPrediction& best = query.best;
-      text += fmt::format(
-          "{},{},{},{},{},{},{},{}\n", judgement.name, query.query, query.has_match ? 1 : 0,
-          to_string(query.verdict), predicted ? fmt::format("{}", best.candidate) : "",
-          predicted ? fmt::format("{:.9g}", best.score) : "", query.rank, best.stage);
+      csv.row(judgement.name, query.query, query.has_match ? 1 : 0, to_string(query.verdict),
+              predicted ? fmt::format("{}", best.candidate) : "",
+              predicted ? fmt::format("{:.9g}", best.score) : "", query.rank, best.stage);
     }
-  return text;
+  return csv.text();
 }
 
 void write_outputs(const LoopsArguments& arguments, const std::vector<LoopJudgement>& judgements,
@@ -168,12 +169,9 @@ void write_outputs(const LoopsArguments& arguments, const std::vector<LoopJudgem
 }
 
 void check(const LoopsArguments& arguments) {
-  const std::vector<std::string> files = {arguments.csv, arguments.plot, arguments.report};
-  for (const std::string& path : files)
+  for (const std::string& path : {arguments.csv, arguments.plot, arguments.report})
     if (!path.empty()) require_free(path, arguments.force);
   if (!arguments.report.empty()) require_page_name(arguments.report);
-  require(arguments.report.empty() || std::ranges::count(files, arguments.report) == 1,
-          "--report: " + arguments.report + " is where another output is to be written");
   require_plot_name(arguments.plot);
   const std::size_t systems = arguments.predictions.size();
   require(systems > 0, "--predictions: none are given");

@@ -30,11 +30,18 @@ void add_flight_command(CLI::App& flight) {
   CLI::App* command = flight.add_subcommand(
       "run", "Estimate the states of a flying robot from flow, an IMU and markers");
   command->footer("placegraph flight run out/flight --out out/states");
-  command->add_option("FLIGHT", a.flight, "folder in EuRoC's layout with imu0; see docs/flight.md")
+  command
+      ->add_option("FLIGHT", a.flight, "folder in EuRoC's layout with imu0; see docs/flight.md")
+      ->type_name(kInput)
       ->required();
-  command->add_option("-o,--out", a.out, "folder for the results")->required();
-  command->add_option("--markers", a.markers,
-                      "layout of markers and beacons; default: FLIGHT/markers.yaml");
+  command
+      ->add_option("-o,--out", a.out, "folder for the results")
+      ->type_name(kOutput)
+      ->required();
+  command
+      ->add_option("--markers", a.markers,
+                   "layout of markers and beacons; default: FLIGHT/markers.yaml")
+      ->type_name(kInput);
   auto* none = command->add_flag("--no-markers", a.no_markers, "ignore markers");
   command
       ->add_option("--markers-until", a.markers_until_s,
@@ -59,7 +66,7 @@ void add_flight_command(CLI::App& flight) {
       ->capture_default_str();
   command->add_flag("--smooth", a.smooth,
                     "also estimate the states by a fixed-lag smoother of one second");
-  command->add_option("--config", a.config, kConfigText);
+  command->add_option("--config", a.config, kConfigText)->type_name(kInputFile);
   command->add_option("--set", a.settings, kSetText)->allow_extra_args(false);
   command->add_flag("--json", flight_command->json, kJsonText);
   command->add_flag("--profile", flight_command->profile, kProfileText);

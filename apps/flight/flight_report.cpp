@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <placegraph/eval/internal/trajectory/body_state_error.h>
+#include <placegraph/graph/internal/core/csv_text.h>
 #include <placegraph/graph/internal/core/angle.h>
 
 #include <algorithm>
@@ -111,18 +112,20 @@ json describe_flight(const FlightRun& run, std::int64_t first_ns) {
 }
 
 std::string frames_csv(const FlightRun& run) {
-  std::string text =
-      "stamp_ns,answered,flow,flow_points,flow_chi2,markers,markers_seen,sigma_x_m,sigma_y_m,sigma_"
-      "z_m,why\n";
+  CsvText csv;
+  csv.row("stamp_ns", "answered", "flow", "flow_points", "flow_chi2", "markers", "markers_seen",
+          "sigma_x_m", "sigma_y_m", "sigma_z_m", "why");
+  const auto flag = [](bool value) { return value ? 1 : 0; };
   for (const FlightFrame& frame : run.frames) {
     const Eigen::Vector3d sigma = frame.state.covariance.diagonal().head<3>().cwiseSqrt();
-    text += fmt::format("{},{:d},{:d},{},{:.3f},{:d},{},{:.5f},{:.5f},{:.5f},{}\n", frame.stamp_ns,
-                        static_cast<bool>(frame.outcome), static_cast<bool>(frame.flow),
-                        frame.flow_points, frame.flow_chi2, static_cast<bool>(frame.markers),
-                        frame.markers_seen, sigma.x(), sigma.y(), sigma.z(),
-                        frame.outcome ? "" : frame.outcome.reason);
+    csv.add(frame.stamp_ns).add(flag(static_cast<bool>(frame.outcome)));
+    csv.add(flag(static_cast<bool>(frame.flow))).add(frame.flow_points);
+    csv.add(fmt::format("{:.3f}", frame.flow_chi2)).add(flag(static_cast<bool>(frame.markers)));
+    csv.add(frame.markers_seen);
+    for (const double sigma_m : sigma) csv.add(fmt::format("{:.5f}", sigma_m));
+    csv.row(frame.outcome ? "" : frame.outcome.reason);
   }
-  return text;
+  return csv.text();
 }
 
 }  // namespace placegraph::apps

@@ -21,7 +21,9 @@ void add_bundle_command(CLI::App& graph) {
   command->add_option("IN", a.in, "problem in BAL format, or folder of a COLMAP model")
       ->required()
       ->check(CLI::ExistingPath);
-  command->add_option("-o,--out", a.out, "file or folder for the adjusted problem");
+  command
+      ->add_option("-o,--out", a.out, "file or folder for the adjusted problem")
+      ->type_name(kOutput);
   command->add_option("--kernel", a.kernel, "robust kernel of the reprojection errors")
       ->check(CLI::IsMember(robust_kernel_names()))
       ->capture_default_str();

@@ -20,7 +20,9 @@ void add_convert_command(CLI::App& graph) {
   command->add_option("IN", a.in, "file to read; its form is detected from its content")
       ->required()
       ->check(CLI::ExistingFile);
-  command->add_option("OUT", a.out, "file to write (.kitti .txt: KITTI, .tum, .csv: EuRoC, .g2o)")
+  command
+      ->add_option("OUT", a.out, "file to write (.kitti .txt: KITTI, .tum, .csv: EuRoC, .g2o)")
+      ->type_name(kOutput)
       ->required();
   command->add_option("--to", a.to, "form of OUT; default: according to its extension")
       ->check(CLI::IsMember({"kitti", "tum", "euroc", "g2o"}));

@@ -39,7 +39,10 @@ void add_optimize_command(
   command->add_option("IN", a.in, "graph to read: 2D, 3D or similarities")
       ->required()
       ->check(CLI::ExistingFile);
-  command->add_option("-o,--out", a.out, "file for the optimized graph, in g2o format")->required();
+  command
+      ->add_option("-o,--out", a.out, "file for the optimized graph, in g2o format")
+      ->type_name(kOutput)
+      ->required();
   command
       ->add_option("--cost", a.cost,
                    "rotation error that is minimized: log, or g2o (vector part of the quaternion)")
@@ -66,10 +69,12 @@ void add_optimize_command(
   command->add_flag("--components", a.task.split,
                     "optimize each component of a disconnected graph separately");
   command->add_flag("--drop-rejected", a.drop_rejected, "leave rejected constraints out of OUT");
-  command->add_option("--covariances", a.covariances,
-                      "file for the covariance of every pose of the optimized graph (.csv)");
-  command->add_option("--plot", a.plot, kPlotText);
-  command->add_option("--report", a.report, kReportText);
+  command
+      ->add_option("--covariances", a.covariances,
+                   "file for the covariance of every pose of the optimized graph (.csv)")
+      ->type_name(kOutput);
+  command->add_option("--plot", a.plot, kPlotText)->type_name(kOutput);
+  command->add_option("--report", a.report, kReportText)->type_name(kOutput);
   command->add_flag("--json", optimize_command->json, kJsonText);
   command->add_flag("--quiet", optimize_command->quiet, "print warnings and errors only");
   command->add_flag("--force", a.force, kForceText);

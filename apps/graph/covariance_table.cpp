@@ -2,8 +2,7 @@
 
 #include <fmt/format.h>
 #include <placegraph/backend/pose_graph/pose_marginals.h>
-#include <placegraph/graph/internal/core/id_format.h>
-#include <placegraph/io/internal/files/atomic_file.h>
+#include <placegraph/graph/internal/core/csv_text.h>
 
 #include <vector>
 
@@ -20,13 +19,12 @@ std::vector<std::string> names_of_coordinates(PoseKind kind) {
   return names;
 }
 
-std::string header_of(PoseKind kind) {
+void add_header(PoseKind kind, CsvText& csv) {
   const std::vector<std::string> names = names_of_coordinates(kind);
-  std::string line = "node";
+  csv.add("node");
   for (std::size_t i = 0; i < names.size(); ++i)
-    for (std::size_t j = i; j < names.size(); ++j)
-      line += fmt::format(",{}:{}", names[i], names[j]);
-  return line + "\n";
+    for (std::size_t j = i; j < names.size(); ++j) csv.add(names[i] + ":" + names[j]);
+  csv.end_row();
 }
 
 }  // namespace
@@ -36,17 +34,16 @@ void write_covariances(const std::string& path, const std::string& in, const Pos
   const PoseMarginals marginals(graph, rotation_error);
   if (!marginals.outcome()) throw NoResult(in + ": no covariances: " + marginals.outcome().reason);
   const std::vector<Information> covariances = marginals.covariances();
-  std::string text = header_of(graph.kind());
+  CsvText csv;
+  add_header(graph.kind(), csv);
   for (std::size_t k = 0; k < covariances.size(); ++k) {
-    text += fmt::format("{}", graph.nodes[k].id);
+    csv.add(graph.nodes[k].id);
     for (Eigen::Index i = 0; i < covariances[k].rows(); ++i)
       for (Eigen::Index j = i; j < covariances[k].cols(); ++j)
-        text += fmt::format(",{:.12g}", covariances[k](i, j));
-    text += "\n";
+        csv.add(fmt::format("{:.12g}", covariances[k](i, j)));
+    csv.end_row();
   }
-  AtomicFile file(path);
-  file.stream() << text;
-  file.commit();
+  write_file(path, csv.text());
 }
 
 }  // namespace placegraph::apps

@@ -147,26 +147,6 @@ void draw(const std::string& path, const PoseGraph& before, const GraphSolution&
   write_plot(path, to_svg(plot));
 }
 
-/// Checks that every output is free, and that no two are the same file.
-void require_outputs(const OptimizeArguments& arguments) {
-  struct Output {
-    const char *flag, *content;
-    const std::string& path;
-  };
-  const Output outputs[] = {{"--out", "the graph", arguments.out},
-                            {"--covariances", "the table of covariances", arguments.covariances},
-                            {"--plot", "the plot", arguments.plot},
-                            {"--report", "the page", arguments.report}};
-  for (const Output& output : outputs) {
-    if (&output != outputs && output.path.empty()) continue;
-    for (const Output* earlier = outputs; earlier != &output; ++earlier)
-      require(output.path != earlier->path,
-              fmt::format("{}: {} is where {} is to be written", output.flag, output.path,
-                          earlier->content));
-    require_free(output.path, arguments.force);
-  }
-}
-
 /// Checks all arguments and returns the options that their names stand for.
 PoseGraphOptions checked_options(const OptimizeArguments& arguments) {
   PoseGraphOptions options = arguments.task.options;
@@ -186,7 +166,9 @@ PoseGraphOptions checked_options(const OptimizeArguments& arguments) {
           "--drop-rejected goes with --robust, which rejects");
   require_plot_name(arguments.plot);
   if (!arguments.report.empty()) require_page_name(arguments.report);
-  require_outputs(arguments);
+  require_free(arguments.out, arguments.force);
+  for (const std::string& path : {arguments.covariances, arguments.plot, arguments.report})
+    if (!path.empty()) require_free(path, arguments.force);
   return options;
 }
 

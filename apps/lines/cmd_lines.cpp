@@ -17,10 +17,14 @@ void add_detect(CLI::App& image) {
   auto arguments = std::make_shared<LinesDetectArguments>();
   CLI::App* command = image.add_subcommand("lines", "Detect the straight edges of an image");
   command->footer("placegraph image lines image.png -o segments.txt");
-  command->add_option("IMAGE", arguments->image, "image")->required();
+  command
+      ->add_option("IMAGE", arguments->image, "image")
+      ->type_name(kInput)
+      ->required();
   command
       ->add_option("-o,--out", arguments->out,
                    "file to write, u1 v1 u2 v2 a line, the brighter side on the right")
+      ->type_name(kOutput)
       ->required();
   command->add_option("--min-length", arguments->options.min_length_px, "shortest segment [px]")
       ->capture_default_str();
@@ -34,11 +38,13 @@ void add_match(CLI::App& image) {
   CLI::App* command =
       image.add_subcommand("match-lines", "Match the straight edges of two images of any baseline");
   command->footer("placegraph image match-lines a.png b.png -o matches.txt");
-  auto* images = command->add_option("IMAGES", a.images, "two images")->required()->expected(2);
+  auto* images = command->add_option("IMAGES", a.images, "two images");
+  images->type_name(kInput)->required()->expected(2);
   command
       ->add_option("-o,--out", a.out,
                    "file to write, `i j` a line: numbers of the segments from 0, in the order of "
                    "--segments or --write-segments")
+      ->type_name(kOutput)
       ->required();
   // Positions alone are ambiguous: a mirrored facade explains half of its edges as well.
   const auto take_segments = [&a, images](const std::vector<std::string>& files) {
@@ -51,8 +57,10 @@ void add_match(CLI::App& image) {
   auto* given = command->add_option_function<std::vector<std::string>>(
       "--segments", take_segments,
       "take these two files of segments of the images, u1 v1 u2 v2 a line");
-  given->type_size(2)->expected(1);
-  command->add_option("--write-segments", a.segments_out, "two files for the segments")
+  given->type_name(kInput)->type_size(2)->expected(1);
+  command
+      ->add_option("--write-segments", a.segments_out, "two files for the segments")
+      ->type_name(kOutput)
       ->type_size(2)
       ->expected(1)
       ->excludes(given);

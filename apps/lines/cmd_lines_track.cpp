@@ -16,8 +16,13 @@ void add_lines_track_command(CLI::App& track) {
   CLI::App* command = track.add_subcommand(
       "lines", "Track straight edges through a sequence; true poses show wrong tracks");
   command->footer("placegraph track lines SEQUENCE -o tracks.txt");
-  command->add_option("SEQUENCE", a.sequence, "data set")->required();
-  command->add_option("-o,--out", a.out, "file to write, `id frame u1 v1 u2 v2` a line");
+  command
+      ->add_option("SEQUENCE", a.sequence, "data set")
+      ->type_name(kInput)
+      ->required();
+  command
+      ->add_option("-o,--out", a.out, "file to write, `id frame u1 v1 u2 v2` a line")
+      ->type_name(kOutput);
   command->add_option("--sensor", a.sensor, kSensorText)
       ->check(CLI::IsMember({"auto", "mono", "stereo", "rgbd"}))
       ->capture_default_str();

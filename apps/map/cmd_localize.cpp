@@ -14,13 +14,17 @@ void add_localize_command(CLI::App& map) {
   LocalizeArguments& a = *arguments;
   CLI::App* command = map.add_subcommand("localize", "Localize new images in a saved map");
   command->footer("placegraph map localize out/town-run images --out placed.txt --sequence");
-  command->add_option("MAP", a.map, kMapText)->required();
+  command
+      ->add_option("MAP", a.map, kMapText)
+      ->type_name(kInput)
+      ->required();
   command->add_option("IMAGES", a.images, "a folder of images, or a sequence")
       ->required()
       ->check(CLI::ExistingDirectory);
   command
       ->add_option("-o,--out", a.out,
                    "file for `image place view probability stage [pose]`, one line per image")
+      ->type_name(kOutput)
       ->required();
   command->add_option("--range", a.range, kRangeText)->expected(2);
   command->add_flag("--sequence", a.sequence, kSequenceText);

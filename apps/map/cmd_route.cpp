@@ -28,10 +28,12 @@ void add_route_command(CLI::App& map) {
   place_option("--to", a.to, "last place of the path");
   command->add_flag("--backtrack", a.backtrack,
                     "also print the path back, from the last place to the first");
-  command->add_option("-o,--out", a.out,
-                      "JSON file for the path: relative poses between places, and the frame to "
-                      "compare with at each");
-  command->add_option("--plot", a.plot, kPlotText);
+  command
+      ->add_option("-o,--out", a.out,
+                   "JSON file for the path: relative poses between places, and the frame to "
+                   "compare with at each")
+      ->type_name(kOutput);
+  command->add_option("--plot", a.plot, kPlotText)->type_name(kOutput);
   command->add_flag("--force", a.force, kForceText);
   command->callback([arguments] { print(to_text(route(*arguments))); });
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <placegraph/backend/internal/georeference/antenna_trajectory.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/csv_text.h>
 #include <placegraph/graph/internal/core/id_format.h>
 #include <placegraph/graph/pose_graph/node_index.h>
 #include <placegraph/io/graphs/g2o.h>
@@ -12,9 +13,9 @@
 #include <placegraph/io/trajectories/trajectory_file.h>
 
 #include <filesystem>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "apps/results/run_map.h"
 #include "apps/support/json_file.h"
 
 namespace placegraph::apps {
@@ -63,7 +64,7 @@ GeoreferenceInput read_run(const std::string& folder) {
   input.visits = read_visits(path("places.json"));
   input.motion = read_trajectory(path("trajectory_optimized.tum"));
   take_json(path("result.json"), "run", [&](const json& result) {
-    if (!result.value("metric", true)) input.graph = similarity_graph(input.graph);
+    if (!metric_of(result)) input.graph = similarity_graph(input.graph);
   });
   return input;
 }
@@ -135,22 +136,19 @@ PoseGraph metric_graph(const PoseGraph& graph) {
 }
 
 std::string fixes_csv(const GeoreferenceResult& result, const std::vector<GpsFix>& fixes) {
-  fmt::memory_buffer text;
-  const auto out = std::back_inserter(text);
-  fmt::format_to(out,
-                 "stamp_ns,node,residual_east_m,residual_north_m,residual_up_m,sigma_horizontal_m,"
-                 "sigma_vertical_m,weight,rejected\n");
+  CsvText csv;
+  csv.row("stamp_ns", "node", "residual_east_m", "residual_north_m", "residual_up_m",
+          "sigma_horizontal_m", "sigma_vertical_m", "weight", "rejected");
   for (std::size_t i = 0; i < fixes.size(); ++i) {
     const FixReport& fix = result.fixes[i];
-    if (!fix.node)
-      fmt::format_to(out, "{},,,,,,,,\n", fixes[i].stamp_ns);
-    else
-      fmt::format_to(out, "{},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:d}\n",
-                     fixes[i].stamp_ns, result.graph.nodes[*fix.node].id, fix.residual_enu[0],
-                     fix.residual_enu[1], fix.residual_enu[2], fix.sigma_horizontal_m,
-                     fix.sigma_vertical_m, fix.weight, static_cast<int>(fix.rejected));
+    csv.add(fixes[i].stamp_ns);
+    csv.add(fix.node ? fmt::format("{}", result.graph.nodes[*fix.node].id) : "");
+    for (const double value : {fix.residual_enu[0], fix.residual_enu[1], fix.residual_enu[2],
+                               fix.sigma_horizontal_m, fix.sigma_vertical_m, fix.weight})
+      csv.add(fix.node ? fmt::format("{:.4f}", value) : "");
+    csv.row(fix.node ? fmt::format("{:d}", fix.rejected) : "");
   }
-  return fmt::to_string(text);
+  return csv.text();
 }
 
 nlohmann::ordered_json describe_georeference(const GeoreferenceResult& result) {

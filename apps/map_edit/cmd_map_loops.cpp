@@ -18,9 +18,15 @@ void add_edit(CLI::App& loops, const char* name, LoopEdit edit, const char* what
   CLI::App* command = loops.add_subcommand(name, what);
   command->footer(std::string("placegraph map loops ") + name +
                   " out/town-run 612:40 --out mended.db");
-  command->add_option("MAP", a.map, kMapText)->required();
+  command
+      ->add_option("MAP", a.map, kMapText)
+      ->type_name(kInput)
+      ->required();
   command->add_option("PAIR", a.pairs, "two frames, QUERY:MATCH, the later one first")->required();
-  command->add_option("-o,--out", a.out, "file for the edited map")->required();
+  command
+      ->add_option("-o,--out", a.out, "file for the edited map")
+      ->type_name(kOutput)
+      ->required();
   command->add_flag("--keep-poses", a.keep_poses, "do not optimize the map again");
   command->add_flag("--json", *json, kJsonText);
   command->add_flag("--force", a.force, kForceText);

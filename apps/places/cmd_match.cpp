@@ -22,7 +22,9 @@ void add_match_command(CLI::App& places) {
           "the candidates of each query")
       ->required()
       ->check(CLI::ExistingDirectory);
-  command->add_option("-o,--out", a.out, "file for `query candidate score`, one line per query")
+  command
+      ->add_option("-o,--out", a.out, "file for `query candidate score`, one line per query")
+      ->type_name(kOutput)
       ->required();
   command->add_flag("--sequence", a.sequence, kSequenceText);
   command

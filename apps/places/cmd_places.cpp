@@ -21,7 +21,9 @@ void add_classify_command(CLI::App& places) {
                    "candidates are the training set and whose queries are classified")
       ->required()
       ->check(CLI::ExistingDirectory);
-  command->add_option("-o,--out", a.out, "file for `image label probability`; label -1: rejected")
+  command
+      ->add_option("-o,--out", a.out, "file for `image label probability`; label -1: rejected")
+      ->type_name(kOutput)
       ->required();
   command
       ->add_option("--train", a.train,

@@ -22,7 +22,10 @@ void add_train_vocabulary_command(CLI::App& train) {
                    "those to be recognized")
       ->required()
       ->check(CLI::ExistingDirectory);
-  command->add_option("-o,--out", a.out, "file for the vocabulary")->required();
+  command
+      ->add_option("-o,--out", a.out, "file for the vocabulary")
+      ->type_name(kOutput)
+      ->required();
   command->add_option("--kind", a.kind, "words of binary descriptors or of SIFT")
       ->check(CLI::IsMember(vocabulary_kinds()))
       ->capture_default_str();
@@ -43,7 +46,10 @@ void add_vocabulary_command(CLI::App& places) {
   auto asked = std::make_shared<VocabularyInfoArguments>();
   CLI::App* info = places.add_subcommand("vocabulary", "Describe a vocabulary of visual words");
   info->footer("placegraph places vocabulary words.pgw");
-  info->add_option("FILE", asked->vocabulary, "the vocabulary")->required();
+  info
+      ->add_option("FILE", asked->vocabulary, "the vocabulary")
+      ->type_name(kInput)
+      ->required();
   info->callback([asked] { print(to_text(vocabulary_info(*asked))); });
 }
 

@@ -26,10 +26,13 @@ void add_two_view_planes_command(CLI::App& image) {
   command
       ->add_option("-o,--out", a.out,
                    "file for one label per match: 0 no plane, 1 the largest plane")
+      ->type_name(kOutput)
       ->required();
   add_calib_option(*command, a.calib,
                    std::string("camera of both views: also the motion; ") + kCalibFile);
-  command->add_option("--motion", a.motion, "JSON file for the motion and the planes");
+  command
+      ->add_option("--motion", a.motion, "JSON file for the motion and the planes")
+      ->type_name(kOutput);
   command->add_option("--noise", a.regions.noise_px, "approximate noise of the measurements [px]")
       ->capture_default_str();
   command

@@ -52,18 +52,21 @@ void add_track_plane_command(CLI::App& track) {
   command
       ->add_option("--template", a.corners,
                    "x1,y1,...,x4,y4: corners of the region [px], around it, in the first image")
+      ->type_name(kInput)
       ->required();
   command->add_option("--template-image", a.image, "image that the corners are of instead")
       ->check(CLI::ExistingFile);
   command
       ->add_option("-o,--out", a.out,
                    "file: number, tracked or lost, x1 y1 ... x4 y4 [px], similarity per frame")
+      ->type_name(kOutput)
       ->required();
   CLI::Option* calibration =
       command
           ->add_option("--calib", track_command->calib,
                        "also the motion before the plane, with the sequence's own camera or that "
                        "of a file: a line fx fy cx cy width height [px], or a calibration.yaml")
+          ->type_name(kInput)
           ->expected(0, 1);
   add_choice(*command, "--motion-model", a.options.model, plane_model_names(),
              "motion model of the region");
@@ -72,9 +75,13 @@ void add_track_plane_command(CLI::App& track) {
   add_choice(*command, "--optimizer", a.options.align.optimizer, align_optimizer_names(),
              "optimizer of the search from frame to frame");
   command->add_option("--normal", a.normal, "normal of the plane in the first camera, x,y,z");
-  command->add_option("--trajectory", a.trajectory,
-                      "poses of the camera in units of the plane's distance; .tum or KITTI's form");
-  command->add_option("--draw", a.draw, "folder for the images, drawn with the region");
+  command
+      ->add_option("--trajectory", a.trajectory,
+                   "poses of the camera in units of the plane's distance; .tum or KITTI's form")
+      ->type_name(kInput);
+  command
+      ->add_option("--draw", a.draw, "folder for the images, drawn with the region")
+      ->type_name(kOutput);
   command->add_option("--seed", a.options.align.swarm.seed, kSeedText)->capture_default_str();
   command->add_flag("--json", track_command->json, kJsonText);
   command->add_flag("--force", a.force, kForceText);

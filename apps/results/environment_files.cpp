@@ -1,7 +1,8 @@
 #include "apps/results/environment_files.h"
-#include <placegraph/pipeline/slam/environment_observation.h>
 
 #include <fmt/format.h>
+#include <placegraph/graph/internal/core/csv_text.h>
+#include <placegraph/pipeline/slam/environment_observation.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -9,20 +10,20 @@
 namespace placegraph::apps {
 
 std::string environment_csv(const std::vector<EnvironmentObservation>& observations) {
-  std::string csv = "frame";
-  for (const char* name : evidence_names()) csv += fmt::format(",{}", name);
+  CsvText csv;
+  csv.add("frame");
+  for (const char* name : evidence_names()) csv.add(name);
   for (int k = 0; k < kEnvironmentCount; ++k)
-    csv += fmt::format(",p_{}", environment_name(static_cast<Environment>(k)));
-  csv += ",kind\n";
+    csv.add(fmt::format("p_{}", environment_name(static_cast<Environment>(k))));
+  csv.row("kind");
   for (const EnvironmentObservation& observation : observations) {
-    csv += to_string(observation.frame);
+    csv.add(observation.frame);
     for (const double value : observation.evidence.values)
-      csv += std::isfinite(value) ? fmt::format(",{:.4g}", value) : ",";
-    for (const double p : observation.probabilities) csv += fmt::format(",{:.3f}", p);
-    csv += "," + (observation.kind ? environment_name(*observation.kind) : std::string("unknown")) +
-           "\n";
+      csv.add(std::isfinite(value) ? fmt::format("{:.4g}", value) : "");
+    for (const double p : observation.probabilities) csv.add(fmt::format("{:.3f}", p));
+    csv.row(observation.kind ? environment_name(*observation.kind) : "unknown");
   }
-  return csv;
+  return csv.text();
 }
 
 nlohmann::json describe_environments(const PlaceGraph& graph) {

@@ -27,9 +27,8 @@ std::string judgement_text(const json& judgement, const std::string& indent) {
   text += judgement["metric"].get<bool>() ? ": lengths are in metres, " : ": scale unknown, ";
   text += judgement["why_metric"].get<std::string>();
   if (judgement.contains("expected_drift_m"))
-    text += fmt::format("; expected drift at the end {:.2g} {}",
-                        judgement["expected_drift_m"].get<double>(),
-                        judgement["metric"].get<bool>() ? "m" : "units");
+    text += fmt::format("; expected drift at the end {:.2g} m",
+                        judgement["expected_drift_m"].get<double>());
   text += findings.empty() ? "; nothing contradicts the result\n" : "\n";
   for (const json& finding : findings) {
     text +=

@@ -1,8 +1,10 @@
 #include "apps/results/run_files.h"
 
+#include <fmt/format.h>
 #include <placegraph/eval/internal/plots/evaluation_plot.h>
 #include <placegraph/eval/trajectory/evaluate.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/csv_text.h>
 #include <placegraph/graph/internal/core/json_text.h>
 #include <placegraph/graph/place_transitions.h>
 #include <placegraph/graph/pose_graph/constraint_source.h>
@@ -11,7 +13,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 
 #include "apps/results/component_files.h"
 #include "apps/results/run_judgement.h"
@@ -146,13 +147,14 @@ std::string places_json(const Map& map) {
 }
 
 std::string loops_csv(const Map& map) {
-  std::ostringstream csv;
-  csv << "query,match,inliers,accepted,stage,model,lines,likeness,probability\n";
+  CsvText csv;
+  csv.row("query", "match", "inliers", "accepted", "stage", "model", "lines", "likeness",
+          "probability");
   for (const LoopRecord& loop : map.loops)
-    csv << loop.query_frame << ',' << loop.match_frame << ',' << loop.inliers << ','
-        << (loop.accepted() ? 1 : 0) << ',' << to_string(loop.stage) << ',' << to_string(loop.model)
-        << ',' << loop.lines << ',' << loop.similarity << ',' << loop.probability << '\n';
-  return csv.str();
+    csv.row(loop.query_frame, loop.match_frame, loop.inliers, loop.accepted() ? 1 : 0,
+            to_string(loop.stage), to_string(loop.model), loop.lines,
+            fmt::format("{:g}", loop.similarity), fmt::format("{:g}", loop.probability));
+  return csv.text();
 }
 
 json describe_motion(const PlaceGraph& graph) {

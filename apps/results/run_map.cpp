@@ -57,12 +57,17 @@ void take_result(const std::string& path, const PoseGraph& written, RunMap& map)
   map.metric = written.kind() != PoseKind::kSim3;
   if (!std::filesystem::exists(path)) return;
   take_json(path, "run", [&](const json& result) {
-    map.metric = result.value("metric", true);
+    map.metric = metric_of(result);
     if (result.contains("frames")) map.frames = result.at("frames").get<std::size_t>();
   });
 }
 
 }  // namespace
+
+bool metric_of(const json& result) {
+  const auto judgement = result.find("judgement");
+  return (judgement == result.end() ? result : *judgement).value("metric", true);
+}
 
 const char* unit_of(bool metric) { return metric ? "m" : "units"; }
 

@@ -4,10 +4,15 @@
 
 #include <cstddef>
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 
 namespace placegraph::apps {
+
+/// Whether lengths are metres, by result.json of a run: its judgement says it, or where an earlier
+/// program wrote none, the file itself.
+bool metric_of(const nlohmann::json& result);
 
 /// Unit of the lengths of a map in texts and plots: "m", or "units" if its scale is unknown.
 const char* unit_of(bool metric);

@@ -37,7 +37,7 @@ void add_config_command(CLI::App& app) {
   ConfigArguments& a = config_command->arguments;
   CLI::App* command = app.add_subcommand("config", "Print the options of `run` as YAML");
   command->footer("placegraph config --all > my.yaml");
-  command->add_option("--config", a.config, kConfigText);
+  command->add_option("--config", a.config, kConfigText)->type_name(kInputFile);
   command->add_option("--set", a.settings, kSetText)->allow_extra_args(false);
   auto* all = command->add_flag("--all", config_command->all, "options of all levels");
   command->add_option("--level", config_command->level, "last level that is printed")
@@ -52,7 +52,9 @@ void add_config_command(CLI::App& app) {
       ->transform(CLI::Transformer(std::map<std::string, std::string>{{"hover", "flight"}}))
       ->check(CLI::IsMember({"run", "flight"}))
       ->capture_default_str();
-  command->add_option("-o,--out", a.out, "file to write instead of standard output");
+  command
+      ->add_option("-o,--out", a.out, "file to write instead of standard output")
+      ->type_name(kOutput);
   command->add_flag("--force", a.force, kForceText);
   command->callback([config_command] { print_config(*config_command); });
 }

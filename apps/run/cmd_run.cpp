@@ -92,9 +92,13 @@ void add_run_command(CLI::App& app, const RunPresentation& presentation) {
   CLI::App* command =
       app.add_subcommand("run", "Estimate the trajectory and the place graph of a sequence");
   command->footer("placegraph run kitti/sequences/00 --out out/kitti00");
-  command->add_option("SEQUENCE", a.sequence, "folder or video; see docs/datasets.md");
-  command->add_option("-o,--out", a.out, "folder for the results");
-  command->add_option("--resume", a.resume, "continue the unfinished run in this folder");
+  command
+      ->add_option("SEQUENCE", a.sequence, "folder or video; see docs/datasets.md")
+      ->type_name(kInput);
+  command->add_option("-o,--out", a.out, "folder for the results")->type_name(kOutput);
+  command
+      ->add_option("--resume", a.resume, "continue the unfinished run in this folder")
+      ->type_name(kOutput);
   command->add_option("--sensor", a.sensor, kSensorText)
       ->check(CLI::IsMember({"auto", "mono", "stereo", "rgbd"}));
   command->add_option("--cues", a.cues,
@@ -105,12 +109,16 @@ void add_run_command(CLI::App& app, const RunPresentation& presentation) {
                       "semantics; default: as the options say");
   add_old_scene(*command, a.scene);
   command->add_option("--camera-height", a.camera_height_m, kCameraHeightText);
-  command->add_option("--mask", a.mask,
-                      "grey image of the images' size; where it is 0, the (left) images are not "
-                      "used");
-  command->add_option("--odometry", a.odometry,
-                      "motion by other sensors (wheels, laser, IMU); see docs/other_sensors.md");
-  command->add_option("--config", a.config, kConfigText);
+  command
+      ->add_option("--mask", a.mask,
+                   "grey image of the images' size; where it is 0, the (left) images are not "
+                   "used")
+      ->type_name(kInput);
+  command
+      ->add_option("--odometry", a.odometry,
+                   "motion by other sensors (wheels, laser, IMU); see docs/other_sensors.md")
+      ->type_name(kInput);
+  command->add_option("--config", a.config, kConfigText)->type_name(kInputFile);
   command->add_option("--set", a.settings, kSetText)->allow_extra_args(false);
   command
       ->add_option("--min-posed", a.min_posed,
@@ -122,12 +130,13 @@ void add_run_command(CLI::App& app, const RunPresentation& presentation) {
   command->add_option("--threads", a.threads, kThreadsText);
   command->add_flag("--json", run_command->json, kJsonText);
   command->add_flag("--force", a.force, kForceText);
-  command->add_option(
-      "--draw", a.draw,
-      "folder for the images, drawn with tracks and residuals; a video of them (.avi, "
-      ".mp4), or a contact sheet (.jpg, .png)");
+  command
+      ->add_option("--draw", a.draw,
+                   "folder for the images, drawn with tracks and residuals; a video of them (.avi, "
+                   ".mp4), or a contact sheet (.jpg, .png)")
+      ->type_name(kOutput);
   command->add_flag("--profile", run_command->profile, kProfileText);
-  command->add_option("--report", run_command->page, kReportText);
+  command->add_option("--report", run_command->page, kReportText)->type_name(kOutput);
   auto* view =
       command->add_flag("--view", run_command->view, "show the run in a browser while it goes on");
   add_viewer_options(*command, run_command->viewer);

@@ -141,11 +141,7 @@ PreparedRun prepare(RunArguments arguments) {
   if (options.scene.semantics)
     check_urban_models(options.scene.urban,
                        {options.scene.urban_model, options.scene.surfaces_model});
-  if (!arguments.draw.empty()) {
-    require_free_drawings(arguments.draw, arguments.force);
-    require(fs::weakly_canonical(arguments.draw) != fs::weakly_canonical(arguments.out),
-            "--draw: must be another folder than --out");
-  }
+  if (!arguments.draw.empty()) require_free_drawings(arguments.draw, arguments.force);
   prepared.dataset = open_dataset(arguments.sequence);
   prepared.notes = notes_of(*prepared.dataset, options);
   if (const auto note = note_of_unused_imu(arguments.sequence)) prepared.notes.push_back(*note);
@@ -196,8 +192,18 @@ RunResult run_prepared(const PreparedRun& prepared, const Interruption& interrup
   return run_sequence(dataset, prepared.options, inputs);
 }
 
+/// Judges the run, with warnings of what its motion shows; run.map then says what the judgement
+/// does of the metres.
+Judgement judge_prepared(PreparedRun& prepared, RunResult& run, const Trajectory& optimized) {
+  for (const DataNote& note : notes_of_motion(run, optimized)) {
+    warn(prepared.dataset->name() + ": " + note.text);
+    prepared.notes.push_back(note);
+  }
+  return judge(run, prepared.notes, prepared.arguments.min_posed);
+}
+
 /// What result.json says of the work; of its scene, its cost and its truth others say it.
-json summarize(PreparedRun& prepared, const RunResult& run, const Trajectory& optimized) {
+json summarize(const PreparedRun& prepared, const RunResult& run, const Trajectory& optimized) {
   const RunOptions& options = prepared.options;
   const Dataset& dataset = *prepared.dataset;
   json summary = describe_run(run, optimized);
@@ -205,10 +211,6 @@ json summarize(PreparedRun& prepared, const RunResult& run, const Trajectory& op
   if (!run.environments.empty())
     summary["environments"] = describe_environments(run.map.place_graph);
   if (run.resumed_at) summary["resumed_at"] = *run.resumed_at;
-  for (const DataNote& note : notes_of_motion(run, optimized)) {
-    warn(dataset.name() + ": " + note.text);
-    prepared.notes.push_back(note);
-  }
   add_notes(prepared.notes, summary);
   summary["unposed"] = describe_unposed(run);
   summary["sequence"] = dataset.name();
@@ -258,6 +260,9 @@ RunReport run(const RunArguments& asked) {
   if (run.stopped && run.map.frames.empty())
     throw Interrupted("interrupted before the first frame; nothing was written");
   if (drawings) drawings->finish();
+  const Trajectory optimized = run.map.trajectory_optimized();
+  const bool measured = run.map.metric;
+  const Judgement judgement = judge_prepared(prepared, run, optimized);
   json floor_plan, semantic_map;
   if (options.scene.geometry && !run.stopped)
     floor_plan = map_scene(arguments, options, dataset, run);
@@ -265,7 +270,6 @@ RunReport run(const RunArguments& asked) {
     semantic_map = map_street(arguments, options, dataset, run);
   clock.stop();
 
-  const Trajectory optimized = run.map.trajectory_optimized();
   RunReport report{arguments.out, summarize(prepared, run, optimized), {}, {}, {}};
   json& summary = report.summary;
   clock.describe(summary);
@@ -277,10 +281,10 @@ RunReport run(const RunArguments& asked) {
   const Trajectory* truth = truth_of(dataset);
   if (run.stopped) summary["interrupted"] = true;
   if (truth) summary.update(judge_run(*truth, run, optimized));
-  const Judgement judgement = judge(run, prepared.notes, arguments.min_posed);
+  if (measured && !judgement.metric) summary["scale_doubted"] = true;
   summary["judgement"] = describe_judgement(judgement);
   const std::string map_path = run_map_path(arguments.out);
-  if (!run.stopped && !run.broken_off && fs::exists(map_path)) write_judgement(map_path, judgement);
+  if (fs::exists(map_path)) write_judgement(map_path, judgement);
   write_results(arguments.out, run, optimized, truth, dataset.name(), summary);
   if (run.broken_off)
     report.broken_off = *run.broken_off + " (results of the " + std::to_string(optimized.size()) +

@@ -16,10 +16,7 @@ std::optional<DataNote> note_of_unused_imu(const std::string& sequence) {
 
 void add_notes(const std::vector<DataNote>& notes, json& summary) {
   summary["notes"] = json::array();
-  for (const DataNote& note : notes) {
-    summary["notes"].push_back(note.text);
-    if (note.doubts_scale) summary["metric"] = false, summary["scale_doubted"] = true;
-  }
+  for (const DataNote& note : notes) summary["notes"].push_back(note.text);
 }
 
 json describe_unposed(const RunResult& run) {

@@ -11,7 +11,7 @@ namespace placegraph::apps {
 /// Names inertial measurements of a folder in EuRoC's layout, which a run does not use.
 std::optional<DataNote> note_of_unused_imu(const std::string& sequence);
 
-/// Adds the notes to result.json; a scale in doubt is not reported as metric.
+/// Adds the notes to result.json.
 void add_notes(const std::vector<DataNote>& notes, nlohmann::json& summary);
 
 /// Frames without a pose, by reason.

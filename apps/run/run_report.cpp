@@ -47,7 +47,7 @@ std::string motion_text(const json& summary) {
                                  summary["motion"]["median_deviation"].get<double>()));
   const bool scaled = !summary.contains("metric") || summary["metric"].get<bool>();
   if (!scaled && summary.contains("scale_doubted"))
-    text += line("", "scale in doubt: the warnings say why");
+    text += line("", "scale in doubt: the findings say why");
   else if (!scaled)
     text += line("", "scale unknown: lengths are not in metres; --camera-height gives the scale");
   if (!summary.contains("evaluation")) return text;

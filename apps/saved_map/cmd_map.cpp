@@ -26,7 +26,10 @@ std::pair<CLI::App*, Arguments*> add_report(CLI::App& map, const std::string& na
   auto json = std::make_shared<bool>(false);
   CLI::App* command = map.add_subcommand(name, what);
   command->footer("placegraph map " + name + " out/town-run");
-  command->add_option("MAP", arguments->map, kMapText)->required();
+  command
+      ->add_option("MAP", arguments->map, kMapText)
+      ->type_name(kInput)
+      ->required();
   command->add_flag("--json", *json, kJsonText);
   command->callback([arguments, json, run] {
     const Result result = run(*arguments);
@@ -52,11 +55,14 @@ void add_export_command(CLI::App& map) {
   auto arguments = std::make_shared<MapExportArguments>();
   CLI::App* command = map.add_subcommand("export", "Export parts of a saved map");
   command->footer("placegraph map export out/town-run --g2o graph.g2o --tum trajectory.tum");
-  command->add_option("MAP", arguments->map, kMapText)->required();
+  command
+      ->add_option("MAP", arguments->map, kMapText)
+      ->type_name(kInput)
+      ->required();
   const std::vector<MapExportForm> forms = map_export_forms();
   arguments->paths.resize(forms.size());
   for (std::size_t i = 0; i < forms.size(); ++i)
-    command->add_option(forms[i].flag, arguments->paths[i], help_of(forms[i]));
+    command->add_option(forms[i].flag, arguments->paths[i], help_of(forms[i]))->type_name(kOutput);
   command->add_option("--component", arguments->component,
                       "component whose trajectory and geometry are written; default: the main one");
   command->add_flag("--ascii", arguments->ascii, "--ply, --colmap, --cloud and --mesh as text");

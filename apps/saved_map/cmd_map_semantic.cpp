@@ -15,14 +15,24 @@ void add_map_street_command(CLI::App& map) {
   MapSemanticArguments& a = *arguments;
   CLI::App* command = map.add_subcommand("street", "Make the semantic map of the streets of a map");
   command->footer("placegraph map street out/town-run --out out/town-street");
-  command->add_option("MAP", a.map, kMapText)->required();
-  command->add_option("-o,--out", a.out, "folder for semantic_map.ply, .json and .png")->required();
-  command->add_option("--georeference", a.georeference,
-                      "folder written by `placegraph map georeference`: use east-north-up axes and "
-                      "write semantic_map.geojson");
-  command->add_option("--model", a.models.urban, kModelText);
-  command->add_option("--surfaces-model", a.models.surfaces,
-                      "model of surfaces to use instead of the installed one");
+  command
+      ->add_option("MAP", a.map, kMapText)
+      ->type_name(kInput)
+      ->required();
+  command
+      ->add_option("-o,--out", a.out, "folder for semantic_map.ply, .json and .png")
+      ->type_name(kOutput)
+      ->required();
+  command
+      ->add_option("--georeference", a.georeference,
+                   "folder written by `placegraph map georeference`: use east-north-up axes and "
+                   "write semantic_map.geojson")
+      ->type_name(kInput);
+  command->add_option("--model", a.models.urban, kModelText)->type_name(kInput);
+  command
+      ->add_option("--surfaces-model", a.models.surfaces,
+                   "model of surfaces to use instead of the installed one")
+      ->type_name(kInput);
   command->add_option("--set", a.settings, kSetText)->allow_extra_args(false);
   command->add_flag("--json", *json, kJsonText);
   command->add_flag("--force", a.force, kForceText);

@@ -186,13 +186,15 @@ void require_free_targets(const std::vector<WrittenForm>& forms,
   require(std::any_of(arguments.paths.begin(), arguments.paths.end(),
                       [](const std::string& path) { return !path.empty(); }),
           "map export: nothing to write; see --help for the forms");
+  std::vector<NamedPath> targets;
   for (std::size_t i = 0; i < forms.size(); ++i) {
     if (arguments.paths[i].empty()) continue;
-    require(std::ranges::count(arguments.paths, arguments.paths[i]) == 1,
-            fmt::format("{} {}: another form is to be written there", forms[i].form.flag,
-                        arguments.paths[i]));
+    const bool image = forms[i].form.target == MapExportTarget::kImage;
+    for (const char* extension : image ? std::vector{".pgm", ".yaml"} : std::vector{""})
+      targets.push_back({forms[i].form.flag, arguments.paths[i] + extension});
     require_free_target(forms[i].form, arguments.paths[i], arguments.force);
   }
+  require_distinct_paths(targets, {{"MAP", arguments.map}});
 }
 
 }  // namespace

@@ -6,13 +6,16 @@
 namespace placegraph::apps {
 
 void add_scene_image_options(CLI::App& command, SceneImageArguments& a, bool& json) {
-  command.add_option("INPUT", a.input, "an image, or a folder of them (or with them in images/)")
+  command
+      .add_option("INPUT", a.input, "an image, or a folder of them (or with them in images/)")
+      ->type_name(kInput)
       ->required();
   command
       .add_option("-o,--out", a.out,
                   "folder for NAME.png in the colours of the classes, with a legend")
+      ->type_name(kOutput)
       ->required();
-  command.add_option("--model", a.model, kModelText);
+  command.add_option("--model", a.model, kModelText)->type_name(kInput);
   command
       .add_option("--unknown-below", a.unknown_below,
                   "pixels with a lower probability get the number after the last class")

@@ -5,6 +5,7 @@
 
 #include "apps/scene/cmd_scene_images.h"
 #include "apps/scene/scene_label.h"
+#include "apps/support/option_texts.h"
 #include "apps/support/output.h"
 
 namespace placegraph::apps {
@@ -16,8 +17,10 @@ void add_image_labels_command(CLI::App& image) {
   auto arguments = std::make_shared<SceneImageArguments>();
   auto json = std::make_shared<bool>(false);
   add_scene_image_options(*command, *arguments, *json);
-  command->add_option("--surfaces-model", arguments->surfaces_model,
-                      "model of surfaces to use instead of the installed one");
+  command
+      ->add_option("--surfaces-model", arguments->surfaces_model,
+                   "model of surfaces to use instead of the installed one")
+      ->type_name(kInput);
   command
       ->add_option("--surroundings", arguments->surroundings,
                    "where images may show no street, whose pixels then are unknown: `sequence` "

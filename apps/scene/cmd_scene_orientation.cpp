@@ -22,11 +22,15 @@ void add_image_orientation_command(CLI::App& image) {
       ->required()
       ->check(CLI::ExistingPath);
   add_calib_option(*command, a.camera, kCalibFile);
-  command->add_option("-o,--out", a.out, "surfaces in the colours of their normals, with a legend");
+  command
+      ->add_option("-o,--out", a.out, "surfaces in the colours of their normals, with a legend")
+      ->type_name(kOutput);
   command->add_flag("--ids", a.ids,
                     std::string(kIdsText) + ": 8 bits, 0 none, else 1 + axis of the normal");
-  command->add_option("--draw", a.drawing,
-                      "PNG file, or folder for a sequence: the input, drawn with its surfaces");
+  command
+      ->add_option("--draw", a.drawing,
+                   "PNG file, or folder for a sequence: the input, drawn with its surfaces")
+      ->type_name(kOutput);
   command->add_option("--every", a.every, "use every n-th image")->capture_default_str();
   command
       ->add_option("--min-confidence", a.options.min_confidence,

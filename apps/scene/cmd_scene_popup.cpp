@@ -18,8 +18,13 @@ void add_image_popup_command(CLI::App& image) {
   auto arguments = std::make_shared<ScenePopupArguments>();
   auto json = std::make_shared<bool>(false);
   ScenePopupArguments& a = *arguments;
-  command->add_option("IMAGE", a.image, "image, without distortion")->required();
-  command->add_option("-o,--out", a.out, "file for the mesh, PLY, in the camera frame [m]")
+  command
+      ->add_option("IMAGE", a.image, "image, without distortion")
+      ->type_name(kInput)
+      ->required();
+  command
+      ->add_option("-o,--out", a.out, "file for the mesh, PLY, in the camera frame [m]")
+      ->type_name(kOutput)
       ->required();
   add_calib_option(
       *command, a.calib,
@@ -30,16 +35,24 @@ void add_image_popup_command(CLI::App& image) {
   command->add_option("--farthest", a.farthest_m, "distance of the farthest surface [m]")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command->add_option("--model", a.model, "model of surfaces to use instead of the installed one");
-  command->add_option("--surface-labels", a.surfaces,
-                      "label image of `image surfaces` to use instead of the model");
+  command
+      ->add_option("--model", a.model, "model of surfaces to use instead of the installed one")
+      ->type_name(kInput);
+  command
+      ->add_option("--surface-labels", a.surfaces,
+                   "label image of `image surfaces` to use instead of the model")
+      ->type_name(kInput);
   command->add_flag("--level-camera", a.level, "assume a level camera; ignore the edges");
   command->add_option("--box", a.box, "right,forward,width,depth,height [m] of a box on the ground")
       ->delimiter(',')
       ->expected(5);
-  command->add_option("--draw", a.draw,
-                      "image file: the input with the box, hidden by nearer surfaces");
-  command->add_option("--mask", a.mask, "image file: box visible (255), hidden (128)");
+  command
+      ->add_option("--draw", a.draw,
+                   "image file: the input with the box, hidden by nearer surfaces")
+      ->type_name(kOutput);
+  command
+      ->add_option("--mask", a.mask, "image file: box visible (255), hidden (128)")
+      ->type_name(kOutput);
   command->add_option("--seed", a.seed, kSeedText)->capture_default_str();
   command->add_flag("--json", *json, kJsonText);
   command->add_flag("--force", a.force, kForceText);

@@ -7,6 +7,7 @@
 #include "apps/shell/command_reference.h"
 #include "apps/shell/completion.h"
 #include "apps/shell/man_pages.h"
+#include "apps/support/option_texts.h"
 #include "apps/support/output.h"
 
 namespace placegraph::apps {
@@ -41,7 +42,10 @@ void add_shell_commands(CLI::App& app) {
   auto folder = std::make_shared<std::string>();
   CLI::App* man = app.add_subcommand("man", "Write the manual pages");
   man->footer("placegraph man share/man/man1");
-  man->add_option("FOLDER", *folder, "folder for one page per command")->required();
+  man
+      ->add_option("FOLDER", *folder, "folder for one page per command")
+      ->type_name(kOutput)
+      ->required();
   auto markdown = std::make_shared<bool>(false);
   man->add_flag("--markdown", *markdown, "one page in Markdown, commands.md, in place of them");
   man->callback([&app, folder, markdown] { write_man_pages(app, *folder, *markdown); });

@@ -2,6 +2,12 @@
 
 namespace placegraph::apps {
 
+// Types of options that are paths: what the command writes, and what it reads. Those that are
+// checked to exist (CLI::ExistingPath and the like) are read, too. See shell/path_options.h.
+inline constexpr const char* kOutput = "OUTPUT";
+inline constexpr const char* kInput = "INPUT";
+inline constexpr const char* kInputFile = "INPUT:FILE";  ///< or the name of what is installed
+
 // Descriptions of flags that several commands share.
 inline constexpr const char* kJsonText = "print the result as JSON";
 inline constexpr const char* kForceText = "overwrite existing outputs";

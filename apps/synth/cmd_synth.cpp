@@ -58,6 +58,7 @@ void add_synth_sequence_command(CLI::App& synth_group) {
   command
       ->add_option("-o,--out", a.out,
                    "folder for the sequence, in KITTI's layout; a flight in EuRoC's")
+      ->type_name(kOutput)
       ->required();
   command->add_option("--difficulty", a.difficulty, "difficulty: clean, standard or hard")
       ->capture_default_str();

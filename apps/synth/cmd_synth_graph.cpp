@@ -20,8 +20,12 @@ void add_synth_graph_command(CLI::App& synth_group) {
           "WORLD", a.world,
           "manhattan-walk (2D), grid-world (3D), long-loop, or the file of a graph that is to be "
           "made harder")
+      ->type_name(kInputFile)
       ->required();
-  command->add_option("-o,--out", a.out, "file for the graph, in g2o format")->required();
+  command
+      ->add_option("-o,--out", a.out, "file for the graph, in g2o format")
+      ->type_name(kOutput)
+      ->required();
   command->add_option("--poses", a.poses, "number of poses")->check(CLI::Range(2, 1000000));
   command
       ->add_option("--loop-share", a.loop_share,

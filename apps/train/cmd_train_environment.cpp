@@ -17,9 +17,14 @@ void add_train_environment_command(CLI::App& train_command) {
       "environment",
       "Train the classifier of environments: frontend/internal/scene/environment.txt");
   command->footer("placegraph train environment camvid --out environment.txt");
-  command->add_option("DATA", a.data,
-                      "labelled images of streets and roads, also used for training");
-  command->add_option("-o,--out", a.out, "file for the model")->required();
+  command
+      ->add_option("DATA", a.data,
+                   "labelled images of streets and roads, also used for training")
+      ->type_name(kInput);
+  command
+      ->add_option("-o,--out", a.out, "file for the model")
+      ->type_name(kOutput)
+      ->required();
   command->add_option("--seeds", a.seeds, "seeds of the rendered worlds of the training set")
       ->delimiter(',')
       ->capture_default_str();
@@ -32,7 +37,7 @@ void add_train_environment_command(CLI::App& train_command) {
   command->add_option("--penalty", a.penalty, "penalty on the weights")
       ->check(CLI::Range(0.0, 10.0))
       ->capture_default_str();
-  command->add_option("--model", a.model, kModelText);
+  command->add_option("--model", a.model, kModelText)->type_name(kInput);
   command->add_flag("--json", *json, kJsonText);
   command->add_flag("--force", a.force, kForceText);
   command->callback([arguments, json] {

@@ -19,7 +19,10 @@ void add_train_planarity_command(CLI::App& train_command) {
       "planarity",
       "Train the classifier of planar segments of point clouds: for `image planes --model`");
   command->footer("placegraph train planarity --out planarity.txt --clouds 300");
-  command->add_option("-o,--out", a.out, "file for the model")->required();
+  command
+      ->add_option("-o,--out", a.out, "file for the model")
+      ->type_name(kOutput)
+      ->required();
   command->add_option("--worlds", a.worlds, "rendered worlds of the training set")
       ->transform(CLI::Transformer(std::map<std::string, std::string>{{"hover", "flight"}}))
       ->check(CLI::IsMember(SyntheticWorld::worlds()))

@@ -46,12 +46,16 @@ void add_train_scene_command(CLI::App& train_command, SceneModel::Kind kind, con
                    "folder with CLASSES.txt, train/images/ and train/labels/; val/ is the test set")
       ->required()
       ->check(CLI::ExistingDirectory);
-  command->add_option("-o,--out", a.out, "file for the model; its card is written beside it")
+  command
+      ->add_option("-o,--out", a.out, "file for the model; its card is written beside it")
+      ->type_name(kOutput)
       ->required();
   command->add_option("--holdout", a.holdout,
                       "sequence of the test set (file names up to the first '_')");
-  command->add_option("--update", a.update,
-                      "model to extend by these data, which may have new classes");
+  command
+      ->add_option("--update", a.update,
+                   "model to extend by these data, which may have new classes")
+      ->type_name(kInput);
   add_forest_options(*command, a.options.training);
   command
       ->add_option(

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "apps/server/cmd_viewer_options.h"
+#include "apps/support/option_texts.h"
 #include "apps/viewer/view.h"
 
 namespace placegraph::apps {
@@ -16,6 +17,7 @@ void add_view_command(CLI::App& app) {
   command->footer("placegraph view out/town-run --open");
   command
       ->add_option("RUN", arguments->runs, "folders that `placegraph run` wrote, or their map.db")
+      ->type_name(kInput)
       ->required();
   add_viewer_options(*command, arguments->viewer);
   command->callback([arguments] { view(*arguments); });

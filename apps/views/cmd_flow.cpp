@@ -32,14 +32,26 @@ void add_flow_command(CLI::App& image) {
   CLI::App* command = image.add_subcommand("flow", "Estimate the optical flow between two images");
   command->footer(
       "placegraph image flow a.png b.png --method horn-schunck --out f.flo --draw f.png");
-  command->add_option("FROM", a.from, "first image")->required();
-  command->add_option("TO", a.to, "second image")->required();
+  command
+      ->add_option("FROM", a.from, "first image")
+      ->type_name(kInput)
+      ->required();
+  command
+      ->add_option("TO", a.to, "second image")
+      ->type_name(kInput)
+      ->required();
   command->add_option("--method", a.method, "algorithm")
       ->check(CLI::IsMember(flow_method_names()))
       ->capture_default_str();
-  command->add_option("-o,--out", a.out, "file to write: .flo (Middlebury) or .png (KITTI)");
-  command->add_option("--draw", a.drawing, "PNG file for the flow, drawn in colours");
-  command->add_option("--truth", a.truth, "true flow to compare with: .flo or .png");
+  command
+      ->add_option("-o,--out", a.out, "file to write: .flo (Middlebury) or .png (KITTI)")
+      ->type_name(kOutput);
+  command
+      ->add_option("--draw", a.drawing, "PNG file for the flow, drawn in colours")
+      ->type_name(kOutput);
+  command
+      ->add_option("--truth", a.truth, "true flow to compare with: .flo or .png")
+      ->type_name(kInput);
   command->add_option("--set", a.settings, kSetText)->type_size(1)->allow_extra_args(false);
   auto* cues = command->add_flag("--flow-cues", a.cues,
                                  "also print divergence, speed over distance, time to contact "

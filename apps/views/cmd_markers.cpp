@@ -17,7 +17,10 @@ void add_markers_command(CLI::App& image) {
   CLI::App* command =
       image.add_subcommand("markers", "Detect square markers and estimate their poses");
   command->footer("placegraph image markers image.png --calib K.txt --side 0.2 --draw found.png");
-  command->add_option("IMAGE", a.image, "image")->required();
+  command
+      ->add_option("IMAGE", a.image, "image")
+      ->type_name(kInput)
+      ->required();
   add_calib_option(*command, a.calib, kCalibFile)->required();
   auto* dictionary =
       command->add_option("--dictionary", a.dictionary, "apriltag_36h11, aruco_4x4_50, ...")
@@ -36,8 +39,10 @@ void add_markers_command(CLI::App& image) {
                    "origin of pixel coordinates: centre or corner of the first pixel")
       ->check(CLI::IsMember(pixel_origin_names()))
       ->capture_default_str();
-  command->add_option("-o,--out", a.out, "JSON file");
-  command->add_option("--draw", a.drawing, "PNG file for the image, drawn with its markers");
+  command->add_option("-o,--out", a.out, "JSON file")->type_name(kOutput);
+  command
+      ->add_option("--draw", a.drawing, "PNG file for the image, drawn with its markers")
+      ->type_name(kOutput);
   command->add_flag("--json", *json, kJsonText);
   command->add_flag("--force", a.force, kForceText);
   command->callback([arguments, json] {

@@ -56,7 +56,7 @@ void add_motion_command(CLI::App& image) {
                    "standard deviation of each coordinate of a point, for 3d3d [m]")
       ->capture_default_str();
   command->add_option("--seed", a.seed, kSeedText)->capture_default_str();
-  command->add_option("-o,--out", a.out, "JSON file");
+  command->add_option("-o,--out", a.out, "JSON file")->type_name(kOutput);
   command->add_flag("--json", motion_command->json, kJsonText);
   command->add_flag("--force", a.force, kForceText);
   command->callback([motion_command] { run_motion(*motion_command); });

@@ -59,11 +59,11 @@ std::optional<Verdict> verdict_of(std::string_view name);
 /// Judgement of a run by its own evidence, without ground truth.
 struct Judgement {
   Verdict verdict = Verdict::kGood;  ///< how far the result can be trusted
-  bool metric = false;               ///< whether lengths are in metres, as far as the run shows
+  bool metric = false;               ///< whether lengths are in metres: Map::metric of its map
   std::string why_metric;            ///< what gives the map its scale, or why it has none
   std::vector<DataNote> findings;    ///< what is in doubt, each with its cause and what to try next
-  /// Standard deviation of the position of the last place relative to the first one of its
-  /// component, by the covariances of the place graph; nothing where it is not determined.
+  /// Standard deviation [m] of the position of the last place relative to the first one of its
+  /// component, by the covariances of the place graph; nothing where it is open or not in metres.
   std::optional<double> expected_drift_m;
 };
 

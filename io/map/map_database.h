@@ -26,7 +26,8 @@ class MapDatabase {
   MapDatabase& operator=(MapDatabase&&) noexcept;
   ~MapDatabase();
 
-  /// Writes the changes since the last commit (Slam::take_changes) in one transaction.
+  /// Writes the changes since the last commit (Slam::take_changes) in one transaction, which also
+  /// removes a judgement of the map before.
   void commit(const MapChanges& changes);
   /// Deletes the content of the map, whose run restarts with this origin.
   void clear(const MapOrigin& origin);
@@ -49,8 +50,9 @@ class MapDatabase {
 /// then by id; FileError if the file cannot be written.
 void write_map(const std::string& path, const StoredMap& stored);
 
-/// Writes the judgement of the finished run of a saved map; replaces an earlier one.
+/// Writes the judgement of the run of a saved map; replaces an earlier one.
 ///
+/// It decides whether the lengths of the map are metres. The run may have been interrupted.
 /// Throws FileError for a file that is not a saved map or cannot be written.
 void write_judgement(const std::string& path, const Judgement& judgement);
 

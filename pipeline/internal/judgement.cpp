@@ -175,43 +175,56 @@ std::string scale_text(const RunResult& run) {
   return "by the motion that other sensors measured";
 }
 
+/// The first finding by which lengths may be wrong; nullptr if there is none.
+const DataNote* first_doubt(const std::vector<DataNote>& findings,
+                            const std::vector<DataNote>& more) {
+  for (const std::vector<DataNote>* notes : {&findings, &more})
+    for (const DataNote& note : *notes)
+      if (note.doubts_scale) return &note;
+  return nullptr;
+}
+
 }  // namespace
 
-Judgement judge(const RunResult& run, const std::vector<DataNote>& notes, double min_posed) {
+Judgement judge(RunResult& run, const std::vector<DataNote>& notes, double min_posed) {
   Judgement judgement;
   const std::size_t frames = run.map.frames.size(), posed = tracked_frames(run.map);
-  const auto add = [&](const std::optional<DataNote>& note) {
-    if (note && note->cause != NoteCause::kNone) judgement.findings.push_back(*note);
+  const auto add = [](const std::optional<DataNote>& note, std::vector<DataNote>& findings) {
+    if (note && note->cause != NoteCause::kNone) findings.push_back(*note);
   };
+  std::vector<DataNote>& findings = judgement.findings;
   if (posed == 0 || static_cast<double>(posed) < min_posed * static_cast<double>(frames)) {
     judgement.verdict = Verdict::kFailed;
     add(DataNote{fmt::format("{} of {} frames have a pose", posed, frames), false,
                  NoteCause::kFewPosed,
-                 run.unposed.empty() ? "" : "the most frequent reason: " + run.unposed[0].reason});
+                 run.unposed.empty() ? "" : "the most frequent reason: " + run.unposed[0].reason},
+        findings);
   }
-  for (const DataNote& note : notes) add(note);
-  for (const DataNote& note : run.notes) add(note);
-  add(note_of_height(run));
-  judgement.expected_drift_m =
-      drift_of(run.map.place_graph, run.map.metric ? run.odometry_error : std::nullopt);
-  add(note_of_drift(judgement.expected_drift_m, run.map.trajectory_optimized().path_length(),
-                    run.map.metric));
+  for (const DataNote& note : notes) add(note, findings);
+  for (const DataNote& note : run.notes) add(note, findings);
+  add(note_of_height(run), findings);
+  std::vector<DataNote> of_motion;
   for (const MapComponent& component : run.map.components()) {
     const Trajectory trajectory = run.map.trajectory_optimized(component.number);
-    add(odd_steps(trajectory));
-    add(odd_order(trajectory));
+    add(odd_steps(trajectory), of_motion);
+    add(odd_order(trajectory), of_motion);
   }
-  add(note_of_confidence(run.map.frames));
-  add(note_of_spans(run.map.frames));
-  add(note_of_components(run.map));
-  add(note_of_lost(run.map));
-  if (!judgement.findings.empty() && judgement.verdict == Verdict::kGood)
+  const DataNote* const doubt = first_doubt(findings, of_motion);
+  judgement.metric = run.map.metric && !doubt;
+  judgement.why_metric = run.map.metric && doubt ? "in doubt: " + doubt->text : scale_text(run);
+  const std::optional<double> drift =
+      drift_of(run.map.place_graph, run.map.metric ? run.odometry_error : std::nullopt);
+  run.map.metric = judgement.metric;
+  if (judgement.metric) judgement.expected_drift_m = drift;
+  add(note_of_drift(drift, run.map.trajectory_optimized().path_length(), judgement.metric),
+      findings);
+  findings.insert(findings.end(), of_motion.begin(), of_motion.end());
+  add(note_of_confidence(run.map.frames), findings);
+  add(note_of_spans(run.map.frames), findings);
+  add(note_of_components(run.map), findings);
+  add(note_of_lost(run.map), findings);
+  if (!findings.empty() && judgement.verdict == Verdict::kGood)
     judgement.verdict = Verdict::kDoubtful;
-  const auto doubt = std::ranges::find_if(judgement.findings,
-                                          [](const DataNote& note) { return note.doubts_scale; });
-  judgement.metric = run.map.metric && doubt == judgement.findings.end();
-  judgement.why_metric =
-      run.map.metric && !judgement.metric ? "in doubt: " + doubt->text : scale_text(run);
   return judgement;
 }
 

@@ -190,6 +190,12 @@ SlamInputs slam_inputs(const Dataset& dataset, const RunOptions& options, const 
   return inputs;
 }
 
+/// Whether a saved map had metres before its judgement, which may have withdrawn them.
+bool scale_measured(const StoredMap& stored) {
+  const std::vector<bool>& measured = stored.history.scale_measured;  // of each track segment
+  return stored.map.metric || (!measured.empty() && std::ranges::count(measured, false) == 0);
+}
+
 /// A run over a sequence, with the file in which it saves its map.
 class SequenceRun {
  public:
@@ -226,6 +232,7 @@ class SequenceRun {
     result_.calibration = lens_.calibration();
     result_.lens_k1 = lens_.k1();
     result_.resumed_at = FrameId(begin_ + stored.map.frames.size());
+    stored.map.metric = scale_measured(stored);  // it is judged again
     result_.map = std::move(stored.map);
     return std::move(result_);
   }

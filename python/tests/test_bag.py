@@ -81,11 +81,12 @@ class BagWriter:
 
     def info(self, topic: str, stamp_ns: int, camera: pg.Camera, baseline_m: float = 0,
              frame: str = "cam", distortion: tuple[float, ...] = (),
-             model: str = "plumb_bob") -> None:
+             model: str = "plumb_bob", R: NDArray[np.float64] | None = None) -> None:
+        """`baseline_m`: how far the camera stands to the right of the frame of P."""
         K = np.asarray(camera.K(), np.float64)
         P = np.c_[K, [-camera.fx * baseline_m, 0, 0]]
         values = {"d": np.array(distortion, np.float64), "k": K.reshape(-1),
-                  "r": np.eye(3).reshape(-1), "p": P.reshape(-1)}
+                  "r": (np.eye(3) if R is None else R).reshape(-1), "p": P.reshape(-1)}
         roi = self.make("sensor_msgs/msg/RegionOfInterest", x_offset=0, y_offset=0, height=0,
                         width=0, do_rectify=False)
         self.write(topic, "sensor_msgs/msg/CameraInfo", stamp_ns,
@@ -232,22 +233,83 @@ def test_distorted_pair_is_rectified(drive: pathlib.Path, tmp_path: pathlib.Path
     assert read.baseline_m == pytest.approx(calibration.baseline_m, rel=1e-6)
 
 
-def test_mounting_of_a_turned_pair(drive: pathlib.Path, tmp_path: pathlib.Path) -> None:
-    """By R and P of camera_info: x_rectified = R x, and the right camera is a baseline beside."""
+def rotation(axis_angle: Any) -> NDArray[np.float64]:
+    return pg.SE3.exp(np.array([0, 0, 0, *axis_angle])).matrix()[:3, :3]
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_mounting_of_a_turned_pair(seed: int) -> None:
+    """By R and P of camera_info: x_rectified = R x, and each camera stands on the x axis of the
+    frame of P, which neither need be in."""
     from placegraph.bag.convert import _T_left_right
     from placegraph.bag.layouts import Images, Recording
     from placegraph.bag.messages import CameraModel
 
-    turns = [pg.SE3.exp(np.array([0, 0, 0, *turn])).matrix()[:3, :3]
-             for turn in ((0.02, -0.01, 0.03), (-0.01, 0.02, 0.01))]
-    K = np.array([[300.0, 0, 160], [0, 300, 120], [0, 0, 1]])
+    random = np.random.default_rng(seed)
+    turns = [rotation(random.uniform(-0.05, 0.05, 3)) for _ in "lr"]
+    left_m, baseline_m = random.uniform(-0.5, 0.5), random.uniform(0.05, 1)
+    fx = random.uniform(200, 900)
+    K = np.array([[fx, 0, 160], [0, fx, 120], [0, 0, 1]])
     models = [CameraModel("", 320, 240, "plumb_bob", [0.1, 0, 0, 0], K, R,
-                          np.c_[K, [-300.0 * b, 0, 0]]) for R, b in zip(turns, (0, 0.2))]
+                          np.c_[K, K @ [-at_m, 0, 0]])
+              for R, at_m in zip(turns, (left_m, left_m + baseline_m))]
     recording = Recording(Images("l"), Images("r"), cameras=dict(zip("lr", models)))
+    assert recording.baseline_m == pytest.approx(baseline_m)
     T = _T_left_right(recording, None)
-    point = np.array([0.3, -0.2, 4])  # in the rectified left camera
-    left, right = turns[0].T @ point, turns[1].T @ (point - [0.2, 0, 0])
+    point = random.uniform((-1, -1, 3), (1, 1, 9))  # in the frame of P
+    left = turns[0].T @ (point - [left_m, 0, 0])
+    right = turns[1].T @ (point - [left_m + baseline_m, 0, 0])
     np.testing.assert_allclose(T[:3, :3] @ right + T[:3, 3], left, atol=1e-12)
+
+
+def write_pair(bag: BagWriter, drive: pathlib.Path, left_m: float, name: str = "image_rect",
+               R: NDArray[np.float64] | None = None) -> float:
+    """The frames of a drive, whose left camera stands so far to the right of the frame of P;
+    returns the baseline [m]."""
+    dataset, frames = frames_of(drive, pg.Sensor.STEREO)
+    calibration = dataset.calibration(pg.Sensor.STEREO)
+    for i, frame in enumerate(frames):
+        for side, pixels, at_m in (("left", frame.image, left_m),
+                                   ("right", frame.right, left_m + calibration.baseline_m)):
+            bag.info(f"/{side}/camera_info", stamp(i), calibration.camera, at_m, side, R=R)
+            bag.image(f"/{side}/{name}", stamp(i), pixels, "mono8", side)
+    return float(calibration.baseline_m)
+
+
+def test_pair_beside_the_frame_of_its_projections(drive: pathlib.Path,
+                                                  tmp_path: pathlib.Path) -> None:
+    """As KITTI's colour cameras, whose P is in the frame of a third one."""
+    with BagWriter(tmp_path, "mcap") as bag:
+        baseline_m = write_pair(bag, drive, -0.06)
+    result = convert(bag.path, tmp_path / "sequence")
+    assert result.layout == "kitti"
+    read = pg.open_dataset(str(tmp_path / "sequence"))
+    assert read.calibration(pg.Sensor.STEREO).baseline_m == pytest.approx(baseline_m, rel=1e-9)
+
+
+def test_pair_that_was_rectified_by_its_R(drive: pathlib.Path, tmp_path: pathlib.Path) -> None:
+    with BagWriter(tmp_path, "mcap") as bag:
+        baseline_m = write_pair(bag, drive, 0, "image_raw", rotation((0.01, -0.02, 0.005)))
+    result = convert(bag.path, tmp_path / "sequence")
+    assert result.layout == "kitti"
+    for side in ("left", "right"):
+        assert any(f"/{side}/camera_info" in note and "1.31 deg, is not applied" in note
+                   for note in result.notes)
+    read, converted = frames_of(tmp_path / "sequence", pg.Sensor.STEREO)
+    assert read.calibration(pg.Sensor.STEREO).baseline_m == pytest.approx(baseline_m)
+    assert np.array_equal(converted[0].right, frames_of(drive, pg.Sensor.STEREO)[1][0].right)
+
+
+@pytest.mark.parametrize("factor, says", [(1, False), (1.02, False), (1.2, True), (-1, True)])
+def test_static_transforms_are_compared_with_the_baseline(
+        factor: float, says: bool, drive: pathlib.Path, tmp_path: pathlib.Path) -> None:
+    with BagWriter(tmp_path, "mcap") as bag:
+        baseline_m = write_pair(bag, drive, -0.06)
+        T_left_right = np.eye(4)
+        T_left_right[0, 3] = factor * baseline_m
+        bag.transform("/tf_static", stamp(0), "left", "right", T_left_right)
+    notes = convert(bag.path, tmp_path / "sequence").notes
+    assert any("by camera_info, which is taken" in note for note in notes) == says
 
 
 def test_named_depth_has_priority(drive: pathlib.Path, tmp_path: pathlib.Path) -> None:

@@ -163,7 +163,8 @@ inline StoredMap random_map(Random& random, int places = 4, bool scaled = false)
   Judgement& judgement = stored.judgement.emplace();
   judgement.verdict = Verdict::kDoubtful;
   judgement.why_metric = "by the baseline";
-  judgement.expected_drift_m = random.uniform();
+  judgement.metric = map.metric;
+  if (map.metric) judgement.expected_drift_m = random.uniform();
   judgement.findings.push_back(
       {"the 'lens' is \xc3\xa4", true, NoteCause::kDistortion, "measure it"});
   judgement.findings.push_back({"a jump", false, NoteCause::kJump});

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <placegraph/eval/trajectory/report.h>
+#include <placegraph/graph/internal/core/csv_text.h>
 #include <placegraph/graph/internal/core/json_text.h>
 
 #include <nlohmann/json.hpp>
@@ -73,13 +74,6 @@ Json average_json(const AverageResult& mean) {
   return json;
 }
 
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
-}
-
 std::string latex_text(const std::string& text) {
   std::string escaped;
   for (const char c : text) {
@@ -142,23 +136,23 @@ std::string to_json(const std::vector<EvaluationResult>& results, bool with_aver
 }
 
 std::string to_csv(const std::vector<EvaluationResult>& results) {
-  std::string csv =
-      "name,record,key,value,unit,first_frame,last_frame,length_m,speed_m_per_s,protocol\n";
+  CsvText csv;
+  csv.row("name", "record", "key", "value", "unit", "first_frame", "last_frame", "length_m",
+          "speed_m_per_s", "protocol");
   for (const EvaluationResult& r : results) {
-    const std::string name = csv_field(r.name);
     for (const Metric& m : metrics(r))
-      csv += fmt::format("{},metric,{},{},{},,,,,{}\n", name, m.key,
-                         m.value ? fmt::format("{}", *m.value) : "", m.unit, csv_field(m.protocol));
+      csv.row(r.name, "metric", m.key, m.value ? fmt::format("{}", *m.value) : "", m.unit, "", "",
+              "", "", m.protocol);
     for (const SegmentError& s : r.segments.segments) {
       const auto row = [&](const char* key, double value, const char* unit) {
-        csv += fmt::format("{},segment,{},{},{},{},{},{},{},\n", name, key, value, unit,
-                           s.first_frame, s.last_frame, s.length_m, s.speed_m_per_s);
+        csv.row(r.name, "segment", key, value, unit, s.first_frame, s.last_frame, s.length_m,
+                s.speed_m_per_s, "");
       };
       row("t_rel_percent", s.t_percent, "%");
       row("r_rel_deg_per_100m", s.r_deg_per_100m, "deg/100m");
     }
   }
-  return csv;
+  return csv.text();
 }
 
 std::string to_latex(const std::vector<EvaluationResult>& results) {

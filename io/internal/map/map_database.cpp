@@ -126,8 +126,13 @@ void write_judgement(const std::string& path, const Judgement& judgement) {
   database.execute("BEGIN IMMEDIATE; DELETE FROM judgement; DELETE FROM finding");
   MapRow row;
   row.text(to_string(judgement.verdict)).integer(judgement.metric).text(judgement.why_metric);
-  judgement.expected_drift_m ? row.real(*judgement.expected_drift_m) : row.null();
+  const bool drift = judgement.metric && judgement.expected_drift_m;
+  drift ? row.real(*judgement.expected_drift_m) : row.null();
   MapTable(database, "judgement", "id", 5).write(1, row);
+  SqliteStatement origin(database, "UPDATE origin SET metric = ?");
+  origin << std::int64_t{judgement.metric};
+  origin.run();
+  update_checksums(database, "origin");
   MapTable findings(database, "finding", "number", 5);
   std::int64_t number = 0;
   for (const DataNote& finding : judgement.findings)

@@ -314,7 +314,9 @@ void MapReader::read_judgement() {
   judgement.verdict = *verdict;
   judgement.metric = rows.integer(2, 0, 1) == 1;
   judgement.why_metric = rows.text(3);
-  if (!rows.is_null(4)) judgement.expected_drift_m = rows.real(4);
+  // Earlier programs left the metres to the map that a judgement had withdrawn.
+  stored_.map.metric = judgement.metric;
+  if (judgement.metric && !rows.is_null(4)) judgement.expected_drift_m = rows.real(4);
   SqliteRows findings(database_, "finding", "number, cause, text, doubts_scale, advice");
   while (findings.next()) {
     require_next(findings, judgement.findings.size());

@@ -170,6 +170,7 @@ void MapWriter::put_landmarks(const MapChanges& changes) {
 void MapWriter::commit(const MapChanges& changes, bool finished) {
   database.execute("BEGIN IMMEDIATE");
   try {
+    database.execute("DELETE FROM judgement; DELETE FROM finding");  // of the map before
     put_keyframes(changes);
     put_observations(changes);
     put_places(changes);

@@ -61,6 +61,11 @@ LoopEditor::LoopEditor(StoredMap stored, const SlamOptions& options)
           "loops of this map cannot be edited: it has no calibration");
   stored_.judgement.reset();
   state_ = {stored_.map.loops, stored_.history, stored_.map.place_graph, stored_.map.metric};
+  scale_doubted_ = !state_.metric && mapper_of(state_).metric();
+}
+
+PlaceMapper LoopEditor::mapper_of(const State& state) const {
+  return {options_.places, options_.pose_graph, state.place_graph.places, state.history};
 }
 
 const Keyframe& LoopEditor::keyframe_of(FrameId frame) const {
@@ -120,8 +125,7 @@ std::string LoopEditor::take(FrameId query, FrameId match, const char* done) {
   require(!record || !record->accepted(),
           fmt::format("the loop {} is in the map already", pair_text(query, match)));
   const KeyframeId later = keyframe_of(query).id, earlier = keyframe_of(match).id;
-  const PlaceMapper mapper(options_.places, options_.pose_graph, next.place_graph.places,
-                           next.history);
+  const PlaceMapper mapper = mapper_of(next);
   LoopRecord measured;
   const std::optional<Loop> loop =
       closer().measure(later, earlier, mapper.scale_unknown(earlier, later), measured);
@@ -140,8 +144,7 @@ std::string LoopEditor::take(FrameId query, FrameId match, const char* done) {
 
 /// Makes an edited state the present one, with the constraints of its loops.
 void LoopEditor::change(State next) {
-  const PlaceMapper mapper(options_.places, options_.pose_graph, next.place_graph.places,
-                           next.history);
+  const PlaceMapper mapper = mapper_of(next);
   next.place_graph.constraints = mapper.place_graph().constraints;
   next.optimized = false;
   next.revision = ++revisions_;
@@ -152,7 +155,7 @@ void LoopEditor::change(State next) {
 MapMotion LoopEditor::optimize() {
   State next = state_;
   next.history.judged_loops = 0;
-  PlaceMapper mapper(options_.places, options_.pose_graph, next.place_graph.places, next.history);
+  PlaceMapper mapper = mapper_of(next);
   if (next.loop_removed) mapper.reconsider();
   const IncrementalStep step = mapper.finish();
   require(static_cast<bool>(step.outcome),
@@ -162,7 +165,7 @@ MapMotion LoopEditor::optimize() {
   next.history.median_depth_m = median_depth_m;
   next.place_graph = mapper.place_graph();
   describe_places(next.place_graph);
-  next.metric = mapper.metric();
+  next.metric = mapper.metric() && !scale_doubted_;
   next.optimized = true;
   next.loop_removed = false;
   next.revision = ++revisions_;

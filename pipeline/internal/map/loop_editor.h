@@ -10,6 +10,8 @@
 
 namespace placegraph {
 
+class PlaceMapper;
+
 /// How far an optimization moved the map.
 struct MapMotion {
   std::size_t places_before = 0, places_after = 0;  ///< number of places
@@ -58,10 +60,11 @@ class LoopEditor {
     std::vector<LoopRecord> loops = {};
     PlaceHistory history = {};
     PlaceGraph place_graph = {};
-    bool metric = false, optimized = true, loop_removed = false;
+    bool metric = false, optimized = true, loop_removed = false;  // metric: as Map::metric
     std::vector<std::string> edits = {};
     int revision = 0;
   };
+  PlaceMapper mapper_of(const State& state) const;
   const Keyframe& keyframe_of(FrameId frame) const;
   const LoopCloser& closer();
   std::string take(FrameId query, FrameId match, const char* done);
@@ -72,6 +75,7 @@ class LoopEditor {
   StoredMap stored_;
   SlamOptions options_;
   State state_;
+  bool scale_doubted_ = false;  // a judgement withdrew the metres of the scale that was measured
   std::vector<State> earlier_;
   int revisions_ = 0;                 // the greatest number of a state so far
   std::optional<LoopCloser> closer_;  // made when it is first needed

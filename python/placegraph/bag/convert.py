@@ -70,6 +70,7 @@ class _Reader:
         self.truth_frame = ""
         self._truth: dict[int, Matrix] = {}
         self._imu: dict[int, list[float]] = {}
+        self._notes: list[str] = []
         self._infos = {} if calibrated else {
             info_of(name, topics.infos): name for name in topics.cameras()}
         self._folder = folder
@@ -96,7 +97,9 @@ class _Reader:
     def _info(self, topic: str, message: Any, received_ns: int) -> None:
         name = self._infos[topic]
         if name not in self.recording.cameras:
-            self.recording.cameras[name] = camera_of(message, topic, is_rectified(name))
+            camera = camera_of(message, topic, is_rectified(name))
+            self.recording.cameras[name] = camera
+            self._notes += [camera.note] if camera.note else []
 
     def _image(self, topic: str, message: Any, received_ns: int) -> None:
         images = self.images[topic]
@@ -125,6 +128,7 @@ class _Reader:
 
     def finish(self, notes: list[str]) -> Recording:
         """What was read, ordered by time, in the frame of one body."""
+        notes += self._notes
         for images in self.images.values():
             if not images.files:
                 raise _core.FileError(f"{images.topic}: has no messages")
@@ -151,8 +155,11 @@ class _Reader:
             left = left @ rotation(model.R.T)  # the frame is that of the camera as it is mounted
         self.recording.T_body[self.topics.image] = left
         if self.recording.right is not None:
-            T = _T_left_right(self.recording, self.frames.transform(
-                camera, self.frame_of[self.topics.right]))
+            right = self.frame_of[self.topics.right]
+            T_frames = None if right == camera else self.frames.transform(camera, right)
+            T = _T_left_right(self.recording, T_frames)
+            if T_frames is not None and (note := _other_mounting(self.recording, T, T_frames)):
+                notes.append(f"{note} (frames {camera!r} and {right!r})")
             self.recording.T_body[self.topics.right] = left @ T
         if self.recording.depth is not None:
             self.recording.T_cam_depth = self.frames.transform(
@@ -190,10 +197,9 @@ def _T_left_right(recording: Recording, T: Matrix | None) -> Matrix:
     left, right = (recording.cameras.get(name.topic) for name in (recording.image, recording.right))
     if left is None or right is None:
         return np.eye(4)  # the file of calibration has it
-    baseline_m = -right.P[0, 3] / right.P[0, 0] if right.P[0, 0] > 0 else 0.0
-    if baseline_m > 0 and np.any(left.R) and np.any(right.R):
+    if recording.baseline_m > 0 and np.any(left.R) and np.any(right.R):
         shift = np.eye(4)
-        shift[0, 3] = baseline_m
+        shift[0, 3] = recording.baseline_m
         if left.rectified and right.rectified:
             return shift
         return rotation(left.R.T) @ shift @ rotation(right.R)
@@ -201,6 +207,20 @@ def _T_left_right(recording: Recording, T: Matrix | None) -> Matrix:
         raise _core.FileError(f"{recording.right.topic}: camera_info has no baseline, and no "
                               "static transform joins the cameras; --calib FILE gives it all")
     return T
+
+
+def _other_mounting(recording: Recording, T: Matrix, T_frames: Matrix) -> str:
+    """What to say where the static transforms put the right camera elsewhere than camera_info, by
+    more than a twentieth of the baseline; empty where both agree."""
+    left = recording.cameras.get(recording.image.topic)
+    if left is None:
+        return ""
+    seen = left.R.T @ T[:3, 3] if left.rectified and np.any(left.R) else T[:3, 3]
+    if np.linalg.norm(T_frames[:3, 3] - seen) <= 0.05 * np.linalg.norm(seen):
+        return ""
+    places = [", ".join(f"{value:.3f}" for value in t) for t in (T_frames[:3, 3], seen)]
+    return (f"the right camera is at ({places[0]}) m from the left one by the static transforms, "
+            f"at ({places[1]}) m by camera_info, which is taken")
 
 
 def _write(recording: Recording, out: Path, calibration: Path | None, notes: list[str]) -> str:
@@ -214,8 +234,7 @@ def _write(recording: Recording, out: Path, calibration: Path | None, notes: lis
         write_tum(recording, out)
         return "tum"
     rectified = all(camera.rectified for camera in recording.cameras.values())
-    if (recording.right is not None and rectified and recording.imu is None
-            and recording.cameras[recording.right.topic].P[0, 3] < 0):
+    if rectified and recording.imu is None and recording.baseline_m > 0:
         write_kitti(recording, out)
         return "kitti"
     write_euroc(recording, out)

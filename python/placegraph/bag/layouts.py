@@ -58,6 +58,13 @@ class Recording:
     truth: _core.Trajectory | None = None
     """T_world_body."""
 
+    @property
+    def baseline_m(self) -> float:
+        """Distance from the left camera to the right one, by the P of both; 0 if they have none."""
+        if self.right is None or not {self.image.topic, self.right.topic} <= self.cameras.keys():
+            return 0.0
+        return self.cameras[self.right.topic].offset_m - self.cameras[self.image.topic].offset_m
+
     def truth_of_camera(self) -> _core.Trajectory | None:
         """T_world_cam of the (left) camera."""
         if self.truth is None:
@@ -117,8 +124,7 @@ def write_kitti(recording: Recording, out: Path) -> None:
     lines = []
     for number, images in enumerate((left, right)):
         fx, fy, cx, cy = recording.cameras[left.topic].intrinsics
-        shift = recording.cameras[images.topic].P[0, 3] if number else 0.0
-        matrix = [fx, 0, cx, shift, 0, fy, cy, 0, 0, 0, 1, 0]
+        matrix = [fx, 0, cx, -fx * number * recording.baseline_m, 0, fy, cy, 0, 0, 0, 1, 0]
         lines.append(f"P{number}: " + " ".join(repr(float(value)) for value in matrix) + "\n")
         _move(images, out / f"image_{number}")
     (out / "calib.txt").write_text("".join(lines))

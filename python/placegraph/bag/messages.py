@@ -129,6 +129,14 @@ class CameraModel:
     P: Matrix
     rectified: bool = field(default=False)
     """Whether its images are rectified: then P describes them."""
+    note: str = field(default="")
+    """What is assumed of it, one line; empty: nothing."""
+
+    @property
+    def offset_m(self) -> float:
+        """How far the camera stands to the right of the frame of P, which all rectified cameras
+        share [m]."""
+        return -float(self.P[0, 3] / self.P[0, 0]) if self.P[0, 0] > 0 else 0.0
 
     @property
     def intrinsics(self) -> list[float]:
@@ -156,10 +164,16 @@ def camera_of(message: Any, topic: str, rectified: bool) -> CameraModel:
                          numbers("p").reshape(3, 4))
     if message.distortion_model == "rational_polynomial" and not any(camera.distortion[5:]):
         camera.model, camera.distortion = "plumb_bob", camera.distortion[:5]
-    # Undistorted cameras with R = I are what rectification makes.
-    camera.rectified = rectified or (
-        not any(camera.distortion) and np.allclose(camera.R, np.eye(3), atol=1e-9)
-        and camera.P[0, 0] > 0 and np.allclose(camera.K, camera.P[:, :3], rtol=1e-9))
+    # Without distortion and with K = P, rectification would change nothing but the axes: it is done.
+    done = (not any(camera.distortion) and np.any(camera.R) and camera.P[0, 0] > 0
+            and np.allclose(camera.K, camera.P[:, :3], rtol=1e-9))
+    if done and not rectified:
+        turn_deg = np.rad2deg(np.arccos(np.clip((np.trace(camera.R) - 1) / 2, -1, 1)))
+        if turn_deg > 0.01:
+            camera.note = (f"{topic}: D = 0 and K = P say that the images are rectified: R, a "
+                           f"rotation by {turn_deg:.2f} deg, is not applied")
+        camera.R = np.eye(3)
+    camera.rectified = rectified or bool(done)
     if not (camera.intrinsics[0] > 0 and camera.intrinsics[1] > 0):
         raise _core.FileError(f"{topic}: the camera is not calibrated (a focal length of 0)")
     return camera

@@ -93,7 +93,7 @@ PythonRun run(const Dataset& dataset, const OptionSet& options, const std::strin
   const nb::gil_scoped_release release;
   if (surfaces) inputs.surfaces = surfaces_in(*surfaces);
   PythonRun result = finished(run_sequence(dataset, copy, inputs), dataset, copy, sequence);
-  if (map_file && result.map->finished && std::filesystem::exists(*map_file))
+  if (map_file && std::filesystem::exists(*map_file))
     write_judgement(*map_file, *result.map->judgement);
   return result;
 }

@@ -16,8 +16,11 @@
 #include "apps/shell/command_reference.h"
 #include "apps/shell/completion.h"
 #include "apps/shell/man_pages.h"
+#include "apps/shell/path_options.h"
 #include "apps/shell/spellings.h"
 #include "tests/support/cli_test.h"
+#include "tests/support/message_of.h"
+#include "tests/support/temporary_folder.h"
 
 namespace placegraph {
 namespace command_line_test {
@@ -156,6 +159,78 @@ TEST_F(CommandLine, CommandsOfTheGroupsThatWereCommandsAreKnownAsSuch) {
     for (const CLI::App* command : commands_of(*app->get_subcommand(group)))
       EXPECT_THAT(apps::present_spelling({group, command->get_name(), "x"}).words,
                   ElementsAre(group, command->get_name(), "x"));
+}
+
+/// All commands, at any depth.
+std::vector<CLI::App*> all_commands(CLI::App& app) {
+  std::vector<CLI::App*> commands;
+  for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) {
+    commands.push_back(command);
+    for (CLI::App* below : all_commands(*command)) commands.push_back(below);
+  }
+  return commands;
+}
+
+// Texts that are no paths. What is none of these, no number and no choice of words must say what the
+// command does with it: kOutput, kInput, or a check that it exists.
+TEST_F(CommandLine, EveryTextIsAnOutputAnInputOrAWord) {
+  const std::set<std::string> words = {
+      "--blind",      "--box",         "--clock-offset", "--cues",       "--defects",
+      "--dictionary", "--difficulty",  "--elements",     "--gravity",    "--holdout",
+      "--lever-arm",  "--left-out",    "--normal",       "--origin",     "--rendered",
+      "--scene",      "--seeds",       "--set",          "--size",       "--systems",
+      "--title",      "--truth-noise", "PAIR",           "COMMAND",      "--truth-same",
+      "--truth-none", "--range",       "--frames"};
+  for (const CLI::App* command : all_commands(*app))
+    for (const CLI::Option* option : command->get_options()) {
+      const std::string name = apps::full_name(*command) + " " + option->get_name();
+      EXPECT_FALSE(apps::is_output(*option) && apps::is_input(*option)) << name;
+      if (!option->get_type_name().starts_with("TEXT") || option->get_items_expected_max() == 0 ||
+          !apps::choices_of(*option).empty() || apps::is_input(*option))
+        continue;
+      EXPECT_TRUE(words.contains(option->get_name()) || name == "placegraph synth sequence WORLD")
+          << name << " is " << option->get_type_name();
+    }
+}
+
+// With one file for an output and for any other path of the command, nothing is begun.
+TEST_F(CommandLine, NoOutputMayBeAnotherOutputOrAnInput) {
+  const test::TemporaryFolder folder;
+  const std::string file = folder.write("a", ""), again = folder.path() + "/./a";
+  int pairs = 0;
+  for (CLI::App* command : all_commands(*app)) {
+    const std::vector<CLI::Option*> options = command->get_options();
+    for (CLI::Option* output : options)
+      for (CLI::Option* other : options) {
+        const bool path = apps::is_output(*other) || apps::is_input(*other);
+        if (!apps::is_output(*output) || !path || output == other) continue;
+        output->add_result(file);
+        other->add_result(again);
+        const std::string message =
+            test::message_of<ArgumentError>([&] { apps::require_distinct_paths(*command); });
+        EXPECT_THAT(message, AllOf(HasSubstr(output->get_name()), HasSubstr(other->get_name())))
+            << apps::full_name(*command);
+        output->clear();
+        other->clear();
+        ++pairs;
+      }
+  }
+  EXPECT_GT(pairs, 300);
+}
+
+class Outputs : public test::CliTest {};
+
+TEST_F(Outputs, ThatAreOneFileAreRefusedBeforeTheWork) {
+  test::write_file(dir / "a.txt", "0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n2 2 1 0 0 0 0 1\n");
+  std::filesystem::create_symlink("o", dir / "link");
+  expect_usage_error("eval trajectory a.txt a.txt --csv o --latex ./o",
+                     "--latex: ./o is where another output is to be written, that of --csv");
+  expect_usage_error("eval a.txt a.txt --csv o --latex link", "that of --csv");
+  expect_usage_error("eval a.txt a.txt --csv a.txt --force", "--csv: a.txt is an input");
+  expect_usage_error("eval a.txt a.txt --plot e.png --plot-kind xyz,rpe --csv e_rpe.png",
+                     "--plot: e_rpe.png is where another output is to be written, that of --csv");
+  expect_usage_error("graph convert a.txt sub/../a.txt --force", "OUT: sub/../a.txt is an input");
+  EXPECT_FALSE(std::filesystem::exists(dir / "o"));
 }
 
 class Misspelled : public test::CliTest {};

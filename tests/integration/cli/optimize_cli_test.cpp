@@ -118,7 +118,7 @@ TEST_F(OptimizeCli, RefusesCovariancesThatDoNotExistOrHaveNoPlace) {
   EXPECT_FALSE(fs::exists(dir / "out.g2o"));
   EXPECT_FALSE(fs::exists(dir / "c.csv"));
   expect_usage_error("optimize in.g2o -o out.g2o --covariances out.g2o",
-                     "--covariances: out.g2o is where the graph is to be written");
+                     "--covariances: out.g2o is where another output is to be written");
 }
 
 TEST_F(OptimizeCli, ReadsOtherFormsAndWritesThatOfG2o) {

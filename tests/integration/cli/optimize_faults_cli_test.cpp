@@ -87,11 +87,10 @@ TEST_F(OptimizeFaults, NeverOverwritesUnasked) {
 
 TEST_F(OptimizeFaults, KeepsItsInputWhereThatIsTheOutputToo) {
   const std::string before = read_file(dir / "in.g2o");
-  expect_usage_error("optimize in.g2o -o in.g2o", "--force");
+  for (const char* force : {"", " --force"})
+    expect_usage_error(std::string("optimize in.g2o -o in.g2o") + force,
+                       "--out: in.g2o is an input, that of IN");
   EXPECT_EQ(read_file(dir / "in.g2o"), before);
-  write_file(dir / "bad.g2o", kTwoPoses + "EDGE_SE2 0 1 1 0 0 1");
-  expect_usage_error("optimize bad.g2o -o bad.g2o --force", "bad.g2o:3:");
-  EXPECT_EQ(read_file(dir / "bad.g2o"), kTwoPoses + "EDGE_SE2 0 1 1 0 0 1");
 }
 
 TEST_F(OptimizeFaults, RefusesBadOptions) {

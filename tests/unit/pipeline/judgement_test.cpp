@@ -41,6 +41,10 @@ RunResult run_of(const std::string& frames) {
   return run;
 }
 
+Judgement judged(RunResult run, const std::vector<DataNote>& notes, double min_posed) {
+  return judge(run, notes, min_posed);
+}
+
 std::vector<std::string> causes_of(const Judgement& judgement) {
   std::vector<std::string> causes;
   for (const DataNote& finding : judgement.findings) causes.push_back(to_string(finding.cause));
@@ -48,7 +52,7 @@ std::vector<std::string> causes_of(const Judgement& judgement) {
 }
 
 TEST(Judgement, IsGoodWhereNothingContradicts) {
-  const Judgement judgement = judge(run_of("00000000"), {}, 0.2);
+  const Judgement judgement = judged(run_of("00000000"), {}, 0.2);
   EXPECT_EQ(judgement.verdict, Verdict::kGood);
   EXPECT_TRUE(judgement.metric);
   EXPECT_THAT(judgement.why_metric, HasSubstr("camera height of 1.65 m"));
@@ -81,21 +85,22 @@ TEST(Judgement, DoubtsTheScaleByANoteThatDoes) {
         judge(run, of_data ? std::vector{doubt} : std::vector<DataNote>(), 0.2);
     EXPECT_EQ(judgement.verdict, Verdict::kDoubtful);
     EXPECT_FALSE(judgement.metric);
+    EXPECT_FALSE(run.map.metric);
     EXPECT_EQ(judgement.why_metric, "in doubt: the ground is not below");
     EXPECT_THAT(causes_of(judgement), testing::ElementsAre("camera_height_questionable"));
   }
 }
 
 TEST(Judgement, IgnoresNotesWithoutACause) {
-  EXPECT_EQ(judge(run_of("0000"), {{"2 of 4 frames have no ground truth"}}, 0.2).verdict,
+  EXPECT_EQ(judged(run_of("0000"), {{"2 of 4 frames have no ground truth"}}, 0.2).verdict,
             Verdict::kGood);
 }
 
 TEST(Judgement, FailsBelowTheShareOfFramesWithAPose) {
-  EXPECT_EQ(judge(run_of("00......"), {}, 0.3).verdict, Verdict::kFailed);
-  EXPECT_THAT(causes_of(judge(run_of("00......"), {}, 0.3)), testing::Contains("few_posed"));
-  EXPECT_NE(judge(run_of("00......"), {}, 0.25).verdict, Verdict::kFailed);
-  EXPECT_EQ(judge(run_of("...."), {}, 0).verdict, Verdict::kFailed);
+  EXPECT_EQ(judged(run_of("00......"), {}, 0.3).verdict, Verdict::kFailed);
+  EXPECT_THAT(causes_of(judged(run_of("00......"), {}, 0.3)), testing::Contains("few_posed"));
+  EXPECT_NE(judged(run_of("00......"), {}, 0.25).verdict, Verdict::kFailed);
+  EXPECT_EQ(judged(run_of("...."), {}, 0).verdict, Verdict::kFailed);
 }
 
 TEST(Judgement, NamesFramesOfLowConfidence) {
@@ -137,7 +142,7 @@ TEST(Judgement, SaysWhetherTheScaleIsChecked) {
 }
 
 TEST(Judgement, ListsLostSpansAndComponents) {
-  const Judgement judgement = judge(run_of("..000..0.111"), {}, 0.2);
+  const Judgement judgement = judged(run_of("..000..0.111"), {}, 0.2);
   EXPECT_EQ(judgement.verdict, Verdict::kDoubtful);
   ASSERT_THAT(causes_of(judgement), testing::ElementsAre("components", "lost_frames"));
   EXPECT_THAT(judgement.findings[0].text, HasSubstr("frames 2 to 7 (main), frames 9 to 11"));

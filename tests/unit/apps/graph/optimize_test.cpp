@@ -162,10 +162,6 @@ TEST_F(OptimizeCommand, RefusesNamesItDoesNotKnowAndWhatDoesNotGoTogether) {
   arguments = asked;
   arguments.drop_rejected = true;
   expect_refused("--drop-rejected goes with --robust");
-  arguments = asked;
-  arguments.plot = arguments.out + ".svg";
-  arguments.out += ".svg";
-  expect_refused("--plot: " + arguments.out + " is where the graph is to be written");
 }
 
 TEST_F(OptimizeCommand, NamesTheLineOfABrokenFileAndWritesNothing) {

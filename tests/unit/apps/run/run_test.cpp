@@ -50,10 +50,6 @@ TEST_F(RunCommandFunction, DrawsEveryFrameIfAsked) {
   const Image drawn = read_image_as_stored(folder / "drawn/000002.png");
   const Image frame = read_image_as_stored(folder / "s/image_0/000002.png");
   EXPECT_GT(drawn.rows, frame.rows);  // a legend is below
-  arguments.out = arguments.draw;
-  arguments.force = true;
-  EXPECT_THAT(message_of<ArgumentError>([&] { run(arguments); }),
-              HasSubstr("--draw: must be another folder than --out"));
 }
 
 TEST_F(RunCommandFunction, DrawsTheFramesAsAVideoOrASheet) {

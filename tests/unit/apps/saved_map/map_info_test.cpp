@@ -67,7 +67,7 @@ TEST(MapInfoCommand, ListsThePlacesIfAsked) {
   const test::TemporaryFolder folder;
   Random random(3);
   StoredMap stored = test::random_map(random);
-  stored.map.metric = false;
+  stored.map.metric = stored.judgement->metric = false;
   write_map(folder / "map.db", stored);
   EXPECT_FALSE(map_info({folder.path()}).summary.contains("place_list"));
   const MapInfoResult result = map_info({folder.path(), true});

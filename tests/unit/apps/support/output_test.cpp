@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/random.h>
 
 #include <csignal>
 #include <filesystem>
@@ -133,6 +134,77 @@ TEST(Interruption, NotesASignalAndGivesItsHandlerBack) {
     EXPECT_EQ(std::signal(signal, given), SIG_DFL);
   }
   EXPECT_EQ(std::signal(SIGHUP, hangup), SIG_IGN);
+}
+
+/// A file or a folder, written in one of many ways: with dots, through links of either kind.
+std::string other_spelling(Random& random, const test::TemporaryFolder& dir,
+                           const std::string& name) {
+  switch (random.index(5)) {
+    case 0:
+      return dir / name;
+    case 1:
+      return dir / ("./" + name);
+    case 2:
+      return dir / ("deep/../" + name);
+    case 3:
+      return dir / ("around/" + name);  // a link to the folder itself
+    default:
+      return dir / ("link_" + name);
+  }
+}
+
+// Outputs and inputs by random names: two are refused exactly if they are one file.
+TEST(DistinctPaths, AreTheSameHoweverTheyAreWritten) {
+  const test::TemporaryFolder dir;
+  fs::create_directory(dir / "deep");
+  fs::create_directory_symlink(dir.path(), dir / "around");
+  const std::vector<std::string> names = {"there", "hard", "absent", "deep"};
+  dir.write("there", "");
+  dir.write("hard", "");
+  fs::create_symlink("there", dir / "link_there");
+  fs::create_hard_link(dir / "hard", dir / "link_hard");
+  fs::create_symlink("absent", dir / "link_absent");  // leads nowhere yet
+  fs::create_directory_symlink("deep", dir / "link_deep");
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const std::string one = names[static_cast<std::size_t>(random.index(4))],
+                      other = names[static_cast<std::size_t>(random.index(4))];
+    const NamedPath a{"--one", other_spelling(random, dir, one)},
+        b{"--other", other_spelling(random, dir, other)};
+    SCOPED_TRACE(a.path + " and " + b.path);
+    const auto refused = [](const std::vector<NamedPath>& outputs,
+                            const std::vector<NamedPath>& inputs) {
+      try {
+        require_distinct_paths(outputs, inputs);
+        return false;
+      } catch (const ArgumentError&) {
+        return true;
+      }
+    };
+    EXPECT_EQ(refused({a, b}, {}), one == other);
+    EXPECT_EQ(refused({a}, {b}), one == other && other != "absent");
+    EXPECT_FALSE(refused({a}, {}));
+    EXPECT_FALSE(refused({}, {a, b}));  // the same file may be read twice
+    const bool folder = one == "deep";
+    const NamedPath below{"--below", a.path + "/below.txt"};
+    EXPECT_TRUE(!folder || (refused({a, below}, {}) && refused({below, a}, {})));
+    EXPECT_FALSE(folder && refused({below}, {a}));  // beside what is read of a folder
+  }
+}
+
+TEST(DistinctPaths, TheMapOfAFolderIsAnInputAndSoIsTheFolderOfAFile) {
+  const test::TemporaryFolder dir;
+  const std::string map = dir.write("run/map.db", ""), image = dir.write("images/a.png", "");
+  const auto message = [](const std::string& output, const std::string& input) {
+    return test::message_of<ArgumentError>(
+        [&] { require_distinct_paths({{"--out", output}}, {{"MAP", input}}); });
+  };
+  EXPECT_EQ(message(map, dir / "run"), "--out: " + map + " is an input, that of MAP");
+  EXPECT_EQ(message(dir / "images", image),
+            "--out: " + (dir / "images") + " is the folder of an input, that of MAP");
+  EXPECT_NO_THROW(require_distinct_paths({{"--out", dir / "run/e.png"}}, {{"MAP", dir / "run"}}));
+  EXPECT_NO_THROW(require_distinct_paths({{"--csv", "/dev/null"}, {"--plot", "/dev/null"}}, {}));
 }
 
 }  // namespace output_test

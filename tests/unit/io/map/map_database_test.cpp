@@ -44,6 +44,34 @@ TEST_F(MapDatabaseFaults, ARotationOfNoUnitLengthIsRefused) {
   EXPECT_THAT(refusal(), HasSubstr("table place, row 1: T_map_place: a pose's quaternion"));
 }
 
+// The judgement of an interrupted run is of the map as it is: a run that goes on removes it.
+TEST(MapDatabase, AJudgementDecidesOnMetresUntilTheRunGoesOn) {
+  Random random(4);
+  StoredMap stored = test::random_map(random);
+  stored.finished = false;
+  const test::TemporaryFolder dir;
+  const std::string path = dir / "map.db";
+  write_map(path, stored);
+  ASSERT_TRUE(read_map(path).map.metric);
+  Judgement judgement = *stored.judgement;
+  judgement.metric = false;
+  write_judgement(path, judgement);
+  check_map_checksums(path);
+  const StoredMap judged = read_map(path);
+  EXPECT_FALSE(judged.finished || judged.map.metric || judged.judgement->expected_drift_m);
+
+  MapChanges changes;
+  changes.places = stored.map.place_graph.places;
+  changes.first_frame = stored.map.frames.size();
+  changes.landmarks = stored.map.landmarks;
+  changes.loops = stored.map.loops;
+  changes.history = stored.history;
+  changes.metric = true;
+  MapDatabase::open(path).commit(changes);
+  EXPECT_TRUE(read_map(path).map.metric);
+  EXPECT_FALSE(read_map(path).judgement);
+}
+
 TEST_F(MapDatabaseFaults, ANumberThatIsNotFiniteIsRefused) {
   change("UPDATE place SET scale = 9e999 WHERE id = 0");
   EXPECT_THAT(refusal(), HasSubstr("table place, row 0: scale is not finite"));

@@ -38,13 +38,17 @@ RunResult path_of(int places, double sigma_m) {
   return run;
 }
 
+Judgement judged(RunResult run, const std::vector<DataNote>& notes, double min_posed) {
+  return judge(run, notes, min_posed);
+}
+
 bool reports_drift(const Judgement& judgement) {
   return std::ranges::any_of(judgement.findings,
                              [](const DataNote& note) { return note.cause == NoteCause::kDrift; });
 }
 
 TEST(ExpectedDrift, IsTheDeviationOfTheLastPlaceFromTheFirst) {
-  const Judgement judgement = judge(path_of(17, 0.01), {}, 0.5);
+  const Judgement judgement = judged(path_of(17, 0.01), {}, 0.5);
   ASSERT_TRUE(judgement.expected_drift_m);
   EXPECT_NEAR(*judgement.expected_drift_m, 0.01 * std::sqrt(3 * 16), 1e-4);
   EXPECT_FALSE(reports_drift(judgement));
@@ -69,16 +73,28 @@ TEST(ExpectedDrift, ErrorsThatAllMotionsShareAddInProportionToTheMotion) {
   run.map.place_graph.constraints.push_back(loop);
   EXPECT_LT(*judge(run, {}, 0.5).expected_drift_m, 0.002);
   run.map.place_graph.constraints.pop_back();
-  run.map.metric = false;  // the shared errors are metric ones
-  EXPECT_NEAR(*judge(run, {}, 0.5).expected_drift_m, alone, 1e-4);
+}
+
+TEST(ExpectedDrift, IsInMetresOrNotGiven) {
+  RunResult doubted = path_of(17, 0.2);
+  doubted.notes = {{"the depth unit is odd", true, NoteCause::kDepthUnit, ""}};
+  RunResult unknown = path_of(17, 0.2);
+  unknown.map.metric = false;
+  for (RunResult* run : {&doubted, &unknown}) {
+    const Judgement judgement = judge(*run, {}, 0.5);
+    EXPECT_FALSE(judgement.expected_drift_m);
+    ASSERT_TRUE(reports_drift(judgement));
+    const auto note = std::ranges::find(judgement.findings, NoteCause::kDrift, &DataNote::cause);
+    EXPECT_EQ(note->text, "the end is known to 1.39 relative to the beginning, 9 % of the path");
+  }
 }
 
 TEST(ExpectedDrift, IsReportedBeyondTheTwentiethPartOfThePath) {
-  EXPECT_TRUE(reports_drift(judge(path_of(17, 0.2), {}, 0.5)));
+  EXPECT_TRUE(reports_drift(judged(path_of(17, 0.2), {}, 0.5)));
 }
 
 TEST(ExpectedDrift, IsUnknownForAPlaceAlone) {
-  EXPECT_FALSE(judge(path_of(1, 0.01), {}, 0.5).expected_drift_m);
+  EXPECT_FALSE(judged(path_of(1, 0.01), {}, 0.5).expected_drift_m);
 }
 
 TEST(ExpectedDrift, IgnoresComponentsThatAreNotJoined) {

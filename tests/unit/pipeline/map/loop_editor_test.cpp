@@ -124,6 +124,23 @@ TEST(LoopEditor, RefusingALoopGivesTheMapOfOdometry) {
     EXPECT_LT((position(editor.stored(), k) - position(without, k)).norm(), 1e-3) << k;
 }
 
+// A judgement of the run is not one of the edited map, but what it doubts stays in doubt.
+TEST(LoopEditor, MetresThatAreWithdrawnStayWithdrawn) {
+  for (const bool withdrawn : {false, true}) {
+    StoredMap stored = with_wrong_loop();
+    ASSERT_TRUE(stored.map.metric);
+    stored.map.metric = !withdrawn;
+    for (const int edit : {0, 1}) {  // of the map of a run, and of a map that was edited
+      LoopEditor editor(stored, options());
+      edit == 0 ? editor.refuse(FrameId(40), FrameId(0)) : editor.add(FrameId(40), FrameId(0));
+      editor.optimize();
+      EXPECT_EQ(editor.stored().map.metric, !withdrawn) << edit;
+      EXPECT_FALSE(editor.stored().judgement);
+      stored = editor.stored();
+    }
+  }
+}
+
 TEST(LoopEditor, AddsALoopWhereTheImagesAgree) {
   PlaceMapper odometry = square();
   LoopEditor editor(map_of(odometry), options());
