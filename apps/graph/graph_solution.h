@@ -11,7 +11,7 @@ namespace placegraph::apps {
 /// Task of the solver of `optimize`.
 struct GraphTask {
   PoseGraphOptions options;
-  bool split = false;        ///< solve the components one after the other
+  bool split = false;        ///< accept a graph of components that nothing ties to each other
   bool incremental = false;  ///< solve an incremental graph, pose by pose
   bool certify = false;      ///< also certify the solution
 };
@@ -20,10 +20,11 @@ struct GraphTask {
 struct GraphSolution {
   PoseGraph graph;
   int components = 1;
+  int degrees_of_freedom = 0;  ///< of the constraints that were not rejected
   int iterations = 0;
   std::string initialization;  ///< initialization that was used; of several components the most
                                ///< expensive one
-  bool refined_from_certified = false;     ///< true if it holds for every component
+  bool refined_from_certified = false;     ///< whether `initialization` is certified
   std::vector<RejectedEdge> rejected;      ///< in the order of graph.constraints
   std::vector<double> chi2_by_constraint;  ///< in the order of graph.constraints; incremental: none
   bool loops_judged =

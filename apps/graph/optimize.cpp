@@ -26,16 +26,6 @@
 namespace placegraph::apps {
 namespace {
 
-PoseGraph without(PoseGraph graph, const std::vector<RejectedEdge>& rejected) {
-  std::vector<char> is_rejected(graph.constraints.size());
-  for (const RejectedEdge& edge : rejected) is_rejected[edge.constraint] = true;
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < graph.constraints.size(); ++i)
-    if (!is_rejected[i]) std::swap(graph.constraints[kept++], graph.constraints[i]);
-  graph.constraints.resize(kept);
-  return graph;
-}
-
 GraphCosts costs_of(const PoseGraph& graph) {
   return {chi2(graph, RotationError::kQuaternion), chi2(graph, RotationError::kLog)};
 }
@@ -73,11 +63,9 @@ int doubtful_edges(const GraphSolution& solution) {
 std::optional<double> misfit_of(const OptimizeResult& result) {
   constexpr double kMuch = 3;       // factor above the expected cost
   constexpr double kChance = 1e-6;  // probability of such a cost, for small graphs
-  const PoseGraph& graph = result.solution.graph;
-  const auto free = static_cast<double>(graph.constraints.size()) -
-                    static_cast<double>(graph.nodes.size()) + result.solution.components;
-  const double expected = degrees_of_freedom(graph.kind()) * std::max(1.0, free);
-  const bool by_chance = chi_squared_tail(result.after.log, static_cast<int>(expected)) > kChance;
+  const int expected = std::max(degrees_of_freedom(result.solution.graph.kind()),
+                                result.solution.degrees_of_freedom);
+  const bool by_chance = chi_squared_tail(result.after.log, expected) > kChance;
   if (result.after.log < kMuch * expected || by_chance) return std::nullopt;
   return result.after.log / expected;
 }
@@ -223,7 +211,7 @@ void optimize_poses(const OptimizeArguments& arguments, const GraphTask& task, P
   } catch (const NoResult& reason) {
     throw NoResult(arguments.in + ": " + reason.what());
   }
-  const PoseGraph kept = without(solution.graph, solution.rejected);
+  const PoseGraph kept = without_rejected(solution.graph, solution.rejected);
   result.after = costs_of(kept);
   if (!std::isfinite(result.after.g2o + result.after.log))
     throw NoResult(arguments.in + ": the cost of the solution is not finite");
@@ -234,8 +222,10 @@ void optimize_poses(const OptimizeArguments& arguments, const GraphTask& task, P
     log(sink, LogLevel::kWarning, "warning: {}: {}", arguments.in, misfit_text(result, *misfit));
   warn_of_free_directions(arguments.in, solution.free.count, free_vertices(solution));
   if (!solution.loops_judged)
-    warn(arguments.in + ": too few loops agree to know the noise's scale: --robust " +
-         arguments.robust + " judged none of them, and left none out");
+    warn(fmt::format(
+        "{}: too few loops {}agree to know the noise's scale: --robust {} judged none of them, and "
+        "left none out",
+        arguments.in, solution.components > 1 ? "of a component " : "", arguments.robust));
   write_g2o(arguments.out, arguments.drop_rejected ? kept : solution.graph);
 }
 
@@ -253,6 +243,7 @@ Json describe(const OptimizeResult& result) {
   report["nodes"] = solution.graph.nodes.size();
   report["constraints"] = solution.graph.constraints.size();
   report["components"] = solution.components;
+  report["degrees_of_freedom"] = solution.degrees_of_freedom;
   report["chi2_g2o_initial"] = result.before.g2o;
   report["chi2_log_initial"] = result.before.log;
   report["chi2_g2o"] = result.after.g2o;

@@ -8,10 +8,11 @@
 namespace [[gnu::visibility("default")]] placegraph {
 
 /// Optimizes a pose graph over SE(2), SE(3) or Sim(3): minimizes sum rho(e^T Omega e).
-/// Fixed nodes keep their poses; if a connected component has no fixed node, its first node is
-/// held. Constraints that the method of `options.robust` classifies as false are left out.
-/// kNotConverged: no minimum was reached; the report has the last poses. Throws ArgumentError as
-/// PoseGraph::check and for options out of range.
+/// Every connected component is optimized by itself. Fixed nodes keep their poses; if a component
+/// has neither a fixed node nor a measured position, its first node is held. Constraints that the
+/// method of `options.robust` classifies as false are left out.
+/// kNotConverged: a component has no minimum; the report has the last poses. Throws ArgumentError
+/// as PoseGraph::check and for options out of range.
 [[nodiscard]] PoseGraphReport optimize_pose_graph(PoseGraph graph, const PoseGraphOptions& options,
                                                   const LogSink& log = {});
 

@@ -34,19 +34,23 @@ struct PoseGraphReport {
   double chi2_initial = 0;
   double chi2_final = 0;  ///< the same at the optimized poses
   int iterations = 0;     ///< total number of steps of all descents
-  /// Initialization of the selected descent; never kAuto.
+  /// Initialization of the selected descent, of several components the most expensive one; never
+  /// kAuto.
   PoseGraphInitialization initialization_used = PoseGraphInitialization::kFile;
   bool refined_from_certified = false;     ///< whether initialization_used is kCertified
   std::vector<double> chi2_by_constraint;  ///< at the optimized poses, as graph.constraints
   /// Constraints classified as false, in the order of graph.constraints. The sums above include
   /// them.
   std::vector<RejectedEdge> rejected;
-  /// False if there were loops, but too few of them agreed to estimate the scale of their noise, so
-  /// that no loop was tested.
+  /// False if a component has loops, but too few of them agreed to estimate the scale of their
+  /// noise, so that none of them was tested.
   bool loops_judged = true;
   /// Directions that the constraints leave undetermined at the solution: another initialization may
   /// lead to other poses of the same cost.
   FreeDirections free;
 };
+
+/// The graph without the constraints that were rejected, in the same order.
+PoseGraph without_rejected(PoseGraph graph, const std::vector<RejectedEdge>& rejected);
 
 }  // namespace placegraph

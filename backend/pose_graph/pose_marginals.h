@@ -38,6 +38,8 @@ class PoseMarginals {
   /// Joint covariance of several poses, in the order of `ids`; one solve for every column.
   Eigen::MatrixXd joint_covariance(const std::vector<NodeId>& ids) const;
   /// Covariance of the relative pose T_from_to in its own right tangent.
+  ///
+  /// Throws ArgumentError for nodes of different components: no constraints connect them.
   Information relative_covariance(NodeId from, NodeId to) const;
   /// Covariances in the graph of the relative poses of all relative-pose constraints.
   ///

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 # Position of our coordinates in the tangent of gtsam.
 _ORDER = {"SE2": [0, 1, 2], "SE3": [3, 4, 5, 0, 1, 2]}
 _EQUAL = 1e-6  # difference of a prior and its node that accuracy explains
+_TIGHT = 1e-3  # largest standard deviation of a prior that holds its node [m, rad]
 _ESTIMATORS = {"huber": "Huber", "cauchy": "Cauchy", "tukey": "Tukey"}
 
 
@@ -60,17 +61,19 @@ def to_gtsam(graph: PoseGraph, *, hold: bool = True) -> tuple[Any, Any]:
 def from_gtsam(factors: Any, values: Any) -> PoseGraph:
     """The pose graph of gtsam's factors and values, which to_gtsam can make.
 
-    Nodes are ordered by their keys. Edges between consecutive keys are odometry, others loops. An
-    equality and a prior hold their node where it is: it becomes a fixed one. Raises ArgumentError,
-    which names the factor, for a prior that differs from the value of its node and for a factor of
-    another kind.
+    Nodes are ordered by their keys. Edges between consecutive keys are odometry, others loops. A
+    node becomes a fixed one by an equality, and by a prior that takes away the freedom of its
+    component alone: its standard deviations are at most 1e-3 (m, rad), the value of the node is
+    that of the prior, and nothing else ties the component to the world. Any other prior is a
+    measurement, which no constraint of a pose graph can express. Raises ArgumentError, which names
+    the factor and the key, for such a prior and for a factor of another kind.
     """
     import numpy as np
 
     gtsam = _gtsam()
     graph = PoseGraph()
     terms = [factors.at(i) for i in range(factors.size())]
-    fixed = _fixed(gtsam, terms, values)
+    fixed = _fixed(gtsam, terms)
     for key in sorted(values.keys()):
         graph.add_node(key, _row(gtsam, values, key), key in fixed)
     for i, term in enumerate(terms):
@@ -90,6 +93,7 @@ def from_gtsam(factors: Any, values: Any) -> PoseGraph:
             raise _core.ArgumentError(
                 f"factors: factor {i}, a {type(term).__name__}, is not converted")
     graph.check()
+    _require_holds(gtsam, terms, values, graph)
     return graph
 
 
@@ -99,21 +103,45 @@ def _holding(gtsam: Any) -> tuple[Any, ...]:
             gtsam.PriorFactorPose3)
 
 
-def _fixed(gtsam: Any, terms: list[Any], values: Any) -> set[int]:
+def _fixed(gtsam: Any, terms: list[Any]) -> set[int]:
     """Keys of the nodes that equalities and priors hold."""
-    fixed = set()
+    return {term.keys()[0] for term in terms if isinstance(term, _holding(gtsam))}
+
+
+def _require_holds(gtsam: Any, terms: list[Any], values: Any, graph: PoseGraph) -> None:
+    """Refuses a prior that is a measurement: that does more than to take away a freedom."""
+    component = dict(zip(graph.ids.tolist(), graph.components()))
+    ties = [component[node] for node in graph.position_nodes.tolist()]
+    ties += [component[term.keys()[0]] for term in terms if isinstance(term, _holding(gtsam))]
     for i, term in enumerate(terms):
-        if not isinstance(term, _holding(gtsam)):
+        if not isinstance(term, (gtsam.PriorFactorPose2, gtsam.PriorFactorPose3)):
             continue
         key = term.keys()[0]
-        if isinstance(term, (gtsam.PriorFactorPose2, gtsam.PriorFactorPose3)):
-            value = _pose(gtsam, _row(gtsam, values, key))
-            if type(value) is not type(term.prior()) or not value.equals(term.prior(), _EQUAL):
-                raise _core.ArgumentError(
-                    f"factors: factor {i}, a {type(term).__name__}, differs from the value of "
-                    f"{key}; only a prior that holds its node where it is can be converted")
-        fixed.add(key)
-    return fixed
+        value = _pose(gtsam, _row(gtsam, values, key))
+        if type(value) is not type(term.prior()) or not value.equals(term.prior(), _EQUAL):
+            reason = "differs from the value of its node"
+        elif _largest_sigma(gtsam, term.noiseModel()) > _TIGHT:
+            reason = f"has standard deviations above {_TIGHT:g}"
+        elif ties.count(component[key]) > 1:
+            reason = "is not all that ties its component to the world"
+        else:
+            continue
+        raise _core.ArgumentError(
+            f"factors: factor {i}, a {type(term).__name__} of {gtsam.DefaultKeyFormatter(key)}, "
+            f"{reason}: it is a measurement, and is not converted (an equality holds a node)")
+
+
+def _largest_sigma(gtsam: Any, model: Any) -> float:
+    """The largest standard deviation of a noise model in any direction."""
+    import numpy as np
+
+    if model is None or isinstance(model, gtsam.noiseModel.Robust):
+        return float("inf")
+    if model.isConstrained():
+        return float(model.sigmas().max())
+    root = np.array([model.whiten(unit) for unit in np.eye(model.dim())])
+    smallest = float(np.linalg.svd(root, compute_uv=False).min())
+    return 1 / smallest if smallest > 0 else float("inf")
 
 
 def _gtsam() -> Any:

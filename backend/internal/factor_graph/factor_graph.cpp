@@ -48,7 +48,7 @@ FactorGraph convert(const PoseGraph& graph, RotationError rotation_error) {
   const PackedGraph<Group> packed = pack<Group>(graph);
   FactorGraph result;
   for (std::size_t i = 0; i < packed.poses.size(); ++i)
-    result.add_variable(packed.poses[i], packed.held[i]);
+    result.add_variable(packed.poses[i], packed.components.held[i]);
   result.terms.resize(graph.constraints.size());
   for (const auto& edge : packed.edges)
     result.terms[static_cast<std::size_t>(edge.constraint)] = {

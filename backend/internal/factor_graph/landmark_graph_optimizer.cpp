@@ -38,31 +38,6 @@ DisjointSets connected(const LandmarkGraph& graph, const VariableIndex& index) {
   return sets;
 }
 
-/// Fixed variables, and the first node of every component that nothing ties to the world.
-std::vector<char> held_variables(const LandmarkGraph& graph, const VariableIndex& index) {
-  const std::size_t count = graph.poses.nodes.size() + graph.points.size();
-  DisjointSets sets = connected(graph, index);
-  std::vector<char> held(count), constrained(count);
-  const auto constrain = [&](int variable) {
-    constrained[static_cast<std::size_t>(sets.root(variable))] = 1;
-  };
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t nodes = graph.poses.nodes.size();
-    held[i] = i < nodes ? graph.poses.nodes[i].fixed : graph.points[i - nodes].fixed;
-    if (held[i]) constrain(static_cast<int>(i));
-  }
-  for (const Constraint& constraint : graph.poses.constraints)
-    if (const auto* position = std::get_if<PositionConstraint>(&constraint))
-      constrain(index.node(position->node));
-  for (const PosePriorConstraint& prior : graph.priors) constrain(index.node(prior.node));
-  for (std::size_t i = 0; i < graph.poses.nodes.size(); ++i)
-    if (!constrained[static_cast<std::size_t>(sets.root(static_cast<int>(i)))]) {
-      held[i] = 1;
-      constrain(static_cast<int>(i));
-    }
-  return held;
-}
-
 template <class Group>
 void add_priors_and_observations(const LandmarkGraph& graph, const VariableIndex& index,
                                  RotationError rotation_error, FactorGraph& factors) {
@@ -86,8 +61,8 @@ FactorGraph to_factor_graph(const LandmarkGraph& graph, RotationError rotation_e
   const VariableIndex index(graph);
   FactorGraph factors = to_factor_graph(graph.poses, rotation_error);
   for (const GraphPoint& point : graph.points) factors.add_variable(point.position_world);
-  const std::vector<char> held = held_variables(graph, index);
-  for (std::size_t i = 0; i < held.size(); ++i) factors.variables[i].held = held[i];
+  const std::vector<char> held = find_components(graph).held;
+  for (std::size_t i = 0; i < factors.variables.size(); ++i) factors.variables[i].held = held[i];
   if (graph.poses.kind() == PoseKind::kSE2)
     add_priors_and_observations<SE2>(graph, index, rotation_error, factors);
   else if (graph.poses.kind() == PoseKind::kSE3)
@@ -110,7 +85,7 @@ int count_components(const LandmarkGraph& graph) {
 }
 
 std::vector<int> held_for_want_of_a_tie(const LandmarkGraph& graph) {
-  const std::vector<char> held = held_variables(graph, VariableIndex(graph));
+  const std::vector<char> held = find_components(graph).held;
   std::vector<int> nodes;
   for (std::size_t i = 0; i < graph.poses.nodes.size(); ++i)
     if (held[i] && !graph.poses.nodes[i].fixed) nodes.push_back(static_cast<int>(i));
@@ -138,7 +113,7 @@ LandmarkGraphReport solve_packed(LandmarkGraph graph, const LandmarkGraphOptions
   unpack(packed, graph.poses);
   const std::size_t nodes = graph.poses.nodes.size();
   for (std::size_t i = 0; i < graph.points.size(); ++i)
-    if (!packed.held[nodes + i])
+    if (!packed.components.held[nodes + i])
       graph.points[i].position_world.head<dim>() = packed.poses[nodes + i].translation();
   report.graph = std::move(graph);
   return report;

@@ -167,7 +167,7 @@ AntennaCalibrationResult calibrate(const PoseGraph& graph,
   if (!summary.IsSolutionUsable()) return result;
   result.value = problem.calibration();
   problem.read_back(packed);
-  std::fill(packed.held.begin(), packed.held.end(), 0);
+  packed.components.held.assign(packed.poses.size(), false);
   unpack(packed, result.graph);
   if (const auto covariance = problem.covariance())
     result.covariance = *covariance;

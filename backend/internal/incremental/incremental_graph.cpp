@@ -338,10 +338,7 @@ double IncrementalGraph<Group>::cost() const {
 template <class Group>
 PackedGraph<Group> IncrementalGraph<Group>::packed() const {
   PackedGraph<Group> graph;
-  for (std::size_t n = 0; n < nodes_.size(); ++n) {
-    graph.poses.push_back(nodes_[n].T_world_node);
-    graph.held.push_back(components_.held(static_cast<int>(n)));
-  }
+  for (const auto& node : nodes_) graph.poses.push_back(node.T_world_node);
   for (std::size_t c = 0; c < constraints_.size(); ++c) {
     if (place_[c] < 0) continue;
     if (std::holds_alternative<RelativePoseConstraint>(constraints_[c]))
@@ -349,6 +346,7 @@ PackedGraph<Group> IncrementalGraph<Group>::packed() const {
     else
       graph.positions.push_back(positions_[place_[c]].position);
   }
+  graph.components = find_components(graph, fixed_);
   return graph;
 }
 

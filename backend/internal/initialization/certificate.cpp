@@ -1,6 +1,5 @@
 #include <placegraph/backend/internal/initialization/certificate.h>
 #include <placegraph/backend/internal/initialization/chordal_relaxation.h>
-#include <placegraph/backend/internal/initialization/component_anchors.h>
 #include <placegraph/backend/internal/initialization/held_nodes.h>
 #include <placegraph/backend/internal/initialization/rotation_agreement.h>
 
@@ -14,8 +13,7 @@ ChordalIsotropicCertificate certify_chordal_isotropic(const PackedGraph<Group>& 
                                                       RotationError rotation_error,
                                                       const CertificateOptions& options) {
   constexpr int dim = kSpaceDim<Group>;
-  const IsotropicProblem<dim> problem =
-      held_node_constraints(graph, find_anchors(graph), rotation_error);
+  const IsotropicProblem<dim> problem = held_node_constraints(graph, rotation_error);
   ChordalIsotropicCertificate certificate;
   certificate.cost_of_estimate = isotropic_cost(problem, graph.poses);
   if (problem.edges.empty()) {
@@ -36,6 +34,20 @@ ChordalIsotropicCertificate certify_chordal_isotropic(const PackedGraph<Group>& 
       near ? certificate.cost : certificate.cost_of_estimate, certificate.lower_bound);
   certificate.certified = near && certificate.relative_gap <= options.max_relative_gap;
   return certificate;
+}
+
+ChordalIsotropicCertificate certify_chordal_isotropic(const PoseGraph& graph,
+                                                      RotationError rotation_error) {
+  graph.check();
+  switch (graph.kind()) {
+    case PoseKind::kSE2:
+      return certify_chordal_isotropic(pack<SE2>(graph), rotation_error);
+    case PoseKind::kSE3:
+      return certify_chordal_isotropic(pack<SE3>(graph), rotation_error);
+    case PoseKind::kSim3:
+      break;
+  }
+  return certify_chordal_isotropic(pack<Sim3>(graph), rotation_error);
 }
 
 #define PLACEGRAPH_INSTANTIATE(Group)                             \

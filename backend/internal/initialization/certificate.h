@@ -33,5 +33,9 @@ template <class Group>
 ChordalIsotropicCertificate certify_chordal_isotropic(const PackedGraph<Group>& graph,
                                                       RotationError rotation_error,
                                                       const CertificateOptions& options = {});
+/// The same for a pose graph, from which false constraints were removed. Throws as
+/// PoseGraph::check.
+ChordalIsotropicCertificate certify_chordal_isotropic(const PoseGraph& graph,
+                                                      RotationError rotation_error);
 
 }  // namespace placegraph

@@ -1,6 +1,5 @@
 #include <placegraph/backend/internal/initialization/certified_initialization.h>
 #include <placegraph/backend/internal/initialization/chordal_relaxation.h>
-#include <placegraph/backend/internal/initialization/component_anchors.h>
 #include <placegraph/backend/internal/initialization/held_nodes.h>
 #include <placegraph/backend/internal/initialization/initialization.h>
 #include <placegraph/backend/internal/initialization/rotation_agreement.h>
@@ -35,8 +34,7 @@ constexpr int kShortDescent = 15;  ///< steps to a nearby minimum
 /// Writes the rotations and translations of the point of rank d to the poses.
 /// Every component is moved as a whole to the pose of its first anchor; anchors keep their poses.
 template <class Group>
-void set_poses(const Eigen::MatrixXd& X, const ComponentAnchors& anchors,
-               PackedGraph<Group>& graph) {
+void set_poses(const Eigen::MatrixXd& X, PackedGraph<Group>& graph) {
   constexpr int dim = kSpaceDim<Group>;
   using Rotation = std::decay_t<decltype(graph.poses[0].rotation())>;
   const auto rotation = [&](std::size_t i) {
@@ -50,17 +48,18 @@ void set_poses(const Eigen::MatrixXd& X, const ComponentAnchors& anchors,
     Rotation R;
     typename Group::Point t;
   };
-  std::vector<Motion> motions(anchors.components);
+  const GraphComponents& components = graph.components;
+  std::vector<Motion> motions(components.first.size());
   for (std::size_t i = 0; i < graph.poses.size(); ++i) {
-    Motion& motion = motions[anchors.component[i]];
-    if (!anchors.anchor[i] || motion.known) continue;
+    Motion& motion = motions[components.component[i]];
+    if (!components.anchor[i] || motion.known) continue;
     motion.known = true;
     motion.R = graph.poses[i].rotation() * rotation(i).inverse();
     motion.t = graph.poses[i].translation() - motion.R * translation(i);
   }
   for (std::size_t i = 0; i < graph.poses.size(); ++i) {
-    if (anchors.anchor[i]) continue;
-    const Motion& motion = motions[anchors.component[i]];
+    if (components.anchor[i]) continue;
+    const Motion& motion = motions[components.component[i]];
     const Rotation R = motion.R * rotation(i);
     const typename Group::Point t = motion.R * translation(i) + motion.t;
     if constexpr (Group::kDof == 7)
@@ -174,8 +173,7 @@ CertifiedInitializationReport initialize_certified(PackedGraph<Group>& graph,
                                                    RotationError rotation_error,
                                                    double max_effort) {
   constexpr int dim = kSpaceDim<Group>;
-  const ComponentAnchors anchors = find_anchors(graph);
-  const IsotropicProblem<dim> problem = held_node_constraints(graph, anchors, rotation_error);
+  const IsotropicProblem<dim> problem = held_node_constraints(graph, rotation_error);
   if (problem.edges.empty()) {
     align_to_positions(graph);
     return {.tight = true};
@@ -183,7 +181,7 @@ CertifiedInitializationReport initialize_certified(PackedGraph<Group>& graph,
   const ChordalRelaxation<dim> relaxation(problem);
   Eigen::MatrixXd X = relaxation.point(graph.poses);
   const CertifiedInitializationReport report = climb(relaxation, problem.nodes, max_effort, X);
-  set_poses(relaxation.round(X), anchors, graph);
+  set_poses(relaxation.round(X), graph);
   align_to_positions(graph);
   return report;
 }
@@ -191,8 +189,7 @@ CertifiedInitializationReport initialize_certified(PackedGraph<Group>& graph,
 template <class Group>
 bool certified_as_they_are(const PackedGraph<Group>& graph, RotationError rotation_error) {
   constexpr int dim = kSpaceDim<Group>;
-  const IsotropicProblem<dim> problem =
-      held_node_constraints(graph, find_anchors(graph), rotation_error);
+  const IsotropicProblem<dim> problem = held_node_constraints(graph, rotation_error);
   if (problem.edges.empty()) return true;
   const ChordalRelaxation<dim> relaxation(problem);
   // With the optimal translations for the rotations the point is much nearer to critical.

@@ -9,17 +9,18 @@ namespace {
 constexpr double kStiffness = 1e3;  // relative to the weights of the heaviest edge
 
 template <class Group>
-void constrain_held_nodes(const PackedGraph<Group>& graph, const ComponentAnchors& anchors,
+void constrain_held_nodes(const PackedGraph<Group>& graph,
                           IsotropicProblem<kSpaceDim<Group>>& problem) {
   double rotation_weight = 0, translation_weight = 0;
   for (const auto& edge : problem.edges) {
     rotation_weight = std::max(rotation_weight, kStiffness * edge.rotation_weight);
     translation_weight = std::max(translation_weight, kStiffness * edge.translation_weight);
   }
-  std::vector<int> last(anchors.components, -1);  // last held node of the component
+  const GraphComponents& components = graph.components;
+  std::vector<int> last(components.first.size(), -1);  // last held node of the component
   for (std::size_t i = 0; i < graph.poses.size(); ++i) {
-    if (!graph.held[i]) continue;
-    int& previous = last[anchors.component[i]];
+    if (!components.held[i]) continue;
+    int& previous = last[components.component[i]];
     if (previous >= 0) {
       const auto R_world_from = graph.poses[previous].rotation();
       const auto R_from_world = R_world_from.inverse();
@@ -36,7 +37,6 @@ void constrain_held_nodes(const PackedGraph<Group>& graph, const ComponentAnchor
 
 template <class Group>
 IsotropicProblem<kSpaceDim<Group>> held_node_constraints(const PackedGraph<Group>& graph,
-                                                         const ComponentAnchors& anchors,
                                                          RotationError rotation_error) {
   Eigen::VectorXd log_scale;
   if constexpr (Group::kDof == 7) {
@@ -45,13 +45,13 @@ IsotropicProblem<kSpaceDim<Group>> held_node_constraints(const PackedGraph<Group
       log_scale[i] = std::log(graph.poses[static_cast<std::size_t>(i)].scale());
   }
   auto problem = isotropic_problem(graph, rotation_error, log_scale);
-  constrain_held_nodes(graph, anchors, problem);
+  constrain_held_nodes(graph, problem);
   return problem;
 }
 
 #define PLACEGRAPH_INSTANTIATE(Group)                                \
   template IsotropicProblem<kSpaceDim<Group>> held_node_constraints( \
-      const PackedGraph<Group>&, const ComponentAnchors&, RotationError);
+      const PackedGraph<Group>&, RotationError);
 PLACEGRAPH_INSTANTIATE(SE2)
 PLACEGRAPH_INSTANTIATE(SE3)
 PLACEGRAPH_INSTANTIATE(Sim3)

@@ -1,5 +1,4 @@
 #pragma once
-#include <placegraph/backend/internal/initialization/component_anchors.h>
 #include <placegraph/backend/internal/initialization/isotropic_problem.h>
 
 namespace placegraph {
@@ -10,7 +9,6 @@ namespace placegraph {
 /// cost, so a bound of this problem is also one of the problem with its nodes held.
 template <class Group>
 IsotropicProblem<kSpaceDim<Group>> held_node_constraints(const PackedGraph<Group>& graph,
-                                                         const ComponentAnchors& anchors,
                                                          RotationError rotation_error);
 
 }  // namespace placegraph

@@ -66,6 +66,7 @@ bool initialize_incrementally(PackedGraph<Group>& graph, RotationError rotation_
                               double most_factorizations) {
   const std::size_t nodes = graph.poses.size();
   const std::size_t part = (nodes + kParts - 1) / kParts;
+  const std::vector<char>& held = graph.components.held;
   const std::vector<int> order = order_of_extension(graph);
   auto constraints = constraints_by_step(graph, order);
   IncrementalOptimizer optimizer({.rotation_error = rotation_error});
@@ -74,7 +75,7 @@ bool initialize_incrementally(PackedGraph<Group>& graph, RotationError rotation_
     GraphChange change;
     const std::size_t end = std::min(nodes, first + part);
     for (std::size_t k = first; k < end; ++k) {
-      change.nodes.push_back({NodeId(k), graph.poses[order[k]], graph.held[order[k]] != 0});
+      change.nodes.push_back({NodeId(k), graph.poses[order[k]], held[order[k]] != 0});
       std::move(constraints[k].begin(), constraints[k].end(),
                 std::back_inserter(change.constraints));
     }
@@ -85,7 +86,7 @@ bool initialize_incrementally(PackedGraph<Group>& graph, RotationError rotation_
       return false;
   }
   for (std::size_t k = 0; k < nodes; ++k)
-    if (!graph.held[order[k]]) graph.poses[order[k]] = std::get<Group>(*optimizer.pose(NodeId(k)));
+    if (!held[order[k]]) graph.poses[order[k]] = std::get<Group>(*optimizer.pose(NodeId(k)));
   return true;
 }
 

@@ -1,4 +1,3 @@
-#include <placegraph/backend/internal/initialization/component_anchors.h>
 #include <placegraph/backend/internal/initialization/initialization.h>
 #include <placegraph/backend/internal/initialization/isotropic_problem.h>
 #include <placegraph/backend/internal/linear/block_cholesky.h>
@@ -146,8 +145,8 @@ double position_weight(const typename PackedGraph<Group>::Position& position) {
 /// component to the world.
 template <class Group, int dim = kSpaceDim<Group>>
 bool chordal_translations(PackedGraph<Group>& graph, const IsotropicProblem<dim>& problem,
-                          const Unknowns& unknowns, const BlockOrdering& ordering,
-                          const ComponentAnchors& anchors) {
+                          const Unknowns& unknowns, const BlockOrdering& ordering) {
+  const GraphComponents& components = graph.components;
   LeastSquares<1> system(unknowns, ordering, dim);
   const LeastSquares<1>::Matrix one = LeastSquares<1>::Matrix::Identity();
   const auto anchored = [&](int node) -> Eigen::Matrix<double, 1, dim> {
@@ -157,7 +156,7 @@ bool chordal_translations(PackedGraph<Group>& graph, const IsotropicProblem<dim>
     system.add(edge.from, edge.to, edge.translation_weight, one,
                (graph.poses[edge.from].rotation() * edge.t).transpose(), anchored);
   for (const auto& position : graph.positions) {
-    if (anchors.floating[anchors.component[position.node]]) continue;
+    if (components.floating[components.component[position.node]]) continue;
     const typename Group::Point target =
         position.position_world.template head<dim>() -
         rotated_arm(graph.poses[position.node], position.lever_arm);
@@ -244,26 +243,25 @@ class Alignment {
 
 template <class Group>
 void align_to_positions(PackedGraph<Group>& graph) {
-  const ComponentAnchors anchors = find_anchors(graph);
-  std::vector<Alignment<Group>> alignments(anchors.components);
+  const GraphComponents& components = graph.components;
+  std::vector<Alignment<Group>> alignments(components.first.size());
   for (const auto& position : graph.positions) {
     const Group& pose = graph.poses[position.node];
-    alignments[anchors.component[position.node]].add(
+    alignments[components.component[position.node]].add(
         pose.translation() + rotated_arm(pose, position.lever_arm),
         position.position_world.template head<kSpaceDim<Group>>(),
         position_weight<Group>(position));
   }
   std::vector<Group> motions;
-  for (int i = 0; i < anchors.components; ++i)
-    motions.push_back(anchors.floating[i] ? alignments[i].motion() : Group());
+  for (int i = 0; i < components.count(); ++i)
+    motions.push_back(components.floating[i] ? alignments[i].motion() : Group());
   for (std::size_t i = 0; i < graph.poses.size(); ++i)
-    if (anchors.floating[anchors.component[i]])
-      graph.poses[i] = motions[anchors.component[i]] * graph.poses[i];
+    if (components.floating[components.component[i]])
+      graph.poses[i] = motions[components.component[i]] * graph.poses[i];
 }
 
 template <class Group>
 void spanning_tree_initialization(PackedGraph<Group>& graph) {
-  const ComponentAnchors anchors = find_anchors(graph);
   struct Step {
     int edge, to;
   };
@@ -274,7 +272,7 @@ void spanning_tree_initialization(PackedGraph<Group>& graph) {
     steps[edge.from].push_back({static_cast<int>(k), edge.to});
     steps[edge.to].push_back({static_cast<int>(k), edge.from});
   }
-  std::vector<char> reached = anchors.anchor;
+  std::vector<char> reached = graph.components.anchor;
   std::deque<int> open;
   std::deque<Step> postponed;
   for (std::size_t i = 0; i < graph.poses.size(); ++i)
@@ -306,8 +304,7 @@ void spanning_tree_initialization(PackedGraph<Group>& graph) {
 
 template <class Group>
 void chordal_initialization(PackedGraph<Group>& graph, RotationError rotation_error) {
-  const ComponentAnchors anchors = find_anchors(graph);
-  const Unknowns unknowns(anchors.anchor, graph.edges);
+  const Unknowns unknowns(graph.components.anchor, graph.edges);
   const BlockOrdering ordering = order_blocks(unknowns.count, Group::kDof, unknowns.pairs);
   Eigen::VectorXd log_scale;
   if constexpr (Group::kDof == 7) {
@@ -319,7 +316,7 @@ void chordal_initialization(PackedGraph<Group>& graph, RotationError rotation_er
   }
   const auto problem = isotropic_problem(graph, rotation_error, log_scale);
   if (!chordal_rotations(graph, problem, unknowns, ordering) ||
-      !chordal_translations(graph, problem, unknowns, ordering, anchors)) {
+      !chordal_translations(graph, problem, unknowns, ordering)) {
     spanning_tree_initialization(
         graph);  // the weights differ so much that the systems are singular up to rounding
     return;
@@ -328,7 +325,7 @@ void chordal_initialization(PackedGraph<Group>& graph, RotationError rotation_er
 }
 
 Eigen::VectorXd log_scales(const PackedGraph<Sim3>& graph) {
-  const Unknowns unknowns(find_anchors(graph).anchor, graph.edges);
+  const Unknowns unknowns(graph.components.anchor, graph.edges);
   return solve_log_scales(graph, unknowns,
                           order_blocks(unknowns.count, Sim3::kDof, unknowns.pairs));
 }

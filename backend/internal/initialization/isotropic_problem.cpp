@@ -1,4 +1,3 @@
-#include <placegraph/backend/internal/initialization/component_anchors.h>
 #include <placegraph/backend/internal/initialization/isotropic_problem.h>
 
 #include <Eigen/LU>
@@ -56,7 +55,7 @@ IsotropicProblem<kSpaceDim<Group>> isotropic_problem(const PackedGraph<Group>& g
   const double angle_share = dim == 3 && rotation_error == RotationError::kQuaternion ? 0.125 : 0.5;
   IsotropicProblem<dim> problem;
   problem.nodes = static_cast<int>(graph.poses.size());
-  problem.roots = find_anchors(graph).roots;
+  problem.roots = graph.components.first;
   problem.edges.reserve(graph.edges.size());
   for (const auto& edge : graph.edges) {
     if (edge.weight == 0) continue;

@@ -1,5 +1,4 @@
 #include <placegraph/backend/internal/initialization/certified_initialization.h>
-#include <placegraph/backend/internal/initialization/component_anchors.h>
 #include <placegraph/backend/internal/initialization/incremental_initialization.h>
 #include <placegraph/backend/internal/initialization/initialization.h>
 #include <placegraph/backend/internal/initialization/isotropic_problem.h>
@@ -73,7 +72,8 @@ struct Adjacency {
   }
 };
 
-/// A breadth-first spanning forest.
+/// A breadth-first spanning forest from the anchors, and from nodes that no measured rotation
+/// connects with them.
 /// Every node has the sum of the residual rotations along the path from its root, and the sum of
 /// their variances.
 struct Tree {
@@ -91,12 +91,14 @@ struct Tree {
     const Adjacency adjacency(nodes.size(), graph.edges, residuals);
     std::vector<int> queue;
     queue.reserve(nodes.size());
-    for (std::size_t root = 0; root < nodes.size(); ++root) {
-      if (nodes[root].variance >= 0) continue;
+    const auto begin_at = [&](std::size_t root) {
       nodes[root].variance = 0;
       ++roots;
       queue.push_back(static_cast<int>(root));
-      for (std::size_t next = queue.size() - 1; next < queue.size(); ++next) {
+    };
+    std::size_t next = 0;
+    const auto grow = [&] {
+      for (; next < queue.size(); ++next) {
         const int i = queue[next];
         for (int k = adjacency.initialization[i]; k < adjacency.initialization[i + 1]; ++k) {
           const int e = adjacency.edge[k];
@@ -109,7 +111,15 @@ struct Tree {
           queue.push_back(j);
         }
       }
-    }
+    };
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      if (graph.components.anchor[i]) begin_at(i);
+    grow();
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      if (nodes[i].variance < 0) {
+        begin_at(i);
+        grow();
+      }
   }
 };
 
@@ -281,7 +291,8 @@ bool windings_are_settled(const PackedGraph<Group>& graph) {
   const std::vector<Residual> residuals = rotation_residuals(graph);
   const Tree tree(graph, residuals);
   // No statement is possible about rotations that only translations determine.
-  if (tree.roots > find_anchors(graph).components) return false;
+  const std::vector<char>& anchor = graph.components.anchor;
+  if (tree.roots > std::count(anchor.begin(), anchor.end(), 1)) return false;
   // Ratio of the dispersion to the variances of the weights.
   double squares = 0;
   int edges = 0;

@@ -3,7 +3,9 @@
 #include <placegraph/backend/internal/solver/free_directions.h>
 #include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
 #include <placegraph/graph/internal/core/log_message.h>
+#include <placegraph/graph/pose_graph/graph_parts.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace placegraph {
@@ -69,6 +71,44 @@ void minimize(PackedGraph<Group>& graph, const LocalSolverOptions& local,
   report.refined_from_certified = found.refined_from_certified;
 }
 
+/// Adds the result for a component.
+void add_component(const GraphPart& part, PoseGraphReport&& of_part, PoseGraphReport& report) {
+  if (report.outcome && !of_part.outcome)
+    report.outcome = Outcome::failure(of_part.outcome.code,
+                                      "component of node " + to_string(part.graph.nodes[0].id) +
+                                          ": " + of_part.outcome.reason);
+  report.iterations += of_part.iterations;
+  report.initialization_used = std::max(report.initialization_used, of_part.initialization_used);
+  report.refined_from_certified |= of_part.refined_from_certified;
+  report.loops_judged &= of_part.loops_judged;
+  for (RejectedEdge& edge : of_part.rejected) {
+    edge.constraint = part.constraints[edge.constraint];
+    report.rejected.push_back(std::move(edge));
+  }
+  report.free.count = std::min(report.free.count + of_part.free.count, FreeDirections::kMost);
+  for (const int node : of_part.free.nodes) report.free.nodes.push_back(part.nodes[node]);
+}
+
+/// Optimizes every component by itself: none has an influence on another one.
+template <class Group>
+void minimize_components(const PoseGraph& graph, PackedGraph<Group>& packed,
+                         const LocalSolverOptions& local, const PoseGraphOptions& options,
+                         PoseGraphReport& report) {
+  if (packed.components.count() <= 1) return minimize(packed, local, options, report);
+  report.outcome = Outcome::ok();
+  for (const GraphPart& part : split_components(graph)) {
+    if (part.graph.constraints.empty()) continue;
+    PackedGraph<Group> packed_part = pack<Group>(part.graph);
+    PoseGraphReport of_part;
+    minimize(packed_part, local, options, of_part);
+    for (std::size_t i = 0; i < part.nodes.size(); ++i)
+      packed.poses[part.nodes[i]] = packed_part.poses[i];
+    add_component(part, std::move(of_part), report);
+  }
+  std::ranges::sort(report.free.nodes);
+  std::ranges::sort(report.rejected, {}, &RejectedEdge::constraint);
+}
+
 template <class Group>
 PoseGraphReport optimize(PoseGraph graph, const PoseGraphOptions& options,
                          const LogSink& log_sink) {
@@ -76,14 +116,14 @@ PoseGraphReport optimize(PoseGraph graph, const PoseGraphOptions& options,
   PoseGraphReport report;
   const std::vector<double> initial = chi2_by_constraint(packed, options.rotation_error);
   report.chi2_initial = sum(initial);
-  minimize(packed,
-           {.engine = options.engine,
-            .rotation_error = options.rotation_error,
-            .step_rule = options.step_rule,
-            .max_iterations = options.max_iterations,
-            .relative_decrease = options.relative_decrease,
-            .log = log_sink},
-           options, report);
+  minimize_components(graph, packed,
+                      {.engine = options.engine,
+                       .rotation_error = options.rotation_error,
+                       .step_rule = options.step_rule,
+                       .max_iterations = options.max_iterations,
+                       .relative_decrease = options.relative_decrease,
+                       .log = log_sink},
+                      options, report);
   unpack(packed, graph);
   report.graph = std::move(graph);
   report.chi2_by_constraint = chi2_by_constraint(packed, options.rotation_error);
@@ -116,6 +156,14 @@ PoseGraphReport optimize_pose_graph(PoseGraph graph, const PoseGraphOptions& opt
       break;
   }
   return optimize<Sim3>(std::move(graph), options, log);
+}
+
+PoseGraph without_rejected(PoseGraph graph, const std::vector<RejectedEdge>& rejected) {
+  std::vector<char> is_rejected(graph.constraints.size());
+  for (const RejectedEdge& edge : rejected) is_rejected.at(edge.constraint) = true;
+  std::size_t i = 0;
+  std::erase_if(graph.constraints, [&](const Constraint&) { return is_rejected[i++] != 0; });
+  return graph;
 }
 
 double chi2(const PoseGraph& graph, RotationError rotation_error) {

@@ -19,6 +19,7 @@ struct PoseMarginals::Impl {
 
   virtual const BlockCholesky& matrix() const = 0;
   virtual int block_of(int node) const = 0;
+  virtual const GraphComponents& components() const = 0;
   /// Adjoint of (T_world_from^-1 T_world_to)^-1.
   virtual Information adjoint(int from, int to) const = 0;
 
@@ -58,6 +59,7 @@ struct Implementation final : Base {
   }
   const BlockCholesky& matrix() const override { return equations.matrix(); }
   int block_of(int node) const override { return equations.block_of(node); }
+  const GraphComponents& components() const override { return packed.components; }
   Information adjoint(int from, int to) const override {
     return (packed.poses[to].inverse() * packed.poses[from]).adjoint();
   }
@@ -122,9 +124,13 @@ std::vector<Information> PoseMarginals::covariances() const {
 }
 
 Information PoseMarginals::relative_covariance(NodeId from, NodeId to) const {
+  const int a = impl_->node(from), b = impl_->node(to);
+  const std::vector<int>& component = impl_->components().component;
+  require(component[a] == component[b], "PoseMarginals: no constraints connect nodes " +
+                                            to_string(from) + " and " + to_string(to));
   const Eigen::MatrixXd joint = joint_covariance({from, to});
   const int dof = impl_->dof;
-  return impl_->relative(impl_->node(from), impl_->node(to), joint.topLeftCorner(dof, dof),
+  return impl_->relative(a, b, joint.topLeftCorner(dof, dof),
                          joint.bottomRightCorner(dof, dof), joint.topRightCorner(dof, dof));
 }
 

@@ -28,9 +28,8 @@ bool beyond_doubt(const PackedGraph<Group>& graph, double ring_scale, const Robu
   constexpr double kDrift = 10;  // ratio of the noise of long rings to that of short ones
   constexpr double kTail = 10;   // ratio of the largest error of true loops to their 99 % quantile
   const std::vector<double> chi2 = chi2_by_edge(graph, rotation_error);
-  const auto redundant =
-      static_cast<double>(graph.edges.size()) - static_cast<double>(graph.poses.size()) + 1;
-  if (redundant <= 0) return true;
+  const int redundant = graph.components.redundant;
+  if (redundant == 0) return true;
   const double scale = std::accumulate(chi2.begin(), chi2.end(), 0.0) / (Group::kDof * redundant);
   std::vector<double> loops;
   for (std::size_t i = 0; i < chi2.size(); ++i)
@@ -46,13 +45,14 @@ bool beyond_doubt(const PackedGraph<Group>& graph, double ring_scale, const Robu
 /// Sets the poses by the odometry, if odometry connects them all.
 template <class Group>
 void initialize_from_odometry(PackedGraph<Group>& graph, const OdometryChain<Group>& chain) {
-  const auto held = std::find(graph.held.begin(), graph.held.end(), 1) - graph.held.begin();
-  if (chain.runs() != 1 || !graph.positions.empty() ||
-      std::count(graph.held.begin(), graph.held.end(), 1) != 1)
+  const std::vector<char>& is_held = graph.components.held;
+  if (chain.runs() != 1 || std::count(is_held.begin(), is_held.end(), 1) != 1 ||
+      !graph.positions.empty())
     return;
+  const auto held = std::find(is_held.begin(), is_held.end(), 1) - is_held.begin();
   const Group T_world_first = graph.poses[held] * chain.pose(static_cast<int>(held)).inverse();
   for (std::size_t i = 0; i < graph.poses.size(); ++i)
-    if (!graph.held[i]) graph.poses[i] = T_world_first * chain.pose(static_cast<int>(i));
+    if (!is_held[i]) graph.poses[i] = T_world_first * chain.pose(static_cast<int>(i));
 }
 
 /// Initializes the plain descent: with the given poses, or with the chordal initialization if the

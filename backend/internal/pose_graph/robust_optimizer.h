@@ -14,7 +14,7 @@ struct RobustSolution {
   bool judged = true;  ///< false: too few loops to estimate that scale; none was left out
 };
 
-/// Minimizes a pose graph with false loops.
+/// Minimizes a pose graph of one component with false loops.
 /// Odometry and measured positions are accepted, but only one of several odometry edges between the
 /// same nodes (parallel_odometry.h); every other edge may be left out.
 ///   none   all edges, with their own kernels

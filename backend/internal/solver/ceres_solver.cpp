@@ -43,7 +43,7 @@ class GraphProblem {
       double* const pose = &poses_[i * kSize];
       if (!problem_.HasParameterBlock(pose)) continue;
       problem_.SetManifold(pose, &manifold_);
-      if (graph.held[i]) problem_.SetParameterBlockConstant(pose);
+      if (graph.components.held[i]) problem_.SetParameterBlockConstant(pose);
     }
   }
 

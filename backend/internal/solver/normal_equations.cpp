@@ -2,6 +2,8 @@
 #include <placegraph/backend/factors/position_error.h>
 #include <placegraph/backend/internal/solver/normal_equations.h>
 
+#include <algorithm>
+
 namespace placegraph {
 namespace {
 
@@ -21,7 +23,7 @@ std::vector<int> NormalEquations<Group>::number_blocks(const PackedGraph<Group>&
   std::vector<int> blocks(graph.poses.size(), -1);
   int count = 0;
   for (std::size_t node = 0; node < blocks.size(); ++node)
-    if (!graph.held[node]) blocks[node] = count++;
+    if (!graph.components.held[node]) blocks[node] = count++;
   return blocks;
 }
 
@@ -44,8 +46,7 @@ std::vector<std::pair<int, int>> NormalEquations<Group>::pairs(
 template <class Group>
 NormalEquations<Group>::NormalEquations(const PackedGraph<Group>& graph)
     : block_of_node_(number_blocks(graph)),
-      matrix_(static_cast<int>(std::count(graph.held.begin(), graph.held.end(), 0)), kDof,
-              pairs(graph)),
+      matrix_(static_cast<int>(std::ranges::count(graph.components.held, 0)), kDof, pairs(graph)),
       gradient_(static_cast<Eigen::Index>(matrix_.block_count()) * kDof) {
   in_pattern_.reserve(graph.edges.size());
   coupling_.reserve(graph.edges.size());
@@ -67,8 +68,8 @@ bool NormalEquations<Group>::fits(const PackedGraph<Group>& graph) const {
   if (graph.poses.size() != block_of_node_.size() || graph.edges.size() != in_pattern_.size() ||
       graph.observations.size() != observation_coupling_.size())
     return false;
-  for (std::size_t node = 0; node < graph.held.size(); ++node)
-    if ((graph.held[node] != 0) != (block_of_node_[node] < 0)) return false;
+  for (std::size_t node = 0; node < graph.components.held.size(); ++node)
+    if ((graph.components.held[node] != 0) != (block_of_node_[node] < 0)) return false;
   // After edges are dropped the pattern is still valid, but too large; if many are dropped, a new
   // order is faster.
   std::size_t kept = 0, dropped = 0;

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/backend/internal/solver/graph_components.h>
 #include <placegraph/graph/pose_graph/landmark_graph.h>
 
 namespace placegraph {
@@ -33,12 +34,10 @@ struct PackedGraph {
   /// T_world_node; for a LandmarkGraph then its points, as poses without rotation, and last the
   /// world, which is held: measured poses are edges from it.
   std::vector<Group> poses;
-  /// Held nodes: the fixed ones, and the first node of every component without a fixed node or a
-  /// measured position.
-  std::vector<char> held;
   std::vector<Edge> edges;
   std::vector<Position> positions;
   std::vector<Observation> observations;
+  GraphComponents components;  ///< of the weights with which the graph was packed
 };
 
 /// `graph` must have passed PoseGraph::check and be of the kind of `Group`.
@@ -48,6 +47,14 @@ PackedGraph<Group> pack(const PoseGraph& graph);
 /// -1.
 template <class Group>
 PackedGraph<Group> pack(const LandmarkGraph& graph);
+
+/// The components of a packed graph; `fixed` says of every node whether it is fixed.
+template <class Group>
+GraphComponents find_components(const PackedGraph<Group>& graph, std::vector<char> fixed);
+/// The components of a pose graph, which must have passed PoseGraph::check.
+GraphComponents find_components(const PoseGraph& graph);
+/// The same of a landmark graph: of its nodes, then its points, and last the world.
+GraphComponents find_components(const LandmarkGraph& graph);
 
 /// The position of a point, which is stored as a pose without rotation; z is 0 in the plane.
 inline Eigen::Vector3d point_of(const SE2& T) {

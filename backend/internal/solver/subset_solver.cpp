@@ -22,7 +22,7 @@ bool SubsetSolver<Group>::fits(const PackedGraph<Group>& graph) const {
 template <class Group>
 void SubsetSolver<Group>::take_pattern(const PackedGraph<Group>& graph) {
   solver_ = std::make_unique<LocalSolver<Group>>(options_);
-  subset_.held = graph.held;
+  subset_.components = graph.components;
   subset_.positions = graph.positions;
   subset_.edges.clear();
   edges_.clear();

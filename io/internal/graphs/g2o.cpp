@@ -217,9 +217,6 @@ void format_poses(Buffer out, const PoseGraph& graph) {
     if (graph.kind() == PoseKind::kSim3) fmt::format_to(out, kNoCamera);
     fmt::format_to(out, "\n");
   }
-  for (const PoseNode& node : graph.nodes) {
-    if (node.fixed) fmt::format_to(out, "FIX {}\n", node.id);
-  }
   for (const Constraint& constraint : graph.constraints) {
     if (const auto* edge = std::get_if<RelativePoseConstraint>(&constraint))
       format_edge(out, *edge);
@@ -235,11 +232,16 @@ void format_beside_poses(Buffer out, const LandmarkGraph& graph) {
     format_point(out, point.position_world, planar);
     fmt::format_to(out, "\n");
   }
-  for (const GraphPoint& point : graph.points)
-    if (point.fixed) fmt::format_to(out, "FIX {}\n", point.id);
   for (const PosePriorConstraint& prior : graph.priors) format_prior(out, prior);
   for (const PointObservation& observation : graph.observations)
     format_observation(out, observation, planar);
+}
+
+/// Behind the edges: readers of other programs end at the first line with fewer than two numbers.
+template <class Vertices>
+void format_fixed(Buffer out, const Vertices& vertices) {
+  for (const auto& vertex : vertices)
+    if (vertex.fixed) fmt::format_to(out, "FIX {}\n", vertex.id);
 }
 
 void write_text(const std::string& path, const fmt::memory_buffer& text) {
@@ -266,7 +268,9 @@ LandmarkGraph parse_g2o_landmarks(TextFile& file, const PoseGraphReading& readin
 void write_g2o(const std::string& path, const PoseGraph& graph) {
   graph.check();
   fmt::memory_buffer text;
-  format_poses(std::back_inserter(text), graph);
+  const Buffer out = std::back_inserter(text);
+  format_poses(out, graph);
+  format_fixed(out, graph.nodes);
   write_text(path, text);
 }
 
@@ -278,6 +282,8 @@ void write_g2o(const std::string& path, const LandmarkGraph& graph) {
     fmt::format_to(out, "PARAMS_SE3OFFSET 0 0 0 0 0 0 0 1\n");
   format_poses(out, graph.poses);
   format_beside_poses(out, graph);
+  format_fixed(out, graph.poses.nodes);
+  format_fixed(out, graph.points);
   write_text(path, text);
 }
 

@@ -19,37 +19,14 @@ struct OptimizedGraph {
   std::optional<ChordalIsotropicCertificate> certificate;
 };
 
-template <class Group>
-ChordalIsotropicCertificate certify(const PoseGraphReport& report, RotationError rotation_error) {
-  PackedGraph<Group> packed = pack<Group>(report.graph);
-  std::vector<char> rejected(report.graph.constraints.size());
-  for (const RejectedEdge& edge : report.rejected)
-    rejected[static_cast<std::size_t>(edge.constraint)] = true;
-  for (auto& edge : packed.edges)
-    if (rejected[static_cast<std::size_t>(edge.constraint)]) edge.weight = 0;
-  return certify_chordal_isotropic(packed, rotation_error);
-}
-
-ChordalIsotropicCertificate certify_any(const PoseGraphReport& report,
-                                        RotationError rotation_error) {
-  switch (report.graph.kind()) {
-    case PoseKind::kSE2:
-      return certify<SE2>(report, rotation_error);
-    case PoseKind::kSE3:
-      return certify<SE3>(report, rotation_error);
-    case PoseKind::kSim3:
-      break;
-  }
-  return certify<Sim3>(report, rotation_error);
-}
-
 OptimizedGraph optimize(PoseGraph graph, const OptionSet& options, bool with_certificate) {
   const PoseGraphOptions typed = options_in<PoseGraphOptions>(options, "options");
   const nb::gil_scoped_release release;
   OptimizedGraph result;
   result.report = optimize_pose_graph(std::move(graph), typed, interruptible());
   if (with_certificate && !result.report.graph.nodes.empty())
-    result.certificate = certify_any(result.report, typed.rotation_error);
+    result.certificate = certify_chordal_isotropic(
+        without_rejected(result.report.graph, result.report.rejected), typed.rotation_error);
   return result;
 }
 

@@ -77,11 +77,51 @@ def test_a_prior_holds_its_node(graph: pg.PoseGraph) -> None:
     kind = "Pose2" if graph.kind == "SE2" else "Pose3"
     prior = getattr(gtsam, f"PriorFactor{kind}")
     factors.add(prior(0, getattr(values, f"at{kind}")(0),
-                      gtsam.noiseModel.Isotropic.Sigma(graph.information.shape[1], 0.1)))
+                      gtsam.noiseModel.Isotropic.Sigma(graph.information.shape[1], 1e-6)))
     result = gtsam.LevenbergMarquardtOptimizer(factors, values).optimize()
     again = from_gtsam(factors, result)
     assert again.fixed.tolist() == [0] and again.edges.tolist() == graph.edges.tolist()
     assert pg.optimize(again).chi2_final == pytest.approx(2 * factors.error(result), rel=1e-4)
+
+
+def chain_with_priors(random: np.random.Generator) -> tuple[gtsam.NonlinearFactorGraph, gtsam.Values]:
+    """A chain in the plane, one or two of whose poses have priors at their values."""
+    factors, values = gtsam.NonlinearFactorGraph(), gtsam.Values()
+    count = int(random.integers(2, 6))
+    for i in range(count):
+        values.insert(i, gtsam.Pose2(i, 0, 0))
+        if i:
+            sigmas = 10.0 ** random.uniform(-2, -1, 3)
+            factors.add(gtsam.BetweenFactorPose2(i - 1, i, gtsam.Pose2(1.1, 0, 0),
+                                                 gtsam.noiseModel.Diagonal.Sigmas(sigmas)))
+    for node in random.choice(count, int(random.integers(1, 3)), replace=False).tolist():
+        sigmas = np.full(3, 10.0 ** random.uniform(-7, 1))
+        sigmas[int(random.integers(3))] *= random.choice([1, 1, 1e6, np.inf])
+        model = gtsam.noiseModel.Diagonal.Sigmas(sigmas)
+        factors.add(gtsam.PriorFactorPose2(node, values.atPose2(node), model))
+    return factors, values
+
+
+def test_a_prior_is_exact_or_refused() -> None:
+    random = np.random.default_rng(5)
+    converted = 0
+    for trial in range(200):
+        factors, values = chain_with_priors(random)
+        try:
+            graph = from_gtsam(factors, values)
+        except ValueError as error:
+            assert "is a measurement" in str(error), trial
+            continue
+        converted += 1
+        theirs = gtsam.LevenbergMarquardtOptimizer(factors, values).optimize()
+        ours = pg.optimize(graph).graph.poses
+        expected = [theirs.atPose2(i).translation() for i in range(len(ours))]
+        np.testing.assert_allclose(ours[:, :2], expected, atol=1e-5, err_msg=str(trial))
+        if len(ours) > 1:
+            last = gtsam.Marginals(factors, theirs).marginalCovariance(len(ours) - 1)
+            covariance = pg.marginal_covariances(pg.optimize(graph).graph)[-1]
+            np.testing.assert_allclose(covariance, last, atol=1e-5, err_msg=str(trial))
+    assert converted > 20
 
 
 def robust_cost(graph: pg.PoseGraph) -> float:
@@ -121,7 +161,7 @@ def test_what_has_no_counterpart_is_refused() -> None:
     factors, values = to_gtsam(ring(8))
     other = values.atPose3(0).compose(gtsam.Pose3(gtsam.Rot3(), [1e-3, 0, 0]))
     factors.add(gtsam.PriorFactorPose3(0, other, gtsam.noiseModel.Unit.Create(6)))
-    with pytest.raises(ValueError, match="PriorFactorPose3, differs from the value of 0"):
+    with pytest.raises(ValueError, match="PriorFactorPose3 of 0, differs from the value of its"):
         from_gtsam(factors, values)
     factors, values = to_gtsam(ring(8))
     values.insert(99, 1.0)

@@ -137,6 +137,38 @@ TEST_F(OptimizeCommand, OptimizesTheComponentsEachForItself) {
   EXPECT_THAT(to_text(result), HasSubstr("\n  2 components, each for itself\n"));
 }
 
+/// A chain of `surveyed` fixed vertices, and as many fixed ones without edges.
+PoseGraph surveyed_chain(int surveyed, std::uint64_t seed) {
+  Random random(seed);
+  PoseGraph graph;
+  for (int i = 0; i < 2 * surveyed; ++i) graph.nodes.push_back({NodeId(i), SE2(i, 0, 0), true});
+  for (int i = 0; i + 1 < surveyed; ++i)
+    graph.constraints.emplace_back(test::constraint<SE2>(
+        i, i + 1, SE2(1, 0, 0) * test::random_element<SE2>(random, 0.1, 0.1)));
+  return graph;
+}
+
+TEST_F(OptimizeCommand, ExpectsTheErrorsOfSurveyedVerticesAndWarnsOfLargerOnesAlone) {
+  arguments.force = arguments.task.split = true;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed)
+    for (const double factor : {1.0, 10.0}) {
+      SCOPED_TRACE(testing::Message() << "seed " << seed);
+      PoseGraph graph = surveyed_chain(50, seed);
+      for (Constraint& constraint : graph.constraints)
+        std::get<RelativePoseConstraint>(constraint).information *= factor;
+      write_g2o(arguments.in, graph);
+      std::string printed;
+      const OptimizeResult result = optimize(arguments, [&](LogLevel level, const auto& message) {
+        if (level == LogLevel::kWarning) printed += message;
+      });
+      EXPECT_EQ(result.solution.degrees_of_freedom, 3 * 49);
+      EXPECT_EQ(result.solution.components, 51);
+      EXPECT_EQ(printed.find("it looks like false loops") != std::string::npos, factor > 1)
+          << printed;
+      EXPECT_EQ(json::parse(to_json(result))["degrees_of_freedom"], 3 * 49);
+    }
+}
+
 TEST_F(OptimizeCommand, CountsTheStepsOfAGraphThatGrows) {
   write_g2o(arguments.in, test::ring<SE3>(12, false));
   arguments.task.incremental = true;

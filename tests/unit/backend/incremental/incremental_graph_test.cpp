@@ -35,7 +35,7 @@ TYPED_TEST(IncrementalGraphOf, IsThePackedGraphOfItsConstraints) {
   this->add_all();
   const PackedGraph<TypeParam> expected = pack<TypeParam>(this->walk.graph);
   const PackedGraph<TypeParam> packed = this->graph.packed();
-  EXPECT_EQ(packed.held, expected.held);
+  EXPECT_EQ(packed.components.held, expected.components.held);
   ASSERT_EQ(packed.edges.size(), expected.edges.size());
   for (std::size_t i = 0; i < packed.edges.size(); ++i) {
     EXPECT_EQ(packed.edges[i].from, expected.edges[i].from);
@@ -65,7 +65,8 @@ TYPED_TEST(IncrementalGraphOf, ForgetsConstraintsOfNoWeightAndRestoresThem) {
   EXPECT_EQ(this->graph.graph().constraints.size(), count - removed.size());
   EXPECT_EQ(this->graph.constraints(), count);
   // The pieces, and what holds them, are those of the graph that is left.
-  EXPECT_EQ(this->graph.packed().held, pack<TypeParam>(this->graph.graph()).held);
+  EXPECT_EQ(this->graph.packed().components.held,
+            pack<TypeParam>(this->graph.graph()).components.held);
   const std::vector<int> pieces = this->graph.graph().components();
   for (int node = 0; node < 14; ++node)
     EXPECT_EQ(this->graph.together(0, node), pieces[0] == pieces[node]) << node;
@@ -75,7 +76,8 @@ TYPED_TEST(IncrementalGraphOf, ForgetsConstraintsOfNoWeightAndRestoresThem) {
   for (const int c : removed) this->graph.set_weight({c, 1});
   this->graph.set_poses(poses);
   EXPECT_NEAR(this->graph.cost(), cost, 1e-9 * cost);
-  EXPECT_EQ(this->graph.packed().held, pack<TypeParam>(this->walk.graph).held);
+  EXPECT_EQ(this->graph.packed().components.held,
+            pack<TypeParam>(this->walk.graph).components.held);
 }
 
 TYPED_TEST(IncrementalGraphOf, WeighsAndRevisesConstraints) {

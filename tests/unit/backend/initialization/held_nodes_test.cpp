@@ -19,7 +19,7 @@ TYPED_TEST(HeldNodeConstraintsOf, TiesTheHeldNodesOfAComponentAsTheyStand) {
   PoseGraph fixed = walk.graph;
   for (const int i : {2, 5, 9}) fixed.nodes[i].fixed = true;
   const PackedGraph<TypeParam> graph = pack<TypeParam>(fixed);
-  const auto problem = held_node_constraints(graph, find_anchors(graph), RotationError::kLog);
+  const auto problem = held_node_constraints(graph, RotationError::kLog);
   const std::size_t edges = graph.edges.size();
   ASSERT_EQ(problem.edges.size(), edges + 2);
   double heaviest_rotation = 0, heaviest_translation = 0;
@@ -48,7 +48,7 @@ TYPED_TEST(HeldNodeConstraintsOf, TiesCostNothingAtTheHeldPoses) {
   PoseGraph fixed = walk.graph;
   for (const int i : {0, 4, 7}) fixed.nodes[i].fixed = true;
   const PackedGraph<TypeParam> graph = pack<TypeParam>(fixed);
-  auto problem = held_node_constraints(graph, find_anchors(graph), RotationError::kLog);
+  auto problem = held_node_constraints(graph, RotationError::kLog);
   const double constrained = isotropic_cost(problem, graph.poses);
   problem.edges.resize(graph.edges.size());
   EXPECT_NEAR(constrained, isotropic_cost(problem, graph.poses), 1e-9 * constrained);
@@ -69,7 +69,7 @@ TYPED_TEST(HeldNodeConstraintsOf, TiesNothingAcrossComponentsNorWhereOneNodeIsHe
   }
   two.nodes[1].fixed = two.nodes[8].fixed = true;
   const PackedGraph<TypeParam> graph = pack<TypeParam>(two);
-  EXPECT_EQ(held_node_constraints(graph, find_anchors(graph), RotationError::kLog).edges.size(),
+  EXPECT_EQ(held_node_constraints(graph, RotationError::kLog).edges.size(),
             graph.edges.size());
 }
 

@@ -16,7 +16,7 @@ PackedGraph<Group> without_poses(const PoseGraph& graph) {
   PackedGraph<Group> packed = pack<Group>(graph);
   Random random(3);
   for (std::size_t i = 0; i < packed.poses.size(); ++i)
-    if (!packed.held[i]) packed.poses[i] = test::random_element<Group>(random, 5, 2);
+    if (!packed.components.held[i]) packed.poses[i] = test::random_element<Group>(random, 5, 2);
   return packed;
 }
 
@@ -62,7 +62,7 @@ TYPED_TEST(InitializationOf, HeldNodesStayAndPlaceTheRest) {
   }
   for (const bool chordal : {false, true}) {
     PackedGraph<TypeParam> graph = without_poses<TypeParam>(walk.graph);
-    EXPECT_FALSE(graph.held[0]);
+    EXPECT_FALSE(graph.components.held[0]);
     if (chordal)
       chordal_initialization(graph);
     else
@@ -86,7 +86,7 @@ TYPED_TEST(InitializationOf, MeasuredPositionsPlaceWhatNothingHolds) {
   }
   for (const bool chordal : {false, true}) {
     PackedGraph<TypeParam> graph = without_poses<TypeParam>(walk.graph);
-    EXPECT_FALSE(graph.held[0]);
+    EXPECT_FALSE(graph.components.held[0]);
     if (chordal)
       chordal_initialization(graph);
     else

@@ -138,6 +138,33 @@ TEST(PoseMarginals, OfAGraphWithOpenDirectionsSaySoAndGiveNothing) {
   EXPECT_THROW((void)marginals.constraint_covariances(), Error);
 }
 
+TYPED_TEST(PoseMarginalsOf, RefuseTheRelativePoseOfNodesThatNothingConnects) {
+  Random random = test::seeded_random(7);
+  PoseGraph graph = walk<TypeParam>(7, random);
+  const PoseGraph other = walk<TypeParam>(6, random);
+  const auto moved = [](NodeId id) { return NodeId(id.value() + 100); };
+  for (const PoseNode& node : other.nodes)
+    graph.nodes.push_back({moved(node.id), node.T_world_node, node.fixed});
+  for (const Constraint& constraint : other.constraints) {
+    auto edge = std::get<RelativePoseConstraint>(constraint);
+    edge.from = moved(edge.from);
+    edge.to = moved(edge.to);
+    graph.constraints.emplace_back(edge);
+  }
+  const PoseMarginals marginals(graph), alone(other);
+  ASSERT_TRUE(marginals.outcome());
+  for (int a = 0; a < 7; ++a)
+    for (int b = 0; b < 6; ++b)
+      for (const bool swapped : {false, true}) {
+        const NodeId here(10 + a), there(110 + b);
+        EXPECT_THROW((void)marginals.relative_covariance(swapped ? there : here,
+                                                         swapped ? here : there),
+                     ArgumentError);
+      }
+  EXPECT_EQ(marginals.relative_covariance(NodeId(110), NodeId(114)),
+            alone.relative_covariance(NodeId(10), NodeId(14)));
+}
+
 TEST(PoseMarginals, RefuseUnknownNodes) {
   Random random = test::seeded_random(6);
   const PoseMarginals marginals(walk<SE3>(5, random));

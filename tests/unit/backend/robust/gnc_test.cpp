@@ -75,7 +75,7 @@ TEST(Gnc, NeverTakesALoopThatWasExcluded) {
 TEST(Gnc, DecidesByTheGateBetweenNodesThatCannotMove) {
   PackedGraph<SE2> graph;
   graph.poses.resize(2);
-  graph.held = {true, true};
+  graph.components.held = {true, true};
   for (const double share : {0.5, 0.99, 1.01, 3.0, 100.0})
     graph.edges.push_back({0,
                            1,

@@ -80,8 +80,8 @@ TYPED_TEST(FreeDirectionsOf, OfAPartWithoutWeightAreAllOfItsMotion) {
 PackedGraph<SE3> star(int nodes) {
   PackedGraph<SE3> graph;
   graph.poses.resize(static_cast<std::size_t>(nodes) + 1);
-  graph.held.assign(graph.poses.size(), false);
-  graph.held[0] = true;
+  graph.components.held.assign(graph.poses.size(), false);
+  graph.components.held[0] = true;
   Matrix6d information = Matrix6d::Zero();
   information.diagonal().head<3>().setConstant(9);
   for (int i = 1; i <= nodes; ++i) graph.edges.push_back({0, i, 0, true, SE3(), information, {}});

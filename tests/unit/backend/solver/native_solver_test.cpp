@@ -101,7 +101,7 @@ TYPED_TEST(NativeSolverOf, SolvesAgainWithOtherWeightsAndPosesAsIfItWereNew) {
 
 TYPED_TEST(NativeSolverOf, ReachesZeroCostButNoUniqueMinimumWhereDirectionsAreFree) {
   PackedGraph<TypeParam> graph = test::packed_walk<TypeParam>(8, 0, 8);
-  graph.held.assign(graph.held.size(), false);
+  graph.components.held.assign(graph.components.held.size(), false);
   graph.positions = {
       {2, 0, {3, -1, 0}, {0.5, 0.2, 0}, 25 * Eigen::Matrix3d::Identity(), RobustKernel()}};
   const LocalSolution solution = NativeSolver<TypeParam>({}).solve(graph);
@@ -121,7 +121,7 @@ TYPED_TEST(MeanOfMotions, IsTheWeightedMeanOfTranslations) {
   Random random(9);
   PackedGraph<TypeParam> graph;
   graph.poses.resize(2);
-  graph.held = {true, false};
+  graph.components.held = {true, false};
   Point sum = Point::Zero();
   double weights = 0;
   for (int i = 0; i < 10; ++i) {
@@ -146,7 +146,7 @@ TYPED_TEST(MeanOfMotions, IsTheWeightedMeanOfTranslations) {
 
 TEST(NativeSolver, OfHeldNodesHasNothingToDo) {
   PackedGraph<SE3> graph = test::packed_walk<SE3>(6, 0.1, 10);
-  graph.held.assign(graph.held.size(), true);
+  graph.components.held.assign(graph.components.held.size(), true);
   const double cost = robust_cost(graph, kLog);
   const LocalSolution solution = NativeSolver<SE3>({}).solve(graph);
   EXPECT_TRUE(solution.outcome);

@@ -21,7 +21,7 @@ class Observations : public testing::Test {
     PackedGraph<Group> graph;
     graph.poses = {Group::exp(xi), Group::exp(2 * xi), point(3, 1, 2), point(-1, 2, 1),
                    point(1, -4, 0.5)};
-    graph.held.assign(graph.poses.size(), 0);
+    graph.components.held.assign(graph.poses.size(), 0);
     Eigen::Matrix3d information;
     information << 4, 1, 0.5, 1, 3, -0.2, 0.5, -0.2, 2;
     if (kDim == 2) information.row(2).setZero(), information.col(2).setZero();
@@ -72,7 +72,7 @@ TYPED_TEST(Observations, HaveTheGradientAndCurvatureOfFiniteDifferences) {
 TYPED_TEST(Observations, AreSolvedToTheLastWhereTheyAgree) {
   using Group = TypeParam;
   PackedGraph<Group> graph = TestFixture::graph();
-  graph.held[0] = graph.held[1] = 1;
+  graph.components.held[0] = graph.components.held[1] = 1;
   // Every point is where one pose sees it.
   graph.observations.erase(graph.observations.begin() + 2);
   const LocalSolution solution = LocalSolver<Group>({}).solve(graph);

@@ -1,7 +1,11 @@
 #include <gtest/gtest.h>
+#include <placegraph/backend/internal/solver/normal_equations.h>
 #include <placegraph/backend/internal/solver/packed_graph.h>
 
+#include <Eigen/LU>
+
 #include "tests/support/packed_graphs.h"
+#include "tests/support/seed.h"
 
 namespace placegraph {
 namespace packed_graph_test {
@@ -91,9 +95,50 @@ TEST(PackedGraph, HoldsTheFirstNodeOfEveryPieceThatNothingAnchors) {
         first &= j >= i;
         for (const auto& position : packed.positions) anchored |= position.node == j;
       }
-      EXPECT_EQ(packed.held[i] != 0, graph.nodes[i].fixed || (!anchored && first))
+      EXPECT_EQ(packed.components.held[i] != 0, graph.nodes[i].fixed || (!anchored && first))
           << "trial " << trial << " node " << i;
     }
+  }
+}
+
+/// The rank of the normal equations of the nodes that are not held.
+Eigen::Index rank_of(const PackedGraph<SE2>& packed) {
+  NormalEquations<SE2> equations(packed);
+  equations.linearize(packed, RotationError::kLog);
+  const Eigen::Index size = 3 * static_cast<Eigen::Index>(equations.block_count());
+  Eigen::MatrixXd H(size, size);
+  Eigen::VectorXd column;
+  for (Eigen::Index i = 0; i < size; ++i) {
+    equations.matrix().multiply(Eigen::VectorXd::Unit(size, i), column);
+    H.col(i) = column;
+  }
+  return size == 0 ? 0 : Eigen::FullPivLU<Eigen::MatrixXd>(H).setThreshold(1e-9).rank();
+}
+
+TEST(PackedGraph, CountsTheDegreesOfFreedomOfItsErrors) {
+  Random random = test::seeded_random(8);
+  for (int trial = 0; trial < 200; ++trial) {
+    PoseGraph graph;
+    const int n = 1 + random.index(12);
+    for (int i = 0; i < n; ++i)
+      graph.nodes.push_back({NodeId(i), test::random_element<SE2>(random, 3, 1),
+                             random.uniform() < 0.2});
+    for (int k = random.index(2 * n); n > 1 && k > 0; --k) {
+      const int from = random.index(n), to = (from + 1 + random.index(n - 1)) % n;
+      graph.constraints.emplace_back(
+          test::constraint<SE2>(from, to, test::random_element<SE2>(random, 3, 1)));
+    }
+    for (int i = 0; i < n; ++i)
+      if (random.uniform() < 0.2)
+        graph.constraints.emplace_back(
+            position_of_node(i, {random.normal(), random.normal(), 0}));
+    const PackedGraph<SE2> packed = pack<SE2>(graph);
+    const auto errors = static_cast<Eigen::Index>(3 * packed.edges.size() +
+                                                  2 * packed.positions.size());
+    EXPECT_EQ(packed.components.degrees_of_freedom, errors - rank_of(packed)) << "trial " << trial;
+    EXPECT_GE(packed.components.redundant, 0);
+    if (!packed.positions.empty()) continue;
+    EXPECT_EQ(packed.components.degrees_of_freedom, 3 * packed.components.redundant);
   }
 }
 
@@ -135,12 +180,12 @@ TYPED_TEST(PackedLandmarkGraph, PutsThePointsBehindTheNodesAndTheWorldLast) {
 
 TYPED_TEST(PackedLandmarkGraph, IsOnePieceByTheObservations) {
   LandmarkGraph graph = TestFixture::graph();
-  EXPECT_EQ(pack<TypeParam>(graph).held, (std::vector<char>{1, 0, 0, 0, 1}));
+  EXPECT_EQ(pack<TypeParam>(graph).components.held, (std::vector<char>{1, 0, 0, 0, 1}));
   graph.points[0].fixed = true;
-  EXPECT_EQ(pack<TypeParam>(graph).held, (std::vector<char>{0, 0, 1, 0, 1}));
+  EXPECT_EQ(pack<TypeParam>(graph).components.held, (std::vector<char>{0, 0, 1, 0, 1}));
   graph.points[0].fixed = false;
   graph.observations.erase(graph.observations.begin() + 1);
-  EXPECT_EQ(pack<TypeParam>(graph).held, (std::vector<char>{1, 1, 0, 0, 1}));
+  EXPECT_EQ(pack<TypeParam>(graph).components.held, (std::vector<char>{1, 1, 0, 0, 1}));
 }
 
 TYPED_TEST(PackedLandmarkGraph, MeasuresAPoseFromTheHeldWorld) {
@@ -157,7 +202,7 @@ TYPED_TEST(PackedLandmarkGraph, MeasuresAPoseFromTheHeldWorld) {
   EXPECT_EQ(edge.to, 1);
   EXPECT_LT((edge.T_to_from * measured).log().norm(), 1e-12);
   // The measured pose anchors all that is connected to it.
-  EXPECT_EQ(packed.held, (std::vector<char>{0, 0, 0, 0, 1}));
+  EXPECT_EQ(packed.components.held, (std::vector<char>{0, 0, 0, 0, 1}));
 }
 
 }  // namespace packed_graph_test
