@@ -119,7 +119,7 @@ class Slam {
   std::vector<DataNote> notes() const;
   /// Returns the errors of the motion from the first place to the last one of its component.
   ///
-  /// Nothing if this run did not track all of the path between them.
+  /// Nothing if the run did not track all of the path between them.
   std::optional<OdometryError> odometry_error() const;
   /// Returns one entry per keyframe of this run, in order; empty unless `context` is enabled.
   const std::vector<EnvironmentObservation>& environments() const;

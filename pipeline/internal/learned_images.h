@@ -28,7 +28,8 @@ class LearnedImages {
   /// Learns the static overlay that a pass has found; returns whether the run must restart. The
   /// lens is then estimated again: tracks on the overlay have contributed to its estimate.
   bool learn_overlay(const Slam& slam, const LogSink& log);
-  /// Learns the distortion that a pass has left in its images; returns whether the run must restart.
+  /// Learns the distortion that a pass has left in its images; returns whether the run must
+  /// restart.
   bool learn_lens(const LensDistortion& seen, const LensOptions& options, const LogSink& log);
   /// What all passes have found, and what the present one leaves in its images.
   std::vector<DataNote> notes(const Slam& slam, const LensOptions& options) const;

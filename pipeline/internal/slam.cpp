@@ -6,7 +6,6 @@
 #include <placegraph/pipeline/internal/local_map/lens_estimator.h>
 #include <placegraph/pipeline/internal/slam/event_feed.h>
 #include <placegraph/pipeline/internal/slam/image_check.h>
-#include <placegraph/pipeline/internal/slam/link_feed.h>
 #include <placegraph/pipeline/internal/slam/map_feed.h>
 #include <placegraph/pipeline/internal/slam/run_evidence.h>
 #include <placegraph/pipeline/internal/slam/track_recovery.h>
@@ -60,7 +59,7 @@ struct Slam::Impl {
   void optimized(const IncrementalStep& step);
   void take_up(const Map& map, const PlaceHistory& history, const Frame& last);
   EvidenceSources evidence() {
-    return {odometry, health, contradicted, environments, overlay ? &*overlay : nullptr};
+    return {odometry, links, health, contradicted, environments, overlay ? &*overlay : nullptr};
   }
   std::optional<FrameId> newest_counted() const {
     return recorder.empty() ? counted : std::max(counted, std::optional(recorder.newest().frame));
@@ -113,6 +112,8 @@ FrameResult Slam::add_frame(const Frame& frame) {
 }
 MapChanges Slam::take_changes() {
   MapChanges changes = impl_->feed.take_changes(impl_->sources());
+  if (const auto& places = changes.places; !places.empty())
+    impl_->links.note_errors(places[0].anchor_keyframe, impl_->odometry.map(), impl_->mapper);
   changes.history.evidence = evidence_of(impl_->evidence(), impl_->newest_counted());
   changes.run.stages = stages();
   if (impl_->finished) changes.run.notes = notes(), changes.run.odometry_error = odometry_error();

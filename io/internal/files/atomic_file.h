@@ -28,8 +28,9 @@ class AtomicFile {
   bool committed_ = false;
 };
 
-/// Renames `fresh`, which is closed, to `path`, which it replaces. The content is on the disk before
-/// the name: after a power cut `path` has the old content or the whole new one. Throws FileError.
+/// Renames `fresh`, which is closed, to `path`, which it replaces. The content is on the disk
+/// before the name: after a power cut `path` has the old content or the whole new one. Throws
+/// FileError.
 void replace_file(const std::string& fresh, const std::string& path);
 
 /// Creates the folder and its parents; an existing one is accepted (the caller decides whether its

@@ -9,7 +9,8 @@ namespace {
 constexpr std::uint8_t kEvidenceVersion = 1;
 
 void visit_sources(auto& archive, const EvidenceSources& sources) {
-  archive(sources.odometry, sources.health, sources.contradicted, sources.environments);
+  archive(sources.odometry, sources.links, sources.health, sources.contradicted,
+          sources.environments);
   if (sources.overlay) archive(*sources.overlay);
 }
 

@@ -5,6 +5,7 @@
 #include <placegraph/pipeline/internal/health/static_overlay.h>
 #include <placegraph/pipeline/internal/odometry/odometry.h>
 #include <placegraph/pipeline/internal/slam/environment_monitor.h>
+#include <placegraph/pipeline/internal/slam/link_feed.h>
 
 #include <optional>
 #include <string>
@@ -14,6 +15,7 @@ namespace placegraph {
 /// Components of a running system that learn from all frames what its map does not contain.
 struct EvidenceSources {
   Odometry& odometry;
+  LinkFeed& links;
   HealthMonitor& health;
   ContradictedSteps& contradicted;
   EnvironmentMonitor& environments;

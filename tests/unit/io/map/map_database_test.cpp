@@ -111,8 +111,8 @@ TEST_F(MapDatabaseFaults, ALoopStageThatThereIsNotIsNamed) {
 std::string to_schema_2(const std::string& path) {
   std::string sql =
       "PRAGMA foreign_keys = OFF; BEGIN; DROP VIEW component; DROP VIEW frame_component;";
-  for (const char* table : {"observations", "thumbnail", "inertial_state", "judgement", "finding", "overlay",
-        "evidence", "note", "odometry_error", "stage"})
+  for (const char* table : {"observations", "thumbnail", "inertial_state", "judgement", "finding",
+                            "overlay", "evidence", "note", "odometry_error", "stage"})
     sql += std::string("DROP TABLE ") + table + ";";
   {
     SqliteDatabase database(path, SqliteDatabase::Access::kRead);

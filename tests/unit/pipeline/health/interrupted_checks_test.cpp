@@ -132,7 +132,8 @@ TEST(InterruptedChecks, PatchesThatStandAreRemembered) {
     for (int v = 0; v < image.rows; ++v)
       for (int u = 0; u < image.cols; ++u) {
         const int moved = u < 80 ? u : u + 5 * i;  // the left half stands still
-        image.at<std::uint8_t>(v, u) = static_cast<std::uint8_t>((moved / 4 * 71 + v / 4 * 37) * 13);
+        image.at<std::uint8_t>(v, u) =
+            static_cast<std::uint8_t>((moved / 4 * 71 + v / 4 * 37) * 13);
       }
     whole.compare(image, {});
     interrupted.compare(image, {});
