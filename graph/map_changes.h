@@ -1,9 +1,19 @@
 #pragma once
 #include <placegraph/graph/core/ids.h>
+#include <placegraph/graph/core/stage_times.h>
 #include <placegraph/graph/map.h>
+#include <placegraph/graph/measurements/data_note.h>
 #include <placegraph/graph/place_history.h>
 
 namespace [[gnu::visibility("default")]] placegraph {
+
+/// What a run reports besides its map.
+struct RunRecord {
+  std::vector<DataNote> notes;  ///< doubts about the images, the calibration and the motion
+  /// Errors of the motion from the first place to the last one, if they are known.
+  std::optional<OdometryError> odometry_error;
+  std::vector<StageTimes::Stage> stages;  ///< CPU time of the stages, of all passes of the run
+};
 
 /// Additions to a map under construction, and changes in it, since the last call.
 struct MapChanges {
@@ -33,6 +43,7 @@ struct MapChanges {
   std::vector<LoopRecord> loops;         ///< all loops of the map
   PlaceHistory history;                  ///< the whole history of the map
   bool metric = false;                   ///< whether the scale of the map is known now
+  RunRecord run;                         ///< what the run reports now; replaces the earlier record
 };
 
 }  // namespace placegraph

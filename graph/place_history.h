@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <string>
 #include <vector>
 
 namespace [[gnu::visibility("default")]] placegraph {
@@ -73,6 +74,9 @@ struct PlaceHistory {
   std::size_t judged_loops = 0;      ///< number of loops when mergers were last checked
   std::vector<bool> scale_measured;  ///< for every track segment: whether its scale is known
   double median_depth_m = 10;        ///< median depth of the scene at the last keyframe
+  /// What the run has learned of images, camera and motion, from which the doubts of Slam::notes
+  /// follow: bytes that only Slam reads. Empty: nothing is known.
+  std::string evidence;
 };
 
 }  // namespace placegraph

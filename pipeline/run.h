@@ -38,14 +38,16 @@ struct RunResult {
   std::optional<std::string> broken_off;
   /// Whether RunInputs::stop ended the run: the map holds the frames before.
   bool stopped = false;
-  /// First frame that was processed, if the run resumed an interrupted one.
+  /// First frame that was processed, if the map goes on from that of an interrupted run; nothing if
+  /// the run has begun again.
   std::optional<FrameId> resumed_at;
-  /// CPU time of reading images and of the stages of Slam. With more than one thread, the next
+  /// CPU time of reading images and of the stages of Slam, in all passes of the run, also before it
+  /// was interrupted. With more than one thread, the next
   /// frame is read while the current one is processed, and the reading time is added to the stage
   /// that is active then.
   std::vector<StageTimes::Stage> stages;
   /// Reasons why frames have no pose, the most frequent first. Reasons that differ only in numbers
-  /// are merged. Frames before a resumed run are not counted.
+  /// are merged.
   std::vector<UnposedFrames> unposed;
   /// Doubts about the images, the calibration and the motion that the frames show (Slam::notes).
   std::vector<DataNote> notes;

@@ -52,16 +52,6 @@ struct SlamInputs {
   LogSink log = {};  ///< receiver of log messages; may be empty
 };
 
-/// Covariance of the motion between two places by odometry alone.
-///
-/// It is in the right tangent of T_from_to.
-struct OdometryError {
-  Matrix6d independent = Matrix6d::Zero();  ///< if all steps err independently of each other
-  /// By the errors that all steps share: of the calibration, and of the baseline, depth unit or
-  /// camera height on which the scale rests. They grow in proportion to the motion.
-  Matrix6d shared = Matrix6d::Zero();
-};
-
 /// Complete SLAM system: takes frames, estimates the place graph and the trajectory.
 ///
 ///     Slam slam(options, calibration);
@@ -129,7 +119,7 @@ class Slam {
   std::vector<DataNote> notes() const;
   /// Returns the errors of the motion from the first place to the last one of its component.
   ///
-  /// Nothing if this run did not track all of the path between them.
+  /// Nothing if the run did not track all of the path between them.
   std::optional<OdometryError> odometry_error() const;
   /// Returns one entry per keyframe of this run, in order; empty unless `context` is enabled.
   const std::vector<EnvironmentObservation>& environments() const;

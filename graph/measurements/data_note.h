@@ -1,4 +1,6 @@
 #pragma once
+#include <placegraph/graph/geometry/se3.h>
+
 #include <optional>
 #include <string>
 #include <string_view>
@@ -43,6 +45,16 @@ struct DataNote {
   bool doubts_scale = false;           ///< lengths may be wrong: results must not be called metric
   NoteCause cause = NoteCause::kNone;  ///< what is in doubt
   std::string advice = {};             ///< what to try next, if the text does not say it
+};
+
+/// Covariance of the motion between two places by odometry alone.
+///
+/// It is in the right tangent of T_from_to.
+struct OdometryError {
+  Matrix6d independent = Matrix6d::Zero();  ///< if all steps err independently of each other
+  /// By the errors that all steps share: of the calibration, and of the baseline, depth unit or
+  /// camera height on which the scale rests. They grow in proportion to the motion.
+  Matrix6d shared = Matrix6d::Zero();
 };
 
 /// How far the result of a run can be trusted.

@@ -14,11 +14,14 @@ struct MapWriter;
 /// during commits, the file contains the state of the last complete commit. While the file is open,
 /// no other program can use it, and its newest part may be in PATH-wal beside it; finish() merges
 /// both into one file. Throws FileError, which names the file, if it cannot be written.
+///
+/// A run that restarts writes PATH.restart beside the file, which keeps its content until the
+/// restarted run has as many frames; then PATH.restart takes its place.
 class MapDatabase {
  public:
   /// Creates an empty map; an existing file is replaced.
   static MapDatabase create(const std::string& path, const MapOrigin& origin);
-  /// Opens the map of an interrupted run to continue writing.
+  /// Opens the map of an interrupted run to continue writing, at interrupted_map_path().
   ///
   /// Throws FileError for a file that is not a saved map.
   static MapDatabase open(const std::string& path);
@@ -29,8 +32,8 @@ class MapDatabase {
   /// Writes the changes since the last commit (Slam::take_changes) in one transaction, which also
   /// removes a judgement of the map before.
   void commit(const MapChanges& changes);
-  /// Deletes the content of the map, whose run restarts with this origin.
-  void clear(const MapOrigin& origin);
+  /// Begins an empty map, as the run restarts with this origin.
+  void restart(const MapOrigin& origin);
   /// Writes the last changes, marks the map as finished and closes the file.
   void finish(const MapChanges& changes);
   /// Closes the file; without an earlier finish(), the map remains marked as unfinished.
@@ -39,10 +42,18 @@ class MapDatabase {
  private:
   friend void write_map(const std::string& path, const StoredMap& stored);
   explicit MapDatabase(std::unique_ptr<MapWriter> writer);
-  static std::unique_ptr<MapWriter> made(const std::string& path, const MapOrigin& origin,
-                                         bool synchronized);
+  static std::unique_ptr<MapWriter> made(const std::string& path, const MapOrigin& origin);
+  void keep(const std::string& path);
+  void replace_kept();
   std::unique_ptr<MapWriter> writer_;  ///< null after close()
+  std::string kept_path_;        ///< the map that a restarted run will replace; empty: none
+  std::size_t kept_frames_ = 0;  ///< number of its frames
 };
+
+/// Path of the file with which the interrupted run of a map goes on.
+///
+/// It is `path`, or that of the restarted run as long as this is the shorter one.
+std::string interrupted_map_path(const std::string& path);
 
 /// Writes a whole map at once; the file appears only when it is complete.
 ///

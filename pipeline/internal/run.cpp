@@ -10,8 +10,8 @@
 #include <placegraph/io/map/stored_map.h>
 #include <placegraph/io/sensors/odometry_file.h>
 #include <placegraph/pipeline/cues/frame_view.h>
-#include <placegraph/pipeline/internal/lens_correction.h>
-#include <placegraph/pipeline/internal/run_mask.h>
+#include <placegraph/pipeline/internal/frame_reader.h>
+#include <placegraph/pipeline/internal/learned_images.h>
 #include <placegraph/pipeline/run.h>
 #include <placegraph/pipeline/slam_events.h>
 
@@ -19,7 +19,6 @@
 #include <cctype>
 #include <cmath>
 #include <functional>
-#include <future>
 #include <map>
 
 namespace placegraph {
@@ -70,60 +69,24 @@ MeasuredMotion read_motion(const Dataset& dataset, const MotionOptions& options,
   return motion.seen_from(T_cam_body);
 }
 
-/// Reads frames in order, one ahead of the caller if it may use a thread for that.
-class FrameReader {
- public:
-  FrameReader(const Dataset& dataset, const RunMask& mask, const LensCorrection& lens,
-              Sensor sensor, std::size_t end, bool ahead)
-      : dataset_(dataset), mask_(mask), lens_(lens), sensor_(sensor), end_(end), ahead_(ahead) {}
-
-  Frame read(std::size_t index) {
-    Frame frame = next_.valid() ? next_.get() : load(index);
-    if (ahead_ && index + 1 < end_)
-      next_ = std::async(std::launch::async, [this, index] { return load(index + 1); });
-    return frame;
-  }
-
-  Frame load(std::size_t index) const {
-    Frame frame = dataset_.frame(index, sensor_);
-    mask_.apply(frame);
-    lens_.apply(frame);
-    return frame;
-  }
-
- private:
-  const Dataset& dataset_;
-  RunMask mask_;
-  LensCorrection lens_;
-  Sensor sensor_;
-  std::size_t end_;
-  bool ahead_;
-  std::future<Frame> next_;
-};
-
 /// Number of frames within which a run may begin again: this bounds the work that is repeated.
 std::size_t frames_to_restart(std::size_t frames, const LensOptions& options) {
   constexpr std::size_t kShare = 5;  // a fifth of a long run
   return std::max(static_cast<std::size_t>(options.max_frames), frames / kShare);
 }
 
-/// Whether the run must begin again because the images show another distortion than `lens` removes;
-/// `lens` then removes that one.
-bool learn_lens(const LensDistortion& seen, int pass, const LensOptions& options,
-                LensCorrection& lens, const LogSink& log) {
-  const auto change = change_of_k1(lens.k1(), seen, pass, options);
-  if (!change) return false;
-  lens.add(*change);
-  placegraph::log(
-      log, LogLevel::kInfo,
-      "images are distorted by {:f} +- {:f} more than expected: restarting with k1 = {:f}", seen.k1,
-      seen.sigma_k1, lens.k1());
-  return true;
-}
-
-std::vector<StageTimes::Stage> joined(std::vector<StageTimes::Stage> stages,
+/// Both tables; stages of one name are one.
+std::vector<StageTimes::Stage> sum_of(std::vector<StageTimes::Stage> stages,
                                       const std::vector<StageTimes::Stage>& more) {
-  stages.insert(stages.end(), more.begin(), more.end());
+  for (const StageTimes::Stage& stage : more) {
+    const auto same = std::ranges::find(stages, stage.name, &StageTimes::Stage::name);
+    if (same == stages.end()) {
+      stages.push_back(stage);
+    } else {
+      same->cpu_s += stage.cpu_s;
+      same->calls += stage.calls;
+    }
+  }
   return stages;
 }
 
@@ -204,7 +167,7 @@ class SequenceRun {
     result_.sensor = choose_sensor(dataset, options.sensor);
     result_.calibration = dataset.calibration(result_.sensor);
     if (options.camera_height_m > 0) result_.calibration.camera_height_m = options.camera_height_m;
-    mask_ = RunMask(options.mask, result_.calibration.camera);
+    images_ = {RunMask(options.mask, result_.calibration.camera), result_.calibration};
     begin_ = options.first_frame;
     require(begin_ < dataset.size(),
             "first_frame: the sequence has " + std::to_string(dataset.size()) + " frames");
@@ -213,26 +176,33 @@ class SequenceRun {
   }
 
   RunResult run() {
-    lens_ = LensCorrection(result_.calibration);
     StoredMap stored;
     if (inputs_.map_file && inputs_.map_file->resume) {
-      stored = read_map(inputs_.map_file->path);
-      if (stored.origin.lens_k1 != 0) lens_.add(stored.origin.lens_k1);
-      pass_ = stored.origin.lens_pass;
+      stored = read_map(interrupted_map_path(inputs_.map_file->path));
+      images_.take_up(stored.origin);
+      earlier_stages_ = stored.run.stages;
       if (stored.finished) return as_saved(std::move(stored));
       database_ = MapDatabase::open(inputs_.map_file->path);
     }
-    while (!pass(stored)) stored = StoredMap();
+    while (!pass(stored)) {
+      stored = StoredMap();
+      result_.resumed_at.reset();
+      if (database_) database_->restart(origin());
+    }
     return std::move(result_);
   }
 
  private:
   /// The map of a run that was already finished.
   RunResult as_saved(StoredMap stored) {
-    result_.calibration = lens_.calibration();
-    result_.lens_k1 = lens_.k1();
+    result_.calibration = images_.calibration();
+    result_.lens_k1 = images_.k1();
     result_.resumed_at = FrameId(begin_ + stored.map.frames.size());
     stored.map.metric = scale_measured(stored);  // it is judged again
+    result_.notes = std::move(stored.run.notes);
+    result_.odometry_error = stored.run.odometry_error;
+    result_.stages = std::move(stored.run.stages);
+    result_.unposed = unposed_frames(stored.map.trajectory_optimized(), stored.map);
     result_.map = std::move(stored.map);
     return std::move(result_);
   }
@@ -241,38 +211,33 @@ class SequenceRun {
     MapOrigin origin;
     origin.sequence = inputs_.map_file->sequence;
     origin.sensor = result_.sensor;
-    origin.calibration = result_.calibration;
+    images_.describe(origin);
     RunOptions options = options_;
     options.threads = RunOptions().threads;  // the map does not depend on it
     origin.options = dump_options(options);
     if (options_.slam.views.enabled) origin.view_options = dump_options(options_.slam.views.cues);
-    origin.lens_k1 = lens_.k1();
-    origin.lens_pass = pass_;
     return origin;
   }
 
-  FrameReader reader() const {
-    return {dataset_, mask_, lens_, result_.sensor, end_, options_.threads > 1};
-  }
-
-  /// Whether the run must restart without a static overlay. The lens is then estimated again:
-  /// tracks on the overlay have contributed to its estimate.
-  bool restarts_without_overlay(const Slam& slam) {
-    if (!mask_.learn(slam, lens_)) return false;
-    lens_.reset();
-    pass_ = 0;
-    log(inputs_.log, LogLevel::kInfo, "restarting without what moves with the camera");
+  /// Whether the run must restart with what frame `i` of the pass has shown of the images.
+  bool restarts(const Slam& slam, std::size_t i) {
+    if (images_.learn_overlay(slam, inputs_.log)) return true;
+    if (i - begin_ >= frames_to_restart(end_ - begin_, options_.lens) ||
+        dataset_.images_rectified() || !images_.learn_lens(slam.lens(), options_.lens, inputs_.log))
+      return false;
+    if (inputs_.events)
+      inputs_.events->lens_found({FrameId(i), images_.k1(), slam.lens().sigma_k1,
+                                  images_.lens_pass() + 1});
     return true;
   }
 
   /// Processes the sequence; returns false if the images must be corrected and the run restarted.
   bool pass(const StoredMap& stored) {
-    result_.calibration = lens_.calibration();
-    if (database_ && stored.map.keyframes.empty()) database_->clear(origin());
+    result_.calibration = images_.calibration();
     if (inputs_.events) inputs_.events->run_began();
     Slam slam(options_.slam, result_.calibration, slam_inputs(dataset_, options_, inputs_));
-    const std::size_t first = go_on(stored, slam);
-    FrameReader reader = this->reader();
+    FrameReader reader(dataset_, images_, result_.sensor, end_, options_.threads > 1);
+    const std::size_t first = go_on(stored, reader, slam);
     for (std::size_t i = first; i < end_; ++i) {
       result_.stopped = inputs_.stop && inputs_.stop();
       if (result_.stopped) break;
@@ -287,41 +252,38 @@ class SequenceRun {
       }
       const FrameResult done = slam.add_frame(frame);
       if (inputs_.observer) inputs_.observer(frame, done, slam.view());
-      if (inputs_.stages) inputs_.stages(joined(times_.stages(), slam.stages()));
+      if (inputs_.stages) inputs_.stages(stages(slam));
       if (inputs_.progress) inputs_.progress(i + 1 - begin_, end_ - begin_, done);
-      if (restarts_without_overlay(slam)) return false;
-      if (i - begin_ < frames_to_restart(end_ - begin_, options_.lens) &&
-          !dataset_.images_rectified() &&
-          learn_lens(slam.lens(), pass_, options_.lens, lens_, inputs_.log)) {
-        if (inputs_.events)
-          inputs_.events->lens_found({frame.id, lens_.k1(), slam.lens().sigma_k1, pass_ + 2});
-        ++pass_;
+      if (restarts(slam, i)) {
+        earlier_stages_ = sum_of(std::move(earlier_stages_), slam.stages());
         return false;
       }
       if (inputs_.map_file && done.new_place) commit(slam, false);
     }
-    result_.lens_k1 = lens_.k1();
+    result_.lens_k1 = images_.k1();
     result_.map = slam.finish();
     result_.unposed = unposed_frames(result_.map.trajectory_optimized(), result_.map);
     if (inputs_.map_file) commit(slam, !result_.broken_off && !result_.stopped);
-    result_.notes = slam.notes();
+    result_.notes = images_.notes(slam, options_.lens);
     result_.odometry_error = slam.odometry_error();
-    if (is_clear(slam.lens(), options_.lens))
-      result_.notes.push_back(distortion_note(lens_.k1(), slam.lens()));
-    result_.notes.insert(result_.notes.begin(), mask_.notes().begin(), mask_.notes().end());
     result_.environments = slam.environments();
-    result_.stages = joined(times_.stages(), slam.stages());
+    result_.stages = stages(slam);
     return true;
   }
 
+  /// CPU time of all passes so far.
+  std::vector<StageTimes::Stage> stages(const Slam& slam) const {
+    return sum_of(sum_of(times_.stages(), earlier_stages_), slam.stages());
+  }
+
   /// Restores the saved state; returns the index of the next frame.
-  std::size_t go_on(const StoredMap& stored, Slam& slam) {
+  std::size_t go_on(const StoredMap& stored, FrameReader& reader, Slam& slam) {
     if (stored.map.keyframes.empty()) return begin_;
     const auto last = static_cast<std::size_t>(stored.map.keyframes.back().frame.value());
     require(last >= begin_ && last < end_,
             inputs_.map_file->path + ": its last keyframe is frame " + std::to_string(last) +
                 ", which is not in the sequence");
-    slam.resume(stored.map, stored.history, reader().load(last));
+    slam.resume(stored.map, stored.history, reader.read(last));
     result_.resumed_at = FrameId(last + 1);
     return last + 1;
   }
@@ -330,7 +292,9 @@ class SequenceRun {
   void commit(Slam& slam, bool last) {
     if (!database_) database_ = MapDatabase::create(inputs_.map_file->path, origin());
     const auto span = times_.measure("map database");
-    const MapChanges changes = slam.take_changes();
+    MapChanges changes = slam.take_changes();
+    changes.run.stages = stages(slam);
+    if (last) changes.run.notes = images_.notes(slam, options_.lens);
     last ? database_->finish(changes) : database_->commit(changes);
   }
 
@@ -338,11 +302,10 @@ class SequenceRun {
   const RunOptions& options_;
   const RunInputs& inputs_;
   std::size_t begin_ = 0, end_ = 0;
-  RunMask mask_;
-  LensCorrection lens_{Calibration()};
-  int pass_ = 0;
+  LearnedImages images_{RunMask(), Calibration()};
   std::optional<MapDatabase> database_;
-  StageTimes times_;
+  StageTimes times_;                               // of reading and saving
+  std::vector<StageTimes::Stage> earlier_stages_;  // of earlier passes
   RunResult result_;
 };
 

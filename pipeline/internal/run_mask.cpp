@@ -17,14 +17,25 @@ RunMask::RunMask(const std::string& path, const Camera& camera) {
 
 void RunMask::apply(Frame& frame) const { frame.mask = both_masks(frame.mask, mask_); }
 
+void RunMask::take_up(const std::vector<MaskedOverlay>& overlays, const Camera& camera) {
+  for (const MaskedOverlay& overlay : overlays) {
+    require(overlay.mask.cols == camera.width && overlay.mask.rows == camera.height,
+            "the mask of an overlay has another size than the images");
+    mask_ = both_masks(mask_, overlay.mask);
+  }
+  overlays_ = overlays;
+}
+
 bool RunMask::learn(const Slam& slam, const LensCorrection& lens) {
   constexpr std::size_t kMost = 2;
-  if (notes_.size() >= kMost) return false;
+  if (overlays_.size() >= kMost) return false;
   const Image found = slam.overlay_mask();
   if (found.empty()) return false;
-  mask_ = both_masks(mask_, lens.mask_as_taken(found));
+  MaskedOverlay overlay{lens.mask_as_taken(found), {}};
   for (const DataNote& note : slam.notes())
-    if (note.cause == NoteCause::kStaticOverlay) notes_.push_back(note);
+    if (note.cause == NoteCause::kStaticOverlay) overlay.note = note;
+  mask_ = both_masks(mask_, overlay.mask);
+  overlays_.push_back(std::move(overlay));
   return true;
 }
 

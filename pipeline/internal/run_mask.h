@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/io/map/stored_map.h>
 #include <placegraph/pipeline/internal/lens_correction.h>
 #include <placegraph/pipeline/slam.h>
 
@@ -16,16 +17,20 @@ class RunMask {
   /// not of the camera's size, or that masks all pixels.
   RunMask(const std::string& path, const Camera& camera);
 
+  /// Adds the overlays that an interrupted run has found. Throws ArgumentError unless they are of
+  /// the camera's size.
+  void take_up(const std::vector<MaskedOverlay>& overlays, const Camera& camera);
+
   void apply(Frame& frame) const;
   /// Adds a static overlay that `slam` has found in images corrected by `lens`, at most twice.
   /// Returns whether the run must restart.
   bool learn(const Slam& slam, const LensCorrection& lens);
-  /// One note for each overlay that was added.
-  const std::vector<DataNote>& notes() const { return notes_; }
+  /// The overlays that were added.
+  const std::vector<MaskedOverlay>& overlays() const { return overlays_; }
 
  private:
   Image mask_;  // empty: all pixels are used
-  std::vector<DataNote> notes_;
+  std::vector<MaskedOverlay> overlays_;
 };
 
 }  // namespace placegraph

@@ -3,20 +3,17 @@
 #include <placegraph/graph/map_changes.h>
 #include <placegraph/graph/measurements/measured_motion.h>
 #include <placegraph/pipeline/cues/frame_view.h>
-#include <placegraph/pipeline/internal/health/contradicted_steps.h>
-#include <placegraph/pipeline/internal/health/health_monitor.h>
-#include <placegraph/pipeline/internal/health/static_overlay.h>
 #include <placegraph/pipeline/internal/local_map/lens_estimator.h>
 #include <placegraph/pipeline/internal/slam/event_feed.h>
-#include <placegraph/pipeline/internal/slam/link_feed.h>
+#include <placegraph/pipeline/internal/slam/image_check.h>
 #include <placegraph/pipeline/internal/slam/map_feed.h>
+#include <placegraph/pipeline/internal/slam/run_evidence.h>
 #include <placegraph/pipeline/internal/slam/track_recovery.h>
 #include <placegraph/pipeline/slam.h>
 
 #include <algorithm>
 
 namespace placegraph {
-
 /// State of Slam and the steps of processing.
 struct Slam::Impl {
   Impl(const SlamOptions& o, const Calibration& c, const SlamInputs& inputs)
@@ -61,6 +58,14 @@ struct Slam::Impl {
   void close_loops(FrameResult& result);
   void optimized(const IncrementalStep& step);
   void take_up(const Map& map, const PlaceHistory& history, const Frame& last);
+  EvidenceSources evidence() {
+    return {odometry, links, health, contradicted, environments, overlay ? &*overlay : nullptr};
+  }
+  std::optional<FrameId> newest_counted() const {
+    return recorder.empty() ? counted : std::max(counted, std::optional(recorder.newest().frame));
+  }
+  /// Whether a frame is not in the evidence of the interrupted run.
+  bool is_new(FrameId frame) const { return frame > counted; }
   KnownMap known() const { return {closer, mapper, recorder}; }
   MapSources sources() { return {odometry, closer, mapper, recorder, environments}; }
   /// Keyframes from this one on are still being refined: their places are not merged.
@@ -82,6 +87,7 @@ struct Slam::Impl {
   HealthMonitor health;
   ContradictedSteps contradicted;
   std::optional<StaticOverlay> overlay;
+  std::optional<FrameId> counted;  ///< newest frame in the evidence of the interrupted run
   bool finished = false, broken = false;  ///< broken: an exception has left a step unfinished
 };
 
@@ -104,7 +110,15 @@ FrameResult Slam::add_frame(const Frame& frame) {
   impl_->perform([&] { result = impl_->add_frame(frame); });
   return result;
 }
-MapChanges Slam::take_changes() { return impl_->feed.take_changes(impl_->sources()); }
+MapChanges Slam::take_changes() {
+  MapChanges changes = impl_->feed.take_changes(impl_->sources());
+  if (const auto& places = changes.places; !places.empty())
+    impl_->links.note_errors(places[0].anchor_keyframe, impl_->odometry.map(), impl_->mapper);
+  changes.history.evidence = evidence_of(impl_->evidence(), impl_->newest_counted());
+  changes.run.stages = stages();
+  if (impl_->finished) changes.run.notes = notes(), changes.run.odometry_error = odometry_error();
+  return changes;
+}
 void Slam::resume(const Map& map, const PlaceHistory& history, const Frame& last) {
   impl_->perform([&] { impl_->take_up(map, history, last); });
 }
@@ -129,7 +143,8 @@ Map Slam::finish() {
   impl_->perform([&] {
     const std::map<KeyframeId, Vector6d> corrections = impl_->odometry.corrections();
     impl_->recorder.correct_motions(corrections, [&](KeyframeId to) {
-      return impl_->mapper.odometry(KeyframeId(to.value() - 1), to)->T_a_b;
+      const auto motion = impl_->mapper.odometry(KeyframeId(to.value() - 1), to);
+      return motion ? std::optional(motion->T_a_b) : std::nullopt;
     });
     impl_->mapper.correct_links(corrections);
     impl_->links.finish(impl_->odometry.map(), impl_->mapper);
@@ -142,21 +157,7 @@ Map Slam::finish() {
 
 void Slam::Impl::check_frame(const Frame& frame) const {
   require(!finished, "Slam::add_frame: after finish()");
-  const Camera& camera = calibration.camera;
-  require(frame.image.type() == CV_8UC1 && frame.image.cols == camera.width &&
-              frame.image.rows == camera.height,
-          "frame " + to_string(frame.id) + ": grey image of " + std::to_string(camera.width) + "x" +
-              std::to_string(camera.height) + " needed");
-  const auto fits = [&](const Image& image, int type, const Camera& of) {
-    return image.empty() ||
-           (image.type() == type && image.cols == of.width && image.rows == of.height);
-  };
-  require(fits(frame.right, CV_8UC1, camera) && fits(frame.mask, CV_8UC1, camera) &&
-              fits(frame.colour, CV_8UC3, camera) &&
-              (!calibration.depth || fits(frame.depth, CV_32FC1, calibration.depth->camera)),
-          "frame " + to_string(frame.id) +
-              ": right image, colour image, mask or depth image differs in size or type from the "
-              "calibration");
+  check_images(frame, calibration);
   require(recorder.accepts(frame),
           "frame " + to_string(frame.id) + ": ids and stamps must increase");
 }
@@ -166,7 +167,7 @@ void Slam::Impl::check_frame(const Frame& frame) const {
 Frame Slam::Impl::without_overlay(const Frame& frame) {
   if (!overlay) return frame;
   const auto span = times.measure("static overlays");
-  if (overlay->add(frame)) {
+  if (is_new(frame.id) && overlay->add(frame)) {
     log(log_sink, LogLevel::kInfo, "frame {}: {}: masked", frame.id, overlay->text());
     if (overlay->has_captured(odometry.view()))
       recovery.begin_component(frame.id, odometry);
@@ -213,8 +214,10 @@ FrameResult Slam::Impl::add_frame(const Frame& given) {
   place(frame, located, update, result);
   recorder.finish(result.T_map_cam, result.component);
   recorder.explain(result.confidence, result.outcome ? std::string() : result.outcome.reason);
-  contradicted.add(frame.id, update.contradicted);
-  health.add(frame, result, odometry);
+  if (is_new(frame.id)) {
+    contradicted.add(frame.id, update.contradicted);
+    health.add(frame, result, odometry);
+  }
   events.frame_done(result);
   return result;
 }
@@ -389,6 +392,7 @@ void Slam::Impl::take_up(const Map& map, const PlaceHistory& history, const Fram
   recovery.take_up(newest, history.median_depth_m, known());
   odometry.go_on_from(++KeyframeId(newest), history.median_depth_m);
   odometry.restart(recovery.T_map_last(), true);
+  if (!history.evidence.empty()) counted = take_up_evidence(history.evidence, evidence(), last);
   FrameResult seen_again;
   add_keyframes(odometry.add_frame(last, recovery.T_map_last()), seen_again);
 }

@@ -53,7 +53,7 @@ def compare_files(name, base_path, present_path, texts):
         return Finding()
     if a[:16] == b[:16] == sqlite_rows.MAGIC:
         same_text = lambda x, y: not texts.compare("cell.yaml", x, y).difference
-        return Finding(sqlite_rows.compare_databases(base_path, present_path, texts.renames, same_text) or "")
+        return Finding(sqlite_rows.compare_databases(base_path, present_path, texts.renames, same_text, texts.masks.keys) or "")
     text_a, text_b = as_text(a), as_text(b)
     if text_a is None or text_b is None:
         return compare_bytes(a, b)

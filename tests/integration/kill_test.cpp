@@ -1,4 +1,5 @@
 // Runs that are killed at random moments.
+#include <filesystem>
 #include <sstream>
 #include <vector>
 
@@ -37,6 +38,18 @@ TEST(KilledRun, GoesOnFromWhatItHadSaved) {
   ASSERT_EQ(ate.size(), kRounds + 1u);
   // Centimetres over these sixty metres; tracking that begins anew may double them.
   for (const double each : ate) EXPECT_LT(each, 2 * ate.front() + 0.01);
+}
+
+// With a static overlay, a distorted lens and a mask, too: what a first pass learns is kept.
+TEST(KilledRun, IsJudgedAsTheWholeRun) {
+  const test::TemporaryFolder dir;
+  const std::string build = std::filesystem::path(test::program()).parent_path().string();
+  if (!std::filesystem::exists(build + "/tests/faults/make_fault"))
+    GTEST_SKIP() << "the program that makes the sequences is not built";
+  const std::string command = "cd '" + test::source_dir() + "' && scripts/kill_variants '" + build +
+                              "' '" + (dir / "out") + "' 3 >'" + (dir / "lines") + "' 2>'" +
+                              (dir / "err") + "' </dev/null";
+  EXPECT_EQ(std::system(command.c_str()), 0) << test::read_file(dir / "err");
 }
 
 }  // namespace kill_test

@@ -35,6 +35,8 @@ if words[:1] == ["run"]:
     map = sqlite3.connect(os.path.join(out, "map.db"))
     map.execute("CREATE TABLE place (id INTEGER PRIMARY KEY, scale REAL, data BLOB)")
     map.executemany("INSERT INTO place VALUES (?, ?, ?)", [(1, 1.0, b"ab"), (2, 0.1, b"cd")])
+    map.execute("CREATE TABLE stage (id INTEGER PRIMARY KEY, cpu_s REAL, calls INTEGER, checksum INTEGER)")
+    map.execute("INSERT INTO stage VALUES (1, ?, 7, ?)", (time.perf_counter(), time.perf_counter_ns()))
     map.commit()
     print("world        3 frames posed")
     print("             %.1f s, %.1f ms CPU a frame, results in %s/%s" % (time.perf_counter(), time.perf_counter(), os.getcwd(), out))
@@ -112,6 +114,9 @@ class SameBits(unittest.TestCase):
     def test_a_changed_cell_of_a_database_is_named_with_its_row(self):
         self.expect_difference(("(2, 0.1,", "(2, 0.10000000000000002,"), "run/map.db: table place, id 2, column scale: base 0.1, present 0.10000000000000002")
         self.expect_difference(('b"cd"', 'b"ce"'), "table place, id 2, column data", "byte 1")
+
+    def test_a_changed_cell_beside_a_masked_one_is_named(self):
+        self.expect_difference(("(1, ?, 7, ?)", "(1, ?, 8, ?)"), "table stage, id 1, column calls: base 7, present 8")
 
     def test_a_missing_and_an_additional_row_are_named(self):
         self.expect_difference((', (2, 0.1, b"cd")', ""), "table place, id 2: only in base")

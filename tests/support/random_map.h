@@ -168,6 +168,13 @@ inline StoredMap random_map(Random& random, int places = 4, bool scaled = false)
   judgement.findings.push_back(
       {"the 'lens' is \xc3\xa4", true, NoteCause::kDistortion, "measure it"});
   judgement.findings.push_back({"a jump", false, NoteCause::kJump});
+  stored.history.evidence = std::string("what\0is known", 13);
+  Image mask(6, 8, CV_8UC1, cv::Scalar(255));
+  mask.at<std::uint8_t>(random.index(6), random.index(8)) = 0;
+  stored.origin.overlays.push_back({mask, {"dirt", false, NoteCause::kStaticOverlay, "wipe it"}});
+  stored.run.notes.push_back({"'late'", true, NoteCause::kRightImageLate, "trigger it"});
+  stored.run.odometry_error = {random_information<6>(random), random_information<6>(random)};
+  stored.run.stages = {{"reading", random.uniform(), 3}, {"window", random.uniform(), 0}};
   return stored;
 }
 

@@ -61,6 +61,7 @@ class EnvironmentFilter {
   std::optional<Environment> add(const std::array<double, kEnvironmentCount>& probabilities);
   const std::array<double, kEnvironmentCount>& probabilities() const { return state_; }
   std::optional<Environment> kind() const { return kind_; }
+  void visit_state(auto& archive) { archive(state_, kind_, views_); }
 
  private:
   EnvironmentFilterOptions options_;

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 
@@ -26,6 +27,17 @@ std::string create_temporary(const std::string& path) {
     if (errno != EEXIST) break;
   }
   throw FileError(path, std::string("cannot be written: ") + std::strerror(errno));
+}
+
+/// Waits until a file, or the names in a folder, are on the disk; returns whether they are.
+bool is_on_disk(const std::string& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  const bool done = ::fsync(descriptor) == 0;
+  const int error = errno;
+  ::close(descriptor);
+  errno = error;
+  return done;
 }
 
 }  // namespace
@@ -55,10 +67,19 @@ void AtomicFile::commit() {
   if (committed_) return;
   stream_.close();
   if (!stream_) throw FileError(path_, "cannot be written (is the disk full?)");
-  std::error_code error;
-  if (!temporary_.empty()) fs::rename(temporary_, path_, error);
-  if (error) throw FileError(path_, "cannot be written: " + error.message());
+  if (!temporary_.empty()) replace_file(temporary_, path_);
   committed_ = true;
+}
+
+void replace_file(const std::string& fresh, const std::string& path) {
+  const auto require_done = [&](bool done) {
+    if (!done) throw FileError(path, std::string("cannot be written: ") + std::strerror(errno));
+  };
+  require_done(is_on_disk(fresh));
+  require_done(std::rename(fresh.c_str(), path.c_str()) == 0);
+  const fs::path folder = fs::path(path).parent_path();
+  // The file is there. Some folders cannot be opened: then the system decides when it is on disk.
+  (void)is_on_disk(folder.empty() ? "." : folder.string());
 }
 
 void make_output_folder(const std::string& path) {

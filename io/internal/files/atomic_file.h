@@ -8,7 +8,8 @@ namespace placegraph {
 /// libraries that depend on the extension can write it too) and renames it on commit(): a reader
 /// sees the old file or the whole new one. Without commit() the temporary file is removed. If
 /// `path` is a link to a file, that file is replaced; a path that is not a file, such as
-/// /dev/stdout, is written directly. Throws FileError if it cannot be opened, written or renamed.
+/// /dev/stdout, is written directly. After a power cut, too, the old file or the whole new one is
+/// there. Throws FileError if it cannot be opened, written or renamed.
 class AtomicFile {
  public:
   explicit AtomicFile(std::string path);
@@ -26,6 +27,11 @@ class AtomicFile {
   std::ofstream stream_;
   bool committed_ = false;
 };
+
+/// Renames `fresh`, which is closed, to `path`, which it replaces. The content is on the disk
+/// before the name: after a power cut `path` has the old content or the whole new one. Throws
+/// FileError.
+void replace_file(const std::string& fresh, const std::string& path);
 
 /// Creates the folder and its parents; an existing one is accepted (the caller decides whether its
 /// content may be overwritten). Throws FileError if it cannot be created.

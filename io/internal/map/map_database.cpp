@@ -1,4 +1,6 @@
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/image/png_codec.h>
+#include <placegraph/io/internal/files/atomic_file.h>
 #include <placegraph/io/internal/map/map_writer.h>
 #include <placegraph/io/map/map_database.h>
 
@@ -24,13 +26,18 @@ std::string target_of(const std::string& path) {
   return target;
 }
 
-/// Replaces `path` with `fresh` atomically; the log of the old file is removed.
+/// Replaces `path` with `fresh`, which is closed. The newest commits of the old map are in its log,
+/// which must not be left beside the new one: they are moved into the old file first, so that a
+/// whole map is there at any moment.
 void replace(const std::string& fresh, const std::string& path) {
+  if (fs::exists(path + "-wal") && fs::is_regular_file(path))
+    SqliteDatabase(path, SqliteDatabase::Access::kWrite).merge_log();
   for (const char* ending : {"-wal", "-shm", "-journal"}) fs::remove(path + ending);
-  std::error_code code;
-  fs::rename(fresh, path, code);
-  if (code) throw FileError(path, "cannot be written: " + code.message());
+  replace_file(fresh, path);
 }
+
+/// Path of the file of a restarted run.
+std::string restarted_map_path(const std::string& path) { return path + ".restart"; }
 
 void insert_camera(SqliteDatabase& database, std::int64_t id, const Camera& camera) {
   SqliteStatement put(database, MapTable::put_sql("camera", 13));
@@ -61,6 +68,10 @@ void write_origin(SqliteDatabase& database, const MapOrigin& origin) {
   }
   put.run();
   update_checksums(database, "origin");
+  MapTable overlays(database, "overlay", "number", 6);
+  std::int64_t number = 0;
+  for (const MaskedOverlay& overlay : origin.overlays)
+    overlays.write(number++, MapRow().blob(encode_png(overlay.mask)).note(overlay.note));
   if (!calibration) return;
   insert_camera(database, 1, calibration->camera);
   if (calibration->depth) insert_camera(database, 2, calibration->depth->camera);
@@ -73,8 +84,7 @@ MapDatabase::MapDatabase(MapDatabase&&) noexcept = default;
 MapDatabase& MapDatabase::operator=(MapDatabase&&) noexcept = default;
 MapDatabase::~MapDatabase() = default;
 
-std::unique_ptr<MapWriter> MapDatabase::made(const std::string& path, const MapOrigin& origin,
-                                             bool synchronized) {
+std::unique_ptr<MapWriter> MapDatabase::made(const std::string& path, const MapOrigin& origin) {
   // The file is created under another name, so that it has its tables and origin when it appears.
   const std::string fresh = path + ".new";
   remove_with_journal(fresh);
@@ -87,37 +97,63 @@ std::unique_ptr<MapWriter> MapDatabase::made(const std::string& path, const MapO
     database.execute("COMMIT");
   }
   replace(fresh, path);
-  return std::make_unique<MapWriter>(path, synchronized);
+  return std::make_unique<MapWriter>(path);
 }
 
 MapDatabase MapDatabase::create(const std::string& path, const MapOrigin& origin) {
-  return MapDatabase(made(target_of(path), origin, true));
+  const std::string target = target_of(path);
+  MapDatabase database(made(target, origin));
+  remove_with_journal(restarted_map_path(target));
+  return database;
 }
 
 MapDatabase MapDatabase::open(const std::string& path) {
-  return MapDatabase(std::make_unique<MapWriter>(path, true));
+  const std::string target = target_of(path), current = interrupted_map_path(path);
+  MapDatabase database(std::make_unique<MapWriter>(current));
+  if (current != target) database.keep(target);
+  return database;
 }
 
-void MapDatabase::commit(const MapChanges& changes) { writer_->commit(changes, false); }
+void MapDatabase::keep(const std::string& path) {
+  SqliteDatabase kept(path, SqliteDatabase::Access::kRead);
+  kept_path_ = path;
+  kept_frames_ = static_cast<std::size_t>(kept.integer("SELECT count(*) FROM frame"));
+}
 
-void MapDatabase::clear(const MapOrigin& origin) {
-  SqliteDatabase& database = writer_->database;
-  database.execute("BEGIN IMMEDIATE");
-  for (const char* table : kMapTables) database.execute(std::string("DELETE FROM ") + table);
-  write_origin(database, origin);
-  database.execute("COMMIT");
-  const std::string path = database.path();
+void MapDatabase::commit(const MapChanges& changes) {
+  writer_->commit(changes, false);
+  if (kept_path_.empty() || changes.first_frame + changes.frames.size() < kept_frames_) return;
   writer_.reset();
-  writer_ = std::make_unique<MapWriter>(path, true);
+  const std::string path = kept_path_;
+  replace_kept();
+  writer_ = std::make_unique<MapWriter>(path);
+}
+
+void MapDatabase::restart(const MapOrigin& origin) {
+  const std::string path = writer_->database.path();
+  writer_.reset();
+  if (kept_path_.empty()) keep(path);
+  writer_ = made(restarted_map_path(kept_path_), origin);
 }
 
 void MapDatabase::finish(const MapChanges& changes) {
   writer_->commit(changes, true);
   writer_->database.text("PRAGMA journal_mode = DELETE");  // everything into the one file
   writer_.reset();
+  if (!kept_path_.empty()) replace_kept();
+}
+
+void MapDatabase::replace_kept() {
+  replace(restarted_map_path(kept_path_), kept_path_);
+  kept_path_.clear();
 }
 
 void MapDatabase::close() { writer_.reset(); }
+
+std::string interrupted_map_path(const std::string& path) {
+  const std::string target = target_of(path), restarted = restarted_map_path(target);
+  return fs::exists(restarted) ? restarted : target;
+}
 
 void write_judgement(const std::string& path, const Judgement& judgement) {
   SqliteDatabase database(path, SqliteDatabase::Access::kWrite);
@@ -136,11 +172,7 @@ void write_judgement(const std::string& path, const Judgement& judgement) {
   MapTable findings(database, "finding", "number", 5);
   std::int64_t number = 0;
   for (const DataNote& finding : judgement.findings)
-    findings.write(number++, MapRow()
-                                 .text(to_string(finding.cause))
-                                 .text(finding.text)
-                                 .integer(finding.doubts_scale)
-                                 .text(finding.advice));
+    findings.write(number++, MapRow().note(finding));
   database.execute("COMMIT");
 }
 
@@ -164,10 +196,11 @@ void write_map(const std::string& path, const StoredMap& stored) {
   changes.loops = map.loops;
   changes.history = stored.history;
   changes.metric = map.metric;
+  changes.run = stored.run;
   const std::string target = target_of(path), fresh = target + ".part";
   try {
     // The file appears only when it is complete.
-    MapDatabase database(MapDatabase::made(fresh, stored.origin, true));
+    MapDatabase database(MapDatabase::made(fresh, stored.origin));
     if (stored.finished) {
       database.finish(changes);
       if (stored.judgement) write_judgement(fresh, *stored.judgement);

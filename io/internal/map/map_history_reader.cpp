@@ -120,6 +120,13 @@ void read_mergers(SqliteDatabase& database, StoredMap& stored,
                               keyframe_of(stored, separated, separated.integer(2), "other").id);
 }
 
+void read_evidence(SqliteDatabase& database, StoredMap& stored) {
+  SqliteRows rows(database, "evidence", "id, data, checksum IS row_checksum(id, data)");
+  if (!rows.next()) return;
+  stored.history.evidence = rows.blob(1);
+  if (rows.integer(2) != 1) rows.refuse("data: its bytes have changed since it was written");
+}
+
 }  // namespace
 
 void read_history(SqliteDatabase& database, StoredMap& stored) {
@@ -127,6 +134,7 @@ void read_history(SqliteDatabase& database, StoredMap& stored) {
   const std::set<KeyframeId> segments = read_segments(database, stored);
   read_motions(database, stored, segments);
   read_mergers(database, stored, segments);
+  read_evidence(database, stored);
 }
 
 }  // namespace placegraph

@@ -12,7 +12,8 @@ MapHistoryWriter::MapHistoryWriter(SqliteDatabase& database)
       track_segments_(database, "track_segment", "number", 2),
       merged_(database, "merged", "number", 2),
       merged_segments_(database, "merged_segment", "number", 4),
-      separated_(database, "separated", "number", 3) {
+      separated_(database, "separated", "number", 3),
+      evidence_(database, "evidence", "id", 2) {
   merged_.take_keys(database, "number merged");
   merged_segments_.take_keys(database, "number merged_segment");
 }
@@ -22,6 +23,7 @@ void MapHistoryWriter::put(const PlaceHistory& history) {
   put_segments(history);
   put_motions(history);
   put_mergers(history);
+  evidence_.put(1, MapRow().blob(history.evidence));
 }
 
 void MapHistoryWriter::put_keyframes(const PlaceHistory& history) {

@@ -20,7 +20,7 @@ class MapHistoryWriter {
   void put_mergers(const PlaceHistory& history);
 
   MapTable links_, segments_, motions_, revisits_, track_segments_, merged_, merged_segments_,
-      separated_;
+      separated_, evidence_;
 };
 
 }  // namespace placegraph

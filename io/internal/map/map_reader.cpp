@@ -8,7 +8,6 @@
 #include <filesystem>
 
 namespace placegraph {
-
 void MapReader::read_origin() {
   SqliteRows rows(database_, "origin",
                   "id, sequence, sensor, options, view_options, lens_k1, lens_pass, baseline_m, "
@@ -302,28 +301,6 @@ void MapReader::read_landmarks() {
     for (const PointLandmark& landmark : more)
       (void)keyframe_of(stored_, rows, landmark.keyframe.value(), "keyframe");
     landmarks.insert(landmarks.end(), more.begin(), more.end());
-  }
-}
-
-void MapReader::read_judgement() {
-  SqliteRows rows(database_, "judgement", "id, verdict, metric, why_metric, expected_drift_m");
-  if (!rows.next()) return;
-  Judgement& judgement = stored_.judgement.emplace();
-  const auto verdict = verdict_of(rows.text(1));
-  if (!verdict) rows.refuse("verdict: not a verdict: " + std::string(rows.text(1)));
-  judgement.verdict = *verdict;
-  judgement.metric = rows.integer(2, 0, 1) == 1;
-  judgement.why_metric = rows.text(3);
-  // Earlier programs left the metres to the map that a judgement had withdrawn.
-  stored_.map.metric = judgement.metric;
-  if (judgement.metric && !rows.is_null(4)) judgement.expected_drift_m = rows.real(4);
-  SqliteRows findings(database_, "finding", "number, cause, text, doubts_scale, advice");
-  while (findings.next()) {
-    require_next(findings, judgement.findings.size());
-    const auto cause = note_cause_of(findings.text(1));
-    if (!cause) findings.refuse("cause: not a cause: " + std::string(findings.text(1)));
-    judgement.findings.push_back({std::string(findings.text(2)), findings.integer(3, 0, 1) == 1,
-                                  *cause, std::string(findings.text(4))});
   }
 }
 

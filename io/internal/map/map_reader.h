@@ -2,6 +2,7 @@
 #include <placegraph/io/internal/map/map_blobs.h>
 #include <placegraph/io/internal/map/map_history_reader.h>
 #include <placegraph/io/internal/map/map_schema.h>
+#include <placegraph/io/internal/map/run_reader.h>
 #include <placegraph/io/map/stored_map.h>
 
 #include <limits>
@@ -16,6 +17,7 @@ class MapReader {
 
   StoredMap read() {
     read_origin();
+    read_overlays(database_, stored_.origin);
     read_keyframes();
     read_places();
     read_members();
@@ -28,11 +30,13 @@ class MapReader {
     read_loops();
     read_landmarks();
     read_history(database_, stored_);
-    read_judgement();
+    read_judgement(database_, stored_);
+    read_run(database_, stored_);
     return std::move(stored_);
   }
   MapOrigin origin() {
     read_origin();
+    read_overlays(database_, stored_.origin);
     return stored_.origin;
   }
 
@@ -51,7 +55,6 @@ class MapReader {
   void read_frames();
   void read_loops();
   void read_landmarks();
-  void read_judgement();
 
   static constexpr std::int64_t kMost = std::numeric_limits<int>::max();
   std::unique_ptr<SqliteDatabase> opened_;

@@ -96,7 +96,7 @@ CREATE TABLE track_segment (
 )";
 
 // What schema 3 has and schema 2 has not.
-constexpr const char* kNewTables = R"(
+constexpr const char* kTables3 = R"(
 CREATE TABLE observations (
   keyframe INTEGER PRIMARY KEY REFERENCES keyframe (id), count INTEGER NOT NULL,
   data BLOB NOT NULL, checksum INTEGER NOT NULL);
@@ -121,6 +121,24 @@ CREATE VIEW component AS
   SELECT component AS number, count(*) AS posed, min(number) AS first_frame,
     max(number) AS last_frame
   FROM frame_component GROUP BY component;
+)";
+
+// What schema 4 has and schema 3 has not: what a run learns besides its map.
+constexpr const char* kTables4 = R"(
+CREATE TABLE overlay (
+  number INTEGER PRIMARY KEY, mask BLOB NOT NULL, cause TEXT NOT NULL, text TEXT NOT NULL,
+  doubts_scale INTEGER NOT NULL, advice TEXT NOT NULL, checksum INTEGER NOT NULL);
+CREATE TABLE evidence (
+  id INTEGER PRIMARY KEY CHECK (id = 1), data BLOB NOT NULL, checksum INTEGER NOT NULL);
+CREATE TABLE note (
+  number INTEGER PRIMARY KEY, cause TEXT NOT NULL, text TEXT NOT NULL,
+  doubts_scale INTEGER NOT NULL, advice TEXT NOT NULL, checksum INTEGER NOT NULL);
+CREATE TABLE odometry_error (
+  id INTEGER PRIMARY KEY CHECK (id = 1), independent BLOB NOT NULL, shared BLOB NOT NULL,
+  checksum INTEGER NOT NULL);
+CREATE TABLE stage (
+  number INTEGER PRIMARY KEY, name TEXT NOT NULL, cpu_s REAL NOT NULL, calls INTEGER NOT NULL,
+  checksum INTEGER NOT NULL);
 )";
 
 // Schema 2 added columns, schema 3 the checksums, the new tables and present names.
@@ -186,7 +204,8 @@ void create_map_tables(SqliteDatabase& database) {
   database.execute("PRAGMA application_id = " + std::to_string(kApplication));
   database.execute("PRAGMA user_version = " + std::to_string(kMapSchema));
   database.execute(kTables);
-  database.execute(kNewTables);
+  database.execute(kTables3);
+  database.execute(kTables4);
 }
 
 void check_map_schema(SqliteDatabase& database) {
@@ -207,12 +226,15 @@ void upgrade_map_schema(SqliteDatabase& database) {
   if (version >= kMapSchema) return;
   database.execute("BEGIN");
   if (version < 2) database.execute(kTo2);
-  database.execute(kTo3);
-  for (const std::string& table : tables_of(database)) {
-    database.execute("ALTER TABLE " + table + " ADD COLUMN checksum INTEGER NOT NULL DEFAULT 0");
-    update_checksums(database, table);
+  if (version < 3) {
+    database.execute(kTo3);
+    for (const std::string& table : tables_of(database)) {
+      database.execute("ALTER TABLE " + table + " ADD COLUMN checksum INTEGER NOT NULL DEFAULT 0");
+      update_checksums(database, table);
+    }
+    database.execute(kTables3);
   }
-  database.execute(kNewTables);
+  database.execute(kTables4);
   database.execute("PRAGMA user_version = " + std::to_string(kMapSchema));
   database.execute("COMMIT");
 }

@@ -19,12 +19,5 @@ std::unique_ptr<SqliteDatabase> open_present_schema(const std::string& path);
 void update_checksums(SqliteDatabase& database, const std::string& table);
 /// Throws FileError with table and row of the first row whose checksum differs from its content.
 void check_checksums(SqliteDatabase& database);
-/// Names of all tables but `origin` and `camera`.
-constexpr const char* kMapTables[] = {
-    "place",     "label",          "appearance", "keyframe",      "features",
-    "view",      "edge",           "frame",      "online",        "loop",
-    "landmarks", "link",           "segment",    "motion",        "loop_constraint",
-    "merged",    "merged_segment", "separated",  "track_segment", "observations",
-    "thumbnail", "inertial_state", "judgement",  "finding"};
 
 }  // namespace placegraph

@@ -1,5 +1,6 @@
 #pragma once
 #include <placegraph/graph/core/id.h>
+#include <placegraph/graph/measurements/data_note.h>
 #include <placegraph/io/internal/map/map_blobs.h>
 #include <placegraph/io/internal/map/sqlite.h>
 
@@ -27,6 +28,10 @@ class MapRow {
   MapRow& text(std::string_view value) { return put(Text{std::string(value)}); }
   MapRow& blob(std::string_view value) { return put(Blob{std::string(value)}); }
   MapRow& null() { return put(Null()); }
+  /// Its cause, text, whether it doubts the scale, and advice.
+  MapRow& note(const DataNote& note) {
+    return text(to_string(note.cause)).text(note.text).integer(note.doubts_scale).text(note.advice);
+  }
   MapRow& pose(const SE3& T) {
     std::string bytes;
     BlobWriter(bytes).pose(T);

@@ -167,6 +167,23 @@ void MapWriter::put_landmarks(const MapChanges& changes) {
   database.execute("DELETE FROM landmarks WHERE number >= " + std::to_string(rows));
 }
 
+void MapWriter::put_run(const RunRecord& run) {
+  std::set<std::int64_t> kept;
+  for (const DataNote& note : run.notes) {
+    const auto number = static_cast<std::int64_t>(kept.size());
+    notes.put(number, MapRow().note(note));
+    kept.insert(number);
+  }
+  notes.keep(kept);
+  if (const auto& error = run.odometry_error)
+    odometry_error.put(1, MapRow().symmetric(error->independent).symmetric(error->shared));
+  else
+    odometry_error.keep({});
+  std::int64_t number = 0;
+  for (const StageTimes::Stage& stage : run.stages)
+    stages.put(number++, MapRow().text(stage.name).real(stage.cpu_s).integer(stage.calls));
+}
+
 void MapWriter::commit(const MapChanges& changes, bool finished) {
   database.execute("BEGIN IMMEDIATE");
   try {
@@ -178,6 +195,7 @@ void MapWriter::commit(const MapChanges& changes, bool finished) {
     put_constraints(changes);
     put_landmarks(changes);
     history.put(changes.history);
+    put_run(changes.run);
     SqliteStatement origin(database,
                            "UPDATE origin SET metric = ?, median_depth_m = ?, founded = ?, "
                            "judged_loops = ?, finished = ?");

@@ -109,6 +109,13 @@ void SqliteDatabase::execute(const std::string& sql) {
     fail(sql.substr(0, sql.find('(')));
 }
 
+void SqliteDatabase::merge_log() {
+  const int code =
+      sqlite3_exec(handle_, "PRAGMA journal_mode = DELETE", nullptr, nullptr, nullptr);
+  if (code != SQLITE_OK && code != SQLITE_CORRUPT && code != SQLITE_NOTADB)
+    fail("moving its log into it");
+}
+
 std::int64_t SqliteDatabase::integer(const std::string& sql) {
   SqliteStatement statement(*this, sql);
   return statement.next() ? sqlite3_column_int64(statement.handle(), 0) : 0;

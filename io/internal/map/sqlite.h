@@ -26,6 +26,8 @@ class SqliteDatabase {
   std::unique_ptr<SqliteDatabase> copy_in_memory();
   /// One or more statements without results.
   void execute(const std::string& sql);
+  /// Moves the write-ahead log into the file; does nothing if the file is damaged or no database.
+  void merge_log();
   /// The first column of a pragma's first row.
   std::int64_t integer(const std::string& sql);
   std::string text(const std::string& sql);

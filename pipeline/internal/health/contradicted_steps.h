@@ -23,12 +23,14 @@ class ContradictedSteps {
   /// Ends the row: the next frame is posed by another map.
   void end_row();
   std::optional<DataNote> note() const;
+  void visit_state(auto& archive) { archive(row_, found_); }
 
  private:
   static constexpr int kSteps = 3;
   struct Row {
     FrameId first, last;
     int steps = 0;
+    void visit_state(auto& archive) { archive(first, last, steps); }
   };
   std::optional<Row> row_;  // that of the newest frame
   std::vector<Row> found_;  // rows that have ended and are long enough

@@ -16,6 +16,7 @@ class DepthRange {
   /// Reports that in most of at least three images the median distance is below 0.4 m or beyond
   /// 8 m.
   std::optional<DataNote> note() const;
+  void visit_state(auto& archive) { archive(frames_, medians_m_); }
 
  private:
   int frames_ = 0;

@@ -35,11 +35,13 @@ class FlowCheck {
   void add(FrameId frame, double contradicting) { pairs_.push_back({frame, contradicting}); }
   /// Reports spans of frames in which a large share contradicts.
   std::optional<DataNote> note() const;
+  void visit_state(auto& archive) { archive(frames_since_pair_, pairs_); }
 
  private:
   struct Pair {
     FrameId frame;
     double contradicting;
+    void visit_state(auto& archive) { archive(frame, contradicting); }
   };
   std::optional<double> share_contradicting(const Frame& frame, const SE3& T_map_cam) const;
 

@@ -26,8 +26,14 @@ class HealthMonitor {
   explicit HealthMonitor(const Calibration& calibration);
   /// Adds a frame after it has been processed.
   void add(const Frame& frame, const FrameResult& result, const Odometry& odometry);
+  /// Goes on after a frame that has been added, when the state is that of an earlier run.
+  void go_on_after(const Frame& frame) { repeated_.go_on_after(frame); }
   /// What is in doubt so far.
   std::vector<DataNote> notes() const;
+  void visit_state(auto& archive) {
+    archive(repeated_, images_, right_images_, right_, range_, flow_, scale_, intrinsics_,
+            residuals_, newest_);
+  }
 
  private:
   /// Examines a full window, if its keyframes are all newer than those of the last one.

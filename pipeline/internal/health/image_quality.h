@@ -20,12 +20,14 @@ class ImageQuality {
   void add(FrameId frame, const ImageStatistics& statistics);
   /// Reports the defects that more than two images and more than three per cent of them have.
   std::optional<DataNote> note() const;
+  void visit_state(auto& archive) { archive(frames_, last_mean_, counts_, uniform_); }
 
  private:
   enum Defect { kBlank, kOverexposed, kCovered, kBlurred, kNoisy, kFlickering, kDefects };
   struct Count {
     int images = 0;
     FrameId first;
+    void visit_state(auto& archive) { archive(images, first); }
   };
   void count(Defect defect, FrameId frame);
   Count covered() const;

@@ -7,6 +7,10 @@
 
 namespace placegraph {
 
+void visit_state(auto& archive, IntrinsicsEvidence& evidence) {
+  archive(evidence.gradient, evidence.information, evidence.residuals);
+}
+
 /// Estimates the errors of the intrinsics from bundle adjustment over windows that share no
 /// keyframe. Points show them where the camera turns: on a straight path every focal length fits.
 /// Windows differ by more than the noise of their points explains (a rolling shutter, points that
@@ -28,6 +32,7 @@ class IntrinsicsCheck {
   /// Reports the most significant error beyond 2.8 standard deviations, and windows that
   /// contradict each other by twice their deviations.
   std::vector<DataNote> notes() const;
+  void visit_state(auto& archive) { archive(windows_); }
 
  private:
   Camera camera_;

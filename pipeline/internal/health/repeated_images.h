@@ -11,8 +11,11 @@ namespace placegraph {
 class RepeatedImages {
  public:
   void add(const Frame& frame);
+  /// The next image is compared with that of this frame, which has been counted before.
+  void go_on_after(const Frame& frame) { last_ = frame.image; }
   /// Reports more than a few repeated images.
   std::optional<DataNote> note() const;
+  void visit_state(auto& archive) { archive(frames_, repeated_, first_); }
 
  private:
   Image last_;

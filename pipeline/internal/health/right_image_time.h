@@ -44,11 +44,15 @@ class RightImageTime {
   /// Reports the offset if it follows the motion: by a tenth of it and by five standard deviations
   /// in at least three pairs.
   std::optional<DataNote> note() const;
+  void visit_state(auto& archive) { archive(pairs_, frames_since_pair_); }
 
  private:
   struct Pair {
     RightCameraOffset offset;
     Eigen::Vector2d motion_yz_share;  // motion of a frame (y, z), as a share of the baseline
+    void visit_state(auto& archive) {
+      archive(offset.yz_share, offset.information, motion_yz_share);
+    }
   };
   struct Lateness {
     double frames = 0, sigma = 0;

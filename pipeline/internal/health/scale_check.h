@@ -16,11 +16,13 @@ class ScaleCheck {
   /// Reports that the two differ by more than a fifth in two comparisons and 3 % of all, or by more
   /// than 6 % in half of at least five comparisons.
   std::optional<DataNote> note() const;
+  void visit_state(auto& archive) { archive(compared_); }
 
  private:
   struct Compared {
     FrameId frame;
     double log_factor;
+    void visit_state(auto& archive) { archive(frame, log_factor); }
   };
   std::vector<Compared> compared_;
 };

@@ -1,3 +1,4 @@
+#include <placegraph/graph/core/error.h>
 #include <placegraph/pipeline/internal/health/standing_patches.h>
 
 #include <algorithm>
@@ -41,6 +42,11 @@ cv::Rect StandingPatches::rect(int cell) const {
   return {begin, cv::Point((column + 1) * width_ / kColumns, (row + 1) * height_ / kRows)};
 }
 
+/// The pixels around which a patch with its border is within the image.
+cv::Rect StandingPatches::centres() const {
+  return {half_ + 1, half_ + 1, width_ - 2 * half_ - 2, height_ - 2 * half_ - 2};
+}
+
 void StandingPatches::compare(const Image& image, const Image& mask) {
   constexpr int kFewest = 8, kMostExcused = 50;
   constexpr double kMovingShare = 0.25;
@@ -74,7 +80,7 @@ void StandingPatches::compare(const Image& image, const Image& mask) {
 std::optional<StandingPatches::Patch> StandingPatches::take(const Image& image, const Image& mask,
                                                             int cell) const {
   constexpr int kSide = 3;
-  const cv::Rect inside(half_ + 1, half_ + 1, width_ - 2 * half_ - 2, height_ - 2 * half_ - 2);
+  const cv::Rect inside = centres();
   const cv::Rect within = rect(cell);
   double most = 0;
   cv::Point best;
@@ -110,25 +116,50 @@ std::optional<StandingPatches::Patch> StandingPatches::patch_at(const Image& ima
   Patch patch;
   patch.px = px;
   patch.taken = comparisons_;
+  const int side = 2 * half_ + 3;
+  patch.pixels = image(cv::Rect(px.x - half_ - 1, px.y - half_ - 1, side, side));
+  const Eigen::Matrix2f information = describe(patch);
+  const double sigma_px = kFraction * options_.standing_px;
+  if (smaller_eigenvalue(information(0, 0), information(0, 1), information(1, 1)) <
+      std::pow(kNoise_grey / sigma_px, 2))
+    return std::nullopt;
+  patch.pixels = patch.pixels.clone();
+  return patch;
+}
+
+/// Computes grey values and gradients of the pixels of a patch; returns the sum of the squared
+/// gradients.
+Eigen::Matrix2f StandingPatches::describe(Patch& patch) {
   Eigen::Matrix2f sum = Eigen::Matrix2f::Zero();
-  for (int v = px.y - half_; v <= px.y + half_; ++v)
-    for (int u = px.x - half_; u <= px.x + half_; ++u) {
-      patch.grey.push_back(image.at<std::uint8_t>(v, u));
-      const Eigen::Vector2f g(
-          0.5F * (image.at<std::uint8_t>(v, u + 1) - image.at<std::uint8_t>(v, u - 1)),
-          0.5F * (image.at<std::uint8_t>(v + 1, u) - image.at<std::uint8_t>(v - 1, u)));
+  for (int v = 1; v + 1 < patch.pixels.rows; ++v) {
+    const std::uint8_t* row = patch.pixels.ptr<std::uint8_t>(v);
+    const std::uint8_t* above = patch.pixels.ptr<std::uint8_t>(v - 1);
+    const std::uint8_t* below = patch.pixels.ptr<std::uint8_t>(v + 1);
+    for (int u = 1; u + 1 < patch.pixels.cols; ++u) {
+      patch.grey.push_back(row[u]);
+      const Eigen::Vector2f g(0.5F * (row[u + 1] - row[u - 1]), 0.5F * (below[u] - above[u]));
       patch.du.push_back(g.x());
       patch.dv.push_back(g.y());
       sum += g * g.transpose();
     }
-  const double sigma_px = kFraction * options_.standing_px;
-  if (smaller_eigenvalue(sum(0, 0), sum(0, 1), sum(1, 1)) < std::pow(kNoise_grey / sigma_px, 2))
-    return std::nullopt;
+  }
   const auto count = static_cast<float>(patch.grey.size());
   const float mean = std::accumulate(patch.grey.begin(), patch.grey.end(), 0.F) / count;
   for (float& grey : patch.grey) grey -= mean, patch.norm2 += grey * grey;
   patch.inverse = sum.inverse();
-  return patch;
+  return sum;
+}
+
+/// Computes what is not saved of the patches.
+void StandingPatches::take_up_patches() {
+  const int side = 2 * half_ + 3;
+  for (Cell& cell : cells_) {
+    if (!cell.patch) continue;
+    require(cell.patch->pixels.size() == cv::Size(side, side) &&
+                centres().contains(cell.patch->px),
+            "the saved patches are those of another camera");
+    describe(*cell.patch);
+  }
 }
 
 /// Whether the image shows the patch where it was taken, up to gain and offset: its displacement by

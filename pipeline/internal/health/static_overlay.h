@@ -35,6 +35,10 @@ class StaticOverlay {
   std::optional<DataNote> note() const;
   /// Number of images in which points were tracked.
   int tracked_images() const { return tracked_images_; }
+  /// An episode in progress is not part of the state: another one begins.
+  void visit_state(auto& archive) {
+    archive(patches_, mask_, frames_, last_cells_, without_result_, next_, tracked_images_);
+  }
 
  private:
   void track(const Frame& frame);

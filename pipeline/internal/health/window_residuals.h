@@ -15,6 +15,7 @@ struct WindowResiduals {
   int odd_pixels = 0;  ///< reprojection errors of more than three standard deviations
   int depths = 0;      ///< measured inverse depths
   int odd_depths = 0;  ///< errors of more than three standard deviations
+  void visit_state(auto& archive) { archive(pixels, odd_pixels, depths, odd_depths); }
 };
 
 /// Counts the usable observations of all points.
@@ -33,6 +34,7 @@ class ResidualCheck {
   /// odd in more than three per cent (of a stereo pair: six) of all windows' measurements. Some per
   /// mille to three per cent are usual.
   std::vector<DataNote> notes() const;
+  void visit_state(auto& archive) { archive(windows_); }
 
  private:
   std::optional<DataNote> note_of_pixels() const;

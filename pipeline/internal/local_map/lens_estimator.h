@@ -19,6 +19,7 @@ class LensEstimator {
   /// returns whether they are.
   bool observe(const SlidingWindow& window);
   LensDistortion estimate() const;
+  void visit_state(auto& archive) { archive(points_, with_depth_, newest_); }
 
  private:
   LensStretches points_, with_depth_;

@@ -13,6 +13,7 @@ struct WindowMotion {
   SO3 R_map_cam;                                            ///< the view of its first keyframe
   Eigen::Vector3d direction_cam = Eigen::Vector3d::Zero();  ///< to its last keyframe; unit or zero
   SO3 R_first_last;                                         ///< rotation of the camera in it
+  void visit_state(auto& archive) { archive(R_map_cam, direction_cam, R_first_last); }
 };
 
 /// Radial distortion by the evidence of stretches of motion.
@@ -34,6 +35,7 @@ class LensStretches {
   /// Mean over the stretches and a prior about 0 by a model of random effects (DerSimonian and
   /// Laird 1986).
   LensDistortion estimate() const;
+  void visit_state(auto& archive) { archive(stretches_); }
 
  private:
   double variance_between() const;
@@ -41,6 +43,9 @@ class LensStretches {
   struct Stretch {
     std::optional<WindowMotion> motion;  // that of its first window
     DistortionEvidence evidence;
+    void visit_state(auto& archive) {
+      archive(motion, evidence.gradient, evidence.information, evidence.residuals);
+    }
   };
   std::vector<Stretch> stretches_;
 };

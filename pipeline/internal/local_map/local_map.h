@@ -82,6 +82,8 @@ class LocalMap {
   /// Information of a motion by all that has been learned until now.
   Matrix6d information(const AssessedMotion& motion) const;
   const MotionUncertainty& uncertainty() const { return uncertainty_; }
+  /// What is learned over all segments and not part of a saved map.
+  void visit_state(auto& archive) { archive(uncertainty_, assessed_); }
 
   /// Newest estimate T_odom_cam of a keyframe of this segment.
   SE3 pose(KeyframeId keyframe) const { return poses_.at(keyframe); }

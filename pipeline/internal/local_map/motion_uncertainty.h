@@ -6,6 +6,10 @@
 
 namespace placegraph {
 
+void visit_state(auto& archive, NuisanceEvidence& evidence) {
+  archive(evidence.gradient, evidence.information);
+}
+
 /// Errors of a motion by the imaging errors and, in the last column, by the stated length.
 using SharedErrors = Eigen::Matrix<double, 6, ImagingErrors::kParameters + 1>;
 
@@ -53,6 +57,7 @@ class MotionUncertainty {
   /// Mean of q q^T of the imaging errors q: a prior about zero and the evidence of all windows,
   /// which counts less if the windows contradict each other.
   const ImagingErrors::Matrix& imaging_errors() const { return second_moment_; }
+  void visit_state(auto& archive) { archive(windows_, second_moment_, dispersion_, jitter_); }
 
  private:
   std::vector<NuisanceEvidence> windows_;

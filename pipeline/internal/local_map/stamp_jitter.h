@@ -18,6 +18,7 @@ class StampJitter {
   void restart() { last_.clear(); }
   /// The standard deviation [s], at most 5 ms; 0 with fewer than ten differences.
   double sigma_s() const { return sigma_s_; }
+  void visit_state(auto& archive) { archive(differences_s_, sigma_s_); }
 
  private:
   struct Passed {

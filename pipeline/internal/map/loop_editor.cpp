@@ -60,6 +60,7 @@ LoopEditor::LoopEditor(StoredMap stored, const SlamOptions& options)
   require(stored_.origin.calibration.has_value(),
           "loops of this map cannot be edited: it has no calibration");
   stored_.judgement.reset();
+  stored_.run = {};
   state_ = {stored_.map.loops, stored_.history, stored_.map.place_graph, stored_.map.metric};
   scale_doubted_ = !state_.metric && mapper_of(state_).metric();
 }

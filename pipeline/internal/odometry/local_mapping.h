@@ -36,6 +36,7 @@ class LocalMapping {
   MetricScale& scale() { return scale_; }
   const MetricScale& scale() const { return scale_; }
   const LensEstimator& lens() const { return lens_; }
+  void visit_state(auto& archive) { archive(lens_); }
   /// Changes of motions by what has been learned about the errors of an RGB-D camera since they
   /// left the window, see RgbdCalibrator::corrections().
   std::map<KeyframeId, Vector6d> corrections() const;

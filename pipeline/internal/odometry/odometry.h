@@ -66,6 +66,8 @@ class Odometry {
   std::vector<LineFeature> line_features() const;
   /// Lens distortion over all track segments; not estimated for a stereo camera.
   const LensEstimator& lens() const { return mapping_.lens(); }
+  /// What is learned of the camera and of the motion over all track segments.
+  void visit_state(auto& archive) { archive(map_, mapping_); }
   /// See RgbdCalibrator::corrections().
   std::map<KeyframeId, Vector6d> corrections() const { return mapping_.corrections(); }
   /// Tracks and ground of the last frame; nothing if it is lost.

@@ -11,6 +11,11 @@
 
 namespace placegraph {
 
+void visit_state(auto& archive, EnvironmentObservation& observation) {
+  archive(observation.keyframe, observation.frame, observation.evidence.values,
+          observation.probabilities, observation.kind);
+}
+
 /// Classifies the environment of keyframes in order of travel, and labels places by it.
 class EnvironmentMonitor {
  public:
@@ -27,6 +32,7 @@ class EnvironmentMonitor {
   const std::vector<EnvironmentObservation>& observations() const { return observations_; }
   /// Labels places with the most frequent class of their keyframes, unless it is unknown.
   void label(std::vector<Place>& places) const;
+  void visit_state(auto& archive) { archive(filter_, observations_); }
 
  private:
   EnvironmentFilter filter_;

@@ -9,8 +9,8 @@
 namespace placegraph {
 
 void LinkFeed::refresh(const LocalMap& map, KeyframeId newest, int keyframes, PlaceMapper& mapper) {
-  const KeyframeId oldest(newest.value() - keyframes);
-  for (KeyframeId id = std::max(map.first(), oldest), next = id; id < newest; id = next) {
+  oldest_refreshed_ = std::max(map.first(), KeyframeId(newest.value() - keyframes));
+  for (KeyframeId id = oldest_refreshed_, next = id; id < newest; id = next) {
     ++next;
     mapper.update_link(next, map.pose(id).inverse() * map.pose(next));
     const LocalMap::Link& link = links_[next] = map.link(id);
@@ -27,6 +27,7 @@ void LinkFeed::refresh(const LocalMap& map, KeyframeId newest, int keyframes, Pl
 }
 
 void LinkFeed::rescale(KeyframeId first, double factor) {
+  settled_.reset();
   for (auto at = links_.lower_bound(first); at != links_.end(); ++at) {
     at->second.motion = at->second.motion.scaled(factor);
     at->second.sigma_log_scale = 0;
@@ -73,20 +74,44 @@ std::optional<OdometryError> LinkFeed::odometry_error(const LocalMap& map,
     if (place.component == places.front().component) last = std::max(last, place.anchor_keyframe);
   if (first == last) return std::nullopt;
 
-  OdometryError error;
-  SharedErrors by_shared = SharedErrors::Zero();
-  for (KeyframeId id = first; id < last;) {
-    const KeyframeId from = id++;
-    const auto link = links_.find(id);
-    const auto motion = mapper.odometry(from, id);
-    if (link == links_.end() || !motion) return std::nullopt;
+  ChainErrors errors = errors_from(first);
+  if (!extend(errors, last, map, mapper)) return std::nullopt;
+  return OdometryError{errors.independent, errors.by_shared * errors.by_shared.transpose()};
+}
+
+/// The errors with which a chain begins: none, or those of the run that was interrupted. Its last
+/// keyframe and the first one of this run are of the same image.
+ChainErrors LinkFeed::errors_from(KeyframeId first) const {
+  if (!earlier_ || earlier_->first != first) return {first, first};
+  ChainErrors errors = *earlier_;
+  ++errors.last;
+  return errors;
+}
+
+/// Goes on along the links to keyframe `last`; returns whether there are links all the way.
+bool LinkFeed::extend(ChainErrors& errors, KeyframeId last, const LocalMap& map,
+                      const PlaceMapper& mapper) const {
+  while (errors.last < last) {
+    const KeyframeId from = errors.last, to(from.value() + 1);
+    const auto link = links_.find(to);
+    const auto motion = mapper.odometry(from, to);
+    if (link == links_.end() || !motion) return false;
     const Matrix6d adjoint = motion->T_a_b.inverse().adjoint();
-    error.independent = adjoint * error.independent * adjoint.transpose() +
-                        map.uncertainty().covariance(link->second.motion);
-    by_shared = adjoint * by_shared + map.uncertainty().by_shared_errors(link->second.motion);
+    errors.independent = adjoint * errors.independent * adjoint.transpose() +
+                         map.uncertainty().covariance(link->second.motion);
+    errors.by_shared =
+        adjoint * errors.by_shared + map.uncertainty().by_shared_errors(link->second.motion);
+    errors.last = to;
   }
-  error.shared = by_shared * by_shared.transpose();
-  return error;
+  return true;
+}
+
+void LinkFeed::note_errors(KeyframeId first, const LocalMap& map, const PlaceMapper& mapper) {
+  noted_.reset();
+  if (!settled_ || settled_->first != first) settled_ = errors_from(first);
+  if (!extend(*settled_, oldest_refreshed_, map, mapper)) return;
+  ChainErrors errors = *settled_;
+  if (extend(errors, map.newest(), map, mapper)) noted_ = errors;
 }
 
 void LinkFeed::finish(const LocalMap& map, PlaceMapper& mapper) {

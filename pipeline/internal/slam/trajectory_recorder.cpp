@@ -39,15 +39,18 @@ std::vector<StampedPose> TrajectoryRecorder::online(int component, std::size_t f
   return poses;
 }
 
+/// Number of the first record of a frame from `first` on; it and the later ones may be changed.
+std::size_t TrajectoryRecorder::change_from(FrameId first) {
+  const auto record = std::ranges::lower_bound(records_, first, {}, &FrameRecord::frame);
+  const auto number = static_cast<std::size_t>(record - records_.begin());
+  first_changed_ = std::min(first_changed_, number);
+  return number;
+}
+
 /// The record of a frame, to be changed; null for a frame without one.
 FrameRecord* TrajectoryRecorder::record_of(FrameId frame) {
-  const auto record =
-      std::lower_bound(records_.begin(), records_.end(), frame,
-                       [](const FrameRecord& r, FrameId id) { return r.frame < id; });
-  if (record == records_.end() || record->frame != frame) return nullptr;
-  first_changed_ =
-      std::min(first_changed_, static_cast<std::size_t>(std::distance(records_.begin(), record)));
-  return &*record;
+  const std::size_t number = change_from(frame);
+  return number < records_.size() && records_[number].frame == frame ? &records_[number] : nullptr;
 }
 
 void TrajectoryRecorder::add_keyframe(const NewKeyframe& keyframe) {
@@ -69,7 +72,8 @@ void TrajectoryRecorder::correct(const std::vector<PosedFrame>& posed, KeyframeI
 }
 
 void TrajectoryRecorder::correct_motions(const std::map<KeyframeId, Vector6d>& corrections,
-                                         const std::function<SE3(KeyframeId)>& motion_into) {
+                                         const std::function<std::optional<SE3>(KeyframeId)>&
+                                             motion_into) {
   for (FrameRecord& record : records_) {
     if (!record.keyframe || !record.T_keyframe_frame) continue;
     const KeyframeId from = *record.keyframe, to(from.value() + 1);
@@ -78,9 +82,11 @@ void TrajectoryRecorder::correct_motions(const std::map<KeyframeId, Vector6d>& c
     if (correction == corrections.end() || begin == stamps_ns_.end() || end == stamps_ns_.end() ||
         record.stamp_ns <= begin->second || record.stamp_ns >= end->second)
       continue;
+    const std::optional<SE3> T_from_to = motion_into(to);
+    if (!T_from_to) continue;
     const double share = static_cast<double>(record.stamp_ns - begin->second) /
                          static_cast<double>(end->second - begin->second);
-    const SE3 T_frame_to = record.T_keyframe_frame->inverse() * motion_into(to);
+    const SE3 T_frame_to = record.T_keyframe_frame->inverse() * *T_from_to;
     record.T_keyframe_frame =
         *record.T_keyframe_frame * SE3::exp(share * T_frame_to.adjoint() * correction->second);
     first_changed_ = 0;
@@ -96,8 +102,7 @@ void TrajectoryRecorder::rescale(KeyframeId first_keyframe, double factor) {
 }
 
 void TrajectoryRecorder::remove_poses(FrameId first, const std::string& reason) {
-  const FrameRecord* from = record_of(first);
-  for (auto i = static_cast<std::size_t>(from - records_.data()); i < records_.size(); ++i) {
+  for (std::size_t i = change_from(first); i < records_.size(); ++i) {
     records_[i].keyframe.reset();
     records_[i].T_keyframe_frame.reset();
     records_[i].confidence.reset();

@@ -33,9 +33,9 @@ class TrajectoryRecorder {
   void correct(const std::vector<PosedFrame>& posed, KeyframeId first_new, const LocalMap& map);
   /// Corrects the frames between two keyframes as the motion between these is corrected in its
   /// right tangent, in proportion to the time since the first. Motions by the keyframe at their
-  /// end, from the one before; `motion_into`: before the correction.
+  /// end, from the one before; `motion_into`: before the correction, nothing where it is unknown.
   void correct_motions(const std::map<KeyframeId, Vector6d>& corrections,
-                       const std::function<SE3(KeyframeId)>& motion_into);
+                       const std::function<std::optional<SE3>(KeyframeId)>& motion_into);
   /// Multiplies all lengths relative to keyframes from `first_keyframe` on by `factor`.
   void rescale(KeyframeId first_keyframe, double factor);
 
@@ -67,6 +67,7 @@ class TrajectoryRecorder {
   void take_up(const Map& map, FrameId last_frame, int component);
 
  private:
+  std::size_t change_from(FrameId first);
   FrameRecord* record_of(FrameId frame);
 
   std::vector<FrameRecord> records_;

@@ -64,6 +64,7 @@ class MapCli : public test::CliTest {
     history.places.resize(places);
     history.places.back().last_keyframe = last;
     history.merged.clear();
+    history.evidence.clear();
     std::erase_if(history.loops, [&](const Loop& l) { return l.query > last; });
     stored.finished = false;
     write_map(dir / "broken/map.db", stored);

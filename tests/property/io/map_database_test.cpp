@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <opencv2/core.hpp>
+
 #include "tests/support/map_bits.h"
 #include "tests/support/random_map.h"
 #include "tests/support/seed.h"
@@ -49,6 +51,13 @@ TEST(MapDatabaseProperty, ReadAfterWriteIsIdentity) {
     }
     EXPECT_EQ(read.history.segments.back().covariance, stored.history.segments.back().covariance);
     EXPECT_EQ(read.history.loops.front().information, stored.history.loops.front().information);
+    EXPECT_EQ(read.history.evidence, stored.history.evidence);
+    EXPECT_EQ(read.origin.overlays.at(0).note.text, stored.origin.overlays[0].note.text);
+    EXPECT_EQ(cv::norm(read.origin.overlays[0].mask, stored.origin.overlays[0].mask), 0);
+    EXPECT_EQ(read.run.notes.at(0).advice, stored.run.notes[0].advice);
+    EXPECT_EQ(read.run.odometry_error->shared, stored.run.odometry_error->shared);
+    ASSERT_EQ(read.run.stages.size(), 2u);
+    EXPECT_EQ(read.run.stages[1].cpu_s, stored.run.stages[1].cpu_s);
   }
 }
 
@@ -95,6 +104,56 @@ TEST(MapDatabaseProperty, CommitsAddUpToTheWholeMap) {
     EXPECT_EQ(test::map_bits(read.map), test::map_bits(whole.map));
     EXPECT_EQ(read.map.landmarks.size(), whole.map.landmarks.size());
     EXPECT_FALSE(std::filesystem::exists(dir / "steps.db-wal"));
+  }
+}
+
+/// The first frames of a map, with all its places.
+MapChanges changes_of(const StoredMap& stored, std::size_t frames) {
+  MapChanges changes;
+  changes.places = stored.map.place_graph.places;
+  changes.keyframes = stored.map.keyframes;
+  changes.frames.assign(stored.map.frames.begin(),
+                        stored.map.frames.begin() + static_cast<std::ptrdiff_t>(frames));
+  changes.online.assign(
+      stored.map.trajectory_online.poses.begin(),
+      stored.map.trajectory_online.poses.begin() + static_cast<std::ptrdiff_t>(frames));
+  changes.history = stored.history;
+  return changes;
+}
+
+// Wherever the program ends, the map has at least as many frames as it ever had.
+TEST(MapDatabaseProperty, ARestartKeepsTheOldMapUntilTheNewOneIsLonger) {
+  Random random = test::seeded_random(7);
+  for (int round = 0; round < 10; ++round) {
+    const test::TemporaryFolder dir;
+    const std::string path = dir / "map.db";
+    StoredMap stored = random_map(random, 4);
+    const std::size_t all = stored.map.frames.size();
+    std::size_t longest = 0, newest = 0;
+    auto database = std::make_optional(MapDatabase::create(path, stored.origin));
+    for (int step = 0; step < 12; ++step) {
+      if (random.uniform() < 0.3) {
+        stored.origin.lens_pass = step;
+        database->restart(stored.origin);
+        newest = 0;
+      } else {
+        newest = std::min(all, newest + 1 + static_cast<std::size_t>(random.index(6)));
+        database->commit(changes_of(stored, newest));
+      }
+      longest = std::max(longest, newest);
+      if (random.uniform() < 0.5) continue;
+      database.reset();
+      EXPECT_EQ(read_map(path).map.frames.size(), longest);
+      const StoredMap current = read_map(interrupted_map_path(path));
+      EXPECT_EQ(current.map.frames.size(), newest);
+      EXPECT_EQ(current.origin.lens_pass, stored.origin.lens_pass);
+      check_map_checksums(interrupted_map_path(path));
+      database = MapDatabase::open(path);
+    }
+    database->finish(changes_of(stored, all));
+    EXPECT_EQ(interrupted_map_path(path), path);
+    EXPECT_TRUE(read_map(path).finished);
+    EXPECT_EQ(read_map(path).origin.lens_pass, stored.origin.lens_pass);
   }
 }
 

@@ -139,7 +139,8 @@ TEST_F(MapDatabaseFaults, ALoopStageThatThereIsNotIsNamed) {
 std::string to_schema_2(const std::string& path) {
   std::string sql =
       "PRAGMA foreign_keys = OFF; BEGIN; DROP VIEW component; DROP VIEW frame_component;";
-  for (const char* table : {"observations", "thumbnail", "inertial_state", "judgement", "finding"})
+  for (const char* table : {"observations", "thumbnail", "inertial_state", "judgement", "finding",
+                            "overlay", "evidence", "note", "odometry_error", "stage"})
     sql += std::string("DROP TABLE ") + table + ";";
   {
     SqliteDatabase database(path, SqliteDatabase::Access::kRead);
@@ -166,6 +167,10 @@ std::string to_schema_2(const std::string& path) {
          "ALTER TABLE segment RENAME TO part; PRAGMA user_version = 2; COMMIT;";
 }
 
+const std::string kToSchema3 =
+    "DROP TABLE overlay; DROP TABLE evidence; DROP TABLE note; DROP TABLE odometry_error;"
+    "DROP TABLE stage; PRAGMA user_version = 3";
+
 // Schema 1 had no more columns of loops than these.
 const std::string kToSchema1 =
     "BEGIN; ALTER TABLE frame DROP COLUMN inliers; ALTER TABLE loop DROP COLUMN model; ALTER "
@@ -175,9 +180,9 @@ const std::string kToSchema1 =
 
 TEST_F(MapDatabaseFaults, AMapOfAnOlderSchemaIsReadAndUpgradedWhenWritten) {
   const StoredMap present = read_map(path);
-  for (const int schema : {2, 1}) {
+  for (const int schema : {3, 2, 1}) {
     write_map(path, present);
-    change(to_schema_2(path));
+    change(schema == 3 ? kToSchema3 : to_schema_2(path));
     if (schema == 1) change(kToSchema1);
     const std::string bytes = test::read_file(path);
     const StoredMap old = read_map(path);
@@ -185,9 +190,10 @@ TEST_F(MapDatabaseFaults, AMapOfAnOlderSchemaIsReadAndUpgradedWhenWritten) {
     ASSERT_EQ(old.map.loops.size(), 2u);
     EXPECT_EQ(old.map.loops[0].inliers, 33);
     EXPECT_EQ(old.map.loops[0].probability, schema == 1 ? 0 : 0.9);
+    EXPECT_TRUE(old.history.evidence.empty() && old.run.notes.empty());
     EXPECT_EQ(old.history.loops.size(), present.history.loops.size());
     EXPECT_EQ(old.map.landmarks.size(), present.map.landmarks.size());
-    EXPECT_FALSE(old.map.landmarks[1].rgb || old.judgement);
+    EXPECT_EQ(old.map.landmarks[1].rgb || old.judgement, schema == 3);
     EXPECT_NO_THROW(check_map_checksums(path));
     MapDatabase::open(path).close();
     EXPECT_EQ(SqliteDatabase(path, SqliteDatabase::Access::kRead).integer("PRAGMA user_version"),
@@ -305,6 +311,38 @@ TEST(MapDatabase, WhatIsCommittedIsThereWithoutAnEnd) {
   EXPECT_TRUE(is_unfinished_map(dir / "left.db"));
   EXPECT_EQ(read_map(dir / "left.db").map.keyframes.size(), stored.map.keyframes.size());
   EXPECT_EQ(check_map_file(dir / "left.db"), "ok");
+}
+
+// The newest commits of a map that was killed are in its log.
+TEST(MapDatabase, AMapThatCannotBeReplacedKeepsItsCommits) {
+  const test::TemporaryFolder dir;
+  Random random(4);
+  const StoredMap stored = test::random_map(random, 3);
+  MapChanges changes;
+  changes.places = stored.map.place_graph.places;
+  changes.keyframes = stored.map.keyframes;
+  {
+    MapDatabase database = MapDatabase::create(dir / "map.db", stored.origin);
+    database.commit(changes);
+    std::filesystem::copy(dir / "map.db", dir / "left.db");
+    std::filesystem::copy(dir / "map.db-wal", dir / "left.db-wal");
+  }
+  std::filesystem::create_directories(dir / "left.db-shm/full");
+  EXPECT_THROW((void)MapDatabase::create(dir / "left.db", stored.origin), std::exception);
+  std::filesystem::remove_all(dir / "left.db-shm");
+  EXPECT_EQ(read_map(dir / "left.db").map.keyframes.size(), stored.map.keyframes.size());
+  MapDatabase::create(dir / "left.db", stored.origin).close();
+  EXPECT_EQ(read_map(dir / "left.db").map.keyframes.size(), 0u);
+}
+
+TEST(MapDatabase, AMapThatAProgramWritesIsNotReplaced) {
+  const test::TemporaryFolder dir;
+  Random random(4);
+  const StoredMap stored = test::random_map(random, 3);
+  MapDatabase database = MapDatabase::create(dir / "map.db", stored.origin);
+  database.commit({});
+  EXPECT_THAT(test::message_of([&] { (void)MapDatabase::create(dir / "map.db", stored.origin); }),
+              HasSubstr("another program is using it"));
 }
 
 }  // namespace map_database_test

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 #include <placegraph/pipeline/internal/slam/trajectory_recorder.h>
 
+#include "tests/support/seed.h"
+
 namespace placegraph {
 namespace trajectory_recorder_test {
 
@@ -90,6 +92,35 @@ TEST(TrajectoryRecorder, PosesAreRemovedFromAFrameOn) {
   }
   EXPECT_EQ(r.recorder.first_changed(), 2u);
   EXPECT_EQ(r.recorder.online(0).size(), 5u);  // as they were when the frames were processed
+}
+
+// The frame need not be there: frames of a video may be numbered with gaps.
+TEST(TrajectoryRecorder, PosesAreRemovedFromAnyNumberOn) {
+  Random random = test::seeded_random(1);
+  for (int round = 0; round < 100; ++round) {
+    TrajectoryRecorder recorder;
+    std::vector<std::int64_t> ids;
+    for (std::int64_t id = random.index(5); id < 40; id += 1 + random.index(5)) {
+      recorder.begin(frame(id));
+      recorder.record(KeyframeId(0), along(1), 50);
+      recorder.finish(along(1), 0);
+      ids.push_back(id);
+    }
+    recorder.report_all();
+    const FrameId first(random.index(50));
+    recorder.remove_poses(first, "contradicted");
+    for (std::size_t i = 0; i < ids.size(); ++i)
+      EXPECT_EQ(recorder.records()[i].keyframe.has_value(), ids[i] < first.value())
+          << ids[i] << " of those from " << first << " on";
+  }
+}
+
+TEST(TrajectoryRecorder, FramesOfAMotionThatIsUnknownStayAsTheyAre) {
+  Recorded r;
+  r.recorder.correct_motions({{KeyframeId(1), Vector6d::Ones()}},
+                             [](KeyframeId) { return std::nullopt; });
+  EXPECT_LT((r.recorder.records()[2].T_keyframe_frame->inverse() * along(2)).log().norm(), 1e-12);
+  EXPECT_EQ(r.recorder.first_changed(), 5u);
 }
 
 TEST(TrajectoryRecorder, ACorrectionStaysWithTheKeyframeOfItsSegment) {

@@ -1,0 +1,43 @@
+#include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/state_archive.h>
+#include <placegraph/pipeline/internal/slam/run_evidence.h>
+
+namespace placegraph {
+namespace {
+
+/// Version of the bytes; another one cannot be read.
+constexpr std::uint8_t kEvidenceVersion = 1;
+
+void visit_sources(auto& archive, const EvidenceSources& sources) {
+  archive(sources.odometry, sources.links, sources.health, sources.contradicted,
+          sources.environments);
+  if (sources.overlay) archive(*sources.overlay);
+}
+
+}  // namespace
+
+std::string evidence_of(const EvidenceSources& sources, std::optional<FrameId> newest) {
+  StateWriter writer;
+  std::uint8_t version = kEvidenceVersion, with_overlay = sources.overlay != nullptr;
+  writer(version, with_overlay, newest);
+  visit_sources(writer, sources);
+  return writer.written();
+}
+
+std::optional<FrameId> take_up_evidence(const std::string& evidence, const EvidenceSources& sources,
+                                        const Frame& last) {
+  StateReader reader(evidence);
+  std::uint8_t version = 0, with_overlay = 0;
+  std::optional<FrameId> newest;
+  reader(version, with_overlay, newest);
+  require(version == kEvidenceVersion,
+          "the interrupted run is one of another version of the program");
+  require((with_overlay != 0) == (sources.overlay != nullptr),
+          "the interrupted run has other options of static overlays");
+  visit_sources(reader, sources);
+  reader.end();
+  if (newest == last.id) sources.health.go_on_after(last);
+  return newest;
+}
+
+}  // namespace placegraph

@@ -1,0 +1,35 @@
+#pragma once
+#include <placegraph/graph/core/ids.h>
+#include <placegraph/pipeline/internal/health/contradicted_steps.h>
+#include <placegraph/pipeline/internal/health/health_monitor.h>
+#include <placegraph/pipeline/internal/health/static_overlay.h>
+#include <placegraph/pipeline/internal/odometry/odometry.h>
+#include <placegraph/pipeline/internal/slam/environment_monitor.h>
+#include <placegraph/pipeline/internal/slam/link_feed.h>
+
+#include <optional>
+#include <string>
+
+namespace placegraph {
+
+/// Components of a running system that learn from all frames what its map does not contain.
+struct EvidenceSources {
+  Odometry& odometry;
+  LinkFeed& links;
+  HealthMonitor& health;
+  ContradictedSteps& contradicted;
+  EnvironmentMonitor& environments;
+  StaticOverlay* overlay;  ///< null: overlays are not searched for
+};
+
+/// What they have learned, as the bytes of PlaceHistory::evidence. `newest`: the last frame that
+/// they know.
+std::string evidence_of(const EvidenceSources& sources, std::optional<FrameId> newest);
+
+/// Takes over what an interrupted run had learned; `last` is the frame with which it goes on.
+/// Returns the last frame that is in the evidence. Throws ArgumentError for the evidence of another
+/// version of the program, of other options, or that is damaged.
+std::optional<FrameId> take_up_evidence(const std::string& evidence, const EvidenceSources& sources,
+                                        const Frame& last);
+
+}  // namespace placegraph
