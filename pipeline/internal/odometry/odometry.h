@@ -80,6 +80,7 @@ class Odometry {
 
   OdometryOptions options_;
   Calibration calibration_;
+  std::uint64_t seed_;
   LogSink log_;
   StageTimes& times_;
   LocalMapping mapping_;
