@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <opencv2/core.hpp>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/internal/files/atomic_file.h>
 #include <sys/file.h>
@@ -150,7 +151,9 @@ Failure failure_of(const std::exception& error) {
   if (is_kind<Interrupted>(error)) return {ExitCode::kInterrupted, error.what()};
   if (is_kind<Error>(error) || is_kind<std::filesystem::filesystem_error>(error))
     return {ExitCode::kUsage, error.what()};
-  if (is_kind<std::bad_alloc>(error)) return {ExitCode::kInternal, "there is not enough memory"};
+  const auto* of_images = dynamic_cast<const cv::Exception*>(&error);
+  if (is_kind<std::bad_alloc>(error) || (of_images && of_images->code == cv::Error::StsNoMem))
+    return {ExitCode::kInternal, "there is not enough memory"};
   return {ExitCode::kInternal,
           std::string("internal error, please report it with the command: ") + error.what()};
 }

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <opencv2/core.hpp>
 #include <placegraph/graph/core/error.h>
 
 #include <filesystem>
@@ -66,6 +67,9 @@ TEST(Failure, NoMemoryIsSaidInWords) {
   EXPECT_EQ(failure.code, ExitCode::kInternal);
   EXPECT_EQ(failure.message, "there is not enough memory");
   EXPECT_EQ(failure_of(std::bad_array_new_length()).message, failure.message);
+  const auto of_images = [](int code) { return failure_of(cv::Exception(code, "", "", "", 0)); };
+  EXPECT_EQ(of_images(cv::Error::StsNoMem).message, failure.message);
+  EXPECT_NE(of_images(cv::Error::StsBadArg).message, failure.message);
 }
 
 TEST(Failure, EveryExitCodeIsInTheTextForUsers) {
