@@ -117,7 +117,7 @@ def test_judgement(opened: pg.Map, run_folder: pathlib.Path) -> None:
     judgement = opened.judgement
     assert judgement is not None
     assert judgement.verdict == written["verdict"]
-    assert judgement.metric == written["metric"]
+    assert judgement.metric == written["metric"] == opened.metric
     assert [finding.text for finding in judgement.findings] == [
         finding["text"] for finding in written["findings"]]
 

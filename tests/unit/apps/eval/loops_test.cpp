@@ -65,16 +65,16 @@ TEST_F(LoopsCommand, LeavesOutCandidatesThatAreTooYoung) {
 
 TEST_F(LoopsCommand, ComparesSystemsByTheirNames) {
   arguments.predictions.push_back(folder.write("other.txt", "12 3 0.5\n"));
-  arguments.names = {"one", "two"};
+  arguments.names = {"one", "two, \"of us\""};
   arguments.csv = folder / "log.csv";
   const LoopsResult result = loops(arguments);
   const json report = json::parse(to_json(result));
   EXPECT_EQ(report["systems"][0]["name"], "one");
-  EXPECT_EQ(report["systems"][1]["name"], "two");
+  EXPECT_EQ(report["systems"][1]["name"], arguments.names[1]);
   EXPECT_EQ(report["systems"][1]["hits"], 1);
   const std::string log = test::read_file(arguments.csv);
   EXPECT_THAT(log, HasSubstr("one,10,1,hit,1,0.9,"));
-  EXPECT_THAT(log, HasSubstr("two,12,1,hit,3,0.5,"));
+  EXPECT_THAT(log, HasSubstr("\"two, \"\"of us\"\"\",12,1,hit,3,0.5,"));
 }
 
 TEST_F(LoopsCommand, JudgesByPoses) {
