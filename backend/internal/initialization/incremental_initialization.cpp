@@ -19,10 +19,8 @@ std::vector<int> order_of_extension(const PackedGraph<Group>& graph) {
   const OdometryChain<Group> odometry(graph);
   std::vector<int> order(graph.poses.size());
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-    return std::pair(odometry.run(a), odometry.position(a)) <
-           std::pair(odometry.run(b), odometry.position(b));
-  });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return odometry.place(a) < odometry.place(b); });
   return order;
 }
 

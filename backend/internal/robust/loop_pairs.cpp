@@ -17,8 +17,7 @@ LoopOnChain<Group> loop_on_chain(const PackedGraph<Group>& graph, int edge,
   loop.W = T_first_measured * chain.pose(e.to).inverse();
   const typename Group::Jacobian adjoint = T_first_measured.adjoint();
   loop.covariance = adjoint * covariance_of(e.information) * adjoint.transpose();
-  const auto place = [&](int node) { return std::pair(chain.run(node), chain.position(node)); };
-  if (place(e.to) < place(e.from)) {
+  if (chain.place(e.to) < chain.place(e.from)) {
     std::swap(loop.from, loop.to);
     loop.W = loop.W.inverse();
     const typename Group::Jacobian back = loop.W.adjoint();
@@ -36,9 +35,11 @@ std::vector<LoopOnChain<Group>> loops_on_chain(const PackedGraph<Group>& graph,
   std::vector<LoopOnChain<Group>> loops;
   for (std::size_t i = 0; i < graph.edges.size(); ++i)
     if (!graph.edges[i].odometry) loops.push_back(loop_on_chain(graph, static_cast<int>(i), chain));
-  std::sort(loops.begin(), loops.end(), [](const auto& a, const auto& b) {
-    if (std::tie(a.from, a.to) != std::tie(b.from, b.to))
-      return std::tie(a.from, a.to) < std::tie(b.from, b.to);
+  const auto ends = [&](const LoopOnChain<Group>& loop) {
+    return std::pair(chain.place(loop.from), chain.place(loop.to));
+  };
+  std::sort(loops.begin(), loops.end(), [&](const auto& a, const auto& b) {
+    if (ends(a) != ends(b)) return ends(a) < ends(b);
     const auto log_a = a.W.log(), log_b = b.W.log();
     return std::lexicographical_compare(log_a.begin(), log_a.end(), log_b.begin(), log_b.end());
   });

@@ -18,7 +18,7 @@ struct LoopOnChain {
   typename Group::Jacobian adjoint;  ///< adjoint of W
 };
 
-/// The edges that are not odometry, in an order that depends only on their ends and measurements.
+/// The edges that are not odometry, in the order of their ends on the chain and their measurements.
 template <class Group>
 std::vector<LoopOnChain<Group>> loops_on_chain(const PackedGraph<Group>& graph,
                                                const OdometryChain<Group>& chain);

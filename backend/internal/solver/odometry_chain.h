@@ -2,6 +2,7 @@
 #include <placegraph/backend/internal/solver/packed_graph.h>
 
 #include <cstdlib>
+#include <utility>
 
 namespace placegraph {
 
@@ -22,6 +23,8 @@ class OdometryChain {
   int run(int node) const { return run_[node]; }
   /// Steps from the first node of the run.
   int position(int node) const { return position_[node]; }
+  /// Its run and position in it.
+  std::pair<int, int> place(int node) const { return {run_[node], position_[node]}; }
   /// T_first_node: pose of the node relative to the first node of its run.
   const Group& pose(int node) const { return pose_[node]; }
   /// Whether the nodes are successive in one run.
