@@ -94,13 +94,14 @@ std::size_t saved_frames(const std::string& path) {
 
 TEST(InterruptedRun, LosesNothingAndIsJudgedAsTheWholeRun) {
   Random random = seeded_random(11);
-  for (int round = 0; round < 4; ++round) {
-    const FaultyStreet street(round % 2 == 0, round < 2);
-    const Sensor sensor = round % 2 == 0 ? Sensor::kMono : Sensor::kStereo;
+  for (int round = 0; round < 2; ++round) {
+    const bool covered = round == 0;
+    const FaultyStreet street(covered, true);
+    const Sensor sensor = covered ? Sensor::kMono : Sensor::kStereo;
     const TemporaryFolder dir;
     const RunResult whole = *KilledRun(street, sensor, dir / "whole.db").run(std::nullopt);
     const std::vector<DataNote> expected = whole.notes;
-    for (int repetition = 0; repetition < 3; ++repetition) {
+    for (int repetition = 0; repetition < 2; ++repetition) {
       const std::string path = dir / ("map" + std::to_string(repetition) + ".db");
       KilledRun run(street, sensor, path);
       std::string kills;

@@ -117,7 +117,7 @@ TEST_F(MapDatabaseFaults, AMissingTableIsSaid) {
 
 TEST_F(MapDatabaseFaults, ANewerSchemaIsRefusedByItsVersion) {
   change("PRAGMA user_version = 99");
-  EXPECT_THAT(refusal(), HasSubstr("is a map of schema 99; this program reads up to 3"));
+  EXPECT_THAT(refusal(), HasSubstr("is a map of schema 99; this program reads up to 4"));
 }
 
 TEST_F(MapDatabaseFaults, ALoopModelThatThereIsNotIsNamed) {
