@@ -99,7 +99,7 @@ TEST(InterruptedRun, LosesNothingAndIsJudgedAsTheWholeRun) {
     const FaultyStreet street(covered, true);
     const Sensor sensor = covered ? Sensor::kMono : Sensor::kStereo;
     const TemporaryFolder dir;
-    const RunResult whole = *KilledRun(street, sensor, dir / "whole.db").run(std::nullopt);
+    RunResult whole = *KilledRun(street, sensor, dir / "whole.db").run(std::nullopt);
     const std::vector<DataNote> expected = whole.notes;
     for (int repetition = 0; repetition < 2; ++repetition) {
       const std::string path = dir / ("map" + std::to_string(repetition) + ".db");
@@ -124,10 +124,11 @@ TEST(InterruptedRun, LosesNothingAndIsJudgedAsTheWholeRun) {
       const Judgement judged = judge(*result, {}, 0.5), as_whole = judge(whole, {}, 0.5);
       EXPECT_EQ(judged.verdict, as_whole.verdict);
       // What a finished run says, it says again.
-      const RunResult again = *run.run(std::nullopt);
+      RunResult again = *run.run(std::nullopt);
       EXPECT_EQ(causes_of(again.notes), causes_of(result->notes));
-      EXPECT_EQ(causes_of(judge(again, {}, 0.5).findings), causes_of(judged.findings));
-      EXPECT_EQ(judge(again, {}, 0.5).expected_drift_m, judged.expected_drift_m);
+      const Judgement judged_again = judge(again, {}, 0.5);
+      EXPECT_EQ(causes_of(judged_again.findings), causes_of(judged.findings));
+      EXPECT_EQ(judged_again.expected_drift_m, judged.expected_drift_m);
       ASSERT_EQ(again.stages.size(), result->stages.size());
       for (const StageTimes::Stage& stage : result->stages)
         if (stage.name == "reading") {
