@@ -177,10 +177,7 @@ CloudPlanesOptions checked_options(const PlanesCloudArguments& arguments) {
   arguments.cuboid_options.check();
   require_free(arguments.out, arguments.force);
   if (is_image(arguments.in) && !arguments.ids) require_drawings(arguments.out);
-  if (!arguments.cuboids.empty()) {
-    require(arguments.cuboids != arguments.out, "--cuboids: the same file as --out");
-    require_free(arguments.cuboids, arguments.force);
-  }
+  if (!arguments.cuboids.empty()) require_free(arguments.cuboids, arguments.force);
   return options;
 }
 

@@ -51,8 +51,6 @@ void check(const PlanesTwoViewArguments& arguments) {
   arguments.regions.check();
   arguments.planes_motion.check();
   require(arguments.motion.empty() || !arguments.calib.empty(), "--motion: needs --calib");
-  require(arguments.motion.empty() || arguments.motion != arguments.out,
-          "--motion: the same file as --out");
   require_free(arguments.out, arguments.force);
   if (!arguments.motion.empty()) require_free(arguments.motion, arguments.force);
 }

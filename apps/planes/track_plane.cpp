@@ -106,7 +106,6 @@ void check(const TrackPlaneArguments& arguments) {
   require(arguments.normal.empty() || calibrated, "--normal: needs --calib");
   require(arguments.options.model == PlaneModel::kHomography || calibrated,
           "--motion-model: one with a rigid motion needs --calib");
-  require(arguments.trajectory != arguments.out, "--trajectory: the same file as --out");
 }
 
 void require_free_outputs(const TrackPlaneArguments& arguments) {

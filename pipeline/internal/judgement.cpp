@@ -121,22 +121,22 @@ std::size_t tracked_frames(const Map& map) {
       map.frames, [](const FrameRecord& frame) { return frame.T_keyframe_frame.has_value(); }));
 }
 
-/// Standard deviation of the position of the last place relative to the first one. In the place
-/// graph all errors are independent. Those that all motions share are larger at the end; loops
-/// reduce them as they reduce the errors of the odometry in the graph.
+/// Standard deviation of the position of the last place that constraints connect with the first
+/// one, relative to it. In the place graph all errors are independent. Those that all motions share
+/// are larger at the end; loops reduce them as they reduce the errors of the odometry in the graph.
 std::optional<double> drift_of(const PlaceGraph& places,
                                const std::optional<OdometryError>& odometry) {
-  const std::vector<int> components = places.joined_components();
-  if (components.empty()) return std::nullopt;
+  const PoseGraph graph = places.pose_graph();
+  const std::vector<int> components = graph.components();
   std::size_t last = 0;
-  for (std::size_t i = 0; i < components.size(); ++i)
+  for (std::size_t i = 1; i < components.size(); ++i)
     if (components[i] == components[0]) last = i;
   if (last == 0) return std::nullopt;
-  const PoseMarginals marginals(places.pose_graph());
+  const PoseMarginals marginals(graph);
   if (!marginals.outcome()) return std::nullopt;
-  const auto node = [&](std::size_t i) { return node_of_place(places.places[i].id); };
-  const double in_graph =
-      marginals.relative_covariance(node(0), node(last)).topLeftCorner<3, 3>().trace();
+  const double in_graph = marginals.relative_covariance(graph.nodes[0].id, graph.nodes[last].id)
+                              .topLeftCorner<3, 3>()
+                              .trace();
   if (!odometry) return std::sqrt(in_graph);
   const double kept = std::min(1.0, in_graph / odometry->independent.topLeftCorner<3, 3>().trace());
   return std::sqrt(in_graph + kept * kept * odometry->shared.topLeftCorner<3, 3>().trace());
