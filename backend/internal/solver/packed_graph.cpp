@@ -148,8 +148,11 @@ void unpack(const PackedGraph<Group>& packed, PoseGraph& graph) {
     if (!packed.components.held[i]) graph.nodes[i].T_world_node = packed.poses[i];
 }
 
-GraphComponents find_components(const PoseGraph& graph) {
-  switch (graph.kind()) {
+namespace {
+
+template <class Graph>
+GraphComponents packed_components(PoseKind kind, const Graph& graph) {
+  switch (kind) {
     case PoseKind::kSE2:
       return pack<SE2>(graph).components;
     case PoseKind::kSE3:
@@ -160,16 +163,14 @@ GraphComponents find_components(const PoseGraph& graph) {
   return pack<Sim3>(graph).components;
 }
 
+}  // namespace
+
+GraphComponents find_components(const PoseGraph& graph) {
+  return packed_components(graph.kind(), graph);
+}
+
 GraphComponents find_components(const LandmarkGraph& graph) {
-  switch (graph.poses.kind()) {
-    case PoseKind::kSE2:
-      return pack<SE2>(graph).components;
-    case PoseKind::kSE3:
-      return pack<SE3>(graph).components;
-    case PoseKind::kSim3:
-      break;
-  }
-  return pack<Sim3>(graph).components;
+  return packed_components(graph.poses.kind(), graph);
 }
 
 #define PLACEGRAPH_INSTANTIATE(Group)                                                     \

@@ -74,6 +74,7 @@ describe.skipIf(program === undefined)("the program", () => {
     }
     await page.locator("#tab-overview").waitFor({ timeout: 120000 });
     await frameShown(page);
+    await page.close(); // it looks for the program, which ends now
   }, 300000);
 
   it("shows its map with full images, and edits loops", async () => {
@@ -93,5 +94,6 @@ describe.skipIf(program === undefined)("the program", () => {
     await page.getByRole("button", { name: "Save as a new map" }).click();
     await page.locator(".edits [role=status]", { hasText: "mended.db" }).waitFor({ timeout: 60000 });
     expect(existsSync(join(OUT, "mended.db"))).toBe(true);
+    await page.close();
   }, 300000);
 });
