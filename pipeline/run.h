@@ -42,9 +42,8 @@ struct RunResult {
   /// the run has begun again.
   std::optional<FrameId> resumed_at;
   /// CPU time of reading images and of the stages of Slam, in all passes of the run, also before it
-  /// was interrupted. With more than one thread, the next
-  /// frame is read while the current one is processed, and the reading time is added to the stage
-  /// that is active then.
+  /// was interrupted. With more than one thread, the next frame is read while the current one is
+  /// processed, and the reading time is added to the stage that is active then.
   std::vector<StageTimes::Stage> stages;
   /// Reasons why frames have no pose, the most frequent first. Reasons that differ only in numbers
   /// are merged.

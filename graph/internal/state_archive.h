@@ -51,6 +51,8 @@ class StateArchive {
     std::int64_t rows = matrix.rows(), cols = matrix.cols();
     if constexpr (kRows == Eigen::Dynamic) visit(rows), derived().require_left(rows);
     if constexpr (kCols == Eigen::Dynamic) visit(cols), derived().require_left(cols);
+    if constexpr (kRows == Eigen::Dynamic && kCols == Eigen::Dynamic)
+      derived().require_left(rows * cols);
     matrix.resize(rows, cols);
     for (Eigen::Index i = 0; i < matrix.size(); ++i) visit(matrix.data()[i]);
   }

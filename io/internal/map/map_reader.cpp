@@ -8,6 +8,7 @@
 #include <filesystem>
 
 namespace placegraph {
+
 void MapReader::read_origin() {
   SqliteRows rows(database_, "origin",
                   "id, sequence, sensor, options, view_options, lens_k1, lens_pass, baseline_m, "

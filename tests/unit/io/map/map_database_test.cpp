@@ -291,23 +291,26 @@ TEST(MapDatabase, PlacesThatAreGoneLeaveNothingBehind) {
   EXPECT_EQ(map.place_graph.places[0].appearance.words.size(), 5u);
 }
 
-// A second connection sees what has been committed, whatever becomes of the first.
-TEST(MapDatabase, WhatIsCommittedIsThereWithoutAnEnd) {
-  const test::TemporaryFolder dir;
+/// Leaves in left.db a map of a program that was killed: the file and its log.
+StoredMap leave_killed_map(const test::TemporaryFolder& dir) {
   Random random(4);
-  const StoredMap stored = test::random_map(random, 3);
+  StoredMap stored = test::random_map(random, 3);
   MapChanges changes;
   changes.places = stored.map.place_graph.places;
   changes.keyframes = stored.map.keyframes;
-  {
-    MapDatabase database = MapDatabase::create(dir / "map.db", stored.origin);
-    database.commit(changes);
-    // As a kill leaves it: the file and its log.
-    std::filesystem::copy(dir / "map.db", dir / "left.db");
-    std::filesystem::copy(dir / "map.db-wal", dir / "left.db-wal");
-    EXPECT_THAT(test::message_of([&] { (void)read_map(dir / "map.db"); }),
-                HasSubstr("another program is using it"));
-  }
+  MapDatabase database = MapDatabase::create(dir / "map.db", stored.origin);
+  database.commit(changes);
+  std::filesystem::copy(dir / "map.db", dir / "left.db");
+  std::filesystem::copy(dir / "map.db-wal", dir / "left.db-wal");
+  EXPECT_THAT(test::message_of([&] { (void)read_map(dir / "map.db"); }),
+              HasSubstr("another program is using it"));
+  return stored;
+}
+
+// A second connection sees what has been committed, whatever becomes of the first.
+TEST(MapDatabase, WhatIsCommittedIsThereWithoutAnEnd) {
+  const test::TemporaryFolder dir;
+  const StoredMap stored = leave_killed_map(dir);
   EXPECT_TRUE(is_unfinished_map(dir / "left.db"));
   EXPECT_EQ(read_map(dir / "left.db").map.keyframes.size(), stored.map.keyframes.size());
   EXPECT_EQ(check_map_file(dir / "left.db"), "ok");
@@ -316,17 +319,7 @@ TEST(MapDatabase, WhatIsCommittedIsThereWithoutAnEnd) {
 // The newest commits of a map that was killed are in its log.
 TEST(MapDatabase, AMapThatCannotBeReplacedKeepsItsCommits) {
   const test::TemporaryFolder dir;
-  Random random(4);
-  const StoredMap stored = test::random_map(random, 3);
-  MapChanges changes;
-  changes.places = stored.map.place_graph.places;
-  changes.keyframes = stored.map.keyframes;
-  {
-    MapDatabase database = MapDatabase::create(dir / "map.db", stored.origin);
-    database.commit(changes);
-    std::filesystem::copy(dir / "map.db", dir / "left.db");
-    std::filesystem::copy(dir / "map.db-wal", dir / "left.db-wal");
-  }
+  const StoredMap stored = leave_killed_map(dir);
   std::filesystem::create_directories(dir / "left.db-shm/full");
   EXPECT_THROW((void)MapDatabase::create(dir / "left.db", stored.origin), std::exception);
   std::filesystem::remove_all(dir / "left.db-shm");
