@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -91,6 +92,12 @@ class StateArchive {
     derived().require_left(size);
     list.resize(static_cast<std::size_t>(size));
     for (T& value : list) visit(value);
+  }
+  template <class Key, class T>
+  void visit(std::map<Key, T>& map) {
+    std::vector<std::pair<Key, T>> entries(map.begin(), map.end());
+    visit(entries);
+    if constexpr (Derived::kReads) map = {entries.begin(), entries.end()};
   }
 };
 

@@ -142,13 +142,18 @@ std::optional<double> drift_of(const PlaceGraph& places,
   return std::sqrt(in_graph + kept * kept * odometry->shared.topLeftCorner<3, 3>().trace());
 }
 
-std::optional<DataNote> note_of_drift(const std::optional<double>& drift, double length,
-                                      bool metric) {
+/// Of a camera that turns at the place, whose path is shorter than its view, the drift is compared
+/// with what it sees.
+std::optional<DataNote> note_of_drift(const std::optional<double>& drift, const Map& map) {
   constexpr double kMostShare = 0.03;
-  if (!drift || !(*drift > kMostShare * length)) return std::nullopt;
+  if (!drift) return std::nullopt;
+  const double length = map.trajectory_optimized().path_length();
+  const double depth = landmark_depth(map, map.main_component());
+  if (!(*drift > kMostShare * std::max(length, depth))) return std::nullopt;
   return DataNote{
-      fmt::format("the end is known to {:.3g}{} relative to the beginning, {:.0f} % of the path",
-                  *drift, metric ? " m" : "", 100 * *drift / length),
+      fmt::format("the end is known to {:.3g}{} relative to the beginning, {:.0f} % of the {}",
+                  *drift, map.metric ? " m" : "", 100 * *drift / std::max(length, depth),
+                  length > depth ? "path" : "depth of the scene"),
       false, NoteCause::kDrift, "places that are seen again reduce it"};
 }
 
@@ -206,7 +211,7 @@ Judgement judge(RunResult& run, const std::vector<DataNote>& notes, double min_p
   std::vector<DataNote> of_motion;
   for (const MapComponent& component : run.map.components()) {
     const Trajectory trajectory = run.map.trajectory_optimized(component.number);
-    add(odd_steps(trajectory), of_motion);
+    add(odd_steps(trajectory, landmark_depth(run.map, component.number)), of_motion);
     add(odd_order(trajectory), of_motion);
   }
   const DataNote* const doubt = first_doubt(findings, of_motion);
@@ -216,8 +221,7 @@ Judgement judge(RunResult& run, const std::vector<DataNote>& notes, double min_p
       drift_of(run.map.place_graph, run.map.metric ? run.odometry_error : std::nullopt);
   run.map.metric = judgement.metric;
   if (judgement.metric) judgement.expected_drift_m = drift;
-  add(note_of_drift(drift, run.map.trajectory_optimized().path_length(), judgement.metric),
-      findings);
+  add(note_of_drift(drift, run.map), findings);
   findings.insert(findings.end(), of_motion.begin(), of_motion.end());
   add(note_of_confidence(run.map.frames), findings);
   add(note_of_spans(run.map.frames), findings);

@@ -224,18 +224,30 @@ constexpr std::size_t kFewestSteps = 20;
 
 }  // namespace
 
-std::optional<DataNote> odd_steps(const Trajectory& trajectory) {
+double landmark_depth(const Map& map, int component) {
+  const MapIndex index(map);
+  std::vector<double> depths;
+  for (const PointLandmark& landmark : map.landmarks)
+    if (const auto seen_by = index.find(landmark.keyframe);
+        seen_by && seen_by->component == component)
+      depths.push_back(seen_by->S_map_keyframe().scale() * landmark.point_cam.z());
+  return depths.empty() ? 0 : median_of(std::move(depths));
+}
+
+std::optional<DataNote> odd_steps(const Trajectory& trajectory, double landmark_depth) {
   constexpr std::size_t kBeside = 2;
-  constexpr double kOfNeighbours = 5, kOfUsual = 3, kUsual = 0.9;
+  constexpr double kOfNeighbours = 5, kOfUsual = 3, kUsual = 0.9, kOfDepth = 0.01;
   const std::vector<Step> steps = steps_of(trajectory);
   if (steps.size() < kFewestSteps) return std::nullopt;
-  const double usual = length_quantile(steps, kUsual);
+  const double least =
+      std::max(kOfUsual * length_quantile(steps, kUsual), kOfDepth * landmark_depth);
   std::vector<std::size_t> jumps;
   for (std::size_t k = kBeside; k + kBeside < steps.size(); ++k) {
-    double neighbour = usual * kOfUsual / kOfNeighbours;
+    double neighbour = 0;
     for (std::size_t d = 1; d <= kBeside; ++d)
       neighbour = std::max({neighbour, steps[k - d].length(), steps[k + d].length()});
-    if (steps[k].length() > kOfNeighbours * neighbour) jumps.push_back(steps[k].frame);
+    if (steps[k].length() > std::max(least, kOfNeighbours * neighbour))
+      jumps.push_back(steps[k].frame);
   }
   if (jumps.empty()) return std::nullopt;
   return DataNote{fmt::format("the position jumps in {} frames, the first is pose {} of the "

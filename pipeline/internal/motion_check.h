@@ -48,9 +48,15 @@ std::optional<DataNote> odd_sides(const NearestSides& sides);
 std::optional<DataNote> odd_height(const NearestSides& sides, Sensor sensor,
                                    double camera_height_m);
 
+/// Median depth of a component's landmarks in the cameras of their keyframes, in the unit of the
+/// component's poses; 0 without landmarks.
+double landmark_depth(const Map& map, int component);
+
 /// Reports frames whose position jumps: the step from the frame before is longer than five times
-/// each of the two steps before and after it and than three times nine tenths of all steps.
-std::optional<DataNote> odd_steps(const Trajectory& trajectory);
+/// each of the two steps before and after it, than three times nine tenths of all steps, and than
+/// a hundredth of `landmark_depth`. What is shorter the images hardly show: where the camera turns
+/// at the place, the correction by a loop is longer than all steps.
+std::optional<DataNote> odd_steps(const Trajectory& trajectory, double landmark_depth);
 
 /// Reports a camera that moves to and fro from frame to frame, as if images had changed places: a
 /// tenth of the steps that are no shorter than half of the median are opposite to the one before,

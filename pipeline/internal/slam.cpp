@@ -55,6 +55,7 @@ struct Slam::Impl {
   void add_keyframe(const NewKeyframe& keyframe, FrameResult& result);
   void add_motion(KeyframeId keyframe);
   void classify_environment(const NewKeyframe& keyframe);
+  void assume_environment();
   void close_loops(FrameResult& result);
   void optimized(const IncrementalStep& step);
   void take_up(const Map& map, const PlaceHistory& history, const Frame& last);
@@ -348,7 +349,12 @@ void Slam::Impl::classify_environment(const NewKeyframe& keyframe) {
   const auto kind = environments.kind();
   log(log_sink, LogLevel::kInfo, "frame {}: environment {}", keyframe.frame.id,
       (kind ? environment_name(*kind) : std::string("unknown")));
-  if (!options.context.assume) return;
+  assume_environment();
+}
+
+void Slam::Impl::assume_environment() {
+  if (!options.context.enabled || !options.context.assume) return;
+  const auto kind = environments.kind();
   odometry.assume(kind ? std::optional(assumptions_of(*kind)) : std::nullopt);
 }
 
@@ -392,7 +398,10 @@ void Slam::Impl::take_up(const Map& map, const PlaceHistory& history, const Fram
   recovery.take_up(newest, history.median_depth_m, known());
   odometry.go_on_from(++KeyframeId(newest), history.median_depth_m);
   odometry.restart(recovery.T_map_last(), true);
-  if (!history.evidence.empty()) counted = take_up_evidence(history.evidence, evidence(), last);
+  if (!history.evidence.empty()) {
+    counted = take_up_evidence(history.evidence, evidence(), last);
+    assume_environment();
+  }
   FrameResult seen_again;
   add_keyframes(odometry.add_frame(last, recovery.T_map_last()), seen_again);
 }

@@ -12,6 +12,7 @@ namespace placegraph {
 struct NuisanceEvidence {
   Eigen::VectorXd gradient;
   Eigen::MatrixXd information;
+  void visit_state(auto& archive) { archive(gradient, information); }
 };
 
 /// The evidence about what is common, if the evidence is of parameters that differ from it by

@@ -45,6 +45,7 @@ class RectificationEstimator {
   RectificationError error() const { return {state_[1], state_[2], state_[3]}; }
   /// Covariance of offset, by_x, by_y [px^2].
   Eigen::Matrix3d covariance() const { return covariance_.bottomRightCorner<3, 3>(); }
+  void visit_state(auto& archive) { archive(state_, covariance_); }
 
  private:
   RectificationOptions options_;

@@ -30,6 +30,7 @@ class RgbdErrors {
   explicit RgbdErrors(const Vector& values) : values_(values) {}
   const Vector& values() const { return values_; }
   bool any() const { return !values_.isZero(0); }
+  void visit_state(auto& archive) { archive(values_); }
 
   /// Effect of the errors on the observation of a point at `p_cam` [m] at pixel `px`, if the camera
   /// moves by `twist` ([velocity m/s, rotation rad/s], right tangent). `surface_cam`: g of the

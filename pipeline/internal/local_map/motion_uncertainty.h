@@ -6,10 +6,6 @@
 
 namespace placegraph {
 
-void visit_state(auto& archive, NuisanceEvidence& evidence) {
-  archive(evidence.gradient, evidence.information);
-}
-
 /// Errors of a motion by the imaging errors and, in the last column, by the stated length.
 using SharedErrors = Eigen::Matrix<double, 6, ImagingErrors::kParameters + 1>;
 

@@ -41,6 +41,8 @@ class RgbdCalibrator {
   /// The mean over the windows that share no keyframe, and `newest`, and a prior about zero. The
   /// windows' own errors are as large as their dispersion shows (a model of random effects).
   Estimate estimate(const std::optional<NuisanceEvidence>& newest) const;
+  /// What is learned of the camera, and how the motions depend on it; not the window.
+  void visit_state(auto& archive) { archive(applied_, windows_, newest_, motions_); }
 
  private:
   NuisanceEquations equations(const WindowState& state) const;
@@ -59,6 +61,7 @@ class RgbdCalibrator {
   struct Motion {
     Eigen::Matrix<double, 6, RgbdErrors::kParameters> by_errors = decltype(by_errors)::Zero();
     RgbdErrors::Vector corrected = RgbdErrors::Vector::Zero();  // errors that it was estimated with
+    void visit_state(auto& archive) { archive(by_errors, corrected); }
   };
   std::map<KeyframeId, Motion> motions_;  // by the keyframe at the end
   std::size_t since_motions_ = 0;         // keyframes since their derivatives were computed

@@ -25,6 +25,8 @@ class StereoRectifier {
   /// Updates the estimate with the landmarks of the window, and with `lines` if given, and corrects
   /// all disparities in the window accordingly.
   void calibrate(SlidingWindow& window, LineCue* lines);
+  /// What is learned of the pair; not the window.
+  void visit_state(auto& archive) { archive(estimator_); }
 
  private:
   std::optional<DisparitySample> sample(const SlidingWindow& window, LandmarkId landmark) const;

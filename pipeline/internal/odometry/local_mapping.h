@@ -36,7 +36,14 @@ class LocalMapping {
   MetricScale& scale() { return scale_; }
   const MetricScale& scale() const { return scale_; }
   const LensEstimator& lens() const { return lens_; }
-  void visit_state(auto& archive) { archive(lens_); }
+  /// What is learned of the cameras. Once read, `tracker` corrects its observations by it.
+  void visit_state(auto& archive, FrameTracker& tracker) {
+    archive(lens_);
+    if (rectifier_) archive(*rectifier_);
+    if (!rgbd_) return;
+    archive(*rgbd_);
+    if (archive.kReads) tracker.correct(rgbd_->errors());
+  }
   /// Changes of motions by what has been learned about the errors of an RGB-D camera since they
   /// left the window, see RgbdCalibrator::corrections().
   std::map<KeyframeId, Vector6d> corrections() const;

@@ -67,7 +67,10 @@ class Odometry {
   /// Lens distortion over all track segments; not estimated for a stereo camera.
   const LensEstimator& lens() const { return mapping_.lens(); }
   /// What is learned of the camera and of the motion over all track segments.
-  void visit_state(auto& archive) { archive(map_, mapping_); }
+  void visit_state(auto& archive) {
+    archive(map_);
+    mapping_.visit_state(archive, *tracker_);
+  }
   /// See RgbdCalibrator::corrections().
   std::map<KeyframeId, Vector6d> corrections() const { return mapping_.corrections(); }
   /// Tracks and ground of the last frame; nothing if it is lost.

@@ -37,11 +37,9 @@ Matrix6d covariance_of(const Loop& loop) {
 }  // namespace
 
 double LoopFeed::factor() const {
-  const std::size_t begin = innovations_.size() - std::min(innovations_.size(), kNewest);
   return least_consistent([&](double factor) {
     std::vector<double> squares(kFewest - std::min(innovations_.size(), kFewest), 0.0);
-    for (std::size_t i = begin; i < innovations_.size(); ++i) {
-      const Innovation& each = innovations_[i];
+    for (const Innovation& each : innovations_) {
       const Matrix6d covariance = factor * each.of_loop + each.of_map;
       squares.push_back(each.error.dot(covariance.ldlt().solve(each.error)));
     }
@@ -63,6 +61,7 @@ void LoopFeed::add(const std::vector<Loop>& stated, PlaceMapper& mapper) {
   const Vector7d error = (predicted->S_a_b.inverse() * newest.S_match_query()).log();
   innovations_.push_back(
       {error.head<6>(), covariance_of(newest), predicted->covariance.topLeftCorner<6, 6>()});
+  if (innovations_.size() > kNewest) innovations_.erase(innovations_.begin());
 }
 
 void LoopFeed::finish(PlaceMapper& mapper) {

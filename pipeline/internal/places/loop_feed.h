@@ -24,18 +24,21 @@ class LoopFeed {
   /// normalized by the covariances of loop and map, have the median of a chi-squared variable of 6
   /// degrees of freedom.
   double factor() const;
+  void visit_state(auto& archive) { archive(added_, innovations_); }
 
  private:
   struct Innovation {
     Vector6d error;
     Matrix6d of_loop, of_map;  // covariances
+    void visit_state(auto& archive) { archive(error, of_loop, of_map); }
   };
   struct Added {
-    std::size_t number;  // by which the graph knows the loop
-    double factor;       // on its covariance
+    std::size_t number = 0;  // by which the graph knows the loop
+    double factor = 1;       // on its covariance
+    void visit_state(auto& archive) { archive(number, factor); }
   };
   std::vector<Added> added_;
-  std::vector<Innovation> innovations_;
+  std::vector<Innovation> innovations_;  // the newest
 };
 
 }  // namespace placegraph

@@ -121,7 +121,8 @@ std::size_t PlaceMapper::add_loop(const Loop& loop) {
 }
 
 void PlaceMapper::scale_loop_covariance(std::size_t number, double factor) {
-  Loop& loop = loops_.at(number);
+  require(number < loops_.size(), "PlaceMapper::scale_loop_covariance: an unknown loop");
+  Loop& loop = loops_[number];
   Vector7d scale = Vector7d::Constant(1 / std::sqrt(factor));
   scale[6] = 1;
   loop.information = scale.asDiagonal() * loop.information * scale.asDiagonal();

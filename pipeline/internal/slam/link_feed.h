@@ -43,8 +43,9 @@ class LinkFeed {
   void note_errors(KeyframeId first, const LocalMap& map, const PlaceMapper& mapper);
   /// Passes all uncertainties again.
   void finish(const LocalMap& map, PlaceMapper& mapper);
-  /// The errors that were noted; when read, those of the run that was interrupted.
-  void visit_state(auto& archive) { archive(archive.kReads ? earlier_ : noted_); }
+  /// What loops have shown, and the errors that were noted; when read, the latter are those of the
+  /// run that was interrupted.
+  void visit_state(auto& archive) { archive(loops_, archive.kReads ? earlier_ : noted_); }
 
  private:
   Loop with_errors(const Loop& loop, const LocalMap& map) const;

@@ -6,7 +6,7 @@ namespace placegraph {
 namespace {
 
 /// Version of the bytes; another one cannot be read.
-constexpr std::uint8_t kEvidenceVersion = 1;
+constexpr std::uint8_t kEvidenceVersion = 2;
 
 void visit_sources(auto& archive, const EvidenceSources& sources) {
   archive(sources.odometry, sources.links, sources.health, sources.contradicted,

@@ -14,7 +14,8 @@ struct Part {
   Eigen::Vector3d vector = Eigen::Vector3d::Zero();
   SE3 pose;
   std::array<bool, 3> flags{};
-  void visit_state(auto& archive) { archive(frame, values, matrix, vector, pose, flags); }
+  std::map<FrameId, double> numbers;
+  void visit_state(auto& archive) { archive(frame, values, matrix, vector, pose, flags, numbers); }
 };
 
 Part random_part(Random& random) {
@@ -26,6 +27,7 @@ Part random_part(Random& random) {
   part.vector = Eigen::Vector3d::Random();
   part.pose = SE3::exp(Vector6d::Random());
   part.flags[random.index(3)] = true;
+  for (int i = random.index(5); i > 0; --i) part.numbers[FrameId(random.index(9))] = random.uniform();
   return part;
 }
 
@@ -48,6 +50,7 @@ TEST(StateArchive, ReadAfterWriteIsIdentity) {
     EXPECT_EQ(read.values, part.values);
     EXPECT_EQ(read.vector, part.vector);
     EXPECT_EQ(read.flags, part.flags);
+    EXPECT_EQ(read.numbers, part.numbers);
   }
 }
 

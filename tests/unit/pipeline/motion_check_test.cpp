@@ -3,6 +3,8 @@
 #include <placegraph/graph/internal/core/angle.h>
 #include <placegraph/pipeline/internal/motion_check.h>
 
+#include "tests/support/seed.h"
+
 namespace placegraph {
 namespace motion_check_test {
 
@@ -116,10 +118,10 @@ TEST(OddHeight, ContradictsTheBaselineOrTheDepths) {
 
 TEST(OddSteps, AreLongerThanThoseBesideThem) {
   Trajectory trajectory = drive(10, kY, 90);
-  EXPECT_FALSE(odd_steps(trajectory));
+  EXPECT_FALSE(odd_steps(trajectory, 20));
   for (std::size_t i = 100; i < trajectory.size(); ++i)
     trajectory.poses[i].T_world_body->pretranslate(Eigen::Vector3d(0, 0, 12));
-  const auto note = odd_steps(trajectory);
+  const auto note = odd_steps(trajectory, 20);
   ASSERT_TRUE(note);
   EXPECT_EQ(note->cause, NoteCause::kJump);
   EXPECT_THAT(note->text, HasSubstr("jumps in 1 frames, the first is pose 100"));
@@ -128,9 +130,40 @@ TEST(OddSteps, AreLongerThanThoseBesideThem) {
 TEST(OddSteps, AreNotThoseOfACameraThatStartsOrStops) {
   Trajectory trajectory = drive(10, kY, 0);
   for (std::size_t i = 0; i < 80; ++i) trajectory.poses[i] = trajectory.poses[80];
-  EXPECT_FALSE(odd_steps(trajectory));
+  EXPECT_FALSE(odd_steps(trajectory, 0));
   trajectory.poses.resize(10);
-  EXPECT_FALSE(odd_steps(trajectory));
+  EXPECT_FALSE(odd_steps(trajectory, 0));
+}
+
+// A camera that turns at the place, whose poses a loop corrects, is no recording with a gap.
+TEST(OddSteps, AreShownByTheImages) {
+  Random random = test::seeded_random(2);
+  for (int round = 0; round < 50; ++round) {
+    const double depth = std::exp(random.uniform(-2, 5));
+    Trajectory trajectory = drive(1e-3 * depth, kY, 90);
+    const auto jumping = [&](double jump) {
+      Trajectory result = trajectory;
+      const int first = 10 + random.index(180);
+      for (std::size_t i = static_cast<std::size_t>(first); i < result.size(); ++i)
+        result.poses[i].T_world_body->pretranslate(Eigen::Vector3d(0, jump * depth, 0));
+      return result;
+    };
+    EXPECT_FALSE(odd_steps(jumping(random.uniform(0, 0.0095)), depth)) << round;
+    EXPECT_TRUE(odd_steps(jumping(random.uniform(0.0105, 1)), depth)) << round;
+  }
+}
+
+TEST(LandmarkDepth, IsTheMedianOfTheComponent) {
+  Map map = map_with(5, 5, 5);
+  EXPECT_EQ(landmark_depth(Map(), 0), 0);
+  EXPECT_EQ(landmark_depth(map, 1), 0);
+  std::vector<double> depths;
+  for (const PointLandmark& landmark : map.landmarks) depths.push_back(landmark.point_cam.z());
+  const double once = landmark_depth(map, 0);
+  EXPECT_GE(once, *std::ranges::min_element(depths));
+  EXPECT_LE(once, *std::ranges::max_element(depths));
+  map.place_graph.places[0].scale = 3;
+  EXPECT_NEAR(landmark_depth(map, 0), 3 * once, 1e-9);
 }
 
 TEST(OddOrder, IsThatOfImagesThatChangedPlaces) {

@@ -93,6 +93,21 @@ TEST(ExpectedDrift, IsReportedBeyondTheTwentiethPartOfThePath) {
   EXPECT_TRUE(reports_drift(judged(path_of(17, 0.2), {}, 0.5)));
 }
 
+// A camera that turns at the place has hardly a path, but a view.
+TEST(ExpectedDrift, IsComparedWithTheDepthOfTheSceneWhereThePathIsShorter) {
+  for (const auto& [depth, reported] : {std::pair(10.0, "9 % of the path"),
+                                        std::pair(20.0, "7 % of the depth of the scene"),
+                                        std::pair(60.0, "")}) {
+    RunResult run = path_of(17, 0.2);
+    run.map.landmarks.push_back({.keyframe = KeyframeId(3), .point_cam = {1, 2, depth}});
+    const Judgement judgement = judge(run, {}, 0.5);
+    const auto note = std::ranges::find(judgement.findings, NoteCause::kDrift, &DataNote::cause);
+    ASSERT_EQ(note == judgement.findings.end(), std::string(reported).empty()) << depth;
+    if (note != judgement.findings.end())
+      EXPECT_TRUE(note->text.ends_with(reported)) << note->text;
+  }
+}
+
 TEST(ExpectedDrift, IsUnknownForAPlaceAlone) {
   EXPECT_FALSE(judged(path_of(1, 0.01), {}, 0.5).expected_drift_m);
 }

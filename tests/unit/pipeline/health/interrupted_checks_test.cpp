@@ -1,6 +1,5 @@
 // Checks that go on from a saved state say what they would have said without an interruption.
 #include <gtest/gtest.h>
-#include <placegraph/graph/internal/state_archive.h>
 #include <placegraph/pipeline/internal/health/contradicted_steps.h>
 #include <placegraph/pipeline/internal/health/depth_range.h>
 #include <placegraph/pipeline/internal/health/flow_check.h>
@@ -14,6 +13,7 @@
 
 #include <opencv2/core.hpp>
 
+#include "tests/support/saved_state.h"
 #include "tests/support/scenes/scene.h"
 #include "tests/support/seed.h"
 
@@ -44,14 +44,7 @@ std::string said_by(Random& random, const Check& fresh, const Add& add) {
     Random same = random;
     add(whole, i, random);
     add(interrupted, i, same);
-    if (i == end) {
-      StateWriter writer;
-      writer(interrupted);
-      interrupted = fresh;
-      StateReader reader(writer.written());
-      reader(interrupted);
-      reader.end();
-    }
+    if (i == end) interrupted = test::resumed(interrupted, fresh);
     EXPECT_EQ(notes_of(whole), notes_of(interrupted)) << "step " << i << ", interrupted at " << end;
   }
   return notes_of(whole);
@@ -137,14 +130,8 @@ TEST(InterruptedChecks, PatchesThatStandAreRemembered) {
       }
     whole.compare(image, {});
     interrupted.compare(image, {});
-    if (random.uniform() < 0.3) {
-      StateWriter writer;
-      writer(interrupted);
-      interrupted = StandingPatches({}, camera);
-      StateReader reader(writer.written());
-      reader(interrupted);
-      reader.end();
-    }
+    if (random.uniform() < 0.3)
+      interrupted = test::resumed(interrupted, StandingPatches({}, camera));
     EXPECT_EQ(whole.suspects(), interrupted.suspects()) << i;
     EXPECT_EQ(cv::norm(whole.elsewhere(), interrupted.elsewhere(), cv::NORM_INF), 0) << i;
   }

@@ -3,7 +3,9 @@
 
 #include <Eigen/LU>
 
+#include "tests/support/saved_state.h"
 #include "tests/support/scenes/window_world.h"
+#include "tests/support/seed.h"
 
 namespace placegraph {
 namespace rgbd_calibrator_test {
@@ -104,6 +106,31 @@ TEST(RgbdCalibrator, EarlierMotionsFollowWhatIsLearnedLater) {
     after += (T_true.inverse() * T_found * SE3::exp(corrections.at(to))).log().squaredNorm();
   }
   EXPECT_LT(std::sqrt(after), 0.3 * std::sqrt(before));
+}
+
+// After an interruption that falls between any two windows, it knows of the camera and of all earlier
+// motions what it would have known without.
+TEST(RgbdCalibrator, GoesOnFromItsStateAsIfItHadNotBeenInterrupted) {
+  constexpr int kWindows = 4;
+  Random random = seeded_random(6);
+  for (int interrupted_at = 1; interrupted_at < kWindows; ++interrupted_at) {
+    RgbdCalibrator whole(window_camera(), kKeyframes), interrupted = whole;
+    const RgbdErrors truth = errors_of(random.uniform(0.01, 0.03), random.uniform(-0.03, -0.01));
+    for (int k = 0; k < kWindows; ++k) {
+      if (k == interrupted_at)
+        interrupted = resumed(interrupted, RgbdCalibrator(window_camera(), kKeyframes));
+      for (RgbdCalibrator* each : {&whole, &interrupted}) {
+        const RgbdErrors left(truth.values() - each->errors().values());
+        SlidingWindow window = window_of(left, *each, 100 * k);
+        ASSERT_TRUE(window.optimize().outcome);
+        each->calibrate(window);
+        for (int i = 0; i < kKeyframes; ++i) each->add_motions(window);
+      }
+    }
+    EXPECT_EQ(interrupted.errors().values(), whole.errors().values()) << interrupted_at;
+    EXPECT_GE(whole.corrections().size(), kKeyframes - 1u);
+    EXPECT_EQ(interrupted.corrections(), whole.corrections()) << interrupted_at;
+  }
 }
 
 TEST(RgbdCalibrator, HardlyChangesObservationsThatNothingContradicts) {

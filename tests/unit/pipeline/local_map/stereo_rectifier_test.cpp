@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/pipeline/internal/local_map/stereo_rectifier.h>
 
+#include "tests/support/saved_state.h"
 #include "tests/support/scenes/window_world.h"
 
 namespace placegraph {
@@ -78,6 +79,22 @@ TEST(StereoRectifier, HearsEachLandmarkOnce) {
   const double once = r.error().offset_px;
   r.calibrate(window, nullptr);
   EXPECT_NEAR(r.error().offset_px, once, 1e-6);
+}
+
+TEST(StereoRectifier, GoesOnFromItsStateAsIfItHadNotBeenInterrupted) {
+  const RectificationError error{-0.4, 0.3, 0.2};
+  StereoRectifier whole = rectifier(), interrupted = rectifier();
+  for (int k = 0; k < 4; ++k) {
+    if (k > 0) interrupted = resumed(interrupted, rectifier());
+    for (StereoRectifier* each : {&whole, &interrupted}) {
+      SlidingWindow window = window_of(error, 1000 * k);
+      each->calibrate(window, nullptr);
+    }
+    EXPECT_EQ(interrupted.error().offset_px, whole.error().offset_px) << k;
+    EXPECT_EQ(interrupted.error().by_x_px, whole.error().by_x_px) << k;
+    EXPECT_EQ(interrupted.error().by_y_px, whole.error().by_y_px) << k;
+  }
+  EXPECT_NE(whole.error().offset_px, 0);
 }
 
 TEST(StereoRectifier, LandmarksOfTooFewViewsTellNothing) {

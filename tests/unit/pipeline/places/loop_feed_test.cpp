@@ -5,6 +5,7 @@
 #include <placegraph/pipeline/internal/places/loop_feed.h>
 
 #include "tests/support/place_links.h"
+#include "tests/support/saved_state.h"
 
 namespace placegraph {
 namespace loop_feed_test {
@@ -31,8 +32,10 @@ struct Rounds {
   }
 };
 
-/// Every `wrong_every`-th loop errs by a metre.
-Rounds rounds(int corners, double times_m, double times_rad, int wrong_every = 0) {
+/// Every `wrong_every`-th loop errs by a metre; before corner `interrupted_at` the loops are saved
+/// and taken up again.
+Rounds rounds(int corners, double times_m, double times_rad, int wrong_every = 0,
+              int interrupted_at = -1) {
   PlaceOptions options;
   options.merge = false;
   Rounds result{PlaceMapper(options), {}};
@@ -45,6 +48,7 @@ Rounds rounds(int corners, double times_m, double times_rad, int wrong_every = 0
         link(i - 1, disturbed(side, kSigma_m, kSigma_rad, random), kSigma_m, kSigma_rad), {},
         kDepth_m);
     (void)result.mapper.optimize();
+    if (i == interrupted_at) result.loops = resumed(result.loops, LoopFeed());
     if (i < 4) continue;
     SE3 measured = disturbed(SE3(), times_m * kSigma_m, times_rad * kSigma_rad, random);
     if (wrong_every && i % wrong_every == 0) measured = measured * pose({0, 0, 0}, {1, 0, 0});
@@ -88,6 +92,17 @@ TEST(LoopFeed, LoopsThatAreFoundAtOnceAreOneObservationOfTheMap) {
   LoopFeed loops;
   loops.add(found, mapper);
   EXPECT_EQ(loops.factor(), 1);
+}
+
+TEST(LoopFeed, KnowsTheSameAfterAnInterruption) {
+  Rounds whole = rounds(100, 6, 6);
+  whole.loops.finish(whole.mapper);
+  for (const int at : {1, 10, 50, 99}) {
+    Rounds interrupted = rounds(100, 6, 6, 0, at);
+    EXPECT_EQ(interrupted.loops.factor(), whole.loops.factor()) << at;
+    interrupted.loops.finish(interrupted.mapper);
+    EXPECT_EQ(interrupted.variance_of_first_loop(), whole.variance_of_first_loop()) << at;
+  }
 }
 
 TEST(LoopFeed, EarlierLoopsGetWhatWasLearnedLater) {
