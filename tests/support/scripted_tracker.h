@@ -22,17 +22,15 @@ class ScriptedTracker : public FrameTracker {
 
   const char* stage() const override { return "script"; }
   void see_first(const Frame&) override { asked.emplace_back("see_first"); }
-  TrackedFrame track(const Frame&, const LocalMap&, const MotionModel&, Random&) override {
-    return {};
-  }
+  TrackedFrame track(const Frame&, const LocalMap&, const MotionModel&) override { return {}; }
   std::optional<SE3> prepare_keyframe(const KeyframeImages& images, const SE3& T_odom_cam,
-                                      const LocalMap&, Random&) override {
+                                      const LocalMap&) override {
     asked.emplace_back("prepare");
     masks.push_back(images.frame.mask);
     return shows_a_keyframe ? std::optional(T_odom_cam) : std::nullopt;
   }
-  void observe(const KeyframeImages&, const RectificationError& rectification, LocalMap& map,
-               Random&) override {
+  void observe(const KeyframeImages&, const RectificationError& rectification,
+               LocalMap& map) override {
     asked.emplace_back("observe");
     rectifications.push_back(rectification);
     if (observation) observation(rectification, map);

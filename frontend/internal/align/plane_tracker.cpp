@@ -280,7 +280,8 @@ PlaneTrack PlaneTracker::search(const View& view) const {
 PlaneTrack PlaneTracker::find(const View& view) {
   PlaneTrack track = lost(Outcome::failure(Code::kNoConsensus, "not found by features either"),
                           PlaneTrackSource::kFeatures);
-  for (const FoundPlace& place : finder_.find(view.image, random_)) {
+  Random random(options_.align.swarm.seed, "template", {frames_});
+  for (const FoundPlace& place : finder_.find(view.image, random)) {
     if (seen_area_px(place.H_cur_ref, corners_px_) < options_.min_area_px) continue;
     PlaneTrack there = aligned(view, place.H_cur_ref, options_.align, least_similarity_found(),
                                PlaneTrackSource::kFeatures);

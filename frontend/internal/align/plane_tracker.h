@@ -136,7 +136,6 @@ class PlaneTracker {
   std::optional<Camera> camera_;
   PlanarTemplate template_;
   TemplateFinder finder_;
-  Random random_{1};
   Outcome outcome_;
   NullDistribution chance_;
   std::optional<PlaneNormalEstimator> normal_;

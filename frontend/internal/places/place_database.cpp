@@ -42,7 +42,7 @@ void PlaceDatabase::train() {
   for (const View& view : views_)
     for (std::size_t i = 0; i < view.descriptors.size(); i += stride)
       sample.push_back(view.descriptors[i]);
-  Random random(seed_, views_.size());
+  Random random(seed_, "vocabulary", {static_cast<std::int64_t>(views_.size())});
   vocabulary_ = Vocabulary::train(sample, options_.vocabulary, random);
   trained_views_ = views_.size();
 

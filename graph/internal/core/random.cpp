@@ -7,6 +7,27 @@
 #include <string>
 
 namespace placegraph {
+namespace {
+
+/// A number in which every bit depends on all bits of both (the finalizer of SplitMix64).
+std::uint64_t mixed(std::uint64_t a, std::uint64_t b) {
+  std::uint64_t x = (a + 1) * 0x9e3779b97f4a7c15ULL + b;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
+  return x ^ (x >> 31);
+}
+
+std::uint64_t stream_of(std::string_view step, std::initializer_list<std::int64_t> item) {
+  std::uint64_t stream = step.size();
+  for (const char letter : step) stream = mixed(stream, static_cast<unsigned char>(letter));
+  for (const std::int64_t number : item) stream = mixed(stream, static_cast<std::uint64_t>(number));
+  return stream;
+}
+
+}  // namespace
+
+Random::Random(std::uint64_t seed, std::string_view step, std::initializer_list<std::int64_t> item)
+    : Random(seed, stream_of(step, item)) {}
 
 Random::Random(std::uint64_t seed, std::uint64_t stream)
     : state_(0), increment_((stream << 1) | 1) {

@@ -1,5 +1,7 @@
 #pragma once
 #include <cstdint>
+#include <initializer_list>
+#include <string_view>
 #include <vector>
 
 namespace placegraph {
@@ -9,6 +11,9 @@ namespace placegraph {
 class Random {
  public:
   explicit Random(std::uint64_t seed, std::uint64_t stream = 0);
+  /// The stream of one step of an algorithm for one item: a frame, or the frames of a pair. Streams
+  /// of other steps and items are others, so that no step changes the numbers of another.
+  Random(std::uint64_t seed, std::string_view step, std::initializer_list<std::int64_t> item);
 
   std::uint32_t next();                            ///< uniform over 32 bits
   int index(int n);                                ///< uniform in [0, n), n >= 1, unbiased

@@ -145,7 +145,7 @@ void ManhattanCue::observe(KeyframeId keyframe, const Image& image,
     if (seen) break;
   }
   if (seen) return;
-  Random random(seed_, static_cast<std::uint64_t>(keyframe.value()));
+  Random random(seed_, "Manhattan frames", {keyframe.value()});
   const SceneDirections scene =
       find_scene_directions(segments, camera_, options_.directions, random);
   for (const ManhattanFrame& frame : scene.frames) take(keyframe, segments, frame, window);

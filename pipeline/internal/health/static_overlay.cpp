@@ -105,7 +105,7 @@ bool StaticOverlay::judge(FrameId frame) {
     px_ref.push_back(px_ref_.at(track.id));
     px_cur.push_back(full(track.px));
   }
-  Random random(seed_, static_cast<std::uint64_t>(frame.value()));
+  Random random(seed_, "static overlay", {frame.value()});
   const auto motion = ImageMotion::estimate(camera_, px_ref, px_cur, random);
   return motion && patches_.judge(*motion, begun_);
 }

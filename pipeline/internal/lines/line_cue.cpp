@@ -64,7 +64,7 @@ void LineCue::steer(KeyframeId keyframe, const LineView& seen, SlidingWindow& wi
     prior.information.bottomRightCorner<3, 3>() = measured.information;
     add_pose_prior(window, prior);
   }
-  Random random(0, static_cast<std::uint64_t>(keyframe.value()));
+  Random random(0, "vanishing directions", {keyframe.value()});
   vanishing_tracker_->learn(calibration_.camera, seen, R_odom_cam, random);
 }
 

@@ -102,8 +102,7 @@ std::vector<LoopCloser::Candidate> LoopCloser::retrieve(const KnownMotions& know
 /// The relative pose of a view and an older one from their features.
 std::optional<Loop> LoopCloser::verify(const View& query, const View& match, bool free_scale,
                                        LoopRecord& record) const {
-  Random random(seed_, static_cast<std::uint64_t>(query.frame.value()) << 20 |
-                           static_cast<std::uint64_t>(match.keyframe.value()));
+  Random random(seed_, "loop", {query.frame.value(), match.keyframe.value()});
   const LoopVerification verified =
       verify_loop(describer_.camera(), query.for_verification(), match.for_verification(),
                   options_.verifier, random, free_scale);
@@ -228,8 +227,7 @@ std::optional<LocatedFrame> LoopCloser::relocalize(const Frame& frame,
        similar_views(features, recognizer_image(frame), [](KeyframeId) { return true; }))
     if (std::find(tries.begin(), tries.end(), c.id) == tries.end()) tries.push_back(c.id);
   for (const KeyframeId id : tries) {
-    Random random(seed_, static_cast<std::uint64_t>(frame.id.value()) << 20 |
-                             static_cast<std::uint64_t>(id.value()));
+    Random random(seed_, "relocalization", {frame.id.value(), id.value()});
     const LoopVerification verified = verify_loop(
         describer_.camera(), features, view(id).for_verification(), options_.verifier, random);
     // No second loop supports this one: two views and a few depths are insufficient.

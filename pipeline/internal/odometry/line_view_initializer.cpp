@@ -73,7 +73,7 @@ Initialization LineViewInitializer::add(const Frame& frame, const std::optional<
   const Initialization pending = Initialization::pending(
       Outcome::failure(Outcome::Code::kTooFewData, "more views of the lines are needed"));
   if (views_.size() < kLeastViews) return pending;
-  const LineInitialization start = motion_of_views(static_cast<std::uint64_t>(frame.id.value()));
+  const LineInitialization start = motion_of_views();
   const std::vector<double> depths = depths_of(start);
   if (!start.outcome || depths.empty()) {
     log(log_, LogLevel::kDebug, "initialization pending: {}", start.outcome.reason);
@@ -98,10 +98,10 @@ bool LineViewInitializer::enough_in_common() const {
   return common >= options_.min_lines;
 }
 
-LineInitialization LineViewInitializer::motion_of_views(std::uint64_t frame) const {
+LineInitialization LineViewInitializer::motion_of_views() const {
   std::vector<LineView> lines;
   for (const View& view : views_) lines.push_back(view.lines);
-  Random random(seed_, frame);
+  Random random(seed_, "line views", {views_.back().frame.id.value()});
   return initialize_from_lines(camera_, lines, options_, random);
 }
 

@@ -25,7 +25,7 @@ class LineViewInitializer : public Initializer {
   };
   Initialization begin(const Frame& frame);
   bool enough_in_common() const;
-  LineInitialization motion_of_views(std::uint64_t frame) const;
+  LineInitialization motion_of_views() const;
   std::vector<double> depths_of(const LineInitialization& start) const;
   std::optional<double> scale_of(double median_depth, const std::optional<SE3>& T_known,
                                  const LocalMap& map, const LocalMapping& mapping) const;

@@ -21,9 +21,8 @@ MetricScale make_scale(const OdometryOptions& options, const Calibration& calibr
 }  // namespace
 
 LocalMapping::LocalMapping(const OdometryOptions& options, const Calibration& calibration,
-                           std::uint64_t seed, LogSink log, StageTimes& times)
-    : seed_(seed),
-      log_(std::move(log)),
+                           LogSink log, StageTimes& times)
+    : log_(std::move(log)),
       times_(times),
       masks_(times),
       scale_(make_scale(options, calibration, log_)) {
@@ -53,14 +52,13 @@ void LocalMapping::assume(const std::optional<Assumptions>& assumptions) {
 
 std::optional<LocalMapping::Added> LocalMapping::add(const Frame& frame, const SE3& T_odom_cam,
                                                      FrameTracker& tracker, LocalMap& map) {
-  Random random(seed_, static_cast<std::uint64_t>(frame.id.value()));
   const KeyframeImages images = masks_.apply(frame);
-  const auto T_odom_keyframe = tracker.prepare_keyframe(images, T_odom_cam, map, random);
+  const auto T_odom_keyframe = tracker.prepare_keyframe(images, T_odom_cam, map);
   if (!T_odom_keyframe) return std::nullopt;
   const KeyframeId id = map.add_keyframe(*T_odom_keyframe, frame.stamp_ns);
   const std::optional<Vector6d> velocity = tracker.velocity();
   if (rgbd_ && velocity) rgbd_->add_keyframe(id, *velocity);
-  tracker.observe(images, rectification(), map, random);
+  tracker.observe(images, rectification(), map);
   NewKeyframe keyframe{id, images.frame, images.labels, FrameErrors()};
   Added added{std::move(keyframe), {}, measure_scale(images, tracker, map)};
   refine(tracker, map);

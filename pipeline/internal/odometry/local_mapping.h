@@ -13,8 +13,8 @@ namespace placegraph {
 class LocalMapping {
  public:
   /// `times`, which must outlive the object, receives the CPU time of its stages.
-  LocalMapping(const OdometryOptions& options, const Calibration& calibration, std::uint64_t seed,
-               LogSink log, StageTimes& times);
+  LocalMapping(const OdometryOptions& options, const Calibration& calibration, LogSink log,
+               StageTimes& times);
 
   struct Added {
     NewKeyframe keyframe;
@@ -55,7 +55,6 @@ class LocalMapping {
   void calibrate(FrameTracker& tracker, LocalMap& map);
   void use_errors(const RgbdCalibrator& rgbd, FrameTracker& tracker, LocalMap& map);
 
-  std::uint64_t seed_;
   LogSink log_;
   StageTimes& times_;
   KeyframeMasks masks_;

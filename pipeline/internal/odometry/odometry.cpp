@@ -8,10 +8,9 @@ Odometry::Odometry(const OdometryOptions& options, const Calibration& calibratio
                    std::uint64_t seed, LogSink log, StageTimes& times)
     : options_((options.check(), options)),
       calibration_((calibration.check(), calibration)),
-      seed_(seed),
       log_(std::move(log)),
       times_(times),
-      mapping_(options, calibration, seed, log_, times),
+      mapping_(options, calibration, log_, times),
       map_(make_local_map(options, calibration, mapping_.scale().available())) {
   auto [tracker, initializer] = make_tracker(options, calibration, seed, log_, times);
   tracker_ = std::move(tracker);
@@ -30,15 +29,14 @@ OdometryUpdate Odometry::add_frame(const Frame& frame, const std::optional<SE3>&
 
 OdometryUpdate Odometry::track(const Frame& frame) {
   const auto span = times_.measure(tracker_->stage());
-  Random random(seed_, static_cast<std::uint64_t>(frame.id.value()));
   OdometryUpdate update;
 
   // 1. Pose the frame against the local map, starting at the prediction of the motion model.
-  TrackedFrame tracked = tracker_->track(frame, map_, motion_, random);
+  TrackedFrame tracked = tracker_->track(frame, map_, motion_);
   if (!tracked.outcome)
     if (const auto last = tracker_->keyframe_to_retry_from();
         last && add_keyframe(*last, motion_.T_odom_cam(), update))
-      tracked = tracker_->track(frame, map_, motion_, random);
+      tracked = tracker_->track(frame, map_, motion_);
   update.state = tracked.outcome ? TrackingState::kTracking : TrackingState::kLost;
   update.outcome = tracked.outcome;
   update.inliers = tracked.inliers;

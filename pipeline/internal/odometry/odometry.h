@@ -83,7 +83,6 @@ class Odometry {
 
   OdometryOptions options_;
   Calibration calibration_;
-  std::uint64_t seed_;
   LogSink log_;
   StageTimes& times_;
   LocalMapping mapping_;

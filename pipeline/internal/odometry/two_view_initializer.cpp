@@ -82,17 +82,16 @@ Initialization TwoViewInitializer::begin(const Frame& frame, LocalMapping& mappi
 Initialization TwoViewInitializer::try_second_view(const Frame& frame,
                                                    const std::optional<SE3>& T_known, LocalMap& map,
                                                    LocalMapping& mapping) {
-  Random random(seed_, static_cast<std::uint64_t>(frame.id.value()));
   views_.push_back(view_of(frame.id));
-  const auto rotation = [&] { return tracker_.rotation_since(views_.front().px, random); };
+  const auto rotation = [&] { return tracker_.rotation_since(views_.front().px, frame.id); };
   if (static_cast<int>(views_.back().px.size()) < 2 * options_.initializer.min_points)
     return replace_reference(frame, T_known, rotation(), map, mapping);
-  MonoInitialization start = motion_to_newest(random);
+  MonoInitialization start = motion_to_newest();
   if (start.outcome && rotation())
     start.outcome = Outcome::failure(Outcome::Code::kDegenerate, "a rotation explains the views");
   if (!start.outcome) {
     log(log_, LogLevel::kDebug, "initialization pending: {}", start.outcome.reason);
-    return add_pending(frame, start.outcome, random);
+    return add_pending(frame, start.outcome);
   }
   const auto scale = scale_of(start, T_known, map, mapping);
   if (!scale) {
@@ -101,7 +100,7 @@ Initialization TwoViewInitializer::try_second_view(const Frame& frame,
     return Initialization::pending(no_scale);
   }
   if (!(*scale > 0)) return {};
-  return accept(frame, start, *scale, random, map, mapping);
+  return accept(frame, start, *scale, map, mapping);
 }
 
 /// Some views between the first and the newest one, used to test the motion, with tracks of the
@@ -122,7 +121,8 @@ std::vector<PartialView> TwoViewInitializer::views_between() const {
   return between;
 }
 
-MonoInitialization TwoViewInitializer::motion_to_newest(Random& random) const {
+MonoInitialization TwoViewInitializer::motion_to_newest() const {
+  Random random(seed_, "two views", {views_.back().frame.value()});
   std::vector<Eigen::Vector2d> px_ref, px_cur;
   for (const PointTrack& track : tracker_.points().tracks()) {
     px_ref.push_back(views_.front().px.at(track.id));
@@ -149,8 +149,7 @@ std::optional<double> TwoViewInitializer::scale_of(const MonoInitialization& sta
 }
 
 Initialization TwoViewInitializer::accept(const Frame& frame, const MonoInitialization& start,
-                                          double scale, Random& random, LocalMap& map,
-                                          LocalMapping& mapping) {
+                                          double scale, LocalMap& map, LocalMapping& mapping) {
   PointCue& points = tracker_.points();
   const KeyframeImages newest = mapping.masks().apply(frame);
   const KeyframeId ref = map.add_keyframe(T_odom_start_, reference_.frame.stamp_ns);
@@ -179,7 +178,7 @@ Initialization TwoViewInitializer::accept(const Frame& frame, const MonoInitiali
   begun.keyframes = {{ref, reference_.frame, reference_.labels},
                      {cur, newest.frame, newest.labels}};
   begun.posed = std::move(rotated_);  // poses from points, which follow, are more accurate
-  for (PosedFrame& posed : pose_views_between(map, random)) begun.posed.push_back(std::move(posed));
+  for (PosedFrame& posed : pose_views_between(map)) begun.posed.push_back(std::move(posed));
   const double steps = static_cast<double>(views_.size() - 1);
   begun.T_last_cur =
       SE3::exp((map.window().pose(ref).inverse() * map.window().pose(cur)).log() / steps);
@@ -193,8 +192,7 @@ Initialization TwoViewInitializer::accept(const Frame& frame, const MonoInitiali
 }
 
 /// Poses the views between the map's two keyframes from points shared with them.
-std::vector<PosedFrame> TwoViewInitializer::pose_views_between(const LocalMap& map,
-                                                               Random& random) const {
+std::vector<PosedFrame> TwoViewInitializer::pose_views_between(const LocalMap& map) const {
   const SlidingWindow& window = map.window();
   const SE3 T_odom_ref = window.pose(map.first()), T_odom_cur = window.pose(map.newest());
   std::vector<PosedFrame> posed;
@@ -206,6 +204,7 @@ std::vector<PosedFrame> TwoViewInitializer::pose_views_between(const LocalMap& m
         points.push_back(*point);
         px.push_back(pixel);
       }
+    Random random(seed_, "pose of a view between", {views_[v].frame.value()});
     const double share = static_cast<double>(v) / (views_.size() - 1);
     const SE3 prior = T_odom_ref * SE3::exp(share * (T_odom_ref.inverse() * T_odom_cur).log());
     const auto pose = estimate_pose_3d2d(camera_, points, px, options_.points.pose, random, &prior);
@@ -215,10 +214,9 @@ std::vector<PosedFrame> TwoViewInitializer::pose_views_between(const LocalMap& m
 }
 
 /// Handles a frame before the second view is found: its pose is that of its rotation.
-Initialization TwoViewInitializer::add_pending(const Frame& frame, Outcome outcome,
-                                               Random& random) {
+Initialization TwoViewInitializer::add_pending(const Frame& frame, Outcome outcome) {
   Initialization result = Initialization::pending(std::move(outcome));
-  result.rotation = tracker_.rotation_since(views_.front().px, random);
+  result.rotation = tracker_.rotation_since(views_.front().px, frame.id);
   if (!result.rotation) return result;
   rotated_.emplace_back(frame.id, T_odom_start_ * SE3(result.rotation->R_before_cam, {0, 0, 0}));
   // Limit for a stationary camera: these views are posed, and a few are sufficient for the test.

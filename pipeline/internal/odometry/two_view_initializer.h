@@ -28,14 +28,14 @@ class TwoViewInitializer : public Initializer {
   Initialization begin(const Frame& frame, LocalMapping& mapping);
   Initialization try_second_view(const Frame& frame, const std::optional<SE3>& T_known,
                                  LocalMap& map, LocalMapping& mapping);
-  MonoInitialization motion_to_newest(Random& random) const;
+  MonoInitialization motion_to_newest() const;
   std::vector<PartialView> views_between() const;
   std::optional<double> scale_of(const MonoInitialization& start, const std::optional<SE3>& T_known,
                                  const LocalMap& map, const LocalMapping& mapping) const;
   Initialization accept(const Frame& frame, const MonoInitialization& start, double scale,
-                        Random& random, LocalMap& map, LocalMapping& mapping);
-  std::vector<PosedFrame> pose_views_between(const LocalMap& map, Random& random) const;
-  Initialization add_pending(const Frame& frame, Outcome outcome, Random& random);
+                        LocalMap& map, LocalMapping& mapping);
+  std::vector<PosedFrame> pose_views_between(const LocalMap& map) const;
+  Initialization add_pending(const Frame& frame, Outcome outcome);
   Initialization replace_reference(const Frame& frame, const std::optional<SE3>& T_known,
                                    const std::optional<PureRotation>& rotation, LocalMap& map,
                                    LocalMapping& mapping);

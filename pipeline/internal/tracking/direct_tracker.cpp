@@ -51,6 +51,7 @@ DirectTracker::DirectTracker(const OdometryOptions& options, const Calibration& 
                              std::uint64_t seed, LogSink log, StageTimes& times)
     : options_(options.direct),
       max_interval_(options.keyframe.max_interval),
+      seed_(seed),
       log_(std::move(log)),
       times_(times),
       direct_(options.direct, calibration, options.stereo, parse_cues(options.cues).direct) {
@@ -104,7 +105,7 @@ DirectMotion DirectTracker::align(const LocalMap& map, const MotionModel& motion
 }
 
 TrackedFrame DirectTracker::track(const Frame& frame, const LocalMap& map,
-                                  const MotionModel& motion, Random& /*random*/) {
+                                  const MotionModel& motion) {
   see(frame);
   const DirectMotion aligned = align(map, motion);
   TrackedFrame tracked;
@@ -143,8 +144,8 @@ bool DirectTracker::keyframe_due(const DirectMotion& motion, double median_depth
 }
 
 std::optional<SE3> DirectTracker::prepare_keyframe(const KeyframeImages& images,
-                                                   const SE3& T_odom_cam, const LocalMap& map,
-                                                   Random& random) {
+                                                   const SE3& T_odom_cam, const LocalMap& map) {
+  Random random(seed_, "surfaces alone", {images.frame.id.value()});
   see(images.frame);
   from_before_.reset();
   if (map.empty()) {
@@ -164,7 +165,7 @@ std::optional<SE3> DirectTracker::prepare_keyframe(const KeyframeImages& images,
 }
 
 void DirectTracker::observe(const KeyframeImages& images, const RectificationError& /*error*/,
-                            LocalMap& map, Random& /*random*/) {
+                            LocalMap& map) {
   if (from_before_)
     add_motion(map.window(), {*map.before_newest(), map.newest(), from_before_->T_ref_cur,
                               from_before_->covariance.ldlt().solve(Matrix6d::Identity())});

@@ -18,13 +18,12 @@ class DirectTracker : public FrameTracker {
 
   const char* stage() const override { return "surfaces"; }
   void see_first(const Frame& frame) override { see(frame); }
-  TrackedFrame track(const Frame& frame, const LocalMap& map, const MotionModel& motion,
-                     Random& random) override;
+  TrackedFrame track(const Frame& frame, const LocalMap& map, const MotionModel& motion) override;
   std::optional<Frame> keyframe_to_retry_from() const override;
   std::optional<SE3> prepare_keyframe(const KeyframeImages& images, const SE3& T_odom_cam,
-                                      const LocalMap& map, Random& random) override;
-  void observe(const KeyframeImages& images, const RectificationError& rectification, LocalMap& map,
-               Random& random) override;
+                                      const LocalMap& map) override;
+  void observe(const KeyframeImages& images, const RectificationError& rectification,
+               LocalMap& map) override;
   std::vector<double> prune(LocalMap& map) override;
   void settle(const LocalMap& map) override;
   std::vector<PosedFrame> finish_keyframe(double scale, const LocalMap& map) override;
@@ -39,6 +38,7 @@ class DirectTracker : public FrameTracker {
 
   DirectCueOptions options_;
   int max_interval_;  // frames between keyframes
+  std::uint64_t seed_;
   LogSink log_;
   StageTimes& times_;
   DirectCue direct_;

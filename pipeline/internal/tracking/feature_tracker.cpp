@@ -53,11 +53,11 @@ void FeatureTracker::see_first(const Frame& frame) {
 }
 
 TrackedFrame FeatureTracker::track(const Frame& frame, const LocalMap& map,
-                                   const MotionModel& motion, Random& random) {
+                                   const MotionModel& motion) {
   const PointTracker points_before = points_.checkpoint();
   const std::optional<LineCue> lines_before = lines_;
   const SlidingWindow& window = map.window();
-  const auto [points, keep, landmarks] = pose_by_points(frame, map, motion, random);
+  const auto [points, keep, landmarks] = pose_by_points(frame, map, motion);
   TrackedFrame tracked;
   tracked.outcome = points.outcome;
   tracked.T_odom_cam = points.T_ref_cam;
@@ -71,6 +71,7 @@ TrackedFrame FeatureTracker::track(const Frame& frame, const LocalMap& map,
   }
   Matrix6d information = points.information;
   if (lines_) {
+    Random random(seed_, "pose from lines", {frame.id.value()});
     const PoseFromLines both =
         pose_with_lines(*lines_, frame.image, window, motion, points, map.median_depth(), random);
     tracked.outcome = both.outcome;
@@ -85,7 +86,7 @@ TrackedFrame FeatureTracker::track(const Frame& frame, const LocalMap& map,
   if (tracked.outcome && monocular_points() && !manhattan())
     tracked.outcome = determines_rotation(information, kMostSigmaDeg);
   if (!tracked.outcome) {
-    tracked.rotation = rotation_since(selector_.px_at_keyframe(), random);
+    tracked.rotation = rotation_since(selector_.px_at_keyframe(), frame.id);
     points_.restore(points_before);
     lines_ = lines_before;
     return tracked;
@@ -112,7 +113,8 @@ TrackedFrame FeatureTracker::track(const Frame& frame, const LocalMap& map,
 /// Errors of times displace points in proportion to the velocity, which is known better after
 /// the first estimate: the pose is estimated twice.
 PointCue::TrackedPose FeatureTracker::pose_by_points(const Frame& frame, const LocalMap& map,
-                                                     const MotionModel& motion, Random& random) {
+                                                     const MotionModel& motion) {
+  Random random(seed_, "pose from points", {frame.id.value()});
   const SlidingWindow& window = map.window();
   if (!cues_.points) return points_.pose(window, motion.predicted(), random);
   const double interval_s = stamp_ns_ ? seconds(*stamp_ns_, frame.stamp_ns) : 0;
@@ -141,7 +143,7 @@ bool FeatureTracker::monocular_points() const {
 
 /// All tracks count, also those that contradict the pose.
 bool FeatureTracker::contradicted(FrameId frame, const SE3& T_previous_this) const {
-  Random random(seed_, static_cast<std::uint64_t>(frame.value()));
+  Random random(seed_, "rotation check", {frame.value()});
   return contradicts_rotation(calibration_.camera, points_.tracks(), T_previous_this,
                               options_.initializer.two_view, random);
 }
@@ -164,7 +166,7 @@ bool FeatureTracker::keyframe_due(const SE3& T_odom_cam, int inliers, const Loca
 }
 
 std::optional<PureRotation> FeatureTracker::rotation_since(
-    const std::map<LandmarkId, Eigen::Vector2d>& px_before, Random& random) const {
+    const std::map<LandmarkId, Eigen::Vector2d>& px_before, FrameId frame) const {
   if (!monocular_points()) return std::nullopt;
   std::vector<Eigen::Vector2d> px_ref, px_cur;
   for (const PointTrack& track : points_.tracks())
@@ -172,6 +174,7 @@ std::optional<PureRotation> FeatureTracker::rotation_since(
       px_ref.push_back(before->second);
       px_cur.push_back(track.px.cast<double>());
     }
+  Random random(seed_, "rotation", {frame.value()});
   const Rotation2d2dResult rotation =
       estimate_rotation_2d2d(calibration_.camera, px_ref, px_cur, options_.pure_rotation, random);
   if (!rotation.outcome) return std::nullopt;
@@ -179,8 +182,8 @@ std::optional<PureRotation> FeatureTracker::rotation_since(
 }
 
 std::optional<SE3> FeatureTracker::prepare_keyframe(const KeyframeImages& images,
-                                                    const SE3& T_odom_cam, const LocalMap& /*map*/,
-                                                    Random& /*random*/) {
+                                                    const SE3& T_odom_cam,
+                                                    const LocalMap& /*map*/) {
   if (!cues_.points) return T_odom_cam;
   const auto span = times_.measure("point detection");
   intermediate_.correct_drift(points_.anchor());
@@ -190,7 +193,7 @@ std::optional<SE3> FeatureTracker::prepare_keyframe(const KeyframeImages& images
 }
 
 void FeatureTracker::observe(const KeyframeImages& images, const RectificationError& rectification,
-                             LocalMap& map, Random& random) {
+                             LocalMap& map) {
   const Frame& frame = images.frame;
   const KeyframeId id = map.newest();
   if (!stamp_ns_) stamp_ns_ = frame.stamp_ns;
@@ -202,6 +205,7 @@ void FeatureTracker::observe(const KeyframeImages& images, const RectificationEr
   if (direct_) direct_->forget_newest();
   if (direct_ && map.metric()) {
     const auto span = times_.measure("surfaces");
+    Random random(seed_, "surfaces", {frame.id.value()});
     direct_->add({id, frame, images.ground(), points_.landmark_depths(map.window(), id)},
                  map.before_newest(), rectification, map.window(), random);
   }

@@ -22,12 +22,11 @@ class FeatureTracker : public FrameTracker {
 
   const char* stage() const override { return "frame pose"; }
   void see_first(const Frame& frame) override;
-  TrackedFrame track(const Frame& frame, const LocalMap& map, const MotionModel& motion,
-                     Random& random) override;
+  TrackedFrame track(const Frame& frame, const LocalMap& map, const MotionModel& motion) override;
   std::optional<SE3> prepare_keyframe(const KeyframeImages& images, const SE3& T_odom_cam,
-                                      const LocalMap& map, Random& random) override;
-  void observe(const KeyframeImages& images, const RectificationError& rectification, LocalMap& map,
-               Random& random) override;
+                                      const LocalMap& map) override;
+  void observe(const KeyframeImages& images, const RectificationError& rectification,
+               LocalMap& map) override;
   std::vector<double> prune(LocalMap& map) override;
   void settle(const LocalMap& map) override;
   std::vector<PosedFrame> finish_keyframe(double scale, const LocalMap& map) override;
@@ -49,16 +48,16 @@ class FeatureTracker : public FrameTracker {
   /// Adds the directions of the newest keyframe's edges to the window, if Manhattan frames are
   /// among the cues and accepted.
   void observe_directions(const Image& image, LocalMap& map);
-  /// Rotation of the camera since its tracks were at `px_before`; nothing if the tracks show a
-  /// translation, or if the camera measures depth.
+  /// Rotation of the camera since its tracks were at `px_before`, with the newest `frame`; nothing
+  /// if the tracks show a translation, or if the camera measures depth.
   std::optional<PureRotation> rotation_since(const std::map<LandmarkId, Eigen::Vector2d>& px_before,
-                                             Random& random) const;
+                                             FrameId frame) const;
   /// Makes the newest keyframe the reference for the selection of the next ones.
   void start_selection(int landmarks);
 
  private:
   PointCue::TrackedPose pose_by_points(const Frame& frame, const LocalMap& map,
-                                       const MotionModel& motion, Random& random);
+                                       const MotionModel& motion);
   void remember_motion(const Frame& frame, const SE3& T_odom_last, const SE3& T_odom_cam);
   bool monocular_points() const;
   bool contradicted(FrameId frame, const SE3& T_previous_this) const;

@@ -34,7 +34,7 @@ class FrameTracker {
   /// Poses a frame near the pose predicted by `motion`. After a failure, the tracks are in the
   /// state before the call.
   [[nodiscard]] virtual TrackedFrame track(const Frame& frame, const LocalMap& map,
-                                           const MotionModel& motion, Random& random) = 0;
+                                           const MotionModel& motion) = 0;
   /// After a failure: the last posed frame, if it may help as a keyframe.
   virtual std::optional<Frame> keyframe_to_retry_from() const { return std::nullopt; }
 
@@ -42,11 +42,10 @@ class FrameTracker {
   /// if the frame lacks the observations for a keyframe.
   [[nodiscard]] virtual std::optional<SE3> prepare_keyframe(const KeyframeImages& images,
                                                             const SE3& T_odom_cam,
-                                                            const LocalMap& map,
-                                                            Random& random) = 0;
+                                                            const LocalMap& map) = 0;
   /// Adds its observations in the newest keyframe of the map to the window.
   virtual void observe(const KeyframeImages& images, const RectificationError& rectification,
-                       LocalMap& map, Random& random) = 0;
+                       LocalMap& map) = 0;
   /// Removes outliers after the window has been optimized. Returns depths of the remaining
   /// landmarks in the newest keyframe.
   [[nodiscard]] virtual std::vector<double> prune(LocalMap& map) = 0;

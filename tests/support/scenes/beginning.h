@@ -26,7 +26,7 @@ struct Beginning {
       : calibration(by),
         options(with_cues(cues)),
         tracker(options, calibration, 1, {}, times),
-        mapping(options, calibration, 1, {}, times),
+        mapping(options, calibration, {}, times),
         map(options.window, calibration.camera, scale),
         initializer(initializer_of(options, calibration, tracker, times)),
         T_odom_start(T_odom_first) {

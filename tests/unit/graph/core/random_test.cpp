@@ -4,8 +4,10 @@
 #include <tests/support/seed.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
+#include <string_view>
 #include <vector>
 
 namespace placegraph {
@@ -41,6 +43,26 @@ TEST(Random, SeedsAndStreamsDiffer) {
     equal += value == other_stream.next();
   }
   EXPECT_LE(equal, 1);  // 200 chances of 2^-32
+}
+
+// A step that draws the numbers of another would repeat its choices.
+TEST(Random, EveryStepOfEveryItemHasNumbersOfItsOwn) {
+  const auto numbers_of = [](Random random) { return std::array{random.next(), random.next()}; };
+  Random seeds = test::seeded_random(4);
+  const std::uint64_t seed = seeds.next();
+  std::set<std::array<std::uint32_t, 2>> seen;
+  std::size_t streams = 0;
+  for (const std::string_view step : {"", "a", "b", "ab", "ba", "pose from points", "rotation"})
+    for (std::int64_t frame = 0; frame < 500; ++frame) {
+      seen.insert(numbers_of(Random(seed, step, {frame})));
+      seen.insert(numbers_of(Random(seed, step, {frame, 0})));
+      seen.insert(numbers_of(Random(seed, step, {-1, frame})));
+      streams += 3;
+      ASSERT_EQ(seen.size(), streams) << step << " " << frame;
+    }
+  EXPECT_EQ(numbers_of(Random(seed, "a", {3, 4})), numbers_of(Random(seed, "a", {3, 4})));
+  EXPECT_NE(numbers_of(Random(seed, "a", {3, 4})), numbers_of(Random(seed, "a", {4, 3})));
+  EXPECT_NE(numbers_of(Random(seed, "a", {3})), numbers_of(Random(seed + 1, "a", {3})));
 }
 
 TEST(Random, IndicesAreUniform) {

@@ -14,7 +14,7 @@ struct Beginning {
   StageTimes times;
   Calibration calibration = with_baseline();
   ScriptedTracker tracker;
-  LocalMapping mapping{{}, calibration, 1, {}, times};
+  LocalMapping mapping{{}, calibration, {}, times};
   LocalMap map{{}, calibration.camera, Scale::kMetric};
   FirstFrameInitializer initializer{tracker, {}};
   SE3 T_odom_start{SO3::exp({0, 0.4, 0}), Eigen::Vector3d(3, 1, -2)};

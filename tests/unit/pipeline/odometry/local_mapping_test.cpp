@@ -41,7 +41,7 @@ struct Mapping {
     calibration.camera = window_camera();
     calibration.baseline_m = baseline_m;
     calibration.camera_height_m = height_m;
-    mapping.emplace(options, calibration, 1, LogSink(), times);
+    mapping.emplace(options, calibration, LogSink(), times);
     map.emplace(options.window, calibration.camera,
                 baseline_m > 0 ? Scale::kMetric : Scale::kArbitrary);
   }

@@ -25,7 +25,6 @@ struct Tracking {
   Calibration calibration;
   DirectTracker tracker;
   LocalMap map;
-  Random random{1};
   MotionModel motion{street_T_world_cam(0)};
 
   explicit Tracking(const StreetDataset& d = drive(), int max_interval = 20)
@@ -51,16 +50,16 @@ struct Tracking {
   }
   /// Makes a frame that is posed at T_odom_cam a keyframe, as LocalMapping does.
   bool keyframe(int i, const SE3& T_odom_cam) {
-    const auto T = tracker.prepare_keyframe(images(i), T_odom_cam, map, random);
+    const auto T = tracker.prepare_keyframe(images(i), T_odom_cam, map);
     if (!T) return false;
     map.add_keyframe(*T);
-    tracker.observe(images(i), {}, map, random);
+    tracker.observe(images(i), {}, map);
     map.update_poses(tracker.prune(map), false);
     (void)tracker.finish_keyframe(1, map);
     return true;
   }
   TrackedFrame track(int i) {
-    TrackedFrame tracked = tracker.track(dataset.frame(i, Sensor::kStereo), map, motion, random);
+    TrackedFrame tracked = tracker.track(dataset.frame(i, Sensor::kStereo), map, motion);
     if (tracked.outcome) motion.update(tracked.T_odom_cam);
     return tracked;
   }
@@ -142,7 +141,7 @@ TEST(DirectTracker, AfterALossTheLastPosedFrameMayHelpAsAKeyframe) {
   ASSERT_TRUE(t.track(1).outcome);
   Frame dark = drive().frame(2, Sensor::kStereo);
   dark.image = Image(dark.image.size(), CV_8UC1, cv::Scalar(0));
-  EXPECT_FALSE(t.tracker.track(dark, t.map, t.motion, t.random).outcome);
+  EXPECT_FALSE(t.tracker.track(dark, t.map, t.motion).outcome);
   const auto retry = t.tracker.keyframe_to_retry_from();
   ASSERT_TRUE(retry);
   EXPECT_EQ(retry->id, FrameId(1));
@@ -152,7 +151,7 @@ TEST(DirectTracker, AFrameWithoutSurfacesIsNoKeyframe) {
   Tracking t;
   Frame dark = drive().frame(0, Sensor::kStereo);
   dark.image = dark.right = Image(dark.image.size(), CV_8UC1, cv::Scalar(0));
-  EXPECT_FALSE(t.tracker.prepare_keyframe({dark, {}, nullptr}, SE3(), t.map, t.random));
+  EXPECT_FALSE(t.tracker.prepare_keyframe({dark, {}, nullptr}, SE3(), t.map));
   EXPECT_TRUE(t.keyframe(1, street_T_world_cam(1)));
 }
 

@@ -29,7 +29,6 @@ struct Tracking {
   Calibration calibration;
   FeatureTracker tracker;
   LocalMap map;
-  Random random{1};
   MotionModel motion{street_T_world_cam(0)};
 
   explicit Tracking(Sensor s = Sensor::kStereo, const std::string& cues = "points",
@@ -56,24 +55,24 @@ struct Tracking {
   /// As LocalMapping does; returns the frames that are posed once more.
   std::vector<PosedFrame> keyframe(int i, const SE3& T_odom_cam) {
     if (map.empty()) tracker.see_first(dataset.frame(i, sensor));
-    const auto T = tracker.prepare_keyframe(images(i), T_odom_cam, map, random);
+    const auto T = tracker.prepare_keyframe(images(i), T_odom_cam, map);
     EXPECT_TRUE(T);
     map.add_keyframe(*T);
-    tracker.observe(images(i), {}, map, random);
+    tracker.observe(images(i), {}, map);
     (void)map.optimize();
     map.update_poses(tracker.prune(map), tracker.corrects_rotations());
     tracker.settle(map);
     return tracker.finish_keyframe(1, map);
   }
   TrackedFrame track(int i) {
-    TrackedFrame tracked = tracker.track(dataset.frame(i, sensor), map, motion, random);
+    TrackedFrame tracked = tracker.track(dataset.frame(i, sensor), map, motion);
     if (tracked.outcome) motion.update(tracked.T_odom_cam);
     return tracked;
   }
   TrackedFrame track_dark() {
     Frame dark = dataset.frame(1, sensor);
     dark.image = Image(dark.image.size(), CV_8UC1, cv::Scalar(0));
-    return tracker.track(dark, map, motion, random);
+    return tracker.track(dark, map, motion);
   }
 };
 
@@ -146,7 +145,7 @@ TEST(FeatureTracker, AKeyframeIsDueWhereTheImageHasMoved) {
   // Another keyframe: nothing has moved since.
   const TrackedFrame again =
       t.tracker.track(t.dataset.frame(static_cast<std::size_t>(i - 1), t.sensor), t.map,
-                      MotionModel(tracked.T_odom_cam), t.random);
+                      MotionModel(tracked.T_odom_cam));
   ASSERT_TRUE(again.outcome);
   EXPECT_FALSE(again.keyframe_due);
 }
@@ -160,8 +159,8 @@ TEST(FeatureTracker, TooFewDepthsAreNothingToBeginWith) {
   frame.right = Image(frame.image.size(), CV_8UC1, cv::Scalar(0));
   blind.tracker.see_first(frame);
   const KeyframeImages images{frame, {}, nullptr};
-  blind.map.add_keyframe(*blind.tracker.prepare_keyframe(images, SE3(), blind.map, blind.random));
-  blind.tracker.observe(images, {}, blind.map, blind.random);
+  blind.map.add_keyframe(*blind.tracker.prepare_keyframe(images, SE3(), blind.map));
+  blind.tracker.observe(images, {}, blind.map);
   const Outcome enough = blind.tracker.enough_to_begin(blind.map);
   EXPECT_FALSE(enough);
   EXPECT_NE(enough.reason.find("found in the right image"), std::string::npos);
@@ -180,7 +179,7 @@ TEST(FeatureTracker, ASingleCameraKnowsItsRotation) {
     std::map<LandmarkId, Eigen::Vector2d> px;
     for (const PointTrack& track : points.tracks()) px[track.id] = track.px.cast<double>();
     points.track((rotates ? rotations : stereo_drive()).frame(1, Sensor::kMono).image);
-    const auto rotation = t.tracker.rotation_since(px, t.random);
+    const auto rotation = t.tracker.rotation_since(px, FrameId(1));
     ASSERT_EQ(rotation.has_value(), rotates);
     if (rotates) {
       EXPECT_LT((rotation->R_before_cam.inverse() * R).log().norm(), 0.002);
@@ -234,7 +233,7 @@ TEST(FeatureTracker, ACameraThatMeasuresDepthIsNotAskedForRotations) {
   std::map<LandmarkId, Eigen::Vector2d> px;
   for (const PointTrack& track : t.tracker.points().tracks())
     px[track.id] = track.px.cast<double>();
-  EXPECT_FALSE(t.tracker.rotation_since(px, t.random));  // though nothing has moved
+  EXPECT_FALSE(t.tracker.rotation_since(px, FrameId(1)));  // though nothing has moved
 }
 
 TEST(FeatureTracker, LandmarksOfTheTracksStandOnTheStreet) {
