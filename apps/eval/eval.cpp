@@ -11,6 +11,7 @@
 #include <filesystem>
 
 #include "apps/support/choice.h"
+#include "apps/support/distinct_paths.h"
 #include "apps/support/output.h"
 #include "apps/support/plot_file.h"
 

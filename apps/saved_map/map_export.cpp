@@ -22,6 +22,7 @@
 #include "apps/exports/ply_export.h"
 #include "apps/results/map_file.h"
 #include "apps/results/run_files.h"
+#include "apps/support/distinct_paths.h"
 #include "apps/support/output.h"
 
 namespace placegraph::apps {

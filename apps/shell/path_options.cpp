@@ -3,8 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 
+#include "apps/support/distinct_paths.h"
 #include "apps/support/option_texts.h"
-#include "apps/support/output.h"
 
 namespace placegraph::apps {
 

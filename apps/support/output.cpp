@@ -64,80 +64,6 @@ int lock_folder(const std::string& path) {
   return -1;
 }
 
-/// The path without links and dots; of a link into nothing, where it leads.
-fs::path resolved(fs::path path) {
-  constexpr int kMostLinks = 40;  // as the kernel follows
-  std::error_code ignored;
-  for (int i = 0; i < kMostLinks && fs::is_symlink(path, ignored) && !fs::exists(path, ignored);
-       ++i)
-    path = path.parent_path() / fs::read_symlink(path, ignored);
-  fs::path whole = fs::weakly_canonical(fs::absolute(path, ignored), ignored);
-  if (ignored) whole = fs::absolute(path).lexically_normal();
-  return whole.has_filename() ? whole : whole.parent_path();
-}
-
-struct ResolvedPath {
-  NamedPath given;
-  fs::path path;
-};
-
-bool same_file(const fs::path& a, const fs::path& b) {
-  std::error_code ignored;
-  return a == b || fs::equivalent(a, b, ignored);
-}
-
-/// Whether the path lies in the folder, at any depth.
-bool lies_in(const fs::path& path, const fs::path& folder) {
-  const auto parts = std::mismatch(folder.begin(), folder.end(), path.begin(), path.end());
-  return parts.first == folder.end() && parts.second != path.end();
-}
-
-bool is_device(const fs::path& path) {
-  std::error_code ignored;
-  return fs::exists(path, ignored) && !fs::is_regular_file(path, ignored) &&
-         !fs::is_directory(path, ignored);
-}
-
-std::vector<ResolvedPath> resolved_outputs(const std::vector<NamedPath>& outputs) {
-  std::vector<ResolvedPath> paths;
-  for (const NamedPath& output : outputs)
-    if (!output.path.empty() && !is_device(output.path))
-      paths.push_back({output, resolved(output.path)});
-  return paths;
-}
-
-/// The inputs that exist; of a folder with a saved map that map too.
-std::vector<ResolvedPath> resolved_inputs(const std::vector<NamedPath>& inputs) {
-  std::vector<ResolvedPath> paths;
-  std::error_code ignored;
-  for (const NamedPath& input : inputs) {
-    if (!fs::exists(input.path, ignored)) continue;
-    const fs::path path = resolved(input.path);
-    paths.push_back({input, path});
-    if (const fs::path map = path / "map.db"; fs::is_regular_file(map, ignored))
-      paths.push_back({input, resolved(map)});
-  }
-  return paths;
-}
-
-void require_apart(const ResolvedPath& output, const ResolvedPath& other) {
-  const std::string text = output.given.option + ": " + output.given.path;
-  require(!same_file(output.path, other.path),
-          text + " is where another output is to be written, that of " + other.given.option);
-  require(!lies_in(output.path, other.path),
-          text + " is in the folder of another output, that of " + other.given.option);
-}
-
-void require_no_input(const ResolvedPath& output, const ResolvedPath& input) {
-  const std::string text = output.given.option + ": " + output.given.path;
-  require(!same_file(output.path, input.path),
-          text + " is an input, that of " + input.given.option);
-  std::error_code ignored;
-  require(!same_file(output.path, input.path.parent_path()) ||
-              !fs::is_regular_file(input.path, ignored) || resolved(input.given.path) != input.path,
-          text + " is the folder of an input, that of " + input.given.option);
-}
-
 /// Whether an exception is of this kind.
 template <class Kind>
 bool is_kind(const std::exception& error) {
@@ -172,19 +98,6 @@ void require_free_folder(const std::string& path, bool force) {
   if (!fs::exists(path)) return;
   require(fs::is_directory(path), path + ": is a file, a folder is to be written there");
   require(force || fs::is_empty(path), path + ": is not empty; --force writes into it");
-}
-
-void require_distinct_paths(const std::vector<NamedPath>& outputs,
-                            const std::vector<NamedPath>& inputs) {
-  const std::vector<ResolvedPath> written = resolved_outputs(outputs);
-  const std::vector<ResolvedPath> read = resolved_inputs(inputs);
-  for (std::size_t i = 0; i < written.size(); ++i) {
-    for (std::size_t k = 0; k < i; ++k) {
-      require_apart(written[i], written[k]);
-      require_apart(written[k], written[i]);
-    }
-    for (const ResolvedPath& input : read) require_no_input(written[i], input);
-  }
 }
 
 OutputFolder::OutputFolder(std::string path) {

@@ -54,21 +54,6 @@ void require_free(const std::string& path, bool force);
 /// The same for an output folder, which may exist if it is empty.
 void require_free_folder(const std::string& path, bool force);
 
-/// A path that a command was given, with the option that gave it.
-struct NamedPath {
-  std::string option;  ///< such as "--csv"
-  std::string path;    ///< as it was given; it need not exist
-};
-
-/// Checks that no output of a command would destroy another one or an input.
-///
-/// Throws ArgumentError, which names both options, if two outputs are one file, if an output lies
-/// in a folder that is another output, or if an output is an input, the map of an input folder, or
-/// the folder of an input file. Paths are one file however they are written, and through links of
-/// either kind. Inputs that do not exist and outputs that are devices are left out.
-void require_distinct_paths(const std::vector<NamedPath>& outputs,
-                            const std::vector<NamedPath>& inputs);
-
 /// A folder for results, made before the work for them.
 /// If the work ends without results, the folders that were made are removed. The folder is locked
 /// until then: throws FileError if another process has locked it, or if it cannot be made or

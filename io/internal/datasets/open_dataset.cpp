@@ -69,6 +69,8 @@ std::string what_is_missing(const fs::path& folder) {
 
 }  // namespace
 
+bool is_sequence(const std::string& path) { return layout_of(path) != nullptr; }
+
 std::unique_ptr<Dataset> open_dataset(const std::string& path) {
   if (!fs::exists(path)) throw FileError(path, "no such file or folder");
   if (const Layout* layout = layout_of(path)) return layout->open(path);
