@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -205,6 +206,51 @@ RingMixture fit_rings(const std::vector<LoopPair>& pairs, const std::vector<Ring
   return result;
 }
 
+namespace {
+
+/// Takes the copies out of the loops, which are sorted by their ends, and returns their edges. A
+/// copy is between the same nodes as another loop and differs from it by far less than the noise,
+/// which is that of the rings of loops with different ends: their ring says nothing.
+template <class Group>
+std::vector<int> take_copies(std::vector<LoopOnChain<Group>>& loops,
+                             const OdometryChain<Group>& chain, const LoopSupportOptions& options,
+                             double volume) {
+  constexpr double kOfNoise = 0.01;        // share of the variance
+  constexpr std::size_t kCompared = 10;    // loops before it with the same ends
+  const auto same_ends = [](const LoopOnChain<Group>& a, const LoopOnChain<Group>& b) {
+    return a.from == b.from && a.to == b.to;
+  };
+  std::vector<LoopOnChain<Group>> firsts;
+  std::unique_copy(loops.begin(), loops.end(), std::back_inserter(firsts), same_ends);
+  if (firsts.size() == loops.size()) return {};
+  const RingMixture rings =
+      fit_rings(neighbouring_pairs(firsts, chain, options.reach, options.neighbours),
+                drift_rings(firsts, chain), Group::kDof, volume);
+
+  std::vector<LoopOnChain<Group>> kept;
+  std::vector<int> copies;
+  for (const LoopOnChain<Group>& loop : loops) {
+    bool copy = false;
+    for (std::size_t k = kept.size(); k > 0 && !copy; --k) {
+      const LoopOnChain<Group>& other = kept[k - 1];
+      if (!same_ends(other, loop) || kept.size() - k >= kCompared) break;
+      const RingMisclosure ring = ring_misclosure(loop, other, chain);
+      const double noise =
+          std::max(rings.scale_is_known ? kOfNoise * rings.noise_scale : 0,
+                   least_scale({ring}, Group::kDof, std::log(volume)));
+      copy = ring.chi2 <= noise * Group::kDof;
+    }
+    if (copy)
+      copies.push_back(loop.edge);
+    else
+      kept.push_back(loop);
+  }
+  loops = std::move(kept);
+  return copies;
+}
+
+}  // namespace
+
 std::size_t LoopSupport::loops() const {
   std::size_t count = 0;
   for (const auto& cluster : clusters) count += cluster.size();
@@ -224,13 +270,15 @@ LoopSupport support_loops(const PackedGraph<Group>& graph, const OdometryChain<G
     steps.push_back({loop.edge});
     return true;
   });
+  const double volume = tangent_volume(graph, chain);
+  const std::vector<int> copies = take_copies(loops, chain, options, volume);
   const auto pairs = neighbouring_pairs(loops, chain, options.reach, options.neighbours);
-  const RingMixture rings =
-      fit_rings(pairs, drift_rings(loops, chain), Group::kDof, tangent_volume(graph, chain));
+  const RingMixture rings = fit_rings(pairs, drift_rings(loops, chain), Group::kDof, volume);
   support.noise_scale = rings.noise_scale;
   support.scale_is_known = rings.scale_is_known;
   support.clusters = clusters_of(loops, pairs, rings.probability, options.least_probability);
   for (const auto& cluster : support.clusters) support.alone += cluster.size() == 1;
+  for (const int edge : copies) support.clusters.push_back({edge});
   support.clusters.insert(support.clusters.end(), steps.begin(), steps.end());
   return support;
 }

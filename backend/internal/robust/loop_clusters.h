@@ -29,11 +29,11 @@ struct LoopSupport {
   double noise_scale = 1;
   bool scale_is_known = false;  ///< false: too few loops to estimate the scale of the noise
   /// Loops that support each other, directly or through others, as positions in PackedGraph::edges;
-  /// the largest group is first. A loop without support is a group of one. Edges that repeat one
-  /// step of the odometry are last, each in its own group: copies of odometry agree without being
-  /// true.
+  /// the largest group is first. A loop without support is a group of one. Copies of loops and
+  /// edges that repeat one step of the odometry are last, each in its own group: copies agree
+  /// without being true.
   std::vector<std::vector<int>> clusters;
-  int alone = 0;              ///< number of loops without support, except repeated steps
+  int alone = 0;              ///< number of loops without support, except copies, repeated steps
   std::size_t loops() const;  ///< number of loops in all clusters
 };
 

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
 
+#include <cmath>
 #include <set>
 
 #include "tests/support/scenes/looped_walk.h"
@@ -119,6 +120,55 @@ TYPED_TEST(RobustLoopsOf, WhatAloneHoldsThePartsTogetherIsKept) {
     if (!rejected.contains(static_cast<int>(i)))
       kept.constraints.push_back(walk.graph.constraints[i]);
   for (const int component : kept.components()) EXPECT_EQ(component, 0);
+}
+
+/// The loop as another program may write it again: with rounded numbers, or from its other end.
+template <class Group>
+RelativePoseConstraint written_again(const RelativePoseConstraint& loop, double rounding,
+                                     bool from_other_end) {
+  RelativePoseConstraint copy = loop;
+  auto xi = std::get<Group>(loop.T_from_to).log();
+  if (rounding > 0)
+    for (double& value : xi) value = rounding * std::round(value / rounding);
+  copy.T_from_to = Group::exp(xi);
+  if (!from_other_end) return copy;
+  std::swap(copy.from, copy.to);
+  const auto adjoint = std::get<Group>(copy.T_from_to).adjoint();  // of the information, too
+  copy.information = adjoint.inverse().transpose() * loop.information * adjoint.inverse();
+  copy.T_from_to = std::get<Group>(copy.T_from_to).inverse();
+  return copy;
+}
+
+// A loop that is written twice is no second witness, and its ring with itself is no measurement of
+// the noise.
+TYPED_TEST(RobustLoopsOf, LoopsThatAreWrittenAgainChangeNoDecision) {
+  constexpr double kRoundings[] = {0, 1e-6, 1e-3};
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    Random random(seed);
+    const LoopedWalk<TypeParam> walk({.nodes = 200, .lap = 40, .loop_every = 4, .claimed = 0.02,
+                                      .false_loops = static_cast<int>(seed % 4), .seed = seed});
+    PoseGraph again = walk.graph;
+    const double share = seed % 2 == 0 ? 1 : random.uniform(0.2, 1);
+    const int times = 1 + random.index(4);
+    for (const Constraint& constraint : walk.graph.constraints) {
+      const auto& loop = std::get<RelativePoseConstraint>(constraint);
+      if (loop.source == ConstraintSource::kOdometry || random.uniform() > share) continue;
+      for (int i = 0; i < times; ++i)
+        again.constraints.push_back(written_again<TypeParam>(
+            loop, kRoundings[random.index(3)], random.index(2) == 1));
+    }
+    for (const RobustMethod method :
+         {RobustMethod::kAuto, RobustMethod::kGnc, RobustMethod::kPcm}) {
+      SCOPED_TRACE(testing::Message() << "seed " << seed << " method " << static_cast<int>(method));
+      const PoseGraphReport once = optimize(walk.graph, method), report = optimize(again, method);
+      const auto ends = [](const PoseGraphReport& r) {
+        std::set<std::pair<NodeId, NodeId>> sorted;
+        for (const auto& [from, to] : ends_of_rejected(r)) sorted.insert(std::minmax(from, to));
+        return sorted;
+      };
+      EXPECT_EQ(ends(report), ends(once));
+    }
+  }
 }
 
 /// Second edges over `n` steps of the walk that say what loops say elsewhere, or the step itself.
