@@ -141,7 +141,7 @@ void LiveRun::stages_measured(const std::vector<StageTimes::Stage>& stages) {
 
 void LiveRun::run_began() {
   const std::lock_guard lock(mutex_);
-  const bool again = map_.frame_count() > 0;
+  const bool again = map_.frame_count() > 0 || !loops_.empty();
   map_.clear();
   loops_.clear();
   last_ = json();

@@ -259,6 +259,16 @@ TEST_F(LiveRunTest, AStateIsWhatTheEventsUpToItsNumberHaveTold) {
   EXPECT_EQ(states.back()["number"], static_cast<std::int64_t>(told.size()));
 }
 
+TEST_F(LiveRunTest, ARunThatBeginsAgainBeforeItsFirstFrameSaysSoIfItHasToldOfLoops) {
+  begin();
+  live.loop_refused({FrameId(9), FrameId(1), 7, LoopStage::kGeometry, {}});
+  begin();
+  EXPECT_TRUE(live.state()["loops"].empty());
+  const auto seen = events();
+  ASSERT_EQ(seen.size(), 2U);
+  EXPECT_EQ(seen[1].name, "reset");
+}
+
 TEST_F(LiveRunTest, ARunThatBeginsAgainForgetsWhatItHad) {
   begin();
   see(0);
