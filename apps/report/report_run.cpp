@@ -23,6 +23,7 @@
 #include "apps/results/judgement_text.h"
 #include "apps/results/map_file.h"
 #include "apps/results/run_judgement.h"
+#include "apps/results/run_map.h"
 #include "apps/support/json_file.h"
 #include "apps/support/output.h"
 
@@ -88,7 +89,13 @@ std::optional<RunTruth> evaluate_run(const Map& map, const std::optional<Traject
 /// result.json beside the map; an empty object where there is none.
 json read_result(const std::string& map_path) {
   const fs::path path = fs::path(map_path).parent_path() / "result.json";
-  return fs::is_regular_file(path) ? read_json(path.string()) : json::object();
+  json result = json::object();
+  if (!fs::is_regular_file(path)) return result;
+  take_json(path.string(), "run", [&](const json& read) {
+    (void)metric_of(read);  // throws for another form
+    result = read;
+  });
+  return result;
 }
 
 json number_or_null(const json& result, const char* key) {

@@ -283,7 +283,7 @@ RunReport run(const RunArguments& asked) {
   if (truth) summary.update(judge_run(*truth, run, optimized));
   if (measured && !judgement.metric) summary["scale_doubted"] = true;
   summary["judgement"] = describe_judgement(judgement);
-  const std::string map_path = run_map_path(arguments.out);
+  const std::string map_path = interrupted_map_path(run_map_path(arguments.out));
   if (fs::exists(map_path)) write_judgement(map_path, judgement);
   write_results(arguments.out, run, optimized, truth, dataset.name(), summary);
   if (run.broken_off)

@@ -30,6 +30,7 @@ json describe_map(const std::string& path, const StoredMap& stored) {
   json info = {{"file", path},
                {"schema", sizes.schema},
                {"finished", stored.finished},
+               {"verdict", stored.judgement ? json(to_string(stored.judgement->verdict)) : json()},
                {"sequence", stored.origin.sequence},
                {"sensor", stored.origin.calibration ? to_string(stored.origin.sensor) : "images"},
                {"places", map.place_graph.places.size()},
@@ -109,8 +110,10 @@ std::string to_text(const MapInfoResult& result) {
   const json& summary = result.summary;
   const auto count = [&](const char* key) { return summary[key].get<std::int64_t>(); };
   const auto megabytes = [&](const char* key) { return 1e-6 * summary[key].get<double>(); };
-  return fmt::format("{}: schema {}, {}\n", summary["file"].get<std::string>(), count("schema"),
-                     summary["finished"].get<bool>() ? "finished" : "broken off") +
+  const json& verdict = summary["verdict"];
+  return fmt::format("{}: schema {}, {}, {}\n", summary["file"].get<std::string>(),
+                     count("schema"), summary["finished"].get<bool>() ? "finished" : "broken off",
+                     verdict.is_null() ? "not judged" : verdict.get<std::string>()) +
          fmt::format("  from     {} ({})\n", summary["sequence"].get<std::string>(),
                      summary["sensor"].get<std::string>()) +
          fmt::format("  places   {} in {} components, {} constraints, {} loops\n", count("places"),

@@ -32,8 +32,8 @@ class MapDatabase {
   /// Writes the changes since the last commit (Slam::take_changes) in one transaction, which also
   /// removes a judgement of the map before.
   void commit(const MapChanges& changes);
-  /// Begins an empty map, as the run restarts with this origin.
-  void restart(const MapOrigin& origin);
+  /// Begins an empty map, as the run restarts with this origin; `run`: its report until now.
+  void restart(const MapOrigin& origin, const RunRecord& run);
   /// Writes the last changes, marks the map as finished and closes the file.
   void finish(const MapChanges& changes);
   /// Closes the file; without an earlier finish(), the map remains marked as unfinished.
@@ -42,7 +42,8 @@ class MapDatabase {
  private:
   friend void write_map(const std::string& path, const StoredMap& stored);
   explicit MapDatabase(std::unique_ptr<MapWriter> writer);
-  static std::unique_ptr<MapWriter> made(const std::string& path, const MapOrigin& origin);
+  static std::unique_ptr<MapWriter> made(const std::string& path, const MapOrigin& origin,
+                                         const RunRecord& run);
   void keep(const std::string& path);
   void replace_kept();
   std::unique_ptr<MapWriter> writer_;  ///< null after close()

@@ -12,6 +12,8 @@
 #include <placegraph/pipeline/cues/frame_view.h>
 #include <placegraph/pipeline/internal/frame_reader.h>
 #include <placegraph/pipeline/internal/learned_images.h>
+#include <placegraph/pipeline/internal/save_schedule.h>
+#include <placegraph/pipeline/internal/slam/run_evidence.h>
 #include <placegraph/pipeline/run.h>
 #include <placegraph/pipeline/slam_events.h>
 
@@ -187,7 +189,10 @@ class SequenceRun {
     while (!pass(stored)) {
       stored = StoredMap();
       result_.resumed_at.reset();
-      if (database_) database_->restart(origin());
+      if (!database_) continue;
+      RunRecord until_now;
+      until_now.stages = sum_of(times_.stages(), earlier_stages_);
+      database_->restart(origin(), until_now);
     }
     return std::move(result_);
   }
@@ -201,6 +206,7 @@ class SequenceRun {
     stored.map.metric = scale_measured(stored);  // it is judged again
     result_.notes = std::move(stored.run.notes);
     result_.odometry_error = stored.run.odometry_error;
+    result_.environments = environments_in(stored.history.evidence);
     result_.stages = std::move(stored.run.stages);
     result_.unposed = unposed_frames(stored.map.trajectory_optimized(), stored.map);
     result_.map = std::move(stored.map);
@@ -238,6 +244,8 @@ class SequenceRun {
     Slam slam(options_.slam, result_.calibration, slam_inputs(dataset_, options_, inputs_));
     FrameReader reader(dataset_, images_, result_.sensor, end_, options_.threads > 1);
     const std::size_t first = go_on(stored, reader, slam);
+    SaveSchedule saves;
+    saves.saved(first - begin_);
     for (std::size_t i = first; i < end_; ++i) {
       result_.stopped = inputs_.stop && inputs_.stop();
       if (result_.stopped) break;
@@ -258,7 +266,10 @@ class SequenceRun {
         earlier_stages_ = sum_of(std::move(earlier_stages_), slam.stages());
         return false;
       }
-      if (inputs_.map_file && done.new_place) commit(slam, false);
+      if (inputs_.map_file && done.new_place && saves.due(i + 1 - begin_)) {
+        commit(slam, false);
+        saves.saved(i + 1 - begin_);
+      }
     }
     result_.lens_k1 = images_.k1();
     result_.map = slam.finish();

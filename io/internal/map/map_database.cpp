@@ -84,8 +84,9 @@ MapDatabase::MapDatabase(MapDatabase&&) noexcept = default;
 MapDatabase& MapDatabase::operator=(MapDatabase&&) noexcept = default;
 MapDatabase::~MapDatabase() = default;
 
-std::unique_ptr<MapWriter> MapDatabase::made(const std::string& path, const MapOrigin& origin) {
-  // The file is created under another name, so that it has its tables and origin when it appears.
+std::unique_ptr<MapWriter> MapDatabase::made(const std::string& path, const MapOrigin& origin,
+                                             const RunRecord& run) {
+  // The file is created under another name, so that it has all of this when it appears.
   const std::string fresh = path + ".new";
   remove_with_journal(fresh);
   {
@@ -96,13 +97,20 @@ std::unique_ptr<MapWriter> MapDatabase::made(const std::string& path, const MapO
     write_origin(database, origin);
     database.execute("COMMIT");
   }
+  if (!run.stages.empty()) {
+    MapWriter writer(fresh);
+    MapChanges changes;
+    changes.run = run;
+    writer.commit(changes, false);
+    writer.database.text("PRAGMA journal_mode = DELETE");
+  }
   replace(fresh, path);
   return std::make_unique<MapWriter>(path);
 }
 
 MapDatabase MapDatabase::create(const std::string& path, const MapOrigin& origin) {
   const std::string target = target_of(path);
-  MapDatabase database(made(target, origin));
+  MapDatabase database(made(target, origin, {}));
   remove_with_journal(restarted_map_path(target));
   return database;
 }
@@ -129,11 +137,11 @@ void MapDatabase::commit(const MapChanges& changes) {
   writer_ = std::make_unique<MapWriter>(path);
 }
 
-void MapDatabase::restart(const MapOrigin& origin) {
+void MapDatabase::restart(const MapOrigin& origin, const RunRecord& run) {
   const std::string path = writer_->database.path();
   writer_.reset();
   if (kept_path_.empty()) keep(path);
-  writer_ = made(restarted_map_path(kept_path_), origin);
+  writer_ = made(restarted_map_path(kept_path_), origin, run);
 }
 
 void MapDatabase::finish(const MapChanges& changes) {
@@ -200,7 +208,7 @@ void write_map(const std::string& path, const StoredMap& stored) {
   const std::string target = target_of(path), fresh = target + ".part";
   try {
     // The file appears only when it is complete.
-    MapDatabase database(MapDatabase::made(fresh, stored.origin));
+    MapDatabase database(MapDatabase::made(fresh, stored.origin, {}));
     if (stored.finished) {
       database.finish(changes);
       if (stored.judgement) write_judgement(fresh, *stored.judgement);

@@ -32,7 +32,7 @@ class EnvironmentMonitor {
   const std::vector<EnvironmentObservation>& observations() const { return observations_; }
   /// Labels places with the most frequent class of their keyframes, unless it is unknown.
   void label(std::vector<Place>& places) const;
-  void visit_state(auto& archive) { archive(filter_, observations_); }
+  void visit_state(auto& archive) { archive(observations_, filter_); }
 
  private:
   EnvironmentFilter filter_;

@@ -9,8 +9,8 @@ namespace {
 constexpr std::uint8_t kEvidenceVersion = 2;
 
 void visit_sources(auto& archive, const EvidenceSources& sources) {
-  archive(sources.odometry, sources.links, sources.health, sources.contradicted,
-          sources.environments);
+  archive(sources.environments, sources.odometry, sources.links, sources.health,
+          sources.contradicted);
   if (sources.overlay) archive(*sources.overlay);
 }
 
@@ -38,6 +38,18 @@ std::optional<FrameId> take_up_evidence(const std::string& evidence, const Evide
   reader.end();
   if (newest == last.id) sources.health.go_on_after(last);
   return newest;
+}
+
+std::vector<EnvironmentObservation> environments_in(const std::string& evidence) {
+  std::vector<EnvironmentObservation> observations;
+  if (evidence.empty()) return observations;
+  StateReader reader(evidence);
+  std::uint8_t version = 0, with_overlay = 0;
+  reader(version);
+  if (version != kEvidenceVersion) return observations;
+  std::optional<FrameId> newest;
+  reader(with_overlay, newest, observations);
+  return observations;
 }
 
 }  // namespace placegraph

@@ -9,6 +9,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace placegraph {
 
@@ -31,5 +32,9 @@ std::string evidence_of(const EvidenceSources& sources, std::optional<FrameId> n
 /// version of the program, of other options, or that is damaged.
 std::optional<FrameId> take_up_evidence(const std::string& evidence, const EvidenceSources& sources,
                                         const Frame& last);
+
+/// The classified keyframes in the evidence of a run; none in that of another version of the
+/// program or where there is none. Throws ArgumentError for evidence that is damaged.
+std::vector<EnvironmentObservation> environments_in(const std::string& evidence);
 
 }  // namespace placegraph

@@ -52,6 +52,18 @@ TEST_F(InterruptedRun, WritesItsResultsAndSaysHowToContinue) {
   EXPECT_EQ(read_trajectory(path).size(), 240u);
 }
 
+TEST_F(InterruptedRun, SaysAgainInWhichEnvironmentsItWas) {
+  const auto whole =
+      run("run w --max-frames 60 --elements motion,spatial,context --out walked");
+  ASSERT_EQ(whole.code, 0) << whole.err;
+  const std::string environments = test::read_file(dir / "walked/environment.csv");
+  EXPECT_GT(std::count(environments.begin(), environments.end(), '\n'), 2);
+  fs::remove(dir / "walked/environment.csv");
+  const auto again = run("run --resume walked");
+  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_EQ(test::read_file(dir / "walked/environment.csv"), environments);
+}
+
 TEST_F(InterruptedRun, EndsByTerminationAndByHangUpToo) {
   for (const char* signal : {"TERM", "HUP"}) {
     fs::remove_all(dir / "out");

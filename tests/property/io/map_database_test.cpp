@@ -130,15 +130,19 @@ TEST(MapDatabaseProperty, ARestartKeepsTheOldMapUntilTheNewOneIsLonger) {
     StoredMap stored = random_map(random, 4);
     const std::size_t all = stored.map.frames.size();
     std::size_t longest = 0, newest = 0;
+    RunRecord run;
     auto database = std::make_optional(MapDatabase::create(path, stored.origin));
     for (int step = 0; step < 12; ++step) {
       if (random.uniform() < 0.3) {
         stored.origin.lens_pass = step;
-        database->restart(stored.origin);
+        run.stages = {{"reading", 0.5 * step, step}};
+        database->restart(stored.origin, run);
         newest = 0;
       } else {
         newest = std::min(all, newest + 1 + static_cast<std::size_t>(random.index(6)));
-        database->commit(changes_of(stored, newest));
+        MapChanges changes = changes_of(stored, newest);
+        changes.run = run;
+        database->commit(changes);
       }
       longest = std::max(longest, newest);
       if (random.uniform() < 0.5) continue;
@@ -147,6 +151,9 @@ TEST(MapDatabaseProperty, ARestartKeepsTheOldMapUntilTheNewOneIsLonger) {
       const StoredMap current = read_map(interrupted_map_path(path));
       EXPECT_EQ(current.map.frames.size(), newest);
       EXPECT_EQ(current.origin.lens_pass, stored.origin.lens_pass);
+      ASSERT_EQ(current.run.stages.size(), run.stages.size());
+      for (std::size_t i = 0; i < run.stages.size(); ++i)
+        EXPECT_EQ(current.run.stages[i].calls, run.stages[i].calls);
       check_map_checksums(interrupted_map_path(path));
       database = MapDatabase::open(path);
     }

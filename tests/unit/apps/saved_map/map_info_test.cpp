@@ -100,6 +100,7 @@ TEST(MapInfoText, SaysItInSixLines) {
   result.summary = {{"file", "out/map.db"},
                     {"schema", 7},
                     {"finished", false},
+                    {"verdict", nullptr},
                     {"sequence", "/data/town"},
                     {"sensor", "stereo"},
                     {"places", 4},
@@ -120,7 +121,7 @@ TEST(MapInfoText, SaysItInSixLines) {
                     {"views_bytes", 60'000},
                     {"landmarks_bytes", 0}};
   EXPECT_EQ(to_text(result),
-            "out/map.db: schema 7, broken off\n"
+            "out/map.db: schema 7, broken off, not judged\n"
             "  from     /data/town (stereo)\n"
             "  places   4 in 2 components, 3 constraints, 1 loops\n"
             "  frames   40, 38 posed, 9 keyframes, path 12.3 m\n"
