@@ -16,7 +16,7 @@
 #include <opencv2/core/utility.hpp>
 
 #include "apps/support/choice.h"
-#include "apps/support/image_folder_of.h"
+#include "apps/support/image_range.h"
 #include "apps/support/output.h"
 #include "apps/support/progress.h"
 #include "apps/support/usage.h"

@@ -15,7 +15,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/run/run_notes.h"
-#include "apps/support/image_folder_of.h"
+#include "apps/support/image_range.h"
 #include "apps/support/progress.h"
 
 namespace placegraph::apps {

@@ -17,7 +17,7 @@
 #include <set>
 #include <utility>
 
-#include "apps/support/image_folder_of.h"
+#include "apps/support/image_range.h"
 #include "apps/support/output.h"
 #include "apps/support/progress.h"
 #include "apps/support/usage.h"

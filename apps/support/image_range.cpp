@@ -5,9 +5,17 @@
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/internal/files/image_list.h>
 
-#include "apps/support/image_folder_of.h"
+#include <filesystem>
 
 namespace placegraph::apps {
+
+std::string image_folder_of(const std::string& folder) {
+  for (const char* name : {"images", "image_0"}) {
+    const std::filesystem::path inside = std::filesystem::path(folder) / name;
+    if (std::filesystem::is_directory(inside)) return inside.string();
+  }
+  return folder;
+}
 
 std::pair<std::int64_t, std::int64_t> selected_range(const std::vector<int>& range,
                                                      std::size_t count) {

@@ -13,6 +13,9 @@ namespace placegraph::apps {
 std::pair<std::int64_t, std::int64_t> selected_range(const std::vector<int>& range,
                                                      std::size_t count);
 
+/// Folder of the images: images/ or image_0/ in `folder` if there is one, else `folder`.
+std::string image_folder_of(const std::string& folder);
+
 /// The images of a folder (itself, or images/ or image_0/ in it) that `range` selects.
 struct ImageRange {
   std::vector<std::string> paths;

@@ -16,7 +16,7 @@ class UnknownLayout : public FileError {
 /// `path` does not exist or the recognized sequence is broken.
 std::unique_ptr<Dataset> open_dataset(const std::string& path);
 
-/// Whether the path is a sequence of one of these layouts, by what it contains; nothing is read.
+/// Whether the path is a sequence of one of these layouts, by the names in it.
 bool is_sequence(const std::string& path);
 
 }  // namespace placegraph

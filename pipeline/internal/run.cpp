@@ -161,6 +161,17 @@ bool scale_measured(const StoredMap& stored) {
   return stored.map.metric || (!measured.empty() && std::ranges::count(measured, false) == 0);
 }
 
+/// The map of a run that was already finished, and what it reported.
+void take_saved(StoredMap stored, RunResult& result) {
+  stored.map.metric = scale_measured(stored);  // it is judged again
+  result.notes = std::move(stored.run.notes);
+  result.odometry_error = stored.run.odometry_error;
+  result.environments = environments_in(stored.history.evidence);
+  result.stages = std::move(stored.run.stages);
+  result.unposed = unposed_frames(stored.map.trajectory_optimized(), stored.map);
+  result.map = std::move(stored.map);
+}
+
 /// A run over a sequence, with the file in which it saves its map.
 class SequenceRun {
  public:
@@ -183,7 +194,13 @@ class SequenceRun {
       stored = read_map(interrupted_map_path(inputs_.map_file->path));
       images_.take_up(stored.origin);
       earlier_stages_ = stored.run.stages;
-      if (stored.finished) return as_saved(std::move(stored));
+      if (stored.finished) {
+        result_.calibration = images_.calibration();
+        result_.lens_k1 = images_.k1();
+        result_.resumed_at = FrameId(begin_ + stored.map.frames.size());
+        take_saved(std::move(stored), result_);
+        return std::move(result_);
+      }
       database_ = MapDatabase::open(inputs_.map_file->path);
     }
     while (!pass(stored)) {
@@ -198,21 +215,6 @@ class SequenceRun {
   }
 
  private:
-  /// The map of a run that was already finished.
-  RunResult as_saved(StoredMap stored) {
-    result_.calibration = images_.calibration();
-    result_.lens_k1 = images_.k1();
-    result_.resumed_at = FrameId(begin_ + stored.map.frames.size());
-    stored.map.metric = scale_measured(stored);  // it is judged again
-    result_.notes = std::move(stored.run.notes);
-    result_.odometry_error = stored.run.odometry_error;
-    result_.environments = environments_in(stored.history.evidence);
-    result_.stages = std::move(stored.run.stages);
-    result_.unposed = unposed_frames(stored.map.trajectory_optimized(), stored.map);
-    result_.map = std::move(stored.map);
-    return std::move(result_);
-  }
-
   MapOrigin origin() const {
     MapOrigin origin;
     origin.sequence = inputs_.map_file->sequence;

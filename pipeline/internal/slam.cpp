@@ -14,7 +14,6 @@
 #include <algorithm>
 
 namespace placegraph {
-/// State of Slam and the steps of processing.
 struct Slam::Impl {
   Impl(const SlamOptions& o, const Calibration& c, const SlamInputs& inputs)
       : options(o),
@@ -55,13 +54,14 @@ struct Slam::Impl {
   void add_keyframe(const NewKeyframe& keyframe, FrameResult& result);
   void add_motion(KeyframeId keyframe);
   void classify_environment(const NewKeyframe& keyframe);
-  void assume_environment();
+  void assume_environment() {
+    if (options.context.enabled && options.context.assume)
+      odometry.assume(environments.assumptions());
+  }
   void close_loops(FrameResult& result);
   void optimized(const IncrementalStep& step);
   void take_up(const Map& map, const PlaceHistory& history, const Frame& last);
-  EvidenceSources evidence() {
-    return {odometry, links, health, contradicted, environments, overlay ? &*overlay : nullptr};
-  }
+  RunEvidence learned() { return {odometry, links, health, contradicted, environments, overlay}; }
   std::optional<FrameId> newest_counted() const {
     return recorder.empty() ? counted : std::max(counted, std::optional(recorder.newest().frame));
   }
@@ -115,7 +115,7 @@ MapChanges Slam::take_changes() {
   MapChanges changes = impl_->feed.take_changes(impl_->sources());
   if (const auto& places = changes.places; !places.empty())
     impl_->links.note_errors(places[0].anchor_keyframe, impl_->odometry.map(), impl_->mapper);
-  changes.history.evidence = evidence_of(impl_->evidence(), impl_->newest_counted());
+  changes.history.evidence = evidence_of(impl_->learned(), impl_->newest_counted());
   changes.run.stages = stages();
   if (impl_->finished) changes.run.notes = notes(), changes.run.odometry_error = odometry_error();
   return changes;
@@ -346,16 +346,9 @@ void Slam::Impl::classify_environment(const NewKeyframe& keyframe) {
   if (!environments.classify(keyframe.id, keyframe.frame, shares, odometry.points_cam(),
                              odometry.map().metric()))
     return;
-  const auto kind = environments.kind();
-  log(log_sink, LogLevel::kInfo, "frame {}: environment {}", keyframe.frame.id,
-      (kind ? environment_name(*kind) : std::string("unknown")));
+  const FrameId frame = keyframe.frame.id;
+  log(log_sink, LogLevel::kInfo, "frame {}: environment {}", frame, environments.name());
   assume_environment();
-}
-
-void Slam::Impl::assume_environment() {
-  if (!options.context.enabled || !options.context.assume) return;
-  const auto kind = environments.kind();
-  odometry.assume(kind ? std::optional(assumptions_of(*kind)) : std::nullopt);
 }
 
 void Slam::Impl::close_loops(FrameResult& result) {
@@ -398,10 +391,8 @@ void Slam::Impl::take_up(const Map& map, const PlaceHistory& history, const Fram
   recovery.take_up(newest, history.median_depth_m, known());
   odometry.go_on_from(++KeyframeId(newest), history.median_depth_m);
   odometry.restart(recovery.T_map_last(), true);
-  if (!history.evidence.empty()) {
-    counted = take_up_evidence(history.evidence, evidence(), last);
-    assume_environment();
-  }
+  counted = take_up_evidence(history.evidence, learned(), last);
+  assume_environment();
   FrameResult seen_again;
   add_keyframes(odometry.add_frame(last, recovery.T_map_last()), seen_again);
 }

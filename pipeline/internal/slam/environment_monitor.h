@@ -29,6 +29,12 @@ class EnvironmentMonitor {
                 const std::vector<Eigen::Vector3d>& points_cam, bool metric);
   /// Current environment class; nothing while it is unknown.
   std::optional<Environment> kind() const { return filter_.kind(); }
+  /// Its name; "unknown" while it is.
+  std::string name() const { return kind() ? environment_name(*kind()) : "unknown"; }
+  /// What it lets assume; nothing while it is unknown.
+  std::optional<Assumptions> assumptions() const {
+    return kind() ? std::optional(assumptions_of(*kind())) : std::nullopt;
+  }
   const std::vector<EnvironmentObservation>& observations() const { return observations_; }
   /// Labels places with the most frequent class of their keyframes, unless it is unknown.
   void label(std::vector<Place>& places) const;

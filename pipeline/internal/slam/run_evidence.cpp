@@ -8,7 +8,7 @@ namespace {
 /// Version of the bytes; another one cannot be read.
 constexpr std::uint8_t kEvidenceVersion = 2;
 
-void visit_sources(auto& archive, const EvidenceSources& sources) {
+void visit_sources(auto& archive, const RunEvidence& sources) {
   archive(sources.environments, sources.odometry, sources.links, sources.health,
           sources.contradicted);
   if (sources.overlay) archive(*sources.overlay);
@@ -16,23 +16,24 @@ void visit_sources(auto& archive, const EvidenceSources& sources) {
 
 }  // namespace
 
-std::string evidence_of(const EvidenceSources& sources, std::optional<FrameId> newest) {
+std::string evidence_of(const RunEvidence& sources, std::optional<FrameId> newest) {
   StateWriter writer;
-  std::uint8_t version = kEvidenceVersion, with_overlay = sources.overlay != nullptr;
+  std::uint8_t version = kEvidenceVersion, with_overlay = sources.overlay.has_value();
   writer(version, with_overlay, newest);
   visit_sources(writer, sources);
   return writer.written();
 }
 
-std::optional<FrameId> take_up_evidence(const std::string& evidence, const EvidenceSources& sources,
+std::optional<FrameId> take_up_evidence(const std::string& evidence, const RunEvidence& sources,
                                         const Frame& last) {
+  if (evidence.empty()) return std::nullopt;
   StateReader reader(evidence);
   std::uint8_t version = 0, with_overlay = 0;
   std::optional<FrameId> newest;
   reader(version, with_overlay, newest);
   require(version == kEvidenceVersion,
           "the interrupted run is one of another version of the program");
-  require((with_overlay != 0) == (sources.overlay != nullptr),
+  require((with_overlay != 0) == sources.overlay.has_value(),
           "the interrupted run has other options of static overlays");
   visit_sources(reader, sources);
   reader.end();

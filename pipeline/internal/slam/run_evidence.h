@@ -14,23 +14,23 @@
 namespace placegraph {
 
 /// Components of a running system that learn from all frames what its map does not contain.
-struct EvidenceSources {
+struct RunEvidence {
   Odometry& odometry;
   LinkFeed& links;
   HealthMonitor& health;
   ContradictedSteps& contradicted;
   EnvironmentMonitor& environments;
-  StaticOverlay* overlay;  ///< null: overlays are not searched for
+  std::optional<StaticOverlay>& overlay;  ///< nothing: overlays are not searched for
 };
 
 /// What they have learned, as the bytes of PlaceHistory::evidence. `newest`: the last frame that
 /// they know.
-std::string evidence_of(const EvidenceSources& sources, std::optional<FrameId> newest);
+std::string evidence_of(const RunEvidence& sources, std::optional<FrameId> newest);
 
 /// Takes over what an interrupted run had learned; `last` is the frame with which it goes on.
-/// Returns the last frame that is in the evidence. Throws ArgumentError for the evidence of another
-/// version of the program, of other options, or that is damaged.
-std::optional<FrameId> take_up_evidence(const std::string& evidence, const EvidenceSources& sources,
+/// Returns the last frame that is in the evidence, nothing without any. Throws ArgumentError for
+/// the evidence of another version of the program, of other options, or that is damaged.
+std::optional<FrameId> take_up_evidence(const std::string& evidence, const RunEvidence& sources,
                                         const Frame& last);
 
 /// The classified keyframes in the evidence of a run; none in that of another version of the

@@ -8,7 +8,6 @@
 
 #include "apps/support/choice.h"
 #include "apps/support/frame_source.h"
-#include "apps/support/image_folder_of.h"
 #include "apps/support/labelled_set.h"
 #include "apps/support/read_calib.h"
 #include "tests/support/message_of.h"
