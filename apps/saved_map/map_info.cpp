@@ -111,8 +111,8 @@ std::string to_text(const MapInfoResult& result) {
   const auto count = [&](const char* key) { return summary[key].get<std::int64_t>(); };
   const auto megabytes = [&](const char* key) { return 1e-6 * summary[key].get<double>(); };
   const json& verdict = summary["verdict"];
-  return fmt::format("{}: schema {}, {}, {}\n", summary["file"].get<std::string>(),
-                     count("schema"), summary["finished"].get<bool>() ? "finished" : "broken off",
+  return fmt::format("{}: schema {}, {}, {}\n", summary["file"].get<std::string>(), count("schema"),
+                     summary["finished"].get<bool>() ? "finished" : "broken off",
                      verdict.is_null() ? "not judged" : verdict.get<std::string>()) +
          fmt::format("  from     {} ({})\n", summary["sequence"].get<std::string>(),
                      summary["sensor"].get<std::string>()) +

@@ -72,8 +72,8 @@ bool is_run_folder(const fs::path& folder) {
 
 /// Whether it is the name of a file that a run writes and commands read (docs/output.md).
 bool is_file_of_run(const std::string& name) {
-  constexpr std::array kBegins{"map.db",     "result.json", "trajectory_",
-                               "graph",      "places.",     "loops.csv",
+  constexpr std::array kBegins{"map.db",          "result.json", "trajectory_",
+                               "graph",           "places.",     "loops.csv",
                                "environment.csv", "floor_plan.", "semantic_map."};
   return std::ranges::any_of(kBegins, [&](const char* begin) { return name.starts_with(begin); });
 }

@@ -2,11 +2,11 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <opencv2/core.hpp>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/internal/files/atomic_file.h>
 #include <sys/file.h>
 #include <unistd.h>
+#include <opencv2/core.hpp>
 
 #include <algorithm>
 #include <cerrno>

@@ -213,15 +213,9 @@ json LiveRun::state() const {
     landmarks = map_.landmarks();
     json loops = json::array();
     for (const LoopRecord& loop : loops_) loops.push_back(loop_json(loop));
-    state = {{"number", events_->last()},
-             {"began", began_},
-             {"total", total_},
-             {"done", map_.frame_count()},
-             {"paused", paused_},
-             {"finished", finished_},
-             {"verdict", verdict_},
-             {"last", last_},
-             {"stages", stages_},
+    state = {{"number", events_->last()},  {"began", began_},   {"total", total_},
+             {"done", map_.frame_count()}, {"paused", paused_}, {"finished", finished_},
+             {"verdict", verdict_},        {"last", last_},     {"stages", stages_},
              {"loops", std::move(loops)}};
   }
   state["frames"] = frames_json(frames);

@@ -47,8 +47,8 @@ class MapDatabase {
   void keep(const std::string& path);
   void replace_kept();
   std::unique_ptr<MapWriter> writer_;  ///< null after close()
-  std::string kept_path_;        ///< the map that a restarted run will replace; empty: none
-  std::size_t kept_frames_ = 0;  ///< number of its frames
+  std::string kept_path_;              ///< the map that a restarted run will replace; empty: none
+  std::size_t kept_frames_ = 0;        ///< number of its frames
 };
 
 /// Path of the file with which the interrupted run of a map goes on.

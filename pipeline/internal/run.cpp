@@ -234,8 +234,8 @@ class SequenceRun {
         dataset_.images_rectified() || !images_.learn_lens(slam.lens(), options_.lens, inputs_.log))
       return false;
     if (inputs_.events)
-      inputs_.events->lens_found({FrameId(i), images_.k1(), slam.lens().sigma_k1,
-                                  images_.lens_pass() + 1});
+      inputs_.events->lens_found(
+          {FrameId(i), images_.k1(), slam.lens().sigma_k1, images_.lens_pass() + 1});
     return true;
   }
 

@@ -88,7 +88,7 @@ struct Slam::Impl {
   HealthMonitor health;
   ContradictedSteps contradicted;
   std::optional<StaticOverlay> overlay;
-  std::optional<FrameId> counted;  ///< newest frame in the evidence of the interrupted run
+  std::optional<FrameId> counted;         ///< newest frame in the evidence of the interrupted run
   bool finished = false, broken = false;  ///< broken: an exception has left a step unfinished
 };
 

@@ -215,8 +215,8 @@ template <class Group>
 std::vector<int> take_copies(std::vector<LoopOnChain<Group>>& loops,
                              const OdometryChain<Group>& chain, const LoopSupportOptions& options,
                              double volume) {
-  constexpr double kOfNoise = 0.01;        // share of the variance
-  constexpr std::size_t kCompared = 10;    // loops before it with the same ends
+  constexpr double kOfNoise = 0.01;      // share of the variance
+  constexpr std::size_t kCompared = 10;  // loops before it with the same ends
   const auto same_ends = [](const LoopOnChain<Group>& a, const LoopOnChain<Group>& b) {
     return a.from == b.from && a.to == b.to;
   };
@@ -235,9 +235,8 @@ std::vector<int> take_copies(std::vector<LoopOnChain<Group>>& loops,
       const LoopOnChain<Group>& other = kept[k - 1];
       if (!same_ends(other, loop) || kept.size() - k >= kCompared) break;
       const RingMisclosure ring = ring_misclosure(loop, other, chain);
-      const double noise =
-          std::max(rings.scale_is_known ? kOfNoise * rings.noise_scale : 0,
-                   least_scale({ring}, Group::kDof, std::log(volume)));
+      const double noise = std::max(rings.scale_is_known ? kOfNoise * rings.noise_scale : 0,
+                                    least_scale({ring}, Group::kDof, std::log(volume)));
       copy = ring.chi2 <= noise * Group::kDof;
     }
     if (copy)

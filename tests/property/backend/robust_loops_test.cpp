@@ -145,8 +145,12 @@ TYPED_TEST(RobustLoopsOf, LoopsThatAreWrittenAgainChangeNoDecision) {
   constexpr double kRoundings[] = {0, 1e-6, 1e-3};
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     Random random(seed);
-    const LoopedWalk<TypeParam> walk({.nodes = 200, .lap = 40, .loop_every = 4, .claimed = 0.02,
-                                      .false_loops = static_cast<int>(seed % 4), .seed = seed});
+    const LoopedWalk<TypeParam> walk({.nodes = 200,
+                                      .lap = 40,
+                                      .loop_every = 4,
+                                      .claimed = 0.02,
+                                      .false_loops = static_cast<int>(seed % 4),
+                                      .seed = seed});
     PoseGraph again = walk.graph;
     const double share = seed % 2 == 0 ? 1 : random.uniform(0.2, 1);
     const int times = 1 + random.index(4);
@@ -154,8 +158,8 @@ TYPED_TEST(RobustLoopsOf, LoopsThatAreWrittenAgainChangeNoDecision) {
       const auto& loop = std::get<RelativePoseConstraint>(constraint);
       if (loop.source == ConstraintSource::kOdometry || random.uniform() > share) continue;
       for (int i = 0; i < times; ++i)
-        again.constraints.push_back(written_again<TypeParam>(
-            loop, kRoundings[random.index(3)], random.index(2) == 1));
+        again.constraints.push_back(
+            written_again<TypeParam>(loop, kRoundings[random.index(3)], random.index(2) == 1));
     }
     for (const RobustMethod method :
          {RobustMethod::kAuto, RobustMethod::kGnc, RobustMethod::kPcm}) {

@@ -27,7 +27,8 @@ Part random_part(Random& random) {
   part.vector = Eigen::Vector3d::Random();
   part.pose = SE3::exp(Vector6d::Random());
   part.flags[random.index(3)] = true;
-  for (int i = random.index(5); i > 0; --i) part.numbers[FrameId(random.index(9))] = random.uniform();
+  for (int i = random.index(5); i > 0; --i)
+    part.numbers[FrameId(random.index(9))] = random.uniform();
   return part;
 }
 

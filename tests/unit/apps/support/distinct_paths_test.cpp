@@ -74,8 +74,9 @@ TEST(DistinctPaths, TheMapOfAFolderIsAnInputAndSoIsTheFolderOfAFile) {
   const test::TemporaryFolder dir;
   const std::string map = dir.write("run/map.db", ""), image = dir.write("images/a.png", "");
   const auto message = [](const std::string& output, const std::string& input) {
-    return test::message_of<ArgumentError>(
-        [&] { require_distinct_paths({{"--out", output}}, {{"MAP", input}}); });
+    return test::message_of<ArgumentError>([&] {
+      require_distinct_paths({{"--out", output}}, {{"MAP", input}});
+    });
   };
   EXPECT_EQ(message(map, dir / "run"), "--out: " + map + " is an input, that of MAP");
   EXPECT_EQ(message(dir / "images", image),

@@ -97,9 +97,8 @@ TEST_F(Images, ACameraIsALineOfNumbersOrACalibration) {
       "b.yaml", test::read_file(yaml) +
                     "distortion:\n  model: radial_tangential\n  coefficients: [0.1, 0, 0, 0]\n");
   EXPECT_EQ(read_calib(bent).coefficients[0], 0.1);
-  EXPECT_THAT(
-      test::message_of([&] { (void)read_calib_without_distortion(bent, "a cube needs"); }),
-      EndsWith("b.yaml: a cube needs a camera without distortion"));
+  EXPECT_THAT(test::message_of([&] { (void)read_calib_without_distortion(bent, "a cube needs"); }),
+              EndsWith("b.yaml: a cube needs a camera without distortion"));
   EXPECT_THROW((void)read_calib(dir / "none.yaml"), FileError);
 }
 
@@ -120,9 +119,8 @@ TEST_F(Images, LabelsBecomePositionsAmongTheNames) {
   labels.at<std::uint8_t>(0, 3) = 4;
   EXPECT_EQ(test::message_of([&] { (void)class_image(labels, "a.png", kClasses, {}, false); }),
             "a.png: class 4 at 3 0 is not in CLASSES.txt");
-  EXPECT_THAT(test::message_of([&] {
-                (void)class_image(Image(2, 2, CV_8UC3), "b.png", kClasses, {}, false);
-              }),
+  EXPECT_THAT(test::message_of(
+                  [&] { (void)class_image(Image(2, 2, CV_8UC3), "b.png", kClasses, {}, false); }),
               HasSubstr("b.png: no label image"));
 }
 
@@ -150,8 +148,9 @@ TEST_F(Images, ALabelledSetHasItsPartsOrIsAllForTraining) {
 TEST(Choice, IsThePositionOfAName) {
   enum class Colour { kRed, kGreen, kBlue };
   EXPECT_EQ(choice<Colour>("--c", {"red", "green", "blue"}, "blue"), Colour::kBlue);
-  EXPECT_EQ(test::message_of<ArgumentError>(
-                [] { (void)choice<Colour>("--c", {"red", "green"}, "gren"); }),
+  EXPECT_EQ(test::message_of<ArgumentError>([] {
+              (void)choice<Colour>("--c", {"red", "green"}, "gren");
+            }),
             "--c: 'gren' is none of red, green");
 }
 

@@ -77,7 +77,7 @@ TEST(OneLine, HasNeitherBreaksNorControlCharacters) {
   EXPECT_EQ(one_line("\x1b[31mred\x7f"), "\\x1b[31mred\\x7f");
   EXPECT_EQ(one_line(std::string("a\0b", 3)), "a\\x00b");
   EXPECT_EQ(one_line("\xc3\xa4 \xe2\x82\xac"), "\xc3\xa4 \xe2\x82\xac");  // letters stay
-  EXPECT_EQ(one_line("\xc2\x9b[\xc2\xa0"), "\\xc2\\x9b[\xc2\xa0");  // U+009B begins a command
+  EXPECT_EQ(one_line("\xc2\x9b[\xc2\xa0"), "\\xc2\\x9b[\xc2\xa0");        // U+009B begins a command
   for (int c = 1; c < 32; ++c)
     for (const char byte : one_line("x" + std::string(1, static_cast<char>(c)) + "y"))
       EXPECT_GE(static_cast<unsigned char>(byte), 0x20) << c;

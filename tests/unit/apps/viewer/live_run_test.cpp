@@ -177,8 +177,7 @@ struct Known {
     if (event.name == "frame") {
       ++done;
       last = event.data;
-      if (last.contains("landmarks"))
-        landmarks += last["landmarks"]["data"].get<std::string>();
+      if (last.contains("landmarks")) landmarks += last["landmarks"]["data"].get<std::string>();
       last.erase("landmarks");
     } else if (event.name == "loop") {
       loops.push_back(event.data);
@@ -273,14 +272,18 @@ TEST_F(LiveRunTest, ARunThatBeginsAgainForgetsWhatItHad) {
   begin();
   see(0);
   live.loop_refused({FrameId(9), FrameId(1), 7, LoopStage::kGeometry, {}});
-  live.loop_accepted({FrameId(9), FrameId(2), 33, LoopStage::kAccepted, {}, LoopModel::kPoints3d2d,
-                      0, 0.7, 0.75});
+  live.loop_accepted(
+      {FrameId(9), FrameId(2), 33, LoopStage::kAccepted, {}, LoopModel::kPoints3d2d, 0, 0.7, 0.75});
   const json loops = live.state()["loops"];
   ASSERT_EQ(loops.size(), 2U);
   EXPECT_EQ(loops[0]["accepted"], false);
   EXPECT_EQ(loops[0]["stage"], "geometry");
-  EXPECT_EQ(loops[1], (json{{"query_frame", 9}, {"match_frame", 2}, {"stage", "accepted"},
-                            {"accepted", true}, {"probability", 0.75}, {"inliers", 33}}));
+  EXPECT_EQ(loops[1], (json{{"query_frame", 9},
+                            {"match_frame", 2},
+                            {"stage", "accepted"},
+                            {"accepted", true},
+                            {"probability", 0.75},
+                            {"inliers", 33}}));
   auto seen = events();
   ASSERT_EQ(seen.size(), 3U);  // the first beginning was no reset
   EXPECT_EQ(seen[1].name, "loop");
@@ -361,8 +364,7 @@ TEST_F(LiveRunTest, StagesAreSentWithTheirTimes) {
   const auto seen = events();
   ASSERT_EQ(seen.front().name, "stages");
   EXPECT_EQ(live.state()["stages"], seen.front().data);
-  EXPECT_EQ(seen.front().data,
-            json::parse(R"([{"name": "tracking", "cpu_s": 1.5, "calls": 3},
+  EXPECT_EQ(seen.front().data, json::parse(R"([{"name": "tracking", "cpu_s": 1.5, "calls": 3},
                             {"name": "mapping", "cpu_s": 0.25, "calls": 1}])"));
 }
 

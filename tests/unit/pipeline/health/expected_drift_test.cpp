@@ -57,8 +57,7 @@ TEST(ExpectedDrift, IsTheDeviationOfTheLastPlaceFromTheFirst) {
 TEST(ExpectedDrift, ErrorsThatAllMotionsShareAddInProportionToTheMotion) {
   RunResult run = path_of(17, 0.01);
   run.odometry_error.emplace();
-  run.odometry_error->independent.topLeftCorner<3, 3>() =
-      16 * 1e-4 * Eigen::Matrix3d::Identity();
+  run.odometry_error->independent.topLeftCorner<3, 3>() = 16 * 1e-4 * Eigen::Matrix3d::Identity();
   run.odometry_error->independent.bottomRightCorner<3, 3>() = 1e-12 * Eigen::Matrix3d::Identity();
   // Half a per cent of a length of 16 m.
   run.odometry_error->shared(2, 2) = 0.08 * 0.08;
@@ -95,16 +94,15 @@ TEST(ExpectedDrift, IsReportedBeyondTheTwentiethPartOfThePath) {
 
 // A camera that turns at the place has hardly a path, but a view.
 TEST(ExpectedDrift, IsComparedWithTheDepthOfTheSceneWhereThePathIsShorter) {
-  for (const auto& [depth, reported] : {std::pair(10.0, "9 % of the path"),
-                                        std::pair(20.0, "7 % of the depth of the scene"),
-                                        std::pair(60.0, "")}) {
+  for (const auto& [depth, reported] :
+       {std::pair(10.0, "9 % of the path"), std::pair(20.0, "7 % of the depth of the scene"),
+        std::pair(60.0, "")}) {
     RunResult run = path_of(17, 0.2);
     run.map.landmarks.push_back({.keyframe = KeyframeId(3), .point_cam = {1, 2, depth}});
     const Judgement judgement = judge(run, {}, 0.5);
     const auto note = std::ranges::find(judgement.findings, NoteCause::kDrift, &DataNote::cause);
     ASSERT_EQ(note == judgement.findings.end(), std::string(reported).empty()) << depth;
-    if (note != judgement.findings.end())
-      EXPECT_TRUE(note->text.ends_with(reported)) << note->text;
+    if (note != judgement.findings.end()) EXPECT_TRUE(note->text.ends_with(reported)) << note->text;
   }
 }
 

@@ -83,25 +83,22 @@ TEST(InterruptedChecks, SayWhatTheyWouldHaveSaidWithoutTheInterruption) {
   Random random = test::seeded_random(3);
   std::string said;
   for (int round = 0; round < 20; ++round) {
-    said += said_by(random, ImageQuality("images", NoteCause::kImages),
-                    [](ImageQuality& check, int i, Random& r) {
-                      check.add(FrameId(i), poor_image(r));
-                    });
+    said += said_by(
+        random, ImageQuality("images", NoteCause::kImages),
+        [](ImageQuality& check, int i, Random& r) { check.add(FrameId(i), poor_image(r)); });
     said += said_by(random, ContradictedSteps(), [](ContradictedSteps& check, int i, Random& r) {
       check.add(FrameId(i), r.uniform() < 0.7);
     });
     said += said_by(random, ScaleCheck(), [](ScaleCheck& check, int i, Random& r) {
       check.add(FrameId(i), r.uniform());
     });
-    said += said_by(random, FlowCheck(stereo()), [](FlowCheck& check, int i, Random& r) {
-      check.add(FrameId(i), r.uniform());
-    });
+    said += said_by(random, FlowCheck(stereo()),
+                    [](FlowCheck& check, int i, Random& r) { check.add(FrameId(i), r.uniform()); });
     said += said_by(random, RightImageTime(stereo()), [](RightImageTime& check, int, Random& r) {
       check.add(late_offset(r), {0, 0, 0.4});
     });
-    said += said_by(random, IntrinsicsCheck(stereo()), [](IntrinsicsCheck& check, int, Random& r) {
-      check.add(wrong_intrinsics(r));
-    });
+    said += said_by(random, IntrinsicsCheck(stereo()),
+                    [](IntrinsicsCheck& check, int, Random& r) { check.add(wrong_intrinsics(r)); });
     said += said_by(random, ResidualCheck(stereo()), [](ResidualCheck& check, int, Random& r) {
       check.add(WindowResiduals{1000, r.index(200), 1000, r.index(200)});
     });

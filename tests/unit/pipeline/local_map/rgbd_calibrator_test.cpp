@@ -108,8 +108,8 @@ TEST(RgbdCalibrator, EarlierMotionsFollowWhatIsLearnedLater) {
   EXPECT_LT(std::sqrt(after), 0.3 * std::sqrt(before));
 }
 
-// After an interruption that falls between any two windows, it knows of the camera and of all earlier
-// motions what it would have known without.
+// After an interruption that falls between any two windows, it knows of the camera and of all
+// earlier motions what it would have known without.
 TEST(RgbdCalibrator, GoesOnFromItsStateAsIfItHadNotBeenInterrupted) {
   constexpr int kWindows = 4;
   Random random = seeded_random(6);
