@@ -2,6 +2,7 @@
 
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/datasets/open_dataset.h>
+#include <placegraph/io/internal/files/image_list.h>
 
 #include <algorithm>
 #include <array>
@@ -78,6 +79,30 @@ bool is_file_of_run(const std::string& name) {
   return std::ranges::any_of(kBegins, [&](const char* begin) { return name.starts_with(begin); });
 }
 
+/// Whether it is the name of an image of a sequence: with a number, unlike plot.png.
+bool is_numbered_image(const fs::path& path) {
+  const std::string name = path.filename().string();
+  return has_image_extension(name) &&
+         std::ranges::any_of(name, [](char c) { return c >= '0' && c <= '9'; });
+}
+
+/// Whether a file or folder is, by its name or its images, one that recordings consist of.
+bool is_part_of_recording(const fs::path& path) {
+  constexpr std::array kBegins{"calib",     "times",    "poses.",  "rgb.txt",      "depth.txt",
+                               "ground",    "associat", "sensor.", "data.csv",     "world.yaml",
+                               "odometry.", "imu",      "gps",     "accelerometer"};
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored))
+    return !is_run_folder(path) &&
+           std::ranges::any_of(fs::directory_iterator(path, ignored), [&](const auto& entry) {
+             return is_part_of_recording(entry.path());
+           });
+  const std::string name = path.filename().string();
+  return fs::exists(path, ignored) &&
+         (is_numbered_image(path) ||
+          std::ranges::any_of(kBegins, [&](const char* begin) { return name.starts_with(begin); }));
+}
+
 /// The innermost recording around the path; empty if there is none, or a run between them.
 fs::path recording_around(const fs::path& path) {
   constexpr int kDeepest = 3;  // mav0/cam0/data
@@ -112,17 +137,13 @@ void require_no_input(const ResolvedPath& output, const ResolvedPath& input) {
           text + " is the folder of an input, that of " + input.given.option);
 }
 
-/// Files and folders that are in a recording may be what it consists of.
+/// Files and folders of a recording stay as they are, without exception.
 void require_no_recording(const ResolvedPath& output) {
-  std::error_code ignored;
-  const bool is_there = fs::is_directory(output.path, ignored)
-                            ? !fs::is_empty(output.path, ignored) && !is_run_folder(output.path)
-                            : fs::exists(output.path, ignored);
-  if (!is_there) return;
+  if (!is_part_of_recording(output.path)) return;
   const fs::path recording = recording_around(output.path);
   require(recording.empty(), output.given.option + ": " + output.given.path +
-                                 " is there already, in the recording " + recording.string() +
-                                 ": name a place outside of it");
+                                 " is a part of the recording " + recording.string() +
+                                 ": name another place");
 }
 
 }  // namespace

@@ -198,13 +198,14 @@ Judgement judge(RunResult& run, const std::vector<DataNote>& notes, double min_p
     if (note && note->cause != NoteCause::kNone) findings.push_back(*note);
   };
   std::vector<DataNote>& findings = judgement.findings;
-  if (posed == 0 || static_cast<double>(posed) < min_posed * static_cast<double>(frames)) {
-    judgement.verdict = Verdict::kFailed;
+  const bool failed =
+      posed == 0 || static_cast<double>(posed) < min_posed * static_cast<double>(frames);
+  if (failed) judgement.verdict = Verdict::kFailed;
+  if (failed || 2 * posed < frames)
     add(DataNote{fmt::format("{} of {} frames have a pose", posed, frames), false,
                  NoteCause::kFewPosed,
                  run.unposed.empty() ? "" : "the most frequent reason: " + run.unposed[0].reason},
         findings);
-  }
   for (const DataNote& note : notes) add(note, findings);
   for (const DataNote& note : run.notes) add(note, findings);
   add(note_of_height(run), findings);

@@ -13,16 +13,16 @@
 
 namespace placegraph {
 namespace fs = std::filesystem;
-namespace {
-
-bool has_image_extension(const fs::path& path) {
+bool has_image_extension(const std::string& path) {
   static constexpr std::array<std::string_view, 8> kExtensions = {".png", ".jpg", ".jpeg", ".pgm",
                                                                   ".ppm", ".bmp", ".tif",  ".tiff"};
-  std::string extension = path.extension().string();
+  std::string extension = fs::path(path).extension().string();
   std::ranges::transform(extension, extension.begin(),
                          [](char c) { return (c >= 'A' && c <= 'Z') ? c + ('a' - 'A') : c; });
   return std::ranges::find(kExtensions, extension) != kExtensions.end();
 }
+
+namespace {
 
 std::vector<fs::path> images_in(const std::string& folder) {
   std::error_code error;
@@ -31,7 +31,7 @@ std::vector<fs::path> images_in(const std::string& folder) {
   std::vector<fs::path> images;
   for (const fs::directory_entry& entry : entries) {
     const bool hidden = entry.path().filename().string().starts_with('.');
-    if (!hidden && has_image_extension(entry.path()) && !entry.is_directory()) {
+    if (!hidden && has_image_extension(entry.path().string()) && !entry.is_directory()) {
       images.push_back(entry.path());
     }
   }

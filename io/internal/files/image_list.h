@@ -15,6 +15,8 @@ std::vector<std::string> list_numbered_images(const std::string& folder);
 std::vector<std::string> list_images(const std::string& folder);
 
 bool holds_images(const std::string& folder);
+/// Whether the name ends as those of images do, in upper or lower case.
+bool has_image_extension(const std::string& path);
 
 /// "60 images in images/, 60 images in depth/" for a folder and its subfolders, for messages about
 /// images in an unexpected place. Empty if there are none.

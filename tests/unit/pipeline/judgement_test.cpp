@@ -103,6 +103,15 @@ TEST(Judgement, FailsBelowTheShareOfFramesWithAPose) {
   EXPECT_EQ(judged(run_of("...."), {}, 0).verdict, Verdict::kFailed);
 }
 
+TEST(Judgement, DoubtsARunThatLeavesMostFramesWithoutAPose) {
+  const Judgement few = judged(run_of("000....."), {}, 0.2);
+  EXPECT_EQ(few.verdict, Verdict::kDoubtful);
+  EXPECT_THAT(causes_of(few), testing::Contains("few_posed"));
+  EXPECT_EQ(few.findings[0].text, "3 of 8 frames have a pose");
+  EXPECT_THAT(causes_of(judged(run_of("0000...."), {}, 0.2)),
+              testing::Not(testing::Contains("few_posed")));
+}
+
 TEST(Judgement, NamesFramesOfLowConfidence) {
   RunResult run = run_of("0000000000");
   for (FrameRecord& frame : run.map.frames) frame.confidence = 0.8;

@@ -30,6 +30,15 @@ std::string other_spelling(Random& random, const test::TemporaryFolder& dir,
   }
 }
 
+bool refused(const std::vector<NamedPath>& outputs, const std::vector<NamedPath>& inputs) {
+  try {
+    require_distinct_paths(outputs, inputs);
+    return false;
+  } catch (const ArgumentError&) {
+    return true;
+  }
+}
+
 // Outputs and inputs by random names: two are refused exactly if they are one file.
 TEST(DistinctPaths, AreTheSameHoweverTheyAreWritten) {
   const test::TemporaryFolder dir;
@@ -50,15 +59,6 @@ TEST(DistinctPaths, AreTheSameHoweverTheyAreWritten) {
     const NamedPath a{"--one", other_spelling(random, dir, one)},
         b{"--other", other_spelling(random, dir, other)};
     SCOPED_TRACE(a.path + " and " + b.path);
-    const auto refused = [](const std::vector<NamedPath>& outputs,
-                            const std::vector<NamedPath>& inputs) {
-      try {
-        require_distinct_paths(outputs, inputs);
-        return false;
-      } catch (const ArgumentError&) {
-        return true;
-      }
-    };
     EXPECT_EQ(refused({a, b}, {}), one == other);
     EXPECT_EQ(refused({a}, {b}), one == other && other != "absent");
     EXPECT_FALSE(refused({a}, {}));
@@ -98,36 +98,35 @@ TEST(DistinctPaths, LeaveRecordingsAndTheFilesOfARunThatIsReadAsTheyAre) {
       {{"image_00/data/0.png", "image_00/timestamps.txt"}, "image_00/timestamps.txt", "image_00"},
       {{"frame-000000.color.png", "seq/0.png"}, "frame-000000.color.png", "seq"},
       {{"calibration.yaml", "images/0.jpg"}, "calibration.yaml", "images"}};
-  const auto refused = [](const std::string& output, const std::vector<NamedPath>& inputs) {
-    return !test::message_of<ArgumentError>([&] {
-              require_distinct_paths({{"--out", output}}, inputs);
-            }).empty();
-  };
   for (const Case& each : cases) {
     SCOPED_TRACE(each.file);
     const test::TemporaryFolder dir;
     for (const std::string& file : each.files) dir.write("w/" + file, "");
     const std::vector<NamedPath> input{{"SEQUENCE", dir / "w"}};
     for (const auto& inputs : {input, std::vector<NamedPath>()}) {
-      EXPECT_TRUE(refused(dir / ("w/" + each.file), inputs));
-      EXPECT_TRUE(refused(dir / ("w/" + each.folder), inputs));
-      EXPECT_FALSE(refused(dir / "w/new.csv", inputs));
-      EXPECT_FALSE(refused(dir / "w/new", inputs));
+      EXPECT_TRUE(refused({{"--out", dir / ("w/" + each.file)}}, inputs));
+      EXPECT_TRUE(refused({{"--out", dir / ("w/" + each.folder)}}, inputs));
+      EXPECT_FALSE(refused({{"--out", dir / "w/new.csv"}}, inputs));
+      dir.write("w/labels.txt", "");
+      dir.write("w/plot.png", "");
+      EXPECT_FALSE(refused({{"--out", dir / "w/labels.txt"}}, inputs));  // of an earlier command
+      EXPECT_FALSE(refused({{"--out", dir / "w/plot.png"}}, inputs));
+      EXPECT_FALSE(refused({{"--out", dir / "w/new"}}, inputs));
     }
     // The results of a run may lie in its recording, and are written again.
     dir.write("w/run/result.json", "{}");
     dir.write("w/run/errors.csv", "");
     dir.write("w/run/trajectory_optimized.tum", "");
-    EXPECT_FALSE(refused(dir / "w/run", input));
-    EXPECT_FALSE(refused(dir / "w/run/errors.csv", input));
+    EXPECT_FALSE(refused({{"--out", dir / "w/run"}}, input));
+    EXPECT_FALSE(refused({{"--out", dir / "w/run/errors.csv"}}, input));
     const std::vector<NamedPath> estimate{{"ESTIMATE", dir / "w/run"}};
-    EXPECT_FALSE(refused(dir / "w/run/errors.csv", estimate));
-    EXPECT_TRUE(refused(dir / "w/run/trajectory_optimized.tum", estimate));
-    EXPECT_TRUE(refused(dir / "w/run/result.json", estimate));
-    EXPECT_FALSE(refused(dir / "w/run/loops.csv", estimate));  // is not there
-    EXPECT_TRUE(refused(dir / "w/run/map.db-wal", estimate));
-    EXPECT_FALSE(refused(dir / "w/run/trajectory_optimized.tum", input));
-    EXPECT_FALSE(refused(dir / "w", {}));  // a recording as a whole is written again
+    EXPECT_FALSE(refused({{"--out", dir / "w/run/errors.csv"}}, estimate));
+    EXPECT_TRUE(refused({{"--out", dir / "w/run/trajectory_optimized.tum"}}, estimate));
+    EXPECT_TRUE(refused({{"--out", dir / "w/run/result.json"}}, estimate));
+    EXPECT_FALSE(refused({{"--out", dir / "w/run/loops.csv"}}, estimate));  // is not there
+    EXPECT_TRUE(refused({{"--out", dir / "w/run/map.db-wal"}}, estimate));
+    EXPECT_FALSE(refused({{"--out", dir / "w/run/trajectory_optimized.tum"}}, input));
+    EXPECT_FALSE(refused({{"--out", dir / "w"}}, {}));  // a recording as a whole is written again
   }
 }
 
