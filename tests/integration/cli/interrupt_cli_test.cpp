@@ -53,7 +53,8 @@ TEST_F(InterruptedRun, WritesItsResultsAndSaysHowToContinue) {
 }
 
 TEST_F(InterruptedRun, SaysAgainInWhichEnvironmentsItWas) {
-  const auto whole = run("run w --set max_frames=60 --elements motion,spatial,context --out walked");
+  const auto whole =
+      run("run '" + *made / "w" + "' --set max_frames=60 --elements motion,context --out walked");
   ASSERT_EQ(whole.code, 0) << whole.err;
   const std::string environments = test::read_file(dir / "walked/environment.csv");
   EXPECT_GT(std::count(environments.begin(), environments.end(), '\n'), 2);
