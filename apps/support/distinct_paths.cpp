@@ -86,26 +86,28 @@ bool is_numbered_image(const fs::path& path) {
          std::ranges::any_of(name, [](char c) { return c >= '0' && c <= '9'; });
 }
 
-/// Whether a file or folder is, by its name or its images, one that recordings consist of.
-bool is_part_of_recording(const fs::path& path) {
+constexpr int kDeepest = 3;  // folders of a recording: mav0/cam0/data
+
+/// Whether a file or folder is, by its name or its images, one that recordings consist of. Links
+/// in a folder are not followed.
+bool is_part_of_recording(const fs::path& path, int depth = kDeepest) {
   constexpr std::array kBegins{"calib",     "times",    "poses.",  "rgb.txt",      "depth.txt",
                                "ground",    "associat", "sensor.", "data.csv",     "world.yaml",
                                "odometry.", "imu",      "gps",     "accelerometer"};
   std::error_code ignored;
   if (fs::is_directory(path, ignored))
-    return !is_run_folder(path) &&
+    return depth > 0 && !is_run_folder(path) &&
            std::ranges::any_of(fs::directory_iterator(path, ignored), [&](const auto& entry) {
-             return is_part_of_recording(entry.path());
+             return !fs::is_symlink(entry.path(), ignored) &&
+                    is_part_of_recording(entry.path(), depth - 1);
            });
   const std::string name = path.filename().string();
-  return fs::exists(path, ignored) &&
-         (is_numbered_image(path) ||
-          std::ranges::any_of(kBegins, [&](const char* begin) { return name.starts_with(begin); }));
+  return is_numbered_image(path) ||
+         std::ranges::any_of(kBegins, [&](const char* begin) { return name.starts_with(begin); });
 }
 
 /// The innermost recording around the path; empty if there is none, or a run between them.
 fs::path recording_around(const fs::path& path) {
-  constexpr int kDeepest = 3;  // mav0/cam0/data
   fs::path folder = path.parent_path();
   for (int depth = 0; depth < kDeepest && !is_run_folder(folder); ++depth) {
     if (is_sequence(folder.string())) return folder;
@@ -139,11 +141,12 @@ void require_no_input(const ResolvedPath& output, const ResolvedPath& input) {
 
 /// Files and folders of a recording stay as they are, without exception.
 void require_no_recording(const ResolvedPath& output) {
-  if (!is_part_of_recording(output.path)) return;
+  std::error_code ignored;
+  if (!fs::exists(output.path, ignored)) return;
   const fs::path recording = recording_around(output.path);
-  require(recording.empty(), output.given.option + ": " + output.given.path +
-                                 " is a part of the recording " + recording.string() +
-                                 ": name another place");
+  require(recording.empty() || !is_part_of_recording(output.path),
+          output.given.option + ": " + output.given.path + " is a part of the recording " +
+              recording.string() + ": name another place");
 }
 
 }  // namespace
