@@ -143,12 +143,12 @@ std::optional<double> drift_of(const PlaceGraph& places,
 }
 
 /// Of a camera that turns at the place, whose path is shorter than its view, the drift is compared
-/// with what it sees.
-std::optional<DataNote> note_of_drift(const std::optional<double>& drift, const Map& map) {
+/// with the depth of what it sees (landmark_depth).
+std::optional<DataNote> note_of_drift(const std::optional<double>& drift, const Map& map,
+                                      double depth) {
   constexpr double kMostShare = 0.03;
   if (!drift) return std::nullopt;
   const double length = map.trajectory_optimized().path_length();
-  const double depth = landmark_depth(map, map.main_component());
   if (!(*drift > kMostShare * std::max(length, depth))) return std::nullopt;
   return DataNote{
       fmt::format("the end is known to {:.3g}{} relative to the beginning, {:.0f} % of the {}",
@@ -210,9 +210,12 @@ Judgement judge(RunResult& run, const std::vector<DataNote>& notes, double min_p
   for (const DataNote& note : run.notes) add(note, findings);
   add(note_of_height(run), findings);
   std::vector<DataNote> of_motion;
+  double depth_of_main = 0;
   for (const MapComponent& component : run.map.components()) {
     const Trajectory trajectory = run.map.trajectory_optimized(component.number);
-    add(odd_steps(trajectory, landmark_depth(run.map, component.number)), of_motion);
+    const double depth = landmark_depth(run.map, component.number);
+    if (component.main) depth_of_main = depth;
+    add(odd_steps(trajectory, depth), of_motion);
     add(odd_order(trajectory), of_motion);
   }
   const DataNote* const doubt = first_doubt(findings, of_motion);
@@ -222,7 +225,7 @@ Judgement judge(RunResult& run, const std::vector<DataNote>& notes, double min_p
       drift_of(run.map.place_graph, run.map.metric ? run.odometry_error : std::nullopt);
   run.map.metric = judgement.metric;
   if (judgement.metric) judgement.expected_drift_m = drift;
-  add(note_of_drift(drift, run.map), findings);
+  add(note_of_drift(drift, run.map, depth_of_main), findings);
   findings.insert(findings.end(), of_motion.begin(), of_motion.end());
   add(note_of_confidence(run.map.frames), findings);
   add(note_of_spans(run.map.frames), findings);
