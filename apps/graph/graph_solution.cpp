@@ -1,7 +1,7 @@
 #include "apps/graph/graph_solution.h"
 
 #include <placegraph/backend/internal/incremental/incremental_replay.h>
-#include <placegraph/backend/internal/solver/free_directions.h>
+#include <placegraph/backend/solver/free_directions.h>
 #include <placegraph/graph/internal/core/log_message.h>
 
 #include "apps/support/output.h"

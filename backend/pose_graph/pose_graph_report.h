@@ -1,5 +1,6 @@
 #pragma once
 #include <placegraph/backend/pose_graph/pose_graph_options.h>
+#include <placegraph/backend/solver/free_directions.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/pose_graph/pose_graph.h>
 
@@ -16,14 +17,6 @@ struct RejectedEdge {
   /// the constraint; "pairwise": no loop nearby agrees with it; "residual": its error exceeds the
   /// gate.
   std::string reason;
-};
-
-/// Directions in which the cost of a graph does not change, up to rounding.
-/// A minimum with such directions is not the only one.
-struct FreeDirections {
-  int count = 0;                    ///< number of directions; kMost means kMost or more
-  std::vector<int> nodes;           ///< positions of the nodes that they move, ascending
-  static constexpr int kMost = 64;  ///< maximum of `count`
 };
 
 /// The result of optimizing a pose graph.

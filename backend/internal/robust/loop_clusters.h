@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/backend/internal/robust/loop_pairs.h>
-#include <placegraph/backend/pose_graph/pose_graph_options.h>
+#include <placegraph/backend/robust/robust_options.h>
 #include <placegraph/graph/core/options.h>
 
 namespace placegraph {

@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/backend/internal/robust/gnc.h>
 #include <placegraph/backend/internal/robust/loop_clusters.h>
-#include <placegraph/backend/pose_graph/pose_graph_options.h>
+#include <placegraph/backend/robust/robust_options.h>
 
 namespace placegraph {
 

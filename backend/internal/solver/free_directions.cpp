@@ -1,5 +1,7 @@
-#include <placegraph/backend/internal/solver/free_directions.h>
+#include <placegraph/backend/solver/free_directions.h>
 #include <placegraph/backend/internal/solver/normal_equations.h>
+#include <placegraph/backend/internal/solver/packed_free_directions.h>
+#include <placegraph/graph/pose_graph/landmark_graph.h>
 #include <placegraph/graph/internal/core/random.h>
 
 #include <Eigen/Dense>

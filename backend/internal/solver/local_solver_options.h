@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/backend/pose_graph/pose_graph_options.h>
+#include <placegraph/backend/solver/solver_engine.h>
 #include <placegraph/graph/core/log.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/pose_graph/constraint.h>
