@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/backend/incremental/incremental_options.h>
-#include <placegraph/frontend/places/recognition_options.h>
+#include <placegraph/frontend/places/cues/place_cue_options.h>
 #include <placegraph/frontend/scene/scene_options.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/pipeline/loops/loop_options.h>

@@ -1,100 +1,10 @@
 #pragma once
+#include <placegraph/frontend/segments/segment_options.h>
+#include <placegraph/frontend/vanishing/vanishing_options.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/core/ransac_options.h>
 
 namespace [[gnu::visibility("default")]] placegraph {
-
-/// Joining of segments that are pieces of one edge.
-struct SegmentMergingOptions {
-  double max_angle_deg = 2;      ///< maximum angle between pieces
-  double max_distance_px = 1.2;  ///< maximum distance of the pieces' ends from the common line
-  double max_gap_px = 10;        ///< maximum gap between pieces, along the line
-  void check() const { check_ranges(*this); }
-};
-void visit(OptionVisitor& field, SegmentMergingOptions& options);
-
-/// Sub-pixel fit of a segment to the image gradient.
-struct EdgeRefinementOptions {
-  int reach_px = 3;          ///< search distance for the edge on both sides of the segment
-  double blur_px = 1;        ///< standard deviation of the blur before the gradient is taken
-  double min_gradient = 2;   ///< minimum gradient of a point of the edge [grey levels / px]
-  double min_support = 0.5;  ///< minimum share of the segment's samples at which the edge is found
-  double min_sigma_px = 0.03;  ///< minimum standard deviation of a sample across the edge
-  void check() const { check_ranges(*this); }
-};
-void visit(OptionVisitor& field, EdgeRefinementOptions& options);
-
-/// Extension of a tracked edge beyond its predicted ends.
-struct EdgeGrowth {
-  double beyond_px = 6;    ///< maximum growth at either end
-  double max_gap_px = 10;  ///< maximum gap without support inside an edge
-};
-
-/// Detection of straight edges.
-struct SegmentDetectorOptions {
-  double min_length_px = 15;  ///< minimum length of an edge
-  double border_px = 3;       ///< edges along the image border within this distance are left out
-  SegmentMergingOptions merging;     ///< joining of pieces of one edge
-  EdgeRefinementOptions refinement;  ///< the sub-pixel fit
-  void check() const;
-};
-void visit(OptionVisitor& field, SegmentDetectorOptions& options);
-
-/// Alignment of a segment's strip of grey values in another image.
-struct SegmentFlowOptions {
-  int strip_px = 7;              ///< half the width of the strip
-  int iterations = 8;            ///< Gauss-Newton iterations on each level
-  double robust_grey = 12;       ///< width of the Huber kernel on residuals [grey levels of 255]
-  double max_rotation_deg = 15;  ///< maximum rotation from the predicted direction
-  void check() const { check_ranges(*this); }
-};
-void visit(OptionVisitor& field, SegmentFlowOptions& options);
-
-/// Noise model of segments and the vanishing points they belong to.
-///
-/// end_px and parallel_deg are estimated from the image; the values here are the start.
-struct VanishingNoise {
-  double end_px = 0.3;        ///< standard deviation of the ends of a segment, across it
-  double parallel_deg = 0.2;  ///< deviation of the scene's edges, and of the lens, from parallel
-  double tail_freedom = 4;    ///< degrees of freedom of the errors (Student t)
-  void check() const;
-};
-void visit(OptionVisitor& field, VanishingNoise& noise);
-
-/// Vanishing points of an image, their number unknown (minimum description length).
-struct VanishingPointOptions {
-  VanishingNoise noise;   ///< noise of the segments
-  int samples = 1000;     ///< initial hypotheses of two segments; later searches use half as many
-  int max_points = 10;    ///< maximum number of vanishing points
-  int min_segments = 4;   ///< minimum number of segments of a vanishing point
-  double point_cost = 8;  ///< description length of a point beside its precision [nats]
-  void check() const;
-};
-void visit(OptionVisitor& field, VanishingPointOptions& options);
-
-/// Manhattan frames: three orthogonal directions that many edges share.
-struct ManhattanOptions {
-  /// Deviation of the axes of a Manhattan frame from right angles, lens and calibration included.
-  /// The deviation is estimated, up to twice this.
-  double orthogonality_deg = 1;
-  int min_segments = 4;     ///< minimum number of segments of an observed axis
-  double min_evidence = 8;  ///< minimum evidence of each of the two best axes [nats]
-  /// Minimum log odds, from the angles between the axes, that they are orthogonal.
-  double min_orthogonality = 1;
-  void check() const { check_ranges(*this); }
-};
-void visit(OptionVisitor& field, ManhattanOptions& options);
-
-/// Vanishing points and Manhattan frames of one image together.
-struct SceneDirectionOptions {
-  VanishingPointOptions points;  ///< the vanishing points
-  ManhattanOptions manhattan;    ///< the Manhattan frames
-  /// Standard deviation of further vanishing points from right angles to an axis.
-  double off_right_deg = 2;
-  double free_share = 0.25;  ///< prior share of further vanishing points in any direction
-  void check() const;
-};
-void visit(OptionVisitor& field, SceneDirectionOptions& options);
 
 /// Tracking of straight edges from frame to frame.
 struct LineTrackerOptions {

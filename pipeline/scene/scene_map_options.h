@@ -1,6 +1,7 @@
 #pragma once
 #include <placegraph/frontend/floor_plan/floor_plan_options.h>
 #include <placegraph/frontend/scene/scene_options.h>
+#include <placegraph/frontend/scene/street_labelling_options.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/scene/semantic_map.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/frontend/internal/labels/urban_geometry.h>
 #include <placegraph/frontend/internal/labels/urban_labels.h>
-#include <placegraph/frontend/scene/scene_options.h>
+#include <placegraph/frontend/scene/street_labelling_options.h>
 #include <placegraph/graph/scene/semantic_map.h>
 
 #include <string>

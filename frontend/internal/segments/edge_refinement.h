@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/lines/line_options.h>
+#include <placegraph/frontend/segments/segment_options.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/geometry/line_segment.h>
 #include <placegraph/graph/image/image.h>

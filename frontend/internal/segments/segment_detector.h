@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/frontend/internal/segments/edge_refinement.h>
 #include <placegraph/frontend/internal/segments/segment_merging.h>
-#include <placegraph/frontend/lines/line_options.h>
+#include <placegraph/frontend/segments/segment_options.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/geometry/line_segment.h>
 #include <placegraph/graph/image/image.h>

@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/frontend/internal/vanishing/manhattan_frame.h>
-#include <placegraph/frontend/lines/line_options.h>
+#include <placegraph/frontend/vanishing/vanishing_options.h>
 
 namespace placegraph {
 

@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/frontend/internal/vanishing/vanishing_model.h>
-#include <placegraph/frontend/lines/line_options.h>
+#include <placegraph/frontend/vanishing/vanishing_options.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/internal/core/random.h>
 

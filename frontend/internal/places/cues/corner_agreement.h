@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/places/recognition_options.h>
+#include <placegraph/frontend/places/cues/place_cue_options.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/image/image.h>
 #include <placegraph/graph/landmark.h>
