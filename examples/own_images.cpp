@@ -1,6 +1,6 @@
 // Images from memory: a stereo camera moves along a textured wall, which is one large picture.
 #include <placegraph/pipeline/slam.h>
-#include <placegraph/pipeline/slam_events.h>
+#include <placegraph/pipeline/slam/slam_events.h>
 
 #include <algorithm>
 #include <cstdio>

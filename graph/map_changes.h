@@ -12,7 +12,7 @@ struct RunRecord {
   std::vector<DataNote> notes;  ///< doubts about the images, the calibration and the motion
   /// Errors of the motion from the first place to the last one, if they are known.
   std::optional<OdometryError> odometry_error;
-  std::vector<StageTimes::Stage> stages;  ///< CPU time of the stages, of all passes of the run
+  std::vector<StageTime> stages;  ///< CPU time of the stages, of all passes of the run
 };
 
 /// Additions to a map under construction, and changes in it, since the last call.

@@ -5,7 +5,7 @@
 #include <placegraph/io/datasets/open_dataset.h>
 #include <placegraph/pipeline/run.h>
 #include <placegraph/pipeline/slam.h>
-#include <placegraph/pipeline/slam_events.h>
+#include <placegraph/pipeline/slam/slam_events.h>
 
 // Query a map, and localize images in it.
 #include <placegraph/graph/map.h>

@@ -44,7 +44,7 @@ struct RunResult {
   /// CPU time of reading images and of the stages of Slam, in all passes of the run, also before it
   /// was interrupted. With more than one thread, the next frame is read while the current one is
   /// processed, and the reading time is added to the stage that is active then.
-  std::vector<StageTimes::Stage> stages;
+  std::vector<StageTime> stages;
   /// Reasons why frames have no pose, the most frequent first. Reasons that differ only in numbers
   /// are merged.
   std::vector<UnposedFrames> unposed;
@@ -85,7 +85,7 @@ using FrameObserver =
     std::function<void(const Frame& frame, const FrameResult& result, const FrameView& view)>;
 
 /// Callback after each frame, with the CPU time that reading and the stages of Slam took so far.
-using StagesObserver = std::function<void(const std::vector<StageTimes::Stage>& stages)>;
+using StagesObserver = std::function<void(const std::vector<StageTime>& stages)>;
 
 /// Optional inputs of a run besides the sequence and its options.
 struct RunInputs {

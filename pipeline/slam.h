@@ -1,13 +1,10 @@
 #pragma once
 #include <placegraph/graph/core/log.h>
-#include <placegraph/graph/core/stage_times.h>
 #include <placegraph/graph/image/frame.h>
 #include <placegraph/graph/map.h>
-#include <placegraph/graph/measurements/data_note.h>
-#include <placegraph/pipeline/slam/frame_result.h>
+#include <placegraph/pipeline/tracking/frame_result.h>
 #include <placegraph/pipeline/slam_options.h>
 
-#include <limits>
 #include <memory>
 #include <vector>
 
@@ -16,23 +13,15 @@ namespace [[gnu::visibility("default")]] placegraph {
 class MeasuredMotion;
 class PlaceRetrieval;
 class SlamEvents;
+struct DataNote;
 struct EnvironmentObservation;
 struct FrameView;
+struct LensDistortion;
 struct MapChanges;
+struct OdometryError;
 struct PlaceHistory;
 struct SceneModel;
-
-/// Residual radial distortion of images that are expected to be undistorted.
-struct LensDistortion {
-  double k1 = 0;  ///< first radial coefficient of OpenCV's model; 0 before the first estimate
-  /// Standard deviation of k1; infinite before the first estimate.
-  double sigma_k1 = std::numeric_limits<double>::infinity();
-  /// Displacement of the tracks by k1 that no other motion or structure explains: root mean square
-  /// in standard deviations of the tracks.
-  double effect = 0;
-  /// Number of stretches of motion, of equal weight, that k1 was estimated from.
-  double stretches = 0;
-};
+struct StageTime;
 
 /// Optional inputs of Slam besides options and calibration.
 struct SlamInputs {
@@ -126,7 +115,7 @@ class Slam {
   /// Returns the tracked features of the last frame [px]; empty lists if that frame is lost.
   FrameView view() const;
   /// Returns the CPU time [s] used so far by each stage.
-  const std::vector<StageTimes::Stage>& stages() const;
+  const std::vector<StageTime>& stages() const;
 
  private:
   struct Impl;

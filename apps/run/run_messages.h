@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/graph/core/log.h>
-#include <placegraph/pipeline/slam_events.h>
+#include <placegraph/pipeline/slam/slam_events.h>
 
 #include <chrono>
 #include <functional>

@@ -2,7 +2,7 @@
 #include <placegraph/graph/core/stage_times.h>
 #include <placegraph/graph/image/frame.h>
 #include <placegraph/pipeline/cues/frame_view.h>
-#include <placegraph/pipeline/slam_events.h>
+#include <placegraph/pipeline/slam/slam_events.h>
 
 #include <functional>
 #include <string>

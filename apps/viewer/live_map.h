@@ -2,7 +2,7 @@
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/geometry/sim3.h>
 #include <placegraph/pipeline/cues/frame_view.h>
-#include <placegraph/pipeline/slam_events.h>
+#include <placegraph/pipeline/slam/slam_events.h>
 
 #include <map>
 #include <optional>

@@ -5,6 +5,13 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
+/// The time that one stage has taken so far.
+struct StageTime {
+  std::string name;        ///< as given to `measure`
+  double cpu_s = 0;        ///< CPU time of all threads of the process, inner stages excluded [s]
+  std::int64_t calls = 0;  ///< spans that were closed
+};
+
 /// CPU time of the stages of a program, each without the stages that it called.
 ///
 ///     const auto span = times.measure("window");  // until the end of the scope
@@ -13,12 +20,7 @@ namespace [[gnu::visibility("default")]] placegraph {
 /// other thread of the process counts for the open stage.
 class StageTimes {
  public:
-  /// The time that one stage has taken so far.
-  struct Stage {
-    std::string name;        ///< as given to `measure`
-    double cpu_s = 0;        ///< CPU time of all threads of the process, inner stages excluded [s]
-    std::int64_t calls = 0;  ///< spans that were closed
-  };
+  using Stage = StageTime;  ///< its former name
 
   /// Measures from its construction to its destruction; made by `measure`.
   class Span {
@@ -37,14 +39,14 @@ class StageTimes {
   [[nodiscard]] Span measure(const std::string& name);
   /// The stages in the order of their first spans.
   /// A stage whose first span is still open has no calls and no time yet.
-  const std::vector<Stage>& stages() const { return stages_; }
+  const std::vector<StageTime>& stages() const { return stages_; }
 
  private:
   struct Open {
     std::size_t stage;
     double begin_s, inner_s;
   };
-  std::vector<Stage> stages_;
+  std::vector<StageTime> stages_;
   std::vector<Open> open_;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/id.h>
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/geometry/se3.h>
 
 #include <Eigen/Core>

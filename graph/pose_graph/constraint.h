@@ -1,7 +1,9 @@
 #pragma once
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/core/robust_kernel.h>
-#include <placegraph/graph/geometry/lie.h>
+#include <placegraph/graph/geometry/se2.h>
+#include <placegraph/graph/geometry/se3.h>
+#include <placegraph/graph/geometry/sim3.h>
 
 #include <cstdint>
 #include <variant>

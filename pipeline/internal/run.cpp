@@ -15,7 +15,7 @@
 #include <placegraph/pipeline/internal/save_schedule.h>
 #include <placegraph/pipeline/internal/slam/run_evidence.h>
 #include <placegraph/pipeline/run.h>
-#include <placegraph/pipeline/slam_events.h>
+#include <placegraph/pipeline/slam/slam_events.h>
 
 #include <algorithm>
 #include <cctype>
@@ -78,10 +78,10 @@ std::size_t frames_to_restart(std::size_t frames, const LensOptions& options) {
 }
 
 /// Both tables; stages of one name are one.
-std::vector<StageTimes::Stage> sum_of(std::vector<StageTimes::Stage> stages,
-                                      const std::vector<StageTimes::Stage>& more) {
-  for (const StageTimes::Stage& stage : more) {
-    const auto same = std::ranges::find(stages, stage.name, &StageTimes::Stage::name);
+std::vector<StageTime> sum_of(std::vector<StageTime> stages,
+                                      const std::vector<StageTime>& more) {
+  for (const StageTime& stage : more) {
+    const auto same = std::ranges::find(stages, stage.name, &StageTime::name);
     if (same == stages.end()) {
       stages.push_back(stage);
     } else {
@@ -285,7 +285,7 @@ class SequenceRun {
   }
 
   /// CPU time of all passes so far.
-  std::vector<StageTimes::Stage> stages(const Slam& slam) const {
+  std::vector<StageTime> stages(const Slam& slam) const {
     return sum_of(sum_of(times_.stages(), earlier_stages_), slam.stages());
   }
 
@@ -318,7 +318,7 @@ class SequenceRun {
   LearnedImages images_{RunMask(), Calibration()};
   std::optional<MapDatabase> database_;
   StageTimes times_;                               // of reading and saving
-  std::vector<StageTimes::Stage> earlier_stages_;  // of earlier passes
+  std::vector<StageTime> earlier_stages_;  // of earlier passes
   RunResult result_;
 };
 

@@ -138,7 +138,7 @@ std::vector<DataNote> Slam::notes() const {
   return notes;
 }
 FrameView Slam::view() const { return impl_->odometry.view(); }
-const std::vector<StageTimes::Stage>& Slam::stages() const { return impl_->times.stages(); }
+const std::vector<StageTime>& Slam::stages() const { return impl_->times.stages(); }
 Map Slam::finish() {
   require(!impl_->finished, "Slam::finish: called twice");
   impl_->perform([&] {

@@ -6,7 +6,7 @@ Prints one line for each violation, as file:line where there is one, and fails i
   a public header includes one that is not installed,
   a public header includes one of another project but Eigen, and graph/image/image.h OpenCV's cv::Mat,
   a public header opens the namespace without its visibility, so that a shared library would hide it,
-  more than 150 public headers; more than 40 behind pipeline/slam.h.
+  more than 280 public headers; more than 40 behind pipeline/slam.h.
 """
 import os
 import re
@@ -14,7 +14,7 @@ import sys
 
 from source_includes import includes_of, layer_of, source_files
 
-MOST_HEADERS, MOST_BEHIND_SLAM = 150, 40
+MOST_HEADERS, MOST_BEHIND_SLAM = 280, 40
 SLAM = "pipeline/slam.h"
 FOREIGN = re.compile(r"[a-z_]+$|Eigen/")  # the standard library's and Eigen's
 OPENCV = ("graph/image/image.h", "opencv2/core/mat.hpp")

@@ -1,6 +1,6 @@
 #pragma once
 #include <fmt/core.h>
-#include <placegraph/graph/core/id.h>
+#include <placegraph/graph/core/ids.h>
 
 /// Formats an id as its number, without a format specification: fmt::format("{}", id).
 template <class Tag>

@@ -22,7 +22,7 @@ StageTimes::Span::~Span() {
   const Open span = times_.open_.back();
   times_.open_.pop_back();
   const double took_s = process_cpu_s() - span.begin_s;
-  Stage& stage = times_.stages_[span.stage];
+  StageTime& stage = times_.stages_[span.stage];
   stage.cpu_s += took_s - span.inner_s;
   ++stage.calls;
   if (!times_.open_.empty()) times_.open_.back().inner_s += took_s;
@@ -30,7 +30,7 @@ StageTimes::Span::~Span() {
 
 StageTimes::Span StageTimes::measure(const std::string& name) {
   const auto known = std::find_if(stages_.begin(), stages_.end(),
-                                  [&](const Stage& stage) { return stage.name == name; });
+                                  [&](const StageTime& stage) { return stage.name == name; });
   const auto index = static_cast<std::size_t>(known - stages_.begin());
   if (known == stages_.end()) stages_.push_back({name});
   return Span(*this, index);

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/graph/core/id.h>
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/measurements/data_note.h>
 #include <placegraph/io/internal/map/map_blobs.h>
 #include <placegraph/io/internal/map/sqlite.h>

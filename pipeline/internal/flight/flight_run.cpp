@@ -41,7 +41,7 @@ FlightRun run_flight(const Dataset& images, const ImuRecording& imu, const SE3& 
     if (progress) progress(i + 1);
   }
   run.stages = reading.stages();
-  for (const StageTimes::Stage& stage : estimator.times().stages()) run.stages.push_back(stage);
+  for (const StageTime& stage : estimator.times().stages()) run.stages.push_back(stage);
   return run;
 }
 

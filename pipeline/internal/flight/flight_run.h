@@ -28,7 +28,7 @@ struct FlightRun {
   std::vector<FlightFrame>
       /// One per image; the stamps of states are `predict_ahead_s` later.
       frames;
-  std::vector<StageTimes::Stage> stages;  ///< CPU time of the stages; reading comes first
+  std::vector<StageTime> stages;  ///< CPU time of the stages; reading comes first
 };
 
 /// Passes the images of one camera and the inertial samples to a FlightEstimator in the order of

@@ -1,7 +1,7 @@
 #include <placegraph/backend/internal/window/window_state.h>
 #include <placegraph/pipeline/internal/health/health_monitor.h>
 #include <placegraph/pipeline/internal/odometry/odometry.h>
-#include <placegraph/pipeline/slam/frame_result.h>
+#include <placegraph/pipeline/tracking/frame_result.h>
 
 namespace placegraph {
 

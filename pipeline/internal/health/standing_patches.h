@@ -2,7 +2,7 @@
 #include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/image/image.h>
 #include <placegraph/pipeline/internal/health/image_motion.h>
-#include <placegraph/pipeline/slam_options.h>
+#include <placegraph/pipeline/health/static_overlay_options.h>
 
 #include <cstdint>
 #include <optional>

@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/pipeline/internal/local_map/distortion_evidence.h>
 #include <placegraph/graph/geometry/se3.h>
-#include <placegraph/pipeline/slam.h>
+#include <placegraph/pipeline/local_map/lens_distortion.h>
 
 #include <optional>
 #include <vector>

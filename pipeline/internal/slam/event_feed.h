@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/pipeline/internal/places/place_mapper.h>
-#include <placegraph/pipeline/slam_events.h>
+#include <placegraph/pipeline/slam/slam_events.h>
 
 #include <cstddef>
 #include <map>

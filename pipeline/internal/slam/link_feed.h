@@ -1,10 +1,10 @@
 #pragma once
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/loop.h>
+#include <placegraph/graph/measurements/data_note.h>
 #include <placegraph/pipeline/internal/local_map/local_map.h>
 #include <placegraph/pipeline/internal/places/loop_feed.h>
 #include <placegraph/pipeline/internal/places/place_mapper.h>
-#include <placegraph/pipeline/slam.h>
 
 #include <map>
 #include <optional>

@@ -4,7 +4,7 @@
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/pipeline/internal/cues/surface_labels.h>
 #include <placegraph/pipeline/internal/local_map/local_map.h>
-#include <placegraph/pipeline/slam/frame_result.h>
+#include <placegraph/pipeline/tracking/frame_result.h>
 
 #include <memory>
 #include <optional>

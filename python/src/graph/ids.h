@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/graph/core/id.h>
+#include <placegraph/graph/core/ids.h>
 
 #include "python/src/bindings.h"
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/map.h>
-#include <placegraph/pipeline/slam/frame_result.h>
+#include <placegraph/pipeline/tracking/frame_result.h>
 
 #include <initializer_list>
 

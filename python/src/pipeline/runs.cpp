@@ -119,9 +119,9 @@ std::shared_ptr<const SceneModel> surfaces_in(const std::string& path) {
   return std::make_shared<const SceneModel>(std::move(model));
 }
 
-nb::dict stage_table(const std::vector<StageTimes::Stage>& stages) {
+nb::dict stage_table(const std::vector<StageTime>& stages) {
   nb::dict table;
-  for (const StageTimes::Stage& stage : stages)
+  for (const StageTime& stage : stages)
     table[stage.name.c_str()] = nb::make_tuple(stage.cpu_s, stage.calls);
   return table;
 }

@@ -20,6 +20,6 @@ std::int64_t nanoseconds(double stamp_s);
 std::shared_ptr<const SceneModel> surfaces_in(const std::string& path);
 
 /// CPU time [s] and calls of each stage, by its name.
-nb::dict stage_table(const std::vector<StageTimes::Stage>& stages);
+nb::dict stage_table(const std::vector<StageTime>& stages);
 
 }  // namespace placegraph::python

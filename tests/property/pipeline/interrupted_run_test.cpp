@@ -130,7 +130,7 @@ TEST(InterruptedRun, LosesNothingAndIsJudgedAsTheWholeRun) {
       EXPECT_EQ(causes_of(judged_again.findings), causes_of(judged.findings));
       EXPECT_EQ(judged_again.expected_drift_m, judged.expected_drift_m);
       ASSERT_EQ(again.stages.size(), result->stages.size());
-      for (const StageTimes::Stage& stage : result->stages)
+      for (const StageTime& stage : result->stages)
         if (stage.name == "reading") {
           EXPECT_GE(stage.calls, kFrames);
         }

@@ -21,7 +21,7 @@ double process_cpu_s() {
 constexpr double kRounding_s = 1e-9;  // sums of doubles, far below a step of the clock
 
 double cpu_s(const StageTimes& times, const std::string& name) {
-  for (const StageTimes::Stage& stage : times.stages())
+  for (const StageTime& stage : times.stages())
     if (stage.name == name) return stage.cpu_s;
   return -1;
 }

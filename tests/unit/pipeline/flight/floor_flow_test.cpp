@@ -110,7 +110,7 @@ std::vector<int> detections(FloorFlow& flow, const std::vector<Image>& images) {
   std::int64_t calls = 0;
   for (std::size_t i = 0; i < images.size(); ++i) {
     (void)flow.track(images[i], std::nullopt, std::nullopt, times);
-    for (const StageTimes::Stage& stage : times.stages()) {
+    for (const StageTime& stage : times.stages()) {
       if (stage.name != "detect corners" || stage.calls == calls) continue;
       calls = stage.calls;
       at.push_back(static_cast<int>(i));

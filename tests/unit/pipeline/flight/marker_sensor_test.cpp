@@ -148,7 +148,7 @@ bool beacons_searched(const MarkerLayout& layout, const Image& image,
   StageTimes times;
   (void)sensor.detect(image, expected, times);
   return std::any_of(times.stages().begin(), times.stages().end(),
-                     [](const StageTimes::Stage& stage) { return stage.name == "detect beacons"; });
+                     [](const StageTime& stage) { return stage.name == "detect beacons"; });
 }
 
 TEST(MarkerSensor, SearchesForBeaconsThatMayBeInView) {

@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/map.h>
-#include <placegraph/pipeline/slam/frame_result.h>
+#include <placegraph/pipeline/tracking/frame_result.h>
 
 #include <optional>
 #include <vector>
