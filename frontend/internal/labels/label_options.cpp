@@ -2,18 +2,6 @@
 
 namespace placegraph {
 
-void visit(OptionVisitor& field, UrbanGeometryOptions& o) {
-  field("disparity_sigma_px", o.disparity_sigma_px,
-        "minimum standard deviation of the disparity of one pixel", {0.01, 10});
-  field("ground_sigma_m", o.ground_sigma_m, "unevenness of the ground at the camera", {0.001, 10});
-  field("ground_sigma_rate", o.ground_sigma_rate,
-        "increase of that unevenness per metre of distance [m/m]", {0, 1});
-  field("outliers", o.outliers,
-        "share of superpixels whose geometry does not depend on their class", {1e-6, 1});
-  field("weight", o.weight, "weight of height and normal in the random field; 0: not used",
-        {0, 100});
-}
-
 void LabellerOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, LabellerOptions& o) {

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/labels/urban_geometry.h>
+#include <placegraph/frontend/internal/scene/urban_geometry.h>
 #include <placegraph/frontend/internal/labels/urban_labels.h>
 #include <placegraph/frontend/scene/street_labelling_options.h>
 #include <placegraph/graph/scene/semantic_map.h>

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/labels/urban_geometry.h>
+#include <placegraph/frontend/internal/scene/urban_geometry.h>
 #include <placegraph/graph/internal/core/random.h>
 
 #include <algorithm>

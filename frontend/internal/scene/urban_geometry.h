@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/frontend/internal/labels/scene_labeller.h>
-#include <placegraph/frontend/labels/label_options.h>
+#include <placegraph/frontend/scene/street_labelling_options.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/geometry/camera.h>

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/labels/urban_geometry.h>
+#include <placegraph/frontend/internal/scene/urban_geometry.h>
 #include <placegraph/graph/internal/core/median.h>
 #include <placegraph/graph/internal/core/random.h>
 
