@@ -33,10 +33,13 @@ install(TARGETS placegraph_drawing_plugin placegraph_opencv_plugin LIBRARY DESTI
 install(DIRECTORY configs/models DESTINATION ${CMAKE_INSTALL_DATADIR}/placegraph)
 file(GLOB configs CONFIGURE_DEPENDS configs/*.yaml)
 install(FILES ${configs} DESTINATION ${CMAKE_INSTALL_DATADIR}/placegraph/configs)
-foreach(folder graph frontend backend io eval pipeline)
-  install(DIRECTORY ${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/placegraph
-    FILES_MATCHING PATTERN "*.h" PATTERN internal EXCLUDE PATTERN placegraph.h EXCLUDE)
+file(STRINGS cmake/public_headers.txt headers)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS cmake/public_headers.txt)
+foreach(header IN LISTS headers)
+  cmake_path(GET header PARENT_PATH folder)
+  install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/placegraph/${folder})
 endforeach()
+# The header of all doors stands beside the folders, as in the build tree.
 install(FILES pipeline/placegraph.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/placegraph)
 set(PLACEGRAPH_PLUGIN_DIR ${CMAKE_INSTALL_LIBDIR}/placegraph)
 configure_package_config_file(cmake/placegraphConfig.cmake.in ${PROJECT_BINARY_DIR}/placegraphConfig.cmake

@@ -1,8 +1,8 @@
 """public_headers.py ROOT: what is installed is what may be used, and no more than can be read.
 
-A header of a layer is public, and installed, unless it lies below the layer's folder `internal`.
+The public headers are those of the list cmake/public_headers.txt, by which CMake installs them.
 Prints one line for each violation, as file:line where there is one, and fails if there is one:
-  a public folder holds a source, which belongs below `internal`,
+  the list is not sorted, or names what is no header of a library,
   a public header includes one that is not installed,
   a public header includes one of another project but Eigen, and graph/image/image.h OpenCV's cv::Mat,
   a public header opens the namespace without its visibility, so that a shared library would hide it,
@@ -12,8 +12,9 @@ import os
 import re
 import sys
 
-from source_includes import includes_of, layer_of, source_files
+from source_includes import includes_of, layer_of
 
+LIST = "cmake/public_headers.txt"
 MOST_HEADERS, MOST_BEHIND_SLAM = 280, 40
 SLAM = "pipeline/slam.h"
 FOREIGN = re.compile(r"[a-z_]+$|Eigen/")  # the standard library's and Eigen's
@@ -21,14 +22,16 @@ OPENCV = ("graph/image/image.h", "opencv2/core/mat.hpp")
 HIDDEN = re.compile(r"^namespace placegraph\b")
 
 
-def is_public(path):
-    return path.endswith(".h") and "internal" not in path.split("/") and layer_of(path) != "apps"
+def public_headers(root):
+    """The list, one header a line."""
+    with open(os.path.join(root, LIST), encoding="utf-8") as lines:
+        return lines.read().split("\n")[:-1]
 
 
-def faults_of(root, header):
+def faults_of(root, header, public):
     found = [f"{header}:{include.line}: includes {include.target}, which is not installed"
              for include in includes_of(root, header)
-             if include.target and not is_public(include.target)]
+             if include.target and include.target not in public]
     found += [f"{header}:{include.line}: {include.text} is no business of who includes this"
               for include in includes_of(root, header)
               if not include.target and not FOREIGN.match(include.text)
@@ -53,12 +56,14 @@ def behind(root, header):
 
 
 def check(root):
-    files = [file for file in source_files(root) if layer_of(file) != "apps"]
-    found = [f"{file}: a source among public headers, below internal is its place"
-             for file in files if file.endswith(".cpp") and "internal" not in file.split("/")]
-    headers = [file for file in files if is_public(file)]
-    for header in headers:
-        found += faults_of(root, header)
+    headers = public_headers(root)
+    found = [f"{LIST}:{number}: {header} stands behind {before}"
+             for number, (before, header) in enumerate(zip(headers, headers[1:]), 2) if before >= header]
+    for number, header in enumerate(headers, 1):
+        if not header.endswith(".h") or layer_of(header) == "apps" or not os.path.isfile(os.path.join(root, header)):
+            found.append(f"{LIST}:{number}: {header} is no header of a library")
+        else:
+            found += faults_of(root, header, set(headers))
     if len(headers) > MOST_HEADERS:
         found.append(f"{len(headers)} public headers, {MOST_HEADERS} are allowed")
     if SLAM in headers and len(behind(root, SLAM)) > MOST_BEHIND_SLAM:
