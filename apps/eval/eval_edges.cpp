@@ -1,9 +1,9 @@
 #include "apps/eval/eval_edges.h"
 
 #include <fmt/format.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/angle.h>
-#include <placegraph/graph/internal/core/json_text.h>
+#include <placegraph/graph/core/json_text.h>
 #include <placegraph/graph/pose_graph/constraint_source.h>
 
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "apps/exports/gltf_export.h"
 
 #include <fmt/format.h>
-#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/graph/core/median.h>
 #include <placegraph/pipeline/internal/map/map_geometry.h>
 
 namespace placegraph::apps {

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 #include <placegraph/eval/internal/trajectory/body_state_error.h>
-#include <placegraph/graph/internal/core/csv_text.h>
-#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/core/angle.h>
+#include <placegraph/graph/core/csv_text.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "apps/flight/fly.h"
 
 #include <fmt/format.h>
-#include <placegraph/graph/internal/core/json_text.h>
+#include <placegraph/graph/core/json_text.h>
 #include <placegraph/io/internal/measurements/marker_layout_file.h>
 #include <placegraph/io/internal/trajectories/body_state_file.h>
 #include <placegraph/io/trajectories/trajectory_file.h>

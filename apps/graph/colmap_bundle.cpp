@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/json_text.h>
+#include <placegraph/graph/core/json_text.h>
 #include <placegraph/io/internal/exports/colmap_reader.h>
 #include <placegraph/pipeline/internal/map/colmap_bundle.h>
 

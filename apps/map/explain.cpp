@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 #include <placegraph/frontend/internal/labels/urban_labels.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/angle.h>
-#include <placegraph/graph/internal/core/id_format.h>
-#include <placegraph/graph/internal/core/json_text.h>
+#include <placegraph/graph/core/id_format.h>
+#include <placegraph/graph/core/json_text.h>
 #include <placegraph/graph/scene/environment.h>
 #include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/datasets/open_dataset.h>

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 #include <placegraph/backend/internal/georeference/antenna_trajectory.h>
+#include <placegraph/graph/core/csv_text.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/csv_text.h>
-#include <placegraph/graph/internal/core/id_format.h>
+#include <placegraph/graph/core/id_format.h>
 #include <placegraph/graph/pose_graph/node_index.h>
 #include <placegraph/io/graphs/g2o.h>
 #include <placegraph/io/graphs/pose_graph_file.h>

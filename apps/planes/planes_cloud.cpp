@@ -4,7 +4,7 @@
 #include <placegraph/eval/internal/drawing/picture_bytes.h>
 #include <placegraph/eval/internal/drawing/picture_legend.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/json_text.h>
+#include <placegraph/graph/core/json_text.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/internal/measurements/point_cloud_file.h>
 

@@ -4,8 +4,8 @@
 #include <placegraph/eval/internal/plots/evaluation_plot.h>
 #include <placegraph/eval/trajectory/evaluation_options.h>
 #include <placegraph/eval/trajectory/rpe.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/angle.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>

@@ -1,7 +1,7 @@
 #include "apps/report/report_frames.h"
 
 #include <placegraph/backend/pose_graph/pose_marginals.h>
-#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/core/angle.h>
 
 #include <cmath>
 #include <map>

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 #include <placegraph/eval/internal/plots/evaluation_plot.h>
 #include <placegraph/eval/trajectory/evaluate.h>
+#include <placegraph/graph/core/csv_text.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/csv_text.h>
-#include <placegraph/graph/internal/core/json_text.h>
+#include <placegraph/graph/core/json_text.h>
 #include <placegraph/graph/place_transitions.h>
 #include <placegraph/graph/pose_graph/constraint_source.h>
 

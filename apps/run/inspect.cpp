@@ -1,10 +1,10 @@
 #include "apps/run/inspect.h"
 
 #include <fmt/format.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/json_text.h>
 #include <placegraph/graph/core/time.h>
-#include <placegraph/graph/internal/core/angle.h>
-#include <placegraph/graph/internal/core/json_text.h>
 #include <placegraph/io/datasets/open_dataset.h>
 #include <placegraph/io/internal/files/image_list.h>
 #include <placegraph/pipeline/run.h>

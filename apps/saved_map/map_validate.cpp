@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/id_format.h>
-#include <placegraph/graph/internal/core/json_text.h>
+#include <placegraph/graph/core/id_format.h>
+#include <placegraph/graph/core/json_text.h>
 #include <placegraph/pipeline/internal/places/place_mapper.h>
 
 #include <nlohmann/json.hpp>

@@ -4,8 +4,8 @@
 #include <placegraph/eval/internal/drawing/picture_bytes.h>
 #include <placegraph/eval/internal/drawing/picture_legend.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/json_text.h>
-#include <placegraph/graph/internal/core/parallel.h>
+#include <placegraph/graph/core/json_text.h>
+#include <placegraph/graph/core/parallel.h>
 #include <placegraph/graph/scene/semantic_map.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/internal/files/image_list.h>

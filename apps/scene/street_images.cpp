@@ -2,7 +2,7 @@
 
 #include <placegraph/frontend/internal/scene/street_trust.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/parallel.h>
+#include <placegraph/graph/core/parallel.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/pipeline/internal/cues/surface_labels.h>
 

@@ -2,7 +2,7 @@
 
 #include <placegraph/frontend/internal/flow/point_tracker.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/internal/synthetic/render/renderer.h>
 #include <placegraph/io/internal/synthetic/worlds/synthetic_world.h>

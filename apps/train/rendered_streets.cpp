@@ -1,7 +1,7 @@
 #include "apps/train/rendered_streets.h"
 
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/parallel.h>
+#include <placegraph/graph/core/parallel.h>
 #include <placegraph/io/internal/synthetic/worlds/synthetic_world.h>
 
 #include "apps/support/progress.h"

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <placegraph/frontend/internal/cloud_planes/cloud_planes.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/json_text.h>
+#include <placegraph/graph/core/json_text.h>
 #include <placegraph/io/internal/measurements/point_cloud_file.h>
 #include <placegraph/io/internal/synthetic/worlds/cloud_scene.h>
 #include <placegraph/io/internal/synthetic/worlds/synthetic_world.h>

@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/graph/core/outcome.h>
+#include <placegraph/graph/core/random.h>
 #include <placegraph/graph/geometry/camera.h>
-#include <placegraph/graph/internal/core/random.h>
 #include <placegraph/io/internal/measurements/match_file.h>
 
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-#include <placegraph/graph/internal/core/function_clones.h>
+#include <placegraph/graph/core/function_clones.h>
 #include <placegraph/graph/landmark.h>
 
 #include <bit>

@@ -1,4 +1,4 @@
-#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/internal/map_revisits.h>
 #include <placegraph/graph/place_transitions.h>
 

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 #include <placegraph/backend/pose_graph/pose_marginals.h>
-#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/graph/core/median.h>
 #include <placegraph/pipeline/internal/motion_check.h>
 #include <placegraph/pipeline/run.h>
 

@@ -1,9 +1,9 @@
 #include <fmt/format.h>
+#include <placegraph/graph/core/angle.h>
+#include <placegraph/graph/core/median.h>
+#include <placegraph/graph/core/quantile.h>
 #include <placegraph/graph/core/time.h>
 #include <placegraph/graph/geometry/se3.h>
-#include <placegraph/graph/internal/core/angle.h>
-#include <placegraph/graph/internal/core/median.h>
-#include <placegraph/graph/internal/core/quantile.h>
 #include <placegraph/graph/internal/map_index.h>
 #include <placegraph/io/internal/datasets/recorded_sequence.h>
 #include <placegraph/pipeline/internal/motion_check.h>

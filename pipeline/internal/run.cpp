@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/log_message.h>
 #include <placegraph/graph/core/time.h>
-#include <placegraph/graph/internal/core/log_message.h>
 #include <placegraph/graph/internal/measurements/stamp_plausibility.h>
 #include <placegraph/graph/map_changes.h>
 #include <placegraph/graph/scene/scene_model.h>

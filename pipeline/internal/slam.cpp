@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/log_message.h>
+#include <placegraph/graph/core/log_message.h>
 #include <placegraph/graph/map_changes.h>
 #include <placegraph/graph/measurements/measured_motion.h>
 #include <placegraph/pipeline/cues/frame_view.h>

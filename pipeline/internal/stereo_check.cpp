@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <placegraph/frontend/internal/features/detector.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/angle.h>
 #include <placegraph/pipeline/internal/stereo_check.h>
 
 #include <algorithm>

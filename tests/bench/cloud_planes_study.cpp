@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 #include <placegraph/eval/internal/scene/plane_check.h>
 #include <placegraph/frontend/internal/cloud_planes/cloud_planes.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/random.h>
 #include <placegraph/graph/geometry/se3.h>
-#include <placegraph/graph/internal/core/angle.h>
-#include <placegraph/graph/internal/core/random.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/internal/files/text_file.h>
 #include <placegraph/io/internal/measurements/point_cloud_file.h>

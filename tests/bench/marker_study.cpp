@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 #include <placegraph/frontend/internal/markers/marker_filter.h>
 #include <placegraph/frontend/internal/markers/marker_pose.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/angle.h>
 
 #include <algorithm>
 #include <cstdio>

@@ -8,7 +8,7 @@
 #include <placegraph/frontend/internal/places/place_view.h>
 #include <placegraph/frontend/places/place_recognizer.h>
 #include <placegraph/frontend/places/sequence_filter.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/internal/files/atomic_file.h>
 #include <placegraph/io/internal/files/image_list.h>

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/frontend/internal/segments/segment_detector.h>
 #include <placegraph/frontend/internal/vanishing/scene_directions.h>
-#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/io/internal/synthetic/worlds/synthetic_world.h>
 #include <placegraph/pipeline/cues/frame_view.h>
 #include <placegraph/pipeline/slam.h>

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/eval/trajectory/evaluate.h>
-#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/pipeline/run.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Vanishing points of real segments against those that people marked.
 #include <gtest/gtest.h>
 #include <placegraph/frontend/internal/vanishing/scene_directions.h>
-#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/io/internal/calibration/camera_file.h>
 #include <placegraph/io/internal/files/text_file.h>
 #include <placegraph/io/internal/measurements/segment_file.h>

@@ -2,8 +2,8 @@
 
 A slice of a class is a source that defines member functions of a class which is declared elsewhere
 in a header of another name: "line_cue_views.cpp" with functions of LineCue. A source may define
-members of every class that it, or the header of its own name, declares: graph/internal/core/time.cpp
-those of graph/internal/core/time.h and graph/core/time.h.
+members of every class that it, or the header of its own name, declares: graph/core/time.cpp
+those of graph/core/time.h and graph/core/time.h.
 """
 import os
 import re

@@ -18,7 +18,7 @@ CLEAN = {
     "graph/chain.h": "#pragma once\nclass Chain {\n public:\n  void add(int link);\n  struct Link {\n"
                      "    int to = 0;\n  };\n};\n",
     "graph/core/time.h": "class Time {\n  void pass();\n};\n",
-    "graph/internal/core/time.cpp": "void Time::pass() {\n}\n",
+    "graph/core/time.cpp": "void Time::pass() {\n}\n",
     "graph/chain.cpp": '#include "graph/chain.h"\n' + function("void Chain::add(int link)", 60),
     # Braces in literals, comments and lambdas; initializers; a class of 150 lines; nested functions.
     "io/text.cpp": 'const char* kOpen = "{ (";  // {\nconst int kTable[] = {1, 2, 3};\n/* { */\n'

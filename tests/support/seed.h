@@ -1,6 +1,6 @@
 #pragma once
 #include <gtest/gtest.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 
 #include <cstdlib>
 #include <iostream>

@@ -1,6 +1,6 @@
 #pragma once
+#include <placegraph/graph/core/random.h>
 #include <placegraph/graph/geometry/trajectory.h>
-#include <placegraph/graph/internal/core/random.h>
 
 #include <Eigen/Geometry>
 #include <cmath>

@@ -1,5 +1,5 @@
 #include <placegraph/backend/internal/elimination/front_kernels.h>
-#include <placegraph/graph/internal/core/function_clones.h>
+#include <placegraph/graph/core/function_clones.h>
 
 #include <cmath>
 #include <cstddef>

@@ -8,7 +8,7 @@
 #include <placegraph/backend/internal/linear/blas_threads.h>
 #include <placegraph/backend/internal/linear/sparse_algebra.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/log_message.h>
+#include <placegraph/graph/core/log_message.h>
 
 #include <algorithm>
 #include <deque>

@@ -2,9 +2,9 @@
 #include <placegraph/backend/factors/point_in_node.h>
 #include <placegraph/backend/factors/pose_prior.h>
 #include <placegraph/backend/internal/linear/whitening.h>
-#include <placegraph/backend/solver/free_directions.h>
 #include <placegraph/backend/internal/solver/local_solver.h>
-#include <placegraph/graph/internal/core/disjoint_sets.h>
+#include <placegraph/backend/solver/free_directions.h>
+#include <placegraph/graph/core/disjoint_sets.h>
 #include <placegraph/graph/pose_graph/node_index.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 #include <placegraph/backend/internal/georeference/fix_statistics.h>
-#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/graph/core/median.h>
 
 #include <algorithm>
 #include <cmath>

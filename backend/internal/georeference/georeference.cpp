@@ -9,8 +9,8 @@
 #include <placegraph/backend/internal/georeference/variance_components.h>
 #include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/log_message.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/log_message.h>
+#include <placegraph/graph/core/random.h>
 #include <placegraph/graph/pose_graph/node_index.h>
 
 #include <algorithm>

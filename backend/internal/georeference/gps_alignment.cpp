@@ -1,5 +1,5 @@
 #include <placegraph/backend/internal/georeference/gps_alignment.h>
-#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/core/angle.h>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>

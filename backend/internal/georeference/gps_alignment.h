@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/backend/georeference/georeference_options.h>
-#include <placegraph/graph/internal/core/ransac.h>
+#include <placegraph/graph/core/ransac.h>
 #include <placegraph/graph/pose_graph/constraint.h>
 
 #include <vector>

@@ -1,9 +1,9 @@
 #include <placegraph/backend/internal/inertial/covariance_matrix.h>
 #include <placegraph/backend/internal/inertial/error_state_filter.h>
 #include <placegraph/backend/internal/inertial/state_layout.h>
+#include <placegraph/graph/core/chi_squared.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/time.h>
-#include <placegraph/graph/internal/core/chi_squared.h>
 
 #include <Eigen/Cholesky>
 #include <algorithm>

@@ -1,8 +1,8 @@
 #include <placegraph/backend/internal/inertial/covariance_matrix.h>
 #include <placegraph/backend/internal/inertial/inertial_window.h>
+#include <placegraph/graph/core/chi_squared.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/time.h>
-#include <placegraph/graph/internal/core/chi_squared.h>
 
 #include <Eigen/Cholesky>
 #include <algorithm>

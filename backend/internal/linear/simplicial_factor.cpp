@@ -1,6 +1,6 @@
 #include <placegraph/backend/internal/linear/simplicial_factor.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/function_clones.h>
+#include <placegraph/graph/core/function_clones.h>
 
 #include <algorithm>
 #include <cmath>

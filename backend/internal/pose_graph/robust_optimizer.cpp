@@ -2,8 +2,8 @@
 #include <placegraph/backend/internal/pose_graph/robust_optimizer.h>
 #include <placegraph/backend/internal/robust/parallel_odometry.h>
 #include <placegraph/backend/internal/robust/pcm.h>
-#include <placegraph/graph/internal/core/chi_squared.h>
-#include <placegraph/graph/internal/core/log_message.h>
+#include <placegraph/graph/core/chi_squared.h>
+#include <placegraph/graph/core/log_message.h>
 
 #include <algorithm>
 #include <numeric>

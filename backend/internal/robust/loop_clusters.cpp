@@ -1,5 +1,5 @@
 #include <placegraph/backend/internal/robust/loop_clusters.h>
-#include <placegraph/graph/internal/core/disjoint_sets.h>
+#include <placegraph/graph/core/disjoint_sets.h>
 
 #include <algorithm>
 #include <cmath>

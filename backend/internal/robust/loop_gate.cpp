@@ -1,5 +1,5 @@
 #include <placegraph/backend/internal/robust/loop_gate.h>
-#include <placegraph/graph/internal/core/chi_squared.h>
+#include <placegraph/graph/core/chi_squared.h>
 
 #include <algorithm>
 #include <numbers>

@@ -1,7 +1,7 @@
 #include <placegraph/backend/internal/robust/loop_leverage.h>
 #include <placegraph/backend/internal/solver/normal_equations.h>
 #include <placegraph/backend/internal/solver/odometry_chain.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 
 #include <Eigen/Cholesky>
 #include <algorithm>

@@ -2,7 +2,7 @@
 #include <placegraph/backend/internal/robust/loop_leverage.h>
 #include <placegraph/backend/internal/robust/loop_set_growth.h>
 #include <placegraph/backend/internal/solver/subset_solver.h>
-#include <placegraph/graph/internal/core/disjoint_sets.h>
+#include <placegraph/graph/core/disjoint_sets.h>
 
 #include <algorithm>
 #include <numeric>

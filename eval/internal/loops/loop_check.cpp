@@ -1,7 +1,7 @@
 #include <placegraph/eval/loops/loop_check.h>
 #include <placegraph/eval/trajectory/frame_pair.h>
 #include <placegraph/eval/trajectory/rpe.h>
-#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/core/angle.h>
 
 #include <cmath>
 #include <cstdlib>

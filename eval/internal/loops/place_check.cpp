@@ -1,7 +1,7 @@
 #include <placegraph/eval/internal/loops/place_check.h>
 #include <placegraph/eval/trajectory/rpe.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/angle.h>
 #include <placegraph/graph/place_transitions.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include <placegraph/eval/loops/same_view.h>
 #include <placegraph/eval/trajectory/rpe.h>
-#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/core/angle.h>
 
 #include <numbers>
 

@@ -1,7 +1,7 @@
 #include <placegraph/eval/internal/drawing/plot_style.h>
 #include <placegraph/eval/internal/plots/evaluation_series.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/angle.h>
 
 #include <algorithm>
 #include <cmath>

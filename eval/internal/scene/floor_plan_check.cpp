@@ -1,5 +1,5 @@
 #include <placegraph/eval/internal/scene/floor_plan_check.h>
-#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/core/angle.h>
 
 #include <algorithm>
 #include <cmath>

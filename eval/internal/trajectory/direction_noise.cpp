@@ -1,5 +1,5 @@
 #include <placegraph/eval/internal/trajectory/direction_noise.h>
-#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/graph/core/median.h>
 
 #include <Eigen/QR>
 #include <algorithm>

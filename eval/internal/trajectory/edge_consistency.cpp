@@ -1,6 +1,6 @@
 #include <placegraph/eval/internal/trajectory/edge_consistency.h>
 #include <placegraph/eval/trajectory/statistics.h>
-#include <placegraph/graph/internal/core/chi_squared.h>
+#include <placegraph/graph/core/chi_squared.h>
 
 #include <Eigen/Cholesky>
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include <placegraph/eval/internal/trajectory/edge_error.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/graph/core/median.h>
 
 #include <Eigen/Cholesky>
 #include <cmath>

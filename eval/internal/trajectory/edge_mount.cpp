@@ -1,6 +1,6 @@
 #include <placegraph/eval/internal/trajectory/edge_mount.h>
-#include <placegraph/graph/internal/core/angle.h>
-#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/graph/core/angle.h>
+#include <placegraph/graph/core/median.h>
 
 #include <Eigen/Cholesky>
 #include <algorithm>

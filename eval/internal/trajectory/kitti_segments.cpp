@@ -1,6 +1,6 @@
 #include <placegraph/eval/trajectory/kitti_segments.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/angle.h>
 
 #include <algorithm>
 #include <cmath>

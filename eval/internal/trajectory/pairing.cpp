@@ -1,6 +1,6 @@
 #include <placegraph/eval/trajectory/pairing.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/graph/core/median.h>
 #include <placegraph/graph/internal/measurements/stamp_plausibility.h>
 
 #include <algorithm>

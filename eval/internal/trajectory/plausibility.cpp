@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <placegraph/eval/internal/trajectory/plausibility.h>
 #include <placegraph/eval/trajectory/rpe.h>
-#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/core/angle.h>
 
 #include <Eigen/SVD>
 #include <algorithm>

@@ -1,5 +1,5 @@
 #include <placegraph/eval/trajectory/rpe.h>
-#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/core/angle.h>
 
 #include <cmath>
 #include <numbers>

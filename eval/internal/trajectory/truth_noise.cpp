@@ -1,8 +1,8 @@
 #include <placegraph/eval/internal/trajectory/direction_noise.h>
 #include <placegraph/eval/internal/trajectory/truth_noise.h>
-#include <placegraph/graph/internal/core/chi_squared.h>
-#include <placegraph/graph/internal/core/median.h>
-#include <placegraph/graph/internal/core/quantile.h>
+#include <placegraph/graph/core/chi_squared.h>
+#include <placegraph/graph/core/median.h>
+#include <placegraph/graph/core/quantile.h>
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 #include <placegraph/eval/internal/trajectory/truth_steps.h>
-#include <placegraph/graph/internal/core/quantile.h>
+#include <placegraph/graph/core/quantile.h>
 
 namespace placegraph {
 

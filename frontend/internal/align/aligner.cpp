@@ -2,7 +2,7 @@
 #include <placegraph/frontend/internal/align/alignment_covariance.h>
 #include <placegraph/frontend/internal/align/grey_pyramid.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 
 #include <Eigen/Dense>
 #include <algorithm>

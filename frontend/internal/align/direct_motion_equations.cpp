@@ -1,6 +1,6 @@
 #include <placegraph/frontend/internal/align/direct_motion_equations.h>
 #include <placegraph/frontend/internal/align/grey_pyramid.h>
-#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/graph/core/median.h>
 
 #include <Eigen/Dense>
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include <placegraph/frontend/internal/align/grey_pyramid.h>
 #include <placegraph/frontend/internal/align/null_distribution.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include <placegraph/frontend/internal/align/particle_swarm.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 
 #include <algorithm>
 #include <cmath>

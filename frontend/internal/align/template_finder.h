@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/frontend/internal/features/wide_matcher.h>
-#include <placegraph/graph/internal/core/random.h>
-#include <placegraph/graph/internal/core/ransac.h>
+#include <placegraph/graph/core/random.h>
+#include <placegraph/graph/core/ransac.h>
 
 namespace placegraph {
 

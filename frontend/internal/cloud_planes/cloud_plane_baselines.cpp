@@ -1,7 +1,7 @@
 #include <placegraph/frontend/internal/cloud_planes/cloud_plane_baselines.h>
-#include <placegraph/graph/internal/core/angle.h>
-#include <placegraph/graph/internal/core/random.h>
-#include <placegraph/graph/internal/core/ransac.h>
+#include <placegraph/graph/core/angle.h>
+#include <placegraph/graph/core/random.h>
+#include <placegraph/graph/core/ransac.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include <placegraph/frontend/internal/cloud_planes/cloud_plane_baselines.h>
 #include <placegraph/frontend/internal/cloud_planes/cloud_planes.h>
 #include <placegraph/frontend/internal/cloud_planes/plane_labels.h>
-#include <placegraph/graph/internal/core/ransac.h>
+#include <placegraph/graph/core/ransac.h>
 
 #include <algorithm>
 #include <numeric>

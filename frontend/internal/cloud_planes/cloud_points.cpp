@@ -1,8 +1,8 @@
 #include <placegraph/frontend/internal/cloud_planes/cloud_points.h>
 #include <placegraph/frontend/internal/cloud_planes/neighbour_tree.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/median.h>
-#include <placegraph/graph/internal/core/quantile.h>
+#include <placegraph/graph/core/median.h>
+#include <placegraph/graph/core/quantile.h>
 
 #include <algorithm>
 #include <array>

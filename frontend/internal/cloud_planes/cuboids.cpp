@@ -1,7 +1,7 @@
 #include <placegraph/frontend/internal/cloud_planes/cuboids.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/angle.h>
-#include <placegraph/graph/internal/core/quantile.h>
+#include <placegraph/graph/core/quantile.h>
 
 #include <Eigen/SVD>
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include <placegraph/frontend/internal/cloud_planes/depth_planes.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/angle.h>
-#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/graph/core/median.h>
 
 #include <Eigen/Dense>
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include <placegraph/frontend/internal/cloud_planes/normalized_cuts.h>
 #include <placegraph/frontend/internal/cloud_planes/planar_segments.h>
-#include <placegraph/graph/internal/core/disjoint_sets.h>
+#include <placegraph/graph/core/disjoint_sets.h>
 
 #include <algorithm>
 #include <cmath>

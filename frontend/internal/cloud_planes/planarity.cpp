@@ -1,6 +1,6 @@
 #include <placegraph/frontend/internal/cloud_planes/planarity.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/angle.h>
 
 #include <Eigen/Dense>
 #include <algorithm>

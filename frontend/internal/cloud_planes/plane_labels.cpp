@@ -1,5 +1,5 @@
 #include <placegraph/frontend/internal/cloud_planes/plane_labels.h>
-#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/core/angle.h>
 
 #include <cmath>
 #include <unordered_map>

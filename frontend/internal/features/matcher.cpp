@@ -1,5 +1,5 @@
 #include <placegraph/frontend/internal/features/matcher.h>
-#include <placegraph/graph/internal/core/function_clones.h>
+#include <placegraph/graph/core/function_clones.h>
 
 #include <algorithm>
 #include <array>

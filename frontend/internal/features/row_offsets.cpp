@@ -1,6 +1,6 @@
 #include <placegraph/frontend/internal/features/matcher.h>
 #include <placegraph/frontend/internal/features/row_offsets.h>
-#include <placegraph/graph/internal/core/ransac.h>
+#include <placegraph/graph/core/ransac.h>
 
 #include <Eigen/Dense>
 #include <algorithm>

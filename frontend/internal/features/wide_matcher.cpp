@@ -1,6 +1,6 @@
 #include <placegraph/frontend/internal/features/wide_matcher.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/angle.h>
 
 #include <cmath>
 #include <opencv2/calib3d.hpp>

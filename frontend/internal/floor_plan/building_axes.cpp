@@ -1,5 +1,5 @@
 #include <placegraph/frontend/internal/floor_plan/building_axes.h>
-#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/core/angle.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 #include <placegraph/frontend/internal/floor_plan/door_finder.h>
-#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/graph/core/median.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include <placegraph/frontend/internal/floor_plan/plane_sweep.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/graph/core/median.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include <placegraph/frontend/internal/floor_plan/wall_fit.h>
-#include <placegraph/graph/internal/core/angle.h>
-#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/graph/core/angle.h>
+#include <placegraph/graph/core/median.h>
 
 #include <Eigen/LU>
 #include <algorithm>

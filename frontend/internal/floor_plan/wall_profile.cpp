@@ -1,5 +1,5 @@
 #include <placegraph/frontend/internal/floor_plan/wall_profile.h>
-#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/graph/core/median.h>
 
 #include <algorithm>
 #include <cmath>

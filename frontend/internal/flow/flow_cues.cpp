@@ -1,5 +1,5 @@
 #include <placegraph/frontend/internal/flow/flow_cues.h>
-#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/graph/core/median.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>

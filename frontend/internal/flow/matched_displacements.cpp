@@ -1,7 +1,7 @@
 #include <placegraph/frontend/internal/features/detector.h>
 #include <placegraph/frontend/internal/features/matcher.h>
 #include <placegraph/frontend/internal/flow/matched_displacements.h>
-#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/graph/core/median.h>
 
 #include <algorithm>
 #include <utility>

@@ -1,7 +1,7 @@
 #include <placegraph/frontend/internal/labels/forest_training.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/parallel.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/parallel.h>
+#include <placegraph/graph/core/random.h>
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #include <placegraph/frontend/internal/labels/scene_channels.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/graph/core/median.h>
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 #include <placegraph/frontend/internal/lines/floor_from_lines.h>
-#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/core/angle.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>

@@ -1,7 +1,7 @@
 #include <placegraph/frontend/internal/lines/line_feature.h>
 #include <placegraph/frontend/internal/lines/line_triangulation.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/angle.h>
 
 #include <algorithm>
 #include <array>

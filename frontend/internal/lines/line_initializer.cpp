@@ -1,6 +1,6 @@
 #include <placegraph/frontend/internal/lines/line_initializer.h>
 #include <placegraph/frontend/internal/lines/relative_pose_from_lines.h>
-#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/core/angle.h>
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

@@ -1,5 +1,5 @@
 #include <placegraph/frontend/internal/lines/line_triangulation.h>
-#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/core/angle.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>

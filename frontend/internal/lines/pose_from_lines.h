@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/frontend/internal/lines/line_triangulation.h>
 #include <placegraph/frontend/lines/line_options.h>
-#include <placegraph/graph/internal/core/ransac.h>
+#include <placegraph/graph/core/ransac.h>
 
 #include <array>
 #include <optional>

@@ -1,6 +1,6 @@
 #include <placegraph/frontend/internal/markers/marker_explanation.h>
 #include <placegraph/frontend/internal/markers/marker_pose.h>
-#include <placegraph/graph/internal/core/chi_squared.h>
+#include <placegraph/graph/core/chi_squared.h>
 
 #include <Eigen/LU>
 #include <algorithm>

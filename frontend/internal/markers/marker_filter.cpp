@@ -1,8 +1,8 @@
 #include <placegraph/frontend/internal/markers/marker_explanation.h>
 #include <placegraph/frontend/internal/markers/marker_filter.h>
+#include <placegraph/graph/core/angle.h>
+#include <placegraph/graph/core/chi_squared.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/angle.h>
-#include <placegraph/graph/internal/core/chi_squared.h>
 
 #include <Eigen/Cholesky>
 #include <algorithm>

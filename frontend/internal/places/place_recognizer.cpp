@@ -3,7 +3,7 @@
 #include <placegraph/frontend/internal/places/place_view.h>
 #include <placegraph/frontend/places/place_recognizer.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/function_clones.h>
+#include <placegraph/graph/core/function_clones.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include <placegraph/frontend/places/sequence_filter.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/function_clones.h>
-#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/graph/core/function_clones.h>
+#include <placegraph/graph/core/median.h>
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/frontend/places/recognition_options.h>
 #include <placegraph/graph/core/options.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 #include <placegraph/graph/internal/word_tree.h>
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 #include <placegraph/frontend/internal/planes/dominant_surface.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/angle.h>
 
 #include <Eigen/Dense>
 #include <array>

@@ -1,7 +1,7 @@
 #include <placegraph/frontend/internal/planes/ground_plane.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/angle.h>
-#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/graph/core/median.h>
 
 #include <Eigen/Dense>
 #include <algorithm>

@@ -1,5 +1,5 @@
 #include <placegraph/frontend/internal/planes/inverse_depth_plane.h>
-#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/core/angle.h>
 
 #include <Eigen/Dense>
 #include <cmath>

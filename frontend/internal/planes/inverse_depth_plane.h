@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/frontend/internal/planes/homography.h>
 #include <placegraph/frontend/planes/plane_options.h>
-#include <placegraph/graph/internal/core/ransac.h>
+#include <placegraph/graph/core/ransac.h>
 
 #include <optional>
 #include <vector>

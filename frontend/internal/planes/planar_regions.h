@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/frontend/internal/planes/homography_fit.h>
 #include <placegraph/graph/core/options.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 
 namespace placegraph {
 

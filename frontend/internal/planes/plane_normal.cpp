@@ -1,6 +1,6 @@
 #include <placegraph/frontend/internal/planes/plane_normal.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/angle.h>
 
 #include <Eigen/Dense>
 #include <algorithm>

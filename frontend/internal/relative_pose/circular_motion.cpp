@@ -1,7 +1,7 @@
 #include <placegraph/frontend/internal/relative_pose/circular_motion.h>
 #include <placegraph/frontend/internal/relative_pose/epipolar_error.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/angle.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include <placegraph/frontend/internal/features/triangulation.h>
 #include <placegraph/frontend/internal/relative_pose/mono_initializer.h>
 #include <placegraph/frontend/internal/relative_pose/pose_3d2d.h>
-#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/core/angle.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #pragma once
+#include <placegraph/graph/core/ransac.h>
 #include <placegraph/graph/geometry/camera.h>
-#include <placegraph/graph/internal/core/ransac.h>
 
 #include <vector>
 

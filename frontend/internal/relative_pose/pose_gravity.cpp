@@ -1,8 +1,8 @@
 #include <placegraph/frontend/internal/relative_pose/epipolar_error.h>
 #include <placegraph/frontend/internal/relative_pose/epipolar_refinement.h>
 #include <placegraph/frontend/internal/relative_pose/pose_gravity.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/angle.h>
 
 #include <Eigen/Dense>
 #include <array>

@@ -2,7 +2,7 @@
 #include <placegraph/frontend/internal/scene/evidence_kind.h>
 #include <placegraph/frontend/internal/vanishing/manhattan_frame.h>
 #include <placegraph/frontend/scene/environment_evidence.h>
-#include <placegraph/graph/internal/core/quantile.h>
+#include <placegraph/graph/core/quantile.h>
 
 #include <algorithm>
 #include <cmath>

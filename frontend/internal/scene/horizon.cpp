@@ -1,5 +1,5 @@
 #include <placegraph/frontend/internal/scene/horizon.h>
-#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/core/angle.h>
 
 #include <Eigen/Dense>
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include <placegraph/frontend/internal/scene/urban_geometry.h>
-#include <placegraph/graph/internal/core/median.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/median.h>
+#include <placegraph/graph/core/random.h>
 
 #include <Eigen/Dense>
 #include <algorithm>

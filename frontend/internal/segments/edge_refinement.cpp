@@ -1,6 +1,6 @@
 #include <placegraph/frontend/internal/segments/edge_refinement.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/graph/core/median.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 #include <placegraph/frontend/internal/segments/local_motion.h>
-#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/graph/core/median.h>
 
 #include <Eigen/Dense>
 #include <algorithm>

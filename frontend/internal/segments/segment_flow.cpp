@@ -1,5 +1,5 @@
 #include <placegraph/frontend/internal/segments/segment_flow.h>
-#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/core/angle.h>
 
 #include <Eigen/Cholesky>
 #include <algorithm>

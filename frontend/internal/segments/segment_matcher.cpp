@@ -1,8 +1,8 @@
 #include <placegraph/frontend/internal/segments/local_motion.h>
 #include <placegraph/frontend/internal/segments/segment_matcher.h>
 #include <placegraph/frontend/internal/segments/segment_profile.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/angle.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include <placegraph/frontend/internal/segments/segment_merging.h>
-#include <placegraph/graph/internal/core/angle.h>
-#include <placegraph/graph/internal/core/disjoint_sets.h>
+#include <placegraph/graph/core/angle.h>
+#include <placegraph/graph/core/disjoint_sets.h>
 
 #include <algorithm>
 #include <cmath>

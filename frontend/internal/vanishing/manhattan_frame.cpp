@@ -1,7 +1,7 @@
 #include <placegraph/frontend/internal/vanishing/manhattan_fit.h>
 #include <placegraph/frontend/internal/vanishing/manhattan_frame.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/angle.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include <placegraph/frontend/internal/vanishing/scene_directions.h>
 #include <placegraph/frontend/internal/vanishing/vanishing_search.h>
-#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/core/angle.h>
 
 #include <algorithm>
 #include <cmath>

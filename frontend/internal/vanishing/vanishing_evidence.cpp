@@ -1,6 +1,6 @@
 #include <placegraph/frontend/internal/vanishing/vanishing_evidence.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/angle.h>
 
 #include <algorithm>
 #include <cmath>

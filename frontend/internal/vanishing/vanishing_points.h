@@ -2,7 +2,7 @@
 #include <placegraph/frontend/internal/vanishing/vanishing_model.h>
 #include <placegraph/frontend/vanishing/vanishing_options.h>
 #include <placegraph/graph/core/outcome.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 
 namespace placegraph {
 

@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/frontend/internal/vanishing/vanishing_model.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 
 #include <vector>
 

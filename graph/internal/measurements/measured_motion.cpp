@@ -1,5 +1,5 @@
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/angle.h>
 #include <placegraph/graph/measurements/measured_motion.h>
 
 #include <algorithm>

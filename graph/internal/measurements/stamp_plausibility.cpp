@@ -1,6 +1,6 @@
 #include <fmt/format.h>
+#include <placegraph/graph/core/median.h>
 #include <placegraph/graph/core/time.h>
-#include <placegraph/graph/internal/core/median.h>
 #include <placegraph/graph/internal/measurements/stamp_plausibility.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
+#include <placegraph/graph/core/median.h>
 #include <placegraph/graph/core/time.h>
-#include <placegraph/graph/internal/core/median.h>
 #include <placegraph/graph/internal/measurements/stamp_spacing.h>
 
 #include <algorithm>

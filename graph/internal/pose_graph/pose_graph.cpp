@@ -1,5 +1,5 @@
+#include <placegraph/graph/core/disjoint_sets.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/disjoint_sets.h>
 #include <placegraph/graph/pose_graph/node_index.h>
 #include <placegraph/graph/pose_graph/pose_graph.h>
 

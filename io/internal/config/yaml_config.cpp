@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/spelling.h>
+#include <placegraph/graph/core/spelling.h>
 #include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/internal/config/yaml_document.h>
 #include <placegraph/io/internal/files/text_file.h>

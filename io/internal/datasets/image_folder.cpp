@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/graph/core/median.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/internal/calibration/calibration_file.h>
 #include <placegraph/io/internal/calibration/calibration_plausibility.h>

@@ -1,4 +1,4 @@
-#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/graph/core/median.h>
 #include <placegraph/io/internal/files/name_order.h>
 #include <placegraph/io/internal/files/text_file.h>
 

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/id_format.h>
+#include <placegraph/graph/core/id_format.h>
 #include <placegraph/io/graphs/g2o.h>
 #include <placegraph/io/internal/files/atomic_file.h>
 #include <placegraph/io/internal/graphs/parse_graph.h>

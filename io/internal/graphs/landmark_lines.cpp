@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/id_format.h>
+#include <placegraph/graph/core/id_format.h>
 #include <placegraph/graph/pose_graph/node_index.h>
 #include <placegraph/io/internal/graphs/landmark_lines.h>
 

@@ -1,5 +1,5 @@
 #include <fmt/format.h>
-#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/pipeline/internal/cues/determined_rotation.h>
 
 #include <Eigen/LU>

@@ -1,7 +1,7 @@
 #include <placegraph/frontend/internal/align/grey_pyramid.h>
 #include <placegraph/frontend/internal/planes/dominant_surface.h>
-#include <placegraph/graph/internal/core/angle.h>
-#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/graph/core/angle.h>
+#include <placegraph/graph/core/median.h>
 #include <placegraph/pipeline/internal/cues/direct_cue.h>
 
 #include <Eigen/Dense>

@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/backend/internal/window/sliding_window.h>
 #include <placegraph/graph/core/ids.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 #include <placegraph/pipeline/internal/cues/direct_cue.h>
 
 namespace placegraph {

@@ -1,5 +1,5 @@
 #include <placegraph/frontend/internal/scene/orientation_map.h>
-#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/pipeline/internal/cues/manhattan_cue.h>
 
 #include <Eigen/Cholesky>

@@ -1,6 +1,6 @@
 #include <placegraph/frontend/internal/vanishing/manhattan_frame.h>
-#include <placegraph/graph/internal/core/angle.h>
-#include <placegraph/graph/internal/core/chi_squared.h>
+#include <placegraph/graph/core/angle.h>
+#include <placegraph/graph/core/chi_squared.h>
 #include <placegraph/pipeline/internal/cues/manhattan_frames.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-#include <placegraph/graph/internal/core/angle.h>
-#include <placegraph/graph/internal/core/chi_squared.h>
+#include <placegraph/graph/core/angle.h>
+#include <placegraph/graph/core/chi_squared.h>
 #include <placegraph/pipeline/internal/cues/plane_cue.h>
 
 #include <Eigen/Dense>

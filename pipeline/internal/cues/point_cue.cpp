@@ -1,7 +1,7 @@
 #include <placegraph/frontend/internal/features/triangulation.h>
 #include <placegraph/frontend/internal/flow/matched_displacements.h>
-#include <placegraph/graph/internal/core/angle.h>
-#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/graph/core/angle.h>
+#include <placegraph/graph/core/median.h>
 #include <placegraph/pipeline/internal/cues/determined_rotation.h>
 #include <placegraph/pipeline/internal/cues/nearest_depth.h>
 #include <placegraph/pipeline/internal/cues/point_cue.h>

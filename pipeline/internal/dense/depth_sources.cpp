@@ -1,7 +1,7 @@
 #include <placegraph/frontend/internal/floor_plan/indoor_surfaces.h>
 #include <placegraph/frontend/internal/floor_plan/plane_sweep.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/angle.h>
 #include <placegraph/pipeline/internal/dense/depth_sources.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 #include <fmt/format.h>
-#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/graph/core/median.h>
 #include <placegraph/pipeline/internal/health/scale_check.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 #include <placegraph/frontend/internal/lines/floor_from_lines.h>
-#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/pipeline/internal/lines/line_cue.h>
 #include <placegraph/pipeline/internal/lines/line_prediction.h>
 #include <placegraph/pipeline/internal/lines/line_second_camera.h>

@@ -1,4 +1,4 @@
-#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/pipeline/internal/local_map/lens_stretches.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-#include <placegraph/graph/internal/core/log_message.h>
-#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/graph/core/log_message.h>
+#include <placegraph/graph/core/median.h>
 #include <placegraph/pipeline/internal/local_map/metric_scale.h>
 
 #include <algorithm>

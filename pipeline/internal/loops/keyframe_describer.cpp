@@ -3,7 +3,7 @@
 #include <placegraph/frontend/internal/features/matcher.h>
 #include <placegraph/frontend/internal/features/triangulation.h>
 #include <placegraph/frontend/internal/lines/line_feature.h>
-#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/pipeline/internal/loops/keyframe_describer.h>
 
 #include <algorithm>

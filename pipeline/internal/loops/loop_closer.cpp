@@ -1,7 +1,7 @@
 #include <placegraph/frontend/internal/places/place_database.h>
 #include <placegraph/frontend/internal/places/verification/loop_verifier.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 #include <placegraph/pipeline/internal/loops/loop_closer.h>
 #include <placegraph/pipeline/internal/loops/loop_gates.h>
 #include <placegraph/pipeline/internal/loops/loop_probability.h>

@@ -1,4 +1,4 @@
-#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/pipeline/internal/loops/loop_gates.h>
 
 #include <Eigen/Cholesky>

@@ -1,8 +1,8 @@
 #include <placegraph/backend/factor_graph/factor_graph.h>
 #include <placegraph/backend/factors/point_observation.h>
 #include <placegraph/backend/factors/relative_pose.h>
-#include <placegraph/graph/internal/core/angle.h>
-#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/graph/core/angle.h>
+#include <placegraph/graph/core/median.h>
 #include <placegraph/pipeline/internal/map/map_bundle.h>
 
 #include <algorithm>

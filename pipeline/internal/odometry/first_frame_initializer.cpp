@@ -1,4 +1,4 @@
-#include <placegraph/graph/internal/core/log_message.h>
+#include <placegraph/graph/core/log_message.h>
 #include <placegraph/pipeline/internal/odometry/first_frame_initializer.h>
 
 namespace placegraph {

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
-#include <placegraph/graph/internal/core/log_message.h>
-#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/graph/core/log_message.h>
+#include <placegraph/graph/core/median.h>
 #include <placegraph/pipeline/internal/odometry/line_view_initializer.h>
 
 #include <algorithm>

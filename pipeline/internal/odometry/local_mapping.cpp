@@ -1,4 +1,4 @@
-#include <placegraph/graph/internal/core/log_message.h>
+#include <placegraph/graph/core/log_message.h>
 #include <placegraph/pipeline/internal/odometry/local_mapping.h>
 #include <placegraph/pipeline/internal/tracking/cue_list.h>
 

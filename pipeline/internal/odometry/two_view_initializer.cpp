@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 #include <placegraph/frontend/internal/flow/matched_displacements.h>
 #include <placegraph/frontend/internal/relative_pose/mono_initializer.h>
-#include <placegraph/graph/internal/core/log_message.h>
-#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/graph/core/log_message.h>
+#include <placegraph/graph/core/median.h>
 #include <placegraph/pipeline/internal/cues/point_cue.h>
 #include <placegraph/pipeline/internal/odometry/two_view_initializer.h>
 

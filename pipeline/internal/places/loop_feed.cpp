@@ -1,5 +1,5 @@
-#include <placegraph/graph/internal/core/chi_squared.h>
-#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/graph/core/chi_squared.h>
+#include <placegraph/graph/core/median.h>
 #include <placegraph/graph/internal/geometry/bounded_covariance.h>
 #include <placegraph/pipeline/internal/places/loop_feed.h>
 

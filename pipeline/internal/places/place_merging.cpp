@@ -1,6 +1,6 @@
-#include <placegraph/graph/internal/core/angle.h>
-#include <placegraph/graph/internal/core/chi_squared.h>
-#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/graph/core/angle.h>
+#include <placegraph/graph/core/chi_squared.h>
+#include <placegraph/graph/core/median.h>
 #include <placegraph/pipeline/internal/places/place_constraints.h>
 #include <placegraph/pipeline/internal/places/place_merging.h>
 #include <placegraph/pipeline/internal/places/place_reach.h>

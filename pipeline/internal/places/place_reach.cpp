@@ -1,4 +1,4 @@
-#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/pipeline/internal/places/place_reach.h>
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 #include <placegraph/frontend/internal/floor_plan/building_axes.h>
 #include <placegraph/frontend/internal/segments/segment_detector.h>
 #include <placegraph/frontend/internal/vanishing/scene_directions.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/angle.h>
 #include <placegraph/pipeline/internal/scene/indoor_mapper.h>
 #include <placegraph/pipeline/internal/scene/indoor_plan.h>
 #include <placegraph/pipeline/internal/scene/map_keyframes.h>

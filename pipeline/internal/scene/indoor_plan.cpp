@@ -1,4 +1,4 @@
-#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/graph/core/median.h>
 #include <placegraph/pipeline/internal/scene/indoor_plan.h>
 
 #include <algorithm>

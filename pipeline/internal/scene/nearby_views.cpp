@@ -1,5 +1,5 @@
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/angle.h>
 #include <placegraph/pipeline/internal/scene/map_keyframes.h>
 #include <placegraph/pipeline/internal/scene/nearby_views.h>
 

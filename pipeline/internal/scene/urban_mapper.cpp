@@ -1,6 +1,6 @@
 #include <placegraph/frontend/internal/scene/moving_classes.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/angle.h>
 #include <placegraph/pipeline/internal/scene/urban_mapper.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/graph/core/median.h>
 #include <placegraph/pipeline/internal/slam/link_feed.h>
 
 #include <Eigen/LU>

@@ -1,5 +1,5 @@
 #include <placegraph/frontend/internal/align/direct_motion.h>
-#include <placegraph/graph/internal/core/log_message.h>
+#include <placegraph/graph/core/log_message.h>
 #include <placegraph/pipeline/internal/tracking/direct_tracker.h>
 
 #include <Eigen/Cholesky>

@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/frontend/internal/features/rgbd_errors.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 #include <placegraph/pipeline/cues/frame_view.h>
 #include <placegraph/pipeline/internal/local_map/keyframe_masks.h>
 #include <placegraph/pipeline/internal/local_map/metric_scale.h>

@@ -3,7 +3,7 @@
 #include <placegraph/frontend/internal/planes/motion_from_planes.h>
 #include <placegraph/frontend/internal/planes/planar_regions.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 
 #include <numeric>
 

@@ -5,7 +5,7 @@
 #include <placegraph/frontend/internal/relative_pose/pose_gravity.h>
 #include <placegraph/frontend/internal/relative_pose/relative_pose.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 
 #include <Eigen/Dense>
 

@@ -6,7 +6,7 @@
 #include <placegraph/frontend/internal/segments/segment_detector.h>
 #include <placegraph/frontend/internal/vanishing/scene_directions.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 #include <placegraph/io/models/scene_model_file.h>
 
 #include "python/src/frontend/functions.h"

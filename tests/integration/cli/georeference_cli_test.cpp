@@ -1,5 +1,5 @@
 // `placegraph map georeference`.
-#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/core/angle.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>

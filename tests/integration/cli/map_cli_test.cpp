@@ -1,7 +1,7 @@
 // `placegraph run` saves its map as it goes, `run --resume` goes on from it, `placegraph map` reads
 // it.
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/graph/core/median.h>
 #include <placegraph/graph/internal/image/jpeg_codec.h>
 #include <placegraph/io/map/map_database.h>
 

@@ -1,6 +1,6 @@
 // `placegraph markers`, and the simulated tags of the research data.
 #include <placegraph/frontend/internal/markers/marker_pose.h>
-#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/core/angle.h>
 
 #include <nlohmann/json.hpp>
 

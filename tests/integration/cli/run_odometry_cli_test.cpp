@@ -1,5 +1,5 @@
 // `placegraph run --odometry`: the motion that wheels tell beside the pictures.
-#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/core/angle.h>
 
 #include <Eigen/Geometry>
 #include <cmath>

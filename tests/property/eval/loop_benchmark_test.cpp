@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/eval/loops/loop_benchmark.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 
 #include <algorithm>
 #include <set>

@@ -1,7 +1,7 @@
 // Boxes and rooms of generated scenes, as a depth camera sees them.
 #include <gtest/gtest.h>
 #include <placegraph/frontend/internal/cloud_planes/cuboids.h>
-#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/io/internal/synthetic/worlds/cloud_scene.h>
 
 #include <algorithm>

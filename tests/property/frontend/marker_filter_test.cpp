@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/frontend/internal/markers/marker_filter.h>
 #include <placegraph/frontend/internal/markers/marker_pose.h>
-#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/core/angle.h>
 
 #include <iostream>
 

@@ -4,7 +4,7 @@
 #include <placegraph/frontend/internal/relative_pose/pose_3d3d.h>
 #include <placegraph/frontend/internal/relative_pose/pose_gravity.h>
 #include <placegraph/frontend/internal/relative_pose/relative_pose.h>
-#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/core/angle.h>
 
 #include "tests/support/scenes/scene.h"
 #include "tests/support/seed.h"

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/io/internal/synthetic/worlds/synthetic_world.h>
 #include <placegraph/io/internal/synthetic/worlds/tours.h>
 #include <placegraph/io/internal/synthetic/worlds/town_builder.h>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 #include <placegraph/io/internal/synthetic/worlds/flight_world.h>
 #include <placegraph/pipeline/internal/flight/flight_estimator.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/frontend/internal/lines/line_triangulation.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 
 #include <vector>
 

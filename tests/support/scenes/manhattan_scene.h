@@ -1,8 +1,8 @@
 #pragma once
+#include <placegraph/graph/core/random.h>
 #include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/geometry/line_segment.h>
 #include <placegraph/graph/geometry/so3.h>
-#include <placegraph/graph/internal/core/random.h>
 
 #include <Eigen/Dense>
 #include <numbers>

@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/frontend/internal/markers/marker_dictionary.h>
+#include <placegraph/graph/core/random.h>
 #include <placegraph/graph/geometry/camera.h>
-#include <placegraph/graph/internal/core/random.h>
 #include <placegraph/graph/internal/measurements/marker_layout.h>
 
 #include <algorithm>

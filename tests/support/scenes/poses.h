@@ -1,6 +1,6 @@
 #pragma once
+#include <placegraph/graph/core/random.h>
 #include <placegraph/graph/geometry/lie.h>
-#include <placegraph/graph/internal/core/random.h>
 
 namespace placegraph::test {
 

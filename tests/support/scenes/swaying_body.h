@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/backend/internal/inertial/error_state_filter.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 
 #include <cmath>
 #include <numbers>

@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/eval/loops/same_view.h>
-#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/route.h>
 #include <placegraph/io/datasets/dataset.h>
 #include <placegraph/pipeline/internal/loops/loop_closer.h>

@@ -1,7 +1,7 @@
 #pragma once
 #include <gtest/gtest.h>
 #include <placegraph/backend/internal/window/sliding_window.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 
 #include <Eigen/Cholesky>
 #include <map>

@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/pipeline/internal/motion_check.h>
 
 #include "tests/support/seed.h"

@@ -1,6 +1,6 @@
 #include <placegraph/frontend/internal/features/matcher.h>
 #include <placegraph/frontend/internal/places/cues/corner_agreement.h>
-#include <placegraph/graph/internal/core/function_clones.h>
+#include <placegraph/graph/core/function_clones.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include <placegraph/frontend/internal/lines/line_triangulation.h>
 #include <placegraph/frontend/internal/places/verification/loop_refinement.h>
 #include <placegraph/frontend/internal/relative_pose/epipolar_error.h>
-#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/graph/core/median.h>
 
 #include <Eigen/Cholesky>
 #include <cmath>

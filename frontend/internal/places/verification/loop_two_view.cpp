@@ -1,6 +1,6 @@
 #include <placegraph/frontend/internal/places/verification/loop_two_view.h>
 #include <placegraph/frontend/internal/relative_pose/epipolar_error.h>
-#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/graph/core/median.h>
 
 #include <Eigen/LU>
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include <placegraph/frontend/internal/lines/line_triangulation.h>
 #include <placegraph/frontend/internal/places/verification/loop_verifier.h>
-#include <placegraph/graph/internal/core/angle.h>
-#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/graph/core/angle.h>
+#include <placegraph/graph/core/median.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 #include <placegraph/io/internal/synthetic/defects/defects.h>
 
 namespace placegraph {

@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 #include <placegraph/graph/internal/pose_graph/position_of.h>
 #include <placegraph/io/internal/synthetic/graphs/false_loops.h>
 

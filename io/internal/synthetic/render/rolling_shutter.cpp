@@ -1,4 +1,4 @@
-#include <placegraph/graph/internal/core/parallel.h>
+#include <placegraph/graph/core/parallel.h>
 #include <placegraph/io/internal/synthetic/render/rolling_shutter.h>
 
 #include <algorithm>

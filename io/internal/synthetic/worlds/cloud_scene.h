@@ -1,6 +1,6 @@
 #pragma once
+#include <placegraph/graph/core/random.h>
 #include <placegraph/graph/geometry/se3.h>
-#include <placegraph/graph/internal/core/random.h>
 #include <placegraph/graph/internal/measurements/point_cloud.h>
 
 #include <vector>

@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/graph/core/median.h>
 #include <placegraph/io/internal/datasets/kitti_calibration.h>
 #include <placegraph/io/internal/synthetic/defects/vehicle.h>
 #include <placegraph/io/internal/synthetic/worlds/tours.h>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 #include <placegraph/io/internal/synthetic/render/world.h>
 
 #include <string>

@@ -1,4 +1,4 @@
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 #include <placegraph/io/internal/synthetic/worlds/simulated_flight.h>
 
 #include <algorithm>

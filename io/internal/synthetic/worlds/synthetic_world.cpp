@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 #include <placegraph/io/internal/synthetic/defects/camera_motion.h>
 #include <placegraph/io/internal/synthetic/render/depth_sensor.h>
 #include <placegraph/io/internal/synthetic/render/hash_noise.h>

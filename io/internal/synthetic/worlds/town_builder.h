@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 #include <placegraph/io/internal/synthetic/render/height_surface.h>
 #include <placegraph/io/internal/synthetic/render/road_field.h>
 #include <placegraph/io/internal/synthetic/render/world.h>

@@ -1,4 +1,4 @@
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 #include <placegraph/io/internal/synthetic/worlds/tours.h>
 #include <placegraph/io/internal/synthetic/worlds/town_builder.h>
 #include <placegraph/io/internal/synthetic/worlds/traffic.h>

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/parallel.h>
+#include <placegraph/graph/core/parallel.h>
 #include <placegraph/io/internal/measurements/flow_file.h>
 #include <placegraph/io/internal/measurements/marker_layout_file.h>
 #include <placegraph/io/internal/sensors/euroc_sensor.h>

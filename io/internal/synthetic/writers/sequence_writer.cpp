@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/parallel.h>
+#include <placegraph/graph/core/parallel.h>
 #include <placegraph/io/internal/measurements/flow_file.h>
 #include <placegraph/io/internal/scene/labelled_mesh_file.h>
 #include <placegraph/io/internal/synthetic/writers/sequence_folder.h>

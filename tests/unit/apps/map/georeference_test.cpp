@@ -1,8 +1,8 @@
 #include "apps/map/georeference.h"
 
 #include <gtest/gtest.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/angle.h>
 #include <placegraph/io/graphs/g2o.h>
 #include <placegraph/io/map/map_database.h>
 #include <placegraph/io/trajectories/trajectory_file.h>

@@ -1,7 +1,7 @@
 #include "apps/results/run_judgement.h"
 
 #include <gtest/gtest.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 
 #include <nlohmann/json.hpp>
 

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 
 #include <cstdio>
 #include <opencv2/imgproc.hpp>

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 
 #include <limits>
 #include <nlohmann/json.hpp>

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 
 #include <csignal>
 #include <filesystem>

@@ -3,7 +3,7 @@
 #include <placegraph/backend/internal/window/sliding_window.h>
 #include <placegraph/backend/internal/window/window_state.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 
 #include <Eigen/Cholesky>
 #include <functional>

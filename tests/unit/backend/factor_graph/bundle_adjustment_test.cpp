@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/backend/factor_graph/bundle_adjustment.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 
 #include "tests/support/scenes/window_world.h"
 

@@ -16,7 +16,7 @@
 #include <placegraph/backend/internal/factors/height_above_plane.h>
 #include <placegraph/backend/internal/factors/linear_prior.h>
 #include <placegraph/backend/internal/factors/marker_corners.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 
 #include <algorithm>
 #include <memory>

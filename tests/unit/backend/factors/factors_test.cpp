@@ -10,7 +10,7 @@
 #include <placegraph/backend/internal/factors/kernel_loss.h>
 #include <placegraph/backend/internal/factors/marginal_prior.h>
 #include <placegraph/backend/internal/factors/point_factor.h>
-#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/core/angle.h>
 
 #include "tests/support/jacobian_check.h"
 #include "tests/support/scenes/window_world.h"

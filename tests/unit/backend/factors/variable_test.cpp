@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/backend/factors/variable.h>
 #include <placegraph/backend/internal/factors/variable_manifold.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 
 #include <cmath>
 #include <limits>

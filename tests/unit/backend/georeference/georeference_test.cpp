@@ -5,7 +5,7 @@
 #include <placegraph/backend/georeference/georeference.h>
 #include <placegraph/backend/internal/georeference/antenna_trajectory.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 
 #include "tests/support/seed.h"
 

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/backend/internal/georeference/variance_components.h>
 #include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 
 #include "tests/support/seed.h"
 

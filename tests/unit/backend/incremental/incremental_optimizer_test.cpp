@@ -3,7 +3,7 @@
 #include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
 #include <placegraph/backend/pose_graph/pose_marginals.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 
 #include <algorithm>
 

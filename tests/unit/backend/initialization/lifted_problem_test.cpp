@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/backend/internal/initialization/lifted_problem.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 
 #include <Eigen/QR>
 

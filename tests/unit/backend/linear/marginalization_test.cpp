@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/backend/internal/linear/marginalization.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 
 #include <Eigen/Dense>
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/backend/internal/robust/loop_gate.h>
-#include <placegraph/graph/internal/core/chi_squared.h>
+#include <placegraph/graph/core/chi_squared.h>
 
 namespace placegraph {
 namespace loop_gate_test {

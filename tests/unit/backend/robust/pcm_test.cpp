@@ -2,7 +2,7 @@
 #include <placegraph/backend/internal/robust/loop_clusters.h>
 #include <placegraph/backend/internal/robust/loop_leverage.h>
 #include <placegraph/backend/internal/robust/pcm.h>
-#include <placegraph/graph/internal/core/chi_squared.h>
+#include <placegraph/graph/core/chi_squared.h>
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/backend/internal/window/prior_gauge.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 
 #include <Eigen/Dense>
 

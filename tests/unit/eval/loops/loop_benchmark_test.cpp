@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 #include <placegraph/eval/loops/loop_benchmark.h>
 #include <placegraph/eval/loops/loop_truth_from_poses.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/angle.h>
 #include <placegraph/io/measurements/loop_file.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 

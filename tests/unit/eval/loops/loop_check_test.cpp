@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/eval/loops/loop_check.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/angle.h>
 
 #include <numbers>
 

@@ -2,7 +2,7 @@
 #include <placegraph/eval/internal/trajectory/edge_consistency.h>
 #include <placegraph/eval/internal/trajectory/edge_mount.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 
 #include <cmath>
 

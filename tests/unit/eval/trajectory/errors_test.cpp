@@ -2,8 +2,8 @@
 #include <placegraph/eval/trajectory/ape.h>
 #include <placegraph/eval/trajectory/kitti_segments.h>
 #include <placegraph/eval/trajectory/rpe.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/angle.h>
 
 #include <numbers>
 

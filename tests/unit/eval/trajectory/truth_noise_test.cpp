@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/eval/internal/trajectory/truth_noise.h>
-#include <placegraph/graph/internal/core/angle.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/angle.h>
+#include <placegraph/graph/core/random.h>
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/frontend/internal/cloud_planes/planarity.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 
 #include <cmath>
 #include <limits>

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 #include <placegraph/frontend/internal/floor_plan/indoor_surfaces.h>
 #include <placegraph/frontend/internal/floor_plan/room_partition.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/angle.h>
 
 namespace placegraph {
 namespace indoor_surfaces_test {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/frontend/internal/floor_plan/skirting_line.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/graph/core/median.h>
 
 #include "tests/support/scenes/corridor_view.h"
 

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/frontend/internal/flow/flow_cues.h>
+#include <placegraph/graph/core/random.h>
 #include <placegraph/graph/geometry/se3.h>
-#include <placegraph/graph/internal/core/random.h>
 
 #include <Eigen/LU>
 #include <cmath>

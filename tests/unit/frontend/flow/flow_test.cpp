@@ -2,7 +2,7 @@
 #include <placegraph/frontend/internal/flow/flow_vector.h>
 #include <placegraph/frontend/internal/flow/optical_flow.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 #include <algorithm>
 
 #include <cmath>

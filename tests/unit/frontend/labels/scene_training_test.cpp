@@ -2,7 +2,7 @@
 #include <placegraph/frontend/internal/labels/forest_training.h>
 #include <placegraph/frontend/internal/labels/label_field.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 
 #include <array>
 #include <cmath>

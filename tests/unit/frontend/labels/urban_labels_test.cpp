@@ -3,7 +3,7 @@
 #include <placegraph/frontend/internal/labels/surface_classifier.h>
 #include <placegraph/frontend/internal/labels/urban_labels.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 
 #include <algorithm>
 #include <array>

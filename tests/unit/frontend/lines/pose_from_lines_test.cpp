@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/frontend/internal/lines/pose_from_lines.h>
-#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/core/angle.h>
 
 #include "tests/support/scenes/line_scene.h"
 #include "tests/support/seed.h"

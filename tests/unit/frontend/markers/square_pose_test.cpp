@@ -3,7 +3,7 @@
 #include <placegraph/frontend/internal/markers/marker_explanation.h>
 #include <placegraph/frontend/internal/markers/square_pose.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 
 #include <algorithm>
 #include <cmath>

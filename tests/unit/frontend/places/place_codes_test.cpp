@@ -4,7 +4,7 @@
 #include <placegraph/frontend/internal/places/float_vocabulary.h>
 #include <placegraph/frontend/internal/places/inverted_index.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 
 #include <Eigen/LU>
 #include <cmath>

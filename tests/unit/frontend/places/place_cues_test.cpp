@@ -6,7 +6,7 @@
 #include <placegraph/frontend/internal/places/cues/gradient_layout.h>
 #include <placegraph/frontend/internal/places/cues/tiny_image.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 
 #include <algorithm>
 #include <cmath>

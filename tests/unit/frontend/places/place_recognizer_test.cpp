@@ -2,7 +2,7 @@
 #include <placegraph/frontend/places/place_recognizer.h>
 #include <placegraph/frontend/places/sequence_filter.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 
 #include <algorithm>
 #include <opencv2/imgproc.hpp>

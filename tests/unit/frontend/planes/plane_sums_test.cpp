@@ -4,7 +4,7 @@
 #include <placegraph/frontend/internal/cloud_planes/planarity.h>
 #include <placegraph/frontend/internal/planes/plane_sums.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 #include <placegraph/frontend/internal/scene/horizon.h>
 #include <placegraph/frontend/internal/scene/popup.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/angle.h>
 
 #include <cmath>
 #include <opencv2/core.hpp>

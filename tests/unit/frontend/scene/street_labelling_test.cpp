@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/frontend/internal/scene/street_labelling.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 
 #include <cmath>
 #include <opencv2/core.hpp>

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
+#include <placegraph/graph/core/chi_squared.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/chi_squared.h>
 
 #include <cmath>
 #include <utility>

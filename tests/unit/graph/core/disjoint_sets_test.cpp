@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <placegraph/graph/internal/core/disjoint_sets.h>
+#include <placegraph/graph/core/disjoint_sets.h>
 
 namespace placegraph {
 namespace disjoint_sets_test {

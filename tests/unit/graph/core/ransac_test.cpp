@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/ransac.h>
+#include <placegraph/graph/core/ransac.h>
 #include <tests/support/seed.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <placegraph/graph/internal/core/spelling.h>
+#include <placegraph/graph/core/spelling.h>
 
 namespace placegraph {
 namespace spelling_test {

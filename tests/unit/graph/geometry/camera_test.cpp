@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/random.h>
 #include <placegraph/graph/geometry/camera.h>
-#include <placegraph/graph/internal/core/random.h>
 #include <tests/support/seed.h>
 
 #include <cmath>

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/angle.h>
 #include <placegraph/io/internal/scene/labelled_mesh_file.h>
 #include <placegraph/io/internal/scene/semantic_map_file.h>
 

@@ -1,4 +1,4 @@
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 
 #include "tests/support/data.h"

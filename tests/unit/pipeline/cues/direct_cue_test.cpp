@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/frontend/internal/planes/dominant_surface.h>
-#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/graph/core/median.h>
 #include <placegraph/pipeline/internal/cues/direct_cue.h>
 
 #include <opencv2/core.hpp>

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/angle.h>
 #include <placegraph/pipeline/internal/cues/manhattan_cue.h>
 
 #include "tests/support/scenes/boards.h"

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/frontend/internal/vanishing/manhattan_frame.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/angle.h>
 #include <placegraph/pipeline/internal/cues/manhattan_frames.h>
 
 #include "tests/support/scenes/window_world.h"

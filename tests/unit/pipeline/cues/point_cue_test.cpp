@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/graph/core/median.h>
 #include <placegraph/pipeline/internal/cues/point_cue.h>
 
 #include "tests/support/ids.h"

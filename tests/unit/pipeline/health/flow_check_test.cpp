@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 #include <placegraph/pipeline/internal/health/flow_check.h>
 
 #include <opencv2/imgproc.hpp>

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/backend/internal/window/sliding_window.h>
 #include <placegraph/backend/internal/window/window_state.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 #include <placegraph/pipeline/internal/health/window_residuals.h>
 
 namespace placegraph {

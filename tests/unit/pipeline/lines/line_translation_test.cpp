@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/pipeline/internal/lines/line_translation.h>
 
 #include "tests/unit/pipeline/lines/edge_tracks.h"

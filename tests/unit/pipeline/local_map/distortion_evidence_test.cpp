@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/backend/internal/window/sliding_window.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 #include <placegraph/pipeline/internal/local_map/distortion_evidence.h>
 
 namespace placegraph {

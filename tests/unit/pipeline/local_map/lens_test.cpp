@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/angle.h>
 #include <placegraph/pipeline/internal/lens_correction.h>
 #include <placegraph/pipeline/internal/local_map/lens_estimator.h>
 

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/pipeline/internal/loops/loop_gates.h>
 
 #include <numbers>

@@ -1,7 +1,7 @@
 #include <numbers>
 
 #include <gtest/gtest.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 #include <placegraph/pipeline/internal/places/loop_feed.h>
 
 #include "tests/support/place_links.h"

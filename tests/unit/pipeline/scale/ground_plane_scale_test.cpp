@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/core/angle.h>
 #include <placegraph/pipeline/internal/scale/ground_plane_scale.h>
 
 #include "tests/support/scenes/scene.h"

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/frontend/internal/places/classifiers/kernel_machine.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 
 #include <Eigen/LU>
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/frontend/internal/places/cues/cue_grid.h>
-#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/graph/core/random.h>
 
 #include <algorithm>
 #include <cmath>

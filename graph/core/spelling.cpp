@@ -1,4 +1,4 @@
-#include <placegraph/graph/internal/core/spelling.h>
+#include <placegraph/graph/core/spelling.h>
 
 #include <algorithm>
 #include <utility>

@@ -1,4 +1,4 @@
-#include <placegraph/graph/internal/core/ransac.h>
+#include <placegraph/graph/core/ransac.h>
 
 namespace placegraph {
 

@@ -1,0 +1,2 @@
+#define PLACEGRAPH_EXTERN
+#include "placegraph/graph/core/eigen_instances.h"

@@ -1,2 +1,0 @@
-#define PLACEGRAPH_EXTERN
-#include "placegraph/graph/internal/core/eigen_instances.h"
