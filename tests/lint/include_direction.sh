@@ -4,7 +4,7 @@
 #   folders include what ROOT/tests/lint/include_directions.txt permits: include_directions.py
 #   Ceres and CHOLMOD in no header outside backend; OpenGV in no header
 #   OpenCV in headers only through graph/image and graph/internal/image, in the rest of graph and in backend not at all
-#   GeographicLib only in graph/internal/geometry/geodesy.cpp
+#   GeographicLib only in graph/geometry/geodesy.cpp
 #   libraries neither print nor end the process
 #   in apps only the command line (cmd_*, main.cpp, help.*, command_line.*, shell/*) includes CLI11 and prints: include_directions.py
 set -eu
@@ -64,8 +64,8 @@ line ~ /^[ \t]*#[ \t]*include/ {
   }
   if (project ~ /^graph\/(internal\/)?image\// && !images && (here == "backend" || here == "graph"))
     complain(here " must do without OpenCV: " path)
-  if (tolower(path) ~ /geographiclib/ && file != "graph/internal/geometry/geodesy.cpp")
-    complain("GeographicLib outside graph/internal/geometry/geodesy.cpp: " path)
+  if (tolower(path) ~ /geographiclib/ && file != "graph/geometry/geodesy.cpp")
+    complain("GeographicLib outside graph/geometry/geodesy.cpp: " path)
 }
 
 header && here != "backend" && tolower(line) ~ /(^|[^a-z])(ceres|cholmod)/ {

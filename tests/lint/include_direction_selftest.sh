@@ -15,8 +15,8 @@ clean_tree() {
   mkdir -p io/files eval pipeline apps tests/lint
   echo 'int a;' > graph/core/a.h
   echo '#include <opencv2/core/mat.hpp>' > graph/image/image.h
-  printf '#include <GeographicLib/LocalCartesian.hpp>\n#include <placegraph/graph/core/a.h>\n' > graph/internal/geometry/geodesy.cpp
-  printf '#include <placegraph/graph/internal/geometry/se3.h>\n/// As in Ceres. /* not cholmod */\n' > graph/map.h
+  printf '#include <GeographicLib/LocalCartesian.hpp>\n#include <placegraph/graph/core/a.h>\n' > graph/geometry/geodesy.cpp
+  printf '#include <placegraph/graph/geometry/se3.h>\n/// As in Ceres. /* not cholmod */\n' > graph/map.h
   printf '#include <placegraph/graph/core/a.h>\n#include <placegraph/graph/image/image.h>\nint at_exit(int);\n' > graph/image/frame.h
   printf '#include <placegraph/graph/map.h>\n#include <opengv/types.hpp>\n#include <opencv2/core.hpp>\n/* abort()\n   printf() */\n' > frontend/tracker.cpp
   printf '/* a comment\n#include <placegraph/eval/x.h>\n*/ // "\n#include "frontend/tracker.h"\n' > frontend/lines/line.cpp
@@ -81,10 +81,10 @@ clean_tree
 sh "$lint" "$work/tree" || { echo "the clean tree is refused"; failures=1; }
 
 # Includes that the table does not permit.
-plant graph/internal/geometry/so3.h '#include <placegraph/graph/map.h>' \
+plant graph/geometry/so3.h '#include <placegraph/graph/map.h>' \
   'graph/internal/geometry may not include placegraph/graph/map.h'
-plant graph/core/a.h '#include <placegraph/graph/internal/geometry/so3.h>' \
-  'graph/core may not include placegraph/graph/internal/geometry/so3.h'
+plant graph/core/a.h '#include <placegraph/graph/geometry/so3.h>' \
+  'graph/core may not include placegraph/graph/geometry/so3.h'
 plant graph/map.h '#include <placegraph/io/graphs/g2o.h>' 'graph may not include placegraph/io/graphs/g2o.h'
 plant backend/factors/b.h '#include <placegraph/backend/solver/a.h>' \
   'backend/factors may not include placegraph/backend/solver/a.h'
@@ -134,10 +134,10 @@ plant frontend/a.h 'opengv::points_t points;' 'a header names OpenGV'
 plant backend/solver/a.h 'opengv::points_t points;' 'a header names OpenGV'
 plant io/files/file.h '#include <opencv2/core.hpp>' 'OpenCV in a header: opencv2/core.hpp'
 plant graph/map.cpp '#include <opencv2/core.hpp>' 'graph may not use OpenCV: opencv2/core.hpp'
-plant graph/internal/geometry/so3.cpp '#include <opencv2/core.hpp>' 'graph may not use OpenCV: opencv2/core.hpp'
+plant graph/geometry/so3.cpp '#include <opencv2/core.hpp>' 'graph may not use OpenCV: opencv2/core.hpp'
 plant backend/solver/a.cpp '#include <opencv2/core.hpp>' 'backend may not use OpenCV: opencv2/core.hpp'
-plant graph/internal/geometry/geodesy.h '#include <GeographicLib/Geodesic.hpp>' \
-  'GeographicLib outside graph/internal/geometry/geodesy.cpp: GeographicLib/Geodesic.hpp'
+plant graph/geometry/geodesy.h '#include <GeographicLib/Geodesic.hpp>' \
+  'GeographicLib outside graph/geometry/geodesy.cpp: GeographicLib/Geodesic.hpp'
 clean_tree
 echo '#include <placegraph/graph/image/image.h>' > backend/solver/a.h
 sed 's/^backend\/solver:/& graph\/image/; 13d' $table > edited

@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/geometry/bounded_covariance.h>
+#include <placegraph/graph/geometry/bounded_covariance.h>
 #include <placegraph/pipeline/internal/places/keyframe_chain.h>
 #include <placegraph/pipeline/internal/places/rescaling.h>
 

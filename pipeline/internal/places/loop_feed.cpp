@@ -1,6 +1,6 @@
 #include <placegraph/graph/core/chi_squared.h>
 #include <placegraph/graph/core/median.h>
-#include <placegraph/graph/internal/geometry/bounded_covariance.h>
+#include <placegraph/graph/geometry/bounded_covariance.h>
 #include <placegraph/pipeline/internal/places/loop_feed.h>
 
 #include <Eigen/Cholesky>

@@ -1,4 +1,4 @@
-#include <placegraph/graph/internal/geometry/bounded_covariance.h>
+#include <placegraph/graph/geometry/bounded_covariance.h>
 #include <placegraph/pipeline/internal/places/place_constraints.h>
 
 #include <algorithm>

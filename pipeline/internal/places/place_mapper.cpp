@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/geometry/bounded_covariance.h>
+#include <placegraph/graph/geometry/bounded_covariance.h>
 #include <placegraph/pipeline/internal/places/place_components.h>
 #include <placegraph/pipeline/internal/places/place_constraints.h>
 #include <placegraph/pipeline/internal/places/place_mapper.h>

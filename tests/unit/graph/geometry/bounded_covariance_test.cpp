@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/graph/internal/geometry/bounded_covariance.h>
+#include <placegraph/graph/geometry/bounded_covariance.h>
 
 namespace placegraph {
 namespace bounded_covariance_test {

@@ -1,4 +1,4 @@
-#include <placegraph/graph/internal/geometry/bounded_covariance.h>
+#include <placegraph/graph/geometry/bounded_covariance.h>
 
 #include <Eigen/Dense>
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/geometry/rotation_series.h>
 #include <placegraph/graph/geometry/so3.h>
-#include <placegraph/graph/internal/geometry/rotation_series.h>
 
 #include <Eigen/SVD>
 #include <cmath>

@@ -1,5 +1,5 @@
+#include <placegraph/graph/geometry/rotation_series.h>
 #include <placegraph/graph/geometry/se3.h>
-#include <placegraph/graph/internal/geometry/rotation_series.h>
 
 namespace placegraph {
 namespace {
