@@ -2,7 +2,7 @@
 #include "apps/support/json_file.h"
 
 #include <fmt/format.h>
-#include <placegraph/graph/internal/image/png_codec.h>
+#include <placegraph/graph/image/png_codec.h>
 
 #include <nlohmann/json.hpp>
 #include <opencv2/imgproc.hpp>

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/image/thumbnail.h>
+#include <placegraph/graph/image/thumbnail.h>
 #include <placegraph/io/datasets/open_dataset.h>
 #include <placegraph/io/internal/exports/base64.h>
 #include <placegraph/io/map/map_database.h>

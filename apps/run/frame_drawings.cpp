@@ -4,8 +4,8 @@
 #include <placegraph/eval/internal/drawing/picture_bytes.h>
 #include <placegraph/eval/internal/drawing/picture_legend.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/image/jpeg_codec.h>
-#include <placegraph/graph/internal/image/picture_plugin.h>
+#include <placegraph/graph/image/jpeg_codec.h>
+#include <placegraph/graph/image/picture_plugin.h>
 #include <placegraph/io/internal/files/atomic_file.h>
 
 #include <algorithm>

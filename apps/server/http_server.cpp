@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/image/plugin_folders.h>
-#include <placegraph/graph/internal/image/plugin_loader.h>
+#include <placegraph/graph/image/plugin_folders.h>
+#include <placegraph/graph/image/plugin_loader.h>
 
 namespace placegraph::apps {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/graph/image/image.h>
-#include <placegraph/graph/internal/image/png_codec.h>
+#include <placegraph/graph/image/png_codec.h>
 
 #include <string>
 

@@ -1,6 +1,6 @@
 #include "apps/viewer/jpeg_url.h"
 
-#include <placegraph/graph/internal/image/jpeg_codec.h>
+#include <placegraph/graph/image/jpeg_codec.h>
 #include <placegraph/io/internal/exports/base64.h>
 
 namespace placegraph::apps {

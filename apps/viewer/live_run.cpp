@@ -1,6 +1,6 @@
 #include "apps/viewer/live_run.h"
 
-#include <placegraph/graph/internal/image/jpeg_codec.h>
+#include <placegraph/graph/image/jpeg_codec.h>
 
 #include <cmath>
 #include <limits>

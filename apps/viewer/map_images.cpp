@@ -1,6 +1,6 @@
 #include "apps/viewer/map_images.h"
 
-#include <placegraph/graph/internal/image/jpeg_codec.h>
+#include <placegraph/graph/image/jpeg_codec.h>
 #include <placegraph/io/datasets/open_dataset.h>
 
 #include <filesystem>

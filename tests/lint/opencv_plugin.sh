@@ -1,10 +1,10 @@
 #!/bin/sh
 # opencv_plugin.sh ROOT: OpenCV's imgcodecs, videoio and ximgproc are included and linked by the module in
-# ROOT/graph/internal/image/plugin alone (cmake/dependencies.cmake looks for them), because they bring 200 libraries
+# ROOT/graph/image/plugin alone (cmake/dependencies.cmake looks for them), because they bring 200 libraries
 # with them. Prints each violation as file:line.
 set -eu
 cd "$1"
-files=$(find . \( -name build -o -name .git -o -path ./out -o -path ./tests/install -o -path ./graph/internal/image/plugin \) -prune -o -type f \
+files=$(find . \( -name build -o -name .git -o -path ./out -o -path ./tests/install -o -path ./graph/image/plugin \) -prune -o -type f \
   \( -name '*.h' -o -name '*.cpp' -o -name '*.in' -o -name CMakeLists.txt -o -name '*.cmake' \) -print |
   grep -v '^\./cmake/dependencies\.cmake$' | LC_ALL=C sort)
 [ -n "$files" ] || { echo "$1: no sources"; exit 2; }
@@ -14,5 +14,5 @@ modules='(imgcodecs|videoio|ximgproc|highgui)'
 found=$(grep -nE "#[[:space:]]*include[[:space:]]*[<\"]opencv2/($modules|opencv\.hpp)|opencv_$modules([^A-Za-z0-9_]|\$)|OpenCV_LIBS" \
   /dev/null $files) || exit 0
 printf '%s\n' "$found" | sed 's|^\./||'
-echo 'what stands above belongs into graph/internal/image/plugin'
+echo 'what stands above belongs into graph/image/plugin'
 exit 1

@@ -4,9 +4,9 @@ set -eu
 lint=$1
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-mkdir -p "$work/graph/internal/image/plugin" "$work/io" "$work/tests" "$work/cmake" "$work/build"
-echo '#include <opencv2/imgcodecs.hpp>' > "$work/graph/internal/image/plugin/a.cpp"
-echo 'target_link_libraries(a opencv_imgcodecs)' > "$work/graph/internal/image/plugin/CMakeLists.txt"
+mkdir -p "$work/graph/image/plugin" "$work/io" "$work/tests" "$work/cmake" "$work/build"
+echo '#include <opencv2/imgcodecs.hpp>' > "$work/graph/image/plugin/a.cpp"
+echo 'target_link_libraries(a opencv_imgcodecs)' > "$work/graph/image/plugin/CMakeLists.txt"
 echo 'find_package(OpenCV COMPONENTS imgcodecs)' > "$work/cmake/dependencies.cmake"
 echo '#include <opencv2/videoio.hpp>' > "$work/build/a.cpp"
 echo '#include <opencv2/imgproc.hpp>' > "$work/io/a.cpp"

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/graph/internal/image/picture.h>
+#include <placegraph/graph/image/picture.h>
 
 #include <fstream>
 #include <iterator>

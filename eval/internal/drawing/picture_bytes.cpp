@@ -1,7 +1,7 @@
 #include <placegraph/eval/internal/drawing/picture_bytes.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/image/drawing_plugin.h>
-#include <placegraph/graph/internal/image/png_codec.h>
+#include <placegraph/graph/image/drawing_plugin.h>
+#include <placegraph/graph/image/png_codec.h>
 
 #include <opencv2/imgproc.hpp>
 

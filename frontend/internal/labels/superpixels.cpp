@@ -1,6 +1,6 @@
 #include <placegraph/frontend/internal/labels/superpixels.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/image/picture_plugin.h>
+#include <placegraph/graph/image/picture_plugin.h>
 
 #include <algorithm>
 #include <cmath>

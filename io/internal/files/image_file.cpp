@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/image/picture.h>
+#include <placegraph/graph/image/picture.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/internal/files/atomic_file.h>
 #include <placegraph/io/internal/files/input_file.h>

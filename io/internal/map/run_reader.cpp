@@ -1,4 +1,4 @@
-#include <placegraph/graph/internal/image/png_codec.h>
+#include <placegraph/graph/image/png_codec.h>
 #include <placegraph/io/internal/map/map_columns.h>
 #include <placegraph/io/internal/map/run_reader.h>
 

@@ -1,4 +1,4 @@
-#include <placegraph/graph/internal/image/thumbnail.h>
+#include <placegraph/graph/image/thumbnail.h>
 #include <placegraph/pipeline/internal/slam/map_feed.h>
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // it.
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/median.h>
-#include <placegraph/graph/internal/image/jpeg_codec.h>
+#include <placegraph/graph/image/jpeg_codec.h>
 #include <placegraph/io/map/map_database.h>
 
 #include <placegraph/io/trajectories/trajectory_file.h>

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/image/png_codec.h>
+#include <placegraph/graph/image/png_codec.h>
 #include <placegraph/io/internal/synthetic/writers/sequence_folder.h>
 
 #include <fstream>

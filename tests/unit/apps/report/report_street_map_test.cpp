@@ -1,7 +1,7 @@
 #include "apps/report/report_street_map.h"
 
 #include <gtest/gtest.h>
-#include <placegraph/graph/internal/image/png_codec.h>
+#include <placegraph/graph/image/png_codec.h>
 #include <placegraph/io/internal/scene/semantic_map_file.h>
 
 #include <fstream>

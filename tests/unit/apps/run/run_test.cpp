@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/image/picture_plugin.h>
+#include <placegraph/graph/image/picture_plugin.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 

@@ -9,7 +9,7 @@
 #include <placegraph/eval/internal/drawing/svg_canvas.h>
 #include <placegraph/eval/internal/drawing/text_width.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/image/png_codec.h>
+#include <placegraph/graph/image/png_codec.h>
 
 #include <cmath>
 

@@ -4,7 +4,7 @@
 #include <placegraph/eval/internal/plots/evaluation_plot.h>
 #include <placegraph/eval/trajectory/evaluate.h>
 #include <placegraph/eval/trajectory/report.h>
-#include <placegraph/graph/internal/image/png_codec.h>
+#include <placegraph/graph/image/png_codec.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/image/jpeg_codec.h>
-#include <placegraph/graph/internal/image/picture_plugin.h>
+#include <placegraph/graph/image/jpeg_codec.h>
+#include <placegraph/graph/image/picture_plugin.h>
 
 #include <opencv2/core.hpp>
 

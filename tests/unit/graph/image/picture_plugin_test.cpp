@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/image/picture_plugin.h>
+#include <placegraph/graph/image/picture_plugin.h>
 
 #include <filesystem>
 #include <opencv2/core.hpp>

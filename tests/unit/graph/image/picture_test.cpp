@@ -1,9 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/image/jpeg_codec.h>
-#include <placegraph/graph/internal/image/picture.h>
-#include <placegraph/graph/internal/image/png_codec.h>
+#include <placegraph/graph/image/jpeg_codec.h>
+#include <placegraph/graph/image/picture.h>
+#include <placegraph/graph/image/png_codec.h>
 
 #include <opencv2/core.hpp>
 

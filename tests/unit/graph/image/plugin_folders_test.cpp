@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <placegraph/graph/internal/image/picture_plugin.h>
-#include <placegraph/graph/internal/image/plugin_folders.h>
+#include <placegraph/graph/image/picture_plugin.h>
+#include <placegraph/graph/image/plugin_folders.h>
 
 #include <cstdlib>
 #include <filesystem>

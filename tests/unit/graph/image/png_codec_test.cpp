@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/image/picture_plugin.h>
-#include <placegraph/graph/internal/image/png_codec.h>
+#include <placegraph/graph/image/picture_plugin.h>
+#include <placegraph/graph/image/png_codec.h>
 #include <zlib.h>
 
 #include <opencv2/core.hpp>

@@ -1,4 +1,4 @@
-#include <placegraph/graph/internal/image/picture_plugin.h>
+#include <placegraph/graph/image/picture_plugin.h>
 #include <placegraph/io/datasets/open_dataset.h>
 #include <placegraph/io/internal/calibration/calibration_file.h>
 #include <placegraph/io/internal/files/image_list.h>

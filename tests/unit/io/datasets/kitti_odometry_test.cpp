@@ -1,4 +1,4 @@
-#include <placegraph/graph/internal/image/picture.h>
+#include <placegraph/graph/image/picture.h>
 #include <placegraph/io/datasets/open_dataset.h>
 
 #include <opencv2/imgproc.hpp>

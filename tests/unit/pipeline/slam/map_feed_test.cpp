@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/graph/internal/image/jpeg_codec.h>
+#include <placegraph/graph/image/jpeg_codec.h>
 #include <placegraph/pipeline/internal/slam/map_feed.h>
 
 #include "tests/support/scenes/street.h"

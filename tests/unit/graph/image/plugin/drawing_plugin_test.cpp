@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/image/drawing_plugin.h>
+#include <placegraph/graph/image/drawing_plugin.h>
 
 #include <algorithm>
 

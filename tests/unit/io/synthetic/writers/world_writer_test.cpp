@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/image/png_codec.h>
+#include <placegraph/graph/image/png_codec.h>
 #include <placegraph/io/internal/synthetic/writers/flight_writer.h>
 #include <placegraph/io/internal/synthetic/writers/world_writer.h>
 #include <placegraph/io/trajectories/trajectory_file.h>

@@ -1,6 +1,6 @@
 #pragma once
+#include <placegraph/graph/image/decoded_pixels.h>
 #include <placegraph/graph/image/image.h>
-#include <placegraph/graph/internal/image/decoded_pixels.h>
 
 #include <optional>
 #include <string>

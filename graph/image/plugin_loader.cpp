@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/image/plugin_loader.h>
+#include <placegraph/graph/image/plugin_loader.h>
 
 #include <filesystem>
 

@@ -1,5 +1,5 @@
 // The module libplacegraph_opencv_plugin.so, see picture_plugin.h. It depends on OpenCV alone.
-#include <placegraph/graph/internal/image/picture_plugin.h>
+#include <placegraph/graph/image/picture_plugin.h>
 
 #include <cstdlib>
 #include <opencv2/core/utils/logger.hpp>

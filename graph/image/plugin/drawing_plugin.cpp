@@ -1,7 +1,7 @@
 // The module libplacegraph_drawing_plugin.so, see drawing_plugin.h. It depends on librsvg alone.
 #include <cairo-pdf.h>
 #include <librsvg/rsvg.h>
-#include <placegraph/graph/internal/image/drawing_plugin.h>
+#include <placegraph/graph/image/drawing_plugin.h>
 
 #include <cmath>
 #include <cstring>

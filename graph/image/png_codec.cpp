@@ -1,6 +1,6 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/image/picture_size.h>
-#include <placegraph/graph/internal/image/png_codec.h>
+#include <placegraph/graph/image/picture_size.h>
+#include <placegraph/graph/image/png_codec.h>
 #include <png.h>
 #include <zlib.h>
 

@@ -1,6 +1,6 @@
-#include <placegraph/graph/internal/image/drawing_plugin.h>
-#include <placegraph/graph/internal/image/plugin_folders.h>
-#include <placegraph/graph/internal/image/plugin_loader.h>
+#include <placegraph/graph/image/drawing_plugin.h>
+#include <placegraph/graph/image/plugin_folders.h>
+#include <placegraph/graph/image/plugin_loader.h>
 
 namespace placegraph {
 

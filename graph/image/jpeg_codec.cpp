@@ -1,11 +1,11 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/image/jpeg_codec.h>
-#include <placegraph/graph/internal/image/picture_size.h>
+#include <placegraph/graph/image/jpeg_codec.h>
+#include <placegraph/graph/image/picture_size.h>
 
 // clang-format off
-#include <cstdio>  // jpeglib.h needs FILE
-#include <jpeglib.h>
 #include <jerror.h>  // its numbers depend on what jpeglib.h defines
+#include <jpeglib.h>
+#include <cstdio>  // jpeglib.h needs FILE
 // clang-format on
 #include <algorithm>
 #include <csetjmp>

@@ -1,6 +1,6 @@
 #include <dlfcn.h>
 #include <link.h>
-#include <placegraph/graph/internal/image/plugin_folders.h>
+#include <placegraph/graph/image/plugin_folders.h>
 
 #include <algorithm>
 #include <cstdlib>

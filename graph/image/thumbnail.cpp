@@ -1,5 +1,5 @@
-#include <placegraph/graph/internal/image/jpeg_codec.h>
-#include <placegraph/graph/internal/image/thumbnail.h>
+#include <placegraph/graph/image/jpeg_codec.h>
+#include <placegraph/graph/image/thumbnail.h>
 
 #include <algorithm>
 #include <opencv2/imgproc.hpp>

@@ -1,8 +1,8 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/image/jpeg_codec.h>
-#include <placegraph/graph/internal/image/picture.h>
-#include <placegraph/graph/internal/image/picture_plugin.h>
-#include <placegraph/graph/internal/image/png_codec.h>
+#include <placegraph/graph/image/jpeg_codec.h>
+#include <placegraph/graph/image/picture.h>
+#include <placegraph/graph/image/picture_plugin.h>
+#include <placegraph/graph/image/png_codec.h>
 
 #include <algorithm>
 #include <filesystem>
