@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/graph/internal/measurements/marker_layout.h>
+#include <placegraph/graph/measurements/marker_layout.h>
 #include <placegraph/io/internal/datasets/euroc.h>
 #include <placegraph/pipeline/internal/flight/flight_run.h>
 

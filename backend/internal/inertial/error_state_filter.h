@@ -3,8 +3,8 @@
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/geometry/se3.h>
-#include <placegraph/graph/internal/measurements/body_state.h>
-#include <placegraph/graph/internal/measurements/flight_measurement.h>
+#include <placegraph/graph/measurements/body_state.h>
+#include <placegraph/graph/measurements/flight_measurement.h>
 #include <placegraph/graph/measurements/imu.h>
 
 #include <Eigen/Core>

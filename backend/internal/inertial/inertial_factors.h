@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/backend/internal/inertial/imu_preintegration.h>
-#include <placegraph/graph/internal/measurements/body_state.h>
-#include <placegraph/graph/internal/measurements/flight_measurement.h>
+#include <placegraph/graph/measurements/body_state.h>
+#include <placegraph/graph/measurements/flight_measurement.h>
 
 #include <optional>
 

@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/graph/core/outcome.h>
-#include <placegraph/graph/internal/measurements/body_state.h>
+#include <placegraph/graph/measurements/body_state.h>
 
 #include <optional>
 #include <vector>

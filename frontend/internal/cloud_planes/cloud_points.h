@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/frontend/internal/planes/plane_sums.h>
-#include <placegraph/graph/internal/measurements/point_cloud.h>
+#include <placegraph/graph/measurements/point_cloud.h>
 
 #include <vector>
 

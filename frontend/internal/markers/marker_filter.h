@@ -5,8 +5,8 @@
 #include <placegraph/frontend/internal/markers/square_pose.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/core/outcome.h>
-#include <placegraph/graph/internal/measurements/body_state.h>
-#include <placegraph/graph/internal/measurements/marker_layout.h>
+#include <placegraph/graph/measurements/body_state.h>
+#include <placegraph/graph/measurements/marker_layout.h>
 
 #include <optional>
 #include <vector>

@@ -1,7 +1,7 @@
 #include <placegraph/frontend/internal/markers/marker_pose.h>
 #include <placegraph/frontend/internal/markers/square_pose.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/measurements/marker_layout.h>
+#include <placegraph/graph/measurements/marker_layout.h>
 
 #include <Eigen/Cholesky>
 #include <algorithm>

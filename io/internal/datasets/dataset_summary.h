@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/graph/internal/measurements/stamp_spacing.h>
+#include <placegraph/graph/measurements/stamp_spacing.h>
 #include <placegraph/io/datasets/dataset.h>
 
 namespace placegraph {

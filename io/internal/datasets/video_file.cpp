@@ -2,7 +2,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/time.h>
 #include <placegraph/graph/image/picture_plugin.h>
-#include <placegraph/graph/internal/measurements/stamp_plausibility.h>
+#include <placegraph/graph/measurements/stamp_plausibility.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/internal/calibration/calibration_file.h>
 #include <placegraph/io/internal/calibration/calibration_plausibility.h>

@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/image/image.h>
-#include <placegraph/graph/internal/measurements/point_cloud.h>
+#include <placegraph/graph/measurements/point_cloud.h>
 
 #include <string>
 #include <vector>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/graph/internal/measurements/body_state.h>
+#include <placegraph/graph/measurements/body_state.h>
 
 #include <string>
 #include <vector>

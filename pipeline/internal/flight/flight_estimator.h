@@ -2,7 +2,7 @@
 #include <placegraph/backend/internal/inertial/error_state_filter.h>
 #include <placegraph/graph/core/stage_times.h>
 #include <placegraph/graph/image/frame.h>
-#include <placegraph/graph/internal/measurements/marker_layout.h>
+#include <placegraph/graph/measurements/marker_layout.h>
 #include <placegraph/pipeline/internal/flight/delay_line.h>
 #include <placegraph/pipeline/internal/flight/flight_options.h>
 #include <placegraph/pipeline/internal/flight/floor_flow.h>

@@ -2,7 +2,7 @@
 #include <placegraph/frontend/internal/flow/flow_cues.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/geometry/se3.h>
-#include <placegraph/graph/internal/measurements/body_state.h>
+#include <placegraph/graph/measurements/body_state.h>
 #include <placegraph/graph/measurements/imu.h>
 
 #include <Eigen/Core>

@@ -2,7 +2,7 @@
 #include <placegraph/frontend/internal/markers/marker_detector.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/core/outcome.h>
-#include <placegraph/graph/internal/measurements/marker_layout.h>
+#include <placegraph/graph/measurements/marker_layout.h>
 #include <placegraph/graph/pose_graph/pose_graph.h>
 #include <placegraph/pipeline/internal/flight/flight_options.h>
 

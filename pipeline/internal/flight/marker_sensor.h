@@ -7,8 +7,8 @@
 #include <placegraph/graph/core/stage_times.h>
 #include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/image/image.h>
-#include <placegraph/graph/internal/measurements/body_state.h>
-#include <placegraph/graph/internal/measurements/marker_layout.h>
+#include <placegraph/graph/measurements/body_state.h>
+#include <placegraph/graph/measurements/marker_layout.h>
 #include <placegraph/pipeline/internal/flight/flight_options.h>
 
 #include <optional>

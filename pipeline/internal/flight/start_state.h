@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/graph/core/options.h>
-#include <placegraph/graph/internal/measurements/body_state.h>
-#include <placegraph/graph/internal/measurements/flight_measurement.h>
+#include <placegraph/graph/measurements/body_state.h>
+#include <placegraph/graph/measurements/flight_measurement.h>
 #include <placegraph/pipeline/internal/flight/flight_options.h>
 
 #include <optional>

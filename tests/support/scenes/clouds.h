@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/graph/core/random.h>
 #include <placegraph/graph/geometry/camera.h>
-#include <placegraph/graph/internal/measurements/point_cloud.h>
+#include <placegraph/graph/measurements/point_cloud.h>
 
 #include <cmath>
 #include <functional>

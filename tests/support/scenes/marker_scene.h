@@ -2,7 +2,7 @@
 #include <placegraph/frontend/internal/markers/marker_dictionary.h>
 #include <placegraph/graph/core/random.h>
 #include <placegraph/graph/geometry/camera.h>
-#include <placegraph/graph/internal/measurements/marker_layout.h>
+#include <placegraph/graph/measurements/marker_layout.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/graph/internal/measurements/point_cloud.h>
+#include <placegraph/graph/measurements/point_cloud.h>
 
 #include <functional>
 #include <limits>

@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/graph/core/options.h>
-#include <placegraph/graph/internal/measurements/body_state.h>
+#include <placegraph/graph/measurements/body_state.h>
 #include <placegraph/io/sensors/imu_file.h>
 
 #include <cstdint>

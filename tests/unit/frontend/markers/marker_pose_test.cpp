@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/frontend/internal/markers/marker_pose.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/measurements/marker_layout.h>
+#include <placegraph/graph/measurements/marker_layout.h>
 
 #include "tests/support/scenes/marker_scene.h"
 #include "tests/support/scenes/scene.h"

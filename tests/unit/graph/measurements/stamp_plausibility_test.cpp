@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <placegraph/graph/internal/measurements/stamp_plausibility.h>
+#include <placegraph/graph/measurements/stamp_plausibility.h>
 
 namespace placegraph {
 namespace stamp_plausibility_test {

@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <placegraph/graph/internal/measurements/stamp_spacing.h>
+#include <placegraph/graph/measurements/stamp_spacing.h>
 
 namespace placegraph {
 namespace stamp_spacing_test {

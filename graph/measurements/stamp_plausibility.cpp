@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/median.h>
 #include <placegraph/graph/core/time.h>
-#include <placegraph/graph/internal/measurements/stamp_plausibility.h>
+#include <placegraph/graph/measurements/stamp_plausibility.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/graph/geometry/se3.h>
-#include <placegraph/graph/internal/measurements/flight_measurement.h>
+#include <placegraph/graph/measurements/flight_measurement.h>
 
 #include <Eigen/Core>
 #include <cstdint>

@@ -1,6 +1,6 @@
 #include <placegraph/graph/core/median.h>
 #include <placegraph/graph/core/time.h>
-#include <placegraph/graph/internal/measurements/stamp_spacing.h>
+#include <placegraph/graph/measurements/stamp_spacing.h>
 
 #include <algorithm>
 #include <cmath>
