@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/pose_graph/position_of.h>
-#include <placegraph/graph/internal/pose_graph/rigid_graph.h>
+#include <placegraph/graph/pose_graph/position_of.h>
+#include <placegraph/graph/pose_graph/rigid_graph.h>
 #include <placegraph/io/graphs/g2o.h>
 #include <placegraph/io/graphs/pose_graph_file.h>
 #include <placegraph/io/internal/files/text_file.h>

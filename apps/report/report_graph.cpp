@@ -1,8 +1,8 @@
 #include "apps/report/report_graph.h"
 
-#include <placegraph/graph/internal/pose_graph/position_of.h>
 #include <placegraph/graph/pose_graph/constraint_source.h>
 #include <placegraph/graph/pose_graph/node_index.h>
+#include <placegraph/graph/pose_graph/position_of.h>
 
 #include <limits>
 #include <nlohmann/json.hpp>

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/internal/map_revisits.h>
-#include <placegraph/graph/internal/pose_graph/rigid_graph.h>
 #include <placegraph/graph/place_transitions.h>
+#include <placegraph/graph/pose_graph/rigid_graph.h>
 #include <placegraph/io/graphs/g2o.h>
 #include <placegraph/io/graphs/place_graph_export.h>
 #include <placegraph/io/measurements/loop_file.h>

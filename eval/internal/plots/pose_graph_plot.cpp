@@ -1,6 +1,6 @@
 #include <placegraph/eval/internal/plots/pose_graph_plot.h>
-#include <placegraph/graph/internal/pose_graph/position_of.h>
 #include <placegraph/graph/pose_graph/node_index.h>
+#include <placegraph/graph/pose_graph/position_of.h>
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>
-#include <placegraph/graph/internal/pose_graph/position_of.h>
+#include <placegraph/graph/pose_graph/position_of.h>
 #include <placegraph/io/internal/synthetic/graphs/false_loops.h>
 
 #include <Eigen/Geometry>

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/graph/internal/pose_graph/rigid_graph.h>
+#include <placegraph/graph/pose_graph/rigid_graph.h>
 
 namespace placegraph {
 namespace rigid_graph_test {

@@ -1,4 +1,4 @@
-#include <placegraph/graph/internal/pose_graph/position_of.h>
+#include <placegraph/graph/pose_graph/position_of.h>
 #include <placegraph/io/graphs/g2o.h>
 #include <placegraph/io/graphs/pose_graph_file.h>
 #include <placegraph/io/internal/graphs/parse_graph.h>

@@ -1,5 +1,5 @@
-#include <placegraph/graph/internal/pose_graph/rigid_graph.h>
 #include <placegraph/graph/pose_graph/node_index.h>
+#include <placegraph/graph/pose_graph/rigid_graph.h>
 
 namespace placegraph {
 namespace {
