@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/graph/internal/scene/building_plan.h>
+#include <placegraph/graph/scene/building_plan.h>
 #include <placegraph/graph/scene/indoor_map.h>
 
 #include <string>

@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/graph/geometry/se3.h>
-#include <placegraph/graph/internal/scene/building_plan.h>
+#include <placegraph/graph/scene/building_plan.h>
 #include <placegraph/graph/scene/indoor_map.h>
 
 #include <vector>

@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/graph/geometry/se3.h>
-#include <placegraph/graph/internal/scene/labelled_mesh.h>
+#include <placegraph/graph/scene/labelled_mesh.h>
 #include <placegraph/graph/scene/semantic_map.h>
 
 #include <cstdint>

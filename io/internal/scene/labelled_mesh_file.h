@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/graph/internal/scene/labelled_mesh.h>
+#include <placegraph/graph/scene/labelled_mesh.h>
 
 #include <string>
 

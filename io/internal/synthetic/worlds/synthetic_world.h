@@ -2,7 +2,7 @@
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/geometry/trajectory.h>
 #include <placegraph/graph/image/frame.h>
-#include <placegraph/graph/internal/scene/labelled_mesh.h>
+#include <placegraph/graph/scene/labelled_mesh.h>
 #include <placegraph/graph/scene/scene_model.h>
 #include <placegraph/io/internal/synthetic/defects/defects.h>
 #include <placegraph/io/internal/synthetic/render/sensor_model.h>
