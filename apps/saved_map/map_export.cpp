@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/map_revisits.h>
+#include <placegraph/graph/map_revisits.h>
 #include <placegraph/graph/place_transitions.h>
 #include <placegraph/graph/pose_graph/rigid_graph.h>
 #include <placegraph/io/graphs/g2o.h>

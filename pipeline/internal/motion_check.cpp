@@ -4,7 +4,7 @@
 #include <placegraph/graph/core/quantile.h>
 #include <placegraph/graph/core/time.h>
 #include <placegraph/graph/geometry/se3.h>
-#include <placegraph/graph/internal/map_index.h>
+#include <placegraph/graph/map_index.h>
 #include <placegraph/io/internal/datasets/recorded_sequence.h>
 #include <placegraph/pipeline/internal/motion_check.h>
 

@@ -3,7 +3,7 @@
 # each violation as file:line; fails if there is one.
 #   folders include what ROOT/tests/lint/include_directions.txt permits: include_directions.py
 #   Ceres and CHOLMOD in no header outside backend; OpenGV in no header
-#   OpenCV in headers only through graph/image and graph/internal/image, in the rest of graph and in backend not at all
+#   OpenCV in headers only through graph/image and graph/image, in the rest of graph and in backend not at all
 #   GeographicLib only in graph/geometry/geodesy.cpp
 #   libraries neither print nor end the process
 #   in apps only the command line (cmd_*, main.cpp, help.*, command_line.*, shell/*) includes CLI11 and prints: include_directions.py

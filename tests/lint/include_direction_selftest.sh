@@ -11,7 +11,7 @@ clean_tree() {
   rm -rf "$work/tree"
   mkdir -p "$work/tree"
   cd "$work/tree"
-  mkdir -p graph/core graph/internal/geometry graph/image frontend/lines backend/factors backend/solver
+  mkdir -p graph/core graph/geometry graph/image frontend/lines backend/factors backend/solver
   mkdir -p io/files eval pipeline apps tests/lint
   echo 'int a;' > graph/core/a.h
   echo '#include <opencv2/core/mat.hpp>' > graph/image/image.h
@@ -30,8 +30,8 @@ clean_tree() {
 # The lines are counted below.
 [graph]
 graph/core:
-graph/internal/geometry: graph/core
-graph: graph/internal/geometry
+graph/geometry: graph/core
+graph: graph/geometry
 graph/image: graph/core
 [frontend: graph]
 frontend: graph
@@ -82,7 +82,7 @@ sh "$lint" "$work/tree" || { echo "the clean tree is refused"; failures=1; }
 
 # Includes that the table does not permit.
 plant graph/geometry/so3.h '#include <placegraph/graph/map.h>' \
-  'graph/internal/geometry may not include placegraph/graph/map.h'
+  'graph/geometry may not include placegraph/graph/map.h'
 plant graph/core/a.h '#include <placegraph/graph/geometry/so3.h>' \
   'graph/core may not include placegraph/graph/geometry/so3.h'
 plant graph/map.h '#include <placegraph/io/graphs/g2o.h>' 'graph may not include placegraph/io/graphs/g2o.h'
@@ -109,8 +109,8 @@ expect 'thirty-one sources' \
   "eval/x39.h:1: folder eval holds 31 sources, more than 30: it holds more than one idea"
 table '8s/$/ graph\/core/' "$table:8: no include uses the permission frontend -> graph/core"
 table '15s/$/\nio\/graphs:/' "$table:16: folder io/graphs holds no sources"
-table '3s/$/ graph\/internal\/geometry/' "$table:3: graph/core: graph/internal/geometry has no earlier line: the arrow points up
-$table:3: no include uses the permission graph/core -> graph/internal/geometry"
+table '3s/$/ graph\/internal\/geometry/' "$table:3: graph/core: graph/geometry has no earlier line: the arrow points up
+$table:3: no include uses the permission graph/core -> graph/geometry"
 table '11s/$/ backend\/factors/' \
   "$table:11: backend/factors: backend/factors has no earlier line: the arrow points up"
 table '11{h;d};13G' "$table:12: backend/solver: backend/factors has no earlier line: the arrow points up"
@@ -146,7 +146,7 @@ expect 'an image in the backend' \
   'backend/solver/a.h:1: backend must do without OpenCV: placegraph/graph/image/image.h'
 clean_tree
 echo '#include <placegraph/graph/image/frame.h>' >> graph/map.h
-{ sed -n 1,4p $table; echo 'graph/image: graph/core'; echo 'graph: graph/internal/geometry graph/image'; sed 1,6d $table; } > edited
+{ sed -n 1,4p $table; echo 'graph/image: graph/core'; echo 'graph: graph/geometry graph/image'; sed 1,6d $table; } > edited
 mv edited $table
 expect 'an image in the graph' \
   'graph/map.h:3: graph must do without OpenCV: placegraph/graph/image/frame.h'

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/graph/internal/state_archive.h>
+#include <placegraph/graph/state_archive.h>
 
 namespace placegraph::test {
 

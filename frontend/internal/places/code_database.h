@@ -3,7 +3,7 @@
 #include <placegraph/frontend/internal/places/landmarks.h>
 #include <placegraph/frontend/internal/places/place_database.h>
 #include <placegraph/frontend/internal/places/place_similarity.h>
-#include <placegraph/graph/internal/word_tree.h>
+#include <placegraph/graph/word_tree.h>
 
 #include <cstdint>
 #include <memory>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/graph/internal/word_tree.h>
+#include <placegraph/graph/word_tree.h>
 
 #include <string>
 

@@ -1,4 +1,4 @@
-#include <placegraph/graph/internal/map_index.h>
+#include <placegraph/graph/map_index.h>
 #include <placegraph/pipeline/internal/map/map_geometry.h>
 
 #include <Eigen/Eigenvalues>

@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/state_archive.h>
+#include <placegraph/graph/state_archive.h>
 #include <placegraph/pipeline/internal/slam/run_evidence.h>
 
 namespace placegraph {

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/map_index.h>
+#include <placegraph/graph/map_index.h>
 #include <placegraph/graph/pose_graph/constraint_source.h>
 #include <placegraph/graph/scene/environment.h>
 #include <placegraph/pipeline/internal/map/map_geometry.h>

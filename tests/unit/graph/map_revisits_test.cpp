@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/map_revisits.h>
+#include <placegraph/graph/map_revisits.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/map_index.h>
 #include <placegraph/graph/map.h>
+#include <placegraph/graph/map_index.h>
 
 #include <numbers>
 

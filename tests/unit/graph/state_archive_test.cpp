@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/ids.h>
-#include <placegraph/graph/internal/state_archive.h>
+#include <placegraph/graph/state_archive.h>
 
 #include "tests/support/seed.h"
 

@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/angle.h>
-#include <placegraph/graph/internal/map_revisits.h>
+#include <placegraph/graph/map_revisits.h>
 #include <placegraph/graph/place_transitions.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-#include <placegraph/graph/internal/word_tree.h>
+#include <placegraph/graph/word_tree.h>
 
 #include <cmath>
 

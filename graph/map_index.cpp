@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/map_index.h>
+#include <placegraph/graph/map_index.h>
 
 namespace placegraph {
 

@@ -1,6 +1,6 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/internal/map_index.h>
 #include <placegraph/graph/map.h>
+#include <placegraph/graph/map_index.h>
 
 #include <algorithm>
 #include <map>
