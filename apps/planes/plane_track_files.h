@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/align/plane_tracker.h>
+#include <placegraph/frontend/align/plane_tracker.h>
 #include <placegraph/graph/geometry/trajectory.h>
 
 #include <nlohmann/json_fwd.hpp>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/align/plane_tracker.h>
+#include <placegraph/frontend/align/plane_tracker.h>
 
 #include <optional>
 #include <string>

@@ -8,8 +8,8 @@
 // writes OUT_PREFIX.md, OUT_PREFIX_optimizers.png, OUT_PREFIX_similarities.png and, of rendered
 // templates, OUT_PREFIX_targets.tsv.
 #include <fmt/format.h>
-#include <placegraph/frontend/internal/align/aligner.h>
-#include <placegraph/frontend/internal/align/grey_pyramid.h>
+#include <placegraph/frontend/align/aligner.h>
+#include <placegraph/frontend/align/grey_pyramid.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

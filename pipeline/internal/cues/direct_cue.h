@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/align/direct_motion.h>
+#include <placegraph/frontend/align/direct_motion.h>
 #include <placegraph/frontend/internal/features/rectification.h>
 #include <placegraph/frontend/internal/features/stereo_matcher.h>
 #include <placegraph/frontend/internal/planes/dominant_surface.h>

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/align/direct_motion.h>
+#include <placegraph/frontend/align/direct_motion.h>
 #include <placegraph/graph/core/log_message.h>
 #include <placegraph/pipeline/internal/tracking/direct_tracker.h>
 

@@ -1,5 +1,5 @@
-#include <placegraph/frontend/internal/align/aligner.h>
-#include <placegraph/frontend/internal/align/plane_tracker.h>
+#include <placegraph/frontend/align/aligner.h>
+#include <placegraph/frontend/align/plane_tracker.h>
 #include <placegraph/graph/core/error.h>
 
 #include <mutex>

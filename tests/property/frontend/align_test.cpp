@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/align/aligner.h>
-#include <placegraph/frontend/internal/align/grey_pyramid.h>
+#include <placegraph/frontend/align/aligner.h>
+#include <placegraph/frontend/align/grey_pyramid.h>
 
 #include "tests/support/scenes/warped_template.h"
 #include "tests/support/seed.h"

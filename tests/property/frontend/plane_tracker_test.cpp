@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/align/plane_tracker.h>
+#include <placegraph/frontend/align/plane_tracker.h>
 
 #include <Eigen/Dense>
 #include <opencv2/imgproc.hpp>

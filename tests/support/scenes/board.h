@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/align/warp.h>
+#include <placegraph/frontend/align/warp.h>
 
 #include <algorithm>
 #include <optional>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/align/planar_template.h>
+#include <placegraph/frontend/align/planar_template.h>
 
 #include <Eigen/Dense>
 #include <cmath>

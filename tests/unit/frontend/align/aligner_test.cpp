@@ -1,9 +1,9 @@
 #include <numbers>
 
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/align/aligner.h>
-#include <placegraph/frontend/internal/align/alignment_covariance.h>
-#include <placegraph/frontend/internal/align/grey_pyramid.h>
+#include <placegraph/frontend/align/aligner.h>
+#include <placegraph/frontend/align/alignment_covariance.h>
+#include <placegraph/frontend/align/grey_pyramid.h>
 #include <placegraph/graph/core/error.h>
 
 #include "tests/support/scenes/warped_template.h"

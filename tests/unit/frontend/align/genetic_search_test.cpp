@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/align/genetic_search.h>
+#include <placegraph/frontend/align/genetic_search.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/align/joint_histogram.h>
+#include <placegraph/frontend/align/joint_histogram.h>
 #include <placegraph/graph/core/random.h>
 
 #include <cmath>

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/align/genetic_search.h>
-#include <placegraph/frontend/internal/align/particle_swarm.h>
+#include <placegraph/frontend/align/genetic_search.h>
+#include <placegraph/frontend/align/particle_swarm.h>
 #include <placegraph/graph/core/error.h>
 
 #include <cmath>

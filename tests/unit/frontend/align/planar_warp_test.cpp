@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/align/warp.h>
+#include <placegraph/frontend/align/warp.h>
 #include <placegraph/graph/core/error.h>
 
 #include <Eigen/Dense>

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/align/null_distribution.h>
-#include <placegraph/frontend/internal/align/plane_tracker.h>
+#include <placegraph/frontend/align/null_distribution.h>
+#include <placegraph/frontend/align/plane_tracker.h>
 #include <placegraph/graph/core/error.h>
 
 #include <cmath>

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/align/joint_histogram.h>
-#include <placegraph/frontend/internal/align/similarity.h>
+#include <placegraph/frontend/align/joint_histogram.h>
+#include <placegraph/frontend/align/similarity.h>
 
 #include <cmath>
 

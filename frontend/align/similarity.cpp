@@ -1,5 +1,5 @@
-#include <placegraph/frontend/internal/align/joint_histogram.h>
-#include <placegraph/frontend/internal/align/similarity.h>
+#include <placegraph/frontend/align/joint_histogram.h>
+#include <placegraph/frontend/align/similarity.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/align/genetic_search.h>
+#include <placegraph/frontend/align/genetic_search.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>
 

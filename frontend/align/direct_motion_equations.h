@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/align/direct_motion.h>
+#include <placegraph/frontend/align/direct_motion.h>
 
 namespace placegraph {
 

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/align/joint_histogram.h>
+#include <placegraph/frontend/align/joint_histogram.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/align/gradient_alignment.h>
+#include <placegraph/frontend/align/gradient_alignment.h>
 
 #include <optional>
 

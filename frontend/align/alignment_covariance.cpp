@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/align/alignment_covariance.h>
+#include <placegraph/frontend/align/alignment_covariance.h>
 
 #include <Eigen/Dense>
 #include <algorithm>

@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/frontend/internal/align/genetic_search.h>
-#include <placegraph/frontend/internal/align/gradient_alignment.h>
+#include <placegraph/frontend/align/genetic_search.h>
+#include <placegraph/frontend/align/gradient_alignment.h>
 #include <placegraph/graph/core/outcome.h>
 
 namespace placegraph {

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/align/particle_swarm.h>
+#include <placegraph/frontend/align/particle_swarm.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>
 

@@ -1,7 +1,7 @@
 #pragma once
-#include <placegraph/frontend/internal/align/aligner.h>
-#include <placegraph/frontend/internal/align/null_distribution.h>
-#include <placegraph/frontend/internal/align/template_finder.h>
+#include <placegraph/frontend/align/aligner.h>
+#include <placegraph/frontend/align/null_distribution.h>
+#include <placegraph/frontend/align/template_finder.h>
 #include <placegraph/frontend/internal/planes/plane_normal.h>
 
 #include <optional>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/align/aligner.h>
+#include <placegraph/frontend/align/aligner.h>
 
 namespace placegraph {
 

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/align/particle_swarm.h>
+#include <placegraph/frontend/align/particle_swarm.h>
 #include <placegraph/frontend/planes/plane_options.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/geometry/camera.h>

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/align/warp.h>
+#include <placegraph/frontend/align/warp.h>
 #include <placegraph/graph/core/error.h>
 
 #include <Eigen/Dense>

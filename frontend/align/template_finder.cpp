@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/align/template_finder.h>
+#include <placegraph/frontend/align/template_finder.h>
 #include <placegraph/frontend/internal/planes/homography_fit.h>
 #include <placegraph/graph/core/error.h>
 

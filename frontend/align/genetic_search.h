@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/align/particle_swarm.h>
+#include <placegraph/frontend/align/particle_swarm.h>
 
 namespace placegraph {
 

@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/frontend/internal/align/planar_template.h>
-#include <placegraph/frontend/internal/align/similarity.h>
+#include <placegraph/frontend/align/planar_template.h>
+#include <placegraph/frontend/align/similarity.h>
 #include <placegraph/graph/core/options.h>
 
 namespace placegraph {
