@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/eval/internal/scene/plane_check.h>
-#include <placegraph/frontend/internal/cloud_planes/cloud_planes.h>
-#include <placegraph/frontend/internal/cloud_planes/cuboids.h>
+#include <placegraph/frontend/cloud_planes/cloud_planes.h>
+#include <placegraph/frontend/cloud_planes/cuboids.h>
 
 #include <cstddef>
 #include <optional>

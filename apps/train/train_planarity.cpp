@@ -1,7 +1,7 @@
 #include "apps/train/train_planarity.h"
 
 #include <fmt/format.h>
-#include <placegraph/frontend/internal/cloud_planes/cloud_planes.h>
+#include <placegraph/frontend/cloud_planes/cloud_planes.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/json_text.h>
 #include <placegraph/io/internal/measurements/point_cloud_file.h>

@@ -2,7 +2,7 @@
 //   bench_cloud_planes_study castle FOLDER | synpeb FILE | generated SEED
 #include <fmt/format.h>
 #include <placegraph/eval/internal/scene/plane_check.h>
-#include <placegraph/frontend/internal/cloud_planes/cloud_planes.h>
+#include <placegraph/frontend/cloud_planes/cloud_planes.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>

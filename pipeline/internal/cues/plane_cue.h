@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/backend/internal/window/sliding_window.h>
-#include <placegraph/frontend/internal/cloud_planes/depth_planes.h>
+#include <placegraph/frontend/cloud_planes/depth_planes.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/core/log.h>
 #include <placegraph/graph/core/options.h>

@@ -1,6 +1,6 @@
-#include <placegraph/frontend/internal/cloud_planes/cloud_planes.h>
-#include <placegraph/frontend/internal/cloud_planes/cuboids.h>
-#include <placegraph/frontend/internal/cloud_planes/depth_planes.h>
+#include <placegraph/frontend/cloud_planes/cloud_planes.h>
+#include <placegraph/frontend/cloud_planes/cuboids.h>
+#include <placegraph/frontend/cloud_planes/depth_planes.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/internal/measurements/point_cloud_file.h>
 

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/cloud_planes/depth_planes.h>
+#include <placegraph/frontend/cloud_planes/depth_planes.h>
 #include <placegraph/graph/core/error.h>
 
 #include <Eigen/Dense>

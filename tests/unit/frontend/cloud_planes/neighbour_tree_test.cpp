@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/cloud_planes/neighbour_tree.h>
+#include <placegraph/frontend/cloud_planes/neighbour_tree.h>
 #include <placegraph/graph/core/random.h>
 
 #include <algorithm>

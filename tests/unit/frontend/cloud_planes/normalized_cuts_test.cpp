@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/cloud_planes/normalized_cuts.h>
+#include <placegraph/frontend/cloud_planes/normalized_cuts.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>
 

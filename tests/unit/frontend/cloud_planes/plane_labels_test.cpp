@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/cloud_planes/plane_labels.h>
+#include <placegraph/frontend/cloud_planes/plane_labels.h>
 #include <placegraph/graph/core/random.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/cloud_planes/neighbour_tree.h>
+#include <placegraph/frontend/cloud_planes/neighbour_tree.h>
 
 #include <algorithm>
 #include <numeric>

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/cloud_planes/planarity.h>
+#include <placegraph/frontend/cloud_planes/planarity.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 

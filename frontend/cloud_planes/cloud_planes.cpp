@@ -1,6 +1,6 @@
-#include <placegraph/frontend/internal/cloud_planes/cloud_plane_baselines.h>
-#include <placegraph/frontend/internal/cloud_planes/cloud_planes.h>
-#include <placegraph/frontend/internal/cloud_planes/plane_labels.h>
+#include <placegraph/frontend/cloud_planes/cloud_plane_baselines.h>
+#include <placegraph/frontend/cloud_planes/cloud_planes.h>
+#include <placegraph/frontend/cloud_planes/plane_labels.h>
 #include <placegraph/graph/core/ransac.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/cloud_planes/planar_segments.h>
+#include <placegraph/frontend/cloud_planes/planar_segments.h>
 
 #include <array>
 #include <string>

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/cloud_planes/depth_planes.h>
+#include <placegraph/frontend/cloud_planes/depth_planes.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/median.h>

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/cloud_planes/super_points.h>
+#include <placegraph/frontend/cloud_planes/super_points.h>
 
 #include <algorithm>
 #include <cmath>

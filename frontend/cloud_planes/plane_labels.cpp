@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/cloud_planes/plane_labels.h>
+#include <placegraph/frontend/cloud_planes/plane_labels.h>
 #include <placegraph/graph/core/angle.h>
 
 #include <cmath>

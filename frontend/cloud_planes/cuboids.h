@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/cloud_planes/cloud_planes.h>
+#include <placegraph/frontend/cloud_planes/cloud_planes.h>
 #include <placegraph/graph/geometry/se3.h>
 
 #include <array>

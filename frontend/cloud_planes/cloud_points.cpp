@@ -1,5 +1,5 @@
-#include <placegraph/frontend/internal/cloud_planes/cloud_points.h>
-#include <placegraph/frontend/internal/cloud_planes/neighbour_tree.h>
+#include <placegraph/frontend/cloud_planes/cloud_points.h>
+#include <placegraph/frontend/cloud_planes/neighbour_tree.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/median.h>
 #include <placegraph/graph/core/quantile.h>

@@ -1,7 +1,7 @@
 #pragma once
-#include <placegraph/frontend/internal/cloud_planes/cloud_planes_options.h>
-#include <placegraph/frontend/internal/cloud_planes/cloud_points.h>
-#include <placegraph/frontend/internal/cloud_planes/plane_labels.h>
+#include <placegraph/frontend/cloud_planes/cloud_planes_options.h>
+#include <placegraph/frontend/cloud_planes/cloud_points.h>
+#include <placegraph/frontend/cloud_planes/plane_labels.h>
 
 namespace placegraph {
 

@@ -1,5 +1,5 @@
-#include <placegraph/frontend/internal/cloud_planes/normalized_cuts.h>
-#include <placegraph/frontend/internal/cloud_planes/planar_segments.h>
+#include <placegraph/frontend/cloud_planes/normalized_cuts.h>
+#include <placegraph/frontend/cloud_planes/planar_segments.h>
 #include <placegraph/graph/core/disjoint_sets.h>
 
 #include <algorithm>

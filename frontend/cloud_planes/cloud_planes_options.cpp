@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/cloud_planes/cloud_planes_options.h>
+#include <placegraph/frontend/cloud_planes/cloud_planes_options.h>
 
 namespace placegraph {
 

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/cloud_planes/cloud_plane_baselines.h>
+#include <placegraph/frontend/cloud_planes/cloud_plane_baselines.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/random.h>
 #include <placegraph/graph/core/ransac.h>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/cloud_planes/cloud_points.h>
+#include <placegraph/frontend/cloud_planes/cloud_points.h>
 
 #include <vector>
 

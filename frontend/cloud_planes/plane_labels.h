@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/cloud_planes/super_points.h>
+#include <placegraph/frontend/cloud_planes/super_points.h>
 
 #include <vector>
 
