@@ -1,5 +1,5 @@
 #include <fmt/format.h>
-#include <placegraph/frontend/internal/features/detector.h>
+#include <placegraph/frontend/features/detector.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/pipeline/internal/stereo_check.h>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/features/row_offsets.h>
+#include <placegraph/frontend/features/row_offsets.h>
 #include <placegraph/io/datasets/dataset.h>
 
 namespace placegraph {

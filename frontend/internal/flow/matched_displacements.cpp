@@ -1,5 +1,5 @@
-#include <placegraph/frontend/internal/features/detector.h>
-#include <placegraph/frontend/internal/features/matcher.h>
+#include <placegraph/frontend/features/detector.h>
+#include <placegraph/frontend/features/matcher.h>
 #include <placegraph/frontend/internal/flow/matched_displacements.h>
 #include <placegraph/graph/core/median.h>
 

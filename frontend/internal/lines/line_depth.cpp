@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/features/depth_lookup.h>
+#include <placegraph/frontend/features/depth_lookup.h>
 #include <placegraph/frontend/internal/lines/line_depth.h>
 
 #include <Eigen/Cholesky>

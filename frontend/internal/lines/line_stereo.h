@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/features/stereo_matcher.h>
+#include <placegraph/frontend/features/stereo_matcher.h>
 #include <placegraph/frontend/internal/segments/edge_refinement.h>
 #include <placegraph/frontend/internal/segments/segment_flow.h>
 #include <placegraph/frontend/lines/line_options.h>

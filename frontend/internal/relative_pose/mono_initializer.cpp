@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/features/triangulation.h>
+#include <placegraph/frontend/features/triangulation.h>
 #include <placegraph/frontend/internal/relative_pose/mono_initializer.h>
 #include <placegraph/frontend/internal/relative_pose/pose_3d2d.h>
 #include <placegraph/graph/core/angle.h>

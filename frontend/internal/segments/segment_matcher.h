@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/features/wide_matcher.h>
+#include <placegraph/frontend/features/wide_matcher.h>
 #include <placegraph/graph/geometry/line_segment.h>
 
 #include <vector>

@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/frontend/internal/features/rectification.h>
-#include <placegraph/frontend/internal/features/stereo_matcher.h>
+#include <placegraph/frontend/features/rectification.h>
+#include <placegraph/frontend/features/stereo_matcher.h>
 #include <placegraph/frontend/internal/planes/inverse_depth_plane.h>
 #include <placegraph/graph/image/frame.h>
 

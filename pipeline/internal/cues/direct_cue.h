@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/frontend/align/direct_motion.h>
-#include <placegraph/frontend/internal/features/rectification.h>
-#include <placegraph/frontend/internal/features/stereo_matcher.h>
+#include <placegraph/frontend/features/rectification.h>
+#include <placegraph/frontend/features/stereo_matcher.h>
 #include <placegraph/frontend/internal/planes/dominant_surface.h>
 #include <placegraph/graph/geometry/lie.h>
 #include <placegraph/graph/image/frame.h>

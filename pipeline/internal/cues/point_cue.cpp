@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/features/triangulation.h>
+#include <placegraph/frontend/features/triangulation.h>
 #include <placegraph/frontend/internal/flow/matched_displacements.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/median.h>

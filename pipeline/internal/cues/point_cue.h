@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/backend/internal/window/sliding_window.h>
-#include <placegraph/frontend/internal/features/rgbd_errors.h>
+#include <placegraph/frontend/features/rgbd_errors.h>
 #include <placegraph/frontend/internal/flow/point_tracker.h>
 #include <placegraph/frontend/internal/relative_pose/pose_3d2d.h>
 #include <placegraph/graph/core/ids.h>

@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/backend/internal/window/sliding_window.h>
-#include <placegraph/frontend/internal/features/rectification.h>
-#include <placegraph/frontend/internal/features/stereo_matcher.h>
+#include <placegraph/frontend/features/rectification.h>
+#include <placegraph/frontend/features/stereo_matcher.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/geometry/line_segment.h>
 #include <placegraph/graph/image/frame.h>

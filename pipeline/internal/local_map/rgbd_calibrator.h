@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/backend/internal/evidence/nuisance_evidence.h>
 #include <placegraph/backend/internal/window/sliding_window.h>
-#include <placegraph/frontend/internal/features/rgbd_errors.h>
+#include <placegraph/frontend/features/rgbd_errors.h>
 #include <placegraph/graph/core/ids.h>
 
 #include <map>

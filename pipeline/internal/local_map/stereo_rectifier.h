@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/backend/internal/window/sliding_window.h>
-#include <placegraph/frontend/internal/features/rectification.h>
+#include <placegraph/frontend/features/rectification.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/geometry/camera.h>
 #include <placegraph/pipeline/internal/lines/line_cue.h>

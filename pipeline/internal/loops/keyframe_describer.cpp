@@ -1,7 +1,7 @@
-#include <placegraph/frontend/internal/features/depth_lookup.h>
-#include <placegraph/frontend/internal/features/detector.h>
-#include <placegraph/frontend/internal/features/matcher.h>
-#include <placegraph/frontend/internal/features/triangulation.h>
+#include <placegraph/frontend/features/depth_lookup.h>
+#include <placegraph/frontend/features/detector.h>
+#include <placegraph/frontend/features/matcher.h>
+#include <placegraph/frontend/features/triangulation.h>
 #include <placegraph/frontend/internal/lines/line_feature.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/pipeline/internal/loops/keyframe_describer.h>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/features/rgbd_errors.h>
+#include <placegraph/frontend/features/rgbd_errors.h>
 #include <placegraph/frontend/internal/places/verification/loop_verifier.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/image/frame.h>

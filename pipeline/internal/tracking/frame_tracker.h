@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/features/rgbd_errors.h>
+#include <placegraph/frontend/features/rgbd_errors.h>
 #include <placegraph/graph/core/random.h>
 #include <placegraph/pipeline/cues/frame_view.h>
 #include <placegraph/pipeline/internal/local_map/keyframe_masks.h>

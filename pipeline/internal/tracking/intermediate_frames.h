@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/features/rgbd_errors.h>
+#include <placegraph/frontend/features/rgbd_errors.h>
 #include <placegraph/frontend/internal/relative_pose/pose_3d2d.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/pipeline/internal/cues/manhattan_cue.h>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/features/rgbd_errors.h>
+#include <placegraph/frontend/features/rgbd_errors.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/pipeline/internal/cues/surface_labels.h>

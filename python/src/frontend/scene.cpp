@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/features/wide_matcher.h>
+#include <placegraph/frontend/features/wide_matcher.h>
 #include <placegraph/frontend/internal/labels/surface_classifier.h>
 #include <placegraph/frontend/internal/labels/urban_labels.h>
 #include <placegraph/frontend/internal/scene/horizon.h>

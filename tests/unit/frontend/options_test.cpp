@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 #include <placegraph/backend/internal/inertial/error_state_filter.h>
 #include <placegraph/frontend/align/plane_tracker.h>
-#include <placegraph/frontend/internal/features/detector.h>
-#include <placegraph/frontend/internal/features/stereo_matcher.h>
+#include <placegraph/frontend/features/detector.h>
+#include <placegraph/frontend/features/stereo_matcher.h>
 #include <placegraph/frontend/internal/flow/point_tracker.h>
 #include <placegraph/frontend/internal/lines/line_stereo.h>
 #include <placegraph/frontend/internal/lines/line_tracker.h>

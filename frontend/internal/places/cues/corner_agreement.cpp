@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/features/matcher.h>
+#include <placegraph/frontend/features/matcher.h>
 #include <placegraph/frontend/internal/places/cues/corner_agreement.h>
 #include <placegraph/graph/core/function_clones.h>
 

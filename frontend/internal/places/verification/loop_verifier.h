@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/features/matcher.h>
+#include <placegraph/frontend/features/matcher.h>
 #include <placegraph/frontend/internal/lines/line_feature.h>
 #include <placegraph/frontend/internal/places/verification/loop_two_view.h>
 #include <placegraph/frontend/internal/relative_pose/pose_3d2d.h>

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/features/depth_lookup.h>
+#include <placegraph/frontend/features/depth_lookup.h>
 #include <placegraph/graph/core/error.h>
 
 #include "tests/support/scenes/scene.h"

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/features/detector.h>
+#include <placegraph/frontend/features/detector.h>
 #include <placegraph/graph/core/error.h>
 
 #include "tests/support/scenes/texture.h"

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/features/detector.h>
-#include <placegraph/frontend/internal/features/matcher.h>
+#include <placegraph/frontend/features/detector.h>
+#include <placegraph/frontend/features/matcher.h>
 
 #include "tests/support/scenes/scene.h"
 #include "tests/support/scenes/texture.h"

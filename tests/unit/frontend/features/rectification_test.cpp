@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/features/rectification.h>
+#include <placegraph/frontend/features/rectification.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>
 

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/features/row_offsets.h>
+#include <placegraph/frontend/features/row_offsets.h>
 
 namespace placegraph {
 namespace row_offsets_test {

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/features/stereo_matcher.h>
+#include <placegraph/frontend/features/stereo_matcher.h>
 #include <placegraph/graph/core/error.h>
 
 #include "tests/support/scenes/scene.h"

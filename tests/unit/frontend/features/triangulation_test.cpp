@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/features/triangulation.h>
+#include <placegraph/frontend/features/triangulation.h>
 
 #include "tests/support/scenes/scene.h"
 #include "tests/support/seed.h"

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/features/stereo_matcher.h>
+#include <placegraph/frontend/features/stereo_matcher.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

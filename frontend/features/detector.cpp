@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/features/detector.h>
+#include <placegraph/frontend/features/detector.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/features/rgbd_errors.h>
+#include <placegraph/frontend/features/rgbd_errors.h>
 
 namespace placegraph {
 

@@ -1,5 +1,5 @@
-#include <placegraph/frontend/internal/features/matcher.h>
-#include <placegraph/frontend/internal/features/row_offsets.h>
+#include <placegraph/frontend/features/matcher.h>
+#include <placegraph/frontend/features/row_offsets.h>
 #include <placegraph/graph/core/ransac.h>
 
 #include <Eigen/Dense>

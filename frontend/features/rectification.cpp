@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/features/rectification.h>
+#include <placegraph/frontend/features/rectification.h>
 #include <placegraph/graph/core/error.h>
 
 #include <Eigen/Dense>

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/features/triangulation.h>
+#include <placegraph/frontend/features/triangulation.h>
 
 #include <Eigen/Dense>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/features/wide_matcher.h>
+#include <placegraph/frontend/features/wide_matcher.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 
