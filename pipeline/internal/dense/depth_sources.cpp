@@ -1,5 +1,5 @@
-#include <placegraph/frontend/internal/floor_plan/indoor_surfaces.h>
-#include <placegraph/frontend/internal/floor_plan/plane_sweep.h>
+#include <placegraph/frontend/floor_plan/indoor_surfaces.h>
+#include <placegraph/frontend/floor_plan/plane_sweep.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/pipeline/internal/dense/depth_sources.h>

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/floor_plan/building_axes.h>
+#include <placegraph/frontend/floor_plan/building_axes.h>
 #include <placegraph/frontend/internal/segments/segment_detector.h>
 #include <placegraph/frontend/internal/vanishing/scene_directions.h>
 #include <placegraph/graph/core/angle.h>

@@ -1,7 +1,7 @@
 #pragma once
-#include <placegraph/frontend/internal/floor_plan/indoor_surfaces.h>
-#include <placegraph/frontend/internal/floor_plan/room_partition.h>
-#include <placegraph/frontend/internal/floor_plan/skirting_line.h>
+#include <placegraph/frontend/floor_plan/indoor_surfaces.h>
+#include <placegraph/frontend/floor_plan/room_partition.h>
+#include <placegraph/frontend/floor_plan/skirting_line.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/image/frame.h>
 #include <placegraph/graph/map.h>

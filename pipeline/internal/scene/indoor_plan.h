@@ -1,7 +1,7 @@
 #pragma once
-#include <placegraph/frontend/internal/floor_plan/door_finder.h>
-#include <placegraph/frontend/internal/floor_plan/room_partition.h>
-#include <placegraph/frontend/internal/floor_plan/wall_finder.h>
+#include <placegraph/frontend/floor_plan/door_finder.h>
+#include <placegraph/frontend/floor_plan/room_partition.h>
+#include <placegraph/frontend/floor_plan/wall_finder.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/map.h>
 #include <placegraph/pipeline/internal/scene/plan_frame.h>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/floor_plan/plane_sweep.h>
+#include <placegraph/frontend/floor_plan/plane_sweep.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/image/frame.h>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/floor_plan/indoor_surfaces.h>
+#include <placegraph/frontend/floor_plan/indoor_surfaces.h>
 #include <placegraph/frontend/internal/scene/street_labelling.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/image/frame.h>

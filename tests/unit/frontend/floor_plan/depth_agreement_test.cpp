@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/floor_plan/depth_agreement.h>
+#include <placegraph/frontend/floor_plan/depth_agreement.h>
 
 #include <cmath>
 #include <opencv2/core.hpp>

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/floor_plan/door_finder.h>
+#include <placegraph/frontend/floor_plan/door_finder.h>
 
 #include <algorithm>
 

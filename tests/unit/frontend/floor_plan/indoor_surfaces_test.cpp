@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/floor_plan/indoor_surfaces.h>
-#include <placegraph/frontend/internal/floor_plan/room_partition.h>
+#include <placegraph/frontend/floor_plan/indoor_surfaces.h>
+#include <placegraph/frontend/floor_plan/room_partition.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/floor_plan/room_completion.h>
+#include <placegraph/frontend/floor_plan/room_completion.h>
 
 #include <opencv2/core.hpp>
 

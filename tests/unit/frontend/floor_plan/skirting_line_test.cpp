@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/floor_plan/skirting_line.h>
+#include <placegraph/frontend/floor_plan/skirting_line.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/median.h>
 

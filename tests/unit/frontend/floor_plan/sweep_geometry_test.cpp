@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/floor_plan/sweep_geometry.h>
+#include <placegraph/frontend/floor_plan/sweep_geometry.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/floor_plan/wall_fit.h>
+#include <placegraph/frontend/floor_plan/wall_fit.h>
 #include <placegraph/graph/core/random.h>
 
 #include <cmath>

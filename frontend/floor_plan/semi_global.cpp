@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/floor_plan/semi_global.h>
+#include <placegraph/frontend/floor_plan/semi_global.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

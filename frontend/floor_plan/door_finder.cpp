@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/floor_plan/door_finder.h>
+#include <placegraph/frontend/floor_plan/door_finder.h>
 #include <placegraph/graph/core/median.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/floor_plan/depth_agreement.h>
+#include <placegraph/frontend/floor_plan/depth_agreement.h>
 
 #include <cmath>
 #include <opencv2/core.hpp>

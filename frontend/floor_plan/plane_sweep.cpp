@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/floor_plan/plane_sweep.h>
+#include <placegraph/frontend/floor_plan/plane_sweep.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/median.h>
 

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/floor_plan/voxel_evidence.h>
+#include <placegraph/frontend/floor_plan/voxel_evidence.h>
 
 #include <algorithm>
 #include <cmath>

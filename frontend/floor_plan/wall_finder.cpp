@@ -1,5 +1,5 @@
-#include <placegraph/frontend/internal/floor_plan/wall_finder.h>
-#include <placegraph/frontend/internal/floor_plan/wall_fit.h>
+#include <placegraph/frontend/floor_plan/wall_finder.h>
+#include <placegraph/frontend/floor_plan/wall_fit.h>
 #include <placegraph/graph/core/angle.h>
 
 #include <algorithm>

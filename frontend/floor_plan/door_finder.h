@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/frontend/floor_plan/floor_plan_options.h>
-#include <placegraph/frontend/internal/floor_plan/wall_finder.h>
-#include <placegraph/frontend/internal/floor_plan/wall_profile.h>
+#include <placegraph/frontend/floor_plan/wall_finder.h>
+#include <placegraph/frontend/floor_plan/wall_profile.h>
 #include <placegraph/graph/core/options.h>
 
 #include <vector>

@@ -1,6 +1,6 @@
 #pragma once
+#include <placegraph/frontend/floor_plan/door_finder.h>
 #include <placegraph/frontend/floor_plan/floor_plan_options.h>
-#include <placegraph/frontend/internal/floor_plan/door_finder.h>
 #include <placegraph/graph/image/image.h>
 
 namespace placegraph {

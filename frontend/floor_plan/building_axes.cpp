@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/floor_plan/building_axes.h>
+#include <placegraph/frontend/floor_plan/building_axes.h>
 #include <placegraph/graph/core/angle.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/floor_plan/wall_fit.h>
+#include <placegraph/frontend/floor_plan/wall_fit.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/median.h>
 

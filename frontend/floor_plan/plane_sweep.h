@@ -1,7 +1,7 @@
 #pragma once
+#include <placegraph/frontend/floor_plan/depth_agreement.h>
 #include <placegraph/frontend/floor_plan/floor_plan_options.h>
-#include <placegraph/frontend/internal/floor_plan/depth_agreement.h>
-#include <placegraph/frontend/internal/floor_plan/semi_global.h>
+#include <placegraph/frontend/floor_plan/semi_global.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/image/image.h>

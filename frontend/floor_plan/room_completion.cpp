@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/floor_plan/room_completion.h>
+#include <placegraph/frontend/floor_plan/room_completion.h>
 
 #include <algorithm>
 #include <map>

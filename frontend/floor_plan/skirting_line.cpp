@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/floor_plan/skirting_line.h>
+#include <placegraph/frontend/floor_plan/skirting_line.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-#include <placegraph/frontend/internal/floor_plan/room_completion.h>
-#include <placegraph/frontend/internal/floor_plan/room_partition.h>
+#include <placegraph/frontend/floor_plan/room_completion.h>
+#include <placegraph/frontend/floor_plan/room_partition.h>
 
 #include <algorithm>
 #include <array>

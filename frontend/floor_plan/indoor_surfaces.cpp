@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/floor_plan/indoor_surfaces.h>
+#include <placegraph/frontend/floor_plan/indoor_surfaces.h>
 #include <placegraph/graph/core/error.h>
 #include <Eigen/Cholesky>
 #include <algorithm>

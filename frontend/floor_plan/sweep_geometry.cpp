@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/floor_plan/sweep_geometry.h>
+#include <placegraph/frontend/floor_plan/sweep_geometry.h>
 
 #include <Eigen/LU>
 #include <algorithm>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/floor_plan/sweep_geometry.h>
+#include <placegraph/frontend/floor_plan/sweep_geometry.h>
 #include <placegraph/graph/image/image.h>
 
 #include <vector>

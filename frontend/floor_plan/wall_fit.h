@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/floor_plan/wall_piece.h>
+#include <placegraph/frontend/floor_plan/wall_piece.h>
 
 #include <vector>
 
