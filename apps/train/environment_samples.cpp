@@ -1,6 +1,6 @@
 #include "apps/train/environment_samples.h"
 
-#include <placegraph/frontend/internal/flow/point_tracker.h>
+#include <placegraph/frontend/flow/point_tracker.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>
 #include <placegraph/io/files/image_file.h>

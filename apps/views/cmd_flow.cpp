@@ -1,6 +1,6 @@
 #include "apps/views/cmd_flow.h"
 
-#include <placegraph/frontend/internal/flow/optical_flow.h>
+#include <placegraph/frontend/flow/optical_flow.h>
 
 #include <CLI/CLI.hpp>
 #include <memory>

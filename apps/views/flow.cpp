@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 #include <placegraph/eval/internal/drawing/picture_bytes.h>
-#include <placegraph/frontend/internal/flow/optical_flow.h>
+#include <placegraph/frontend/flow/optical_flow.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/json_text.h>
 #include <placegraph/io/config/yaml_config.h>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/flow/flow_cues.h>
+#include <placegraph/frontend/flow/flow_cues.h>
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>

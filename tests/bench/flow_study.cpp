@@ -4,8 +4,8 @@
 // writes OUT_PREFIX.md (tables) and OUT_PREFIX_targets.tsv (figure, tab, value).
 #include <fmt/format.h>
 #include <placegraph/eval/internal/scene/flow_error.h>
-#include <placegraph/frontend/internal/flow/flow_cues.h>
-#include <placegraph/frontend/internal/flow/optical_flow.h>
+#include <placegraph/frontend/flow/flow_cues.h>
+#include <placegraph/frontend/flow/optical_flow.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/internal/synthetic/worlds/synthetic_world.h>
 

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/flow/flow_vector.h>
+#include <placegraph/frontend/flow/flow_vector.h>
 #include <placegraph/frontend/internal/markers/marker_detector.h>
 #include <placegraph/frontend/internal/markers/marker_dictionary.h>
 #include <placegraph/graph/core/error.h>

@@ -1,5 +1,5 @@
 #include <placegraph/frontend/features/triangulation.h>
-#include <placegraph/frontend/internal/flow/matched_displacements.h>
+#include <placegraph/frontend/flow/matched_displacements.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/median.h>
 #include <placegraph/pipeline/internal/cues/determined_rotation.h>

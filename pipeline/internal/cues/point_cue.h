@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/backend/internal/window/sliding_window.h>
 #include <placegraph/frontend/features/rgbd_errors.h>
-#include <placegraph/frontend/internal/flow/point_tracker.h>
+#include <placegraph/frontend/flow/point_tracker.h>
 #include <placegraph/frontend/internal/relative_pose/pose_3d2d.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/core/stage_times.h>

@@ -1,7 +1,7 @@
 #pragma once
-#include <placegraph/frontend/internal/flow/flow_cues.h>
-#include <placegraph/frontend/internal/flow/flow_vector.h>
-#include <placegraph/frontend/internal/flow/point_tracker.h>
+#include <placegraph/frontend/flow/flow_cues.h>
+#include <placegraph/frontend/flow/flow_vector.h>
+#include <placegraph/frontend/flow/point_tracker.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/core/stage_times.h>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/flow/flow_cues.h>
+#include <placegraph/frontend/flow/flow_cues.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/geometry/se3.h>
 #include <placegraph/graph/measurements/body_state.h>

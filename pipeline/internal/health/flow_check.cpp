@@ -1,5 +1,5 @@
 #include <fmt/format.h>
-#include <placegraph/frontend/internal/flow/point_tracker.h>
+#include <placegraph/frontend/flow/point_tracker.h>
 #include <placegraph/pipeline/internal/health/flow_check.h>
 
 #include <algorithm>

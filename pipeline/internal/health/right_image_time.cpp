@@ -1,5 +1,5 @@
 #include <fmt/format.h>
-#include <placegraph/frontend/internal/flow/point_tracker.h>
+#include <placegraph/frontend/flow/point_tracker.h>
 #include <placegraph/pipeline/internal/health/right_image_time.h>
 
 #include <Eigen/Cholesky>

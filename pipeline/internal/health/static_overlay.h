@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/flow/point_tracker.h>
+#include <placegraph/frontend/flow/point_tracker.h>
 #include <placegraph/graph/image/frame.h>
 #include <placegraph/graph/measurements/data_note.h>
 #include <placegraph/pipeline/cues/frame_view.h>

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/flow/flow_cues.h>
+#include <placegraph/frontend/flow/flow_cues.h>
 #include <placegraph/graph/core/median.h>
 #include <placegraph/pipeline/internal/tracking/keyframe_selector.h>
 

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/flow/point_tracker.h>
+#include <placegraph/frontend/flow/point_tracker.h>
 #include <placegraph/graph/core/random.h>
 #include <placegraph/graph/geometry/camera.h>
 

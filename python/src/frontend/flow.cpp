@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <placegraph/eval/internal/scene/flow_error.h>
-#include <placegraph/frontend/internal/flow/corners.h>
-#include <placegraph/frontend/internal/flow/optical_flow.h>
+#include <placegraph/frontend/flow/corners.h>
+#include <placegraph/frontend/flow/optical_flow.h>
 #include <placegraph/graph/core/error.h>
 
 #include <opencv2/core.hpp>

@@ -3,7 +3,7 @@
 #include <placegraph/frontend/align/plane_tracker.h>
 #include <placegraph/frontend/features/detector.h>
 #include <placegraph/frontend/features/stereo_matcher.h>
-#include <placegraph/frontend/internal/flow/point_tracker.h>
+#include <placegraph/frontend/flow/point_tracker.h>
 #include <placegraph/frontend/internal/lines/line_stereo.h>
 #include <placegraph/frontend/internal/lines/line_tracker.h>
 #include <placegraph/frontend/internal/lines/pose_from_lines.h>

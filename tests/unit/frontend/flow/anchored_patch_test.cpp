@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/flow/anchored_patch.h>
+#include <placegraph/frontend/flow/anchored_patch.h>
 #include <placegraph/graph/core/random.h>
 
 #include <Eigen/LU>

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/flow/corners.h>
+#include <placegraph/frontend/flow/corners.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/flow/flow_cues.h>
+#include <placegraph/frontend/flow/flow_cues.h>
 #include <placegraph/graph/core/random.h>
 #include <placegraph/graph/geometry/se3.h>
 

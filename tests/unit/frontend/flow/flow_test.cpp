@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/flow/flow_vector.h>
-#include <placegraph/frontend/internal/flow/optical_flow.h>
+#include <placegraph/frontend/flow/flow_vector.h>
+#include <placegraph/frontend/flow/optical_flow.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/flow/matched_displacements.h>
-#include <placegraph/frontend/internal/flow/point_tracker.h>
+#include <placegraph/frontend/flow/matched_displacements.h>
+#include <placegraph/frontend/flow/point_tracker.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/flow/interpolation_flow.h>
+#include <placegraph/frontend/flow/interpolation_flow.h>
 #include <placegraph/graph/core/error.h>
 
 #include <Eigen/Cholesky>

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/flow/anchored_patch.h>
+#include <placegraph/frontend/flow/anchored_patch.h>
 
 #include <Eigen/Dense>
 #include <algorithm>

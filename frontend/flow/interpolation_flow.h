@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/frontend/internal/flow/flow_vector.h>
-#include <placegraph/frontend/internal/flow/padded_pyramid.h>
+#include <placegraph/frontend/flow/flow_vector.h>
+#include <placegraph/frontend/flow/padded_pyramid.h>
 #include <placegraph/graph/core/options.h>
 
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/flow/flow_vector.h>
+#include <placegraph/frontend/flow/flow_vector.h>
 #include <placegraph/graph/core/error.h>
 
 #include <Eigen/Eigenvalues>

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/flow/padded_pyramid.h>
+#include <placegraph/frontend/flow/padded_pyramid.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 #pragma once
-#include <placegraph/frontend/internal/flow/flow_vector.h>
-#include <placegraph/frontend/internal/flow/horn_schunck.h>
-#include <placegraph/frontend/internal/flow/interpolation_flow.h>
-#include <placegraph/frontend/internal/flow/key_pixel_flow.h>
-#include <placegraph/frontend/internal/flow/lucas_kanade.h>
+#include <placegraph/frontend/flow/flow_vector.h>
+#include <placegraph/frontend/flow/horn_schunck.h>
+#include <placegraph/frontend/flow/interpolation_flow.h>
+#include <placegraph/frontend/flow/key_pixel_flow.h>
+#include <placegraph/frontend/flow/lucas_kanade.h>
 
 #include <string>
 #include <vector>

@@ -1,5 +1,5 @@
-#include <placegraph/frontend/internal/flow/lucas_kanade.h>
-#include <placegraph/frontend/internal/flow/padded_pyramid.h>
+#include <placegraph/frontend/flow/lucas_kanade.h>
+#include <placegraph/frontend/flow/padded_pyramid.h>
 #include <placegraph/graph/core/error.h>
 
 #include <Eigen/Eigenvalues>

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/flow/corners.h>
+#include <placegraph/frontend/flow/corners.h>
 #include <placegraph/graph/core/error.h>
 
 #include <Eigen/Core>

@@ -1,6 +1,6 @@
 #include <placegraph/frontend/features/detector.h>
 #include <placegraph/frontend/features/matcher.h>
-#include <placegraph/frontend/internal/flow/matched_displacements.h>
+#include <placegraph/frontend/flow/matched_displacements.h>
 #include <placegraph/graph/core/median.h>
 
 #include <algorithm>

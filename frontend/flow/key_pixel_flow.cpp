@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/flow/key_pixel_flow.h>
+#include <placegraph/frontend/flow/key_pixel_flow.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

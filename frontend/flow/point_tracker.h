@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/frontend/features/feature_options.h>
-#include <placegraph/frontend/internal/flow/anchored_patch.h>
+#include <placegraph/frontend/flow/anchored_patch.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/image/image.h>

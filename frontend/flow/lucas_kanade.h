@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/flow/flow_vector.h>
+#include <placegraph/frontend/flow/flow_vector.h>
 #include <placegraph/graph/core/options.h>
 
 namespace placegraph {

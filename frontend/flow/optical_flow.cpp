@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/flow/optical_flow.h>
+#include <placegraph/frontend/flow/optical_flow.h>
 #include <placegraph/graph/core/error.h>
 
 #include <limits>

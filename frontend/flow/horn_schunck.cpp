@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/flow/horn_schunck.h>
+#include <placegraph/frontend/flow/horn_schunck.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

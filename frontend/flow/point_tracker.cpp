@@ -1,5 +1,5 @@
-#include <placegraph/frontend/internal/flow/corners.h>
-#include <placegraph/frontend/internal/flow/point_tracker.h>
+#include <placegraph/frontend/flow/corners.h>
+#include <placegraph/frontend/flow/point_tracker.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>
