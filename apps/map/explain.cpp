@@ -1,7 +1,7 @@
 #include "apps/map/explain.h"
 
 #include <fmt/format.h>
-#include <placegraph/frontend/internal/labels/urban_labels.h>
+#include <placegraph/frontend/labels/urban_labels.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/id_format.h>

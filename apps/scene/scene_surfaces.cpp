@@ -1,6 +1,6 @@
 #include "apps/scene/scene_surfaces.h"
 
-#include <placegraph/frontend/internal/labels/surface_classifier.h>
+#include <placegraph/frontend/labels/surface_classifier.h>
 
 #include "apps/shipped/scene_models.h"
 

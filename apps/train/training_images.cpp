@@ -1,6 +1,6 @@
 #include "apps/train/training_images.h"
 
-#include <placegraph/frontend/internal/labels/scene_variants.h>
+#include <placegraph/frontend/labels/scene_variants.h>
 #include <placegraph/graph/core/parallel.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/internal/synthetic/worlds/synthetic_world.h>

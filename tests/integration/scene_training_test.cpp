@@ -1,8 +1,8 @@
 // Models of scenes, learned from drawn streets.
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/labels/scene_training.h>
-#include <placegraph/frontend/internal/labels/surface_classifier.h>
-#include <placegraph/frontend/internal/labels/urban_labels.h>
+#include <placegraph/frontend/labels/scene_training.h>
+#include <placegraph/frontend/labels/surface_classifier.h>
+#include <placegraph/frontend/labels/urban_labels.h>
 #include <placegraph/graph/core/error.h>
 
 #include <opencv2/core.hpp>

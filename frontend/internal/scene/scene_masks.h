@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/labels/scene_labeller.h>
+#include <placegraph/frontend/labels/scene_labeller.h>
 #include <placegraph/frontend/scene/scene_options.h>
 #include <placegraph/graph/core/options.h>
 

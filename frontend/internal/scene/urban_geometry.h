@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/labels/scene_labeller.h>
+#include <placegraph/frontend/labels/scene_labeller.h>
 #include <placegraph/frontend/scene/street_labelling_options.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/core/outcome.h>

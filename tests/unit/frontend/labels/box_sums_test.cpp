@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/labels/box_sums.h>
+#include <placegraph/frontend/labels/box_sums.h>
 #include <placegraph/graph/core/random.h>
 
 #include <algorithm>

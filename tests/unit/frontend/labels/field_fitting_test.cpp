@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/labels/field_fitting.h>
-#include <placegraph/frontend/internal/labels/label_field.h>
+#include <placegraph/frontend/labels/field_fitting.h>
+#include <placegraph/frontend/labels/label_field.h>
 
 #include <opencv2/core.hpp>
 

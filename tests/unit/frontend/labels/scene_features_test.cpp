@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/labels/box_sums.h>
-#include <placegraph/frontend/internal/labels/scene_channels.h>
-#include <placegraph/frontend/internal/labels/scene_variants.h>
-#include <placegraph/frontend/internal/labels/superpixels.h>
+#include <placegraph/frontend/labels/box_sums.h>
+#include <placegraph/frontend/labels/scene_channels.h>
+#include <placegraph/frontend/labels/scene_variants.h>
+#include <placegraph/frontend/labels/superpixels.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

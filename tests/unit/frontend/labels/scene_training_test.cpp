@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/labels/forest_training.h>
-#include <placegraph/frontend/internal/labels/label_field.h>
+#include <placegraph/frontend/labels/forest_training.h>
+#include <placegraph/frontend/labels/label_field.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>
 

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/labels/superpixel_features.h>
+#include <placegraph/frontend/labels/superpixel_features.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>
 

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/labels/model_growth.h>
-#include <placegraph/frontend/internal/labels/surface_classifier.h>
-#include <placegraph/frontend/internal/labels/urban_labels.h>
+#include <placegraph/frontend/labels/model_growth.h>
+#include <placegraph/frontend/labels/surface_classifier.h>
+#include <placegraph/frontend/labels/urban_labels.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>
 

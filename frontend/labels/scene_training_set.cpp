@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/labels/scene_training_set.h>
+#include <placegraph/frontend/labels/scene_training_set.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/labels/surface_classifier.h>
+#include <placegraph/frontend/labels/surface_classifier.h>
 #include <placegraph/graph/core/error.h>
 
 namespace placegraph {

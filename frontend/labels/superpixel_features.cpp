@@ -1,6 +1,6 @@
-#include <placegraph/frontend/internal/labels/box_sums.h>
-#include <placegraph/frontend/internal/labels/scene_channels.h>
-#include <placegraph/frontend/internal/labels/superpixel_features.h>
+#include <placegraph/frontend/labels/box_sums.h>
+#include <placegraph/frontend/labels/scene_channels.h>
+#include <placegraph/frontend/labels/superpixel_features.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
-#include <placegraph/frontend/internal/labels/field_fitting.h>
-#include <placegraph/frontend/internal/labels/model_growth.h>
-#include <placegraph/frontend/internal/labels/scene_training.h>
+#include <placegraph/frontend/labels/field_fitting.h>
+#include <placegraph/frontend/labels/model_growth.h>
+#include <placegraph/frontend/labels/scene_training.h>
 #include <placegraph/graph/core/error.h>
 
 #include <utility>

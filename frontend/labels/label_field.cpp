@@ -1,5 +1,5 @@
-#include <placegraph/frontend/internal/labels/label_field.h>
-#include <placegraph/frontend/internal/labels/scene_channels.h>
+#include <placegraph/frontend/labels/label_field.h>
+#include <placegraph/frontend/labels/scene_channels.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

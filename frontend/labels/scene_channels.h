@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/labels/box_sums.h>
+#include <placegraph/frontend/labels/box_sums.h>
 #include <placegraph/graph/image/image.h>
 
 #include <cstdint>

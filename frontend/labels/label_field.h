@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/labels/superpixel_features.h>
+#include <placegraph/frontend/labels/superpixel_features.h>
 #include <placegraph/graph/scene/scene_model.h>
 
 #include <vector>

@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/frontend/internal/labels/forest_training.h>
-#include <placegraph/frontend/internal/labels/scene_labeller.h>
+#include <placegraph/frontend/labels/forest_training.h>
+#include <placegraph/frontend/labels/scene_labeller.h>
 
 #include <vector>
 

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/labels/scene_training_set.h>
+#include <placegraph/frontend/labels/scene_training_set.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/scene/scene_model.h>
 

@@ -1,7 +1,7 @@
 #pragma once
-#include <placegraph/frontend/internal/labels/superpixel_features.h>
-#include <placegraph/frontend/internal/labels/superpixels.h>
 #include <placegraph/frontend/labels/label_options.h>
+#include <placegraph/frontend/labels/superpixel_features.h>
+#include <placegraph/frontend/labels/superpixels.h>
 #include <placegraph/graph/scene/scene_model.h>
 
 #include <vector>

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/labels/superpixels.h>
+#include <placegraph/frontend/labels/superpixels.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/image/picture_plugin.h>
 

@@ -1,6 +1,6 @@
-#include <placegraph/frontend/internal/labels/field_fitting.h>
-#include <placegraph/frontend/internal/labels/label_field.h>
-#include <placegraph/frontend/internal/labels/scene_labeller.h>
+#include <placegraph/frontend/labels/field_fitting.h>
+#include <placegraph/frontend/labels/label_field.h>
+#include <placegraph/frontend/labels/scene_labeller.h>
 
 #include <algorithm>
 #include <array>

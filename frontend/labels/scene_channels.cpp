@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/labels/scene_channels.h>
+#include <placegraph/frontend/labels/scene_channels.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/median.h>
 

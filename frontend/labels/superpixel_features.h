@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/labels/superpixels.h>
+#include <placegraph/frontend/labels/superpixels.h>
 #include <placegraph/graph/image/image.h>
 
 #include <cstdint>

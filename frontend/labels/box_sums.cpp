@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/labels/box_sums.h>
+#include <placegraph/frontend/labels/box_sums.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>
