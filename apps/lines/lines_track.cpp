@@ -1,7 +1,7 @@
 #include "apps/lines/lines_track.h"
 
 #include <fmt/format.h>
-#include <placegraph/frontend/internal/lines/track_consistency.h>
+#include <placegraph/frontend/lines/track_consistency.h>
 #include <placegraph/graph/core/id_format.h>
 #include <placegraph/graph/core/json_text.h>
 #include <placegraph/graph/core/median.h>

@@ -2,10 +2,10 @@
 #include <placegraph/backend/internal/window/sliding_window.h>
 #include <placegraph/frontend/features/rectification.h>
 #include <placegraph/frontend/features/stereo_matcher.h>
-#include <placegraph/frontend/internal/lines/floor_from_lines.h>
-#include <placegraph/frontend/internal/lines/line_feature.h>
-#include <placegraph/frontend/internal/lines/line_tracker.h>
-#include <placegraph/frontend/internal/lines/vanishing_direction_tracker.h>
+#include <placegraph/frontend/lines/floor_from_lines.h>
+#include <placegraph/frontend/lines/line_feature.h>
+#include <placegraph/frontend/lines/line_tracker.h>
+#include <placegraph/frontend/lines/vanishing_direction_tracker.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/image/frame.h>
 #include <placegraph/pipeline/cues/cue_options.h>

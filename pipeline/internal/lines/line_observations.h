@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/backend/internal/window/window_observations.h>
-#include <placegraph/frontend/internal/lines/line_triangulation.h>
+#include <placegraph/frontend/lines/line_triangulation.h>
 #include <placegraph/graph/core/ids.h>
 
 #include <cstdint>

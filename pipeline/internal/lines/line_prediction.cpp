@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/lines/line_depth.h>
+#include <placegraph/frontend/lines/line_depth.h>
 #include <placegraph/pipeline/internal/lines/line_prediction.h>
 
 #include <optional>

@@ -1,6 +1,6 @@
-#include <placegraph/frontend/internal/lines/line_depth.h>
-#include <placegraph/frontend/internal/lines/line_stereo.h>
-#include <placegraph/frontend/internal/lines/line_triangulation.h>
+#include <placegraph/frontend/lines/line_depth.h>
+#include <placegraph/frontend/lines/line_stereo.h>
+#include <placegraph/frontend/lines/line_triangulation.h>
 #include <placegraph/pipeline/internal/lines/line_second_camera.h>
 
 #include <algorithm>

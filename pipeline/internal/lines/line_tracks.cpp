@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/lines/line_triangulation.h>
+#include <placegraph/frontend/lines/line_triangulation.h>
 #include <placegraph/pipeline/internal/lines/line_tracks.h>
 
 namespace placegraph {

@@ -1,8 +1,8 @@
 #pragma once
 #include <placegraph/backend/internal/window/sliding_window.h>
-#include <placegraph/frontend/internal/lines/line_feature.h>
-#include <placegraph/frontend/internal/lines/line_initializer.h>
-#include <placegraph/frontend/internal/lines/line_tracker.h>
+#include <placegraph/frontend/lines/line_feature.h>
+#include <placegraph/frontend/lines/line_initializer.h>
+#include <placegraph/frontend/lines/line_tracker.h>
 #include <placegraph/pipeline/cues/frame_view.h>
 
 #include <vector>

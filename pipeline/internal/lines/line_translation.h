@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/backend/internal/window/window_measurements.h>
-#include <placegraph/frontend/internal/lines/vanishing_direction_tracker.h>
+#include <placegraph/frontend/lines/vanishing_direction_tracker.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/pipeline/internal/lines/line_observations.h>
 

@@ -2,7 +2,7 @@
 #include <placegraph/frontend/features/detector.h>
 #include <placegraph/frontend/features/matcher.h>
 #include <placegraph/frontend/features/triangulation.h>
-#include <placegraph/frontend/internal/lines/line_feature.h>
+#include <placegraph/frontend/lines/line_feature.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/pipeline/internal/loops/keyframe_describer.h>
 

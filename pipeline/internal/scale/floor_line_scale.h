@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/lines/floor_from_lines.h>
+#include <placegraph/frontend/lines/floor_from_lines.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/pipeline/cues/cue_options.h>
 #include <placegraph/pipeline/internal/scale/ground_plane_scale.h>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/lines/line_triangulation.h>
+#include <placegraph/frontend/lines/line_triangulation.h>
 #include <placegraph/graph/core/random.h>
 
 #include <vector>

@@ -1,5 +1,5 @@
-#include <placegraph/frontend/internal/lines/line_triangulation.h>
 #include <placegraph/frontend/internal/places/verification/loop_verifier.h>
+#include <placegraph/frontend/lines/line_triangulation.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/median.h>
 

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/lines/floor_from_lines.h>
+#include <placegraph/frontend/lines/floor_from_lines.h>
 
 #include "tests/support/scenes/room_lines.h"
 #include "tests/support/seed.h"

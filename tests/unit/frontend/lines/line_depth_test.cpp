@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/lines/line_depth.h>
-#include <placegraph/frontend/internal/lines/line_triangulation.h>
+#include <placegraph/frontend/lines/line_depth.h>
+#include <placegraph/frontend/lines/line_triangulation.h>
 
 #include "tests/support/scenes/scene.h"
 

@@ -1,7 +1,7 @@
 #include <numbers>
 
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/lines/line_feature.h>
+#include <placegraph/frontend/lines/line_feature.h>
 #include <placegraph/graph/core/error.h>
 
 #include <opencv2/imgproc.hpp>

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/lines/line_initializer.h>
+#include <placegraph/frontend/lines/line_initializer.h>
 
 #include "tests/support/scenes/room_lines.h"
 #include "tests/support/seed.h"

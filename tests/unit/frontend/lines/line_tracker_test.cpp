@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/lines/line_tracker.h>
+#include <placegraph/frontend/lines/line_tracker.h>
 #include <placegraph/graph/core/error.h>
 
 #include <opencv2/imgproc.hpp>

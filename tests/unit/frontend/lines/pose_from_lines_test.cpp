@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/lines/pose_from_lines.h>
+#include <placegraph/frontend/lines/pose_from_lines.h>
 #include <placegraph/graph/core/angle.h>
 
 #include "tests/support/scenes/line_scene.h"

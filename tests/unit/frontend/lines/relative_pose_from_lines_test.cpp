@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/lines/relative_pose_from_lines.h>
+#include <placegraph/frontend/lines/relative_pose_from_lines.h>
 
 #include "tests/support/scenes/line_scene.h"
 #include "tests/support/seed.h"

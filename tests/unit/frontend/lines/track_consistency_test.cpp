@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/lines/track_consistency.h>
+#include <placegraph/frontend/lines/track_consistency.h>
 
 namespace placegraph {
 namespace track_consistency_test {

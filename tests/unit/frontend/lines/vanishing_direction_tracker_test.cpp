@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/lines/vanishing_direction_tracker.h>
+#include <placegraph/frontend/lines/vanishing_direction_tracker.h>
 
 #include "tests/support/scenes/room_lines.h"
 #include "tests/support/seed.h"

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/lines/floor_from_lines.h>
+#include <placegraph/frontend/lines/floor_from_lines.h>
 #include <placegraph/pipeline/internal/lines/line_cue.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/lines/line_feature.h>
+#include <placegraph/frontend/lines/line_feature.h>
 #include <placegraph/graph/core/median.h>
 #include <placegraph/pipeline/internal/loops/keyframe_describer.h>
 

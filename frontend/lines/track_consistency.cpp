@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/lines/track_consistency.h>
+#include <placegraph/frontend/lines/track_consistency.h>
 
 #include <algorithm>
 

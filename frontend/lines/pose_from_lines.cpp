@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/lines/pose_from_lines.h>
+#include <placegraph/frontend/lines/pose_from_lines.h>
 #include <placegraph/graph/core/error.h>
 
 #include <Eigen/Cholesky>

@@ -1,5 +1,5 @@
-#include <placegraph/frontend/internal/lines/line_feature.h>
-#include <placegraph/frontend/internal/lines/line_triangulation.h>
+#include <placegraph/frontend/lines/line_feature.h>
+#include <placegraph/frontend/lines/line_triangulation.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 

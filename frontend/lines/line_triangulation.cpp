@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/lines/line_triangulation.h>
+#include <placegraph/frontend/lines/line_triangulation.h>
 #include <placegraph/graph/core/angle.h>
 
 #include <Eigen/Cholesky>

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/lines/floor_from_lines.h>
+#include <placegraph/frontend/lines/floor_from_lines.h>
 #include <placegraph/graph/core/angle.h>
 
 #include <Eigen/Cholesky>

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/lines/vanishing_direction_tracker.h>
+#include <placegraph/frontend/lines/vanishing_direction_tracker.h>
 #include <placegraph/graph/geometry/so3.h>
 
 #include <Eigen/Cholesky>

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/lines/relative_pose_from_lines.h>
+#include <placegraph/frontend/lines/relative_pose_from_lines.h>
 #include <placegraph/graph/core/error.h>
 
 #include <Eigen/Cholesky>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/lines/line_initializer.h>
+#include <placegraph/frontend/lines/line_initializer.h>
 #include <placegraph/graph/core/ids.h>
 
 #include <map>

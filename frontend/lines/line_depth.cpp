@@ -1,5 +1,5 @@
 #include <placegraph/frontend/features/depth_lookup.h>
-#include <placegraph/frontend/internal/lines/line_depth.h>
+#include <placegraph/frontend/lines/line_depth.h>
 
 #include <Eigen/Cholesky>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/lines/line_stereo.h>
+#include <placegraph/frontend/lines/line_stereo.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

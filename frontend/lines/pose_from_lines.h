@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/frontend/internal/lines/line_triangulation.h>
 #include <placegraph/frontend/lines/line_options.h>
+#include <placegraph/frontend/lines/line_triangulation.h>
 #include <placegraph/graph/core/ransac.h>
 
 #include <array>

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/lines/line_tracker.h>
+#include <placegraph/frontend/lines/line_tracker.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 

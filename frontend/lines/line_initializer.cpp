@@ -1,5 +1,5 @@
-#include <placegraph/frontend/internal/lines/line_initializer.h>
-#include <placegraph/frontend/internal/lines/relative_pose_from_lines.h>
+#include <placegraph/frontend/lines/line_initializer.h>
+#include <placegraph/frontend/lines/relative_pose_from_lines.h>
 #include <placegraph/graph/core/angle.h>
 
 #include <Eigen/Eigenvalues>
