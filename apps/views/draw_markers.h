@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/markers/marker_detector.h>
+#include <placegraph/frontend/markers/marker_detector.h>
 #include <placegraph/graph/geometry/camera.h>
 
 #include <optional>

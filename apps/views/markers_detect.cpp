@@ -1,7 +1,7 @@
 #include "apps/views/markers_detect.h"
 
 #include <fmt/format.h>
-#include <placegraph/frontend/internal/markers/marker_dictionary.h>
+#include <placegraph/frontend/markers/marker_dictionary.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/json_text.h>
 #include <placegraph/io/files/image_file.h>

@@ -1,7 +1,7 @@
 #pragma once
-#include <placegraph/frontend/internal/markers/marker_detector.h>
-#include <placegraph/frontend/internal/markers/marker_filter.h>
-#include <placegraph/frontend/internal/markers/marker_pose.h>
+#include <placegraph/frontend/markers/marker_detector.h>
+#include <placegraph/frontend/markers/marker_filter.h>
+#include <placegraph/frontend/markers/marker_pose.h>
 
 #include <optional>
 #include <string>

@@ -3,8 +3,8 @@
 //   bench_marker_study OUT_PREFIX [SEEDS=3] [APRILTAG_SIM_FOLDER]
 // writes OUT_PREFIX.md (tables) and OUT_PREFIX_targets.tsv (figure, tab, value).
 #include <fmt/format.h>
-#include <placegraph/frontend/internal/markers/marker_filter.h>
-#include <placegraph/frontend/internal/markers/marker_pose.h>
+#include <placegraph/frontend/markers/marker_filter.h>
+#include <placegraph/frontend/markers/marker_pose.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/backend/internal/inertial/inertial_options.h>
 #include <placegraph/frontend/features/feature_options.h>
-#include <placegraph/frontend/internal/markers/marker_options.h>
+#include <placegraph/frontend/markers/marker_options.h>
 #include <placegraph/graph/core/options.h>
 
 namespace placegraph {

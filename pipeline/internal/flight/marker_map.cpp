@@ -1,6 +1,6 @@
 #include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
 #include <placegraph/backend/pose_graph/pose_marginals.h>
-#include <placegraph/frontend/internal/markers/marker_pose.h>
+#include <placegraph/frontend/markers/marker_pose.h>
 #include <placegraph/graph/core/chi_squared.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/pose_graph/node_index.h>

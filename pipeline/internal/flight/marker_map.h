@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/markers/marker_detector.h>
+#include <placegraph/frontend/markers/marker_detector.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/measurements/marker_layout.h>

@@ -1,7 +1,7 @@
 #pragma once
-#include <placegraph/frontend/internal/markers/beacon_detector.h>
-#include <placegraph/frontend/internal/markers/marker_detector.h>
-#include <placegraph/frontend/internal/markers/marker_filter.h>
+#include <placegraph/frontend/markers/beacon_detector.h>
+#include <placegraph/frontend/markers/marker_detector.h>
+#include <placegraph/frontend/markers/marker_filter.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/core/stage_times.h>

@@ -1,6 +1,6 @@
-#include <placegraph/frontend/internal/markers/marker_detector.h>
-#include <placegraph/frontend/internal/markers/marker_dictionary.h>
-#include <placegraph/frontend/internal/markers/marker_pose.h>
+#include <placegraph/frontend/markers/marker_detector.h>
+#include <placegraph/frontend/markers/marker_dictionary.h>
+#include <placegraph/frontend/markers/marker_pose.h>
 #include <placegraph/graph/core/error.h>
 
 #include "python/src/frontend/functions.h"

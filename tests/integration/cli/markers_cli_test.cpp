@@ -1,5 +1,5 @@
 // `placegraph markers`, and the simulated tags of the research data.
-#include <placegraph/frontend/internal/markers/marker_pose.h>
+#include <placegraph/frontend/markers/marker_pose.h>
 #include <placegraph/graph/core/angle.h>
 
 #include <nlohmann/json.hpp>

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/markers/marker_filter.h>
-#include <placegraph/frontend/internal/markers/marker_pose.h>
+#include <placegraph/frontend/markers/marker_filter.h>
+#include <placegraph/frontend/markers/marker_pose.h>
 #include <placegraph/graph/core/angle.h>
 
 #include <iostream>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/markers/marker_dictionary.h>
+#include <placegraph/frontend/markers/marker_dictionary.h>
 #include <placegraph/graph/core/random.h>
 #include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/measurements/marker_layout.h>

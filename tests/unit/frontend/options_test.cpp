@@ -4,7 +4,6 @@
 #include <placegraph/frontend/features/detector.h>
 #include <placegraph/frontend/features/stereo_matcher.h>
 #include <placegraph/frontend/flow/point_tracker.h>
-#include <placegraph/frontend/internal/markers/marker_filter.h>
 #include <placegraph/frontend/internal/places/classifiers/place_classifier.h>
 #include <placegraph/frontend/internal/places/code_database.h>
 #include <placegraph/frontend/internal/places/place_database.h>
@@ -24,6 +23,7 @@
 #include <placegraph/frontend/lines/line_stereo.h>
 #include <placegraph/frontend/lines/line_tracker.h>
 #include <placegraph/frontend/lines/pose_from_lines.h>
+#include <placegraph/frontend/markers/marker_filter.h>
 #include <placegraph/graph/core/error.h>
 
 #include <set>

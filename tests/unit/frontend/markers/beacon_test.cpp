@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/markers/beacon_pose.h>
+#include <placegraph/frontend/markers/beacon_pose.h>
 #include <placegraph/graph/core/error.h>
 
 #include "tests/support/scenes/marker_scene.h"

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/markers/marker_detector.h>
+#include <placegraph/frontend/markers/marker_detector.h>
 #include <placegraph/graph/core/error.h>
 
 #include "tests/support/message_of.h"

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 #include <placegraph/backend/internal/inertial/error_state_filter.h>
-#include <placegraph/frontend/internal/markers/marker_filter.h>
-#include <placegraph/frontend/internal/markers/marker_pose.h>
+#include <placegraph/frontend/markers/marker_filter.h>
+#include <placegraph/frontend/markers/marker_pose.h>
 #include <placegraph/graph/core/error.h>
 
 #include "tests/support/scenes/marker_scene.h"

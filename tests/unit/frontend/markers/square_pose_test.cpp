@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/markers/marker_dictionary.h>
-#include <placegraph/frontend/internal/markers/marker_explanation.h>
-#include <placegraph/frontend/internal/markers/square_pose.h>
+#include <placegraph/frontend/markers/marker_dictionary.h>
+#include <placegraph/frontend/markers/marker_explanation.h>
+#include <placegraph/frontend/markers/square_pose.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>
 

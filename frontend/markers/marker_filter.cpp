@@ -1,5 +1,5 @@
-#include <placegraph/frontend/internal/markers/marker_explanation.h>
-#include <placegraph/frontend/internal/markers/marker_filter.h>
+#include <placegraph/frontend/markers/marker_explanation.h>
+#include <placegraph/frontend/markers/marker_filter.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/chi_squared.h>
 #include <placegraph/graph/core/error.h>

@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/frontend/internal/markers/beacon_pose.h>
-#include <placegraph/frontend/internal/markers/square_pose.h>
+#include <placegraph/frontend/markers/beacon_pose.h>
+#include <placegraph/frontend/markers/square_pose.h>
 
 #include <optional>
 #include <vector>

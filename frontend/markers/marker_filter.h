@@ -1,8 +1,8 @@
 #pragma once
-#include <placegraph/frontend/internal/markers/beacon_pose.h>
-#include <placegraph/frontend/internal/markers/marker_detector.h>
-#include <placegraph/frontend/internal/markers/marker_options.h>
-#include <placegraph/frontend/internal/markers/square_pose.h>
+#include <placegraph/frontend/markers/beacon_pose.h>
+#include <placegraph/frontend/markers/marker_detector.h>
+#include <placegraph/frontend/markers/marker_options.h>
+#include <placegraph/frontend/markers/square_pose.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/measurements/body_state.h>

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/markers/square_pose.h>
+#include <placegraph/frontend/markers/square_pose.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>

@@ -1,6 +1,6 @@
 #include <placegraph/frontend/flow/flow_vector.h>
-#include <placegraph/frontend/internal/markers/marker_detector.h>
-#include <placegraph/frontend/internal/markers/marker_dictionary.h>
+#include <placegraph/frontend/markers/marker_detector.h>
+#include <placegraph/frontend/markers/marker_dictionary.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/frontend/internal/markers/beacon_detector.h>
-#include <placegraph/frontend/internal/markers/marker_options.h>
+#include <placegraph/frontend/markers/beacon_detector.h>
+#include <placegraph/frontend/markers/marker_options.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/geometry/se3.h>

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/markers/marker_options.h>
+#include <placegraph/frontend/markers/marker_options.h>
 
 namespace placegraph {
 

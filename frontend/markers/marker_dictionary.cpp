@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/markers/marker_dictionary.h>
+#include <placegraph/frontend/markers/marker_dictionary.h>
 #include <placegraph/graph/core/error.h>
 
 #include <opencv2/aruco.hpp>

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/markers/beacon_detector.h>
+#include <placegraph/frontend/markers/beacon_detector.h>
 #include <placegraph/graph/core/error.h>
 
 #include <Eigen/Eigenvalues>

@@ -1,5 +1,5 @@
-#include <placegraph/frontend/internal/markers/beacon_pose.h>
-#include <placegraph/frontend/internal/markers/square_pose.h>
+#include <placegraph/frontend/markers/beacon_pose.h>
+#include <placegraph/frontend/markers/square_pose.h>
 #include <placegraph/graph/core/chi_squared.h>
 
 #include <Eigen/LU>

@@ -1,5 +1,5 @@
-#include <placegraph/frontend/internal/markers/marker_pose.h>
-#include <placegraph/frontend/internal/markers/square_pose.h>
+#include <placegraph/frontend/markers/marker_pose.h>
+#include <placegraph/frontend/markers/square_pose.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/measurements/marker_layout.h>
 

@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/frontend/internal/markers/marker_options.h>
-#include <placegraph/frontend/internal/markers/square_fit.h>
+#include <placegraph/frontend/markers/marker_options.h>
+#include <placegraph/frontend/markers/square_fit.h>
 
 #include <memory>
 #include <optional>

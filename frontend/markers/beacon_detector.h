@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/markers/marker_options.h>
+#include <placegraph/frontend/markers/marker_options.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/image/image.h>
 

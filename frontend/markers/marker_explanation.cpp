@@ -1,5 +1,5 @@
-#include <placegraph/frontend/internal/markers/marker_explanation.h>
-#include <placegraph/frontend/internal/markers/marker_pose.h>
+#include <placegraph/frontend/markers/marker_explanation.h>
+#include <placegraph/frontend/markers/marker_pose.h>
 #include <placegraph/graph/core/chi_squared.h>
 
 #include <Eigen/LU>

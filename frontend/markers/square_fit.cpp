@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/markers/square_fit.h>
+#include <placegraph/frontend/markers/square_fit.h>
 #include <placegraph/graph/core/error.h>
 
 #include <Eigen/Cholesky>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/markers/square_fit.h>
+#include <placegraph/frontend/markers/square_fit.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/geometry/se3.h>
 
