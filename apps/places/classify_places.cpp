@@ -1,7 +1,7 @@
 #include "apps/places/classify_places.h"
 
 #include <fmt/format.h>
-#include <placegraph/frontend/internal/places/classifiers/place_classifier.h>
+#include <placegraph/frontend/places/classifiers/place_classifier.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/id_format.h>
 #include <placegraph/io/files/image_file.h>

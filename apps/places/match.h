@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/places/code_database.h>
+#include <placegraph/frontend/places/code_database.h>
 #include <placegraph/frontend/places/place_recognizer.h>
 #include <placegraph/frontend/places/sequence_filter.h>
 #include <placegraph/graph/loop_prediction.h>

@@ -1,8 +1,8 @@
 #include "apps/places/train_vocabulary.h"
 
 #include <fmt/format.h>
-#include <placegraph/frontend/internal/places/code_database.h>
-#include <placegraph/frontend/internal/places/float_vocabulary.h>
+#include <placegraph/frontend/places/code_database.h>
+#include <placegraph/frontend/places/float_vocabulary.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/internal/files/image_list.h>
 #include <placegraph/io/internal/models/vocabulary_file.h>

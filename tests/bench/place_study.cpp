@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 #include <placegraph/eval/internal/drawing/picture_bytes.h>
 #include <placegraph/eval/internal/plots/growth_plot.h>
-#include <placegraph/frontend/internal/places/cues/cue_grid.h>
-#include <placegraph/frontend/internal/places/place_view.h>
+#include <placegraph/frontend/places/cues/cue_grid.h>
 #include <placegraph/frontend/places/place_recognizer.h>
+#include <placegraph/frontend/places/place_view.h>
 #include <placegraph/frontend/places/sequence_filter.h>
 #include <placegraph/graph/core/random.h>
 #include <placegraph/io/files/image_file.h>

@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/frontend/features/rgbd_errors.h>
-#include <placegraph/frontend/internal/places/verification/loop_verifier.h>
+#include <placegraph/frontend/places/verification/loop_verifier.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/image/frame.h>
 #include <placegraph/pipeline/loops/loop_options.h>

@@ -1,5 +1,5 @@
-#include <placegraph/frontend/internal/places/place_database.h>
-#include <placegraph/frontend/internal/places/verification/loop_verifier.h>
+#include <placegraph/frontend/places/place_database.h>
+#include <placegraph/frontend/places/verification/loop_verifier.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>
 #include <placegraph/pipeline/internal/loops/loop_closer.h>

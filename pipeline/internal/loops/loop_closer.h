@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/frontend/internal/places/place_database.h>
 #include <placegraph/frontend/lines/line_feature.h>
+#include <placegraph/frontend/places/place_database.h>
 #include <placegraph/frontend/places/place_recognizer.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/loop.h>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/places/place_view.h>
+#include <placegraph/frontend/places/place_view.h>
 #include <placegraph/io/map/map_database.h>
 #include <placegraph/pipeline/map/map_options.h>
 

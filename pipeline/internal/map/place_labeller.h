@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/places/classifiers/place_classifier.h>
+#include <placegraph/frontend/places/classifiers/place_classifier.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/map.h>
 #include <placegraph/pipeline/map/map_options.h>

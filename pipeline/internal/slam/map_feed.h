@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/places/place_view.h>
+#include <placegraph/frontend/places/place_view.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/map_changes.h>
 #include <placegraph/pipeline/internal/loops/loop_closer.h>

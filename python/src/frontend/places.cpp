@@ -1,5 +1,5 @@
-#include <placegraph/frontend/internal/places/place_view.h>
 #include <placegraph/frontend/places/place_recognizer.h>
+#include <placegraph/frontend/places/place_view.h>
 #include <placegraph/frontend/places/sequence_filter.h>
 #include <placegraph/graph/core/error.h>
 

@@ -4,10 +4,6 @@
 #include <placegraph/frontend/features/detector.h>
 #include <placegraph/frontend/features/stereo_matcher.h>
 #include <placegraph/frontend/flow/point_tracker.h>
-#include <placegraph/frontend/internal/places/classifiers/place_classifier.h>
-#include <placegraph/frontend/internal/places/code_database.h>
-#include <placegraph/frontend/internal/places/place_database.h>
-#include <placegraph/frontend/internal/places/verification/loop_verifier.h>
 #include <placegraph/frontend/internal/planes/dominant_surface.h>
 #include <placegraph/frontend/internal/planes/ground_plane.h>
 #include <placegraph/frontend/internal/planes/motion_from_planes.h>
@@ -24,6 +20,10 @@
 #include <placegraph/frontend/lines/line_tracker.h>
 #include <placegraph/frontend/lines/pose_from_lines.h>
 #include <placegraph/frontend/markers/marker_filter.h>
+#include <placegraph/frontend/places/classifiers/place_classifier.h>
+#include <placegraph/frontend/places/code_database.h>
+#include <placegraph/frontend/places/place_database.h>
+#include <placegraph/frontend/places/verification/loop_verifier.h>
 #include <placegraph/graph/core/error.h>
 
 #include <set>

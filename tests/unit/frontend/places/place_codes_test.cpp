@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/places/code_database.h>
-#include <placegraph/frontend/internal/places/dense_index.h>
-#include <placegraph/frontend/internal/places/float_vocabulary.h>
-#include <placegraph/frontend/internal/places/inverted_index.h>
+#include <placegraph/frontend/places/code_database.h>
+#include <placegraph/frontend/places/dense_index.h>
+#include <placegraph/frontend/places/float_vocabulary.h>
+#include <placegraph/frontend/places/inverted_index.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>
 

@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/places/cues/colour_histogram.h>
-#include <placegraph/frontend/internal/places/cues/corner_agreement.h>
-#include <placegraph/frontend/internal/places/cues/cue_grid.h>
-#include <placegraph/frontend/internal/places/cues/gabor_statistics.h>
-#include <placegraph/frontend/internal/places/cues/gradient_layout.h>
-#include <placegraph/frontend/internal/places/cues/tiny_image.h>
+#include <placegraph/frontend/places/cues/colour_histogram.h>
+#include <placegraph/frontend/places/cues/corner_agreement.h>
+#include <placegraph/frontend/places/cues/cue_grid.h>
+#include <placegraph/frontend/places/cues/gabor_statistics.h>
+#include <placegraph/frontend/places/cues/gradient_layout.h>
+#include <placegraph/frontend/places/cues/tiny_image.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>
 

@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/places/place_database.h>
+#include <placegraph/frontend/places/place_database.h>
 #include <placegraph/graph/core/error.h>
 
 #include <set>

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/places/classifiers/kernel_machine.h>
+#include <placegraph/frontend/places/classifiers/kernel_machine.h>
 #include <placegraph/graph/core/random.h>
 
 #include <Eigen/LU>

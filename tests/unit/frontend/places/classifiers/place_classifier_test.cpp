@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/places/classifiers/place_classifier.h>
+#include <placegraph/frontend/places/classifiers/place_classifier.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>
 

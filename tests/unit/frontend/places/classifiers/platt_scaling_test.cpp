@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/places/classifiers/platt_scaling.h>
+#include <placegraph/frontend/places/classifiers/platt_scaling.h>
 #include <placegraph/graph/core/random.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/places/cues/colour_histogram.h>
+#include <placegraph/frontend/places/cues/colour_histogram.h>
 #include <placegraph/graph/core/random.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/places/cues/corner_agreement.h>
+#include <placegraph/frontend/places/cues/corner_agreement.h>
 #include <placegraph/graph/core/random.h>
 
 #include <cmath>

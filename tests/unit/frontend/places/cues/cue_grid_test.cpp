@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/places/cues/cue_grid.h>
+#include <placegraph/frontend/places/cues/cue_grid.h>
 #include <placegraph/graph/core/random.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/places/cues/gabor_statistics.h>
+#include <placegraph/frontend/places/cues/gabor_statistics.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

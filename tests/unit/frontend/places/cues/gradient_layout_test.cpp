@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/places/cues/gradient_layout.h>
+#include <placegraph/frontend/places/cues/gradient_layout.h>
 
 #include <cmath>
 #include <numbers>

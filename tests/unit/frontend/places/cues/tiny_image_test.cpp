@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/places/cues/tiny_image.h>
+#include <placegraph/frontend/places/cues/tiny_image.h>
 
 #include <cstdlib>
 #include <opencv2/imgproc.hpp>

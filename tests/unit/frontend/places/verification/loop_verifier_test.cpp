@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/places/verification/loop_verifier.h>
+#include <placegraph/frontend/places/verification/loop_verifier.h>
 #include <placegraph/graph/core/angle.h>
 
 #include "tests/support/scenes/scene.h"
