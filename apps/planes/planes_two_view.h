@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/frontend/internal/planes/motion_from_planes.h>
-#include <placegraph/frontend/internal/planes/planar_regions.h>
+#include <placegraph/frontend/planes/motion_from_planes.h>
+#include <placegraph/frontend/planes/planar_regions.h>
 
 #include <cstdint>
 #include <optional>

@@ -2,7 +2,7 @@
 #include <placegraph/frontend/align/aligner.h>
 #include <placegraph/frontend/align/null_distribution.h>
 #include <placegraph/frontend/align/template_finder.h>
-#include <placegraph/frontend/internal/planes/plane_normal.h>
+#include <placegraph/frontend/planes/plane_normal.h>
 
 #include <optional>
 

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/planes/plane_sums.h>
+#include <placegraph/frontend/planes/plane_sums.h>
 #include <placegraph/graph/measurements/point_cloud.h>
 
 #include <vector>

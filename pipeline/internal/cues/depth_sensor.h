@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/frontend/features/rectification.h>
 #include <placegraph/frontend/features/stereo_matcher.h>
-#include <placegraph/frontend/internal/planes/inverse_depth_plane.h>
+#include <placegraph/frontend/planes/inverse_depth_plane.h>
 #include <placegraph/graph/image/frame.h>
 
 #include <optional>

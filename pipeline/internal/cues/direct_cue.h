@@ -2,7 +2,7 @@
 #include <placegraph/frontend/align/direct_motion.h>
 #include <placegraph/frontend/features/rectification.h>
 #include <placegraph/frontend/features/stereo_matcher.h>
-#include <placegraph/frontend/internal/planes/dominant_surface.h>
+#include <placegraph/frontend/planes/dominant_surface.h>
 #include <placegraph/graph/geometry/lie.h>
 #include <placegraph/graph/image/frame.h>
 #include <placegraph/pipeline/cues/cue_options.h>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/planes/ground_plane.h>
+#include <placegraph/frontend/planes/ground_plane.h>
 #include <placegraph/pipeline/cues/cue_options.h>
 #include <placegraph/pipeline/internal/cues/ground_mask.h>
 

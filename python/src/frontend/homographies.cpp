@@ -1,7 +1,7 @@
-#include <placegraph/frontend/internal/planes/homography.h>
-#include <placegraph/frontend/internal/planes/homography_fit.h>
-#include <placegraph/frontend/internal/planes/motion_from_planes.h>
-#include <placegraph/frontend/internal/planes/planar_regions.h>
+#include <placegraph/frontend/planes/homography.h>
+#include <placegraph/frontend/planes/homography_fit.h>
+#include <placegraph/frontend/planes/motion_from_planes.h>
+#include <placegraph/frontend/planes/planar_regions.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>
 

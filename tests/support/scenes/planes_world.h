@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/frontend/internal/planes/homography.h>
-#include <placegraph/frontend/internal/planes/homography_fit.h>
+#include <placegraph/frontend/planes/homography.h>
+#include <placegraph/frontend/planes/homography_fit.h>
 
 #include <algorithm>
 

@@ -4,9 +4,6 @@
 #include <placegraph/frontend/features/detector.h>
 #include <placegraph/frontend/features/stereo_matcher.h>
 #include <placegraph/frontend/flow/point_tracker.h>
-#include <placegraph/frontend/internal/planes/dominant_surface.h>
-#include <placegraph/frontend/internal/planes/ground_plane.h>
-#include <placegraph/frontend/internal/planes/motion_from_planes.h>
 #include <placegraph/frontend/internal/relative_pose/circular_motion.h>
 #include <placegraph/frontend/internal/relative_pose/mono_initializer.h>
 #include <placegraph/frontend/internal/relative_pose/pose_3d2d.h>
@@ -24,6 +21,9 @@
 #include <placegraph/frontend/places/code_database.h>
 #include <placegraph/frontend/places/place_database.h>
 #include <placegraph/frontend/places/verification/loop_verifier.h>
+#include <placegraph/frontend/planes/dominant_surface.h>
+#include <placegraph/frontend/planes/ground_plane.h>
+#include <placegraph/frontend/planes/motion_from_planes.h>
 #include <placegraph/graph/core/error.h>
 
 #include <set>

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/planes/ground_plane.h>
+#include <placegraph/frontend/planes/ground_plane.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 

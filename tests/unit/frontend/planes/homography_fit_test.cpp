@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/planes/homography_fit.h>
+#include <placegraph/frontend/planes/homography_fit.h>
 
 #include <numbers>
 #include <numeric>

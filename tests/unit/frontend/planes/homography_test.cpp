@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/planes/homography.h>
+#include <placegraph/frontend/planes/homography.h>
 #include <placegraph/graph/core/error.h>
 
 #include "tests/support/scenes/scene.h"

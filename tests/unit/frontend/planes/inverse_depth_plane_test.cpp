@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/planes/inverse_depth_plane.h>
+#include <placegraph/frontend/planes/inverse_depth_plane.h>
 
 #include <Eigen/Cholesky>
 

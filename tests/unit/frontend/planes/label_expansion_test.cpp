@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/planes/label_expansion.h>
+#include <placegraph/frontend/planes/label_expansion.h>
 #include <placegraph/graph/core/error.h>
 
 #include <cmath>

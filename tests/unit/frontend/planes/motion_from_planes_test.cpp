@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/planes/motion_from_planes.h>
+#include <placegraph/frontend/planes/motion_from_planes.h>
 #include <placegraph/graph/core/error.h>
 
 #include "tests/support/scenes/planes_world.h"

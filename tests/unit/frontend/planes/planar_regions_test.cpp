@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/planes/planar_regions.h>
+#include <placegraph/frontend/planes/planar_regions.h>
 #include <placegraph/graph/core/error.h>
 
 #include <numeric>

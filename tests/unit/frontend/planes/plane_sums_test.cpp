@@ -2,7 +2,7 @@
 #include <placegraph/frontend/cloud_planes/neighbour_tree.h>
 #include <placegraph/frontend/cloud_planes/normalized_cuts.h>
 #include <placegraph/frontend/cloud_planes/planarity.h>
-#include <placegraph/frontend/internal/planes/plane_sums.h>
+#include <placegraph/frontend/planes/plane_sums.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>
 

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/planes/dominant_surface.h>
+#include <placegraph/frontend/planes/dominant_surface.h>
 #include <placegraph/graph/core/median.h>
 #include <placegraph/pipeline/internal/cues/direct_cue.h>
 

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/planes/homography.h>
+#include <placegraph/frontend/planes/homography.h>
 #include <placegraph/graph/core/error.h>
 
 #include <Eigen/Dense>

@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/frontend/internal/planes/homography.h>
-#include <placegraph/frontend/internal/planes/planar_regions.h>
+#include <placegraph/frontend/planes/homography.h>
+#include <placegraph/frontend/planes/planar_regions.h>
 #include <placegraph/graph/geometry/se3.h>
 
 #include <optional>

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/planes/plane_sums.h>
+#include <placegraph/frontend/planes/plane_sums.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/planes/homography_fit.h>
+#include <placegraph/frontend/planes/homography_fit.h>
 
 #include <cmath>
 #include <limits>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/planes/homography.h>
+#include <placegraph/frontend/planes/homography.h>
 
 namespace placegraph {
 

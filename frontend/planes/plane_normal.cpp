@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/planes/plane_normal.h>
+#include <placegraph/frontend/planes/plane_normal.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/planes/homography.h>
+#include <placegraph/frontend/planes/homography.h>
 #include <placegraph/frontend/planes/plane_options.h>
 #include <placegraph/graph/core/ransac.h>
 

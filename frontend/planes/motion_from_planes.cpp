@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/planes/motion_from_planes.h>
+#include <placegraph/frontend/planes/motion_from_planes.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

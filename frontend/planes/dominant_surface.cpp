@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/planes/dominant_surface.h>
+#include <placegraph/frontend/planes/dominant_surface.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 

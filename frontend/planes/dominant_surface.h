@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/planes/inverse_depth_plane.h>
+#include <placegraph/frontend/planes/inverse_depth_plane.h>
 #include <placegraph/frontend/planes/plane_options.h>
 #include <placegraph/graph/image/image.h>
 

@@ -1,5 +1,5 @@
-#include <placegraph/frontend/internal/planes/label_expansion.h>
-#include <placegraph/frontend/internal/planes/planar_regions.h>
+#include <placegraph/frontend/planes/label_expansion.h>
+#include <placegraph/frontend/planes/planar_regions.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

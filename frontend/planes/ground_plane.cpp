@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/planes/ground_plane.h>
+#include <placegraph/frontend/planes/ground_plane.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/median.h>

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/planes/inverse_depth_plane.h>
+#include <placegraph/frontend/planes/inverse_depth_plane.h>
 #include <placegraph/graph/core/angle.h>
 
 #include <Eigen/Dense>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/planes/homography_fit.h>
+#include <placegraph/frontend/planes/homography_fit.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/core/random.h>
 

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/planes/label_expansion.h>
+#include <placegraph/frontend/planes/label_expansion.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>
