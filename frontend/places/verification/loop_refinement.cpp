@@ -1,6 +1,6 @@
-#include <placegraph/frontend/internal/relative_pose/epipolar_error.h>
 #include <placegraph/frontend/lines/line_triangulation.h>
 #include <placegraph/frontend/places/verification/loop_refinement.h>
+#include <placegraph/frontend/relative_pose/epipolar_error.h>
 #include <placegraph/graph/core/median.h>
 
 #include <Eigen/Cholesky>

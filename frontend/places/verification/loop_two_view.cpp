@@ -1,5 +1,5 @@
-#include <placegraph/frontend/internal/relative_pose/epipolar_error.h>
 #include <placegraph/frontend/places/verification/loop_two_view.h>
+#include <placegraph/frontend/relative_pose/epipolar_error.h>
 #include <placegraph/graph/core/median.h>
 
 #include <Eigen/LU>

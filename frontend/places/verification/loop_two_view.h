@@ -1,8 +1,8 @@
 #pragma once
-#include <placegraph/frontend/internal/relative_pose/pose_2d2d.h>
-#include <placegraph/frontend/internal/relative_pose/rotation_2d2d.h>
 #include <placegraph/frontend/places/recognition_options.h>
 #include <placegraph/frontend/places/verification/loop_refinement.h>
+#include <placegraph/frontend/relative_pose/pose_2d2d.h>
+#include <placegraph/frontend/relative_pose/rotation_2d2d.h>
 
 namespace placegraph {
 

@@ -1,9 +1,9 @@
 #pragma once
 #include <placegraph/frontend/features/matcher.h>
-#include <placegraph/frontend/internal/relative_pose/pose_3d2d.h>
 #include <placegraph/frontend/lines/line_feature.h>
 #include <placegraph/frontend/places/recognition_options.h>
 #include <placegraph/frontend/places/verification/loop_two_view.h>
+#include <placegraph/frontend/relative_pose/pose_3d2d.h>
 #include <placegraph/graph/geometry/sim3.h>
 #include <placegraph/graph/loop_stage.h>
 

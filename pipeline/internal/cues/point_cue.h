@@ -2,7 +2,7 @@
 #include <placegraph/backend/internal/window/sliding_window.h>
 #include <placegraph/frontend/features/rgbd_errors.h>
 #include <placegraph/frontend/flow/point_tracker.h>
-#include <placegraph/frontend/internal/relative_pose/pose_3d2d.h>
+#include <placegraph/frontend/relative_pose/pose_3d2d.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/core/stage_times.h>
 #include <placegraph/pipeline/cues/cue_options.h>

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/relative_pose/epipolar_error.h>
+#include <placegraph/frontend/relative_pose/epipolar_error.h>
 #include <placegraph/pipeline/internal/health/image_motion.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/relative_pose/relative_pose.h>
+#include <placegraph/frontend/relative_pose/relative_pose.h>
 
 #include <optional>
 #include <vector>

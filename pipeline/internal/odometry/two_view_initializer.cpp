@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 #include <placegraph/frontend/flow/matched_displacements.h>
-#include <placegraph/frontend/internal/relative_pose/mono_initializer.h>
+#include <placegraph/frontend/relative_pose/mono_initializer.h>
 #include <placegraph/graph/core/log_message.h>
 #include <placegraph/graph/core/median.h>
 #include <placegraph/pipeline/internal/cues/point_cue.h>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/relative_pose/mono_initializer.h>
+#include <placegraph/frontend/relative_pose/mono_initializer.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/pipeline/internal/odometry/initializer.h>
 #include <placegraph/pipeline/internal/tracking/feature_tracker.h>

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <placegraph/frontend/cloud_planes/depth_planes.h>
 #include <placegraph/frontend/flow/point_tracker.h>
-#include <placegraph/frontend/internal/relative_pose/rotation_2d2d.h>
+#include <placegraph/frontend/relative_pose/rotation_2d2d.h>
 #include <placegraph/graph/core/time.h>
 #include <placegraph/pipeline/internal/cues/determined_rotation.h>
 #include <placegraph/pipeline/internal/tracking/feature_tracker.h>

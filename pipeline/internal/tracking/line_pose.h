@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/relative_pose/pose_3d2d.h>
+#include <placegraph/frontend/relative_pose/pose_3d2d.h>
 #include <placegraph/pipeline/internal/lines/line_cue.h>
 #include <placegraph/pipeline/internal/tracking/motion_model.h>
 

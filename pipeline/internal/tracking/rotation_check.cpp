@@ -1,6 +1,6 @@
-#include <placegraph/frontend/internal/relative_pose/epipolar_error.h>
-#include <placegraph/frontend/internal/relative_pose/epipolar_refinement.h>
-#include <placegraph/frontend/internal/relative_pose/pose_2d2d.h>
+#include <placegraph/frontend/relative_pose/epipolar_error.h>
+#include <placegraph/frontend/relative_pose/epipolar_refinement.h>
+#include <placegraph/frontend/relative_pose/pose_2d2d.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/pipeline/internal/tracking/rotation_check.h>
 

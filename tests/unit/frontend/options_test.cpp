@@ -4,12 +4,6 @@
 #include <placegraph/frontend/features/detector.h>
 #include <placegraph/frontend/features/stereo_matcher.h>
 #include <placegraph/frontend/flow/point_tracker.h>
-#include <placegraph/frontend/internal/relative_pose/circular_motion.h>
-#include <placegraph/frontend/internal/relative_pose/mono_initializer.h>
-#include <placegraph/frontend/internal/relative_pose/pose_3d2d.h>
-#include <placegraph/frontend/internal/relative_pose/pose_3d3d.h>
-#include <placegraph/frontend/internal/relative_pose/pose_gravity.h>
-#include <placegraph/frontend/internal/relative_pose/relative_pose.h>
 #include <placegraph/frontend/internal/segments/segment_detector.h>
 #include <placegraph/frontend/internal/segments/segment_matcher.h>
 #include <placegraph/frontend/internal/vanishing/scene_directions.h>
@@ -24,6 +18,12 @@
 #include <placegraph/frontend/planes/dominant_surface.h>
 #include <placegraph/frontend/planes/ground_plane.h>
 #include <placegraph/frontend/planes/motion_from_planes.h>
+#include <placegraph/frontend/relative_pose/circular_motion.h>
+#include <placegraph/frontend/relative_pose/mono_initializer.h>
+#include <placegraph/frontend/relative_pose/pose_3d2d.h>
+#include <placegraph/frontend/relative_pose/pose_3d3d.h>
+#include <placegraph/frontend/relative_pose/pose_gravity.h>
+#include <placegraph/frontend/relative_pose/relative_pose.h>
 #include <placegraph/graph/core/error.h>
 
 #include <set>

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/relative_pose/epipolar_error.h>
+#include <placegraph/frontend/relative_pose/epipolar_error.h>
 #include <placegraph/graph/core/error.h>
 
 #include "tests/support/scenes/scene.h"

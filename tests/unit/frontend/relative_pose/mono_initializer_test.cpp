@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/relative_pose/mono_initializer.h>
+#include <placegraph/frontend/relative_pose/mono_initializer.h>
 #include <placegraph/graph/core/angle.h>
 
 #include "tests/support/scenes/scene.h"

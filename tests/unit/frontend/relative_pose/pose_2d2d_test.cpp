@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/relative_pose/pose_2d2d.h>
+#include <placegraph/frontend/relative_pose/pose_2d2d.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 

@@ -1,5 +1,5 @@
-#include <placegraph/frontend/internal/relative_pose/circular_motion.h>
-#include <placegraph/frontend/internal/relative_pose/epipolar_error.h>
+#include <placegraph/frontend/relative_pose/circular_motion.h>
+#include <placegraph/frontend/relative_pose/epipolar_error.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 

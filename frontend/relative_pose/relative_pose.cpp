@@ -1,6 +1,6 @@
-#include <placegraph/frontend/internal/relative_pose/epipolar_error.h>
-#include <placegraph/frontend/internal/relative_pose/epipolar_refinement.h>
-#include <placegraph/frontend/internal/relative_pose/relative_pose.h>
+#include <placegraph/frontend/relative_pose/epipolar_error.h>
+#include <placegraph/frontend/relative_pose/epipolar_refinement.h>
+#include <placegraph/frontend/relative_pose/relative_pose.h>
 #include <placegraph/graph/core/error.h>
 
 #include <Eigen/Dense>

@@ -1,6 +1,6 @@
-#include <placegraph/frontend/internal/relative_pose/epipolar_error.h>
-#include <placegraph/frontend/internal/relative_pose/epipolar_refinement.h>
-#include <placegraph/frontend/internal/relative_pose/pose_gravity.h>
+#include <placegraph/frontend/relative_pose/epipolar_error.h>
+#include <placegraph/frontend/relative_pose/epipolar_refinement.h>
+#include <placegraph/frontend/relative_pose/pose_gravity.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 

@@ -1,7 +1,7 @@
 #pragma once
-#include <placegraph/frontend/internal/relative_pose/pose_2d2d.h>
-#include <placegraph/frontend/internal/relative_pose/rotation_2d2d.h>
 #include <placegraph/frontend/planes/motion_from_planes.h>
+#include <placegraph/frontend/relative_pose/pose_2d2d.h>
+#include <placegraph/frontend/relative_pose/rotation_2d2d.h>
 
 #include <optional>
 #include <string>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/relative_pose/pose_2d2d.h>
+#include <placegraph/frontend/relative_pose/pose_2d2d.h>
 #include <placegraph/frontend/relative_pose/relative_pose_options.h>
 
 #include <optional>

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/relative_pose/epipolar_error.h>
+#include <placegraph/frontend/relative_pose/epipolar_error.h>
 #include <placegraph/graph/core/error.h>
 
 #include <Eigen/LU>

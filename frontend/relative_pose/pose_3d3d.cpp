@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/relative_pose/pose_3d3d.h>
+#include <placegraph/frontend/relative_pose/pose_3d3d.h>
 #include <placegraph/graph/core/error.h>
 
 #include <Eigen/Dense>

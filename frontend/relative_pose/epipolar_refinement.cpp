@@ -1,5 +1,5 @@
-#include <placegraph/frontend/internal/relative_pose/epipolar_error.h>
-#include <placegraph/frontend/internal/relative_pose/epipolar_refinement.h>
+#include <placegraph/frontend/relative_pose/epipolar_error.h>
+#include <placegraph/frontend/relative_pose/epipolar_refinement.h>
 
 #include <Eigen/Dense>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include <placegraph/frontend/features/triangulation.h>
-#include <placegraph/frontend/internal/relative_pose/mono_initializer.h>
-#include <placegraph/frontend/internal/relative_pose/pose_3d2d.h>
+#include <placegraph/frontend/relative_pose/mono_initializer.h>
+#include <placegraph/frontend/relative_pose/pose_3d2d.h>
 #include <placegraph/graph/core/angle.h>
 
 #include <algorithm>
