@@ -2,7 +2,7 @@
 
 #include <placegraph/eval/internal/plots/semantic_map_plot.h>
 #include <placegraph/eval/internal/scene/semantic_map_check.h>
-#include <placegraph/frontend/internal/scene/moving_classes.h>
+#include <placegraph/frontend/scene/moving_classes.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/datasets/dataset.h>
 #include <placegraph/io/internal/scene/labelled_mesh_file.h>

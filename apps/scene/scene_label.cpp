@@ -1,7 +1,7 @@
 #include "apps/scene/scene_label.h"
 
-#include <placegraph/frontend/internal/scene/street_trust.h>
 #include <placegraph/frontend/labels/urban_labels.h>
+#include <placegraph/frontend/scene/street_trust.h>
 
 #include "apps/scene/street_images.h"
 #include "apps/shipped/scene_models.h"

@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/eval/internal/scene/orientation_check.h>
-#include <placegraph/frontend/internal/scene/orientation_map.h>
+#include <placegraph/frontend/scene/orientation_map.h>
 
 #include <cstdint>
 #include <optional>

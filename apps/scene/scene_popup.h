@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/scene/horizon.h>
+#include <placegraph/frontend/scene/horizon.h>
 
 #include <cstdint>
 #include <optional>

@@ -1,6 +1,6 @@
 #include "apps/scene/street_images.h"
 
-#include <placegraph/frontend/internal/scene/street_trust.h>
+#include <placegraph/frontend/scene/street_trust.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/parallel.h>
 #include <placegraph/io/files/image_file.h>

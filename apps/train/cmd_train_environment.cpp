@@ -15,7 +15,7 @@ void add_train_environment_command(CLI::App& train_command) {
   TrainEnvironmentArguments& a = *arguments;
   CLI::App* command = train_command.add_subcommand(
       "environment",
-      "Train the classifier of environments: frontend/internal/scene/environment.txt");
+      "Train the classifier of environments: frontend/scene/environment.txt");
   command->footer("placegraph train environment camvid --out environment.txt");
   command
       ->add_option("DATA", a.data,

@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/frontend/floor_plan/floor_plan_options.h>
-#include <placegraph/frontend/internal/scene/orientation_map.h>
+#include <placegraph/frontend/scene/orientation_map.h>
 #include <placegraph/graph/scene/indoor_map.h>
 
 namespace placegraph {

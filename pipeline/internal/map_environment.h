@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/scene/street_trust.h>
+#include <placegraph/frontend/scene/street_trust.h>
 #include <placegraph/graph/map.h>
 #include <placegraph/pipeline/internal/cues/surface_labels.h>
 

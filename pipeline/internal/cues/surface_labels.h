@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/frontend/internal/scene/environment.h>
-#include <placegraph/frontend/internal/scene/scene_masks.h>
+#include <placegraph/frontend/scene/environment.h>
+#include <placegraph/frontend/scene/scene_masks.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/image/frame.h>
 

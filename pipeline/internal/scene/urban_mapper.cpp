@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/scene/moving_classes.h>
+#include <placegraph/frontend/scene/moving_classes.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/pipeline/internal/scene/urban_mapper.h>

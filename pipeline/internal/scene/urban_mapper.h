@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/frontend/floor_plan/indoor_surfaces.h>
-#include <placegraph/frontend/internal/scene/street_labelling.h>
+#include <placegraph/frontend/scene/street_labelling.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/image/frame.h>
 #include <placegraph/graph/map.h>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/scene/environment.h>
+#include <placegraph/frontend/scene/environment.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/image/frame.h>
 #include <placegraph/graph/map.h>

@@ -1,7 +1,7 @@
 #include "apps/train/train_environment.h"
 
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/scene/environment.h>
+#include <placegraph/frontend/scene/environment.h>
 #include <placegraph/graph/core/error.h>
 
 #include <nlohmann/json.hpp>

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/scene/environment.h>
+#include <placegraph/frontend/scene/environment.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>
 

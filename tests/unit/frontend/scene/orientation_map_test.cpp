@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/scene/orientation_map.h>
+#include <placegraph/frontend/scene/orientation_map.h>
 #include <placegraph/graph/core/error.h>
 
 namespace placegraph {

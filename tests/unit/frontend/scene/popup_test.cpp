@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/scene/horizon.h>
-#include <placegraph/frontend/internal/scene/popup.h>
+#include <placegraph/frontend/scene/horizon.h>
+#include <placegraph/frontend/scene/popup.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/scene/scene_masks.h>
+#include <placegraph/frontend/scene/scene_masks.h>
 #include <placegraph/graph/core/error.h>
 
 #include <opencv2/core.hpp>

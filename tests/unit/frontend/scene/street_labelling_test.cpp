@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/scene/street_labelling.h>
+#include <placegraph/frontend/scene/street_labelling.h>
 #include <placegraph/graph/core/random.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/scene/street_trust.h>
+#include <placegraph/frontend/scene/street_trust.h>
 #include <placegraph/graph/core/error.h>
 
 #include <numeric>

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/scene/urban_geometry.h>
+#include <placegraph/frontend/scene/urban_geometry.h>
 #include <placegraph/graph/core/random.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/scene/moving_classes.h>
+#include <placegraph/frontend/scene/moving_classes.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/frontend/internal/scene/environment.h>
 #include <placegraph/frontend/labels/scene_labeller.h>
+#include <placegraph/frontend/scene/environment.h>
 
 #include <array>
 #include <vector>

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/scene/scene_masks.h>
+#include <placegraph/frontend/scene/scene_masks.h>
 #include <placegraph/graph/core/error.h>
 
 #include <opencv2/imgproc.hpp>

@@ -1,7 +1,7 @@
 #pragma once
-#include <placegraph/frontend/internal/scene/urban_geometry.h>
 #include <placegraph/frontend/labels/urban_labels.h>
 #include <placegraph/frontend/scene/street_labelling_options.h>
+#include <placegraph/frontend/scene/urban_geometry.h>
 #include <placegraph/graph/scene/semantic_map.h>
 
 #include <string>

@@ -1,5 +1,5 @@
-#include <placegraph/frontend/internal/scene/environment.h>
-#include <placegraph/frontend/internal/scene/evidence_kind.h>
+#include <placegraph/frontend/scene/environment.h>
+#include <placegraph/frontend/scene/evidence_kind.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/scene/street_trust.h>
+#include <placegraph/frontend/scene/street_trust.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/scene/urban_geometry.h>
+#include <placegraph/frontend/scene/urban_geometry.h>
 #include <placegraph/graph/core/median.h>
 #include <placegraph/graph/core/random.h>
 

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/scene/popup.h>
+#include <placegraph/frontend/scene/popup.h>
 #include <placegraph/graph/core/error.h>
 
 #include <Eigen/Dense>

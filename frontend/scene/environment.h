@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/frontend/internal/scene/scene_masks.h>
 #include <placegraph/frontend/scene/environment_evidence.h>
+#include <placegraph/frontend/scene/scene_masks.h>
 #include <placegraph/frontend/scene/scene_options.h>
 #include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/geometry/line_segment.h>

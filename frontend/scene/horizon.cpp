@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/scene/horizon.h>
+#include <placegraph/frontend/scene/horizon.h>
 #include <placegraph/graph/core/angle.h>
 
 #include <Eigen/Dense>

@@ -1,5 +1,5 @@
-#include <placegraph/frontend/internal/scene/moving_classes.h>
-#include <placegraph/frontend/internal/scene/street_labelling.h>
+#include <placegraph/frontend/scene/moving_classes.h>
+#include <placegraph/frontend/scene/street_labelling.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

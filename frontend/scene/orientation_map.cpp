@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/scene/orientation_map.h>
+#include <placegraph/frontend/scene/orientation_map.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>
