@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/segments/segment_detector.h>
+#include <placegraph/frontend/segments/segment_detector.h>
 
 #include <string>
 #include <vector>

@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/frontend/internal/segments/segment_detector.h>
-#include <placegraph/frontend/internal/segments/segment_matcher.h>
+#include <placegraph/frontend/segments/segment_detector.h>
+#include <placegraph/frontend/segments/segment_matcher.h>
 
 #include <string>
 #include <vector>

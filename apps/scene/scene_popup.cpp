@@ -1,9 +1,9 @@
 #include "apps/scene/scene_popup.h"
 
 #include <fmt/format.h>
-#include <placegraph/frontend/internal/segments/segment_detector.h>
 #include <placegraph/frontend/labels/surface_classifier.h>
 #include <placegraph/frontend/scene/popup.h>
+#include <placegraph/frontend/segments/segment_detector.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/json_text.h>
 #include <placegraph/io/files/image_file.h>

@@ -1,8 +1,8 @@
 #pragma once
 #include <placegraph/frontend/features/stereo_matcher.h>
-#include <placegraph/frontend/internal/segments/edge_refinement.h>
-#include <placegraph/frontend/internal/segments/segment_flow.h>
 #include <placegraph/frontend/lines/line_options.h>
+#include <placegraph/frontend/segments/edge_refinement.h>
+#include <placegraph/frontend/segments/segment_flow.h>
 
 #include <optional>
 #include <vector>

@@ -1,7 +1,7 @@
 #pragma once
-#include <placegraph/frontend/internal/segments/segment_detector.h>
-#include <placegraph/frontend/internal/segments/segment_flow.h>
 #include <placegraph/frontend/lines/line_options.h>
+#include <placegraph/frontend/segments/segment_detector.h>
+#include <placegraph/frontend/segments/segment_flow.h>
 #include <placegraph/graph/core/ids.h>
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // Segments of real pairs of views matched and held against the groups that people marked.
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/segments/segment_matcher.h>
+#include <placegraph/frontend/segments/segment_matcher.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/internal/measurements/segment_file.h>
 

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/segments/segment_detector.h>
+#include <placegraph/frontend/segments/segment_detector.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/pipeline/internal/cues/surface_labels.h>
 

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/segments/segment_matcher.h>
+#include <placegraph/frontend/segments/segment_matcher.h>
 
 #include "tests/support/scenes/tiles.h"
 #include "tests/support/seed.h"

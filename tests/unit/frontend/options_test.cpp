@@ -4,8 +4,6 @@
 #include <placegraph/frontend/features/detector.h>
 #include <placegraph/frontend/features/stereo_matcher.h>
 #include <placegraph/frontend/flow/point_tracker.h>
-#include <placegraph/frontend/internal/segments/segment_detector.h>
-#include <placegraph/frontend/internal/segments/segment_matcher.h>
 #include <placegraph/frontend/internal/vanishing/scene_directions.h>
 #include <placegraph/frontend/lines/line_stereo.h>
 #include <placegraph/frontend/lines/line_tracker.h>
@@ -24,6 +22,8 @@
 #include <placegraph/frontend/relative_pose/pose_3d3d.h>
 #include <placegraph/frontend/relative_pose/pose_gravity.h>
 #include <placegraph/frontend/relative_pose/relative_pose.h>
+#include <placegraph/frontend/segments/segment_detector.h>
+#include <placegraph/frontend/segments/segment_matcher.h>
 #include <placegraph/graph/core/error.h>
 
 #include <set>

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/segments/segment_detector.h>
 #include <placegraph/frontend/lines/line_stereo.h>
+#include <placegraph/frontend/segments/segment_detector.h>
 #include <placegraph/graph/core/error.h>
 
 #include "tests/support/scenes/tiles.h"

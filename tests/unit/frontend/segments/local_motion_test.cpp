@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/segments/local_motion.h>
-#include <placegraph/frontend/internal/segments/segment_merging.h>
+#include <placegraph/frontend/segments/local_motion.h>
+#include <placegraph/frontend/segments/segment_merging.h>
 #include <placegraph/graph/core/random.h>
 
 #include <algorithm>

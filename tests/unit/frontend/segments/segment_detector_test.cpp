@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/segments/segment_detector.h>
+#include <placegraph/frontend/segments/segment_detector.h>
 #include <placegraph/graph/core/error.h>
 
 #include <cmath>

@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/segments/local_motion.h>
-#include <placegraph/frontend/internal/segments/segment_matcher.h>
-#include <placegraph/frontend/internal/segments/segment_profile.h>
+#include <placegraph/frontend/segments/local_motion.h>
+#include <placegraph/frontend/segments/segment_matcher.h>
+#include <placegraph/frontend/segments/segment_profile.h>
 #include <placegraph/graph/core/error.h>
 
 #include <opencv2/core.hpp>

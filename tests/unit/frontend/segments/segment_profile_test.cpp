@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/segments/segment_flow.h>
-#include <placegraph/frontend/internal/segments/segment_profile.h>
+#include <placegraph/frontend/segments/segment_flow.h>
+#include <placegraph/frontend/segments/segment_profile.h>
 #include <placegraph/graph/core/error.h>
 
 #include <cmath>

@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/frontend/internal/segments/edge_refinement.h>
-#include <placegraph/frontend/internal/segments/segment_merging.h>
+#include <placegraph/frontend/segments/edge_refinement.h>
+#include <placegraph/frontend/segments/segment_merging.h>
 #include <placegraph/frontend/segments/segment_options.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/geometry/line_segment.h>

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/segments/local_motion.h>
+#include <placegraph/frontend/segments/local_motion.h>
 #include <placegraph/graph/core/median.h>
 
 #include <Eigen/Dense>

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/segments/segment_flow.h>
+#include <placegraph/frontend/segments/segment_flow.h>
 #include <placegraph/graph/core/angle.h>
 
 #include <Eigen/Cholesky>

@@ -1,6 +1,6 @@
-#include <placegraph/frontend/internal/segments/local_motion.h>
-#include <placegraph/frontend/internal/segments/segment_matcher.h>
-#include <placegraph/frontend/internal/segments/segment_profile.h>
+#include <placegraph/frontend/segments/local_motion.h>
+#include <placegraph/frontend/segments/segment_matcher.h>
+#include <placegraph/frontend/segments/segment_profile.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/segments/segment_profile.h>
+#include <placegraph/frontend/segments/segment_profile.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

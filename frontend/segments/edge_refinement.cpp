@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/segments/edge_refinement.h>
+#include <placegraph/frontend/segments/edge_refinement.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/median.h>
 

@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/frontend/internal/segments/segment_profile.h>
 #include <placegraph/frontend/segments/segment_options.h>
+#include <placegraph/frontend/segments/segment_profile.h>
 #include <placegraph/graph/core/options.h>
 
 #include <optional>

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/segments/segment_merging.h>
+#include <placegraph/frontend/segments/segment_merging.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/disjoint_sets.h>
 
