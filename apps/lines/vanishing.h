@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/vanishing/scene_directions.h>
+#include <placegraph/frontend/vanishing/scene_directions.h>
 
 #include <cstdint>
 #include <string>

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <placegraph/eval/internal/drawing/picture_bytes.h>
 #include <placegraph/eval/internal/drawing/picture_legend.h>
-#include <placegraph/frontend/internal/vanishing/scene_directions.h>
 #include <placegraph/frontend/segments/segment_detector.h>
+#include <placegraph/frontend/vanishing/scene_directions.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/json_text.h>
 #include <placegraph/io/datasets/open_dataset.h>

@@ -1,7 +1,7 @@
 #pragma once
-#include <placegraph/frontend/internal/vanishing/vanishing_points.h>
 #include <placegraph/frontend/lines/line_options.h>
 #include <placegraph/frontend/lines/pose_from_lines.h>
+#include <placegraph/frontend/vanishing/vanishing_points.h>
 #include <placegraph/graph/core/ids.h>
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/vanishing/vanishing_points.h>
+#include <placegraph/frontend/vanishing/vanishing_points.h>
 #include <placegraph/graph/core/outcome.h>
 
 #include <vector>

@@ -1,6 +1,6 @@
 // Vanishing points of real segments against those that people marked.
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/vanishing/scene_directions.h>
+#include <placegraph/frontend/vanishing/scene_directions.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/io/internal/calibration/camera_file.h>
 #include <placegraph/io/internal/files/text_file.h>

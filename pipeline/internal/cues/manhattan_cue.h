@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/frontend/internal/vanishing/scene_directions.h>
 #include <placegraph/frontend/segments/segment_detector.h>
+#include <placegraph/frontend/vanishing/scene_directions.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/core/log.h>
 #include <placegraph/graph/image/image.h>

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/vanishing/manhattan_frame.h>
+#include <placegraph/frontend/vanishing/manhattan_frame.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/chi_squared.h>
 #include <placegraph/pipeline/internal/cues/manhattan_frames.h>

@@ -1,6 +1,6 @@
 #include <placegraph/frontend/floor_plan/building_axes.h>
-#include <placegraph/frontend/internal/vanishing/scene_directions.h>
 #include <placegraph/frontend/segments/segment_detector.h>
+#include <placegraph/frontend/vanishing/scene_directions.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/pipeline/internal/scene/indoor_mapper.h>

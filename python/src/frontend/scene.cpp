@@ -1,10 +1,10 @@
 #include <placegraph/frontend/features/wide_matcher.h>
-#include <placegraph/frontend/internal/vanishing/scene_directions.h>
 #include <placegraph/frontend/labels/surface_classifier.h>
 #include <placegraph/frontend/labels/urban_labels.h>
 #include <placegraph/frontend/scene/horizon.h>
 #include <placegraph/frontend/scene/orientation_map.h>
 #include <placegraph/frontend/segments/segment_detector.h>
+#include <placegraph/frontend/vanishing/scene_directions.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>
 #include <placegraph/io/models/scene_model_file.h>

@@ -1,6 +1,6 @@
 // Vanishing points and rectangular worlds of generated scenes.
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/vanishing/scene_directions.h>
+#include <placegraph/frontend/vanishing/scene_directions.h>
 #include <placegraph/graph/core/angle.h>
 
 #include "tests/support/scenes/manhattan_scene.h"

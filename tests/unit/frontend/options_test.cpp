@@ -4,7 +4,6 @@
 #include <placegraph/frontend/features/detector.h>
 #include <placegraph/frontend/features/stereo_matcher.h>
 #include <placegraph/frontend/flow/point_tracker.h>
-#include <placegraph/frontend/internal/vanishing/scene_directions.h>
 #include <placegraph/frontend/lines/line_stereo.h>
 #include <placegraph/frontend/lines/line_tracker.h>
 #include <placegraph/frontend/lines/pose_from_lines.h>
@@ -24,6 +23,7 @@
 #include <placegraph/frontend/relative_pose/relative_pose.h>
 #include <placegraph/frontend/segments/segment_detector.h>
 #include <placegraph/frontend/segments/segment_matcher.h>
+#include <placegraph/frontend/vanishing/scene_directions.h>
 #include <placegraph/graph/core/error.h>
 
 #include <set>

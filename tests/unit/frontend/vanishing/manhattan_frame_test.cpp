@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/vanishing/manhattan_frame.h>
+#include <placegraph/frontend/vanishing/manhattan_frame.h>
 #include <placegraph/graph/core/error.h>
 
 #include "tests/support/scenes/manhattan_scene.h"

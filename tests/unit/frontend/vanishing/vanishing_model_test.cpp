@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/vanishing/vanishing_model.h>
+#include <placegraph/frontend/vanishing/vanishing_model.h>
 #include <placegraph/graph/core/error.h>
 
 #include <cmath>

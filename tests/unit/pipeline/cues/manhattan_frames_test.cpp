@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/vanishing/manhattan_frame.h>
+#include <placegraph/frontend/vanishing/manhattan_frame.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/pipeline/internal/cues/manhattan_frames.h>

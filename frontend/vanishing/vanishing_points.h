@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/vanishing/vanishing_model.h>
+#include <placegraph/frontend/vanishing/vanishing_model.h>
 #include <placegraph/frontend/vanishing/vanishing_options.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/core/random.h>

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/vanishing/vanishing_model.h>
+#include <placegraph/frontend/vanishing/vanishing_model.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/frontend/internal/vanishing/vanishing_points.h>
 #include <placegraph/frontend/vanishing/vanishing_options.h>
+#include <placegraph/frontend/vanishing/vanishing_points.h>
 #include <placegraph/graph/geometry/so3.h>
 
 #include <array>

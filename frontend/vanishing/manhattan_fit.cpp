@@ -1,5 +1,5 @@
-#include <placegraph/frontend/internal/vanishing/manhattan_fit.h>
-#include <placegraph/frontend/internal/vanishing/vanishing_model.h>
+#include <placegraph/frontend/vanishing/manhattan_fit.h>
+#include <placegraph/frontend/vanishing/vanishing_model.h>
 
 #include <algorithm>
 #include <cmath>

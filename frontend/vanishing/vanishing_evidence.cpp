@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/vanishing/vanishing_evidence.h>
+#include <placegraph/frontend/vanishing/vanishing_evidence.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/vanishing/manhattan_frame.h>
+#include <placegraph/frontend/vanishing/manhattan_frame.h>
 #include <placegraph/frontend/vanishing/vanishing_options.h>
 
 namespace placegraph {

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/vanishing/vanishing_evidence.h>
+#include <placegraph/frontend/vanishing/vanishing_evidence.h>
 
 #include <Eigen/Dense>
 #include <optional>

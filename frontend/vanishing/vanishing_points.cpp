@@ -1,5 +1,5 @@
-#include <placegraph/frontend/internal/vanishing/vanishing_points.h>
-#include <placegraph/frontend/internal/vanishing/vanishing_search.h>
+#include <placegraph/frontend/vanishing/vanishing_points.h>
+#include <placegraph/frontend/vanishing/vanishing_search.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

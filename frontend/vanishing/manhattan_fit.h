@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/vanishing/vanishing_evidence.h>
+#include <placegraph/frontend/vanishing/vanishing_evidence.h>
 #include <placegraph/graph/geometry/so3.h>
 
 #include <array>

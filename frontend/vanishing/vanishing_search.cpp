@@ -1,4 +1,4 @@
-#include <placegraph/frontend/internal/vanishing/vanishing_search.h>
+#include <placegraph/frontend/vanishing/vanishing_search.h>
 
 #include <algorithm>
 

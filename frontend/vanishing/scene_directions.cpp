@@ -1,5 +1,5 @@
-#include <placegraph/frontend/internal/vanishing/scene_directions.h>
-#include <placegraph/frontend/internal/vanishing/vanishing_search.h>
+#include <placegraph/frontend/vanishing/scene_directions.h>
+#include <placegraph/frontend/vanishing/vanishing_search.h>
 #include <placegraph/graph/core/angle.h>
 
 #include <algorithm>
