@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/internal/elimination/elimination_plan.h>
+#include <placegraph/backend/elimination/elimination_plan.h>
 
 #include <sys/resource.h>
 

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/internal/elimination/elimination_tree.h>
+#include <placegraph/backend/elimination/elimination_tree.h>
 
 #include <algorithm>
 

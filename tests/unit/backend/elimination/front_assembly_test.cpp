@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/internal/elimination/front_assembly.h>
-#include <placegraph/backend/internal/elimination/front_covariance.h>
-#include <placegraph/backend/internal/elimination/front_kernels.h>
+#include <placegraph/backend/elimination/front_assembly.h>
+#include <placegraph/backend/elimination/front_covariance.h>
+#include <placegraph/backend/elimination/front_kernels.h>
 
 #include "tests/support/random_system.h"
 

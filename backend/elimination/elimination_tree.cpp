@@ -1,8 +1,8 @@
-#include <placegraph/backend/internal/elimination/elimination_plan.h>
-#include <placegraph/backend/internal/elimination/elimination_tree.h>
-#include <placegraph/backend/internal/elimination/front_assembly.h>
-#include <placegraph/backend/internal/elimination/front_covariance.h>
-#include <placegraph/backend/internal/elimination/front_kernels.h>
+#include <placegraph/backend/elimination/elimination_plan.h>
+#include <placegraph/backend/elimination/elimination_tree.h>
+#include <placegraph/backend/elimination/front_assembly.h>
+#include <placegraph/backend/elimination/front_covariance.h>
+#include <placegraph/backend/elimination/front_kernels.h>
 
 #include <algorithm>
 

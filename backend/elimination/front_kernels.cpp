@@ -1,4 +1,4 @@
-#include <placegraph/backend/internal/elimination/front_kernels.h>
+#include <placegraph/backend/elimination/front_kernels.h>
 #include <placegraph/graph/core/function_clones.h>
 
 #include <cmath>

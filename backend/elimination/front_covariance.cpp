@@ -1,5 +1,5 @@
-#include <placegraph/backend/internal/elimination/front_covariance.h>
-#include <placegraph/backend/internal/elimination/front_kernels.h>
+#include <placegraph/backend/elimination/front_covariance.h>
+#include <placegraph/backend/elimination/front_kernels.h>
 
 #include <algorithm>
 

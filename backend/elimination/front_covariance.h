@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/backend/internal/elimination/front_forest.h>
+#include <placegraph/backend/elimination/front_forest.h>
 
 namespace placegraph {
 

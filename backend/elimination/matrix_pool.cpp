@@ -1,4 +1,4 @@
-#include <placegraph/backend/internal/elimination/matrix_pool.h>
+#include <placegraph/backend/elimination/matrix_pool.h>
 
 #include <utility>
 

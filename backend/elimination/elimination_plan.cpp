@@ -1,4 +1,4 @@
-#include <placegraph/backend/internal/elimination/elimination_plan.h>
+#include <placegraph/backend/elimination/elimination_plan.h>
 
 #include <suitesparse/camd.h>
 

@@ -1,7 +1,7 @@
 #pragma once
-#include <placegraph/backend/internal/elimination/elimination_plan.h>
-#include <placegraph/backend/internal/elimination/front_forest.h>
-#include <placegraph/backend/internal/elimination/matrix_pool.h>
+#include <placegraph/backend/elimination/elimination_plan.h>
+#include <placegraph/backend/elimination/front_forest.h>
+#include <placegraph/backend/elimination/matrix_pool.h>
 
 #include <Eigen/Core>
 #include <cstdint>

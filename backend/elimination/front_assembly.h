@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/backend/internal/elimination/front_forest.h>
-#include <placegraph/backend/internal/elimination/matrix_pool.h>
+#include <placegraph/backend/elimination/front_forest.h>
+#include <placegraph/backend/elimination/matrix_pool.h>
 
 namespace placegraph {
 
