@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/backend/internal/evidence/intrinsics_evidence.h>
+#include <placegraph/backend/evidence/intrinsics_evidence.h>
 #include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/measurements/data_note.h>
 

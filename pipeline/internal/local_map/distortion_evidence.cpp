@@ -1,4 +1,4 @@
-#include <placegraph/backend/internal/evidence/intrinsics_evidence.h>
+#include <placegraph/backend/evidence/intrinsics_evidence.h>
 #include <placegraph/pipeline/internal/local_map/distortion_evidence.h>
 
 namespace placegraph {

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/backend/internal/evidence/motion_errors.h>
+#include <placegraph/backend/evidence/motion_errors.h>
 #include <placegraph/pipeline/internal/local_map/stamp_jitter.h>
 
 #include <vector>

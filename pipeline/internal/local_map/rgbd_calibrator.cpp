@@ -1,4 +1,4 @@
-#include <placegraph/backend/internal/evidence/nuisance_equations.h>
+#include <placegraph/backend/evidence/nuisance_equations.h>
 #include <placegraph/pipeline/internal/local_map/rgbd_calibrator.h>
 
 #include <Eigen/Dense>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/backend/internal/evidence/nuisance_evidence.h>
+#include <placegraph/backend/evidence/nuisance_evidence.h>
 #include <placegraph/backend/internal/window/sliding_window.h>
 #include <placegraph/frontend/features/rgbd_errors.h>
 #include <placegraph/graph/core/ids.h>

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/internal/evidence/intrinsics_evidence.h>
+#include <placegraph/backend/evidence/intrinsics_evidence.h>
 #include <placegraph/backend/internal/window/sliding_window.h>
 #include <placegraph/graph/core/random.h>
 

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/internal/evidence/motion_errors.h>
+#include <placegraph/backend/evidence/motion_errors.h>
 #include <placegraph/backend/internal/window/sliding_window.h>
 #include <placegraph/backend/internal/window/window_state.h>
 #include <placegraph/graph/core/error.h>

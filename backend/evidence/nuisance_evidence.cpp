@@ -1,4 +1,4 @@
-#include <placegraph/backend/internal/evidence/nuisance_evidence.h>
+#include <placegraph/backend/evidence/nuisance_evidence.h>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>

@@ -1,4 +1,4 @@
-#include <placegraph/backend/internal/evidence/motion_errors.h>
+#include <placegraph/backend/evidence/motion_errors.h>
 #include <placegraph/backend/internal/window/sliding_window.h>
 #include <placegraph/backend/internal/window/window_information.h>
 #include <placegraph/backend/internal/window/window_state.h>

@@ -1,5 +1,5 @@
-#include <placegraph/backend/internal/evidence/intrinsics_evidence.h>
-#include <placegraph/backend/internal/evidence/nuisance_equations.h>
+#include <placegraph/backend/evidence/intrinsics_evidence.h>
+#include <placegraph/backend/evidence/nuisance_equations.h>
 
 namespace placegraph {
 namespace {
