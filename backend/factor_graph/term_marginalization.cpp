@@ -1,4 +1,4 @@
-#include <placegraph/backend/internal/factor_graph/term_marginalization.h>
+#include <placegraph/backend/factor_graph/term_marginalization.h>
 #include <placegraph/backend/internal/factors/linear_prior.h>
 #include <placegraph/backend/internal/linear/marginalization.h>
 

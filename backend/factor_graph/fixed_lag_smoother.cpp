@@ -1,5 +1,5 @@
 #include <placegraph/backend/factor_graph/fixed_lag_smoother.h>
-#include <placegraph/backend/internal/factor_graph/term_marginalization.h>
+#include <placegraph/backend/factor_graph/term_marginalization.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>
