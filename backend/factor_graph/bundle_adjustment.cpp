@@ -1,6 +1,6 @@
 #include <placegraph/backend/factor_graph/bundle_adjustment.h>
 #include <placegraph/backend/factor_graph/factor_graph.h>
-#include <placegraph/backend/internal/factors/radial_reprojection.h>
+#include <placegraph/backend/factors/radial_reprojection.h>
 
 #include <cmath>
 

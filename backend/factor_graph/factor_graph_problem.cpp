@@ -2,9 +2,9 @@
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 #include <placegraph/backend/factor_graph/factor_graph.h>
-#include <placegraph/backend/internal/factors/ceres_factor.h>
-#include <placegraph/backend/internal/factors/kernel_loss.h>
-#include <placegraph/backend/internal/factors/variable_manifold.h>
+#include <placegraph/backend/factors/ceres_factor.h>
+#include <placegraph/backend/factors/kernel_loss.h>
+#include <placegraph/backend/factors/variable_manifold.h>
 #include <placegraph/backend/internal/linear/blas_threads.h>
 #include <placegraph/backend/internal/linear/sparse_algebra.h>
 #include <placegraph/graph/core/error.h>

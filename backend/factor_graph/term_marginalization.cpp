@@ -1,5 +1,5 @@
 #include <placegraph/backend/factor_graph/term_marginalization.h>
-#include <placegraph/backend/internal/factors/linear_prior.h>
+#include <placegraph/backend/factors/linear_prior.h>
 #include <placegraph/backend/internal/linear/marginalization.h>
 
 #include <algorithm>

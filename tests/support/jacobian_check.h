@@ -1,7 +1,7 @@
 #pragma once
 #include <ceres/cost_function.h>
 #include <gtest/gtest.h>
-#include <placegraph/backend/internal/factors/variable_manifold.h>
+#include <placegraph/backend/factors/variable_manifold.h>
 
 #include <vector>
 

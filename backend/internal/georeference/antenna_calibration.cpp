@@ -1,9 +1,9 @@
 #include <ceres/crs_matrix.h>
 #include <ceres/problem.h>
 #include <ceres/solver.h>
+#include <placegraph/backend/factors/ceres_factor.h>
+#include <placegraph/backend/factors/kernel_loss.h>
 #include <placegraph/backend/factors/relative_pose.h>
-#include <placegraph/backend/internal/factors/ceres_factor.h>
-#include <placegraph/backend/internal/factors/kernel_loss.h>
 #include <placegraph/backend/internal/georeference/antenna_calibration.h>
 #include <placegraph/backend/internal/georeference/antenna_position.h>
 #include <placegraph/backend/internal/linear/blas_threads.h>

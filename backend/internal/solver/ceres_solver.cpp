@@ -1,9 +1,9 @@
 #include <ceres/problem.h>
 #include <ceres/solver.h>
+#include <placegraph/backend/factors/ceres_factor.h>
+#include <placegraph/backend/factors/kernel_loss.h>
 #include <placegraph/backend/factors/position.h>
 #include <placegraph/backend/factors/relative_pose.h>
-#include <placegraph/backend/internal/factors/ceres_factor.h>
-#include <placegraph/backend/internal/factors/kernel_loss.h>
 #include <placegraph/backend/internal/linear/sparse_algebra.h>
 #include <placegraph/backend/internal/linear/whitening.h>
 #include <placegraph/backend/internal/solver/ceres_solver.h>

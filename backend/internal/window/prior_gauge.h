@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/backend/internal/factors/marginal_prior.h>
+#include <placegraph/backend/factors/marginal_prior.h>
 
 // Constraints by the prior of a sliding window on the pose of the whole window and on its scale,
 // and functions that remove one of them, or a plane, from the prior.

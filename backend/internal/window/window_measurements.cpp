@@ -1,9 +1,9 @@
 #include <placegraph/backend/factors/absolute_rotation.h>
 #include <placegraph/backend/factors/distance.h>
+#include <placegraph/backend/factors/height_above_plane.h>
 #include <placegraph/backend/factors/plane_observation.h>
 #include <placegraph/backend/factors/pose_prior.h>
 #include <placegraph/backend/factors/relative_pose.h>
-#include <placegraph/backend/internal/factors/height_above_plane.h>
 #include <placegraph/backend/internal/linear/whitening.h>
 #include <placegraph/backend/internal/window/sliding_window.h>
 #include <placegraph/graph/core/error.h>

@@ -1,10 +1,10 @@
 #include <ceres/problem.h>
 #include <ceres/solver.h>
+#include <placegraph/backend/factors/ceres_factor.h>
 #include <placegraph/backend/factors/inverse_depth.h>
+#include <placegraph/backend/factors/kernel_loss.h>
+#include <placegraph/backend/factors/point_factor.h>
 #include <placegraph/backend/factors/point_on_plane.h>
-#include <placegraph/backend/internal/factors/ceres_factor.h>
-#include <placegraph/backend/internal/factors/kernel_loss.h>
-#include <placegraph/backend/internal/factors/point_factor.h>
 #include <placegraph/backend/internal/linear/sparse_algebra.h>
 #include <placegraph/backend/internal/window/window_blocks.h>
 #include <placegraph/backend/internal/window/window_problem.h>

@@ -1,6 +1,6 @@
 #include <placegraph/backend/factor_graph/factor_graph.h>
+#include <placegraph/backend/factors/camera_reprojection.h>
 #include <placegraph/backend/factors/point_observation.h>
-#include <placegraph/backend/internal/factors/camera_reprojection.h>
 #include <placegraph/pipeline/internal/map/colmap_bundle.h>
 
 #include <vector>

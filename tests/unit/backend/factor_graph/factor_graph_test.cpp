@@ -4,15 +4,15 @@
 #include <placegraph/backend/factors/absolute_rotation.h>
 #include <placegraph/backend/factors/bearing.h>
 #include <placegraph/backend/factors/distance.h>
+#include <placegraph/backend/factors/height_above_plane.h>
 #include <placegraph/backend/factors/line_reprojection.h>
+#include <placegraph/backend/factors/marker_corners.h>
 #include <placegraph/backend/factors/plane_observation.h>
 #include <placegraph/backend/factors/plane_orthogonal.h>
 #include <placegraph/backend/factors/point_observation.h>
 #include <placegraph/backend/factors/point_on_plane.h>
 #include <placegraph/backend/factors/pose_prior.h>
 #include <placegraph/backend/factors/relative_pose.h>
-#include <placegraph/backend/internal/factors/height_above_plane.h>
-#include <placegraph/backend/internal/factors/marker_corners.h>
 #include <placegraph/backend/internal/linear/whitening.h>
 #include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
 #include <placegraph/graph/core/error.h>

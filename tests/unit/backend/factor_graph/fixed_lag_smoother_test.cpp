@@ -1,9 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <placegraph/backend/factor_graph/fixed_lag_smoother.h>
+#include <placegraph/backend/factors/linear_prior.h>
 #include <placegraph/backend/factors/pose_prior.h>
 #include <placegraph/backend/factors/relative_pose.h>
-#include <placegraph/backend/internal/factors/linear_prior.h>
 #include <placegraph/graph/core/error.h>
 
 #include <Eigen/Cholesky>

@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 #include <placegraph/backend/factors/absolute_rotation.h>
 #include <placegraph/backend/factors/bearing.h>
+#include <placegraph/backend/factors/height_above_plane.h>
 #include <placegraph/backend/factors/line_reprojection.h>
+#include <placegraph/backend/factors/marker_corners.h>
 #include <placegraph/backend/factors/non_holonomic.h>
 #include <placegraph/backend/factors/plane_observation.h>
 #include <placegraph/backend/factors/plane_orthogonal.h>
@@ -9,9 +11,7 @@
 #include <placegraph/backend/factors/point_observation.h>
 #include <placegraph/backend/factors/point_on_plane.h>
 #include <placegraph/backend/factors/pose_prior.h>
-#include <placegraph/backend/internal/factors/height_above_plane.h>
-#include <placegraph/backend/internal/factors/marker_corners.h>
-#include <placegraph/backend/internal/factors/radial_reprojection.h>
+#include <placegraph/backend/factors/radial_reprojection.h>
 
 #include "tests/support/factor_check.h"
 #include "tests/support/scenes/window_world.h"

@@ -2,7 +2,10 @@
 #include <placegraph/backend/factors/absolute_rotation.h>
 #include <placegraph/backend/factors/bearing.h>
 #include <placegraph/backend/factors/distance.h>
+#include <placegraph/backend/factors/height_above_plane.h>
 #include <placegraph/backend/factors/line_reprojection.h>
+#include <placegraph/backend/factors/linear_prior.h>
+#include <placegraph/backend/factors/marker_corners.h>
 #include <placegraph/backend/factors/non_holonomic.h>
 #include <placegraph/backend/factors/plane_observation.h>
 #include <placegraph/backend/factors/plane_orthogonal.h>
@@ -13,9 +16,6 @@
 #include <placegraph/backend/factors/pose_prior.h>
 #include <placegraph/backend/factors/position.h>
 #include <placegraph/backend/factors/relative_pose.h>
-#include <placegraph/backend/internal/factors/height_above_plane.h>
-#include <placegraph/backend/internal/factors/linear_prior.h>
-#include <placegraph/backend/internal/factors/marker_corners.h>
 #include <placegraph/graph/core/random.h>
 
 #include <algorithm>

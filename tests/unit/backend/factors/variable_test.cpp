@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/backend/factors/variable.h>
-#include <placegraph/backend/internal/factors/variable_manifold.h>
+#include <placegraph/backend/factors/variable_manifold.h>
 #include <placegraph/graph/core/random.h>
 
 #include <cmath>

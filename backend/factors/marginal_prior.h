@@ -1,6 +1,6 @@
 #pragma once
 #include <ceres/cost_function.h>
-#include <placegraph/backend/internal/factors/variable_manifold.h>
+#include <placegraph/backend/factors/variable_manifold.h>
 #include <placegraph/graph/core/ids.h>
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include <placegraph/backend/internal/factors/linear_prior.h>
+#include <placegraph/backend/factors/linear_prior.h>
 
 #include <type_traits>
 #include <utility>

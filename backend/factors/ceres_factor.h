@@ -2,7 +2,7 @@
 #include <ceres/cost_function.h>
 #include <ceres/sized_cost_function.h>
 #include <placegraph/backend/factors/factor.h>
-#include <placegraph/backend/internal/factors/variable_manifold.h>
+#include <placegraph/backend/factors/variable_manifold.h>
 
 namespace placegraph {
 
