@@ -1,7 +1,7 @@
 #include "apps/map/georeference_files.h"
 
 #include <fmt/format.h>
-#include <placegraph/backend/internal/georeference/antenna_trajectory.h>
+#include <placegraph/backend/georeference/antenna_trajectory.h>
 #include <placegraph/graph/core/csv_text.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/id_format.h>

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/internal/georeference/antenna_position.h>
-#include <placegraph/backend/internal/georeference/antenna_trajectory.h>
+#include <placegraph/backend/georeference/antenna_position.h>
+#include <placegraph/backend/georeference/antenna_trajectory.h>
 
 #include "tests/support/jacobian_check.h"
 #include "tests/support/seed.h"

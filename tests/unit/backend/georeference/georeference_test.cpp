@@ -2,8 +2,8 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <placegraph/backend/georeference/antenna_trajectory.h>
 #include <placegraph/backend/georeference/georeference.h>
-#include <placegraph/backend/internal/georeference/antenna_trajectory.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>
 

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/internal/georeference/map_latency.h>
+#include <placegraph/backend/georeference/map_latency.h>
 
 namespace placegraph {
 namespace map_latency_test {

@@ -1,5 +1,5 @@
-#include <placegraph/backend/internal/georeference/antenna_trajectory.h>
-#include <placegraph/backend/internal/georeference/connected_parts.h>
+#include <placegraph/backend/georeference/antenna_trajectory.h>
+#include <placegraph/backend/georeference/connected_parts.h>
 #include <placegraph/graph/pose_graph/node_index.h>
 
 #include <cmath>

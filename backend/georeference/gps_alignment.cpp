@@ -1,4 +1,4 @@
-#include <placegraph/backend/internal/georeference/gps_alignment.h>
+#include <placegraph/backend/georeference/gps_alignment.h>
 #include <placegraph/graph/core/angle.h>
 
 #include <Eigen/Eigenvalues>

@@ -1,4 +1,4 @@
-#include <placegraph/backend/internal/georeference/variance_components.h>
+#include <placegraph/backend/georeference/variance_components.h>
 #include <placegraph/backend/internal/solver/odometry_chain.h>
 #include <placegraph/backend/pose_graph/pose_marginals.h>
 #include <placegraph/graph/pose_graph/node_index.h>

@@ -4,8 +4,8 @@
 #include <placegraph/backend/factors/ceres_factor.h>
 #include <placegraph/backend/factors/kernel_loss.h>
 #include <placegraph/backend/factors/relative_pose.h>
-#include <placegraph/backend/internal/georeference/antenna_calibration.h>
-#include <placegraph/backend/internal/georeference/antenna_position.h>
+#include <placegraph/backend/georeference/antenna_calibration.h>
+#include <placegraph/backend/georeference/antenna_position.h>
 #include <placegraph/backend/internal/linear/blas_threads.h>
 #include <placegraph/backend/internal/linear/sparse_algebra.h>
 #include <placegraph/backend/internal/linear/whitening.h>

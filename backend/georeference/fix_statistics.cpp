@@ -1,4 +1,4 @@
-#include <placegraph/backend/internal/georeference/fix_statistics.h>
+#include <placegraph/backend/georeference/fix_statistics.h>
 #include <placegraph/graph/core/median.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include <placegraph/backend/internal/georeference/antenna_trajectory.h>
+#include <placegraph/backend/georeference/antenna_trajectory.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/pose_graph/node_index.h>
 

@@ -1,6 +1,6 @@
 #pragma once
+#include <placegraph/backend/georeference/antenna_trajectory.h>
 #include <placegraph/backend/georeference/georeference_report.h>
-#include <placegraph/backend/internal/georeference/antenna_trajectory.h>
 #include <placegraph/graph/measurements/gps_fix.h>
 
 #include <optional>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/backend/internal/georeference/antenna_trajectory.h>
+#include <placegraph/backend/georeference/antenna_trajectory.h>
 
 #include <vector>
 

@@ -2,7 +2,7 @@
 #include <ceres/sized_cost_function.h>
 #include <placegraph/backend/factors/position_error.h>
 #include <placegraph/backend/factors/variable_manifold.h>
-#include <placegraph/backend/internal/georeference/antenna_trajectory.h>
+#include <placegraph/backend/georeference/antenna_trajectory.h>
 
 namespace placegraph {
 

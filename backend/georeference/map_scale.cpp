@@ -1,5 +1,5 @@
-#include <placegraph/backend/internal/georeference/antenna_trajectory.h>
-#include <placegraph/backend/internal/georeference/map_scale.h>
+#include <placegraph/backend/georeference/antenna_trajectory.h>
+#include <placegraph/backend/georeference/map_scale.h>
 #include <placegraph/backend/pose_graph/pose_marginals.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include <placegraph/backend/internal/georeference/map_latency.h>
+#include <placegraph/backend/georeference/map_latency.h>
 #include <placegraph/graph/pose_graph/node_index.h>
 
 #include <cmath>
