@@ -1,6 +1,6 @@
 #include "apps/graph/graph_solution.h"
 
-#include <placegraph/backend/internal/incremental/incremental_replay.h>
+#include <placegraph/backend/incremental/incremental_replay.h>
 #include <placegraph/backend/solver/free_directions.h>
 #include <placegraph/graph/core/log_message.h>
 

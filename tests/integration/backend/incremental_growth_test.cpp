@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/internal/incremental/incremental_replay.h>
+#include <placegraph/backend/incremental/incremental_replay.h>
 #include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
 #include <placegraph/io/graphs/g2o.h>
 #include <placegraph/io/internal/synthetic/graphs/graph_world.h>

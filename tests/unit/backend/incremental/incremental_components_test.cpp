@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/internal/incremental/incremental_components.h>
+#include <placegraph/backend/incremental/incremental_components.h>
 #include <placegraph/graph/core/random.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/internal/incremental/incremental_replay.h>
+#include <placegraph/backend/incremental/incremental_replay.h>
 
 #include <algorithm>
 

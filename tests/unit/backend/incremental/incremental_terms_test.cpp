@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/internal/incremental/incremental_terms.h>
+#include <placegraph/backend/incremental/incremental_terms.h>
 
 #include <cmath>
 

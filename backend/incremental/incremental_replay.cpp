@@ -1,4 +1,4 @@
-#include <placegraph/backend/internal/incremental/incremental_replay.h>
+#include <placegraph/backend/incremental/incremental_replay.h>
 #include <placegraph/graph/pose_graph/node_index.h>
 
 #include <algorithm>

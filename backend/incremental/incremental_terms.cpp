@@ -1,5 +1,5 @@
 #include <placegraph/backend/factors/position_error.h>
-#include <placegraph/backend/internal/incremental/incremental_terms.h>
+#include <placegraph/backend/incremental/incremental_terms.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/backend/internal/incremental/incremental_graph.h>
+#include <placegraph/backend/incremental/incremental_graph.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/pose_graph/pose_graph.h>
 

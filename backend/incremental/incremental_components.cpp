@@ -1,4 +1,4 @@
-#include <placegraph/backend/internal/incremental/incremental_components.h>
+#include <placegraph/backend/incremental/incremental_components.h>
 
 #include <algorithm>
 #include <utility>

@@ -1,4 +1,4 @@
-#include <placegraph/backend/internal/incremental/incremental_engine.h>
+#include <placegraph/backend/incremental/incremental_engine.h>
 #include <placegraph/backend/internal/linear/relative_covariance.h>
 #include <placegraph/backend/internal/solver/local_solver.h>
 #include <placegraph/graph/core/error.h>

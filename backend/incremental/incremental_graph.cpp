@@ -1,4 +1,4 @@
-#include <placegraph/backend/internal/incremental/incremental_graph.h>
+#include <placegraph/backend/incremental/incremental_graph.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 #pragma once
 #include <placegraph/backend/elimination/elimination_tree.h>
 #include <placegraph/backend/incremental/graph_change.h>
-#include <placegraph/backend/internal/incremental/incremental_components.h>
-#include <placegraph/backend/internal/incremental/incremental_terms.h>
+#include <placegraph/backend/incremental/incremental_components.h>
+#include <placegraph/backend/incremental/incremental_terms.h>
 #include <placegraph/graph/core/ids.h>
 
 #include <unordered_map>
