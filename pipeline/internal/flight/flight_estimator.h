@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/backend/internal/inertial/error_state_filter.h>
+#include <placegraph/backend/inertial/error_state_filter.h>
 #include <placegraph/graph/core/stage_times.h>
 #include <placegraph/graph/image/frame.h>
 #include <placegraph/graph/measurements/marker_layout.h>

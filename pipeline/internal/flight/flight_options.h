@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/backend/internal/inertial/inertial_options.h>
+#include <placegraph/backend/inertial/inertial_options.h>
 #include <placegraph/frontend/features/feature_options.h>
 #include <placegraph/frontend/markers/marker_options.h>
 #include <placegraph/graph/core/options.h>

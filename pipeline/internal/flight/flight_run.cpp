@@ -1,4 +1,4 @@
-#include <placegraph/backend/internal/inertial/inertial_window.h>
+#include <placegraph/backend/inertial/inertial_window.h>
 #include <placegraph/pipeline/internal/flight/flight_run.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include <placegraph/backend/internal/inertial/state_layout.h>
+#include <placegraph/backend/inertial/state_layout.h>
 #include <placegraph/graph/core/time.h>
 #include <placegraph/pipeline/internal/flight/imu_buffer.h>
 

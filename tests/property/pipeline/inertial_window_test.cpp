@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/internal/inertial/error_state_filter.h>
-#include <placegraph/backend/internal/inertial/inertial_window.h>
+#include <placegraph/backend/inertial/error_state_filter.h>
+#include <placegraph/backend/inertial/inertial_window.h>
 
 #include <Eigen/LU>
 #include <iostream>

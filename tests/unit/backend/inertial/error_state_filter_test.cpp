@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/internal/inertial/error_state_filter.h>
+#include <placegraph/backend/inertial/error_state_filter.h>
 #include <placegraph/graph/core/error.h>
 
 #include <limits>

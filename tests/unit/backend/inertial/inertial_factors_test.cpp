@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/internal/inertial/inertial_factors.h>
+#include <placegraph/backend/inertial/inertial_factors.h>
 
 #include "tests/support/scenes/swaying_body.h"
 #include "tests/support/seed.h"

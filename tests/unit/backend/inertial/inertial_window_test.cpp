@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/internal/inertial/inertial_window.h>
+#include <placegraph/backend/inertial/inertial_window.h>
 #include <placegraph/graph/core/error.h>
 
 #include "tests/support/scenes/swaying_body.h"

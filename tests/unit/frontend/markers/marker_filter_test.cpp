@@ -1,7 +1,7 @@
 #include <numbers>
 
 #include <gtest/gtest.h>
-#include <placegraph/backend/internal/inertial/error_state_filter.h>
+#include <placegraph/backend/inertial/error_state_filter.h>
 #include <placegraph/frontend/markers/marker_filter.h>
 #include <placegraph/frontend/markers/marker_pose.h>
 #include <placegraph/graph/core/error.h>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/backend/internal/inertial/inertial_options.h>
+#include <placegraph/backend/inertial/inertial_options.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/geometry/se3.h>

@@ -1,5 +1,5 @@
-#include <placegraph/backend/internal/inertial/imu_preintegration.h>
-#include <placegraph/backend/internal/inertial/state_layout.h>
+#include <placegraph/backend/inertial/imu_preintegration.h>
+#include <placegraph/backend/inertial/state_layout.h>
 
 namespace placegraph {
 namespace {

@@ -1,6 +1,6 @@
-#include <placegraph/backend/internal/inertial/covariance_matrix.h>
-#include <placegraph/backend/internal/inertial/error_state_filter.h>
-#include <placegraph/backend/internal/inertial/state_layout.h>
+#include <placegraph/backend/inertial/covariance_matrix.h>
+#include <placegraph/backend/inertial/error_state_filter.h>
+#include <placegraph/backend/inertial/state_layout.h>
 #include <placegraph/graph/core/chi_squared.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/time.h>

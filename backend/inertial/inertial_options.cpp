@@ -1,4 +1,4 @@
-#include <placegraph/backend/internal/inertial/inertial_options.h>
+#include <placegraph/backend/inertial/inertial_options.h>
 #include <placegraph/graph/core/error.h>
 
 namespace placegraph {

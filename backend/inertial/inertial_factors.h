@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/backend/internal/inertial/imu_preintegration.h>
+#include <placegraph/backend/inertial/imu_preintegration.h>
 #include <placegraph/graph/measurements/body_state.h>
 #include <placegraph/graph/measurements/flight_measurement.h>
 

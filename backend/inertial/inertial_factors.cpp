@@ -1,6 +1,6 @@
-#include <placegraph/backend/internal/inertial/covariance_matrix.h>
-#include <placegraph/backend/internal/inertial/inertial_factors.h>
-#include <placegraph/backend/internal/inertial/state_layout.h>
+#include <placegraph/backend/inertial/covariance_matrix.h>
+#include <placegraph/backend/inertial/inertial_factors.h>
+#include <placegraph/backend/inertial/state_layout.h>
 
 #include <Eigen/Cholesky>
 

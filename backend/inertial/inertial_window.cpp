@@ -1,5 +1,5 @@
-#include <placegraph/backend/internal/inertial/covariance_matrix.h>
-#include <placegraph/backend/internal/inertial/inertial_window.h>
+#include <placegraph/backend/inertial/covariance_matrix.h>
+#include <placegraph/backend/inertial/inertial_window.h>
 #include <placegraph/graph/core/chi_squared.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/time.h>
