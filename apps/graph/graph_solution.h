@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/backend/internal/initialization/certificate.h>
+#include <placegraph/backend/initialization/certificate.h>
 #include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
 
 #include <optional>

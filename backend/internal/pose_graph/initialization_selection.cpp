@@ -1,8 +1,8 @@
-#include <placegraph/backend/internal/initialization/certified_initialization.h>
-#include <placegraph/backend/internal/initialization/incremental_initialization.h>
-#include <placegraph/backend/internal/initialization/initialization.h>
-#include <placegraph/backend/internal/initialization/isotropic_problem.h>
-#include <placegraph/backend/internal/initialization/rotation_agreement.h>
+#include <placegraph/backend/initialization/certified_initialization.h>
+#include <placegraph/backend/initialization/incremental_initialization.h>
+#include <placegraph/backend/initialization/initialization.h>
+#include <placegraph/backend/initialization/isotropic_problem.h>
+#include <placegraph/backend/initialization/rotation_agreement.h>
 #include <placegraph/backend/internal/pose_graph/initialization_selection.h>
 
 #include <algorithm>

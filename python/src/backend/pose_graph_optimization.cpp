@@ -1,5 +1,5 @@
 #include <fmt/format.h>
-#include <placegraph/backend/internal/initialization/certificate.h>
+#include <placegraph/backend/initialization/certificate.h>
 #include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
 #include <placegraph/backend/pose_graph/pose_marginals.h>
 

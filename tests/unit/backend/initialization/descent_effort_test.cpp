@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/internal/initialization/descent_effort.h>
+#include <placegraph/backend/initialization/descent_effort.h>
 
 namespace placegraph {
 namespace descent_effort_test {

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/internal/initialization/held_nodes.h>
+#include <placegraph/backend/initialization/held_nodes.h>
 
 #include "tests/support/scenes/pose_walk.h"
 

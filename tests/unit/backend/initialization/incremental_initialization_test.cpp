@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/internal/initialization/incremental_initialization.h>
+#include <placegraph/backend/initialization/incremental_initialization.h>
 #include <placegraph/backend/internal/solver/local_solver.h>
 
 #include <algorithm>

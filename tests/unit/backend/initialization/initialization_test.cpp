@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/internal/initialization/initialization.h>
-#include <placegraph/backend/internal/initialization/isotropic_problem.h>
+#include <placegraph/backend/initialization/initialization.h>
+#include <placegraph/backend/initialization/isotropic_problem.h>
 #include <placegraph/backend/internal/solver/local_solver.h>
 
 #include "tests/support/scenes/pose_walk.h"

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/internal/initialization/lifted_problem.h>
+#include <placegraph/backend/initialization/lifted_problem.h>
 #include <placegraph/graph/core/random.h>
 
 #include <Eigen/QR>

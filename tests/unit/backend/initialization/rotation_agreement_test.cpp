@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/internal/initialization/rotation_agreement.h>
+#include <placegraph/backend/initialization/rotation_agreement.h>
 
 #include <limits>
 

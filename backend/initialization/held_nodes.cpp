@@ -1,4 +1,4 @@
-#include <placegraph/backend/internal/initialization/held_nodes.h>
+#include <placegraph/backend/initialization/held_nodes.h>
 
 #include <algorithm>
 #include <cmath>

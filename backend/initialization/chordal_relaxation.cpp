@@ -1,5 +1,5 @@
-#include <placegraph/backend/internal/initialization/chordal_relaxation.h>
-#include <placegraph/backend/internal/initialization/lifted_preconditioner.h>
+#include <placegraph/backend/initialization/chordal_relaxation.h>
+#include <placegraph/backend/initialization/lifted_preconditioner.h>
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

@@ -1,8 +1,8 @@
-#include <placegraph/backend/internal/initialization/certified_initialization.h>
-#include <placegraph/backend/internal/initialization/chordal_relaxation.h>
-#include <placegraph/backend/internal/initialization/held_nodes.h>
-#include <placegraph/backend/internal/initialization/initialization.h>
-#include <placegraph/backend/internal/initialization/rotation_agreement.h>
+#include <placegraph/backend/initialization/certified_initialization.h>
+#include <placegraph/backend/initialization/chordal_relaxation.h>
+#include <placegraph/backend/initialization/held_nodes.h>
+#include <placegraph/backend/initialization/initialization.h>
+#include <placegraph/backend/initialization/rotation_agreement.h>
 
 #include <algorithm>
 

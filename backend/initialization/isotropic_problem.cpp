@@ -1,4 +1,4 @@
-#include <placegraph/backend/internal/initialization/isotropic_problem.h>
+#include <placegraph/backend/initialization/isotropic_problem.h>
 
 #include <Eigen/LU>
 #include <Eigen/SVD>

@@ -1,4 +1,4 @@
-#include <placegraph/backend/internal/initialization/rotation_agreement.h>
+#include <placegraph/backend/initialization/rotation_agreement.h>
 
 #include <cmath>
 

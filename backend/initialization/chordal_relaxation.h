@@ -1,7 +1,7 @@
 #pragma once
-#include <placegraph/backend/internal/initialization/certificate_matrix.h>
-#include <placegraph/backend/internal/initialization/descent_effort.h>
-#include <placegraph/backend/internal/initialization/lifted_problem.h>
+#include <placegraph/backend/initialization/certificate_matrix.h>
+#include <placegraph/backend/initialization/descent_effort.h>
+#include <placegraph/backend/initialization/lifted_problem.h>
 
 #include <Eigen/Core>
 #include <limits>

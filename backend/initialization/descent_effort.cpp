@@ -1,4 +1,4 @@
-#include <placegraph/backend/internal/initialization/descent_effort.h>
+#include <placegraph/backend/initialization/descent_effort.h>
 
 namespace placegraph {
 namespace {

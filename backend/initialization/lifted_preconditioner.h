@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/backend/internal/initialization/isotropic_problem.h>
+#include <placegraph/backend/initialization/isotropic_problem.h>
 #include <placegraph/backend/internal/linear/block_cholesky.h>
 
 namespace placegraph {

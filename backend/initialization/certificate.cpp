@@ -1,7 +1,7 @@
-#include <placegraph/backend/internal/initialization/certificate.h>
-#include <placegraph/backend/internal/initialization/chordal_relaxation.h>
-#include <placegraph/backend/internal/initialization/held_nodes.h>
-#include <placegraph/backend/internal/initialization/rotation_agreement.h>
+#include <placegraph/backend/initialization/certificate.h>
+#include <placegraph/backend/initialization/chordal_relaxation.h>
+#include <placegraph/backend/initialization/held_nodes.h>
+#include <placegraph/backend/initialization/rotation_agreement.h>
 
 #include <algorithm>
 #include <cmath>

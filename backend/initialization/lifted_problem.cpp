@@ -1,4 +1,4 @@
-#include <placegraph/backend/internal/initialization/lifted_problem.h>
+#include <placegraph/backend/initialization/lifted_problem.h>
 
 #include <Eigen/Eigenvalues>
 

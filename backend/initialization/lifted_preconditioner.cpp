@@ -1,4 +1,4 @@
-#include <placegraph/backend/internal/initialization/lifted_preconditioner.h>
+#include <placegraph/backend/initialization/lifted_preconditioner.h>
 
 #include <Eigen/QR>
 

@@ -1,5 +1,5 @@
 #include <Spectra/SymEigsSolver.h>
-#include <placegraph/backend/internal/initialization/certificate_matrix.h>
+#include <placegraph/backend/initialization/certificate_matrix.h>
 
 #include <algorithm>
 #include <cmath>

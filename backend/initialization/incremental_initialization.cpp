@@ -1,5 +1,5 @@
 #include <placegraph/backend/incremental/incremental_optimizer.h>
-#include <placegraph/backend/internal/initialization/incremental_initialization.h>
+#include <placegraph/backend/initialization/incremental_initialization.h>
 #include <placegraph/backend/internal/solver/odometry_chain.h>
 
 #include <algorithm>
