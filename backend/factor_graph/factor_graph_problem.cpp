@@ -5,8 +5,8 @@
 #include <placegraph/backend/factors/ceres_factor.h>
 #include <placegraph/backend/factors/kernel_loss.h>
 #include <placegraph/backend/factors/variable_manifold.h>
-#include <placegraph/backend/internal/linear/blas_threads.h>
-#include <placegraph/backend/internal/linear/sparse_algebra.h>
+#include <placegraph/backend/linear/blas_threads.h>
+#include <placegraph/backend/linear/sparse_algebra.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/log_message.h>
 

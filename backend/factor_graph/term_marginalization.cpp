@@ -1,6 +1,6 @@
 #include <placegraph/backend/factor_graph/term_marginalization.h>
 #include <placegraph/backend/factors/linear_prior.h>
-#include <placegraph/backend/internal/linear/marginalization.h>
+#include <placegraph/backend/linear/marginalization.h>
 
 #include <algorithm>
 #include <memory>

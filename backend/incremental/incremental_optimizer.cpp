@@ -1,6 +1,6 @@
 #include <placegraph/backend/incremental/incremental_engine.h>
 #include <placegraph/backend/incremental/incremental_optimizer.h>
-#include <placegraph/backend/internal/linear/blas_threads.h>
+#include <placegraph/backend/linear/blas_threads.h>
 #include <placegraph/graph/core/error.h>
 
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/backend/inertial/inertial_factors.h>
 #include <placegraph/backend/inertial/inertial_options.h>
-#include <placegraph/backend/internal/linear/marginalization.h>
+#include <placegraph/backend/linear/marginalization.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/core/outcome.h>
 

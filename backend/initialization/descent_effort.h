@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/backend/internal/linear/block_cholesky.h>
+#include <placegraph/backend/linear/block_cholesky.h>
 
 namespace placegraph {
 

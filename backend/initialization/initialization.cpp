@@ -1,6 +1,6 @@
 #include <placegraph/backend/initialization/initialization.h>
 #include <placegraph/backend/initialization/isotropic_problem.h>
-#include <placegraph/backend/internal/linear/block_cholesky.h>
+#include <placegraph/backend/linear/block_cholesky.h>
 
 #include <Eigen/SVD>
 #include <deque>

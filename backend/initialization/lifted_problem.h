@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/backend/initialization/isotropic_problem.h>
-#include <placegraph/backend/internal/linear/block_cholesky.h>
+#include <placegraph/backend/linear/block_cholesky.h>
 
 #include <Eigen/Core>
 #include <optional>

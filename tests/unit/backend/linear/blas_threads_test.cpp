@@ -1,6 +1,6 @@
 #include <dlfcn.h>
 #include <gtest/gtest.h>
-#include <placegraph/backend/internal/linear/blas_threads.h>
+#include <placegraph/backend/linear/blas_threads.h>
 
 #include <string>
 

@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
-#include <placegraph/backend/internal/linear/block_cholesky.h>
-#include <placegraph/backend/internal/linear/scalar_factor.h>
-#include <placegraph/backend/internal/linear/simplicial_factor.h>
-#include <placegraph/backend/internal/linear/supernodal_factor.h>
+#include <placegraph/backend/linear/block_cholesky.h>
+#include <placegraph/backend/linear/scalar_factor.h>
+#include <placegraph/backend/linear/simplicial_factor.h>
+#include <placegraph/backend/linear/supernodal_factor.h>
 #include <placegraph/graph/core/error.h>
 
 #include <Eigen/Dense>

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/internal/linear/marginalization.h>
+#include <placegraph/backend/linear/marginalization.h>
 #include <placegraph/graph/core/random.h>
 
 #include <Eigen/Dense>

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/internal/linear/sparse_inverse.h>
+#include <placegraph/backend/linear/sparse_inverse.h>
 #include <placegraph/graph/core/random.h>
 
 #include <Eigen/Dense>

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/internal/linear/relative_covariance.h>
-#include <placegraph/backend/internal/linear/whitening.h>
+#include <placegraph/backend/linear/relative_covariance.h>
+#include <placegraph/backend/linear/whitening.h>
 
 #include "tests/support/packed_graphs.h"
 

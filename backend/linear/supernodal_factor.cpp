@@ -1,5 +1,5 @@
-#include <placegraph/backend/internal/linear/cholmod_workspace.h>
-#include <placegraph/backend/internal/linear/supernodal_factor.h>
+#include <placegraph/backend/linear/cholmod_workspace.h>
+#include <placegraph/backend/linear/supernodal_factor.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

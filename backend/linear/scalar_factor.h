@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/backend/internal/linear/block_columns.h>
+#include <placegraph/backend/linear/block_columns.h>
 
 #include <Eigen/Core>
 #include <memory>

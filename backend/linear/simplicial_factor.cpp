@@ -1,4 +1,4 @@
-#include <placegraph/backend/internal/linear/simplicial_factor.h>
+#include <placegraph/backend/linear/simplicial_factor.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/function_clones.h>
 

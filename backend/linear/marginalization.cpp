@@ -1,4 +1,4 @@
-#include <placegraph/backend/internal/linear/marginalization.h>
+#include <placegraph/backend/linear/marginalization.h>
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include <placegraph/backend/internal/linear/scalar_factor.h>
+#include <placegraph/backend/linear/scalar_factor.h>
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>

@@ -1,7 +1,7 @@
-#include <placegraph/backend/internal/linear/blas_threads.h>
-#include <placegraph/backend/internal/linear/block_cholesky.h>
-#include <placegraph/backend/internal/linear/cholmod_workspace.h>
-#include <placegraph/backend/internal/linear/simplicial_factor.h>
+#include <placegraph/backend/linear/blas_threads.h>
+#include <placegraph/backend/linear/block_cholesky.h>
+#include <placegraph/backend/linear/cholmod_workspace.h>
+#include <placegraph/backend/linear/simplicial_factor.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>
@@ -9,9 +9,9 @@
 #include <optional>
 
 #if PLACEGRAPH_GPL
-#include <placegraph/backend/internal/linear/supernodal_factor.h>
+#include <placegraph/backend/linear/supernodal_factor.h>
 #else
-#include <placegraph/backend/internal/linear/scalar_factor.h>
+#include <placegraph/backend/linear/scalar_factor.h>
 #endif
 
 namespace placegraph {

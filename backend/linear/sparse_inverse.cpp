@@ -1,4 +1,4 @@
-#include <placegraph/backend/internal/linear/sparse_inverse.h>
+#include <placegraph/backend/linear/sparse_inverse.h>
 
 #include <algorithm>
 

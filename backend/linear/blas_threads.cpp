@@ -1,4 +1,4 @@
-#include <placegraph/backend/internal/linear/blas_threads.h>
+#include <placegraph/backend/linear/blas_threads.h>
 
 extern "C" {
 int openblas_get_num_threads();
