@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/backend/initialization/certificate.h>
-#include <placegraph/backend/internal/pose_graph/initialization_selection.h>
+#include <placegraph/backend/pose_graph/initialization_selection.h>
 #include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
 #include <placegraph/io/graphs/g2o.h>
 #include <placegraph/io/internal/synthetic/graphs/graph_world.h>

@@ -3,7 +3,7 @@
 #include <placegraph/backend/initialization/initialization.h>
 #include <placegraph/backend/initialization/isotropic_problem.h>
 #include <placegraph/backend/initialization/rotation_agreement.h>
-#include <placegraph/backend/internal/pose_graph/initialization_selection.h>
+#include <placegraph/backend/pose_graph/initialization_selection.h>
 
 #include <algorithm>
 #include <cmath>
