@@ -1,7 +1,7 @@
-#include <placegraph/backend/internal/robust/parallel_odometry.h>
-#include <placegraph/backend/internal/robust/pcm.h>
 #include <placegraph/backend/pose_graph/initialization_selection.h>
 #include <placegraph/backend/pose_graph/robust_optimizer.h>
+#include <placegraph/backend/robust/parallel_odometry.h>
+#include <placegraph/backend/robust/pcm.h>
 #include <placegraph/graph/core/chi_squared.h>
 #include <placegraph/graph/core/log_message.h>
 

@@ -1,7 +1,7 @@
 #pragma once
-#include <placegraph/backend/internal/robust/loop_set_growth.h>
 #include <placegraph/backend/pose_graph/pose_graph_options.h>
 #include <placegraph/backend/pose_graph/pose_graph_report.h>
+#include <placegraph/backend/robust/loop_set_growth.h>
 
 #include <string>
 

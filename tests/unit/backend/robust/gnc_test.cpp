@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/internal/robust/gnc.h>
+#include <placegraph/backend/robust/gnc.h>
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/internal/robust/loop_clusters.h>
+#include <placegraph/backend/robust/loop_clusters.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/internal/robust/loop_gate.h>
+#include <placegraph/backend/robust/loop_gate.h>
 #include <placegraph/graph/core/chi_squared.h>
 
 namespace placegraph {

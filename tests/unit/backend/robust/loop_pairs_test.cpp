@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 #include <placegraph/backend/factors/pose_error.h>
-#include <placegraph/backend/internal/robust/loop_leverage.h>
-#include <placegraph/backend/internal/robust/loop_pairs.h>
-#include <placegraph/backend/internal/robust/parallel_odometry.h>
+#include <placegraph/backend/robust/loop_leverage.h>
+#include <placegraph/backend/robust/loop_pairs.h>
+#include <placegraph/backend/robust/parallel_odometry.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>

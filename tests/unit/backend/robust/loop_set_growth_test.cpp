@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/internal/robust/loop_set_growth.h>
+#include <placegraph/backend/robust/loop_set_growth.h>
 
 #include "tests/support/packed_graphs.h"
 #include "tests/support/scenes/looped_walk.h"

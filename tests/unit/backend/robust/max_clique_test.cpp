@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/internal/robust/max_clique.h>
+#include <placegraph/backend/robust/max_clique.h>
 #include <placegraph/graph/core/random.h>
 
 #include <bit>

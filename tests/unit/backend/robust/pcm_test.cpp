@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/internal/robust/loop_clusters.h>
-#include <placegraph/backend/internal/robust/loop_leverage.h>
-#include <placegraph/backend/internal/robust/pcm.h>
+#include <placegraph/backend/robust/loop_clusters.h>
+#include <placegraph/backend/robust/loop_leverage.h>
+#include <placegraph/backend/robust/pcm.h>
 #include <placegraph/graph/core/chi_squared.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include <placegraph/backend/internal/robust/max_clique.h>
+#include <placegraph/backend/robust/max_clique.h>
 
 #include <algorithm>
 #include <bit>

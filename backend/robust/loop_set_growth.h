@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/backend/internal/robust/gnc.h>
-#include <placegraph/backend/internal/robust/loop_clusters.h>
+#include <placegraph/backend/robust/gnc.h>
+#include <placegraph/backend/robust/loop_clusters.h>
 #include <placegraph/backend/robust/robust_options.h>
 
 namespace placegraph {

@@ -1,4 +1,4 @@
-#include <placegraph/backend/internal/robust/loop_pairs.h>
+#include <placegraph/backend/robust/loop_pairs.h>
 
 #include <Eigen/Cholesky>
 #include <algorithm>

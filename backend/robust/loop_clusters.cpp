@@ -1,4 +1,4 @@
-#include <placegraph/backend/internal/robust/loop_clusters.h>
+#include <placegraph/backend/robust/loop_clusters.h>
 #include <placegraph/graph/core/disjoint_sets.h>
 
 #include <algorithm>

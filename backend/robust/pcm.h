@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/backend/internal/robust/loop_pairs.h>
+#include <placegraph/backend/robust/loop_pairs.h>
 
 #include <cstdint>
 

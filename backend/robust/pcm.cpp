@@ -1,5 +1,5 @@
-#include <placegraph/backend/internal/robust/max_clique.h>
-#include <placegraph/backend/internal/robust/pcm.h>
+#include <placegraph/backend/robust/max_clique.h>
+#include <placegraph/backend/robust/pcm.h>
 
 #include <algorithm>
 #include <map>

@@ -1,4 +1,4 @@
-#include <placegraph/backend/internal/robust/parallel_odometry.h>
+#include <placegraph/backend/robust/parallel_odometry.h>
 
 #include <algorithm>
 #include <cmath>

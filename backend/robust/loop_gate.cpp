@@ -1,4 +1,4 @@
-#include <placegraph/backend/internal/robust/loop_gate.h>
+#include <placegraph/backend/robust/loop_gate.h>
 #include <placegraph/graph/core/chi_squared.h>
 
 #include <algorithm>
