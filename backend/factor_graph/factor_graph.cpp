@@ -1,8 +1,8 @@
 #include <placegraph/backend/factor_graph/factor_graph.h>
 #include <placegraph/backend/factors/position.h>
 #include <placegraph/backend/factors/relative_pose.h>
-#include <placegraph/backend/internal/solver/packed_graph.h>
 #include <placegraph/backend/linear/whitening.h>
+#include <placegraph/backend/solver/packed_graph.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 #include <placegraph/backend/factor_graph/landmark_graph_optimizer.h>
 #include <placegraph/backend/factors/point_in_node.h>
 #include <placegraph/backend/factors/pose_prior.h>
-#include <placegraph/backend/internal/solver/local_solver.h>
 #include <placegraph/backend/linear/whitening.h>
 #include <placegraph/backend/solver/free_directions.h>
+#include <placegraph/backend/solver/local_solver.h>
 #include <placegraph/graph/core/disjoint_sets.h>
 #include <placegraph/graph/pose_graph/node_index.h>
 

@@ -6,10 +6,10 @@
 #include <placegraph/backend/factors/relative_pose.h>
 #include <placegraph/backend/georeference/antenna_calibration.h>
 #include <placegraph/backend/georeference/antenna_position.h>
-#include <placegraph/backend/internal/solver/packed_graph.h>
 #include <placegraph/backend/linear/blas_threads.h>
 #include <placegraph/backend/linear/sparse_algebra.h>
 #include <placegraph/backend/linear/whitening.h>
+#include <placegraph/backend/solver/packed_graph.h>
 
 #include <Eigen/SparseCholesky>
 #include <deque>

@@ -1,6 +1,6 @@
 #include <placegraph/backend/georeference/variance_components.h>
-#include <placegraph/backend/internal/solver/odometry_chain.h>
 #include <placegraph/backend/pose_graph/pose_marginals.h>
+#include <placegraph/backend/solver/odometry_chain.h>
 #include <placegraph/graph/pose_graph/node_index.h>
 
 #include <Eigen/Cholesky>

@@ -1,6 +1,6 @@
 #include <placegraph/backend/incremental/incremental_engine.h>
-#include <placegraph/backend/internal/solver/local_solver.h>
 #include <placegraph/backend/linear/relative_covariance.h>
+#include <placegraph/backend/solver/local_solver.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include <placegraph/backend/incremental/incremental_optimizer.h>
 #include <placegraph/backend/initialization/incremental_initialization.h>
-#include <placegraph/backend/internal/solver/odometry_chain.h>
+#include <placegraph/backend/solver/odometry_chain.h>
 
 #include <algorithm>
 #include <cmath>

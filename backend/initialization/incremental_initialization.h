@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/backend/factors/pose_error.h>
-#include <placegraph/backend/internal/solver/packed_graph.h>
+#include <placegraph/backend/solver/packed_graph.h>
 
 namespace placegraph {
 

@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/backend/internal/solver/local_solver.h>
 #include <placegraph/backend/pose_graph/pose_graph_options.h>
+#include <placegraph/backend/solver/local_solver.h>
 
 namespace placegraph {
 

@@ -1,7 +1,7 @@
-#include <placegraph/backend/internal/solver/packed_free_directions.h>
 #include <placegraph/backend/pose_graph/initialization_selection.h>
 #include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
 #include <placegraph/backend/pose_graph/robust_optimizer.h>
+#include <placegraph/backend/solver/packed_free_directions.h>
 #include <placegraph/graph/core/log_message.h>
 #include <placegraph/graph/pose_graph/graph_parts.h>
 

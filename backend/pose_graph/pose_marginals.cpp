@@ -1,8 +1,8 @@
 #include <placegraph/backend/factors/pose_error.h>
-#include <placegraph/backend/internal/solver/normal_equations.h>
 #include <placegraph/backend/linear/relative_covariance.h>
 #include <placegraph/backend/linear/sparse_inverse.h>
 #include <placegraph/backend/pose_graph/pose_marginals.h>
+#include <placegraph/backend/solver/normal_equations.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/pose_graph/node_index.h>
 

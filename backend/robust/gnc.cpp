@@ -1,5 +1,5 @@
-#include <placegraph/backend/internal/solver/subset_solver.h>
 #include <placegraph/backend/robust/gnc.h>
+#include <placegraph/backend/solver/subset_solver.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/backend/internal/solver/local_solver.h>
 #include <placegraph/backend/robust/robust_options.h>
+#include <placegraph/backend/solver/local_solver.h>
 #include <placegraph/graph/core/options.h>
 
 namespace placegraph {

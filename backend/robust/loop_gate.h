@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/backend/internal/solver/packed_graph.h>
+#include <placegraph/backend/solver/packed_graph.h>
 
 #include <vector>
 

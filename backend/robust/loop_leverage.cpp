@@ -1,6 +1,6 @@
-#include <placegraph/backend/internal/solver/normal_equations.h>
-#include <placegraph/backend/internal/solver/odometry_chain.h>
 #include <placegraph/backend/robust/loop_leverage.h>
+#include <placegraph/backend/solver/normal_equations.h>
+#include <placegraph/backend/solver/odometry_chain.h>
 #include <placegraph/graph/core/random.h>
 
 #include <Eigen/Cholesky>

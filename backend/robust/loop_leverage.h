@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/backend/internal/solver/local_solver.h>
+#include <placegraph/backend/solver/local_solver.h>
 
 namespace placegraph {
 

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/backend/internal/solver/odometry_chain.h>
+#include <placegraph/backend/solver/odometry_chain.h>
 
 namespace placegraph {
 

@@ -1,7 +1,7 @@
-#include <placegraph/backend/internal/solver/subset_solver.h>
 #include <placegraph/backend/robust/loop_gate.h>
 #include <placegraph/backend/robust/loop_leverage.h>
 #include <placegraph/backend/robust/loop_set_growth.h>
+#include <placegraph/backend/solver/subset_solver.h>
 #include <placegraph/graph/core/disjoint_sets.h>
 
 #include <algorithm>

@@ -2,8 +2,8 @@
 // and whole solves with both engines. Grid worlds are drawn; files of the research data are added
 // where they are.
 #include <benchmark/benchmark.h>
-#include <placegraph/backend/internal/solver/normal_equations.h>
 #include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
+#include <placegraph/backend/solver/normal_equations.h>
 #include <placegraph/io/graphs/g2o.h>
 #include <placegraph/io/internal/synthetic/graphs/graph_world.h>
 

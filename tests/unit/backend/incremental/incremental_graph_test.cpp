@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/backend/incremental/incremental_graph.h>
-#include <placegraph/backend/internal/solver/local_solver.h>
+#include <placegraph/backend/solver/local_solver.h>
 
 #include "tests/support/packed_graphs.h"
 

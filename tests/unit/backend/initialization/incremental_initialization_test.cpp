@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/backend/initialization/incremental_initialization.h>
-#include <placegraph/backend/internal/solver/local_solver.h>
+#include <placegraph/backend/solver/local_solver.h>
 
 #include <algorithm>
 

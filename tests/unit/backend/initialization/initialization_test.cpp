@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/backend/initialization/initialization.h>
 #include <placegraph/backend/initialization/isotropic_problem.h>
-#include <placegraph/backend/internal/solver/local_solver.h>
+#include <placegraph/backend/solver/local_solver.h>
 
 #include "tests/support/scenes/pose_walk.h"
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/internal/solver/normal_equations.h>
 #include <placegraph/backend/pose_graph/pose_marginals.h>
+#include <placegraph/backend/solver/normal_equations.h>
 #include <placegraph/graph/core/error.h>
 
 #include <Eigen/Dense>

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/internal/solver/packed_free_directions.h>
+#include <placegraph/backend/solver/packed_free_directions.h>
 
 #include <numeric>
 

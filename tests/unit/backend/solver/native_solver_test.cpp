@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/internal/solver/ceres_solver.h>
-#include <placegraph/backend/internal/solver/local_solver.h>
-#include <placegraph/backend/internal/solver/native_solver.h>
+#include <placegraph/backend/solver/ceres_solver.h>
+#include <placegraph/backend/solver/local_solver.h>
+#include <placegraph/backend/solver/native_solver.h>
 
 #include "tests/support/packed_graphs.h"
 

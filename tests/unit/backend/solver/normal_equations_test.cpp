@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/internal/solver/local_solver.h>
-#include <placegraph/backend/internal/solver/normal_equations.h>
+#include <placegraph/backend/solver/local_solver.h>
+#include <placegraph/backend/solver/normal_equations.h>
 
 namespace placegraph {
 namespace normal_equations_test {

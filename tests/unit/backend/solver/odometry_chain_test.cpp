@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/internal/solver/odometry_chain.h>
+#include <placegraph/backend/solver/odometry_chain.h>
 
 #include <Eigen/LU>
 #include <algorithm>

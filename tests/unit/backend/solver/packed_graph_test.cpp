@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/internal/solver/normal_equations.h>
-#include <placegraph/backend/internal/solver/packed_graph.h>
+#include <placegraph/backend/solver/normal_equations.h>
+#include <placegraph/backend/solver/packed_graph.h>
 
 #include <Eigen/LU>
 

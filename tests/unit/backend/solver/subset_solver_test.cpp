@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/backend/factors/pose_error.h>
-#include <placegraph/backend/internal/solver/subset_solver.h>
+#include <placegraph/backend/solver/subset_solver.h>
 
 #include "tests/support/packed_graphs.h"
 

@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/backend/internal/solver/local_solver_options.h>
-#include <placegraph/backend/internal/solver/normal_equations.h>
+#include <placegraph/backend/solver/local_solver_options.h>
+#include <placegraph/backend/solver/normal_equations.h>
 
 namespace placegraph {
 

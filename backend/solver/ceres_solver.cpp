@@ -4,9 +4,9 @@
 #include <placegraph/backend/factors/kernel_loss.h>
 #include <placegraph/backend/factors/position.h>
 #include <placegraph/backend/factors/relative_pose.h>
-#include <placegraph/backend/internal/solver/ceres_solver.h>
 #include <placegraph/backend/linear/sparse_algebra.h>
 #include <placegraph/backend/linear/whitening.h>
+#include <placegraph/backend/solver/ceres_solver.h>
 
 #include <algorithm>
 #include <deque>

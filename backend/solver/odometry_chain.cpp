@@ -1,4 +1,4 @@
-#include <placegraph/backend/internal/solver/odometry_chain.h>
+#include <placegraph/backend/solver/odometry_chain.h>
 
 #include <Eigen/Eigenvalues>
 #include <tuple>

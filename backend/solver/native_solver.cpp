@@ -1,4 +1,4 @@
-#include <placegraph/backend/internal/solver/native_solver.h>
+#include <placegraph/backend/solver/native_solver.h>
 #include <placegraph/graph/core/log_message.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include <placegraph/backend/factors/point_in_node.h>
 #include <placegraph/backend/factors/position_error.h>
-#include <placegraph/backend/internal/solver/normal_equations.h>
+#include <placegraph/backend/solver/normal_equations.h>
 
 #include <algorithm>
 

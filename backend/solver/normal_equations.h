@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/backend/factors/pose_error.h>
-#include <placegraph/backend/internal/solver/packed_graph.h>
 #include <placegraph/backend/linear/block_cholesky.h>
+#include <placegraph/backend/solver/packed_graph.h>
 
 #include <optional>
 

@@ -1,9 +1,9 @@
 #include <placegraph/backend/factors/point_in_node.h>
 #include <placegraph/backend/factors/position_error.h>
-#include <placegraph/backend/internal/solver/ceres_solver.h>
-#include <placegraph/backend/internal/solver/local_solver.h>
-#include <placegraph/backend/internal/solver/native_solver.h>
 #include <placegraph/backend/linear/blas_threads.h>
+#include <placegraph/backend/solver/ceres_solver.h>
+#include <placegraph/backend/solver/local_solver.h>
+#include <placegraph/backend/solver/native_solver.h>
 
 namespace placegraph {
 

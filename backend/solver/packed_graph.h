@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/backend/internal/solver/graph_components.h>
+#include <placegraph/backend/solver/graph_components.h>
 #include <placegraph/graph/pose_graph/landmark_graph.h>
 
 namespace placegraph {

@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/backend/internal/solver/local_solver_options.h>
-#include <placegraph/backend/internal/solver/packed_graph.h>
+#include <placegraph/backend/solver/local_solver_options.h>
+#include <placegraph/backend/solver/packed_graph.h>
 
 namespace placegraph {
 

@@ -1,4 +1,4 @@
-#include <placegraph/backend/internal/solver/packed_graph.h>
+#include <placegraph/backend/solver/packed_graph.h>
 #include <placegraph/graph/core/disjoint_sets.h>
 #include <placegraph/graph/pose_graph/node_index.h>
 

@@ -1,6 +1,6 @@
-#include <placegraph/backend/internal/solver/normal_equations.h>
-#include <placegraph/backend/internal/solver/packed_free_directions.h>
 #include <placegraph/backend/solver/free_directions.h>
+#include <placegraph/backend/solver/normal_equations.h>
+#include <placegraph/backend/solver/packed_free_directions.h>
 #include <placegraph/graph/core/random.h>
 #include <placegraph/graph/pose_graph/landmark_graph.h>
 

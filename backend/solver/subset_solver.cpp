@@ -1,4 +1,4 @@
-#include <placegraph/backend/internal/solver/subset_solver.h>
+#include <placegraph/backend/solver/subset_solver.h>
 
 #include <utility>
 
