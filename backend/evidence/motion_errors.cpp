@@ -1,7 +1,7 @@
 #include <placegraph/backend/evidence/motion_errors.h>
-#include <placegraph/backend/internal/window/sliding_window.h>
-#include <placegraph/backend/internal/window/window_information.h>
-#include <placegraph/backend/internal/window/window_state.h>
+#include <placegraph/backend/window/sliding_window.h>
+#include <placegraph/backend/window/window_information.h>
+#include <placegraph/backend/window/window_state.h>
 #include <placegraph/graph/core/error.h>
 
 #include <Eigen/Cholesky>

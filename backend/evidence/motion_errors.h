@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/backend/evidence/nuisance_evidence.h>
-#include <placegraph/backend/internal/window/imaging_errors.h>
+#include <placegraph/backend/window/imaging_errors.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/geometry/se3.h>
 

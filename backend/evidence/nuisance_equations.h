@@ -2,7 +2,7 @@
 #include <placegraph/backend/evidence/nuisance_evidence.h>
 #include <placegraph/backend/factors/inverse_depth.h>
 #include <placegraph/backend/factors/reprojection.h>
-#include <placegraph/backend/internal/window/window_state.h>
+#include <placegraph/backend/window/window_state.h>
 #include <placegraph/graph/core/robust_kernel.h>
 
 #include <Eigen/Dense>

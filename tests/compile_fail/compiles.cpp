@@ -1,6 +1,6 @@
 // What the other sources of this folder do wrong, done right: so they fail for their mistakes
 // alone.
-#include <placegraph/backend/internal/window/sliding_window.h>
+#include <placegraph/backend/window/sliding_window.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/map.h>
 

@@ -1,5 +1,5 @@
 // The arguments of a function of the library, exchanged.
-#include <placegraph/backend/internal/window/sliding_window.h>
+#include <placegraph/backend/window/sliding_window.h>
 
 namespace placegraph {
 void wrong(SlidingWindow& window, KeyframeId keyframe, LandmarkId landmark) {

@@ -4,7 +4,7 @@ Reads README.md, CONTRIBUTING.md, CHANGELOG.md and docs/**/*.md below ROOT; prin
 violation as file:line, and fails if there is one. Checked are
   words in backticks or code blocks that begin with a folder of the project:
     `io/graphs/`, `scripts/demo`, `backend/solver/*.h`, `io/graphs/{g2o,toro}`,
-    `backend/internal/window/sliding_window` for the pair of .h and .cpp, `tests/unit/<folder>` up to the
+    `backend/window/sliding_window` for the pair of .h and .cpp, `tests/unit/<folder>` up to the
     placeholder;
   headers after `#include <placegraph/`;
   names of a .h or .cpp file alone, which must be those of a file of the project;

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/backend/internal/window/sliding_window.h>
+#include <placegraph/backend/window/sliding_window.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/core/random.h>
 #include <placegraph/pipeline/internal/cues/direct_cue.h>

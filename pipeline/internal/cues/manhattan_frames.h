@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/backend/internal/window/sliding_window.h>
+#include <placegraph/backend/window/sliding_window.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/pipeline/cues/cue_options.h>

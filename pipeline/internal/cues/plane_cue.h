@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/backend/internal/window/sliding_window.h>
+#include <placegraph/backend/window/sliding_window.h>
 #include <placegraph/frontend/cloud_planes/depth_planes.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/core/log.h>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/backend/internal/window/sliding_window.h>
+#include <placegraph/backend/window/sliding_window.h>
 #include <placegraph/frontend/features/rgbd_errors.h>
 #include <placegraph/frontend/flow/point_tracker.h>
 #include <placegraph/frontend/relative_pose/pose_3d2d.h>

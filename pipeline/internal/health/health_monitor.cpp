@@ -1,4 +1,4 @@
-#include <placegraph/backend/internal/window/window_state.h>
+#include <placegraph/backend/window/window_state.h>
 #include <placegraph/pipeline/internal/health/health_monitor.h>
 #include <placegraph/pipeline/internal/odometry/odometry.h>
 #include <placegraph/pipeline/tracking/frame_result.h>

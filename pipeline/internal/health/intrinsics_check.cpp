@@ -1,5 +1,5 @@
 #include <fmt/format.h>
-#include <placegraph/backend/internal/window/window_state.h>
+#include <placegraph/backend/window/window_state.h>
 #include <placegraph/pipeline/internal/health/intrinsics_check.h>
 
 #include <Eigen/Eigenvalues>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/backend/internal/window/window_observations.h>
+#include <placegraph/backend/window/window_observations.h>
 #include <placegraph/frontend/lines/line_triangulation.h>
 #include <placegraph/graph/core/ids.h>
 

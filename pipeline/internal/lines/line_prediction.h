@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/backend/internal/window/sliding_window.h>
+#include <placegraph/backend/window/sliding_window.h>
 #include <placegraph/frontend/lines/line_tracker.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/pipeline/internal/cues/nearest_depth.h>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/backend/internal/window/sliding_window.h>
+#include <placegraph/backend/window/sliding_window.h>
 #include <placegraph/frontend/features/rectification.h>
 #include <placegraph/frontend/features/stereo_matcher.h>
 #include <placegraph/graph/core/ids.h>

@@ -1,4 +1,4 @@
-#include <placegraph/backend/internal/window/sliding_window.h>
+#include <placegraph/backend/window/sliding_window.h>
 #include <placegraph/pipeline/internal/lines/line_translation.h>
 
 #include <Eigen/Geometry>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/backend/internal/window/window_measurements.h>
+#include <placegraph/backend/window/window_measurements.h>
 #include <placegraph/frontend/lines/vanishing_direction_tracker.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/pipeline/internal/lines/line_observations.h>

@@ -1,5 +1,5 @@
-#include <placegraph/backend/internal/window/window_problem.h>
-#include <placegraph/backend/internal/window/window_state.h>
+#include <placegraph/backend/window/window_problem.h>
+#include <placegraph/backend/window/window_state.h>
 #include <placegraph/pipeline/internal/local_map/lens_estimator.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/backend/internal/window/sliding_window.h>
+#include <placegraph/backend/window/sliding_window.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/landmark.h>
 #include <placegraph/pipeline/internal/local_map/motion_uncertainty.h>

@@ -1,5 +1,5 @@
-#include <placegraph/backend/internal/window/sliding_window.h>
-#include <placegraph/backend/internal/window/window_state.h>
+#include <placegraph/backend/window/sliding_window.h>
+#include <placegraph/backend/window/window_state.h>
 #include <placegraph/pipeline/internal/local_map/motion_uncertainty.h>
 
 #include <Eigen/Cholesky>

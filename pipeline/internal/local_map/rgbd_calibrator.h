@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/backend/evidence/nuisance_evidence.h>
-#include <placegraph/backend/internal/window/sliding_window.h>
+#include <placegraph/backend/window/sliding_window.h>
 #include <placegraph/frontend/features/rgbd_errors.h>
 #include <placegraph/graph/core/ids.h>
 

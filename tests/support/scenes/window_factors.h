@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/backend/internal/window/sliding_window.h>
-#include <placegraph/backend/internal/window/window_state.h>
+#include <placegraph/backend/window/sliding_window.h>
+#include <placegraph/backend/window/window_state.h>
 
 #include "tests/support/scenes/window_world.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 #include <gtest/gtest.h>
-#include <placegraph/backend/internal/window/sliding_window.h>
+#include <placegraph/backend/window/sliding_window.h>
 #include <placegraph/graph/core/random.h>
 
 #include <Eigen/Cholesky>

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/backend/evidence/intrinsics_evidence.h>
-#include <placegraph/backend/internal/window/sliding_window.h>
+#include <placegraph/backend/window/sliding_window.h>
 #include <placegraph/graph/core/random.h>
 
 #include <Eigen/LU>

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/internal/window/prior_gauge.h>
+#include <placegraph/backend/window/prior_gauge.h>
 #include <placegraph/graph/core/random.h>
 
 #include <Eigen/Dense>

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/internal/window/window_blocks.h>
+#include <placegraph/backend/window/window_blocks.h>
 
 #include <limits>
 

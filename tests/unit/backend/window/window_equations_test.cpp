@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/internal/window/window_equations.h>
+#include <placegraph/backend/window/window_equations.h>
 
 #include <Eigen/Dense>
 

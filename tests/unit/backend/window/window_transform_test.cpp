@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/internal/window/window_problem.h>
-#include <placegraph/backend/internal/window/window_transform.h>
+#include <placegraph/backend/window/window_problem.h>
+#include <placegraph/backend/window/window_transform.h>
 #include <placegraph/graph/core/error.h>
 
 #include "tests/support/scenes/window_factors.h"

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <placegraph/backend/internal/window/sliding_window.h>
-#include <placegraph/backend/internal/window/window_state.h>
+#include <placegraph/backend/window/sliding_window.h>
+#include <placegraph/backend/window/window_state.h>
 #include <placegraph/graph/core/random.h>
 #include <placegraph/pipeline/internal/health/window_residuals.h>
 

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/internal/window/sliding_window.h>
+#include <placegraph/backend/window/sliding_window.h>
 #include <placegraph/graph/core/random.h>
 #include <placegraph/pipeline/internal/local_map/distortion_evidence.h>
 

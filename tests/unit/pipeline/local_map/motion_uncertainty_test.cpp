@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/internal/window/sliding_window.h>
-#include <placegraph/backend/internal/window/window_information.h>
+#include <placegraph/backend/window/sliding_window.h>
+#include <placegraph/backend/window/window_information.h>
 #include <placegraph/pipeline/internal/local_map/motion_uncertainty.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-#include <placegraph/backend/internal/window/window_transform.h>
+#include <placegraph/backend/window/window_transform.h>
 #include <placegraph/graph/core/error.h>
 
 #include <Eigen/LU>

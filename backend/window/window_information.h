@@ -1,7 +1,7 @@
 #pragma once
-#include <placegraph/backend/internal/window/landmark_equations.h>
-#include <placegraph/backend/internal/window/window_factor.h>
-#include <placegraph/backend/internal/window/window_observations.h>
+#include <placegraph/backend/window/landmark_equations.h>
+#include <placegraph/backend/window/window_factor.h>
+#include <placegraph/backend/window/window_observations.h>
 #include <placegraph/graph/core/ids.h>
 
 #include <Eigen/Core>

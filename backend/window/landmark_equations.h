@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/backend/internal/window/imaging_errors.h>
 #include <placegraph/backend/linear/marginalization.h>
+#include <placegraph/backend/window/imaging_errors.h>
 #include <placegraph/graph/geometry/se3.h>
 
 #include <Eigen/Eigenvalues>

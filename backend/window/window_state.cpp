@@ -1,6 +1,6 @@
 #include <placegraph/backend/factors/distance.h>
-#include <placegraph/backend/internal/window/window_state.h>
 #include <placegraph/backend/linear/whitening.h>
+#include <placegraph/backend/window/window_state.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #include <placegraph/backend/factors/line_reprojection.h>
 #include <placegraph/backend/factors/point_on_plane.h>
 #include <placegraph/backend/factors/reprojection.h>
-#include <placegraph/backend/internal/window/window_equations.h>
+#include <placegraph/backend/window/window_equations.h>
 
 #include <algorithm>
 

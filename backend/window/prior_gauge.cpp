@@ -1,4 +1,4 @@
-#include <placegraph/backend/internal/window/prior_gauge.h>
+#include <placegraph/backend/window/prior_gauge.h>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>

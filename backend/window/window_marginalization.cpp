@@ -1,6 +1,6 @@
-#include <placegraph/backend/internal/window/prior_gauge.h>
-#include <placegraph/backend/internal/window/window_equations.h>
-#include <placegraph/backend/internal/window/window_marginalization.h>
+#include <placegraph/backend/window/prior_gauge.h>
+#include <placegraph/backend/window/window_equations.h>
+#include <placegraph/backend/window/window_marginalization.h>
 
 #include <algorithm>
 #include <iterator>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/backend/internal/window/window_state.h>
+#include <placegraph/backend/window/window_state.h>
 #include <placegraph/graph/core/ids.h>
 
 namespace placegraph {

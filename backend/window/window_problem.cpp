@@ -5,10 +5,10 @@
 #include <placegraph/backend/factors/kernel_loss.h>
 #include <placegraph/backend/factors/point_factor.h>
 #include <placegraph/backend/factors/point_on_plane.h>
-#include <placegraph/backend/internal/window/window_blocks.h>
-#include <placegraph/backend/internal/window/window_problem.h>
-#include <placegraph/backend/internal/window/window_transform.h>
 #include <placegraph/backend/linear/sparse_algebra.h>
+#include <placegraph/backend/window/window_blocks.h>
+#include <placegraph/backend/window/window_problem.h>
+#include <placegraph/backend/window/window_transform.h>
 
 #include <algorithm>
 #include <deque>

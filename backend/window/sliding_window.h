@@ -1,9 +1,9 @@
 #pragma once
-#include <placegraph/backend/internal/window/window_information.h>
-#include <placegraph/backend/internal/window/window_measurements.h>
-#include <placegraph/backend/internal/window/window_observations.h>
-#include <placegraph/backend/internal/window/window_summary.h>
 #include <placegraph/backend/window/sliding_window_options.h>
+#include <placegraph/backend/window/window_information.h>
+#include <placegraph/backend/window/window_measurements.h>
+#include <placegraph/backend/window/window_observations.h>
+#include <placegraph/backend/window/window_summary.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/geometry/line3.h>

@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/backend/factors/factor.h>
-#include <placegraph/backend/internal/window/window_variable.h>
+#include <placegraph/backend/window/window_variable.h>
 
 #include <memory>
 #include <vector>

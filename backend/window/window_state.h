@@ -2,9 +2,9 @@
 #include <placegraph/backend/factors/line_reprojection.h>
 #include <placegraph/backend/factors/marginal_prior.h>
 #include <placegraph/backend/factors/reprojection.h>
-#include <placegraph/backend/internal/window/window_factor.h>
-#include <placegraph/backend/internal/window/window_observations.h>
 #include <placegraph/backend/window/sliding_window_options.h>
+#include <placegraph/backend/window/window_factor.h>
+#include <placegraph/backend/window/window_observations.h>
 #include <placegraph/graph/core/ids.h>
 
 #include <map>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/backend/internal/window/window_factor.h>
+#include <placegraph/backend/window/window_factor.h>
 #include <placegraph/graph/core/ids.h>
 
 #include <Eigen/Core>

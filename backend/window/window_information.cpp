@@ -1,7 +1,7 @@
-#include <placegraph/backend/internal/window/sliding_window.h>
-#include <placegraph/backend/internal/window/window_equations.h>
 #include <placegraph/backend/linear/marginalization.h>
 #include <placegraph/backend/linear/whitening.h>
+#include <placegraph/backend/window/sliding_window.h>
+#include <placegraph/backend/window/window_equations.h>
 #include <placegraph/graph/core/error.h>
 
 #include <Eigen/Eigenvalues>

@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/backend/internal/window/window_state.h>
-#include <placegraph/backend/internal/window/window_summary.h>
+#include <placegraph/backend/window/window_state.h>
+#include <placegraph/backend/window/window_summary.h>
 
 namespace placegraph {
 

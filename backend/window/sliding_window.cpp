@@ -1,8 +1,8 @@
-#include <placegraph/backend/internal/window/prior_gauge.h>
-#include <placegraph/backend/internal/window/sliding_window.h>
-#include <placegraph/backend/internal/window/window_marginalization.h>
-#include <placegraph/backend/internal/window/window_problem.h>
-#include <placegraph/backend/internal/window/window_transform.h>
+#include <placegraph/backend/window/prior_gauge.h>
+#include <placegraph/backend/window/sliding_window.h>
+#include <placegraph/backend/window/window_marginalization.h>
+#include <placegraph/backend/window/window_problem.h>
+#include <placegraph/backend/window/window_transform.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

@@ -4,8 +4,8 @@
 #include <placegraph/backend/factors/plane_observation.h>
 #include <placegraph/backend/factors/pose_prior.h>
 #include <placegraph/backend/factors/relative_pose.h>
-#include <placegraph/backend/internal/window/sliding_window.h>
 #include <placegraph/backend/linear/whitening.h>
+#include <placegraph/backend/window/sliding_window.h>
 #include <placegraph/graph/core/error.h>
 
 #include <Eigen/Cholesky>

@@ -1,4 +1,4 @@
-#include <placegraph/backend/internal/window/window_blocks.h>
+#include <placegraph/backend/window/window_blocks.h>
 
 #include <algorithm>
 #include <cmath>

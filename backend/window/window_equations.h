@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/backend/internal/window/landmark_equations.h>
-#include <placegraph/backend/internal/window/window_state.h>
+#include <placegraph/backend/window/landmark_equations.h>
+#include <placegraph/backend/window/window_state.h>
 #include <placegraph/graph/core/robust_kernel.h>
 
 #include <optional>
