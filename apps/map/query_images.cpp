@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/io/calibration/camera_change.h>
 #include <placegraph/io/datasets/open_dataset.h>
-#include <placegraph/io/internal/calibration/camera_change.h>
 #include <placegraph/pipeline/internal/lens_correction.h>
 
 #include <filesystem>

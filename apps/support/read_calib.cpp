@@ -1,9 +1,9 @@
 #include "apps/support/read_calib.h"
 
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/calibration/calibration_file.h>
-#include <placegraph/io/internal/calibration/camera_file.h>
-#include <placegraph/io/internal/calibration/foreign_calibration.h>
+#include <placegraph/io/calibration/calibration_file.h>
+#include <placegraph/io/calibration/camera_file.h>
+#include <placegraph/io/calibration/foreign_calibration.h>
 
 #include <filesystem>
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/graph/image/frame.h>
 #include <placegraph/graph/measurements/data_note.h>
-#include <placegraph/io/internal/calibration/rectification.h>
+#include <placegraph/io/calibration/rectification.h>
 #include <placegraph/pipeline/local_map/lens_distortion.h>
 #include <placegraph/pipeline/run_options.h>
 

@@ -1,4 +1,4 @@
-#include <placegraph/io/internal/calibration/calibration_plausibility.h>
+#include <placegraph/io/calibration/calibration_plausibility.h>
 #include <placegraph/pipeline/internal/motion_check.h>
 #include <placegraph/pipeline/internal/run_notes.h>
 #include <placegraph/pipeline/internal/stereo_check.h>

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/frontend/vanishing/scene_directions.h>
 #include <placegraph/graph/core/angle.h>
-#include <placegraph/io/internal/calibration/camera_file.h>
+#include <placegraph/io/calibration/camera_file.h>
 #include <placegraph/io/internal/files/text_file.h>
 #include <placegraph/io/internal/measurements/segment_file.h>
 

@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/median.h>
+#include <placegraph/io/calibration/calibration_file.h>
+#include <placegraph/io/calibration/calibration_plausibility.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/internal/calibration/calibration_file.h>
-#include <placegraph/io/internal/calibration/calibration_plausibility.h>
 #include <placegraph/io/internal/datasets/image_folder.h>
 #include <placegraph/io/internal/datasets/recorded_sequence.h>
 #include <placegraph/io/internal/files/image_list.h>

@@ -1,6 +1,6 @@
 #pragma once
+#include <placegraph/io/calibration/rectification.h>
 #include <placegraph/io/datasets/dataset.h>
-#include <placegraph/io/internal/calibration/rectification.h>
 
 #include <functional>
 

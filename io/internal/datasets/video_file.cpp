@@ -3,9 +3,9 @@
 #include <placegraph/graph/core/time.h>
 #include <placegraph/graph/image/picture_plugin.h>
 #include <placegraph/graph/measurements/stamp_plausibility.h>
+#include <placegraph/io/calibration/calibration_file.h>
+#include <placegraph/io/calibration/calibration_plausibility.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/internal/calibration/calibration_file.h>
-#include <placegraph/io/internal/calibration/calibration_plausibility.h>
 #include <placegraph/io/internal/datasets/recorded_sequence.h>
 #include <placegraph/io/internal/datasets/video_file.h>
 

@@ -1,4 +1,4 @@
-#include <placegraph/io/internal/calibration/calibration_plausibility.h>
+#include <placegraph/io/calibration/calibration_plausibility.h>
 
 #include "tests/support/message_of.h"
 

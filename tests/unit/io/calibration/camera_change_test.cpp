@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/io/internal/calibration/camera_change.h>
+#include <placegraph/io/calibration/camera_change.h>
 
 #include <opencv2/imgproc.hpp>
 

@@ -1,5 +1,5 @@
-#include <placegraph/io/internal/calibration/foreign_calibration.h>
-#include <placegraph/io/internal/calibration/rectification.h>
+#include <placegraph/io/calibration/foreign_calibration.h>
+#include <placegraph/io/calibration/rectification.h>
 
 #include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"

@@ -1,6 +1,6 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>
-#include <placegraph/io/internal/calibration/rectification.h>
+#include <placegraph/io/calibration/rectification.h>
 
 #include <gtest/gtest.h>
 

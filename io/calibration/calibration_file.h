@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/graph/core/options.h>
-#include <placegraph/io/internal/calibration/raw_camera.h>
+#include <placegraph/io/calibration/raw_camera.h>
 
 #include <optional>
 #include <string>

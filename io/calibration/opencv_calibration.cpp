@@ -1,6 +1,6 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/calibration/calibration_reader.h>
-#include <placegraph/io/internal/calibration/opencv_calibration.h>
+#include <placegraph/io/calibration/calibration_reader.h>
+#include <placegraph/io/calibration/opencv_calibration.h>
 
 #include <algorithm>
 #include <opencv2/calib3d.hpp>

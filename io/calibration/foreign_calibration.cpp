@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/calibration/calibration_reader.h>
-#include <placegraph/io/internal/calibration/foreign_calibration.h>
-#include <placegraph/io/internal/calibration/kalibr_calibration.h>
-#include <placegraph/io/internal/calibration/opencv_calibration.h>
+#include <placegraph/io/calibration/calibration_reader.h>
+#include <placegraph/io/calibration/foreign_calibration.h>
+#include <placegraph/io/calibration/kalibr_calibration.h>
+#include <placegraph/io/calibration/opencv_calibration.h>
 #include <placegraph/io/internal/files/text_file.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/calibration/calibration_reader.h>
+#include <placegraph/io/calibration/calibration_reader.h>
 #include <placegraph/io/internal/files/text_file.h>
 
 #include <algorithm>

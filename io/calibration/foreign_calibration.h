@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/io/internal/calibration/raw_camera.h>
+#include <placegraph/io/calibration/raw_camera.h>
 
 #include <optional>
 #include <string>

@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/calibration/camera_change.h>
+#include <placegraph/io/calibration/camera_change.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/io/calibration/calibration_file.h>
+#include <placegraph/io/calibration/foreign_calibration.h>
 #include <placegraph/io/config/yaml_config.h>
-#include <placegraph/io/internal/calibration/calibration_file.h>
-#include <placegraph/io/internal/calibration/foreign_calibration.h>
 
 #include <algorithm>
 #include <filesystem>

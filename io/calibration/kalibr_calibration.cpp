@@ -1,6 +1,6 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/calibration/calibration_reader.h>
-#include <placegraph/io/internal/calibration/kalibr_calibration.h>
+#include <placegraph/io/calibration/calibration_reader.h>
+#include <placegraph/io/calibration/kalibr_calibration.h>
 #include <placegraph/io/internal/files/text_file.h>
 
 namespace placegraph {

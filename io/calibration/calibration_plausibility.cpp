@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/io/calibration/calibration_plausibility.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/internal/calibration/calibration_plausibility.h>
 
 #include <algorithm>
 #include <cmath>

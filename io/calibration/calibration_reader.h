@@ -1,6 +1,6 @@
 #pragma once
 // Inside io only.
-#include <placegraph/io/internal/calibration/raw_camera.h>
+#include <placegraph/io/calibration/raw_camera.h>
 #include <placegraph/io/internal/config/yaml_document.h>
 
 #include <initializer_list>

@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/calibration/rectification.h>
+#include <placegraph/io/calibration/rectification.h>
 
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>

@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/graph/image/frame.h>
-#include <placegraph/io/internal/calibration/rectification.h>
+#include <placegraph/io/calibration/rectification.h>
 
 namespace placegraph {
 

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/calibration/raw_camera.h>
+#include <placegraph/io/calibration/raw_camera.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #pragma once
 // Inside io only.
-#include <placegraph/io/internal/calibration/foreign_calibration.h>
+#include <placegraph/io/calibration/foreign_calibration.h>
 #include <placegraph/io/internal/config/yaml_document.h>
 
 namespace placegraph {

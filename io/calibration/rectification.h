@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/graph/image/image.h>
-#include <placegraph/io/internal/calibration/raw_camera.h>
+#include <placegraph/io/calibration/raw_camera.h>
 
 namespace placegraph {
 

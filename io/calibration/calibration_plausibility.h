@@ -1,8 +1,8 @@
 #pragma once
 #include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/measurements/data_note.h>
-#include <placegraph/io/internal/calibration/calibration_file.h>
-#include <placegraph/io/internal/calibration/rectification.h>
+#include <placegraph/io/calibration/calibration_file.h>
+#include <placegraph/io/calibration/rectification.h>
 
 #include <optional>
 #include <string>

@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/calibration/camera_file.h>
+#include <placegraph/io/calibration/camera_file.h>
 #include <placegraph/io/internal/files/text_file.h>
 
 namespace placegraph {
