@@ -1,7 +1,7 @@
 #pragma once
 // Inside io only.
 #include <placegraph/io/calibration/foreign_calibration.h>
-#include <placegraph/io/internal/config/yaml_document.h>
+#include <placegraph/io/config/yaml_document.h>
 
 namespace placegraph {
 

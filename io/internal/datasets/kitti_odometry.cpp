@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/calibration/calibration_plausibility.h>
+#include <placegraph/io/config/yaml_document.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/internal/config/yaml_document.h>
 #include <placegraph/io/internal/datasets/kitti_calibration.h>
 #include <placegraph/io/internal/datasets/kitti_odometry.h>
 #include <placegraph/io/internal/datasets/recorded_sequence.h>

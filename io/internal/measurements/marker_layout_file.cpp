@@ -1,5 +1,5 @@
 #include <fmt/format.h>
-#include <placegraph/io/internal/config/yaml_document.h>
+#include <placegraph/io/config/yaml_document.h>
 #include <placegraph/io/internal/files/atomic_file.h>
 #include <placegraph/io/internal/files/text_file.h>
 #include <placegraph/io/internal/measurements/marker_layout_file.h>

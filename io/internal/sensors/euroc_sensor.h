@@ -1,7 +1,7 @@
 #pragma once
 // Inside io only, as yaml_document.h.
 #include <placegraph/graph/geometry/se3.h>
-#include <placegraph/io/internal/config/yaml_document.h>
+#include <placegraph/io/config/yaml_document.h>
 
 namespace placegraph {
 

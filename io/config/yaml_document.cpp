@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/config/yaml_document.h>
+#include <placegraph/io/config/yaml_document.h>
 #include <placegraph/io/internal/files/text_file.h>
 
 #include <cmath>
