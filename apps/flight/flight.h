@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/graph/measurements/marker_layout.h>
-#include <placegraph/io/internal/datasets/euroc.h>
+#include <placegraph/io/datasets/euroc.h>
 #include <placegraph/pipeline/internal/flight/flight_run.h>
 
 #include <optional>

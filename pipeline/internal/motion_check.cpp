@@ -5,7 +5,7 @@
 #include <placegraph/graph/core/time.h>
 #include <placegraph/graph/geometry/se3.h>
 #include <placegraph/graph/map_index.h>
-#include <placegraph/io/internal/datasets/recorded_sequence.h>
+#include <placegraph/io/datasets/recorded_sequence.h>
 #include <placegraph/pipeline/internal/motion_check.h>
 
 #include <algorithm>

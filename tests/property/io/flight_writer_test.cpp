@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/datasets/euroc.h>
+#include <placegraph/io/datasets/euroc.h>
 #include <placegraph/io/internal/measurements/marker_layout_file.h>
 #include <placegraph/io/internal/synthetic/worlds/flight_world.h>
 #include <placegraph/io/internal/synthetic/writers/flight_writer.h>

@@ -1,6 +1,6 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/median.h>
-#include <placegraph/io/internal/datasets/kitti_calibration.h>
+#include <placegraph/io/datasets/kitti_calibration.h>
 #include <placegraph/io/internal/synthetic/defects/vehicle.h>
 #include <placegraph/io/internal/synthetic/worlds/tours.h>
 #include <placegraph/io/internal/synthetic/worlds/town_builder.h>

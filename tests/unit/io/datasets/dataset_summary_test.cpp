@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <placegraph/io/datasets/dataset_summary.h>
 #include <placegraph/io/datasets/open_dataset.h>
-#include <placegraph/io/internal/datasets/dataset_summary.h>
 
 #include "tiny_images.h"
 

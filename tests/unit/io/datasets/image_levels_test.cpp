@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <placegraph/io/datasets/image_levels.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/internal/datasets/image_levels.h>
 
 #include "tiny_images.h"
 

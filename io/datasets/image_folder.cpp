@@ -3,9 +3,9 @@
 #include <placegraph/graph/core/median.h>
 #include <placegraph/io/calibration/calibration_file.h>
 #include <placegraph/io/calibration/calibration_plausibility.h>
+#include <placegraph/io/datasets/image_folder.h>
+#include <placegraph/io/datasets/recorded_sequence.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/internal/datasets/image_folder.h>
-#include <placegraph/io/internal/datasets/recorded_sequence.h>
 #include <placegraph/io/internal/files/image_list.h>
 #include <placegraph/io/internal/files/text_file.h>
 #include <placegraph/io/trajectories/trajectory_file.h>

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/io/datasets/image_levels.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/internal/datasets/image_levels.h>
 
 #include <algorithm>
 #include <opencv2/core.hpp>

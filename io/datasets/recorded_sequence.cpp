@@ -2,9 +2,9 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/measurements/stamp_plausibility.h>
 #include <placegraph/io/calibration/calibration_plausibility.h>
+#include <placegraph/io/datasets/image_levels.h>
+#include <placegraph/io/datasets/recorded_sequence.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/internal/datasets/image_levels.h>
-#include <placegraph/io/internal/datasets/recorded_sequence.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,12 +1,12 @@
 #include <fmt/format.h>
+#include <placegraph/io/datasets/euroc.h>
+#include <placegraph/io/datasets/image_folder.h>
+#include <placegraph/io/datasets/kitti_drive.h>
+#include <placegraph/io/datasets/kitti_odometry.h>
 #include <placegraph/io/datasets/open_dataset.h>
-#include <placegraph/io/internal/datasets/euroc.h>
-#include <placegraph/io/internal/datasets/image_folder.h>
-#include <placegraph/io/internal/datasets/kitti_drive.h>
-#include <placegraph/io/internal/datasets/kitti_odometry.h>
-#include <placegraph/io/internal/datasets/seven_scenes.h>
-#include <placegraph/io/internal/datasets/tum_rgbd.h>
-#include <placegraph/io/internal/datasets/video_file.h>
+#include <placegraph/io/datasets/seven_scenes.h>
+#include <placegraph/io/datasets/tum_rgbd.h>
+#include <placegraph/io/datasets/video_file.h>
 #include <placegraph/io/internal/files/image_list.h>
 
 #include <algorithm>

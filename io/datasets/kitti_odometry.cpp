@@ -2,10 +2,10 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/calibration/calibration_plausibility.h>
 #include <placegraph/io/config/yaml_document.h>
+#include <placegraph/io/datasets/kitti_calibration.h>
+#include <placegraph/io/datasets/kitti_odometry.h>
+#include <placegraph/io/datasets/recorded_sequence.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/internal/datasets/kitti_calibration.h>
-#include <placegraph/io/internal/datasets/kitti_odometry.h>
-#include <placegraph/io/internal/datasets/recorded_sequence.h>
 #include <placegraph/io/internal/files/image_list.h>
 #include <placegraph/io/internal/files/text_file.h>
 #include <placegraph/io/trajectories/trajectory_file.h>

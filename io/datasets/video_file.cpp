@@ -5,9 +5,9 @@
 #include <placegraph/graph/measurements/stamp_plausibility.h>
 #include <placegraph/io/calibration/calibration_file.h>
 #include <placegraph/io/calibration/calibration_plausibility.h>
+#include <placegraph/io/datasets/recorded_sequence.h>
+#include <placegraph/io/datasets/video_file.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/internal/datasets/recorded_sequence.h>
-#include <placegraph/io/internal/datasets/video_file.h>
 
 #include <algorithm>
 #include <array>

@@ -2,9 +2,9 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/calibration/calibration_file.h>
 #include <placegraph/io/calibration/calibration_plausibility.h>
+#include <placegraph/io/datasets/recorded_sequence.h>
+#include <placegraph/io/datasets/seven_scenes.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/internal/datasets/recorded_sequence.h>
-#include <placegraph/io/internal/datasets/seven_scenes.h>
 #include <placegraph/io/internal/files/text_file.h>
 
 #include <filesystem>

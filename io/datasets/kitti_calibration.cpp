@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/datasets/kitti_calibration.h>
+#include <placegraph/io/datasets/kitti_calibration.h>
 #include <placegraph/io/internal/files/text_file.h>
 
 namespace placegraph {

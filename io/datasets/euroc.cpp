@@ -4,9 +4,9 @@
 #include <placegraph/graph/core/time.h>
 #include <placegraph/io/calibration/calibration_plausibility.h>
 #include <placegraph/io/config/yaml_document.h>
+#include <placegraph/io/datasets/euroc.h>
+#include <placegraph/io/datasets/recorded_sequence.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/internal/datasets/euroc.h>
-#include <placegraph/io/internal/datasets/recorded_sequence.h>
 #include <placegraph/io/internal/files/image_list.h>
 #include <placegraph/io/internal/files/text_file.h>
 #include <placegraph/io/internal/sensors/euroc_sensor.h>

@@ -1,5 +1,5 @@
 #include <fmt/format.h>
-#include <placegraph/io/internal/datasets/dataset_summary.h>
+#include <placegraph/io/datasets/dataset_summary.h>
 
 namespace placegraph {
 namespace {
