@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/exports/colmap_model.h>
+#include <placegraph/io/exports/colmap_model.h>
 #include <placegraph/pipeline/internal/map/map_bundle.h>
 
 #include "apps/exports/colmap_folder.h"

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/io/internal/exports/colmap_model.h>
+#include <placegraph/io/exports/colmap_model.h>
 
 #include <string>
 

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/exports/gltf_scene.h>
-#include <placegraph/io/internal/exports/surface_ply.h>
+#include <placegraph/io/exports/gltf_scene.h>
+#include <placegraph/io/exports/surface_ply.h>
 #include <placegraph/pipeline/internal/dense/consistent_depth.h>
 #include <placegraph/pipeline/internal/dense/depth_sources.h>
 #include <placegraph/pipeline/internal/dense/mesh_parts.h>

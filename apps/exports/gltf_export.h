@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/io/internal/exports/gltf_scene.h>
+#include <placegraph/io/exports/gltf_scene.h>
 #include <placegraph/io/map/stored_map.h>
 
 #include <string>

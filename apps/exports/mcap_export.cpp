@@ -1,8 +1,8 @@
 #include "apps/exports/mcap_export.h"
 
-#include <placegraph/io/internal/exports/base64.h>
-#include <placegraph/io/internal/exports/little_endian.h>
-#include <placegraph/io/internal/exports/mcap_file.h>
+#include <placegraph/io/exports/base64.h>
+#include <placegraph/io/exports/little_endian.h>
+#include <placegraph/io/exports/mcap_file.h>
 #include <placegraph/pipeline/internal/map/map_geometry.h>
 
 #include <nlohmann/json.hpp>

@@ -1,6 +1,6 @@
 #include "apps/exports/nerf_export.h"
 
-#include <placegraph/io/internal/exports/nerf_transforms.h>
+#include <placegraph/io/exports/nerf_transforms.h>
 #include <placegraph/pipeline/internal/map/map_geometry.h>
 
 #include <filesystem>

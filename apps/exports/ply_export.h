@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/io/internal/exports/ply_points.h>
+#include <placegraph/io/exports/ply_points.h>
 #include <placegraph/io/map/stored_map.h>
 
 #include <string>

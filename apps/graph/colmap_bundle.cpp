@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/json_text.h>
-#include <placegraph/io/internal/exports/colmap_reader.h>
+#include <placegraph/io/exports/colmap_reader.h>
 #include <placegraph/pipeline/internal/map/colmap_bundle.h>
 
 #include <nlohmann/json.hpp>

@@ -1,7 +1,7 @@
 #include "apps/page/column.h"
 
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/exports/base64.h>
+#include <placegraph/io/exports/base64.h>
 
 #include <bit>
 #include <map>

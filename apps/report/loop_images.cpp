@@ -4,7 +4,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/image/thumbnail.h>
 #include <placegraph/io/datasets/open_dataset.h>
-#include <placegraph/io/internal/exports/base64.h>
+#include <placegraph/io/exports/base64.h>
 #include <placegraph/io/map/map_database.h>
 
 #include <algorithm>

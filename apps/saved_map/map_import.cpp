@@ -1,7 +1,7 @@
 #include "apps/saved_map/map_import.h"
 
 #include <fmt/format.h>
-#include <placegraph/io/internal/exports/colmap_reader.h>
+#include <placegraph/io/exports/colmap_reader.h>
 #include <placegraph/io/map/map_database.h>
 
 #include "apps/exports/colmap_import.h"

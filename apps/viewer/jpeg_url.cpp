@@ -1,7 +1,7 @@
 #include "apps/viewer/jpeg_url.h"
 
 #include <placegraph/graph/image/jpeg_codec.h>
-#include <placegraph/io/internal/exports/base64.h>
+#include <placegraph/io/exports/base64.h>
 
 namespace placegraph::apps {
 

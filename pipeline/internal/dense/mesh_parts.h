@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/io/internal/exports/surface_ply.h>
+#include <placegraph/io/exports/surface_ply.h>
 
 #include <vector>
 

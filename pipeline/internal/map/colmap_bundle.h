@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/backend/factor_graph/factor_graph_options.h>
 #include <placegraph/graph/core/outcome.h>
-#include <placegraph/io/internal/exports/colmap_model.h>
+#include <placegraph/io/exports/colmap_model.h>
 
 #include <cstddef>
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/scene/indoor_map.h>
-#include <placegraph/io/internal/exports/occupancy_file.h>
+#include <placegraph/io/exports/occupancy_file.h>
 #include <placegraph/pipeline/internal/map/map_geometry.h>
 
 namespace placegraph {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/exports/colmap_reader.h>
+#include <placegraph/io/exports/colmap_reader.h>
 #include <placegraph/io/map/map_database.h>
 #include <placegraph/pipeline/map/explanation.h>
 

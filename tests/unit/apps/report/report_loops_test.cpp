@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <placegraph/io/internal/exports/base64.h>
+#include <placegraph/io/exports/base64.h>
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/image/jpeg_codec.h>
-#include <placegraph/io/internal/exports/base64.h>
+#include <placegraph/io/exports/base64.h>
 #include <placegraph/io/map/map_database.h>
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/exports/colmap_model.h>
+#include <placegraph/io/exports/colmap_model.h>
 
 #include <cmath>
 #include <cstring>

@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/exports/colmap_reader.h>
+#include <placegraph/io/exports/colmap_reader.h>
 
 #include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"

@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/exports/gltf_scene.h>
+#include <placegraph/io/exports/gltf_scene.h>
 
 #include <cstring>
 #include <nlohmann/json.hpp>

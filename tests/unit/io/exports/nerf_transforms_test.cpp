@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/exports/nerf_transforms.h>
+#include <placegraph/io/exports/nerf_transforms.h>
 
 #include <nlohmann/json.hpp>
 #include <numbers>

@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/exports/occupancy_file.h>
+#include <placegraph/io/exports/occupancy_file.h>
 
 namespace placegraph {
 namespace occupancy_file_test {

@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/exports/ply_points.h>
+#include <placegraph/io/exports/ply_points.h>
 #include <placegraph/io/internal/measurements/point_cloud_file.h>
 
 #include <cstring>

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/exports/surface_ply.h>
+#include <placegraph/io/exports/surface_ply.h>
 
 #include <cstring>
 

@@ -1,6 +1,6 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/exports/little_endian.h>
-#include <placegraph/io/internal/exports/mcap_file.h>
+#include <placegraph/io/exports/little_endian.h>
+#include <placegraph/io/exports/mcap_file.h>
 #include <zlib.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/graph/geometry/camera.h>
-#include <placegraph/io/internal/exports/ply_points.h>
+#include <placegraph/io/exports/ply_points.h>
 
 #include <string>
 #include <vector>

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/exports/occupancy_file.h>
+#include <placegraph/io/exports/occupancy_file.h>
 
 #include <nlohmann/json.hpp>
 

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/exports/colmap_reader.h>
-#include <placegraph/io/internal/exports/little_endian.h>
+#include <placegraph/io/exports/colmap_reader.h>
+#include <placegraph/io/exports/little_endian.h>
 #include <placegraph/io/internal/files/input_file.h>
 #include <placegraph/io/internal/files/text_file.h>
 

@@ -1,4 +1,4 @@
-#include <placegraph/io/internal/exports/base64.h>
+#include <placegraph/io/exports/base64.h>
 
 #include <algorithm>
 #include <cstdint>

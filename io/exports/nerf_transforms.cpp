@@ -1,6 +1,6 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/json_text.h>
-#include <placegraph/io/internal/exports/nerf_transforms.h>
+#include <placegraph/io/exports/nerf_transforms.h>
 
 #include <nlohmann/json.hpp>
 
