@@ -4,9 +4,9 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/pose_graph/position_of.h>
 #include <placegraph/graph/pose_graph/rigid_graph.h>
+#include <placegraph/io/files/text_file.h>
 #include <placegraph/io/graphs/g2o.h>
 #include <placegraph/io/graphs/pose_graph_file.h>
-#include <placegraph/io/internal/files/text_file.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 
 #include <algorithm>

@@ -4,9 +4,9 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/json_text.h>
 #include <placegraph/io/config/yaml_config.h>
+#include <placegraph/io/files/text_file.h>
 #include <placegraph/io/graphs/g2o.h>
 #include <placegraph/io/graphs/geo_export.h>
-#include <placegraph/io/internal/files/text_file.h>
 #include <placegraph/io/internal/sensors/oxts_file.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 

@@ -5,7 +5,7 @@
 #include <placegraph/graph/core/id_format.h>
 #include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/internal/files/image_list.h>
+#include <placegraph/io/files/image_list.h>
 #include <placegraph/io/internal/models/vocabulary_file.h>
 #include <placegraph/io/measurements/loop_file.h>
 

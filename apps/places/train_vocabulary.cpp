@@ -4,7 +4,7 @@
 #include <placegraph/frontend/places/code_database.h>
 #include <placegraph/frontend/places/float_vocabulary.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/internal/files/image_list.h>
+#include <placegraph/io/files/image_list.h>
 #include <placegraph/io/internal/models/vocabulary_file.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "apps/planes/planarity_file.h"
 
-#include <placegraph/io/internal/files/text_file.h>
+#include <placegraph/io/files/text_file.h>
 
 namespace placegraph::apps {
 

@@ -4,7 +4,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/json_text.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/internal/files/text_file.h>
+#include <placegraph/io/files/text_file.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 
 #include <algorithm>

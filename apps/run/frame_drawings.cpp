@@ -6,7 +6,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/image/jpeg_codec.h>
 #include <placegraph/graph/image/picture_plugin.h>
-#include <placegraph/io/internal/files/atomic_file.h>
+#include <placegraph/io/files/atomic_file.h>
 
 #include <algorithm>
 #include <filesystem>

@@ -6,7 +6,7 @@
 #include <placegraph/graph/core/json_text.h>
 #include <placegraph/graph/core/time.h>
 #include <placegraph/io/datasets/open_dataset.h>
-#include <placegraph/io/internal/files/image_list.h>
+#include <placegraph/io/files/image_list.h>
 #include <placegraph/pipeline/run.h>
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/config/yaml_config.h>
-#include <placegraph/io/internal/files/text_file.h>
+#include <placegraph/io/files/text_file.h>
 #include <placegraph/io/map/map_database.h>
 #include <placegraph/pipeline/elements.h>
 

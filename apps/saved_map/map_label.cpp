@@ -5,8 +5,8 @@
 #include <placegraph/graph/core/id_format.h>
 #include <placegraph/graph/core/json_text.h>
 #include <placegraph/io/datasets/open_dataset.h>
-#include <placegraph/io/internal/files/input_file.h>
-#include <placegraph/io/internal/files/text_file.h>
+#include <placegraph/io/files/input_file.h>
+#include <placegraph/io/files/text_file.h>
 #include <placegraph/io/internal/measurements/label_file.h>
 
 #include <algorithm>

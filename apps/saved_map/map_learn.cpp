@@ -4,7 +4,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/internal/files/image_list.h>
+#include <placegraph/io/files/image_list.h>
 
 #include <filesystem>
 

@@ -8,7 +8,7 @@
 #include <placegraph/graph/core/parallel.h>
 #include <placegraph/graph/scene/semantic_map.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/internal/files/image_list.h>
+#include <placegraph/io/files/image_list.h>
 
 #include <filesystem>
 #include <nlohmann/json.hpp>

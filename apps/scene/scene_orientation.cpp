@@ -8,8 +8,8 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/json_text.h>
 #include <placegraph/io/datasets/open_dataset.h>
+#include <placegraph/io/files/atomic_file.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/internal/files/atomic_file.h>
 #include <placegraph/io/internal/measurements/plane_truth.h>
 
 #include <filesystem>

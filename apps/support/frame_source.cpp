@@ -3,7 +3,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/datasets/open_dataset.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/internal/files/image_list.h>
+#include <placegraph/io/files/image_list.h>
 
 namespace placegraph::apps {
 FrameSource::FrameSource(const std::string& path) {

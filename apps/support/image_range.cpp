@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/internal/files/image_list.h>
+#include <placegraph/io/files/image_list.h>
 
 #include <filesystem>
 

@@ -1,7 +1,7 @@
 #include "apps/support/json_file.h"
 
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/files/input_file.h>
+#include <placegraph/io/files/input_file.h>
 
 #include <array>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/files/atomic_file.h>
+#include <placegraph/io/files/atomic_file.h>
 #include <sys/file.h>
 #include <unistd.h>
 #include <opencv2/core.hpp>

@@ -6,7 +6,7 @@
 #include <placegraph/frontend/relative_pose/pose_gravity.h>
 #include <placegraph/frontend/relative_pose/relative_pose.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/files/text_file.h>
+#include <placegraph/io/files/text_file.h>
 
 #include <Eigen/Dense>
 

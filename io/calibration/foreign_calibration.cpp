@@ -4,7 +4,7 @@
 #include <placegraph/io/calibration/foreign_calibration.h>
 #include <placegraph/io/calibration/kalibr_calibration.h>
 #include <placegraph/io/calibration/opencv_calibration.h>
-#include <placegraph/io/internal/files/text_file.h>
+#include <placegraph/io/files/text_file.h>
 
 #include <algorithm>
 #include <cctype>

@@ -1,7 +1,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/calibration/calibration_reader.h>
 #include <placegraph/io/calibration/kalibr_calibration.h>
-#include <placegraph/io/internal/files/text_file.h>
+#include <placegraph/io/files/text_file.h>
 
 namespace placegraph {
 namespace {

@@ -3,7 +3,7 @@
 #include <placegraph/graph/core/spelling.h>
 #include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/config/yaml_document.h>
-#include <placegraph/io/internal/files/text_file.h>
+#include <placegraph/io/files/text_file.h>
 
 #include <algorithm>
 #include <charconv>

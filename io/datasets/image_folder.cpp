@@ -6,8 +6,8 @@
 #include <placegraph/io/datasets/image_folder.h>
 #include <placegraph/io/datasets/recorded_sequence.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/internal/files/image_list.h>
-#include <placegraph/io/internal/files/text_file.h>
+#include <placegraph/io/files/image_list.h>
+#include <placegraph/io/files/text_file.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 
 #include <cmath>

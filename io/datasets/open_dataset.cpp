@@ -7,7 +7,7 @@
 #include <placegraph/io/datasets/seven_scenes.h>
 #include <placegraph/io/datasets/tum_rgbd.h>
 #include <placegraph/io/datasets/video_file.h>
-#include <placegraph/io/internal/files/image_list.h>
+#include <placegraph/io/files/image_list.h>
 
 #include <algorithm>
 #include <filesystem>

@@ -5,7 +5,7 @@
 #include <placegraph/io/datasets/recorded_sequence.h>
 #include <placegraph/io/datasets/seven_scenes.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/internal/files/text_file.h>
+#include <placegraph/io/files/text_file.h>
 
 #include <filesystem>
 #include <map>

@@ -5,7 +5,7 @@
 #include <placegraph/io/datasets/recorded_sequence.h>
 #include <placegraph/io/datasets/tum_rgbd.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/internal/files/text_file.h>
+#include <placegraph/io/files/text_file.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 
 #include <cctype>

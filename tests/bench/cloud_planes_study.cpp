@@ -8,7 +8,7 @@
 #include <placegraph/graph/core/random.h>
 #include <placegraph/graph/geometry/se3.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/internal/files/text_file.h>
+#include <placegraph/io/files/text_file.h>
 #include <placegraph/io/internal/measurements/point_cloud_file.h>
 #include <placegraph/io/internal/synthetic/worlds/cloud_scene.h>
 

@@ -9,9 +9,9 @@
 #include <placegraph/frontend/places/place_view.h>
 #include <placegraph/frontend/places/sequence_filter.h>
 #include <placegraph/graph/core/random.h>
+#include <placegraph/io/files/atomic_file.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/internal/files/atomic_file.h>
-#include <placegraph/io/internal/files/image_list.h>
+#include <placegraph/io/files/image_list.h>
 
 #include <malloc.h>
 #include <algorithm>

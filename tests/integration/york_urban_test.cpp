@@ -3,7 +3,7 @@
 #include <placegraph/frontend/vanishing/scene_directions.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/io/calibration/camera_file.h>
-#include <placegraph/io/internal/files/text_file.h>
+#include <placegraph/io/files/text_file.h>
 #include <placegraph/io/internal/measurements/segment_file.h>
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/io/files/atomic_file.h>
+#include <placegraph/io/files/text_file.h>
 #include <placegraph/io/graphs/bal.h>
-#include <placegraph/io/internal/files/atomic_file.h>
-#include <placegraph/io/internal/files/text_file.h>
 
 namespace placegraph {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/graph/geometry/se3.h>
-#include <placegraph/io/internal/files/text_file.h>
+#include <placegraph/io/files/text_file.h>
 
 namespace placegraph {
 

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/id_format.h>
+#include <placegraph/io/files/atomic_file.h>
 #include <placegraph/io/graphs/g2o.h>
-#include <placegraph/io/internal/files/atomic_file.h>
 #include <placegraph/io/internal/graphs/parse_graph.h>
 #include <placegraph/io/internal/graphs/pose_graph_builder.h>
 

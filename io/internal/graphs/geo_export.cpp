@@ -4,8 +4,8 @@
 #include <placegraph/graph/pose_graph/constraint_source.h>
 #include <placegraph/graph/pose_graph/node_index.h>
 #include <placegraph/graph/pose_graph/position_of.h>
+#include <placegraph/io/files/atomic_file.h>
 #include <placegraph/io/graphs/geo_export.h>
-#include <placegraph/io/internal/files/atomic_file.h>
 
 #include <cmath>
 #include <iterator>

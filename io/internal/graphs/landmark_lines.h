@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/pose_graph/landmark_graph.h>
-#include <placegraph/io/internal/files/text_file.h>
+#include <placegraph/io/files/text_file.h>
 
 #include <map>
 #include <string>

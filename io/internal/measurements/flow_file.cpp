@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/image/png_codec.h>
+#include <placegraph/io/files/atomic_file.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/internal/files/atomic_file.h>
-#include <placegraph/io/internal/files/input_file.h>
+#include <placegraph/io/files/input_file.h>
 #include <placegraph/io/internal/measurements/flow_file.h>
 
 #include <array>

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
-#include <placegraph/io/internal/files/atomic_file.h>
-#include <placegraph/io/internal/files/text_file.h>
+#include <placegraph/io/files/atomic_file.h>
+#include <placegraph/io/files/text_file.h>
 #include <placegraph/io/internal/measurements/segment_file.h>
 
 #include <cmath>

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/files/atomic_file.h>
-#include <placegraph/io/internal/files/text_file.h>
+#include <placegraph/io/files/atomic_file.h>
+#include <placegraph/io/files/text_file.h>
 #include <placegraph/io/internal/sensors/euroc_sensor.h>
 #include <placegraph/io/sensors/imu_file.h>
 

@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/files/text_file.h>
+#include <placegraph/io/files/text_file.h>
 #include <placegraph/io/sensors/odometry_file.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 

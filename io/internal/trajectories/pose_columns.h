@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/io/internal/files/text_file.h>
+#include <placegraph/io/files/text_file.h>
 
 #include <Eigen/Geometry>
 #include <array>

@@ -5,8 +5,8 @@
 // in seconds). A and B: the walks of position and attitude, if not the defaults.
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/io/files/text_file.h>
 #include <placegraph/io/graphs/g2o.h>
-#include <placegraph/io/internal/files/text_file.h>
 
 #include <cstdio>
 #include <exception>

@@ -1,7 +1,7 @@
 #include <placegraph/graph/image/picture_plugin.h>
 #include <placegraph/io/calibration/calibration_file.h>
 #include <placegraph/io/datasets/open_dataset.h>
-#include <placegraph/io/internal/files/image_list.h>
+#include <placegraph/io/files/image_list.h>
 
 #include "tests/support/message_of.h"
 #include "tiny_images.h"

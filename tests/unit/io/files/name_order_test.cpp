@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <placegraph/io/internal/files/image_list.h>
-#include <placegraph/io/internal/files/name_order.h>
+#include <placegraph/io/files/image_list.h>
+#include <placegraph/io/files/name_order.h>
 
 #include <algorithm>
 

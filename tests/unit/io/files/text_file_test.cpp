@@ -1,4 +1,4 @@
-#include <placegraph/io/internal/files/text_file.h>
+#include <placegraph/io/files/text_file.h>
 
 #include <cmath>
 #include <limits>

@@ -1,6 +1,6 @@
 #include <placegraph/graph/core/median.h>
-#include <placegraph/io/internal/files/name_order.h>
-#include <placegraph/io/internal/files/text_file.h>
+#include <placegraph/io/files/name_order.h>
+#include <placegraph/io/files/text_file.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/files/image_list.h>
-#include <placegraph/io/internal/files/name_order.h>
-#include <placegraph/io/internal/files/text_file.h>
+#include <placegraph/io/files/image_list.h>
+#include <placegraph/io/files/name_order.h>
+#include <placegraph/io/files/text_file.h>
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #include <fcntl.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/files/atomic_file.h>
+#include <placegraph/io/files/atomic_file.h>
 #include <unistd.h>
 
 #include <cerrno>
