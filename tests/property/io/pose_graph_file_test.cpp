@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>
+#include <placegraph/io/graphs/euler_angles.h>
 #include <placegraph/io/graphs/pose_graph_file.h>
-#include <placegraph/io/internal/graphs/euler_angles.h>
 
 #include "tests/support/temporary_folder.h"
 

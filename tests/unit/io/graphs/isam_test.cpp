@@ -1,4 +1,4 @@
-#include <placegraph/io/internal/graphs/isam.h>
+#include <placegraph/io/graphs/isam.h>
 
 #include "tests/support/edge_of.h"
 #include "tests/support/message_of.h"

@@ -1,7 +1,7 @@
 #include <placegraph/graph/pose_graph/position_of.h>
 #include <placegraph/io/graphs/g2o.h>
+#include <placegraph/io/graphs/parse_graph.h>
 #include <placegraph/io/graphs/pose_graph_file.h>
-#include <placegraph/io/internal/graphs/parse_graph.h>
 
 #include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"

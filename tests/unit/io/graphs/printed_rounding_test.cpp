@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/io/internal/graphs/printed_rounding.h>
+#include <placegraph/io/graphs/printed_rounding.h>
 
 namespace placegraph {
 namespace printed_rounding_test {

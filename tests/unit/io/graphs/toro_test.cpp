@@ -1,7 +1,7 @@
 #include <numbers>
 
+#include <placegraph/io/graphs/euler_angles.h>
 #include <placegraph/io/graphs/toro.h>
-#include <placegraph/io/internal/graphs/euler_angles.h>
 
 #include "tests/support/edge_of.h"
 #include "tests/support/message_of.h"

@@ -3,8 +3,8 @@
 #include <placegraph/graph/core/id_format.h>
 #include <placegraph/io/files/atomic_file.h>
 #include <placegraph/io/graphs/g2o.h>
-#include <placegraph/io/internal/graphs/parse_graph.h>
-#include <placegraph/io/internal/graphs/pose_graph_builder.h>
+#include <placegraph/io/graphs/parse_graph.h>
+#include <placegraph/io/graphs/pose_graph_builder.h>
 
 #include <cmath>
 #include <iterator>

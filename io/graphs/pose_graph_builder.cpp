@@ -3,8 +3,8 @@
 #include <placegraph/graph/core/id_format.h>
 #include <placegraph/graph/pose_graph/node_index.h>
 #include <placegraph/graph/pose_graph/position_of.h>
-#include <placegraph/io/internal/graphs/pose_graph_builder.h>
-#include <placegraph/io/internal/graphs/printed_rounding.h>
+#include <placegraph/io/graphs/pose_graph_builder.h>
+#include <placegraph/io/graphs/printed_rounding.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
+#include <placegraph/io/graphs/euler_angles.h>
+#include <placegraph/io/graphs/parse_graph.h>
+#include <placegraph/io/graphs/pose_graph_builder.h>
 #include <placegraph/io/graphs/toro.h>
-#include <placegraph/io/internal/graphs/euler_angles.h>
-#include <placegraph/io/internal/graphs/parse_graph.h>
-#include <placegraph/io/internal/graphs/pose_graph_builder.h>
 
 namespace placegraph {
 namespace {

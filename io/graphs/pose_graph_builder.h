@@ -3,8 +3,8 @@
 #include <placegraph/graph/pose_graph/node_index.h>
 #include <placegraph/graph/pose_graph/pose_graph.h>
 #include <placegraph/io/files/text_file.h>
+#include <placegraph/io/graphs/landmark_lines.h>
 #include <placegraph/io/graphs/pose_graph_file.h>
-#include <placegraph/io/internal/graphs/landmark_lines.h>
 
 #include <optional>
 #include <span>

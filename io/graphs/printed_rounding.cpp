@@ -1,4 +1,4 @@
-#include <placegraph/io/internal/graphs/printed_rounding.h>
+#include <placegraph/io/graphs/printed_rounding.h>
 
 #include <Eigen/Eigenvalues>
 #include <charconv>

@@ -1,9 +1,9 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/graphs/g2o.h>
+#include <placegraph/io/graphs/isam.h>
+#include <placegraph/io/graphs/parse_graph.h>
 #include <placegraph/io/graphs/pose_graph_file.h>
 #include <placegraph/io/graphs/toro.h>
-#include <placegraph/io/internal/graphs/isam.h>
-#include <placegraph/io/internal/graphs/parse_graph.h>
 
 namespace placegraph {
 namespace {

@@ -2,7 +2,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/id_format.h>
 #include <placegraph/graph/pose_graph/node_index.h>
-#include <placegraph/io/internal/graphs/landmark_lines.h>
+#include <placegraph/io/graphs/landmark_lines.h>
 
 #include <algorithm>
 #include <unordered_map>

@@ -1,4 +1,4 @@
-#include <placegraph/io/internal/graphs/euler_angles.h>
+#include <placegraph/io/graphs/euler_angles.h>
 
 namespace placegraph {
 
