@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/io/graphs/g2o.h>
-#include <placegraph/io/internal/map/sqlite.h>
+#include <placegraph/io/map/sqlite.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 #include <placegraph/pipeline/run.h>
 

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/map/map_blobs.h>
+#include <placegraph/io/map/map_blobs.h>
 
 #include <cstring>
 #include <limits>

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/map/sqlite.h>
+#include <placegraph/io/map/sqlite.h>
 
 #include <filesystem>
 #include <fstream>

@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <placegraph/io/internal/map/sqlite.h>
+#include <placegraph/io/map/sqlite.h>
 
 #include "tests/support/message_of.h"
 #include "tests/support/random_map.h"

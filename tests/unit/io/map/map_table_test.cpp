@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>
-#include <placegraph/io/internal/map/map_schema.h>
-#include <placegraph/io/internal/map/map_table.h>
+#include <placegraph/io/map/map_schema.h>
+#include <placegraph/io/map/map_table.h>
 
 #include <limits>
 #include <optional>

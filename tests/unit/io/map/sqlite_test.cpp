@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>
-#include <placegraph/io/internal/map/sqlite.h>
+#include <placegraph/io/map/sqlite.h>
 
 #include <algorithm>
 #include <filesystem>

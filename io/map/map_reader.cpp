@@ -1,8 +1,8 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/map/map_columns.h>
-#include <placegraph/io/internal/map/map_history_reader.h>
-#include <placegraph/io/internal/map/map_reader.h>
+#include <placegraph/io/map/map_columns.h>
 #include <placegraph/io/map/map_database.h>
+#include <placegraph/io/map/map_history_reader.h>
+#include <placegraph/io/map/map_reader.h>
 
 #include <algorithm>
 #include <filesystem>

@@ -1,10 +1,10 @@
 #pragma once
 // Inside io only.
 #include <placegraph/graph/core/ids.h>
-#include <placegraph/io/internal/map/map_blobs.h>
-#include <placegraph/io/internal/map/map_history_writer.h>
-#include <placegraph/io/internal/map/map_schema.h>
-#include <placegraph/io/internal/map/map_table.h>
+#include <placegraph/io/map/map_blobs.h>
+#include <placegraph/io/map/map_history_writer.h>
+#include <placegraph/io/map/map_schema.h>
+#include <placegraph/io/map/map_table.h>
 #include <placegraph/io/map/stored_map.h>
 
 #include <map>

@@ -1,8 +1,8 @@
 #pragma once
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/measurements/data_note.h>
-#include <placegraph/io/internal/map/map_blobs.h>
-#include <placegraph/io/internal/map/sqlite.h>
+#include <placegraph/io/map/map_blobs.h>
+#include <placegraph/io/map/sqlite.h>
 
 #include <bit>
 #include <cstdint>

@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/map/sqlite.h>
+#include <placegraph/io/map/sqlite.h>
 #include <sqlite3.h>
 #include <zlib.h>
 

@@ -1,4 +1,4 @@
-#include <placegraph/io/internal/map/map_history_writer.h>
+#include <placegraph/io/map/map_history_writer.h>
 
 #include <set>
 

@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/map/map_schema.h>
+#include <placegraph/io/map/map_schema.h>
 #include <placegraph/io/map/stored_map.h>
 
 #include <filesystem>

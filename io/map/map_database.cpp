@@ -1,8 +1,8 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/image/png_codec.h>
 #include <placegraph/io/files/atomic_file.h>
-#include <placegraph/io/internal/map/map_writer.h>
 #include <placegraph/io/map/map_database.h>
+#include <placegraph/io/map/map_writer.h>
 
 #include <filesystem>
 

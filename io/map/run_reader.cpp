@@ -1,6 +1,6 @@
 #include <placegraph/graph/image/png_codec.h>
-#include <placegraph/io/internal/map/map_columns.h>
-#include <placegraph/io/internal/map/run_reader.h>
+#include <placegraph/io/map/map_columns.h>
+#include <placegraph/io/map/run_reader.h>
 
 namespace placegraph {
 namespace {

@@ -1,6 +1,6 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/map/map_columns.h>
-#include <placegraph/io/internal/map/map_history_reader.h>
+#include <placegraph/io/map/map_columns.h>
+#include <placegraph/io/map/map_history_reader.h>
 
 #include <set>
 

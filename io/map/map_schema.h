@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/io/internal/map/sqlite.h>
+#include <placegraph/io/map/sqlite.h>
 
 #include <memory>
 #include <string>

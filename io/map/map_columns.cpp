@@ -1,4 +1,4 @@
-#include <placegraph/io/internal/map/map_columns.h>
+#include <placegraph/io/map/map_columns.h>
 
 #include <algorithm>
 

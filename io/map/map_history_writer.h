@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/graph/place_history.h>
-#include <placegraph/io/internal/map/map_table.h>
+#include <placegraph/io/map/map_table.h>
 
 namespace placegraph {
 

@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/map/map_writer.h>
+#include <placegraph/io/map/map_writer.h>
 
 #include <algorithm>
 #include <set>

@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/map/map_blobs.h>
-#include <placegraph/io/internal/map/sqlite.h>
+#include <placegraph/io/map/map_blobs.h>
+#include <placegraph/io/map/sqlite.h>
 #include <placegraph/io/map/stored_map.h>
 
 #include <string>

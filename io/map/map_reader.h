@@ -1,8 +1,8 @@
 #pragma once
-#include <placegraph/io/internal/map/map_blobs.h>
-#include <placegraph/io/internal/map/map_history_reader.h>
-#include <placegraph/io/internal/map/map_schema.h>
-#include <placegraph/io/internal/map/run_reader.h>
+#include <placegraph/io/map/map_blobs.h>
+#include <placegraph/io/map/map_history_reader.h>
+#include <placegraph/io/map/map_schema.h>
+#include <placegraph/io/map/run_reader.h>
 #include <placegraph/io/map/stored_map.h>
 
 #include <limits>
