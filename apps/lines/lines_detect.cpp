@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/internal/measurements/segment_file.h>
+#include <placegraph/io/measurements/segment_file.h>
 
 #include "apps/support/output.h"
 

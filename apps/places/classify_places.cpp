@@ -6,7 +6,7 @@
 #include <placegraph/graph/core/id_format.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/files/image_list.h>
-#include <placegraph/io/internal/measurements/label_file.h>
+#include <placegraph/io/measurements/label_file.h>
 #include <placegraph/io/measurements/loop_file.h>
 
 #include <algorithm>

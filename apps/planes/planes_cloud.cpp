@@ -6,7 +6,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/json_text.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/internal/measurements/point_cloud_file.h>
+#include <placegraph/io/measurements/point_cloud_file.h>
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/json_text.h>
-#include <placegraph/io/internal/measurements/match_file.h>
+#include <placegraph/io/measurements/match_file.h>
 
 #include <nlohmann/json.hpp>
 

@@ -7,7 +7,7 @@
 #include <placegraph/io/datasets/open_dataset.h>
 #include <placegraph/io/files/input_file.h>
 #include <placegraph/io/files/text_file.h>
-#include <placegraph/io/internal/measurements/label_file.h>
+#include <placegraph/io/measurements/label_file.h>
 
 #include <algorithm>
 #include <filesystem>

@@ -4,7 +4,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/json_text.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/internal/measurements/class_list.h>
+#include <placegraph/io/measurements/class_list.h>
 
 #include <algorithm>
 #include <cmath>

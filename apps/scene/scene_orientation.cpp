@@ -10,7 +10,7 @@
 #include <placegraph/io/datasets/open_dataset.h>
 #include <placegraph/io/files/atomic_file.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/internal/measurements/plane_truth.h>
+#include <placegraph/io/measurements/plane_truth.h>
 
 #include <filesystem>
 #include <nlohmann/json.hpp>

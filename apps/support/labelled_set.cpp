@@ -3,7 +3,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/files/image_list.h>
-#include <placegraph/io/internal/measurements/class_list.h>
+#include <placegraph/io/measurements/class_list.h>
 
 #include <algorithm>
 #include <array>

@@ -5,7 +5,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/json_text.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/internal/measurements/marker_layout_file.h>
+#include <placegraph/io/measurements/marker_layout_file.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/frontend/segments/segment_matcher.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/internal/measurements/segment_file.h>
+#include <placegraph/io/measurements/segment_file.h>
 
 #include <algorithm>
 #include <iostream>

@@ -4,7 +4,7 @@
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/io/calibration/camera_file.h>
 #include <placegraph/io/files/text_file.h>
-#include <placegraph/io/internal/measurements/segment_file.h>
+#include <placegraph/io/measurements/segment_file.h>
 
 #include <algorithm>
 #include <iostream>

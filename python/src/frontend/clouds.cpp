@@ -2,7 +2,7 @@
 #include <placegraph/frontend/cloud_planes/cuboids.h>
 #include <placegraph/frontend/cloud_planes/depth_planes.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/measurements/point_cloud_file.h>
+#include <placegraph/io/measurements/point_cloud_file.h>
 
 #include "python/src/frontend/functions.h"
 

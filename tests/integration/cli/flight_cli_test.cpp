@@ -1,4 +1,4 @@
-#include <placegraph/io/internal/measurements/marker_layout_file.h>
+#include <placegraph/io/measurements/marker_layout_file.h>
 
 #include <nlohmann/json.hpp>
 #include <numeric>

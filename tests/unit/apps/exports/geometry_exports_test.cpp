@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/measurements/point_cloud_file.h>
 #include <placegraph/io/map/map_database.h>
+#include <placegraph/io/measurements/point_cloud_file.h>
 
 #include <cmath>
 #include <filesystem>

@@ -1,6 +1,6 @@
 #include "apps/lines/lines_detect.h"
 
-#include <placegraph/io/internal/measurements/segment_file.h>
+#include <placegraph/io/measurements/segment_file.h>
 
 #include <filesystem>
 

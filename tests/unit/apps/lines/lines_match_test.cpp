@@ -1,6 +1,6 @@
 #include "apps/lines/lines_match.h"
 
-#include <placegraph/io/internal/measurements/segment_file.h>
+#include <placegraph/io/measurements/segment_file.h>
 
 #include <algorithm>
 #include <filesystem>

@@ -1,6 +1,6 @@
 #include "apps/views/flow.h"
 
-#include <placegraph/io/internal/measurements/flow_file.h>
+#include <placegraph/io/measurements/flow_file.h>
 
 #include <cmath>
 #include <filesystem>

@@ -1,6 +1,6 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/exports/ply_points.h>
-#include <placegraph/io/internal/measurements/point_cloud_file.h>
+#include <placegraph/io/measurements/point_cloud_file.h>
 
 #include <cstring>
 #include <limits>

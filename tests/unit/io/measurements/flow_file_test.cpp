@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/measurements/flow_file.h>
+#include <placegraph/io/measurements/flow_file.h>
 
 #include <cmath>
 #include <filesystem>

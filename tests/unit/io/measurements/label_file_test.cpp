@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/measurements/label_file.h>
+#include <placegraph/io/measurements/label_file.h>
 
 #include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"

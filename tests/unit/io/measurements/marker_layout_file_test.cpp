@@ -1,4 +1,4 @@
-#include <placegraph/io/internal/measurements/marker_layout_file.h>
+#include <placegraph/io/measurements/marker_layout_file.h>
 
 #include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"

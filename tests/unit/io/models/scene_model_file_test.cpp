@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/measurements/class_list.h>
+#include <placegraph/io/measurements/class_list.h>
 #include <placegraph/io/models/scene_model_file.h>
 
 #include "tests/support/message_of.h"

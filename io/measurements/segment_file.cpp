@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <placegraph/io/files/atomic_file.h>
 #include <placegraph/io/files/text_file.h>
-#include <placegraph/io/internal/measurements/segment_file.h>
+#include <placegraph/io/measurements/segment_file.h>
 
 #include <cmath>
 

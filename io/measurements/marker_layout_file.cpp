@@ -2,7 +2,7 @@
 #include <placegraph/io/config/yaml_document.h>
 #include <placegraph/io/files/atomic_file.h>
 #include <placegraph/io/files/text_file.h>
-#include <placegraph/io/internal/measurements/marker_layout_file.h>
+#include <placegraph/io/measurements/marker_layout_file.h>
 
 #include <algorithm>
 #include <cmath>

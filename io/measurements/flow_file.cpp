@@ -4,7 +4,7 @@
 #include <placegraph/io/files/atomic_file.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/files/input_file.h>
-#include <placegraph/io/internal/measurements/flow_file.h>
+#include <placegraph/io/measurements/flow_file.h>
 
 #include <array>
 #include <bit>

@@ -1,6 +1,6 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/files/text_file.h>
-#include <placegraph/io/internal/measurements/label_file.h>
+#include <placegraph/io/measurements/label_file.h>
 
 #include <vector>
 

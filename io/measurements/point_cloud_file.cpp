@@ -1,7 +1,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/files/input_file.h>
 #include <placegraph/io/files/text_file.h>
-#include <placegraph/io/internal/measurements/point_cloud_file.h>
+#include <placegraph/io/measurements/point_cloud_file.h>
 
 #include <algorithm>
 #include <array>
