@@ -6,8 +6,8 @@
 #include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/files/image_list.h>
-#include <placegraph/io/internal/models/vocabulary_file.h>
 #include <placegraph/io/measurements/loop_file.h>
+#include <placegraph/io/models/vocabulary_file.h>
 
 #include <algorithm>
 #include <filesystem>

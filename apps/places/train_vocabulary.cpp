@@ -5,7 +5,7 @@
 #include <placegraph/frontend/places/float_vocabulary.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/files/image_list.h>
-#include <placegraph/io/internal/models/vocabulary_file.h>
+#include <placegraph/io/models/vocabulary_file.h>
 
 #include <algorithm>
 #include <cmath>

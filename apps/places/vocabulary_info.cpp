@@ -1,7 +1,7 @@
 #include "apps/places/vocabulary_info.h"
 
 #include <fmt/format.h>
-#include <placegraph/io/internal/models/vocabulary_file.h>
+#include <placegraph/io/models/vocabulary_file.h>
 
 #include "apps/places/train_vocabulary.h"
 #include "apps/support/usage.h"

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/models/vocabulary_file.h>
+#include <placegraph/io/models/vocabulary_file.h>
 
 #include "apps/support/output.h"
 #include "tests/support/message_of.h"

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/models/vocabulary_file.h>
+#include <placegraph/io/models/vocabulary_file.h>
 
 #include <filesystem>
 #include <fstream>

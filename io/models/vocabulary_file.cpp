@@ -2,7 +2,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/files/atomic_file.h>
 #include <placegraph/io/files/input_file.h>
-#include <placegraph/io/internal/models/vocabulary_file.h>
+#include <placegraph/io/models/vocabulary_file.h>
 
 #include <array>
 #include <bit>
