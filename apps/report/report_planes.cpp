@@ -1,6 +1,6 @@
 #include "apps/report/report_planes.h"
 
-#include <placegraph/io/internal/scene/indoor_map_file.h>
+#include <placegraph/io/scene/indoor_map_file.h>
 
 #include <array>
 #include <filesystem>

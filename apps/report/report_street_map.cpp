@@ -3,7 +3,7 @@
 #include <placegraph/graph/core/median.h>
 #include <placegraph/graph/image/png_codec.h>
 #include <placegraph/io/exports/base64.h>
-#include <placegraph/io/internal/scene/semantic_map_file.h>
+#include <placegraph/io/scene/semantic_map_file.h>
 
 #include <filesystem>
 #include <nlohmann/json.hpp>

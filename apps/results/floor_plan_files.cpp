@@ -4,8 +4,8 @@
 #include <placegraph/eval/internal/plots/floor_plan_plot.h>
 #include <placegraph/eval/internal/scene/floor_plan_check.h>
 #include <placegraph/io/datasets/dataset.h>
-#include <placegraph/io/internal/scene/indoor_map_file.h>
 #include <placegraph/io/map/map_database.h>
+#include <placegraph/io/scene/indoor_map_file.h>
 #include <placegraph/pipeline/internal/lens_correction.h>
 
 #include <algorithm>

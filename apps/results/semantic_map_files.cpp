@@ -5,8 +5,8 @@
 #include <placegraph/frontend/scene/moving_classes.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/datasets/dataset.h>
-#include <placegraph/io/internal/scene/labelled_mesh_file.h>
-#include <placegraph/io/internal/scene/semantic_map_file.h>
+#include <placegraph/io/scene/labelled_mesh_file.h>
+#include <placegraph/io/scene/semantic_map_file.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 #include <placegraph/pipeline/internal/lens_correction.h>
 

@@ -1,6 +1,6 @@
 // `map export --cloud --mesh` of a rendered corridor, compared with its true surfaces.
-#include <placegraph/io/internal/scene/labelled_mesh_file.h>
 #include <placegraph/io/measurements/point_cloud_file.h>
+#include <placegraph/io/scene/labelled_mesh_file.h>
 
 #include <Eigen/Geometry>
 #include <fstream>

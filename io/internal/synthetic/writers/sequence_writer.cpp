@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/parallel.h>
-#include <placegraph/io/internal/scene/labelled_mesh_file.h>
 #include <placegraph/io/internal/synthetic/writers/sequence_folder.h>
 #include <placegraph/io/internal/synthetic/writers/sequence_writer.h>
 #include <placegraph/io/measurements/flow_file.h>
+#include <placegraph/io/scene/labelled_mesh_file.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <placegraph/graph/image/png_codec.h>
-#include <placegraph/io/internal/scene/semantic_map_file.h>
+#include <placegraph/io/scene/semantic_map_file.h>
 
 #include <fstream>
 #include <nlohmann/json.hpp>

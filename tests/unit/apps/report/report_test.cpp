@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/exports/base64.h>
-#include <placegraph/io/internal/scene/indoor_map_file.h>
+#include <placegraph/io/scene/indoor_map_file.h>
 
 #include <cmath>
 #include <filesystem>

@@ -2,8 +2,8 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <placegraph/io/internal/scene/indoor_map_file.h>
 #include <placegraph/io/map/map_database.h>
+#include <placegraph/io/scene/indoor_map_file.h>
 
 #include <algorithm>
 #include <limits>

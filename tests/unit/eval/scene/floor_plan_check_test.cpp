@@ -6,8 +6,8 @@
 #include <placegraph/eval/internal/scene/floor_plan_check.h>
 #include <placegraph/eval/internal/scene/orientation_check.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/scene/indoor_map_file.h>
 #include <placegraph/io/measurements/plane_truth.h>
+#include <placegraph/io/scene/indoor_map_file.h>
 
 #include "../drawing/svg_check.h"
 #include "tests/support/ids.h"

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>
-#include <placegraph/io/internal/scene/indoor_map_file.h>
+#include <placegraph/io/scene/indoor_map_file.h>
 
 #include <nlohmann/json.hpp>
 

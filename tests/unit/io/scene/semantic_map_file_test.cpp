@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/scene/labelled_mesh_file.h>
-#include <placegraph/io/internal/scene/semantic_map_file.h>
+#include <placegraph/io/scene/labelled_mesh_file.h>
+#include <placegraph/io/scene/semantic_map_file.h>
 
 #include <nlohmann/json.hpp>
 

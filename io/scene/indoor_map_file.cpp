@@ -1,6 +1,6 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/files/input_file.h>
-#include <placegraph/io/internal/scene/indoor_map_file.h>
+#include <placegraph/io/scene/indoor_map_file.h>
 
 #include <cmath>
 #include <fstream>

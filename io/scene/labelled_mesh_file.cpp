@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/files/text_file.h>
-#include <placegraph/io/internal/scene/labelled_mesh_file.h>
+#include <placegraph/io/scene/labelled_mesh_file.h>
 
 #include <iterator>
 
