@@ -8,8 +8,8 @@
 #include <placegraph/graph/pose_graph/node_index.h>
 #include <placegraph/io/graphs/g2o.h>
 #include <placegraph/io/graphs/pose_graph_file.h>
-#include <placegraph/io/internal/sensors/oxts_file.h>
 #include <placegraph/io/map/map_database.h>
+#include <placegraph/io/sensors/oxts_file.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 
 #include <filesystem>

@@ -9,7 +9,7 @@
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/files/image_list.h>
 #include <placegraph/io/files/text_file.h>
-#include <placegraph/io/internal/sensors/euroc_sensor.h>
+#include <placegraph/io/sensors/euroc_sensor.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/backend/georeference/georeference.h>
 #include <placegraph/graph/core/random.h>
-#include <placegraph/io/internal/sensors/oxts_file.h>
+#include <placegraph/io/sensors/oxts_file.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 
 #include <Eigen/Geometry>

@@ -1,4 +1,4 @@
-#include <placegraph/io/internal/sensors/oxts_file.h>
+#include <placegraph/io/sensors/oxts_file.h>
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/sensors/euroc_sensor.h>
+#include <placegraph/io/sensors/euroc_sensor.h>
 
 namespace placegraph {
 

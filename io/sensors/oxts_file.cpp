@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/files/text_file.h>
-#include <placegraph/io/internal/sensors/oxts_file.h>
+#include <placegraph/io/sensors/oxts_file.h>
 
 #include <algorithm>
 #include <chrono>

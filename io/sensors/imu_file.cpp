@@ -2,7 +2,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/files/atomic_file.h>
 #include <placegraph/io/files/text_file.h>
-#include <placegraph/io/internal/sensors/euroc_sensor.h>
+#include <placegraph/io/sensors/euroc_sensor.h>
 #include <placegraph/io/sensors/imu_file.h>
 
 #include <filesystem>
