@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/io/internal/synthetic/writers/world_writer.h>
+#include <placegraph/io/synthetic/writers/world_writer.h>
 
 #include <string>
 

@@ -1,6 +1,6 @@
 #include "apps/train/cmd_train_planarity.h"
 
-#include <placegraph/io/internal/synthetic/worlds/synthetic_world.h>
+#include <placegraph/io/synthetic/worlds/synthetic_world.h>
 
 #include <CLI/CLI.hpp>
 #include <memory>

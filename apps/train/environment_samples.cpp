@@ -4,9 +4,9 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/internal/synthetic/render/renderer.h>
-#include <placegraph/io/internal/synthetic/worlds/synthetic_world.h>
-#include <placegraph/io/internal/synthetic/worlds/tours.h>
+#include <placegraph/io/synthetic/render/renderer.h>
+#include <placegraph/io/synthetic/worlds/synthetic_world.h>
+#include <placegraph/io/synthetic/worlds/tours.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/parallel.h>
-#include <placegraph/io/internal/synthetic/worlds/synthetic_world.h>
+#include <placegraph/io/synthetic/worlds/synthetic_world.h>
 
 #include "apps/support/progress.h"
 

@@ -3,7 +3,7 @@
 #include <placegraph/frontend/labels/scene_variants.h>
 #include <placegraph/graph/core/parallel.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/internal/synthetic/worlds/synthetic_world.h>
+#include <placegraph/io/synthetic/worlds/synthetic_world.h>
 
 #include <algorithm>
 

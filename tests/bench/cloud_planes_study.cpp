@@ -9,8 +9,8 @@
 #include <placegraph/graph/geometry/se3.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/files/text_file.h>
-#include <placegraph/io/internal/synthetic/worlds/cloud_scene.h>
 #include <placegraph/io/measurements/point_cloud_file.h>
+#include <placegraph/io/synthetic/worlds/cloud_scene.h>
 
 #include <algorithm>
 #include <cstdio>

@@ -7,7 +7,7 @@
 #include <placegraph/frontend/flow/flow_cues.h>
 #include <placegraph/frontend/flow/optical_flow.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/synthetic/worlds/synthetic_world.h>
+#include <placegraph/io/synthetic/worlds/synthetic_world.h>
 
 #include <cmath>
 #include <cstdio>

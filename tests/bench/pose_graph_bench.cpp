@@ -5,7 +5,7 @@
 #include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
 #include <placegraph/backend/solver/normal_equations.h>
 #include <placegraph/io/graphs/g2o.h>
-#include <placegraph/io/internal/synthetic/graphs/graph_world.h>
+#include <placegraph/io/synthetic/graphs/graph_world.h>
 
 #include "tests/support/data.h"
 

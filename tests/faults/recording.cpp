@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/datasets/open_dataset.h>
-#include <placegraph/io/internal/synthetic/writers/sequence_folder.h>
+#include <placegraph/io/synthetic/writers/sequence_folder.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 
 #include <algorithm>

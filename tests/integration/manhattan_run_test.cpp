@@ -3,7 +3,7 @@
 #include <placegraph/frontend/segments/segment_detector.h>
 #include <placegraph/frontend/vanishing/scene_directions.h>
 #include <placegraph/graph/core/angle.h>
-#include <placegraph/io/internal/synthetic/worlds/synthetic_world.h>
+#include <placegraph/io/synthetic/worlds/synthetic_world.h>
 #include <placegraph/pipeline/cues/frame_view.h>
 #include <placegraph/pipeline/slam.h>
 

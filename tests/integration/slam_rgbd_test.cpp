@@ -1,7 +1,7 @@
 // RGB-D in a rendered corridor, by small images and by sensors that do not see far: depth must not
 // make it worse than one eye alone.
 #include <gtest/gtest.h>
-#include <placegraph/io/internal/synthetic/worlds/synthetic_world.h>
+#include <placegraph/io/synthetic/worlds/synthetic_world.h>
 #include <placegraph/pipeline/slam.h>
 
 #include <cmath>

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 #include <placegraph/eval/internal/loops/route_check.h>
-#include <placegraph/io/internal/synthetic/worlds/synthetic_world.h>
+#include <placegraph/io/synthetic/worlds/synthetic_world.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 #include <placegraph/pipeline/run.h>
 

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/io/internal/synthetic/worlds/synthetic_world.h>
+#include <placegraph/io/synthetic/worlds/synthetic_world.h>
 
 #include <string>
 

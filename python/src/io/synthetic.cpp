@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/synthetic/writers/world_writer.h>
+#include <placegraph/io/synthetic/writers/world_writer.h>
 
 #include "python/src/bindings.h"
 #include "python/src/graph/images.h"

@@ -2,7 +2,7 @@
 #include <placegraph/backend/incremental/incremental_replay.h>
 #include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
 #include <placegraph/io/graphs/g2o.h>
-#include <placegraph/io/internal/synthetic/graphs/graph_world.h>
+#include <placegraph/io/synthetic/graphs/graph_world.h>
 
 #include "tests/support/data.h"
 

@@ -3,7 +3,7 @@
 #include <placegraph/backend/pose_graph/initialization_selection.h>
 #include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
 #include <placegraph/io/graphs/g2o.h>
-#include <placegraph/io/internal/synthetic/graphs/graph_world.h>
+#include <placegraph/io/synthetic/graphs/graph_world.h>
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/frontend/cloud_planes/cuboids.h>
 #include <placegraph/graph/core/angle.h>
-#include <placegraph/io/internal/synthetic/worlds/cloud_scene.h>
+#include <placegraph/io/synthetic/worlds/cloud_scene.h>
 
 #include <algorithm>
 #include <iostream>

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/io/internal/synthetic/worlds/flight_world.h>
-#include <placegraph/io/internal/synthetic/worlds/synthetic_world.h>
+#include <placegraph/io/synthetic/worlds/flight_world.h>
+#include <placegraph/io/synthetic/worlds/synthetic_world.h>
 
 #include <cmath>
 

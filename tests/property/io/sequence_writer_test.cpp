@@ -1,5 +1,5 @@
 #include <placegraph/io/datasets/open_dataset.h>
-#include <placegraph/io/internal/synthetic/writers/sequence_writer.h>
+#include <placegraph/io/synthetic/writers/sequence_writer.h>
 
 #include <opencv2/core.hpp>
 

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/angle.h>
-#include <placegraph/io/internal/synthetic/worlds/synthetic_world.h>
-#include <placegraph/io/internal/synthetic/worlds/tours.h>
-#include <placegraph/io/internal/synthetic/worlds/town_builder.h>
+#include <placegraph/io/synthetic/worlds/synthetic_world.h>
+#include <placegraph/io/synthetic/worlds/tours.h>
+#include <placegraph/io/synthetic/worlds/town_builder.h>
 
 #include <algorithm>
 #include <opencv2/core.hpp>

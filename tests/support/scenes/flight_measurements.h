@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/graph/core/random.h>
-#include <placegraph/io/internal/synthetic/worlds/flight_world.h>
+#include <placegraph/io/synthetic/worlds/flight_world.h>
 #include <placegraph/pipeline/internal/flight/flight_estimator.h>
 
 #include <functional>

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/synthetic/writers/flight_writer.h>
+#include <placegraph/io/synthetic/writers/flight_writer.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 
 #include <filesystem>

@@ -1,6 +1,6 @@
 #include "apps/lines/lines_track.h"
 
-#include <placegraph/io/internal/synthetic/writers/sequence_writer.h>
+#include <placegraph/io/synthetic/writers/sequence_writer.h>
 
 #include <filesystem>
 #include <map>

@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/io/internal/synthetic/writers/sequence_writer.h>
 #include <placegraph/io/map/map_database.h>
+#include <placegraph/io/synthetic/writers/sequence_writer.h>
 
 #include <string>
 

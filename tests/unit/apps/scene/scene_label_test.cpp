@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/internal/synthetic/writers/sequence_writer.h>
+#include <placegraph/io/synthetic/writers/sequence_writer.h>
 
 #include "apps/scene/scene_surfaces.h"
 #include "tests/support/clean_world.h"

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/io/internal/synthetic/defects/camera_motion.h>
+#include <placegraph/io/synthetic/defects/camera_motion.h>
 
 #include <cmath>
 

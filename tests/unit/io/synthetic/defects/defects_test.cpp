@@ -1,4 +1,4 @@
-#include <placegraph/io/internal/synthetic/defects/defects.h>
+#include <placegraph/io/synthetic/defects/defects.h>
 
 #include <cmath>
 

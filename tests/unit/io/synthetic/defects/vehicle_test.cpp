@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/io/internal/synthetic/defects/vehicle.h>
+#include <placegraph/io/synthetic/defects/vehicle.h>
 
 #include <cmath>
 

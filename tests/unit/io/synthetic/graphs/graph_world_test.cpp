@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/synthetic/graphs/graph_world.h>
+#include <placegraph/io/synthetic/graphs/graph_world.h>
 
 namespace placegraph::synthetic {
 namespace graph_world_test {

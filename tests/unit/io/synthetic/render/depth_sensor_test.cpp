@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/io/internal/synthetic/render/depth_sensor.h>
+#include <placegraph/io/synthetic/render/depth_sensor.h>
 
 #include <cmath>
 

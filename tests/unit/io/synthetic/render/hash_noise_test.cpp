@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/io/internal/synthetic/render/hash_noise.h>
-#include <placegraph/io/internal/synthetic/render/materials.h>
+#include <placegraph/io/synthetic/render/hash_noise.h>
+#include <placegraph/io/synthetic/render/materials.h>
 
 #include "tests/support/seed.h"
 

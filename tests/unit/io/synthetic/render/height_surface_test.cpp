@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/synthetic/render/height_surface.h>
+#include <placegraph/io/synthetic/render/height_surface.h>
 
 #include <limits>
 

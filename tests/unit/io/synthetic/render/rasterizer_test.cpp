@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/io/internal/synthetic/render/renderer.h>
+#include <placegraph/io/synthetic/render/renderer.h>
 
 #include <opencv2/core.hpp>
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/synthetic/render/road_field.h>
+#include <placegraph/io/synthetic/render/road_field.h>
 
 namespace placegraph::synthetic {
 namespace road_field_test {

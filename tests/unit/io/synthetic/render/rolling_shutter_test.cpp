@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/io/internal/synthetic/render/rolling_shutter.h>
-#include <placegraph/io/internal/synthetic/render/sensor_model.h>
+#include <placegraph/io/synthetic/render/rolling_shutter.h>
+#include <placegraph/io/synthetic/render/sensor_model.h>
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/io/internal/synthetic/render/undulation.h>
-#include <placegraph/io/internal/synthetic/render/world.h>
+#include <placegraph/io/synthetic/render/undulation.h>
+#include <placegraph/io/synthetic/render/world.h>
 
 #include <cmath>
 #include <set>

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/io/internal/synthetic/worlds/cloud_scene.h>
+#include <placegraph/io/synthetic/worlds/cloud_scene.h>
 
 #include <cmath>
 #include <limits>

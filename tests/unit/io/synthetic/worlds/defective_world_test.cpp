@@ -1,6 +1,6 @@
-#include <placegraph/io/internal/synthetic/defects/camera_motion.h>
-#include <placegraph/io/internal/synthetic/worlds/synthetic_world.h>
-#include <placegraph/io/internal/synthetic/worlds/tours.h>
+#include <placegraph/io/synthetic/defects/camera_motion.h>
+#include <placegraph/io/synthetic/worlds/synthetic_world.h>
+#include <placegraph/io/synthetic/worlds/tours.h>
 
 #include <cmath>
 #include <opencv2/core.hpp>

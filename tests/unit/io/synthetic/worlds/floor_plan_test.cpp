@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/io/internal/synthetic/render/renderer.h>
-#include <placegraph/io/internal/synthetic/worlds/floor_plan.h>
+#include <placegraph/io/synthetic/render/renderer.h>
+#include <placegraph/io/synthetic/worlds/floor_plan.h>
 
 #include <nlohmann/json.hpp>
 

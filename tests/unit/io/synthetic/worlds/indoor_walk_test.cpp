@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/io/internal/synthetic/worlds/indoor_walk.h>
-#include <placegraph/io/internal/synthetic/worlds/small_room.h>
+#include <placegraph/io/synthetic/worlds/indoor_walk.h>
+#include <placegraph/io/synthetic/worlds/small_room.h>
 
 #include <algorithm>
 #include <cmath>

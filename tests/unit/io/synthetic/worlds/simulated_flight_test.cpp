@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/synthetic/worlds/simulated_flight.h>
+#include <placegraph/io/synthetic/worlds/simulated_flight.h>
 
 namespace placegraph::synthetic {
 namespace simulated_flight_test {

@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/synthetic/worlds/synthetic_world.h>
-#include <placegraph/io/internal/synthetic/worlds/tours.h>
+#include <placegraph/io/synthetic/worlds/synthetic_world.h>
+#include <placegraph/io/synthetic/worlds/tours.h>
 
 #include <cmath>
 #include <opencv2/core.hpp>

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/io/internal/synthetic/worlds/tours.h>
+#include <placegraph/io/synthetic/worlds/tours.h>
 
 namespace placegraph::synthetic {
 namespace tours_test {

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/io/internal/synthetic/worlds/town_builder.h>
+#include <placegraph/io/synthetic/worlds/town_builder.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/io/internal/synthetic/worlds/town_builder.h>
-#include <placegraph/io/internal/synthetic/worlds/traffic.h>
+#include <placegraph/io/synthetic/worlds/town_builder.h>
+#include <placegraph/io/synthetic/worlds/traffic.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
-#include <placegraph/io/internal/synthetic/worlds/synthetic_world.h>
-#include <placegraph/io/internal/synthetic/worlds/tours.h>
+#include <placegraph/io/synthetic/worlds/synthetic_world.h>
+#include <placegraph/io/synthetic/worlds/tours.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/image/png_codec.h>
-#include <placegraph/io/internal/synthetic/writers/sequence_folder.h>
+#include <placegraph/io/synthetic/writers/sequence_folder.h>
 
 #include <opencv2/core.hpp>
 

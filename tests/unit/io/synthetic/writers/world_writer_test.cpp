@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/image/png_codec.h>
-#include <placegraph/io/internal/synthetic/writers/flight_writer.h>
-#include <placegraph/io/internal/synthetic/writers/world_writer.h>
+#include <placegraph/io/synthetic/writers/flight_writer.h>
+#include <placegraph/io/synthetic/writers/world_writer.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 
 #include <cmath>
