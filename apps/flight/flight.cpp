@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/config/yaml_config.h>
-#include <placegraph/io/internal/trajectories/body_state_file.h>
 #include <placegraph/io/measurements/marker_layout_file.h>
+#include <placegraph/io/trajectories/body_state_file.h>
 
 #include <filesystem>
 

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/json_text.h>
-#include <placegraph/io/internal/trajectories/body_state_file.h>
 #include <placegraph/io/measurements/marker_layout_file.h>
+#include <placegraph/io/trajectories/body_state_file.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 #include <placegraph/pipeline/internal/flight/flight_marker_map.h>
 

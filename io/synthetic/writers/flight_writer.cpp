@@ -1,13 +1,13 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/parallel.h>
-#include <placegraph/io/internal/trajectories/body_state_file.h>
 #include <placegraph/io/measurements/flow_file.h>
 #include <placegraph/io/measurements/marker_layout_file.h>
 #include <placegraph/io/sensors/euroc_sensor.h>
 #include <placegraph/io/synthetic/worlds/flight_world.h>
 #include <placegraph/io/synthetic/writers/flight_writer.h>
 #include <placegraph/io/synthetic/writers/sequence_folder.h>
+#include <placegraph/io/trajectories/body_state_file.h>
 
 #include <mutex>
 

@@ -1,10 +1,10 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/datasets/euroc.h>
-#include <placegraph/io/internal/trajectories/body_state_file.h>
 #include <placegraph/io/measurements/marker_layout_file.h>
 #include <placegraph/io/sensors/imu_file.h>
 #include <placegraph/io/synthetic/worlds/flight_world.h>
 #include <placegraph/io/synthetic/writers/flight_writer.h>
+#include <placegraph/io/trajectories/body_state_file.h>
 
 #include <opencv2/core.hpp>
 

@@ -1,4 +1,4 @@
-#include <placegraph/io/internal/trajectories/body_state_file.h>
+#include <placegraph/io/trajectories/body_state_file.h>
 
 #include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"

@@ -1,4 +1,4 @@
-#include <placegraph/io/internal/trajectories/pose_table.h>
+#include <placegraph/io/trajectories/pose_table.h>
 
 #include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/io/internal/trajectories/pose_columns.h>
+#include <placegraph/io/trajectories/pose_columns.h>
 
 #include <string_view>
 

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/trajectories/pose_header.h>
-#include <placegraph/io/internal/trajectories/pose_table.h>
+#include <placegraph/io/trajectories/pose_header.h>
+#include <placegraph/io/trajectories/pose_table.h>
 
 #include <algorithm>
 #include <numeric>

@@ -1,5 +1,5 @@
 #include <fmt/format.h>
-#include <placegraph/io/internal/trajectories/pose_header.h>
+#include <placegraph/io/trajectories/pose_header.h>
 
 #include <algorithm>
 #include <cctype>

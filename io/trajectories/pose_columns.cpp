@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/internal/trajectories/pose_columns.h>
+#include <placegraph/io/trajectories/pose_columns.h>
 
 #include <algorithm>
 #include <cmath>

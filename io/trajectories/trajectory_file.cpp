@@ -2,7 +2,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/files/atomic_file.h>
 #include <placegraph/io/files/text_file.h>
-#include <placegraph/io/internal/trajectories/pose_table.h>
+#include <placegraph/io/trajectories/pose_table.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 
 #include <iterator>
