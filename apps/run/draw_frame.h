@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/eval/internal/drawing/picture_legend.h>
+#include <placegraph/eval/drawing/picture_legend.h>
 #include <placegraph/graph/image/frame.h>
 #include <placegraph/pipeline/cues/frame_view.h>
 #include <placegraph/pipeline/slam.h>

@@ -1,8 +1,8 @@
 #include "apps/run/frame_drawings.h"
 
 #include <fmt/format.h>
-#include <placegraph/eval/internal/drawing/picture_bytes.h>
-#include <placegraph/eval/internal/drawing/picture_legend.h>
+#include <placegraph/eval/drawing/picture_bytes.h>
+#include <placegraph/eval/drawing/picture_legend.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/image/jpeg_codec.h>
 #include <placegraph/graph/image/picture_plugin.h>

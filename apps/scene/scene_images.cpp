@@ -1,8 +1,8 @@
 #include "apps/scene/scene_images.h"
 
 #include <fmt/format.h>
-#include <placegraph/eval/internal/drawing/picture_bytes.h>
-#include <placegraph/eval/internal/drawing/picture_legend.h>
+#include <placegraph/eval/drawing/picture_bytes.h>
+#include <placegraph/eval/drawing/picture_legend.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/json_text.h>
 #include <placegraph/graph/core/parallel.h>

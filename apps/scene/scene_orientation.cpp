@@ -1,8 +1,8 @@
 #include "apps/scene/scene_orientation.h"
 
 #include <fmt/format.h>
-#include <placegraph/eval/internal/drawing/picture_bytes.h>
-#include <placegraph/eval/internal/drawing/picture_legend.h>
+#include <placegraph/eval/drawing/picture_bytes.h>
+#include <placegraph/eval/drawing/picture_legend.h>
 #include <placegraph/frontend/segments/segment_detector.h>
 #include <placegraph/frontend/vanishing/scene_directions.h>
 #include <placegraph/graph/core/error.h>

@@ -1,6 +1,6 @@
 #include "apps/support/plot_file.h"
 
-#include <placegraph/eval/internal/drawing/picture_bytes.h>
+#include <placegraph/eval/drawing/picture_bytes.h>
 #include <placegraph/graph/core/error.h>
 
 #include "apps/support/output.h"

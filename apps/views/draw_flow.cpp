@@ -1,7 +1,7 @@
 #include "apps/views/draw_flow.h"
 
 #include <fmt/format.h>
-#include <placegraph/eval/internal/drawing/picture_legend.h>
+#include <placegraph/eval/drawing/picture_legend.h>
 
 #include <algorithm>
 #include <cmath>

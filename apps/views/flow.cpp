@@ -1,7 +1,7 @@
 #include "apps/views/flow.h"
 
 #include <fmt/format.h>
-#include <placegraph/eval/internal/drawing/picture_bytes.h>
+#include <placegraph/eval/drawing/picture_bytes.h>
 #include <placegraph/frontend/flow/optical_flow.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/json_text.h>

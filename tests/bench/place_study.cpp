@@ -2,7 +2,7 @@
 // filter over past images; and the memory of a view. bench_place_study FOLDER [--plot FILE] [N...]
 // How the tiny image stands zoom and shift: bench_place_study FOLDER --robustness
 #include <fmt/format.h>
-#include <placegraph/eval/internal/drawing/picture_bytes.h>
+#include <placegraph/eval/drawing/picture_bytes.h>
 #include <placegraph/eval/internal/plots/growth_plot.h>
 #include <placegraph/frontend/places/cues/cue_grid.h>
 #include <placegraph/frontend/places/place_recognizer.h>

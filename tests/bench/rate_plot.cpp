@@ -1,8 +1,8 @@
 #include "tests/bench/rate_plot.h"
 
-#include <placegraph/eval/internal/drawing/figure.h>
-#include <placegraph/eval/internal/drawing/picture_bytes.h>
-#include <placegraph/eval/internal/drawing/plot_style.h>
+#include <placegraph/eval/drawing/figure.h>
+#include <placegraph/eval/drawing/picture_bytes.h>
+#include <placegraph/eval/drawing/plot_style.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-#include <placegraph/eval/internal/drawing/plot_style.h>
-#include <placegraph/eval/internal/drawing/text_width.h>
+#include <placegraph/eval/drawing/plot_style.h>
+#include <placegraph/eval/drawing/text_width.h>
 #include <placegraph/eval/internal/plots/distribution_plot.h>
 #include <placegraph/graph/core/error.h>
 

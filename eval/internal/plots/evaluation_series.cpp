@@ -1,4 +1,4 @@
-#include <placegraph/eval/internal/drawing/plot_style.h>
+#include <placegraph/eval/drawing/plot_style.h>
 #include <placegraph/eval/internal/plots/evaluation_series.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/eval/internal/drawing/figure.h>
+#include <placegraph/eval/drawing/figure.h>
 #include <placegraph/eval/trajectory/result.h>
 
 #include <string>

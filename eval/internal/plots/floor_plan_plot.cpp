@@ -1,6 +1,6 @@
 #include <fmt/format.h>
-#include <placegraph/eval/internal/drawing/figure.h>
-#include <placegraph/eval/internal/drawing/plot_style.h>
+#include <placegraph/eval/drawing/figure.h>
+#include <placegraph/eval/drawing/plot_style.h>
 #include <placegraph/eval/internal/plots/floor_plan_plot.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 #include <fmt/format.h>
-#include <placegraph/eval/internal/drawing/plot_style.h>
+#include <placegraph/eval/drawing/plot_style.h>
 #include <placegraph/eval/internal/plots/plot.h>
 #include <placegraph/eval/internal/plots/trajectory_views.h>
 

@@ -1,5 +1,5 @@
-#include <placegraph/eval/internal/drawing/figure.h>
-#include <placegraph/eval/internal/drawing/plot_style.h>
+#include <placegraph/eval/drawing/figure.h>
+#include <placegraph/eval/drawing/plot_style.h>
 #include <placegraph/eval/internal/plots/semantic_map_plot.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-#include <placegraph/eval/internal/drawing/colour_scale.h>
-#include <placegraph/eval/internal/drawing/figure.h>
+#include <placegraph/eval/drawing/colour_scale.h>
+#include <placegraph/eval/drawing/figure.h>
 
 #include <algorithm>
 #include <limits>

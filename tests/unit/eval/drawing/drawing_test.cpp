@@ -1,13 +1,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <placegraph/eval/internal/drawing/colour_scale.h>
-#include <placegraph/eval/internal/drawing/figure.h>
-#include <placegraph/eval/internal/drawing/picture_bytes.h>
-#include <placegraph/eval/internal/drawing/picture_legend.h>
-#include <placegraph/eval/internal/drawing/plot_axis.h>
-#include <placegraph/eval/internal/drawing/plot_style.h>
-#include <placegraph/eval/internal/drawing/svg_canvas.h>
-#include <placegraph/eval/internal/drawing/text_width.h>
+#include <placegraph/eval/drawing/colour_scale.h>
+#include <placegraph/eval/drawing/figure.h>
+#include <placegraph/eval/drawing/picture_bytes.h>
+#include <placegraph/eval/drawing/picture_legend.h>
+#include <placegraph/eval/drawing/plot_axis.h>
+#include <placegraph/eval/drawing/plot_style.h>
+#include <placegraph/eval/drawing/svg_canvas.h>
+#include <placegraph/eval/drawing/text_width.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/image/png_codec.h>
 

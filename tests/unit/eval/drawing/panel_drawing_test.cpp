@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/eval/internal/drawing/colour_scale.h>
-#include <placegraph/eval/internal/drawing/panel_drawing.h>
+#include <placegraph/eval/drawing/colour_scale.h>
+#include <placegraph/eval/drawing/panel_drawing.h>
 
 #include "svg_check.h"
 #include "tests/support/seed.h"

@@ -1,6 +1,6 @@
 #pragma once
 #include <gtest/gtest.h>
-#include <placegraph/eval/internal/drawing/text_width.h>
+#include <placegraph/eval/drawing/text_width.h>
 
 #include <cstdlib>
 #include <string>

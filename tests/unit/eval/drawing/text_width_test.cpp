@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/eval/internal/drawing/text_width.h>
+#include <placegraph/eval/drawing/text_width.h>
 
 #include "tests/support/seed.h"
 

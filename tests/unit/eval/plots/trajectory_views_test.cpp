@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/eval/internal/drawing/plot_style.h>
+#include <placegraph/eval/drawing/plot_style.h>
 #include <placegraph/eval/internal/plots/trajectory_views.h>
 
 #include <array>

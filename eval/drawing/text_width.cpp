@@ -1,4 +1,4 @@
-#include <placegraph/eval/internal/drawing/text_width.h>
+#include <placegraph/eval/drawing/text_width.h>
 
 #include <algorithm>
 #include <cstddef>

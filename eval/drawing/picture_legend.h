@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/eval/internal/drawing/legend.h>
+#include <placegraph/eval/drawing/legend.h>
 #include <placegraph/graph/image/image.h>
 
 #include <string>

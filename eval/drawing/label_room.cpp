@@ -1,4 +1,4 @@
-#include <placegraph/eval/internal/drawing/label_room.h>
+#include <placegraph/eval/drawing/label_room.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
-#include <placegraph/eval/internal/drawing/svg_canvas.h>
-#include <placegraph/eval/internal/drawing/text_width.h>
+#include <placegraph/eval/drawing/svg_canvas.h>
+#include <placegraph/eval/drawing/text_width.h>
 
 #include <cmath>
 

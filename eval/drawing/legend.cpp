@@ -1,7 +1,7 @@
-#include <placegraph/eval/internal/drawing/colour_scale.h>
-#include <placegraph/eval/internal/drawing/legend.h>
-#include <placegraph/eval/internal/drawing/plot_style.h>
-#include <placegraph/eval/internal/drawing/text_width.h>
+#include <placegraph/eval/drawing/colour_scale.h>
+#include <placegraph/eval/drawing/legend.h>
+#include <placegraph/eval/drawing/plot_style.h>
+#include <placegraph/eval/drawing/text_width.h>
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/eval/internal/drawing/svg_canvas.h>
+#include <placegraph/eval/drawing/svg_canvas.h>
 
 namespace placegraph {
 

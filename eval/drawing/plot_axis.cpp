@@ -1,5 +1,5 @@
 #include <fmt/format.h>
-#include <placegraph/eval/internal/drawing/plot_axis.h>
+#include <placegraph/eval/drawing/plot_axis.h>
 
 #include <algorithm>
 #include <cmath>

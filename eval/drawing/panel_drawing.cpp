@@ -1,8 +1,8 @@
-#include <placegraph/eval/internal/drawing/colour_scale.h>
-#include <placegraph/eval/internal/drawing/label_room.h>
-#include <placegraph/eval/internal/drawing/panel_drawing.h>
-#include <placegraph/eval/internal/drawing/plot_style.h>
-#include <placegraph/eval/internal/drawing/text_width.h>
+#include <placegraph/eval/drawing/colour_scale.h>
+#include <placegraph/eval/drawing/label_room.h>
+#include <placegraph/eval/drawing/panel_drawing.h>
+#include <placegraph/eval/drawing/plot_style.h>
+#include <placegraph/eval/drawing/text_width.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
-#include <placegraph/eval/internal/drawing/figure.h>
-#include <placegraph/eval/internal/drawing/panel_drawing.h>
-#include <placegraph/eval/internal/drawing/plot_style.h>
-#include <placegraph/eval/internal/drawing/text_width.h>
+#include <placegraph/eval/drawing/figure.h>
+#include <placegraph/eval/drawing/panel_drawing.h>
+#include <placegraph/eval/drawing/plot_style.h>
+#include <placegraph/eval/drawing/text_width.h>
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 #pragma once
-#include <placegraph/eval/internal/drawing/legend.h>
-#include <placegraph/eval/internal/drawing/plot_axis.h>
-#include <placegraph/eval/internal/drawing/svg_canvas.h>
+#include <placegraph/eval/drawing/legend.h>
+#include <placegraph/eval/drawing/plot_axis.h>
+#include <placegraph/eval/drawing/svg_canvas.h>
 
 #include <Eigen/Core>
 #include <optional>

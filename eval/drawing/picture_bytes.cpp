@@ -1,4 +1,4 @@
-#include <placegraph/eval/internal/drawing/picture_bytes.h>
+#include <placegraph/eval/drawing/picture_bytes.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/image/drawing_plugin.h>
 #include <placegraph/graph/image/png_codec.h>

@@ -1,5 +1,5 @@
-#include <placegraph/eval/internal/drawing/colour_scale.h>
-#include <placegraph/eval/internal/drawing/plot_style.h>
+#include <placegraph/eval/drawing/colour_scale.h>
+#include <placegraph/eval/drawing/plot_style.h>
 
 #include <algorithm>
 #include <cmath>
