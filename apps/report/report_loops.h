@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/eval/internal/loops/reliability.h>
 #include <placegraph/eval/loops/loop_benchmark.h>
+#include <placegraph/eval/loops/reliability.h>
 #include <placegraph/graph/geometry/trajectory.h>
 #include <placegraph/graph/loop_truth.h>
 

@@ -1,7 +1,7 @@
 #include "apps/results/run_judgement.h"
 
-#include <placegraph/eval/internal/loops/place_check.h>
 #include <placegraph/eval/loops/loop_check.h>
+#include <placegraph/eval/loops/place_check.h>
 #include <placegraph/eval/trajectory/evaluate.h>
 #include <placegraph/eval/trajectory/umeyama.h>
 

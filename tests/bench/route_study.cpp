@@ -4,7 +4,7 @@
 // The map is made of the first MAP_FRAMES frames; the way back is replayed with frames of later
 // passes where there are any. Prints figure, tab, value.
 #include <fmt/format.h>
-#include <placegraph/eval/internal/loops/route_check.h>
+#include <placegraph/eval/loops/route_check.h>
 #include <placegraph/eval/trajectory/statistics.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/datasets/open_dataset.h>

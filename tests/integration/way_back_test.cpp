@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include <gtest/gtest.h>
-#include <placegraph/eval/internal/loops/route_check.h>
+#include <placegraph/eval/loops/route_check.h>
 #include <placegraph/io/synthetic/worlds/synthetic_world.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 #include <placegraph/pipeline/run.h>

@@ -1,6 +1,6 @@
-#include <placegraph/eval/internal/loops/reliability.h>
 #include <placegraph/eval/loops/loop_benchmark.h>
 #include <placegraph/eval/loops/loop_truth_from_poses.h>
+#include <placegraph/eval/loops/reliability.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/measurements/loop_file.h>
 

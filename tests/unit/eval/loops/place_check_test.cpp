@@ -1,7 +1,7 @@
 #include <numbers>
 
 #include <gtest/gtest.h>
-#include <placegraph/eval/internal/loops/place_check.h>
+#include <placegraph/eval/loops/place_check.h>
 #include <placegraph/graph/core/error.h>
 
 namespace placegraph {

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/eval/internal/loops/reliability.h>
+#include <placegraph/eval/loops/reliability.h>
 #include <placegraph/graph/core/error.h>
 
 namespace placegraph {

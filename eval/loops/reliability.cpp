@@ -1,4 +1,4 @@
-#include <placegraph/eval/internal/loops/reliability.h>
+#include <placegraph/eval/loops/reliability.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

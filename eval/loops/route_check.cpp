@@ -1,4 +1,4 @@
-#include <placegraph/eval/internal/loops/route_check.h>
+#include <placegraph/eval/loops/route_check.h>
 #include <placegraph/eval/trajectory/statistics.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/route.h>

@@ -1,4 +1,4 @@
-#include <placegraph/eval/internal/loops/place_check.h>
+#include <placegraph/eval/loops/place_check.h>
 #include <placegraph/eval/trajectory/rpe.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
