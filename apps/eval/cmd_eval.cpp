@@ -1,6 +1,6 @@
 #include "apps/eval/cmd_eval.h"
 
-#include <placegraph/eval/internal/plots/evaluation_plot.h>
+#include <placegraph/eval/plots/evaluation_plot.h>
 
 #include <CLI/CLI.hpp>
 #include <memory>

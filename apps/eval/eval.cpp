@@ -1,7 +1,7 @@
 #include "apps/eval/eval.h"
 
 #include <fmt/format.h>
-#include <placegraph/eval/internal/plots/evaluation_plot.h>
+#include <placegraph/eval/plots/evaluation_plot.h>
 #include <placegraph/eval/trajectory/report.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/datasets/open_dataset.h>

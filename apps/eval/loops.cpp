@@ -1,7 +1,7 @@
 #include "apps/eval/loops.h"
 
 #include <fmt/format.h>
-#include <placegraph/eval/internal/plots/precision_recall_plot.h>
+#include <placegraph/eval/plots/precision_recall_plot.h>
 #include <placegraph/graph/core/csv_text.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/id_format.h>

@@ -1,7 +1,7 @@
 #include "apps/graph/optimize.h"
 
 #include <fmt/format.h>
-#include <placegraph/eval/internal/plots/pose_graph_plot.h>
+#include <placegraph/eval/plots/pose_graph_plot.h>
 #include <placegraph/graph/core/chi_squared.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/id_format.h>

@@ -1,7 +1,7 @@
 #include "apps/map/route.h"
 
 #include <fmt/format.h>
-#include <placegraph/eval/internal/plots/plot.h>
+#include <placegraph/eval/plots/plot.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/id_format.h>

@@ -1,6 +1,6 @@
 #include "apps/report/parts.h"
 
-#include <placegraph/eval/internal/plots/plot.h>
+#include <placegraph/eval/plots/plot.h>
 
 #include <array>
 #include <cmath>

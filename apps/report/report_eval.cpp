@@ -1,7 +1,7 @@
 #include "apps/report/report_eval.h"
 
 #include <fmt/format.h>
-#include <placegraph/eval/internal/plots/evaluation_plot.h>
+#include <placegraph/eval/plots/evaluation_plot.h>
 #include <placegraph/eval/trajectory/evaluation_options.h>
 #include <placegraph/eval/trajectory/rpe.h>
 #include <placegraph/graph/core/angle.h>

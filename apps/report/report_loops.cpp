@@ -1,7 +1,7 @@
 #include "apps/report/report_loops.h"
 
 #include <fmt/format.h>
-#include <placegraph/eval/internal/plots/precision_recall_plot.h>
+#include <placegraph/eval/plots/precision_recall_plot.h>
 #include <placegraph/eval/trajectory/evaluation_options.h>
 
 #include <algorithm>

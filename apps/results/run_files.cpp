@@ -1,7 +1,7 @@
 #include "apps/results/run_files.h"
 
 #include <fmt/format.h>
-#include <placegraph/eval/internal/plots/evaluation_plot.h>
+#include <placegraph/eval/plots/evaluation_plot.h>
 #include <placegraph/eval/trajectory/evaluate.h>
 #include <placegraph/graph/core/csv_text.h>
 #include <placegraph/graph/core/error.h>

@@ -3,7 +3,7 @@
 // How the tiny image stands zoom and shift: bench_place_study FOLDER --robustness
 #include <fmt/format.h>
 #include <placegraph/eval/drawing/picture_bytes.h>
-#include <placegraph/eval/internal/plots/growth_plot.h>
+#include <placegraph/eval/plots/growth_plot.h>
 #include <placegraph/frontend/places/cues/cue_grid.h>
 #include <placegraph/frontend/places/place_recognizer.h>
 #include <placegraph/frontend/places/place_view.h>

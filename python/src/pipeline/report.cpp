@@ -1,6 +1,6 @@
 #include <fmt/format.h>
-#include <placegraph/eval/internal/plots/evaluation_plot.h>
-#include <placegraph/eval/internal/plots/pose_graph_plot.h>
+#include <placegraph/eval/plots/evaluation_plot.h>
+#include <placegraph/eval/plots/pose_graph_plot.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/datasets/open_dataset.h>
 

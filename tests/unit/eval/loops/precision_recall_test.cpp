@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/eval/internal/plots/precision_recall_plot.h>
 #include <placegraph/eval/loops/precision_recall.h>
+#include <placegraph/eval/plots/precision_recall_plot.h>
 #include <placegraph/graph/core/error.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/eval/internal/plots/evaluation_series.h>
+#include <placegraph/eval/plots/evaluation_series.h>
 #include <placegraph/graph/core/error.h>
 
 #include <cmath>

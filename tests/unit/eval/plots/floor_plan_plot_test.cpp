@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <placegraph/eval/internal/plots/floor_plan_plot.h>
+#include <placegraph/eval/plots/floor_plan_plot.h>
 
 #include "../drawing/svg_check.h"
 

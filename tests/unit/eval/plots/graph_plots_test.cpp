@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <placegraph/eval/drawing/label_room.h>
-#include <placegraph/eval/internal/plots/growth_plot.h>
-#include <placegraph/eval/internal/plots/pose_graph_plot.h>
+#include <placegraph/eval/plots/growth_plot.h>
+#include <placegraph/eval/plots/pose_graph_plot.h>
 #include <placegraph/graph/core/error.h>
 
 #include "../drawing/svg_check.h"

@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <placegraph/eval/internal/plots/precision_recall_plot.h>
+#include <placegraph/eval/plots/precision_recall_plot.h>
 #include <placegraph/graph/core/error.h>
 
 #include "../drawing/svg_check.h"

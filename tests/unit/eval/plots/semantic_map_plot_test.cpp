@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <placegraph/eval/internal/plots/semantic_map_plot.h>
+#include <placegraph/eval/plots/semantic_map_plot.h>
 
 #include <array>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/eval/drawing/plot_style.h>
-#include <placegraph/eval/internal/plots/trajectory_views.h>
+#include <placegraph/eval/plots/trajectory_views.h>
 
 #include <array>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <placegraph/eval/drawing/picture_bytes.h>
-#include <placegraph/eval/internal/plots/evaluation_plot.h>
+#include <placegraph/eval/plots/evaluation_plot.h>
 #include <placegraph/eval/trajectory/evaluate.h>
 #include <placegraph/eval/trajectory/report.h>
 #include <placegraph/graph/image/png_codec.h>

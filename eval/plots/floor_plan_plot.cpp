@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <placegraph/eval/drawing/figure.h>
 #include <placegraph/eval/drawing/plot_style.h>
-#include <placegraph/eval/internal/plots/floor_plan_plot.h>
+#include <placegraph/eval/plots/floor_plan_plot.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include <placegraph/eval/drawing/figure.h>
 #include <placegraph/eval/drawing/plot_style.h>
-#include <placegraph/eval/internal/plots/semantic_map_plot.h>
+#include <placegraph/eval/plots/semantic_map_plot.h>
 
 #include <algorithm>
 #include <cmath>

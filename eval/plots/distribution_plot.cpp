@@ -1,6 +1,6 @@
 #include <placegraph/eval/drawing/plot_style.h>
 #include <placegraph/eval/drawing/text_width.h>
-#include <placegraph/eval/internal/plots/distribution_plot.h>
+#include <placegraph/eval/plots/distribution_plot.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/eval/internal/plots/plot.h>
+#include <placegraph/eval/plots/plot.h>
 #include <placegraph/graph/pose_graph/pose_graph.h>
 
 namespace placegraph {

@@ -1,5 +1,5 @@
 #include <placegraph/eval/drawing/plot_style.h>
-#include <placegraph/eval/internal/plots/evaluation_series.h>
+#include <placegraph/eval/plots/evaluation_series.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 

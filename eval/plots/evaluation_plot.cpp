@@ -1,7 +1,7 @@
 #include <fmt/format.h>
-#include <placegraph/eval/internal/plots/distribution_plot.h>
-#include <placegraph/eval/internal/plots/evaluation_plot.h>
-#include <placegraph/eval/internal/plots/evaluation_series.h>
+#include <placegraph/eval/plots/distribution_plot.h>
+#include <placegraph/eval/plots/evaluation_plot.h>
+#include <placegraph/eval/plots/evaluation_series.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

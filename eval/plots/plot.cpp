@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <placegraph/eval/drawing/plot_style.h>
-#include <placegraph/eval/internal/plots/plot.h>
-#include <placegraph/eval/internal/plots/trajectory_views.h>
+#include <placegraph/eval/plots/plot.h>
+#include <placegraph/eval/plots/trajectory_views.h>
 
 #include <algorithm>
 #include <cmath>

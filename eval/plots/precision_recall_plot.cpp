@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <placegraph/eval/drawing/figure.h>
 #include <placegraph/eval/drawing/plot_style.h>
-#include <placegraph/eval/internal/plots/precision_recall_plot.h>
+#include <placegraph/eval/plots/precision_recall_plot.h>
 #include <placegraph/graph/core/error.h>
 
 namespace placegraph {

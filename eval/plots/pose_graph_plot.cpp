@@ -1,4 +1,4 @@
-#include <placegraph/eval/internal/plots/pose_graph_plot.h>
+#include <placegraph/eval/plots/pose_graph_plot.h>
 #include <placegraph/graph/pose_graph/node_index.h>
 #include <placegraph/graph/pose_graph/position_of.h>
 
