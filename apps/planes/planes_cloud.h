@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/eval/internal/scene/plane_check.h>
+#include <placegraph/eval/scene/plane_check.h>
 #include <placegraph/frontend/cloud_planes/cloud_planes.h>
 #include <placegraph/frontend/cloud_planes/cuboids.h>
 

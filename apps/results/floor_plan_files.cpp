@@ -1,8 +1,8 @@
 #include "apps/results/floor_plan_files.h"
 
 #include <fmt/format.h>
-#include <placegraph/eval/internal/scene/floor_plan_check.h>
 #include <placegraph/eval/plots/floor_plan_plot.h>
+#include <placegraph/eval/scene/floor_plan_check.h>
 #include <placegraph/io/datasets/dataset.h>
 #include <placegraph/io/map/map_database.h>
 #include <placegraph/io/scene/indoor_map_file.h>

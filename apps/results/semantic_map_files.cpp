@@ -1,7 +1,7 @@
 #include "apps/results/semantic_map_files.h"
 
-#include <placegraph/eval/internal/scene/semantic_map_check.h>
 #include <placegraph/eval/plots/semantic_map_plot.h>
+#include <placegraph/eval/scene/semantic_map_check.h>
 #include <placegraph/frontend/scene/moving_classes.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/datasets/dataset.h>

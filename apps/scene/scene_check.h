@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/eval/internal/scene/label_check.h>
+#include <placegraph/eval/scene/label_check.h>
 
 #include <cstddef>
 #include <string>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/eval/internal/scene/orientation_check.h>
+#include <placegraph/eval/scene/orientation_check.h>
 #include <placegraph/frontend/scene/orientation_map.h>
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/eval/internal/scene/label_check.h>
+#include <placegraph/eval/scene/label_check.h>
 #include <placegraph/graph/core/log.h>
 #include <placegraph/graph/scene/scene_model.h>
 

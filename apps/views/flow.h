@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/eval/internal/scene/flow_error.h>
+#include <placegraph/eval/scene/flow_error.h>
 
 #include <cstdint>
 #include <nlohmann/json.hpp>

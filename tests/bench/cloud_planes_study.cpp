@@ -1,7 +1,7 @@
 // Planes in point clouds with known labels: found by each method, with and without noise added.
 //   bench_cloud_planes_study castle FOLDER | synpeb FILE | generated SEED
 #include <fmt/format.h>
-#include <placegraph/eval/internal/scene/plane_check.h>
+#include <placegraph/eval/scene/plane_check.h>
 #include <placegraph/frontend/cloud_planes/cloud_planes.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>

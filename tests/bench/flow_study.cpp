@@ -3,7 +3,7 @@
 //   bench_flow_study OUT_PREFIX [FRAMES=6]
 // writes OUT_PREFIX.md (tables) and OUT_PREFIX_targets.tsv (figure, tab, value).
 #include <fmt/format.h>
-#include <placegraph/eval/internal/scene/flow_error.h>
+#include <placegraph/eval/scene/flow_error.h>
 #include <placegraph/frontend/flow/flow_cues.h>
 #include <placegraph/frontend/flow/optical_flow.h>
 #include <placegraph/graph/core/error.h>

@@ -1,5 +1,5 @@
 #include <fmt/format.h>
-#include <placegraph/eval/internal/scene/flow_error.h>
+#include <placegraph/eval/scene/flow_error.h>
 #include <placegraph/frontend/flow/corners.h>
 #include <placegraph/frontend/flow/optical_flow.h>
 #include <placegraph/graph/core/error.h>

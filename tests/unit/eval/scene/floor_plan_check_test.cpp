@@ -2,9 +2,9 @@
 #include <numbers>
 
 #include <gtest/gtest.h>
-#include <placegraph/eval/internal/scene/floor_plan_check.h>
-#include <placegraph/eval/internal/scene/orientation_check.h>
 #include <placegraph/eval/plots/floor_plan_plot.h>
+#include <placegraph/eval/scene/floor_plan_check.h>
+#include <placegraph/eval/scene/orientation_check.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/measurements/plane_truth.h>
 #include <placegraph/io/scene/indoor_map_file.h>

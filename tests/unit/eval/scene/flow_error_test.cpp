@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/eval/internal/scene/flow_error.h>
+#include <placegraph/eval/scene/flow_error.h>
 #include <placegraph/graph/core/error.h>
 
 #include <limits>

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/eval/internal/scene/label_check.h>
+#include <placegraph/eval/scene/label_check.h>
 #include <placegraph/graph/core/error.h>
 
 #include <cmath>

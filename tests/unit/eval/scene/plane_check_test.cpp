@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/eval/internal/scene/plane_check.h>
+#include <placegraph/eval/scene/plane_check.h>
 #include <placegraph/graph/core/error.h>
 
 namespace placegraph {

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <placegraph/eval/internal/scene/semantic_map_check.h>
 #include <placegraph/eval/plots/semantic_map_plot.h>
+#include <placegraph/eval/scene/semantic_map_check.h>
 
 #include "../drawing/svg_check.h"
 

@@ -1,4 +1,4 @@
-#include <placegraph/eval/internal/scene/floor_plan_check.h>
+#include <placegraph/eval/scene/floor_plan_check.h>
 #include <placegraph/graph/core/angle.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include <placegraph/eval/internal/scene/semantic_map_check.h>
+#include <placegraph/eval/scene/semantic_map_check.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include <placegraph/eval/internal/scene/plane_check.h>
+#include <placegraph/eval/scene/plane_check.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include <placegraph/eval/internal/scene/orientation_check.h>
+#include <placegraph/eval/scene/orientation_check.h>
 #include <placegraph/graph/core/error.h>
 
 #include <cmath>

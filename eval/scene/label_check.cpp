@@ -1,4 +1,4 @@
-#include <placegraph/eval/internal/scene/label_check.h>
+#include <placegraph/eval/scene/label_check.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include <placegraph/eval/internal/scene/flow_error.h>
+#include <placegraph/eval/scene/flow_error.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>
