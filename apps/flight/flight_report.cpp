@@ -1,7 +1,7 @@
 #include "apps/flight/flight_report.h"
 
 #include <fmt/format.h>
-#include <placegraph/eval/internal/trajectory/body_state_error.h>
+#include <placegraph/eval/trajectory/body_state_error.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/csv_text.h>
 

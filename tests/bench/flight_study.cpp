@@ -2,7 +2,7 @@
 // and beacons are measured where they truly are, with noise. Consistency over many seeds, and drift
 // after the last marker.
 #include <fmt/format.h>
-#include <placegraph/eval/internal/trajectory/body_state_error.h>
+#include <placegraph/eval/trajectory/body_state_error.h>
 
 #include <algorithm>
 #include <cstdio>

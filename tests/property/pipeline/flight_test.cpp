@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/eval/internal/trajectory/body_state_error.h>
+#include <placegraph/eval/trajectory/body_state_error.h>
 
 #include "tests/support/scenes/flight_measurements.h"
 

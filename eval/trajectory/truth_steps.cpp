@@ -1,4 +1,4 @@
-#include <placegraph/eval/internal/trajectory/truth_steps.h>
+#include <placegraph/eval/trajectory/truth_steps.h>
 #include <placegraph/graph/core/quantile.h>
 
 namespace placegraph {

@@ -1,5 +1,5 @@
-#include <placegraph/eval/internal/trajectory/direction_noise.h>
-#include <placegraph/eval/internal/trajectory/truth_noise.h>
+#include <placegraph/eval/trajectory/direction_noise.h>
+#include <placegraph/eval/trajectory/truth_noise.h>
 #include <placegraph/graph/core/chi_squared.h>
 #include <placegraph/graph/core/median.h>
 #include <placegraph/graph/core/quantile.h>

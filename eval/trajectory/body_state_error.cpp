@@ -1,4 +1,4 @@
-#include <placegraph/eval/internal/trajectory/body_state_error.h>
+#include <placegraph/eval/trajectory/body_state_error.h>
 #include <placegraph/graph/core/time.h>
 
 #include <Eigen/Cholesky>

@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/eval/internal/trajectory/truth_noise.h>
-#include <placegraph/eval/internal/trajectory/truth_steps.h>
+#include <placegraph/eval/trajectory/truth_noise.h>
+#include <placegraph/eval/trajectory/truth_steps.h>
 
 namespace placegraph {
 

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
-#include <placegraph/eval/internal/trajectory/plausibility.h>
 #include <placegraph/eval/trajectory/evaluate.h>
+#include <placegraph/eval/trajectory/plausibility.h>
 
 #include <algorithm>
 #include <cmath>

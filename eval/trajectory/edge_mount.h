@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/eval/internal/trajectory/edge_error.h>
+#include <placegraph/eval/trajectory/edge_error.h>
 
 namespace placegraph {
 

@@ -1,4 +1,4 @@
-#include <placegraph/eval/internal/trajectory/edge_error.h>
+#include <placegraph/eval/trajectory/edge_error.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/median.h>
 

@@ -1,5 +1,5 @@
 #include <fmt/format.h>
-#include <placegraph/eval/internal/trajectory/plausibility.h>
+#include <placegraph/eval/trajectory/plausibility.h>
 #include <placegraph/eval/trajectory/rpe.h>
 #include <placegraph/graph/core/angle.h>
 
