@@ -4,7 +4,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/parallel.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/pipeline/internal/cues/surface_labels.h>
+#include <placegraph/pipeline/cues/surface_labels.h>
 
 #include <algorithm>
 #include <opencv2/core/utility.hpp>

@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/graph/scene/environment.h>
-#include <placegraph/pipeline/internal/cues/surface_labels.h>
+#include <placegraph/pipeline/cues/surface_labels.h>
 
 #include <cstdint>
 #include <string>

@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/frontend/scene/street_trust.h>
 #include <placegraph/graph/map.h>
-#include <placegraph/pipeline/internal/cues/surface_labels.h>
+#include <placegraph/pipeline/cues/surface_labels.h>
 
 #include <functional>
 

@@ -2,7 +2,7 @@
 #include <placegraph/backend/window/sliding_window.h>
 #include <placegraph/frontend/lines/line_tracker.h>
 #include <placegraph/graph/core/ids.h>
-#include <placegraph/pipeline/internal/cues/nearest_depth.h>
+#include <placegraph/pipeline/cues/nearest_depth.h>
 
 #include <array>
 #include <cstdint>

@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/graph/core/stage_times.h>
-#include <placegraph/pipeline/internal/cues/surface_labels.h>
+#include <placegraph/pipeline/cues/surface_labels.h>
 
 #include <memory>
 

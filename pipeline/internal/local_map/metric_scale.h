@@ -2,7 +2,7 @@
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/core/log.h>
 #include <placegraph/graph/measurements/measured_motion.h>
-#include <placegraph/pipeline/internal/cues/manhattan_cue.h>
+#include <placegraph/pipeline/cues/manhattan_cue.h>
 #include <placegraph/pipeline/internal/lines/line_cue.h>
 #include <placegraph/pipeline/internal/local_map/keyframe_masks.h>
 #include <placegraph/pipeline/internal/local_map/local_map.h>

@@ -3,7 +3,7 @@
 #include <placegraph/frontend/relative_pose/mono_initializer.h>
 #include <placegraph/graph/core/log_message.h>
 #include <placegraph/graph/core/median.h>
-#include <placegraph/pipeline/internal/cues/point_cue.h>
+#include <placegraph/pipeline/cues/point_cue.h>
 #include <placegraph/pipeline/internal/odometry/two_view_initializer.h>
 
 #include <set>

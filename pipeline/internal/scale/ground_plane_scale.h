@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/frontend/planes/ground_plane.h>
 #include <placegraph/pipeline/cues/cue_options.h>
-#include <placegraph/pipeline/internal/cues/ground_mask.h>
+#include <placegraph/pipeline/cues/ground_mask.h>
 
 #include <deque>
 #include <optional>

@@ -1,4 +1,4 @@
-#include <placegraph/pipeline/internal/cues/surface_labels.h>
+#include <placegraph/pipeline/cues/surface_labels.h>
 #include <placegraph/pipeline/internal/slam/environment_monitor.h>
 
 #include <algorithm>

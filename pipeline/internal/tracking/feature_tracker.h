@@ -1,8 +1,8 @@
 #pragma once
 #include <placegraph/graph/core/ids.h>
-#include <placegraph/pipeline/internal/cues/keyframe_alignment.h>
-#include <placegraph/pipeline/internal/cues/plane_cue.h>
-#include <placegraph/pipeline/internal/cues/point_cue.h>
+#include <placegraph/pipeline/cues/keyframe_alignment.h>
+#include <placegraph/pipeline/cues/plane_cue.h>
+#include <placegraph/pipeline/cues/point_cue.h>
 #include <placegraph/pipeline/internal/tracking/camera_velocity.h>
 #include <placegraph/pipeline/internal/tracking/cue_list.h>
 #include <placegraph/pipeline/internal/tracking/frame_tracker.h>

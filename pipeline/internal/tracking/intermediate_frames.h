@@ -2,7 +2,7 @@
 #include <placegraph/frontend/features/rgbd_errors.h>
 #include <placegraph/frontend/relative_pose/pose_3d2d.h>
 #include <placegraph/graph/core/ids.h>
-#include <placegraph/pipeline/internal/cues/manhattan_cue.h>
+#include <placegraph/pipeline/cues/manhattan_cue.h>
 #include <placegraph/pipeline/internal/local_map/local_map.h>
 
 #include <map>

@@ -2,7 +2,7 @@
 #include <placegraph/frontend/features/rgbd_errors.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/core/outcome.h>
-#include <placegraph/pipeline/internal/cues/surface_labels.h>
+#include <placegraph/pipeline/cues/surface_labels.h>
 #include <placegraph/pipeline/internal/local_map/local_map.h>
 #include <placegraph/pipeline/tracking/frame_result.h>
 

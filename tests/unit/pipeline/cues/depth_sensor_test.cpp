@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/internal/cues/depth_sensor.h>
+#include <placegraph/pipeline/cues/depth_sensor.h>
 
 #include "tests/support/scenes/street.h"
 

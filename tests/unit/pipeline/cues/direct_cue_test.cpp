@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/frontend/planes/dominant_surface.h>
 #include <placegraph/graph/core/median.h>
-#include <placegraph/pipeline/internal/cues/direct_cue.h>
+#include <placegraph/pipeline/cues/direct_cue.h>
 
 #include <opencv2/core.hpp>
 

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/internal/cues/keyframe_alignment.h>
+#include <placegraph/pipeline/cues/keyframe_alignment.h>
 
 #include <Eigen/Eigenvalues>
 

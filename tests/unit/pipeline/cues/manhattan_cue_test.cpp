@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/internal/cues/manhattan_cue.h>
+#include <placegraph/pipeline/cues/manhattan_cue.h>
 
 #include "tests/support/scenes/boards.h"
 #include "tests/support/scenes/corridor_view.h"

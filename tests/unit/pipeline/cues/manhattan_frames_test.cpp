@@ -2,7 +2,7 @@
 #include <placegraph/frontend/vanishing/manhattan_frame.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/internal/cues/manhattan_frames.h>
+#include <placegraph/pipeline/cues/manhattan_frames.h>
 
 #include "tests/support/scenes/window_world.h"
 

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/internal/cues/plane_cue.h>
+#include <placegraph/pipeline/cues/plane_cue.h>
 
 #include <Eigen/Dense>
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/median.h>
-#include <placegraph/pipeline/internal/cues/point_cue.h>
+#include <placegraph/pipeline/cues/point_cue.h>
 
 #include "tests/support/ids.h"
 #include "tests/support/scenes/street.h"

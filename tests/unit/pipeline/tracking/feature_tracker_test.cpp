@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/internal/cues/point_cue.h>
+#include <placegraph/pipeline/cues/point_cue.h>
 #include <placegraph/pipeline/internal/tracking/feature_tracker.h>
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #include <placegraph/frontend/planes/dominant_surface.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/median.h>
-#include <placegraph/pipeline/internal/cues/direct_cue.h>
+#include <placegraph/pipeline/cues/direct_cue.h>
 
 #include <Eigen/Dense>
 #include <algorithm>

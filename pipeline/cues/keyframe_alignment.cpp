@@ -1,4 +1,4 @@
-#include <placegraph/pipeline/internal/cues/keyframe_alignment.h>
+#include <placegraph/pipeline/cues/keyframe_alignment.h>
 
 #include <Eigen/Cholesky>
 

@@ -1,6 +1,6 @@
 #include <placegraph/frontend/scene/orientation_map.h>
 #include <placegraph/graph/core/angle.h>
-#include <placegraph/pipeline/internal/cues/manhattan_cue.h>
+#include <placegraph/pipeline/cues/manhattan_cue.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>

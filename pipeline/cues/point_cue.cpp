@@ -2,9 +2,9 @@
 #include <placegraph/frontend/flow/matched_displacements.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/median.h>
-#include <placegraph/pipeline/internal/cues/determined_rotation.h>
-#include <placegraph/pipeline/internal/cues/nearest_depth.h>
-#include <placegraph/pipeline/internal/cues/point_cue.h>
+#include <placegraph/pipeline/cues/determined_rotation.h>
+#include <placegraph/pipeline/cues/nearest_depth.h>
+#include <placegraph/pipeline/cues/point_cue.h>
 
 #include <algorithm>
 #include <cmath>

@@ -6,8 +6,8 @@
 #include <placegraph/graph/image/image.h>
 #include <placegraph/pipeline/cues/cue_options.h>
 #include <placegraph/pipeline/cues/frame_view.h>
-#include <placegraph/pipeline/internal/cues/ground_mask.h>
-#include <placegraph/pipeline/internal/cues/manhattan_frames.h>
+#include <placegraph/pipeline/cues/ground_mask.h>
+#include <placegraph/pipeline/cues/manhattan_frames.h>
 
 namespace placegraph {
 

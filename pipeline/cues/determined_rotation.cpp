@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/angle.h>
-#include <placegraph/pipeline/internal/cues/determined_rotation.h>
+#include <placegraph/pipeline/cues/determined_rotation.h>
 
 #include <Eigen/LU>
 #include <cmath>

@@ -6,8 +6,8 @@
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/core/stage_times.h>
 #include <placegraph/pipeline/cues/cue_options.h>
-#include <placegraph/pipeline/internal/cues/depth_sensor.h>
-#include <placegraph/pipeline/internal/cues/direct_cue.h>
+#include <placegraph/pipeline/cues/depth_sensor.h>
+#include <placegraph/pipeline/cues/direct_cue.h>
 
 #include <map>
 #include <optional>

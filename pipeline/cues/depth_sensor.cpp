@@ -1,5 +1,5 @@
 #include <placegraph/frontend/features/depth_lookup.h>
-#include <placegraph/pipeline/internal/cues/depth_sensor.h>
+#include <placegraph/pipeline/cues/depth_sensor.h>
 
 namespace placegraph {
 

@@ -1,6 +1,6 @@
 #include <placegraph/frontend/segments/segment_detector.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/internal/cues/surface_labels.h>
+#include <placegraph/pipeline/cues/surface_labels.h>
 
 #include <opencv2/imgproc.hpp>
 

@@ -1,6 +1,6 @@
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/chi_squared.h>
-#include <placegraph/pipeline/internal/cues/plane_cue.h>
+#include <placegraph/pipeline/cues/plane_cue.h>
 
 #include <Eigen/Dense>
 #include <algorithm>

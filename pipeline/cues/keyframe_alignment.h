@@ -2,7 +2,7 @@
 #include <placegraph/backend/window/sliding_window.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/core/random.h>
-#include <placegraph/pipeline/internal/cues/direct_cue.h>
+#include <placegraph/pipeline/cues/direct_cue.h>
 
 namespace placegraph {
 

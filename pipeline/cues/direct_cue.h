@@ -6,8 +6,8 @@
 #include <placegraph/graph/geometry/lie.h>
 #include <placegraph/graph/image/frame.h>
 #include <placegraph/pipeline/cues/cue_options.h>
+#include <placegraph/pipeline/cues/depth_sensor.h>
 #include <placegraph/pipeline/cues/frame_view.h>
-#include <placegraph/pipeline/internal/cues/depth_sensor.h>
 
 #include <optional>
 #include <vector>

@@ -1,7 +1,7 @@
 #include <placegraph/frontend/vanishing/manhattan_frame.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/chi_squared.h>
-#include <placegraph/pipeline/internal/cues/manhattan_frames.h>
+#include <placegraph/pipeline/cues/manhattan_frames.h>
 
 #include <algorithm>
 #include <cmath>
