@@ -4,11 +4,11 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/exports/gltf_scene.h>
 #include <placegraph/io/exports/surface_ply.h>
-#include <placegraph/pipeline/internal/dense/consistent_depth.h>
-#include <placegraph/pipeline/internal/dense/depth_sources.h>
-#include <placegraph/pipeline/internal/dense/mesh_parts.h>
-#include <placegraph/pipeline/internal/dense/tsdf_surface.h>
-#include <placegraph/pipeline/internal/dense/voxel_cloud.h>
+#include <placegraph/pipeline/dense/consistent_depth.h>
+#include <placegraph/pipeline/dense/depth_sources.h>
+#include <placegraph/pipeline/dense/mesh_parts.h>
+#include <placegraph/pipeline/dense/tsdf_surface.h>
+#include <placegraph/pipeline/dense/voxel_cloud.h>
 
 #include <cmath>
 #include <filesystem>

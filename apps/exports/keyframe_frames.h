@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/io/map/stored_map.h>
-#include <placegraph/pipeline/internal/dense/depth_sources.h>
+#include <placegraph/pipeline/dense/depth_sources.h>
 
 #include <cstddef>
 #include <string>

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/internal/dense/consistent_depth.h>
+#include <placegraph/pipeline/dense/consistent_depth.h>
 
 #include "tests/unit/pipeline/dense/rendered_depth.h"
 

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/internal/dense/depth_cleaning.h>
+#include <placegraph/pipeline/dense/depth_cleaning.h>
 
 #include "tests/unit/pipeline/dense/rendered_depth.h"
 

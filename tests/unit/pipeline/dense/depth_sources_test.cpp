@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/internal/dense/depth_sources.h>
+#include <placegraph/pipeline/dense/depth_sources.h>
 
 #include <cmath>
 

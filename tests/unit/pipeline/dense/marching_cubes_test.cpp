@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/internal/dense/marching_cubes.h>
+#include <placegraph/pipeline/dense/marching_cubes.h>
 
 #include <Eigen/Geometry>
 #include <map>

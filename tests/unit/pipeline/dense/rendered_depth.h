@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/pipeline/internal/dense/depth_cleaning.h>
+#include <placegraph/pipeline/dense/depth_cleaning.h>
 
 #include <cmath>
 #include <opencv2/core.hpp>

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/internal/dense/mesh_parts.h>
-#include <placegraph/pipeline/internal/dense/tsdf_surface.h>
+#include <placegraph/pipeline/dense/mesh_parts.h>
+#include <placegraph/pipeline/dense/tsdf_surface.h>
 
 #include <Eigen/Geometry>
 #include <map>

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/internal/dense/voxel_cloud.h>
+#include <placegraph/pipeline/dense/voxel_cloud.h>
 
 #include <limits>
 #include <set>

@@ -1,6 +1,6 @@
-#include <placegraph/pipeline/internal/dense/marching_cubes.h>
-#include <placegraph/pipeline/internal/dense/mesh_parts.h>
-#include <placegraph/pipeline/internal/dense/tsdf_surface.h>
+#include <placegraph/pipeline/dense/marching_cubes.h>
+#include <placegraph/pipeline/dense/mesh_parts.h>
+#include <placegraph/pipeline/dense/tsdf_surface.h>
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/pipeline/internal/dense/keyframe_depth.h>
+#include <placegraph/pipeline/dense/keyframe_depth.h>
 
 #include <deque>
 #include <memory>

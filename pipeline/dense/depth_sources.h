@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/image/frame.h>
-#include <placegraph/pipeline/internal/dense/keyframe_depth.h>
+#include <placegraph/pipeline/dense/keyframe_depth.h>
 #include <placegraph/pipeline/internal/map/map_geometry.h>
 
 #include <functional>

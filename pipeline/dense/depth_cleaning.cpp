@@ -1,4 +1,4 @@
-#include <placegraph/pipeline/internal/dense/depth_cleaning.h>
+#include <placegraph/pipeline/dense/depth_cleaning.h>
 
 #include <cmath>
 #include <opencv2/imgproc.hpp>

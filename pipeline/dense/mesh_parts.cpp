@@ -1,4 +1,4 @@
-#include <placegraph/pipeline/internal/dense/mesh_parts.h>
+#include <placegraph/pipeline/dense/mesh_parts.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/pipeline/internal/dense/keyframe_depth.h>
-#include <placegraph/pipeline/internal/dense/voxel_grid.h>
+#include <placegraph/pipeline/dense/keyframe_depth.h>
+#include <placegraph/pipeline/dense/voxel_grid.h>
 
 #include <array>
 #include <cstddef>

@@ -2,7 +2,7 @@
 #include <placegraph/frontend/floor_plan/plane_sweep.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/internal/dense/depth_sources.h>
+#include <placegraph/pipeline/dense/depth_sources.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include <placegraph/pipeline/internal/dense/marching_cubes.h>
+#include <placegraph/pipeline/dense/marching_cubes.h>
 
 namespace placegraph {
 namespace {

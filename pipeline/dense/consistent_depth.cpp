@@ -1,5 +1,5 @@
-#include <placegraph/pipeline/internal/dense/consistent_depth.h>
-#include <placegraph/pipeline/internal/dense/depth_cleaning.h>
+#include <placegraph/pipeline/dense/consistent_depth.h>
+#include <placegraph/pipeline/dense/depth_cleaning.h>
 
 #include <algorithm>
 #include <cmath>

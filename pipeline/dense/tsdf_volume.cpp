@@ -1,4 +1,4 @@
-#include <placegraph/pipeline/internal/dense/tsdf_volume.h>
+#include <placegraph/pipeline/dense/tsdf_volume.h>
 
 #include <algorithm>
 #include <cmath>

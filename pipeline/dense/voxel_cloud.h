@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/io/exports/surface_ply.h>
-#include <placegraph/pipeline/internal/dense/keyframe_depth.h>
-#include <placegraph/pipeline/internal/dense/voxel_grid.h>
+#include <placegraph/pipeline/dense/keyframe_depth.h>
+#include <placegraph/pipeline/dense/voxel_grid.h>
 
 #include <cstddef>
 #include <cstdint>

@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/io/exports/surface_ply.h>
-#include <placegraph/pipeline/internal/dense/tsdf_volume.h>
+#include <placegraph/pipeline/dense/tsdf_volume.h>
 
 namespace placegraph {
 

@@ -1,4 +1,4 @@
-#include <placegraph/pipeline/internal/dense/voxel_cloud.h>
+#include <placegraph/pipeline/dense/voxel_cloud.h>
 
 #include <algorithm>
 
