@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/graph/measurements/marker_layout.h>
 #include <placegraph/io/datasets/euroc.h>
-#include <placegraph/pipeline/internal/flight/flight_run.h>
+#include <placegraph/pipeline/flight/flight_run.h>
 
 #include <optional>
 #include <string>

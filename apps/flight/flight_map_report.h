@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/graph/measurements/marker_layout.h>
-#include <placegraph/pipeline/internal/flight/marker_map.h>
+#include <placegraph/pipeline/flight/marker_map.h>
 
 #include <nlohmann/json_fwd.hpp>
 

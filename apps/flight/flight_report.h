@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/pipeline/internal/flight/flight_run.h>
+#include <placegraph/pipeline/flight/flight_run.h>
 
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/time.h>
-#include <placegraph/pipeline/internal/flight/delay_line.h>
+#include <placegraph/pipeline/flight/delay_line.h>
 
 #include "tests/support/seed.h"
 

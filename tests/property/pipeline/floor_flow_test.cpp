@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/internal/flight/floor_flow.h>
+#include <placegraph/pipeline/flight/floor_flow.h>
 
 #include "tests/support/seed.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/graph/core/random.h>
 #include <placegraph/io/synthetic/worlds/flight_world.h>
-#include <placegraph/pipeline/internal/flight/flight_estimator.h>
+#include <placegraph/pipeline/flight/flight_estimator.h>
 
 #include <functional>
 #include <optional>

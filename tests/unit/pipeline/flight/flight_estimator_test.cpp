@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/internal/flight/flight_estimator.h>
+#include <placegraph/pipeline/flight/flight_estimator.h>
 
 #include <cmath>
 #include <numbers>

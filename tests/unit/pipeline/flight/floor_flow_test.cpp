@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/internal/flight/floor_flow.h>
+#include <placegraph/pipeline/flight/floor_flow.h>
 
 #include "tests/support/scenes/texture.h"
 

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/internal/flight/imu_buffer.h>
+#include <placegraph/pipeline/flight/imu_buffer.h>
 
 #include <cmath>
 

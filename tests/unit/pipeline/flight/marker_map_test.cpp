@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/internal/flight/marker_map.h>
+#include <placegraph/pipeline/flight/marker_map.h>
 
 #include "tests/support/scenes/marker_scene.h"
 #include "tests/support/scenes/scene.h"

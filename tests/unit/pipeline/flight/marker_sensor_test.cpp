@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/internal/flight/marker_sensor.h>
+#include <placegraph/pipeline/flight/marker_sensor.h>
 
 #include "tests/support/scenes/marker_scene.h"
 #include "tests/support/seed.h"

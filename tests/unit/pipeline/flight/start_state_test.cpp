@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/internal/flight/start_state.h>
+#include <placegraph/pipeline/flight/start_state.h>
 
 #include <numbers>
 

@@ -4,7 +4,7 @@
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/measurements/marker_layout.h>
 #include <placegraph/graph/pose_graph/pose_graph.h>
-#include <placegraph/pipeline/internal/flight/flight_options.h>
+#include <placegraph/pipeline/flight/flight_options.h>
 
 #include <map>
 #include <vector>

@@ -1,5 +1,5 @@
 #include <placegraph/backend/inertial/state_layout.h>
-#include <placegraph/pipeline/internal/flight/marker_sensor.h>
+#include <placegraph/pipeline/flight/marker_sensor.h>
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/internal/flight/flight_estimator.h>
-#include <placegraph/pipeline/internal/flight/start_state.h>
+#include <placegraph/pipeline/flight/flight_estimator.h>
+#include <placegraph/pipeline/flight/start_state.h>
 
 #include <utility>
 

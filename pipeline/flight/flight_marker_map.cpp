@@ -1,6 +1,6 @@
 #include <placegraph/backend/inertial/state_layout.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/internal/flight/flight_marker_map.h>
+#include <placegraph/pipeline/flight/flight_marker_map.h>
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/internal/flight/floor_flow.h>
+#include <placegraph/pipeline/flight/floor_flow.h>
 
 #include <string>
 

@@ -9,7 +9,7 @@
 #include <placegraph/graph/image/image.h>
 #include <placegraph/graph/measurements/body_state.h>
 #include <placegraph/graph/measurements/marker_layout.h>
-#include <placegraph/pipeline/internal/flight/flight_options.h>
+#include <placegraph/pipeline/flight/flight_options.h>
 
 #include <optional>
 #include <vector>

@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/pipeline/internal/flight/flight_run.h>
-#include <placegraph/pipeline/internal/flight/marker_map.h>
+#include <placegraph/pipeline/flight/flight_run.h>
+#include <placegraph/pipeline/flight/marker_map.h>
 
 namespace placegraph {
 

@@ -1,5 +1,5 @@
 #include <placegraph/backend/inertial/inertial_window.h>
-#include <placegraph/pipeline/internal/flight/flight_run.h>
+#include <placegraph/pipeline/flight/flight_run.h>
 
 #include <algorithm>
 #include <cmath>

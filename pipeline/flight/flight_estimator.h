@@ -3,11 +3,11 @@
 #include <placegraph/graph/core/stage_times.h>
 #include <placegraph/graph/image/frame.h>
 #include <placegraph/graph/measurements/marker_layout.h>
-#include <placegraph/pipeline/internal/flight/delay_line.h>
-#include <placegraph/pipeline/internal/flight/flight_options.h>
-#include <placegraph/pipeline/internal/flight/floor_flow.h>
-#include <placegraph/pipeline/internal/flight/imu_buffer.h>
-#include <placegraph/pipeline/internal/flight/marker_sensor.h>
+#include <placegraph/pipeline/flight/delay_line.h>
+#include <placegraph/pipeline/flight/flight_options.h>
+#include <placegraph/pipeline/flight/floor_flow.h>
+#include <placegraph/pipeline/flight/imu_buffer.h>
+#include <placegraph/pipeline/flight/marker_sensor.h>
 
 #include <cstdint>
 #include <optional>

@@ -8,7 +8,7 @@
 #include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/image/image.h>
 #include <placegraph/graph/measurements/body_state.h>
-#include <placegraph/pipeline/internal/flight/flight_options.h>
+#include <placegraph/pipeline/flight/flight_options.h>
 
 #include <cstdint>
 #include <optional>

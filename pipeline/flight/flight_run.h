@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/io/datasets/dataset.h>
 #include <placegraph/io/sensors/imu_file.h>
-#include <placegraph/pipeline/internal/flight/flight_estimator.h>
+#include <placegraph/pipeline/flight/flight_estimator.h>
 
 #include <functional>
 #include <limits>

@@ -1,4 +1,4 @@
-#include <placegraph/pipeline/internal/flight/flight_options.h>
+#include <placegraph/pipeline/flight/flight_options.h>
 
 namespace placegraph {
 

@@ -1,6 +1,6 @@
 #include <placegraph/backend/inertial/state_layout.h>
 #include <placegraph/graph/core/time.h>
-#include <placegraph/pipeline/internal/flight/imu_buffer.h>
+#include <placegraph/pipeline/flight/imu_buffer.h>
 
 #include <algorithm>
 

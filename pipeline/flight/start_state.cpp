@@ -1,5 +1,5 @@
 #include <placegraph/backend/inertial/state_layout.h>
-#include <placegraph/pipeline/internal/flight/start_state.h>
+#include <placegraph/pipeline/flight/start_state.h>
 
 namespace placegraph {
 

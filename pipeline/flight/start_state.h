@@ -2,7 +2,7 @@
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/measurements/body_state.h>
 #include <placegraph/graph/measurements/flight_measurement.h>
-#include <placegraph/pipeline/internal/flight/flight_options.h>
+#include <placegraph/pipeline/flight/flight_options.h>
 
 #include <optional>
 
