@@ -1,8 +1,8 @@
 #pragma once
 #include <placegraph/graph/core/ids.h>
-#include <placegraph/pipeline/internal/health/contradicted_steps.h>
-#include <placegraph/pipeline/internal/health/health_monitor.h>
-#include <placegraph/pipeline/internal/health/static_overlay.h>
+#include <placegraph/pipeline/health/contradicted_steps.h>
+#include <placegraph/pipeline/health/health_monitor.h>
+#include <placegraph/pipeline/health/static_overlay.h>
 #include <placegraph/pipeline/internal/odometry/odometry.h>
 #include <placegraph/pipeline/internal/slam/environment_monitor.h>
 #include <placegraph/pipeline/internal/slam/link_feed.h>

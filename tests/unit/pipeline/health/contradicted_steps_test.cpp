@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/internal/health/contradicted_steps.h>
+#include <placegraph/pipeline/health/contradicted_steps.h>
 
 #include <string>
 

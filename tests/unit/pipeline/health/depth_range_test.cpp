@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/internal/health/depth_range.h>
+#include <placegraph/pipeline/health/depth_range.h>
 
 namespace placegraph {
 namespace depth_range_test {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/random.h>
-#include <placegraph/pipeline/internal/health/flow_check.h>
+#include <placegraph/pipeline/health/flow_check.h>
 
 #include <opencv2/imgproc.hpp>
 

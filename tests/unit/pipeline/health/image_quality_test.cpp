@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/random.h>
-#include <placegraph/pipeline/internal/health/image_quality.h>
+#include <placegraph/pipeline/health/image_quality.h>
 
 #include <opencv2/imgproc.hpp>
 

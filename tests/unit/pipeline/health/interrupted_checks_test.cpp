@@ -1,15 +1,15 @@
 // Checks that go on from a saved state say what they would have said without an interruption.
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/internal/health/contradicted_steps.h>
-#include <placegraph/pipeline/internal/health/depth_range.h>
-#include <placegraph/pipeline/internal/health/flow_check.h>
-#include <placegraph/pipeline/internal/health/image_quality.h>
-#include <placegraph/pipeline/internal/health/intrinsics_check.h>
-#include <placegraph/pipeline/internal/health/repeated_images.h>
-#include <placegraph/pipeline/internal/health/right_image_time.h>
-#include <placegraph/pipeline/internal/health/scale_check.h>
-#include <placegraph/pipeline/internal/health/standing_patches.h>
-#include <placegraph/pipeline/internal/health/window_residuals.h>
+#include <placegraph/pipeline/health/contradicted_steps.h>
+#include <placegraph/pipeline/health/depth_range.h>
+#include <placegraph/pipeline/health/flow_check.h>
+#include <placegraph/pipeline/health/image_quality.h>
+#include <placegraph/pipeline/health/intrinsics_check.h>
+#include <placegraph/pipeline/health/repeated_images.h>
+#include <placegraph/pipeline/health/right_image_time.h>
+#include <placegraph/pipeline/health/scale_check.h>
+#include <placegraph/pipeline/health/standing_patches.h>
+#include <placegraph/pipeline/health/window_residuals.h>
 
 #include <opencv2/core.hpp>
 

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/internal/health/intrinsics_check.h>
+#include <placegraph/pipeline/health/intrinsics_check.h>
 
 #include <cmath>
 

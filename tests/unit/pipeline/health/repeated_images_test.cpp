@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/internal/health/repeated_images.h>
+#include <placegraph/pipeline/health/repeated_images.h>
 
 namespace placegraph {
 namespace repeated_images_test {

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/random.h>
-#include <placegraph/pipeline/internal/health/right_image_time.h>
+#include <placegraph/pipeline/health/right_image_time.h>
 
 #include "tests/support/scenes/street.h"
 

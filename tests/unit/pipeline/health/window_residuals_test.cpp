@@ -3,7 +3,7 @@
 #include <placegraph/backend/window/sliding_window.h>
 #include <placegraph/backend/window/window_state.h>
 #include <placegraph/graph/core/random.h>
-#include <placegraph/pipeline/internal/health/window_residuals.h>
+#include <placegraph/pipeline/health/window_residuals.h>
 
 namespace placegraph {
 namespace window_residuals_test {

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 #include <placegraph/backend/window/window_state.h>
-#include <placegraph/pipeline/internal/health/window_residuals.h>
+#include <placegraph/pipeline/health/window_residuals.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 #include <placegraph/frontend/flow/point_tracker.h>
-#include <placegraph/pipeline/internal/health/flow_check.h>
+#include <placegraph/pipeline/health/flow_check.h>
 
 #include <algorithm>
 #include <cmath>

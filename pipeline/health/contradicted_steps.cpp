@@ -1,5 +1,5 @@
 #include <fmt/format.h>
-#include <placegraph/pipeline/internal/health/contradicted_steps.h>
+#include <placegraph/pipeline/health/contradicted_steps.h>
 
 namespace placegraph {
 

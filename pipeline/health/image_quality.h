@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/measurements/data_note.h>
-#include <placegraph/pipeline/internal/health/image_statistics.h>
+#include <placegraph/pipeline/health/image_statistics.h>
 
 #include <array>
 #include <optional>

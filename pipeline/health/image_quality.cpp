@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/median.h>
-#include <placegraph/pipeline/internal/health/image_quality.h>
+#include <placegraph/pipeline/health/image_quality.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include <placegraph/pipeline/internal/health/image_statistics.h>
+#include <placegraph/pipeline/health/image_statistics.h>
 
 #include <algorithm>
 #include <array>

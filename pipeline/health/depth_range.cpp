@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/median.h>
-#include <placegraph/pipeline/internal/health/depth_range.h>
+#include <placegraph/pipeline/health/depth_range.h>
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 #include <placegraph/backend/window/window_state.h>
-#include <placegraph/pipeline/internal/health/health_monitor.h>
+#include <placegraph/pipeline/health/health_monitor.h>
 #include <placegraph/pipeline/internal/odometry/odometry.h>
 #include <placegraph/pipeline/tracking/frame_result.h>
 

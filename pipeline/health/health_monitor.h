@@ -1,14 +1,14 @@
 #pragma once
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/measurements/data_note.h>
-#include <placegraph/pipeline/internal/health/depth_range.h>
-#include <placegraph/pipeline/internal/health/flow_check.h>
-#include <placegraph/pipeline/internal/health/image_quality.h>
-#include <placegraph/pipeline/internal/health/intrinsics_check.h>
-#include <placegraph/pipeline/internal/health/repeated_images.h>
-#include <placegraph/pipeline/internal/health/right_image_time.h>
-#include <placegraph/pipeline/internal/health/scale_check.h>
-#include <placegraph/pipeline/internal/health/window_residuals.h>
+#include <placegraph/pipeline/health/depth_range.h>
+#include <placegraph/pipeline/health/flow_check.h>
+#include <placegraph/pipeline/health/image_quality.h>
+#include <placegraph/pipeline/health/intrinsics_check.h>
+#include <placegraph/pipeline/health/repeated_images.h>
+#include <placegraph/pipeline/health/right_image_time.h>
+#include <placegraph/pipeline/health/scale_check.h>
+#include <placegraph/pipeline/health/window_residuals.h>
 
 #include <optional>
 #include <vector>

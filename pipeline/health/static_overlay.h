@@ -3,7 +3,7 @@
 #include <placegraph/graph/image/frame.h>
 #include <placegraph/graph/measurements/data_note.h>
 #include <placegraph/pipeline/cues/frame_view.h>
-#include <placegraph/pipeline/internal/health/standing_patches.h>
+#include <placegraph/pipeline/health/standing_patches.h>
 
 #include <map>
 #include <optional>

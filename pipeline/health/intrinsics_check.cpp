@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 #include <placegraph/backend/window/window_state.h>
-#include <placegraph/pipeline/internal/health/intrinsics_check.h>
+#include <placegraph/pipeline/health/intrinsics_check.h>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 #include <placegraph/frontend/flow/point_tracker.h>
-#include <placegraph/pipeline/internal/health/right_image_time.h>
+#include <placegraph/pipeline/health/right_image_time.h>
 
 #include <Eigen/Cholesky>
 #include <algorithm>

@@ -1,5 +1,5 @@
 #include <fmt/format.h>
-#include <placegraph/pipeline/internal/health/repeated_images.h>
+#include <placegraph/pipeline/health/repeated_images.h>
 
 #include <cstring>
 
