@@ -3,7 +3,7 @@
 #include <placegraph/frontend/features/rectification.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/geometry/camera.h>
-#include <placegraph/pipeline/internal/lines/line_cue.h>
+#include <placegraph/pipeline/lines/line_cue.h>
 
 #include <optional>
 #include <set>

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/median.h>
-#include <placegraph/pipeline/internal/lines/line_cue.h>
+#include <placegraph/pipeline/lines/line_cue.h>
 
 #include <map>
 

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/internal/lines/line_tracks.h>
+#include <placegraph/pipeline/lines/line_tracks.h>
 
 #include "tests/unit/pipeline/lines/edge_tracks.h"
 

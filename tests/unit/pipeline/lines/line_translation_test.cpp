@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/angle.h>
-#include <placegraph/pipeline/internal/lines/line_translation.h>
+#include <placegraph/pipeline/lines/line_translation.h>
 
 #include "tests/unit/pipeline/lines/edge_tracks.h"
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/frontend/lines/floor_from_lines.h>
-#include <placegraph/pipeline/internal/lines/line_cue.h>
+#include <placegraph/pipeline/lines/line_cue.h>
 
 #include <algorithm>
 #include <array>

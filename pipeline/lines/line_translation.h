@@ -2,7 +2,7 @@
 #include <placegraph/backend/window/window_measurements.h>
 #include <placegraph/frontend/lines/vanishing_direction_tracker.h>
 #include <placegraph/graph/core/ids.h>
-#include <placegraph/pipeline/internal/lines/line_observations.h>
+#include <placegraph/pipeline/lines/line_observations.h>
 
 #include <cstdint>
 #include <vector>

@@ -1,5 +1,5 @@
 #include <placegraph/backend/window/sliding_window.h>
-#include <placegraph/pipeline/internal/lines/line_translation.h>
+#include <placegraph/pipeline/lines/line_translation.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,9 +1,9 @@
 #include <placegraph/frontend/lines/floor_from_lines.h>
 #include <placegraph/graph/core/angle.h>
-#include <placegraph/pipeline/internal/lines/line_cue.h>
-#include <placegraph/pipeline/internal/lines/line_prediction.h>
-#include <placegraph/pipeline/internal/lines/line_second_camera.h>
-#include <placegraph/pipeline/internal/lines/line_translation.h>
+#include <placegraph/pipeline/lines/line_cue.h>
+#include <placegraph/pipeline/lines/line_prediction.h>
+#include <placegraph/pipeline/lines/line_second_camera.h>
+#include <placegraph/pipeline/lines/line_translation.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>

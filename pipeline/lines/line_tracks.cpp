@@ -1,5 +1,5 @@
 #include <placegraph/frontend/lines/line_triangulation.h>
-#include <placegraph/pipeline/internal/lines/line_tracks.h>
+#include <placegraph/pipeline/lines/line_tracks.h>
 
 namespace placegraph {
 

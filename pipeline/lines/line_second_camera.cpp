@@ -1,7 +1,7 @@
 #include <placegraph/frontend/lines/line_depth.h>
 #include <placegraph/frontend/lines/line_stereo.h>
 #include <placegraph/frontend/lines/line_triangulation.h>
-#include <placegraph/pipeline/internal/lines/line_second_camera.h>
+#include <placegraph/pipeline/lines/line_second_camera.h>
 
 #include <algorithm>
 #include <cmath>

@@ -9,8 +9,8 @@
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/image/frame.h>
 #include <placegraph/pipeline/cues/cue_options.h>
-#include <placegraph/pipeline/internal/lines/line_observations.h>
-#include <placegraph/pipeline/internal/lines/line_tracks.h>
+#include <placegraph/pipeline/lines/line_observations.h>
+#include <placegraph/pipeline/lines/line_tracks.h>
 
 #include <map>
 #include <set>

@@ -1,5 +1,5 @@
 #include <placegraph/frontend/lines/line_depth.h>
-#include <placegraph/pipeline/internal/lines/line_prediction.h>
+#include <placegraph/pipeline/lines/line_prediction.h>
 
 #include <optional>
 
