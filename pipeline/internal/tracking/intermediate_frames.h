@@ -3,7 +3,7 @@
 #include <placegraph/frontend/relative_pose/pose_3d2d.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/pipeline/cues/manhattan_cue.h>
-#include <placegraph/pipeline/internal/local_map/local_map.h>
+#include <placegraph/pipeline/local_map/local_map.h>
 
 #include <map>
 #include <optional>

@@ -3,7 +3,7 @@
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/pipeline/cues/surface_labels.h>
-#include <placegraph/pipeline/internal/local_map/local_map.h>
+#include <placegraph/pipeline/local_map/local_map.h>
 #include <placegraph/pipeline/tracking/frame_result.h>
 
 #include <memory>

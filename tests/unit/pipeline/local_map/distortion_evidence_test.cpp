@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/backend/window/sliding_window.h>
 #include <placegraph/graph/core/random.h>
-#include <placegraph/pipeline/internal/local_map/distortion_evidence.h>
+#include <placegraph/pipeline/local_map/distortion_evidence.h>
 
 namespace placegraph {
 namespace distortion_evidence_test {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/internal/local_map/keyframe_masks.h>
+#include <placegraph/pipeline/local_map/keyframe_masks.h>
 
 #include <opencv2/core.hpp>
 

@@ -2,7 +2,7 @@
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/pipeline/internal/lens_correction.h>
-#include <placegraph/pipeline/internal/local_map/lens_estimator.h>
+#include <placegraph/pipeline/local_map/lens_estimator.h>
 
 #include <cmath>
 #include <opencv2/core.hpp>

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/internal/local_map/local_map.h>
+#include <placegraph/pipeline/local_map/local_map.h>
 
 #include <algorithm>
 #include <map>

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/internal/local_map/metric_scale.h>
+#include <placegraph/pipeline/local_map/metric_scale.h>
 
 #include "tests/support/scenes/window_world.h"
 

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/backend/window/sliding_window.h>
 #include <placegraph/backend/window/window_information.h>
-#include <placegraph/pipeline/internal/local_map/motion_uncertainty.h>
+#include <placegraph/pipeline/local_map/motion_uncertainty.h>
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/internal/local_map/rgbd_calibrator.h>
+#include <placegraph/pipeline/local_map/rgbd_calibrator.h>
 
 #include <Eigen/LU>
 

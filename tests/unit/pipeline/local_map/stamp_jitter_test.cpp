@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/random.h>
-#include <placegraph/pipeline/internal/local_map/stamp_jitter.h>
+#include <placegraph/pipeline/local_map/stamp_jitter.h>
 
 #include <cmath>
 

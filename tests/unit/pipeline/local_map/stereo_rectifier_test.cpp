@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/internal/local_map/stereo_rectifier.h>
+#include <placegraph/pipeline/local_map/stereo_rectifier.h>
 
 #include "tests/support/saved_state.h"
 #include "tests/support/scenes/window_world.h"

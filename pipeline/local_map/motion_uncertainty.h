@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/backend/evidence/motion_errors.h>
-#include <placegraph/pipeline/internal/local_map/stamp_jitter.h>
+#include <placegraph/pipeline/local_map/stamp_jitter.h>
 
 #include <vector>
 

@@ -1,5 +1,5 @@
 #include <placegraph/backend/evidence/intrinsics_evidence.h>
-#include <placegraph/pipeline/internal/local_map/distortion_evidence.h>
+#include <placegraph/pipeline/local_map/distortion_evidence.h>
 
 namespace placegraph {
 

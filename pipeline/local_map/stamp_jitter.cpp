@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/median.h>
-#include <placegraph/pipeline/internal/local_map/stamp_jitter.h>
+#include <placegraph/pipeline/local_map/stamp_jitter.h>
 
 #include <algorithm>
 #include <array>

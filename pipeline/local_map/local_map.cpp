@@ -1,7 +1,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/median.h>
 #include <placegraph/graph/geometry/bounded_covariance.h>
-#include <placegraph/pipeline/internal/local_map/local_map.h>
+#include <placegraph/pipeline/local_map/local_map.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include <placegraph/backend/window/window_problem.h>
 #include <placegraph/backend/window/window_state.h>
-#include <placegraph/pipeline/internal/local_map/lens_estimator.h>
+#include <placegraph/pipeline/local_map/lens_estimator.h>
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 #include <placegraph/backend/evidence/nuisance_equations.h>
-#include <placegraph/pipeline/internal/local_map/rgbd_calibrator.h>
+#include <placegraph/pipeline/local_map/rgbd_calibrator.h>
 
 #include <Eigen/Dense>
 #include <algorithm>

@@ -2,7 +2,7 @@
 #include <placegraph/backend/window/sliding_window.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/landmark.h>
-#include <placegraph/pipeline/internal/local_map/motion_uncertainty.h>
+#include <placegraph/pipeline/local_map/motion_uncertainty.h>
 
 #include <map>
 #include <optional>

@@ -1,6 +1,6 @@
 #include <placegraph/graph/core/log_message.h>
 #include <placegraph/graph/core/median.h>
-#include <placegraph/pipeline/internal/local_map/metric_scale.h>
+#include <placegraph/pipeline/local_map/metric_scale.h>
 
 #include <algorithm>
 #include <cmath>

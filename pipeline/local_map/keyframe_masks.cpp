@@ -1,4 +1,4 @@
-#include <placegraph/pipeline/internal/local_map/keyframe_masks.h>
+#include <placegraph/pipeline/local_map/keyframe_masks.h>
 
 #include <opencv2/core.hpp>
 

@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/angle.h>
-#include <placegraph/pipeline/internal/local_map/lens_stretches.h>
+#include <placegraph/pipeline/local_map/lens_stretches.h>
 
 #include <algorithm>
 #include <cmath>

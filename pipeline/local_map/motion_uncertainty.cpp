@@ -1,6 +1,6 @@
 #include <placegraph/backend/window/sliding_window.h>
 #include <placegraph/backend/window/window_state.h>
-#include <placegraph/pipeline/internal/local_map/motion_uncertainty.h>
+#include <placegraph/pipeline/local_map/motion_uncertainty.h>
 
 #include <Eigen/Cholesky>
 #include <algorithm>

@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/pipeline/internal/local_map/distortion_evidence.h>
 #include <placegraph/graph/geometry/se3.h>
+#include <placegraph/pipeline/local_map/distortion_evidence.h>
 #include <placegraph/pipeline/local_map/lens_distortion.h>
 
 #include <optional>

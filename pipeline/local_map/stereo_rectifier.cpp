@@ -1,4 +1,4 @@
-#include <placegraph/pipeline/internal/local_map/stereo_rectifier.h>
+#include <placegraph/pipeline/local_map/stereo_rectifier.h>
 
 #include <cmath>
 

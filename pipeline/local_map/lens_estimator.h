@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/backend/window/sliding_window.h>
 #include <placegraph/graph/core/ids.h>
-#include <placegraph/pipeline/internal/local_map/lens_stretches.h>
+#include <placegraph/pipeline/local_map/lens_stretches.h>
 
 #include <optional>
 
