@@ -1,4 +1,4 @@
-// Fits the coefficients of pipeline/internal/loops/loop_probability to candidates of runs whose
+// Fits the coefficients of pipeline/loops/loop_probability to candidates of runs whose
 // truth is known.
 //   bench_loop_probability_study MAP TRUTH RADIUS [MAP TRUTH RADIUS ...]
 // MAP: map.db of a run; TRUTH: a pose per frame of its sequence; two views show one place where
@@ -9,7 +9,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/map/map_database.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
-#include <placegraph/pipeline/internal/loops/loop_probability.h>
+#include <placegraph/pipeline/loops/loop_probability.h>
 
 #include <Eigen/Cholesky>
 #include <cmath>

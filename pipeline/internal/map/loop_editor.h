@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/io/map/stored_map.h>
-#include <placegraph/pipeline/internal/loops/loop_closer.h>
+#include <placegraph/pipeline/loops/loop_closer.h>
 #include <placegraph/pipeline/slam_options.h>
 
 #include <optional>

@@ -3,7 +3,7 @@
 #include <placegraph/frontend/places/place_view.h>
 #include <placegraph/frontend/places/recognition_probability.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/internal/loops/loop_closer.h>
+#include <placegraph/pipeline/loops/loop_closer.h>
 #include <placegraph/pipeline/map/map_localizer.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/place_history.h>
-#include <placegraph/pipeline/internal/loops/keyframe_motion.h>
+#include <placegraph/pipeline/loops/keyframe_motion.h>
 
 #include <cstdint>
 #include <limits>

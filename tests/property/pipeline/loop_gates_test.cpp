@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/internal/loops/loop_gates.h>
+#include <placegraph/pipeline/loops/loop_gates.h>
 
 #include <array>
 

@@ -3,7 +3,7 @@
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/route.h>
 #include <placegraph/io/datasets/dataset.h>
-#include <placegraph/pipeline/internal/loops/loop_closer.h>
+#include <placegraph/pipeline/loops/loop_closer.h>
 
 #include <algorithm>
 #include <set>

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/frontend/lines/line_feature.h>
 #include <placegraph/graph/core/median.h>
-#include <placegraph/pipeline/internal/loops/keyframe_describer.h>
+#include <placegraph/pipeline/loops/keyframe_describer.h>
 
 #include "tests/support/scenes/street.h"
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/internal/loops/loop_closer.h>
+#include <placegraph/pipeline/loops/loop_closer.h>
 
 #include "tests/support/scenes/street.h"
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/angle.h>
-#include <placegraph/pipeline/internal/loops/loop_gates.h>
+#include <placegraph/pipeline/loops/loop_gates.h>
 
 #include <numbers>
 

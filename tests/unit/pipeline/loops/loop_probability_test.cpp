@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/internal/loops/loop_probability.h>
+#include <placegraph/pipeline/loops/loop_probability.h>
 
 namespace placegraph {
 namespace loop_probability_test {

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/internal/loops/own_recognizer.h>
+#include <placegraph/pipeline/loops/own_recognizer.h>
 
 #include <limits>
 

@@ -2,10 +2,10 @@
 #include <placegraph/frontend/places/verification/loop_verifier.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>
-#include <placegraph/pipeline/internal/loops/loop_closer.h>
-#include <placegraph/pipeline/internal/loops/loop_gates.h>
-#include <placegraph/pipeline/internal/loops/loop_probability.h>
-#include <placegraph/pipeline/internal/loops/own_recognizer.h>
+#include <placegraph/pipeline/loops/loop_closer.h>
+#include <placegraph/pipeline/loops/loop_gates.h>
+#include <placegraph/pipeline/loops/loop_probability.h>
+#include <placegraph/pipeline/loops/own_recognizer.h>
 
 #include <algorithm>
 

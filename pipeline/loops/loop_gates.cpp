@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/angle.h>
-#include <placegraph/pipeline/internal/loops/loop_gates.h>
+#include <placegraph/pipeline/loops/loop_gates.h>
 
 #include <Eigen/Cholesky>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include <placegraph/pipeline/internal/loops/loop_probability.h>
+#include <placegraph/pipeline/loops/loop_probability.h>
 
 #include <algorithm>
 #include <array>

@@ -5,9 +5,9 @@
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/loop.h>
 #include <placegraph/graph/map.h>
-#include <placegraph/pipeline/internal/loops/keyframe_describer.h>
-#include <placegraph/pipeline/internal/loops/keyframe_motion.h>
-#include <placegraph/pipeline/internal/loops/located_frame.h>
+#include <placegraph/pipeline/loops/keyframe_describer.h>
+#include <placegraph/pipeline/loops/keyframe_motion.h>
+#include <placegraph/pipeline/loops/located_frame.h>
 #include <placegraph/pipeline/loops/loop_options.h>
 
 #include <deque>

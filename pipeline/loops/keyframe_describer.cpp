@@ -4,7 +4,7 @@
 #include <placegraph/frontend/features/triangulation.h>
 #include <placegraph/frontend/lines/line_feature.h>
 #include <placegraph/graph/core/angle.h>
-#include <placegraph/pipeline/internal/loops/keyframe_describer.h>
+#include <placegraph/pipeline/loops/keyframe_describer.h>
 
 #include <algorithm>
 

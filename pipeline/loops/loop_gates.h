@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/graph/loop.h>
-#include <placegraph/pipeline/internal/loops/keyframe_motion.h>
+#include <placegraph/pipeline/loops/keyframe_motion.h>
 #include <placegraph/pipeline/loops/loop_options.h>
 
 namespace placegraph {

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/internal/loops/own_recognizer.h>
+#include <placegraph/pipeline/loops/own_recognizer.h>
 
 #include <algorithm>
 #include <cmath>
