@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/exports/colmap_model.h>
-#include <placegraph/pipeline/internal/map/map_bundle.h>
+#include <placegraph/pipeline/map/map_bundle.h>
 
 #include "apps/exports/colmap_folder.h"
 #include "apps/exports/keyframe_images.h"

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/median.h>
-#include <placegraph/pipeline/internal/map/map_geometry.h>
+#include <placegraph/pipeline/map/map_geometry.h>
 
 namespace placegraph::apps {
 namespace {

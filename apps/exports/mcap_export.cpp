@@ -3,7 +3,7 @@
 #include <placegraph/io/exports/base64.h>
 #include <placegraph/io/exports/little_endian.h>
 #include <placegraph/io/exports/mcap_file.h>
-#include <placegraph/pipeline/internal/map/map_geometry.h>
+#include <placegraph/pipeline/map/map_geometry.h>
 
 #include <nlohmann/json.hpp>
 

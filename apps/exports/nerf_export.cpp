@@ -1,7 +1,7 @@
 #include "apps/exports/nerf_export.h"
 
 #include <placegraph/io/exports/nerf_transforms.h>
-#include <placegraph/pipeline/internal/map/map_geometry.h>
+#include <placegraph/pipeline/map/map_geometry.h>
 
 #include <filesystem>
 

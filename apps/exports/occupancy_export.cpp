@@ -2,7 +2,7 @@
 
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/datasets/open_dataset.h>
-#include <placegraph/pipeline/internal/map/map_occupancy.h>
+#include <placegraph/pipeline/map/map_occupancy.h>
 
 #include <filesystem>
 

@@ -1,7 +1,7 @@
 #include "apps/exports/ply_export.h"
 
 #include <fmt/format.h>
-#include <placegraph/pipeline/internal/map/map_geometry.h>
+#include <placegraph/pipeline/map/map_geometry.h>
 
 #include <limits>
 

@@ -4,7 +4,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/json_text.h>
 #include <placegraph/io/exports/colmap_reader.h>
-#include <placegraph/pipeline/internal/map/colmap_bundle.h>
+#include <placegraph/pipeline/map/colmap_bundle.h>
 
 #include <nlohmann/json.hpp>
 

@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/graph/core/ids.h>
-#include <placegraph/pipeline/internal/map/loop_editor.h>
+#include <placegraph/pipeline/map/loop_editor.h>
 
 #include <optional>
 #include <string>

@@ -3,7 +3,7 @@
 #include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/pose_graph/constraint_source.h>
 #include <placegraph/io/exports/base64.h>
-#include <placegraph/pipeline/internal/map/map_geometry.h>
+#include <placegraph/pipeline/map/map_geometry.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/pipeline/internal/map/place_labeller.h>
+#include <placegraph/pipeline/map/place_labeller.h>
 
 #include <cstddef>
 #include <nlohmann/json.hpp>

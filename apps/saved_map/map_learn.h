@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/pipeline/internal/map/map_learner.h>
+#include <placegraph/pipeline/map/map_learner.h>
 
 #include <cstddef>
 #include <string>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/pipeline/internal/map/loop_editor.h>
+#include <placegraph/pipeline/map/loop_editor.h>
 
 #include <memory>
 #include <mutex>

@@ -2,7 +2,7 @@
 #include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/image/frame.h>
 #include <placegraph/pipeline/dense/keyframe_depth.h>
-#include <placegraph/pipeline/internal/map/map_geometry.h>
+#include <placegraph/pipeline/map/map_geometry.h>
 
 #include <functional>
 #include <memory>

@@ -3,7 +3,7 @@
 #include <placegraph/graph/map_index.h>
 #include <placegraph/graph/pose_graph/constraint_source.h>
 #include <placegraph/graph/scene/environment.h>
-#include <placegraph/pipeline/internal/map/map_geometry.h>
+#include <placegraph/pipeline/map/map_geometry.h>
 
 #include <bit>
 #include <cstring>

@@ -1,4 +1,4 @@
-#include <placegraph/pipeline/internal/map/colmap_bundle.h>
+#include <placegraph/pipeline/map/colmap_bundle.h>
 
 #include "tests/support/scenes/observed_map.h"
 #include "tests/support/scenes/poses.h"

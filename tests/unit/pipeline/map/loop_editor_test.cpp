@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>
-#include <placegraph/pipeline/internal/map/loop_editor.h>
+#include <placegraph/pipeline/map/loop_editor.h>
 
 #include "tests/support/message_of.h"
 #include "tests/support/place_links.h"

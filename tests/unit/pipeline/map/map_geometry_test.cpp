@@ -1,4 +1,4 @@
-#include <placegraph/pipeline/internal/map/map_geometry.h>
+#include <placegraph/pipeline/map/map_geometry.h>
 
 #include "tests/support/scenes/observed_map.h"
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/internal/map/map_learner.h>
+#include <placegraph/pipeline/map/map_learner.h>
 
 #include "tests/support/scenes/texture.h"
 

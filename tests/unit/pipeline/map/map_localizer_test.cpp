@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/internal/map/map_learner.h>
 #include <placegraph/pipeline/loops/keyframe_describer.h>
+#include <placegraph/pipeline/map/map_learner.h>
 #include <placegraph/pipeline/map/map_localizer.h>
 
 #include <opencv2/imgproc.hpp>

@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/internal/map/map_occupancy.h>
+#include <placegraph/pipeline/map/map_occupancy.h>
 
 #include "tests/support/message_of.h"
 #include "tests/support/scenes/observed_map.h"

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/random.h>
-#include <placegraph/pipeline/internal/map/place_labeller.h>
+#include <placegraph/pipeline/map/place_labeller.h>
 
 #include <opencv2/imgproc.hpp>
 

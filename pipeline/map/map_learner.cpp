@@ -1,6 +1,6 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/median.h>
-#include <placegraph/pipeline/internal/map/map_learner.h>
+#include <placegraph/pipeline/map/map_learner.h>
 
 namespace placegraph {
 

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/internal/map/map_occupancy.h>
+#include <placegraph/pipeline/map/map_occupancy.h>
 
 #include <algorithm>
 #include <array>

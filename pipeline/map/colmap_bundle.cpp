@@ -1,7 +1,7 @@
 #include <placegraph/backend/factor_graph/factor_graph.h>
 #include <placegraph/backend/factors/camera_reprojection.h>
 #include <placegraph/backend/factors/point_observation.h>
-#include <placegraph/pipeline/internal/map/colmap_bundle.h>
+#include <placegraph/pipeline/map/colmap_bundle.h>
 
 #include <vector>
 

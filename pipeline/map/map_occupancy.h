@@ -2,7 +2,7 @@
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/scene/indoor_map.h>
 #include <placegraph/io/exports/occupancy_file.h>
-#include <placegraph/pipeline/internal/map/map_geometry.h>
+#include <placegraph/pipeline/map/map_geometry.h>
 
 namespace placegraph {
 

@@ -1,5 +1,5 @@
 #include <placegraph/graph/map_index.h>
-#include <placegraph/pipeline/internal/map/map_geometry.h>
+#include <placegraph/pipeline/map/map_geometry.h>
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

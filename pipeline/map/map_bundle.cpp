@@ -3,7 +3,7 @@
 #include <placegraph/backend/factors/relative_pose.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/median.h>
-#include <placegraph/pipeline/internal/map/map_bundle.h>
+#include <placegraph/pipeline/map/map_bundle.h>
 
 #include <algorithm>
 #include <optional>

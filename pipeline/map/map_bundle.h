@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/geometry/camera.h>
-#include <placegraph/pipeline/internal/map/map_geometry.h>
+#include <placegraph/pipeline/map/map_geometry.h>
 
 #include <cstddef>
 #include <vector>

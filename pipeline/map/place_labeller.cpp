@@ -1,4 +1,4 @@
-#include <placegraph/pipeline/internal/map/place_labeller.h>
+#include <placegraph/pipeline/map/place_labeller.h>
 
 #include <unordered_map>
 
