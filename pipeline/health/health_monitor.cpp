@@ -1,6 +1,6 @@
 #include <placegraph/backend/window/window_state.h>
 #include <placegraph/pipeline/health/health_monitor.h>
-#include <placegraph/pipeline/internal/odometry/odometry.h>
+#include <placegraph/pipeline/odometry/odometry.h>
 #include <placegraph/pipeline/tracking/frame_result.h>
 
 namespace placegraph {

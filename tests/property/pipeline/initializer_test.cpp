@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/internal/odometry/two_view_initializer.h>
+#include <placegraph/pipeline/odometry/two_view_initializer.h>
 
 #include "tests/support/scenes/beginning.h"
 #include "tests/support/scenes/street.h"

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/internal/odometry/odometry.h>
+#include <placegraph/pipeline/odometry/odometry.h>
 
 #include <opencv2/core.hpp>
 

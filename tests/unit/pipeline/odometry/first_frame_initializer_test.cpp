@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/internal/odometry/first_frame_initializer.h>
+#include <placegraph/pipeline/odometry/first_frame_initializer.h>
 
 #include "tests/support/scenes/window_world.h"
 #include "tests/support/scripted_tracker.h"

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/internal/odometry/line_view_initializer.h>
+#include <placegraph/pipeline/odometry/line_view_initializer.h>
 
 #include "tests/support/scenes/beginning.h"
 #include "tests/support/scenes/boards.h"

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/internal/odometry/local_mapping.h>
+#include <placegraph/pipeline/odometry/local_mapping.h>
 
 #include "tests/support/scenes/window_world.h"
 #include "tests/support/scripted_tracker.h"

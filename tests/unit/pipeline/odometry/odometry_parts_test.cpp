@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/internal/odometry/odometry_parts.h>
+#include <placegraph/pipeline/odometry/odometry_parts.h>
 
 #include "tests/support/scenes/street.h"
 

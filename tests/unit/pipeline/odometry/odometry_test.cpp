@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/internal/odometry/odometry.h>
+#include <placegraph/pipeline/odometry/odometry.h>
 
 #include "tests/support/scenes/street.h"
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/median.h>
-#include <placegraph/pipeline/internal/odometry/two_view_initializer.h>
+#include <placegraph/pipeline/odometry/two_view_initializer.h>
 
 #include "tests/support/scenes/beginning.h"
 #include "tests/support/scenes/street.h"

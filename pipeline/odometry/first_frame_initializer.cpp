@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/log_message.h>
-#include <placegraph/pipeline/internal/odometry/first_frame_initializer.h>
+#include <placegraph/pipeline/odometry/first_frame_initializer.h>
 
 namespace placegraph {
 

@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/graph/core/ids.h>
-#include <placegraph/pipeline/internal/odometry/initializer.h>
+#include <placegraph/pipeline/odometry/initializer.h>
 
 #include <memory>
 

@@ -4,7 +4,7 @@
 #include <placegraph/graph/core/log_message.h>
 #include <placegraph/graph/core/median.h>
 #include <placegraph/pipeline/cues/point_cue.h>
-#include <placegraph/pipeline/internal/odometry/two_view_initializer.h>
+#include <placegraph/pipeline/odometry/two_view_initializer.h>
 
 #include <set>
 

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/pipeline/internal/odometry/initializer.h>
+#include <placegraph/pipeline/odometry/initializer.h>
 
 #include <memory>
 

@@ -1,6 +1,6 @@
 #include <placegraph/graph/core/log_message.h>
-#include <placegraph/pipeline/internal/odometry/odometry.h>
-#include <placegraph/pipeline/internal/odometry/odometry_parts.h>
+#include <placegraph/pipeline/odometry/odometry.h>
+#include <placegraph/pipeline/odometry/odometry_parts.h>
 
 namespace placegraph {
 

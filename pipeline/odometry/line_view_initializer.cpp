@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/log_message.h>
 #include <placegraph/graph/core/median.h>
-#include <placegraph/pipeline/internal/odometry/line_view_initializer.h>
+#include <placegraph/pipeline/odometry/line_view_initializer.h>
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/pipeline/internal/odometry/local_mapping.h>
+#include <placegraph/pipeline/odometry/local_mapping.h>
 
 namespace placegraph {
 
