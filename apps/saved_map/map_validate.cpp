@@ -4,7 +4,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/id_format.h>
 #include <placegraph/graph/core/json_text.h>
-#include <placegraph/pipeline/internal/places/place_mapper.h>
+#include <placegraph/pipeline/places/place_mapper.h>
 
 #include <nlohmann/json.hpp>
 #include <set>

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/internal/places/place_mapper.h>
 #include <placegraph/pipeline/loops/loop_probability.h>
 #include <placegraph/pipeline/map/loop_editor.h>
+#include <placegraph/pipeline/places/place_mapper.h>
 
 #include <algorithm>
 #include <map>

@@ -2,7 +2,7 @@
 #include <numbers>
 
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/internal/places/place_mapper.h>
+#include <placegraph/pipeline/places/place_mapper.h>
 
 #include "tests/support/scenes/scene.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/graph/core/ids.h>
-#include <placegraph/pipeline/internal/places/place_mapper.h>
+#include <placegraph/pipeline/places/place_mapper.h>
 #include <placegraph/pipeline/slam/slam_events.h>
 
 #include <cstddef>

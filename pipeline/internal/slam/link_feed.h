@@ -2,9 +2,9 @@
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/loop.h>
 #include <placegraph/graph/measurements/data_note.h>
-#include <placegraph/pipeline/internal/places/loop_feed.h>
-#include <placegraph/pipeline/internal/places/place_mapper.h>
 #include <placegraph/pipeline/local_map/local_map.h>
+#include <placegraph/pipeline/places/loop_feed.h>
+#include <placegraph/pipeline/places/place_mapper.h>
 
 #include <map>
 #include <optional>

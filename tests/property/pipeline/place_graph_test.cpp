@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/internal/places/place_constraints.h>
-#include <placegraph/pipeline/internal/places/place_mapper.h>
+#include <placegraph/pipeline/places/place_constraints.h>
+#include <placegraph/pipeline/places/place_mapper.h>
 
 #include "tests/support/scenes/poses.h"
 #include "tests/support/seed.h"

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/internal/places/keyframe_chain.h>
+#include <placegraph/pipeline/places/keyframe_chain.h>
 
 #include "tests/support/place_links.h"
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/random.h>
-#include <placegraph/pipeline/internal/places/loop_feed.h>
+#include <placegraph/pipeline/places/loop_feed.h>
 
 #include "tests/support/place_links.h"
 #include "tests/support/saved_state.h"

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/internal/places/place_components.h>
+#include <placegraph/pipeline/places/place_components.h>
 
 #include "tests/unit/pipeline/places/row_of_places.h"
 

@@ -1,7 +1,7 @@
 #include <numbers>
 
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/internal/places/place_constraints.h>
+#include <placegraph/pipeline/places/place_constraints.h>
 
 #include "tests/support/place_links.h"
 

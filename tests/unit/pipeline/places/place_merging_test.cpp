@@ -1,8 +1,8 @@
 #include <numbers>
 
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/internal/places/place_mapper.h>
-#include <placegraph/pipeline/internal/places/place_merging.h>
+#include <placegraph/pipeline/places/place_mapper.h>
+#include <placegraph/pipeline/places/place_merging.h>
 
 #include "tests/support/place_links.h"
 

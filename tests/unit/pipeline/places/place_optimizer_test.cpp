@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/internal/places/place_optimizer.h>
+#include <placegraph/pipeline/places/place_optimizer.h>
 
 #include "tests/support/place_links.h"
 

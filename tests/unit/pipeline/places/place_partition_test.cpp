@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/internal/places/place_partition.h>
+#include <placegraph/pipeline/places/place_partition.h>
 
 #include "tests/unit/pipeline/places/row_of_places.h"
 

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/internal/places/place_reach.h>
+#include <placegraph/pipeline/places/place_reach.h>
 
 #include <numbers>
 

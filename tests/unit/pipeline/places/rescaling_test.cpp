@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/internal/places/rescaling.h>
+#include <placegraph/pipeline/places/rescaling.h>
 
 #include "tests/support/place_links.h"
 

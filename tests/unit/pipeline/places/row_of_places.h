@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/pipeline/internal/places/place_partition.h>
+#include <placegraph/pipeline/places/place_partition.h>
 
 #include "tests/support/place_links.h"
 #include "tests/support/scenes/poses.h"

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/internal/places/shortest_path.h>
+#include <placegraph/pipeline/places/shortest_path.h>
 
 #include <cmath>
 

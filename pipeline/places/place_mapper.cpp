@@ -1,12 +1,12 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/geometry/bounded_covariance.h>
-#include <placegraph/pipeline/internal/places/place_components.h>
-#include <placegraph/pipeline/internal/places/place_constraints.h>
-#include <placegraph/pipeline/internal/places/place_mapper.h>
-#include <placegraph/pipeline/internal/places/place_merging.h>
-#include <placegraph/pipeline/internal/places/place_reach.h>
-#include <placegraph/pipeline/internal/places/rescaling.h>
-#include <placegraph/pipeline/internal/places/shortest_path.h>
+#include <placegraph/pipeline/places/place_components.h>
+#include <placegraph/pipeline/places/place_constraints.h>
+#include <placegraph/pipeline/places/place_mapper.h>
+#include <placegraph/pipeline/places/place_merging.h>
+#include <placegraph/pipeline/places/place_reach.h>
+#include <placegraph/pipeline/places/rescaling.h>
+#include <placegraph/pipeline/places/shortest_path.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include <placegraph/graph/core/chi_squared.h>
 #include <placegraph/graph/core/median.h>
 #include <placegraph/graph/geometry/bounded_covariance.h>
-#include <placegraph/pipeline/internal/places/loop_feed.h>
+#include <placegraph/pipeline/places/loop_feed.h>
 
 #include <Eigen/Cholesky>
 #include <algorithm>

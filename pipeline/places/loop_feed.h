@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/graph/loop.h>
-#include <placegraph/pipeline/internal/places/place_mapper.h>
 #include <placegraph/pipeline/loops/keyframe_motion.h>
+#include <placegraph/pipeline/places/place_mapper.h>
 
 #include <cstddef>
 #include <vector>

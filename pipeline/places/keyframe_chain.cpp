@@ -1,7 +1,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/geometry/bounded_covariance.h>
-#include <placegraph/pipeline/internal/places/keyframe_chain.h>
-#include <placegraph/pipeline/internal/places/rescaling.h>
+#include <placegraph/pipeline/places/keyframe_chain.h>
+#include <placegraph/pipeline/places/rescaling.h>
 
 #include <algorithm>
 #include <cmath>

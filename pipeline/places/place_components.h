@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/graph/loop.h>
-#include <placegraph/pipeline/internal/places/place_partition.h>
+#include <placegraph/pipeline/places/place_partition.h>
 
 #include <vector>
 

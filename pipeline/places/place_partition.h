@@ -2,7 +2,7 @@
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/place_graph.h>
 #include <placegraph/graph/place_history.h>
-#include <placegraph/pipeline/internal/places/keyframe_chain.h>
+#include <placegraph/pipeline/places/keyframe_chain.h>
 
 #include <map>
 #include <optional>

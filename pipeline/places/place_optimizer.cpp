@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/internal/places/place_optimizer.h>
+#include <placegraph/pipeline/places/place_optimizer.h>
 
 namespace placegraph {
 

@@ -1,10 +1,10 @@
 #pragma once
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/map_changes.h>
-#include <placegraph/pipeline/internal/places/keyframe_chain.h>
-#include <placegraph/pipeline/internal/places/place_optimizer.h>
-#include <placegraph/pipeline/internal/places/place_partition.h>
+#include <placegraph/pipeline/places/keyframe_chain.h>
+#include <placegraph/pipeline/places/place_optimizer.h>
 #include <placegraph/pipeline/places/place_options.h>
+#include <placegraph/pipeline/places/place_partition.h>
 
 namespace placegraph {
 

@@ -1,9 +1,9 @@
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/chi_squared.h>
 #include <placegraph/graph/core/median.h>
-#include <placegraph/pipeline/internal/places/place_constraints.h>
-#include <placegraph/pipeline/internal/places/place_merging.h>
-#include <placegraph/pipeline/internal/places/place_reach.h>
+#include <placegraph/pipeline/places/place_constraints.h>
+#include <placegraph/pipeline/places/place_merging.h>
+#include <placegraph/pipeline/places/place_reach.h>
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include <placegraph/pipeline/internal/places/shortest_path.h>
+#include <placegraph/pipeline/places/shortest_path.h>
 
 #include <functional>
 #include <limits>

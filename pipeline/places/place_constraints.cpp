@@ -1,5 +1,5 @@
 #include <placegraph/graph/geometry/bounded_covariance.h>
-#include <placegraph/pipeline/internal/places/place_constraints.h>
+#include <placegraph/pipeline/places/place_constraints.h>
 
 #include <algorithm>
 

@@ -1,9 +1,9 @@
 #pragma once
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/loop.h>
-#include <placegraph/pipeline/internal/places/place_optimizer.h>
-#include <placegraph/pipeline/internal/places/place_partition.h>
+#include <placegraph/pipeline/places/place_optimizer.h>
 #include <placegraph/pipeline/places/place_options.h>
+#include <placegraph/pipeline/places/place_partition.h>
 
 #include <vector>
 

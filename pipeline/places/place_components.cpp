@@ -1,5 +1,5 @@
-#include <placegraph/pipeline/internal/places/place_components.h>
-#include <placegraph/pipeline/internal/places/shortest_path.h>
+#include <placegraph/pipeline/places/place_components.h>
+#include <placegraph/pipeline/places/shortest_path.h>
 
 #include <algorithm>
 #include <cmath>

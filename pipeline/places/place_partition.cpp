@@ -1,6 +1,6 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/internal/places/place_partition.h>
-#include <placegraph/pipeline/internal/places/rescaling.h>
+#include <placegraph/pipeline/places/place_partition.h>
+#include <placegraph/pipeline/places/rescaling.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/loop.h>
-#include <placegraph/pipeline/internal/places/place_partition.h>
+#include <placegraph/pipeline/places/place_partition.h>
 
 #include <map>
 #include <vector>
