@@ -3,11 +3,11 @@
 #include <placegraph/graph/core/log.h>
 #include <placegraph/graph/measurements/measured_motion.h>
 #include <placegraph/pipeline/cues/manhattan_cue.h>
-#include <placegraph/pipeline/internal/scale/floor_line_scale.h>
-#include <placegraph/pipeline/internal/scale/ground_plane_scale.h>
 #include <placegraph/pipeline/lines/line_cue.h>
 #include <placegraph/pipeline/local_map/keyframe_masks.h>
 #include <placegraph/pipeline/local_map/local_map.h>
+#include <placegraph/pipeline/scale/floor_line_scale.h>
+#include <placegraph/pipeline/scale/ground_plane_scale.h>
 
 #include <map>
 #include <memory>

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/internal/scale/floor_line_scale.h>
+#include <placegraph/pipeline/scale/floor_line_scale.h>
 
 #include "tests/support/scenes/room_lines.h"
 

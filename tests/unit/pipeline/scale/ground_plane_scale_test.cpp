@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/internal/scale/ground_plane_scale.h>
+#include <placegraph/pipeline/scale/ground_plane_scale.h>
 
 #include "tests/support/scenes/scene.h"
 #include "tests/support/scenes/texture.h"

@@ -1,6 +1,6 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/median.h>
-#include <placegraph/pipeline/internal/scale/floor_line_scale.h>
+#include <placegraph/pipeline/scale/floor_line_scale.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #include <placegraph/frontend/lines/floor_from_lines.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/pipeline/cues/cue_options.h>
-#include <placegraph/pipeline/internal/scale/ground_plane_scale.h>
+#include <placegraph/pipeline/scale/ground_plane_scale.h>
 
 #include <deque>
 #include <optional>

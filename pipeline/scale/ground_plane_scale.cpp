@@ -1,7 +1,7 @@
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/median.h>
-#include <placegraph/pipeline/internal/scale/ground_plane_scale.h>
+#include <placegraph/pipeline/scale/ground_plane_scale.h>
 
 #include <algorithm>
 #include <cmath>
