@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/graph/map.h>
 #include <placegraph/graph/scene/indoor_map.h>
-#include <placegraph/pipeline/internal/scene/indoor_mapper.h>
+#include <placegraph/pipeline/scene/indoor_mapper.h>
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>

@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/graph/geometry/geodesy.h>
 #include <placegraph/graph/map.h>
-#include <placegraph/pipeline/internal/scene/urban_mapper.h>
+#include <placegraph/pipeline/scene/urban_mapper.h>
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/internal/scene/indoor_mapper.h>
+#include <placegraph/pipeline/scene/indoor_mapper.h>
 
 #include "tests/support/ids.h"
 #include "tests/support/scenes/boards.h"

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/internal/scene/indoor_plan.h>
+#include <placegraph/pipeline/scene/indoor_plan.h>
 
 #include <Eigen/Geometry>
 #include <opencv2/core.hpp>

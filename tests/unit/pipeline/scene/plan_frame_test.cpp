@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/internal/scene/plan_frame.h>
+#include <placegraph/pipeline/scene/plan_frame.h>
 
 namespace placegraph {
 namespace plan_frame_test {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/internal/scene/urban_mapper.h>
+#include <placegraph/pipeline/scene/urban_mapper.h>
 
 #include <numbers>
 #include <set>

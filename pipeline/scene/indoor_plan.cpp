@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/median.h>
-#include <placegraph/pipeline/internal/scene/indoor_plan.h>
+#include <placegraph/pipeline/scene/indoor_plan.h>
 
 #include <algorithm>
 #include <opencv2/core.hpp>

@@ -5,7 +5,7 @@
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/image/frame.h>
 #include <placegraph/graph/map.h>
-#include <placegraph/pipeline/internal/scene/nearby_views.h>
+#include <placegraph/pipeline/scene/nearby_views.h>
 #include <placegraph/pipeline/scene/scene_map_options.h>
 
 #include <functional>

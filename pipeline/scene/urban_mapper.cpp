@@ -1,7 +1,7 @@
 #include <placegraph/frontend/scene/moving_classes.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/internal/scene/urban_mapper.h>
+#include <placegraph/pipeline/scene/urban_mapper.h>
 
 #include <algorithm>
 #include <cmath>

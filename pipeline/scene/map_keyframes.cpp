@@ -1,4 +1,4 @@
-#include <placegraph/pipeline/internal/scene/map_keyframes.h>
+#include <placegraph/pipeline/scene/map_keyframes.h>
 
 #include <map>
 

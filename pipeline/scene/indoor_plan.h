@@ -4,7 +4,7 @@
 #include <placegraph/frontend/floor_plan/wall_finder.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/map.h>
-#include <placegraph/pipeline/internal/scene/plan_frame.h>
+#include <placegraph/pipeline/scene/plan_frame.h>
 
 #include <cstdint>
 #include <vector>

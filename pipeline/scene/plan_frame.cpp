@@ -1,4 +1,4 @@
-#include <placegraph/pipeline/internal/scene/plan_frame.h>
+#include <placegraph/pipeline/scene/plan_frame.h>
 
 #include <Eigen/Geometry>
 #include <cmath>

@@ -3,9 +3,9 @@
 #include <placegraph/frontend/vanishing/scene_directions.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/internal/scene/indoor_mapper.h>
-#include <placegraph/pipeline/internal/scene/indoor_plan.h>
-#include <placegraph/pipeline/internal/scene/map_keyframes.h>
+#include <placegraph/pipeline/scene/indoor_mapper.h>
+#include <placegraph/pipeline/scene/indoor_plan.h>
+#include <placegraph/pipeline/scene/map_keyframes.h>
 
 #include <algorithm>
 #include <opencv2/core.hpp>

@@ -5,7 +5,7 @@
 #include <placegraph/graph/image/frame.h>
 #include <placegraph/graph/map.h>
 #include <placegraph/graph/scene/semantic_map.h>
-#include <placegraph/pipeline/internal/scene/map_keyframes.h>
+#include <placegraph/pipeline/scene/map_keyframes.h>
 #include <placegraph/pipeline/scene/scene_map_options.h>
 
 #include <functional>

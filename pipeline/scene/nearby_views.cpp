@@ -1,7 +1,7 @@
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/internal/scene/map_keyframes.h>
-#include <placegraph/pipeline/internal/scene/nearby_views.h>
+#include <placegraph/pipeline/scene/map_keyframes.h>
+#include <placegraph/pipeline/scene/nearby_views.h>
 
 #include <algorithm>
 #include <cmath>
