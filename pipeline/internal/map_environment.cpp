@@ -1,6 +1,6 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/pipeline/internal/map_environment.h>
-#include <placegraph/pipeline/internal/slam/environment_monitor.h>
+#include <placegraph/pipeline/slam/environment_monitor.h>
 
 #include <algorithm>
 

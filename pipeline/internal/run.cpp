@@ -13,8 +13,8 @@
 #include <placegraph/pipeline/internal/frame_reader.h>
 #include <placegraph/pipeline/internal/learned_images.h>
 #include <placegraph/pipeline/internal/save_schedule.h>
-#include <placegraph/pipeline/internal/slam/run_evidence.h>
 #include <placegraph/pipeline/run.h>
+#include <placegraph/pipeline/slam/run_evidence.h>
 #include <placegraph/pipeline/slam/slam_events.h>
 
 #include <algorithm>

@@ -3,13 +3,13 @@
 #include <placegraph/graph/map_changes.h>
 #include <placegraph/graph/measurements/measured_motion.h>
 #include <placegraph/pipeline/cues/frame_view.h>
-#include <placegraph/pipeline/internal/slam/event_feed.h>
-#include <placegraph/pipeline/internal/slam/image_check.h>
-#include <placegraph/pipeline/internal/slam/map_feed.h>
-#include <placegraph/pipeline/internal/slam/run_evidence.h>
-#include <placegraph/pipeline/internal/slam/track_recovery.h>
 #include <placegraph/pipeline/local_map/lens_estimator.h>
 #include <placegraph/pipeline/slam.h>
+#include <placegraph/pipeline/slam/event_feed.h>
+#include <placegraph/pipeline/slam/image_check.h>
+#include <placegraph/pipeline/slam/map_feed.h>
+#include <placegraph/pipeline/slam/run_evidence.h>
+#include <placegraph/pipeline/slam/track_recovery.h>
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/internal/slam/environment_monitor.h>
+#include <placegraph/pipeline/slam/environment_monitor.h>
 
 #include "tests/support/scenes/street.h"
 

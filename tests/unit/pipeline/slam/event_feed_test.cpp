@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/internal/slam/event_feed.h>
+#include <placegraph/pipeline/slam/event_feed.h>
 
 #include "tests/support/place_links.h"
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/image/jpeg_codec.h>
-#include <placegraph/pipeline/internal/slam/map_feed.h>
+#include <placegraph/pipeline/slam/map_feed.h>
 
 #include "tests/support/scenes/street.h"
 

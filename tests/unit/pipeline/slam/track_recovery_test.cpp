@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/internal/slam/track_recovery.h>
+#include <placegraph/pipeline/slam/track_recovery.h>
 
 #include "tests/support/scenes/street.h"
 

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/internal/slam/trajectory_recorder.h>
+#include <placegraph/pipeline/slam/trajectory_recorder.h>
 
 #include "tests/support/seed.h"
 

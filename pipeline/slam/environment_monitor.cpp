@@ -1,5 +1,5 @@
 #include <placegraph/pipeline/cues/surface_labels.h>
-#include <placegraph/pipeline/internal/slam/environment_monitor.h>
+#include <placegraph/pipeline/slam/environment_monitor.h>
 
 #include <algorithm>
 

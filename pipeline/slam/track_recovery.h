@@ -2,10 +2,10 @@
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/core/log.h>
 #include <placegraph/graph/measurements/measured_motion.h>
-#include <placegraph/pipeline/internal/slam/trajectory_recorder.h>
 #include <placegraph/pipeline/loops/loop_closer.h>
 #include <placegraph/pipeline/odometry/odometry.h>
 #include <placegraph/pipeline/places/place_mapper.h>
+#include <placegraph/pipeline/slam/trajectory_recorder.h>
 
 #include <memory>
 #include <optional>

@@ -2,11 +2,11 @@
 #include <placegraph/frontend/places/place_view.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/map_changes.h>
-#include <placegraph/pipeline/internal/slam/environment_monitor.h>
-#include <placegraph/pipeline/internal/slam/trajectory_recorder.h>
 #include <placegraph/pipeline/loops/loop_closer.h>
 #include <placegraph/pipeline/odometry/odometry.h>
 #include <placegraph/pipeline/places/place_mapper.h>
+#include <placegraph/pipeline/slam/environment_monitor.h>
+#include <placegraph/pipeline/slam/trajectory_recorder.h>
 
 #include <array>
 #include <map>

@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/log_message.h>
-#include <placegraph/pipeline/internal/slam/track_recovery.h>
+#include <placegraph/pipeline/slam/track_recovery.h>
 
 #include <Eigen/Cholesky>
 #include <algorithm>

@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/internal/slam/image_check.h>
+#include <placegraph/pipeline/slam/image_check.h>
 
 namespace placegraph {
 

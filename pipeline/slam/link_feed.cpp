@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/median.h>
-#include <placegraph/pipeline/internal/slam/link_feed.h>
+#include <placegraph/pipeline/slam/link_feed.h>
 
 #include <Eigen/LU>
 #include <algorithm>

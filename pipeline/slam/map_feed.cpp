@@ -1,5 +1,5 @@
 #include <placegraph/graph/image/thumbnail.h>
-#include <placegraph/pipeline/internal/slam/map_feed.h>
+#include <placegraph/pipeline/slam/map_feed.h>
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/state_archive.h>
-#include <placegraph/pipeline/internal/slam/run_evidence.h>
+#include <placegraph/pipeline/slam/run_evidence.h>
 
 namespace placegraph {
 namespace {

@@ -3,9 +3,9 @@
 #include <placegraph/pipeline/health/contradicted_steps.h>
 #include <placegraph/pipeline/health/health_monitor.h>
 #include <placegraph/pipeline/health/static_overlay.h>
-#include <placegraph/pipeline/internal/slam/environment_monitor.h>
-#include <placegraph/pipeline/internal/slam/link_feed.h>
 #include <placegraph/pipeline/odometry/odometry.h>
+#include <placegraph/pipeline/slam/environment_monitor.h>
+#include <placegraph/pipeline/slam/link_feed.h>
 
 #include <optional>
 #include <string>

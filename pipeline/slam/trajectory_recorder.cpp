@@ -1,4 +1,4 @@
-#include <placegraph/pipeline/internal/slam/trajectory_recorder.h>
+#include <placegraph/pipeline/slam/trajectory_recorder.h>
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include <placegraph/pipeline/internal/slam/event_feed.h>
+#include <placegraph/pipeline/slam/event_feed.h>
 
 #include <algorithm>
 
