@@ -1,6 +1,6 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/pipeline/elements.h>
-#include <placegraph/pipeline/internal/tracking/cue_list.h>
+#include <placegraph/pipeline/tracking/cue_list.h>
 
 #include <algorithm>
 #include <iterator>

@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/pipeline/internal/tracking/feature_tracker.h>
 #include <placegraph/pipeline/odometry/initializer.h>
+#include <placegraph/pipeline/tracking/feature_tracker.h>
 
 namespace placegraph {
 

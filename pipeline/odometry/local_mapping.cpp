@@ -1,6 +1,6 @@
 #include <placegraph/graph/core/log_message.h>
-#include <placegraph/pipeline/internal/tracking/cue_list.h>
 #include <placegraph/pipeline/odometry/local_mapping.h>
+#include <placegraph/pipeline/tracking/cue_list.h>
 
 namespace placegraph {
 namespace {

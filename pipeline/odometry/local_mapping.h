@@ -1,9 +1,9 @@
 #pragma once
 #include <placegraph/graph/core/stage_times.h>
-#include <placegraph/pipeline/internal/tracking/frame_tracker.h>
 #include <placegraph/pipeline/local_map/lens_estimator.h>
 #include <placegraph/pipeline/local_map/rgbd_calibrator.h>
 #include <placegraph/pipeline/local_map/stereo_rectifier.h>
+#include <placegraph/pipeline/tracking/frame_tracker.h>
 #include <placegraph/pipeline/tracking/odometry_options.h>
 
 namespace placegraph {

@@ -1,10 +1,10 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/internal/tracking/cue_list.h>
-#include <placegraph/pipeline/internal/tracking/direct_tracker.h>
 #include <placegraph/pipeline/odometry/first_frame_initializer.h>
 #include <placegraph/pipeline/odometry/line_view_initializer.h>
 #include <placegraph/pipeline/odometry/odometry_parts.h>
 #include <placegraph/pipeline/odometry/two_view_initializer.h>
+#include <placegraph/pipeline/tracking/cue_list.h>
+#include <placegraph/pipeline/tracking/direct_tracker.h>
 
 namespace placegraph {
 

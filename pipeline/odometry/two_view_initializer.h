@@ -1,8 +1,8 @@
 #pragma once
 #include <placegraph/frontend/relative_pose/mono_initializer.h>
 #include <placegraph/graph/core/ids.h>
-#include <placegraph/pipeline/internal/tracking/feature_tracker.h>
 #include <placegraph/pipeline/odometry/initializer.h>
+#include <placegraph/pipeline/tracking/feature_tracker.h>
 
 namespace placegraph {
 

@@ -3,7 +3,7 @@
 #include <placegraph/graph/geometry/trajectory.h>
 #include <placegraph/graph/image/frame.h>
 #include <placegraph/graph/map.h>
-#include <placegraph/pipeline/internal/tracking/odometry_update.h>
+#include <placegraph/pipeline/tracking/odometry_update.h>
 
 #include <functional>
 #include <map>

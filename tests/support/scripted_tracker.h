@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/pipeline/internal/tracking/frame_tracker.h>
+#include <placegraph/pipeline/tracking/frame_tracker.h>
 
 #include <functional>
 #include <string>

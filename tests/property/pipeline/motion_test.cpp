@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/internal/tracking/motion_model.h>
 #include <placegraph/pipeline/local_map/metric_scale.h>
 #include <placegraph/pipeline/slam/trajectory_recorder.h>
+#include <placegraph/pipeline/tracking/motion_model.h>
 
 #include "tests/support/scenes/window_world.h"
 #include "tests/support/seed.h"

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/internal/tracking/intermediate_frames.h>
-#include <placegraph/pipeline/internal/tracking/keyframe_selector.h>
 #include <placegraph/pipeline/local_map/lens_stretches.h>
+#include <placegraph/pipeline/tracking/intermediate_frames.h>
+#include <placegraph/pipeline/tracking/keyframe_selector.h>
 
 #include "tests/support/scenes/window_world.h"
 #include "tests/support/seed.h"

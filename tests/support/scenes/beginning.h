@@ -1,7 +1,7 @@
 #pragma once
-#include <placegraph/pipeline/internal/tracking/feature_tracker.h>
 #include <placegraph/pipeline/odometry/initializer.h>
 #include <placegraph/pipeline/odometry/local_mapping.h>
+#include <placegraph/pipeline/tracking/feature_tracker.h>
 
 #include <opencv2/core.hpp>
 #include <string>

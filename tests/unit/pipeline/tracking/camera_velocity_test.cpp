@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/internal/tracking/camera_velocity.h>
+#include <placegraph/pipeline/tracking/camera_velocity.h>
 
 namespace placegraph {
 namespace camera_velocity_test {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/internal/tracking/cue_list.h>
 #include <placegraph/pipeline/odometry/odometry.h>
+#include <placegraph/pipeline/tracking/cue_list.h>
 
 namespace placegraph {
 namespace cue_list_test {

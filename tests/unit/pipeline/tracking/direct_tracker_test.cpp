@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/internal/tracking/direct_tracker.h>
+#include <placegraph/pipeline/tracking/direct_tracker.h>
 
 #include "tests/support/scenes/street.h"
 

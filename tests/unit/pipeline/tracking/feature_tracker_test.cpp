@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/pipeline/cues/point_cue.h>
-#include <placegraph/pipeline/internal/tracking/feature_tracker.h>
+#include <placegraph/pipeline/tracking/feature_tracker.h>
 
 #include <algorithm>
 

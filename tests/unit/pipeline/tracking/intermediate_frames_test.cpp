@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/internal/tracking/intermediate_frames.h>
+#include <placegraph/pipeline/tracking/intermediate_frames.h>
 
 #include "tests/support/scenes/window_world.h"
 

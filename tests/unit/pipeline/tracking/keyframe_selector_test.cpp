@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/internal/tracking/keyframe_selector.h>
+#include <placegraph/pipeline/tracking/keyframe_selector.h>
 
 namespace placegraph {
 namespace keyframe_selector_test {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/median.h>
-#include <placegraph/pipeline/internal/tracking/line_pose.h>
+#include <placegraph/pipeline/tracking/line_pose.h>
 
 #include "tests/support/scenes/boards.h"
 

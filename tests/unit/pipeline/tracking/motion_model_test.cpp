@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/internal/tracking/motion_model.h>
+#include <placegraph/pipeline/tracking/motion_model.h>
 
 #include "tests/support/scenes/poses.h"
 

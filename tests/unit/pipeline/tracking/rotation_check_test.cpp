@@ -2,7 +2,7 @@
 #include <placegraph/frontend/relative_pose/pose_2d2d.h>
 #include <placegraph/frontend/relative_pose/pose_3d2d.h>
 #include <placegraph/pipeline/cues/determined_rotation.h>
-#include <placegraph/pipeline/internal/tracking/rotation_check.h>
+#include <placegraph/pipeline/tracking/rotation_check.h>
 
 #include "tests/support/scenes/scene.h"
 #include "tests/support/seed.h"

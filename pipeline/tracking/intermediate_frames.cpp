@@ -1,4 +1,4 @@
-#include <placegraph/pipeline/internal/tracking/intermediate_frames.h>
+#include <placegraph/pipeline/tracking/intermediate_frames.h>
 
 #include <numeric>
 

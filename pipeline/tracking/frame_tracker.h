@@ -2,10 +2,10 @@
 #include <placegraph/frontend/features/rgbd_errors.h>
 #include <placegraph/graph/core/random.h>
 #include <placegraph/pipeline/cues/frame_view.h>
-#include <placegraph/pipeline/internal/tracking/motion_model.h>
-#include <placegraph/pipeline/internal/tracking/odometry_update.h>
 #include <placegraph/pipeline/local_map/keyframe_masks.h>
 #include <placegraph/pipeline/local_map/metric_scale.h>
+#include <placegraph/pipeline/tracking/motion_model.h>
+#include <placegraph/pipeline/tracking/odometry_update.h>
 
 namespace placegraph {
 

@@ -1,6 +1,6 @@
 #include <placegraph/frontend/align/direct_motion.h>
 #include <placegraph/graph/core/log_message.h>
-#include <placegraph/pipeline/internal/tracking/direct_tracker.h>
+#include <placegraph/pipeline/tracking/direct_tracker.h>
 
 #include <Eigen/Cholesky>
 #include <cmath>

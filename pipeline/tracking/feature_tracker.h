@@ -3,11 +3,11 @@
 #include <placegraph/pipeline/cues/keyframe_alignment.h>
 #include <placegraph/pipeline/cues/plane_cue.h>
 #include <placegraph/pipeline/cues/point_cue.h>
-#include <placegraph/pipeline/internal/tracking/camera_velocity.h>
-#include <placegraph/pipeline/internal/tracking/cue_list.h>
-#include <placegraph/pipeline/internal/tracking/frame_tracker.h>
-#include <placegraph/pipeline/internal/tracking/intermediate_frames.h>
-#include <placegraph/pipeline/internal/tracking/keyframe_selector.h>
+#include <placegraph/pipeline/tracking/camera_velocity.h>
+#include <placegraph/pipeline/tracking/cue_list.h>
+#include <placegraph/pipeline/tracking/frame_tracker.h>
+#include <placegraph/pipeline/tracking/intermediate_frames.h>
+#include <placegraph/pipeline/tracking/keyframe_selector.h>
 #include <placegraph/pipeline/tracking/odometry_options.h>
 
 namespace placegraph {

@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/pipeline/cues/direct_cue.h>
-#include <placegraph/pipeline/internal/tracking/frame_tracker.h>
+#include <placegraph/pipeline/tracking/frame_tracker.h>
 #include <placegraph/pipeline/tracking/odometry_options.h>
 
 namespace placegraph {

@@ -4,9 +4,9 @@
 #include <placegraph/frontend/relative_pose/rotation_2d2d.h>
 #include <placegraph/graph/core/time.h>
 #include <placegraph/pipeline/cues/determined_rotation.h>
-#include <placegraph/pipeline/internal/tracking/feature_tracker.h>
-#include <placegraph/pipeline/internal/tracking/line_pose.h>
-#include <placegraph/pipeline/internal/tracking/rotation_check.h>
+#include <placegraph/pipeline/tracking/feature_tracker.h>
+#include <placegraph/pipeline/tracking/line_pose.h>
+#include <placegraph/pipeline/tracking/rotation_check.h>
 
 #include <algorithm>
 

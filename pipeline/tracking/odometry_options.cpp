@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/internal/tracking/cue_list.h>
+#include <placegraph/pipeline/tracking/cue_list.h>
 #include <placegraph/pipeline/tracking/odometry_options.h>
 
 namespace placegraph {

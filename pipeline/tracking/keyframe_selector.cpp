@@ -1,6 +1,6 @@
 #include <placegraph/frontend/flow/flow_cues.h>
 #include <placegraph/graph/core/median.h>
-#include <placegraph/pipeline/internal/tracking/keyframe_selector.h>
+#include <placegraph/pipeline/tracking/keyframe_selector.h>
 
 namespace placegraph {
 

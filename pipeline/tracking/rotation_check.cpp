@@ -2,7 +2,7 @@
 #include <placegraph/frontend/relative_pose/epipolar_refinement.h>
 #include <placegraph/frontend/relative_pose/pose_2d2d.h>
 #include <placegraph/graph/core/angle.h>
-#include <placegraph/pipeline/internal/tracking/rotation_check.h>
+#include <placegraph/pipeline/tracking/rotation_check.h>
 
 #include <Eigen/Cholesky>
 #include <algorithm>

@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/frontend/relative_pose/pose_3d2d.h>
-#include <placegraph/pipeline/internal/tracking/motion_model.h>
 #include <placegraph/pipeline/lines/line_cue.h>
+#include <placegraph/pipeline/tracking/motion_model.h>
 
 namespace placegraph {
 

@@ -1,4 +1,4 @@
-#include <placegraph/pipeline/internal/tracking/line_pose.h>
+#include <placegraph/pipeline/tracking/line_pose.h>
 
 namespace placegraph {
 namespace {
