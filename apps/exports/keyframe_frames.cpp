@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/datasets/open_dataset.h>
-#include <placegraph/pipeline/internal/lens_correction.h>
+#include <placegraph/pipeline/lens_correction.h>
 
 #include <filesystem>
 

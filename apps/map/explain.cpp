@@ -9,8 +9,8 @@
 #include <placegraph/graph/scene/environment.h>
 #include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/datasets/open_dataset.h>
-#include <placegraph/pipeline/internal/map_environment.h>
 #include <placegraph/pipeline/map/explanation.h>
+#include <placegraph/pipeline/map_environment.h>
 #include <placegraph/pipeline/run.h>
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/calibration/camera_change.h>
 #include <placegraph/io/datasets/open_dataset.h>
-#include <placegraph/pipeline/internal/lens_correction.h>
+#include <placegraph/pipeline/lens_correction.h>
 
 #include <filesystem>
 #include <memory>

@@ -6,7 +6,7 @@
 #include <placegraph/io/datasets/dataset.h>
 #include <placegraph/io/map/map_database.h>
 #include <placegraph/io/scene/indoor_map_file.h>
-#include <placegraph/pipeline/internal/lens_correction.h>
+#include <placegraph/pipeline/lens_correction.h>
 
 #include <algorithm>
 #include <filesystem>

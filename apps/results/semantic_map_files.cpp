@@ -8,7 +8,7 @@
 #include <placegraph/io/scene/labelled_mesh_file.h>
 #include <placegraph/io/scene/semantic_map_file.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
-#include <placegraph/pipeline/internal/lens_correction.h>
+#include <placegraph/pipeline/lens_correction.h>
 
 #include <algorithm>
 #include <filesystem>

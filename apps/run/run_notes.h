@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/pipeline/internal/run_notes.h>
+#include <placegraph/pipeline/run_notes.h>
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>

@@ -3,8 +3,8 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/map/map_database.h>
 #include <placegraph/io/models/scene_model_file.h>
-#include <placegraph/pipeline/internal/run_notes.h>
 #include <placegraph/pipeline/run.h>
+#include <placegraph/pipeline/run_notes.h>
 
 #include <nanobind/stl/shared_ptr.h>
 #include <cmath>

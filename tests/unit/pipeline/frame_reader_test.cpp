@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/internal/frame_reader.h>
+#include <placegraph/pipeline/frame_reader.h>
 
 #include "tests/support/scenes/blank_dataset.h"
 #include "tests/support/seed.h"

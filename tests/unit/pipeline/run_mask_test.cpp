@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/internal/run_mask.h>
+#include <placegraph/pipeline/run_mask.h>
 
 #include <opencv2/core.hpp>
 

@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/internal/run_notes.h>
 #include <placegraph/pipeline/run.h>
+#include <placegraph/pipeline/run_notes.h>
 
 #include "tests/support/message_of.h"
 #include "tests/support/scenes/blank_dataset.h"

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/internal/save_schedule.h>
+#include <placegraph/pipeline/save_schedule.h>
 
 #include "tests/support/seed.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/io/map/stored_map.h>
-#include <placegraph/pipeline/internal/lens_correction.h>
-#include <placegraph/pipeline/internal/run_mask.h>
+#include <placegraph/pipeline/lens_correction.h>
+#include <placegraph/pipeline/run_mask.h>
 
 #include <vector>
 

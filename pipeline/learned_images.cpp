@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/log_message.h>
-#include <placegraph/pipeline/internal/learned_images.h>
+#include <placegraph/pipeline/learned_images.h>
 
 namespace placegraph {
 

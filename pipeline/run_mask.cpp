@@ -1,7 +1,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/pipeline/health/static_overlay.h>
-#include <placegraph/pipeline/internal/run_mask.h>
+#include <placegraph/pipeline/run_mask.h>
 
 #include <opencv2/core.hpp>
 

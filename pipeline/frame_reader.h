@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/io/datasets/dataset.h>
-#include <placegraph/pipeline/internal/learned_images.h>
+#include <placegraph/pipeline/learned_images.h>
 
 #include <future>
 

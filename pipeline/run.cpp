@@ -10,10 +10,10 @@
 #include <placegraph/io/map/stored_map.h>
 #include <placegraph/io/sensors/odometry_file.h>
 #include <placegraph/pipeline/cues/frame_view.h>
-#include <placegraph/pipeline/internal/frame_reader.h>
-#include <placegraph/pipeline/internal/learned_images.h>
-#include <placegraph/pipeline/internal/save_schedule.h>
+#include <placegraph/pipeline/frame_reader.h>
+#include <placegraph/pipeline/learned_images.h>
 #include <placegraph/pipeline/run.h>
+#include <placegraph/pipeline/save_schedule.h>
 #include <placegraph/pipeline/slam/run_evidence.h>
 #include <placegraph/pipeline/slam/slam_events.h>
 

@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/internal/map_environment.h>
+#include <placegraph/pipeline/map_environment.h>
 #include <placegraph/pipeline/slam/environment_monitor.h>
 
 #include <algorithm>

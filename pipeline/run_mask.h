@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/io/map/stored_map.h>
-#include <placegraph/pipeline/internal/lens_correction.h>
+#include <placegraph/pipeline/lens_correction.h>
 #include <placegraph/pipeline/slam.h>
 
 #include <string>

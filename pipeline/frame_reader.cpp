@@ -1,4 +1,4 @@
-#include <placegraph/pipeline/internal/frame_reader.h>
+#include <placegraph/pipeline/frame_reader.h>
 
 namespace placegraph {
 

@@ -1,5 +1,5 @@
 #include <fmt/format.h>
-#include <placegraph/pipeline/internal/lens_correction.h>
+#include <placegraph/pipeline/lens_correction.h>
 
 #include <cmath>
 
