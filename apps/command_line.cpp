@@ -1,6 +1,6 @@
 #include "apps/command_line.h"
 
-#include <placegraph/graph/core/spelling.h>
+#include <placegraph/graph/text/spelling.h>
 #include <placegraph/pipeline/run.h>
 
 #include <CLI/CLI.hpp>

@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/log_message.h>
 #include <placegraph/graph/core/time.h>
 #include <placegraph/graph/map_changes.h>
 #include <placegraph/graph/measurements/stamp_plausibility.h>
 #include <placegraph/graph/scene/scene_model.h>
+#include <placegraph/graph/text/log_message.h>
 #include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/map/map_database.h>
 #include <placegraph/io/map/stored_map.h>

@@ -1,7 +1,7 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/log_message.h>
 #include <placegraph/graph/map_changes.h>
 #include <placegraph/graph/measurements/measured_motion.h>
+#include <placegraph/graph/text/log_message.h>
 #include <placegraph/pipeline/cues/frame_view.h>
 #include <placegraph/pipeline/local_map/lens_estimator.h>
 #include <placegraph/pipeline/slam.h>

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/json_text.h>
 #include <placegraph/graph/pose_graph/constraint_source.h>
+#include <placegraph/graph/text/json_text.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/json_text.h>
+#include <placegraph/graph/text/json_text.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 
 #include <charconv>

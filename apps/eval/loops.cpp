@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 #include <placegraph/eval/plots/precision_recall_plot.h>
-#include <placegraph/graph/core/csv_text.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/id_format.h>
-#include <placegraph/graph/core/json_text.h>
+#include <placegraph/graph/text/csv_text.h>
+#include <placegraph/graph/text/id_format.h>
+#include <placegraph/graph/text/json_text.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 
 #include <algorithm>

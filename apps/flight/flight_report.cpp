@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <placegraph/eval/trajectory/body_state_error.h>
 #include <placegraph/graph/core/angle.h>
-#include <placegraph/graph/core/csv_text.h>
+#include <placegraph/graph/text/csv_text.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "apps/flight/fly.h"
 
 #include <fmt/format.h>
-#include <placegraph/graph/core/json_text.h>
+#include <placegraph/graph/text/json_text.h>
 #include <placegraph/io/measurements/marker_layout_file.h>
 #include <placegraph/io/trajectories/body_state_file.h>
 #include <placegraph/io/trajectories/trajectory_file.h>

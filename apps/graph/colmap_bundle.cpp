@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/json_text.h>
+#include <placegraph/graph/text/json_text.h>
 #include <placegraph/io/exports/colmap_reader.h>
 #include <placegraph/pipeline/map/colmap_bundle.h>
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 #include <placegraph/backend/pose_graph/pose_marginals.h>
-#include <placegraph/graph/core/csv_text.h>
+#include <placegraph/graph/text/csv_text.h>
 
 #include <vector>
 

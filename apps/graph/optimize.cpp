@@ -4,9 +4,9 @@
 #include <placegraph/eval/plots/pose_graph_plot.h>
 #include <placegraph/graph/core/chi_squared.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/id_format.h>
-#include <placegraph/graph/core/json_text.h>
-#include <placegraph/graph/core/log_message.h>
+#include <placegraph/graph/text/id_format.h>
+#include <placegraph/graph/text/json_text.h>
+#include <placegraph/graph/text/log_message.h>
 #include <placegraph/io/graphs/g2o.h>
 #include <placegraph/io/graphs/pose_graph_file.h>
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 #include <placegraph/backend/pose_graph/pose_graph_report.h>
-#include <placegraph/graph/core/id_format.h>
+#include <placegraph/graph/text/id_format.h>
 
 #include <algorithm>
 

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 #include <placegraph/frontend/lines/track_consistency.h>
-#include <placegraph/graph/core/id_format.h>
-#include <placegraph/graph/core/json_text.h>
 #include <placegraph/graph/core/median.h>
+#include <placegraph/graph/text/id_format.h>
+#include <placegraph/graph/text/json_text.h>
 #include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/datasets/open_dataset.h>
 #include <placegraph/pipeline/cues/frame_view.h>

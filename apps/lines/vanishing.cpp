@@ -1,7 +1,7 @@
 #include "apps/lines/vanishing.h"
 
 #include <fmt/format.h>
-#include <placegraph/graph/core/json_text.h>
+#include <placegraph/graph/text/json_text.h>
 #include <placegraph/io/measurements/segment_file.h>
 
 #include <nlohmann/json.hpp>

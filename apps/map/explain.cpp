@@ -4,9 +4,9 @@
 #include <placegraph/frontend/labels/urban_labels.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/id_format.h>
-#include <placegraph/graph/core/json_text.h>
 #include <placegraph/graph/scene/environment.h>
+#include <placegraph/graph/text/id_format.h>
+#include <placegraph/graph/text/json_text.h>
 #include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/datasets/open_dataset.h>
 #include <placegraph/pipeline/map/explanation.h>

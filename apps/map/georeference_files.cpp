@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 #include <placegraph/backend/georeference/antenna_trajectory.h>
-#include <placegraph/graph/core/csv_text.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/id_format.h>
 #include <placegraph/graph/pose_graph/node_index.h>
+#include <placegraph/graph/text/csv_text.h>
+#include <placegraph/graph/text/id_format.h>
 #include <placegraph/io/graphs/g2o.h>
 #include <placegraph/io/graphs/pose_graph_file.h>
 #include <placegraph/io/map/map_database.h>

@@ -4,8 +4,8 @@
 #include <placegraph/eval/plots/plot.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/id_format.h>
-#include <placegraph/graph/core/json_text.h>
+#include <placegraph/graph/text/id_format.h>
+#include <placegraph/graph/text/json_text.h>
 
 #include <algorithm>
 #include <cmath>

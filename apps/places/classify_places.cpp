@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <placegraph/frontend/places/classifiers/place_classifier.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/id_format.h>
+#include <placegraph/graph/text/id_format.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/files/image_list.h>
 #include <placegraph/io/measurements/label_file.h>

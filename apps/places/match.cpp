@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/id_format.h>
+#include <placegraph/graph/text/id_format.h>
 #include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/files/image_list.h>

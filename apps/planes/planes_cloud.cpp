@@ -4,7 +4,7 @@
 #include <placegraph/eval/drawing/picture_bytes.h>
 #include <placegraph/eval/drawing/picture_legend.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/json_text.h>
+#include <placegraph/graph/text/json_text.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/measurements/point_cloud_file.h>
 

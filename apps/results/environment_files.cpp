@@ -1,7 +1,7 @@
 #include "apps/results/environment_files.h"
 
 #include <fmt/format.h>
-#include <placegraph/graph/core/csv_text.h>
+#include <placegraph/graph/text/csv_text.h>
 #include <placegraph/pipeline/slam/environment_observation.h>
 
 #include <cmath>

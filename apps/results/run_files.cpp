@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 #include <placegraph/eval/plots/evaluation_plot.h>
 #include <placegraph/eval/trajectory/evaluate.h>
-#include <placegraph/graph/core/csv_text.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/json_text.h>
 #include <placegraph/graph/place_transitions.h>
 #include <placegraph/graph/pose_graph/constraint_source.h>
+#include <placegraph/graph/text/csv_text.h>
+#include <placegraph/graph/text/json_text.h>
 
 #include <algorithm>
 #include <cmath>

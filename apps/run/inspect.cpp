@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/json_text.h>
 #include <placegraph/graph/core/time.h>
+#include <placegraph/graph/text/json_text.h>
 #include <placegraph/io/datasets/open_dataset.h>
 #include <placegraph/io/files/image_list.h>
 #include <placegraph/pipeline/run.h>

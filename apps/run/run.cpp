@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/json_text.h>
 #include <placegraph/graph/place_transitions.h>
 #include <placegraph/graph/pose_graph/rigid_graph.h>
+#include <placegraph/graph/text/json_text.h>
 #include <placegraph/io/datasets/open_dataset.h>
 #include <placegraph/io/graphs/g2o.h>
 #include <placegraph/io/graphs/place_graph_export.h>

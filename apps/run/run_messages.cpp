@@ -1,7 +1,7 @@
 #include "apps/run/run_messages.h"
 
 #include <fmt/format.h>
-#include <placegraph/graph/core/id_format.h>
+#include <placegraph/graph/text/id_format.h>
 
 #include <utility>
 

@@ -1,7 +1,7 @@
 #include "apps/run/run_report.h"
 
 #include <fmt/format.h>
-#include <placegraph/graph/core/json_text.h>
+#include <placegraph/graph/text/json_text.h>
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 #include "apps/saved_map/map_info.h"
 
 #include <fmt/format.h>
-#include <placegraph/graph/core/json_text.h>
+#include <placegraph/graph/text/json_text.h>
 #include <placegraph/pipeline/run.h>
 
 #include <algorithm>

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/id_format.h>
-#include <placegraph/graph/core/json_text.h>
+#include <placegraph/graph/text/id_format.h>
+#include <placegraph/graph/text/json_text.h>
 #include <placegraph/io/datasets/open_dataset.h>
 #include <placegraph/io/files/input_file.h>
 #include <placegraph/io/files/text_file.h>

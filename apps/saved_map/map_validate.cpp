@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/id_format.h>
-#include <placegraph/graph/core/json_text.h>
+#include <placegraph/graph/text/id_format.h>
+#include <placegraph/graph/text/json_text.h>
 #include <placegraph/pipeline/places/place_mapper.h>
 
 #include <nlohmann/json.hpp>

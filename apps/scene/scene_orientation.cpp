@@ -6,7 +6,7 @@
 #include <placegraph/frontend/segments/segment_detector.h>
 #include <placegraph/frontend/vanishing/scene_directions.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/json_text.h>
+#include <placegraph/graph/text/json_text.h>
 #include <placegraph/io/datasets/open_dataset.h>
 #include <placegraph/io/files/atomic_file.h>
 #include <placegraph/io/files/image_file.h>

@@ -5,7 +5,7 @@
 #include <placegraph/frontend/scene/popup.h>
 #include <placegraph/frontend/segments/segment_detector.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/json_text.h>
+#include <placegraph/graph/text/json_text.h>
 #include <placegraph/io/files/image_file.h>
 
 #include <array>

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/wrapped_text.h>
+#include <placegraph/graph/text/wrapped_text.h>
 
 #include <CLI/CLI.hpp>
 #include <string_view>

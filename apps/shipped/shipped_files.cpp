@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/spelling.h>
+#include <placegraph/graph/text/spelling.h>
 
 #include <algorithm>
 #include <filesystem>

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <placegraph/frontend/cloud_planes/cloud_planes.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/json_text.h>
+#include <placegraph/graph/text/json_text.h>
 #include <placegraph/io/measurements/point_cloud_file.h>
 #include <placegraph/io/synthetic/worlds/cloud_scene.h>
 #include <placegraph/io/synthetic/worlds/synthetic_world.h>

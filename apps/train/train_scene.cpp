@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/json_text.h>
 #include <placegraph/graph/core/parallel.h>
+#include <placegraph/graph/text/json_text.h>
 #include <placegraph/io/models/scene_model_file.h>
 
 #include <algorithm>

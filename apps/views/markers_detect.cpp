@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <placegraph/frontend/markers/marker_dictionary.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/json_text.h>
+#include <placegraph/graph/text/json_text.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/measurements/marker_layout_file.h>
 

@@ -8,7 +8,7 @@
 #include <placegraph/backend/linear/blas_threads.h>
 #include <placegraph/backend/linear/sparse_algebra.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/log_message.h>
+#include <placegraph/graph/text/log_message.h>
 
 #include <algorithm>
 #include <deque>

@@ -9,9 +9,9 @@
 #include <placegraph/backend/georeference/variance_components.h>
 #include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/log_message.h>
 #include <placegraph/graph/core/random.h>
 #include <placegraph/graph/pose_graph/node_index.h>
+#include <placegraph/graph/text/log_message.h>
 
 #include <algorithm>
 #include <cmath>

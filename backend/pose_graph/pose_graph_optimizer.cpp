@@ -2,8 +2,8 @@
 #include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
 #include <placegraph/backend/pose_graph/robust_optimizer.h>
 #include <placegraph/backend/solver/packed_free_directions.h>
-#include <placegraph/graph/core/log_message.h>
 #include <placegraph/graph/pose_graph/graph_parts.h>
+#include <placegraph/graph/text/log_message.h>
 
 #include <algorithm>
 #include <utility>

@@ -3,7 +3,7 @@
 #include <placegraph/backend/robust/parallel_odometry.h>
 #include <placegraph/backend/robust/pcm.h>
 #include <placegraph/graph/core/chi_squared.h>
-#include <placegraph/graph/core/log_message.h>
+#include <placegraph/graph/text/log_message.h>
 
 #include <algorithm>
 #include <numeric>

@@ -1,5 +1,5 @@
 #include <placegraph/backend/solver/native_solver.h>
-#include <placegraph/graph/core/log_message.h>
+#include <placegraph/graph/text/log_message.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <placegraph/eval/trajectory/report.h>
-#include <placegraph/graph/core/csv_text.h>
-#include <placegraph/graph/core/json_text.h>
+#include <placegraph/graph/text/csv_text.h>
+#include <placegraph/graph/text/json_text.h>
 
 #include <nlohmann/json.hpp>
 

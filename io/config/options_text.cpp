@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <placegraph/graph/core/wrapped_text.h>
+#include <placegraph/graph/text/wrapped_text.h>
 #include <placegraph/io/config/yaml_config.h>
 
 #include <algorithm>

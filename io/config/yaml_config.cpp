@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/spelling.h>
+#include <placegraph/graph/text/spelling.h>
 #include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/config/yaml_document.h>
 #include <placegraph/io/files/text_file.h>

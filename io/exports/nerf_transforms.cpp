@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/json_text.h>
+#include <placegraph/graph/text/json_text.h>
 #include <placegraph/io/exports/nerf_transforms.h>
 
 #include <nlohmann/json.hpp>

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/id_format.h>
+#include <placegraph/graph/text/id_format.h>
 #include <placegraph/io/files/atomic_file.h>
 #include <placegraph/io/graphs/g2o.h>
 #include <placegraph/io/graphs/parse_graph.h>

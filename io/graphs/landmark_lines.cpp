@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/id_format.h>
 #include <placegraph/graph/pose_graph/node_index.h>
+#include <placegraph/graph/text/id_format.h>
 #include <placegraph/io/graphs/landmark_lines.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 #include <fmt/format.h>
-#include <placegraph/graph/core/id_format.h>
+#include <placegraph/graph/text/id_format.h>
 #include <placegraph/io/graphs/place_graph_export.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-#include <placegraph/graph/core/log_message.h>
 #include <placegraph/graph/core/median.h>
+#include <placegraph/graph/text/log_message.h>
 #include <placegraph/pipeline/local_map/metric_scale.h>
 
 #include <algorithm>

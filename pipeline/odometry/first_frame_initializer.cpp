@@ -1,4 +1,4 @@
-#include <placegraph/graph/core/log_message.h>
+#include <placegraph/graph/text/log_message.h>
 #include <placegraph/pipeline/odometry/first_frame_initializer.h>
 
 namespace placegraph {

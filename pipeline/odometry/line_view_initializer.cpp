@@ -1,6 +1,6 @@
 #include <fmt/format.h>
-#include <placegraph/graph/core/log_message.h>
 #include <placegraph/graph/core/median.h>
+#include <placegraph/graph/text/log_message.h>
 #include <placegraph/pipeline/odometry/line_view_initializer.h>
 
 #include <algorithm>

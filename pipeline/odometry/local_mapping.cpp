@@ -1,4 +1,4 @@
-#include <placegraph/graph/core/log_message.h>
+#include <placegraph/graph/text/log_message.h>
 #include <placegraph/pipeline/odometry/local_mapping.h>
 #include <placegraph/pipeline/tracking/cue_list.h>
 

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 #include <placegraph/frontend/flow/matched_displacements.h>
 #include <placegraph/frontend/relative_pose/mono_initializer.h>
-#include <placegraph/graph/core/log_message.h>
 #include <placegraph/graph/core/median.h>
+#include <placegraph/graph/text/log_message.h>
 #include <placegraph/pipeline/cues/point_cue.h>
 #include <placegraph/pipeline/odometry/two_view_initializer.h>
 

@@ -1,5 +1,5 @@
 #include <placegraph/frontend/align/direct_motion.h>
-#include <placegraph/graph/core/log_message.h>
+#include <placegraph/graph/text/log_message.h>
 #include <placegraph/pipeline/tracking/direct_tracker.h>
 
 #include <Eigen/Cholesky>

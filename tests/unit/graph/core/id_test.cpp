@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <placegraph/graph/core/id_format.h>
 #include <placegraph/graph/core/ids.h>
+#include <placegraph/graph/text/id_format.h>
 
 #include <concepts>
 #include <limits>

@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <placegraph/graph/core/spelling.h>
+#include <placegraph/graph/text/spelling.h>
 
 namespace placegraph {
 namespace spelling_test {

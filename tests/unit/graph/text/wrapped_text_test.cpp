@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/graph/core/wrapped_text.h>
+#include <placegraph/graph/text/wrapped_text.h>
 
 namespace placegraph {
 namespace wrapped_text_test {

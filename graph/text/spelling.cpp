@@ -1,4 +1,4 @@
-#include <placegraph/graph/core/spelling.h>
+#include <placegraph/graph/text/spelling.h>
 
 #include <algorithm>
 #include <utility>

@@ -1,4 +1,4 @@
-#include <placegraph/graph/core/wrapped_text.h>
+#include <placegraph/graph/text/wrapped_text.h>
 
 #include <sstream>
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <fmt/core.h>
-#include <placegraph/graph/core/id_format.h>
 #include <placegraph/graph/core/log.h>
+#include <placegraph/graph/text/id_format.h>
 
 #include <utility>
 

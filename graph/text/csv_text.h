@@ -1,6 +1,6 @@
 #pragma once
 #include <fmt/core.h>
-#include <placegraph/graph/core/id_format.h>
+#include <placegraph/graph/text/id_format.h>
 
 #include <string>
 #include <string_view>

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/graph/core/csv_text.h>
 #include <placegraph/graph/core/random.h>
+#include <placegraph/graph/text/csv_text.h>
 
 #include <vector>
 
