@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/eval/trajectory/edge_consistency.h>
-#include <placegraph/eval/trajectory/edge_mount.h>
+#include <placegraph/eval/edges/edge_consistency.h>
+#include <placegraph/eval/edges/edge_mount.h>
 #include <placegraph/graph/pose_graph/constraint_source.h>
 
 #include <map>

@@ -1,5 +1,5 @@
-#include <placegraph/eval/trajectory/edge_consistency.h>
-#include <placegraph/eval/trajectory/edge_mount.h>
+#include <placegraph/eval/edges/edge_consistency.h>
+#include <placegraph/eval/edges/edge_mount.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/pose_graph/constraint_source.h>
 #include <placegraph/graph/pose_graph/pose_graph.h>

@@ -1,4 +1,4 @@
-#include <placegraph/eval/trajectory/direction_noise.h>
+#include <placegraph/eval/edges/direction_noise.h>
 #include <placegraph/graph/core/median.h>
 
 #include <Eigen/QR>

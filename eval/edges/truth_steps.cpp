@@ -1,4 +1,4 @@
-#include <placegraph/eval/trajectory/truth_steps.h>
+#include <placegraph/eval/edges/truth_steps.h>
 #include <placegraph/graph/core/quantile.h>
 
 namespace placegraph {

@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/eval/trajectory/truth_noise.h>
-#include <placegraph/eval/trajectory/truth_steps.h>
+#include <placegraph/eval/edges/truth_noise.h>
+#include <placegraph/eval/edges/truth_steps.h>
 
 namespace placegraph {
 

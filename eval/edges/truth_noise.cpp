@@ -1,5 +1,5 @@
-#include <placegraph/eval/trajectory/direction_noise.h>
-#include <placegraph/eval/trajectory/truth_noise.h>
+#include <placegraph/eval/edges/direction_noise.h>
+#include <placegraph/eval/edges/truth_noise.h>
 #include <placegraph/graph/core/chi_squared.h>
 #include <placegraph/graph/core/median.h>
 #include <placegraph/graph/core/quantile.h>

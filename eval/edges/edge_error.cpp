@@ -1,4 +1,4 @@
-#include <placegraph/eval/trajectory/edge_error.h>
+#include <placegraph/eval/edges/edge_error.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/median.h>
 

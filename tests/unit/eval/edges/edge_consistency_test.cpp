@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/eval/trajectory/edge_consistency.h>
-#include <placegraph/eval/trajectory/edge_mount.h>
+#include <placegraph/eval/edges/edge_consistency.h>
+#include <placegraph/eval/edges/edge_mount.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>
 

@@ -1,4 +1,4 @@
-#include <placegraph/eval/trajectory/edge_mount.h>
+#include <placegraph/eval/edges/edge_mount.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/median.h>
 

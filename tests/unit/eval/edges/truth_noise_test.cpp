@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/eval/trajectory/truth_noise.h>
+#include <placegraph/eval/edges/truth_noise.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/random.h>
 

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/eval/trajectory/edge_error.h>
+#include <placegraph/eval/edges/edge_error.h>
 #include <placegraph/graph/pose_graph/constraint.h>
 
 #include <map>

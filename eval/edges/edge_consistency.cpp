@@ -1,4 +1,4 @@
-#include <placegraph/eval/trajectory/edge_consistency.h>
+#include <placegraph/eval/edges/edge_consistency.h>
 #include <placegraph/eval/trajectory/statistics.h>
 #include <placegraph/graph/core/chi_squared.h>
 

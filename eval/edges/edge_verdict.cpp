@@ -1,5 +1,5 @@
 #include <fmt/format.h>
-#include <placegraph/eval/trajectory/edge_consistency.h>
+#include <placegraph/eval/edges/edge_consistency.h>
 #include <placegraph/graph/core/chi_squared.h>
 #include <placegraph/graph/pose_graph/constraint_source.h>
 

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/eval/trajectory/truth_noise.h>
+#include <placegraph/eval/edges/truth_noise.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/pose_graph/constraint.h>
 
