@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/frontend/floor_plan/floor_plan_options.h>
 #include <placegraph/frontend/floor_plan/voxel_evidence.h>
-#include <placegraph/frontend/floor_plan/wall_piece.h>
+#include <placegraph/frontend/floor_plan/wall_fit.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/scene/indoor_map.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/frontend/floor_plan/voxel_evidence.h>
-#include <placegraph/frontend/floor_plan/wall_piece.h>
+#include <placegraph/frontend/floor_plan/wall_fit.h>
 
 #include <optional>
 #include <vector>
