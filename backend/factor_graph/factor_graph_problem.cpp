@@ -2,11 +2,11 @@
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 #include <placegraph/backend/factor_graph/factor_graph.h>
-#include <placegraph/backend/factors/ceres_factor.h>
-#include <placegraph/backend/factors/kernel_loss.h>
 #include <placegraph/backend/factors/variable_manifold.h>
 #include <placegraph/backend/linear/blas_threads.h>
 #include <placegraph/backend/linear/sparse_algebra.h>
+#include <placegraph/backend/solver/ceres_factor.h>
+#include <placegraph/backend/solver/kernel_loss.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/text/log_message.h>
 

@@ -1,14 +1,14 @@
 #include <ceres/crs_matrix.h>
 #include <ceres/problem.h>
 #include <ceres/solver.h>
-#include <placegraph/backend/factors/ceres_factor.h>
-#include <placegraph/backend/factors/kernel_loss.h>
 #include <placegraph/backend/factors/relative_pose.h>
 #include <placegraph/backend/georeference/antenna_calibration.h>
 #include <placegraph/backend/georeference/antenna_position.h>
 #include <placegraph/backend/linear/blas_threads.h>
 #include <placegraph/backend/linear/sparse_algebra.h>
 #include <placegraph/backend/linear/whitening.h>
+#include <placegraph/backend/solver/ceres_factor.h>
+#include <placegraph/backend/solver/kernel_loss.h>
 #include <placegraph/backend/solver/packed_graph.h>
 
 #include <Eigen/SparseCholesky>

@@ -1,12 +1,12 @@
 #include <ceres/problem.h>
 #include <ceres/solver.h>
-#include <placegraph/backend/factors/ceres_factor.h>
-#include <placegraph/backend/factors/kernel_loss.h>
 #include <placegraph/backend/factors/position.h>
 #include <placegraph/backend/factors/relative_pose.h>
 #include <placegraph/backend/linear/sparse_algebra.h>
 #include <placegraph/backend/linear/whitening.h>
+#include <placegraph/backend/solver/ceres_factor.h>
 #include <placegraph/backend/solver/ceres_solver.h>
+#include <placegraph/backend/solver/kernel_loss.h>
 
 #include <algorithm>
 #include <deque>

@@ -1,11 +1,11 @@
 #include <ceres/problem.h>
 #include <ceres/solver.h>
-#include <placegraph/backend/factors/ceres_factor.h>
 #include <placegraph/backend/factors/inverse_depth.h>
-#include <placegraph/backend/factors/kernel_loss.h>
-#include <placegraph/backend/factors/point_factor.h>
 #include <placegraph/backend/factors/point_on_plane.h>
 #include <placegraph/backend/linear/sparse_algebra.h>
+#include <placegraph/backend/solver/ceres_factor.h>
+#include <placegraph/backend/solver/kernel_loss.h>
+#include <placegraph/backend/window/point_factor.h>
 #include <placegraph/backend/window/window_blocks.h>
 #include <placegraph/backend/window/window_problem.h>
 #include <placegraph/backend/window/window_transform.h>

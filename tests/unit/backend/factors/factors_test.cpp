@@ -1,15 +1,15 @@
 #include <gtest/gtest.h>
 #include <placegraph/backend/factors/camera_reprojection.h>
-#include <placegraph/backend/factors/ceres_factor.h>
 #include <placegraph/backend/factors/distance.h>
 #include <placegraph/backend/factors/inverse_depth.h>
-#include <placegraph/backend/factors/kernel_loss.h>
 #include <placegraph/backend/factors/marginal_prior.h>
-#include <placegraph/backend/factors/point_factor.h>
 #include <placegraph/backend/factors/point_in_node.h>
 #include <placegraph/backend/factors/position.h>
 #include <placegraph/backend/factors/relative_pose.h>
 #include <placegraph/backend/factors/reprojection.h>
+#include <placegraph/backend/solver/ceres_factor.h>
+#include <placegraph/backend/solver/kernel_loss.h>
+#include <placegraph/backend/window/point_factor.h>
 #include <placegraph/graph/core/angle.h>
 
 #include "tests/support/jacobian_check.h"

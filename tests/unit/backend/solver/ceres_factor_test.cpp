@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/factors/ceres_factor.h>
 #include <placegraph/backend/factors/distance.h>
 #include <placegraph/backend/factors/height_above_plane.h>
+#include <placegraph/backend/solver/ceres_factor.h>
 #include <placegraph/graph/core/error.h>
 
 #include <limits>
