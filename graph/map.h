@@ -3,7 +3,7 @@
 #include <placegraph/graph/geometry/trajectory.h>
 #include <placegraph/graph/loop_stage.h>
 #include <placegraph/graph/place_graph.h>
-#include <placegraph/graph/place_view.h>
+#include <placegraph/graph/recognition/place_view.h>
 
 #include <cstddef>
 #include <string>

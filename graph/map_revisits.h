@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/graph/core/options.h>
-#include <placegraph/graph/loop_prediction.h>
 #include <placegraph/graph/map.h>
+#include <placegraph/graph/recognition/loop_prediction.h>
 
 #include <vector>
 

@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/graph/core/ids.h>
-#include <placegraph/graph/landmark.h>
+#include <placegraph/graph/measurements/landmark.h>
 #include <placegraph/graph/pose_graph/pose_graph.h>
 
 #include <map>

@@ -2,7 +2,7 @@
 #include <placegraph/frontend/places/code_database.h>
 #include <placegraph/frontend/places/place_recognizer.h>
 #include <placegraph/frontend/places/sequence_filter.h>
-#include <placegraph/graph/loop_prediction.h>
+#include <placegraph/graph/recognition/loop_prediction.h>
 
 #include <cstddef>
 #include <optional>

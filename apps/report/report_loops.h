@@ -2,7 +2,7 @@
 #include <placegraph/eval/loops/loop_benchmark.h>
 #include <placegraph/eval/loops/reliability.h>
 #include <placegraph/graph/geometry/trajectory.h>
-#include <placegraph/graph/loop_truth.h>
+#include <placegraph/graph/recognition/loop_truth.h>
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>

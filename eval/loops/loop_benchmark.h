@@ -1,8 +1,8 @@
 #pragma once
 #include <placegraph/eval/loops/precision_recall.h>
 #include <placegraph/graph/core/ids.h>
-#include <placegraph/graph/loop_prediction.h>
-#include <placegraph/graph/loop_truth.h>
+#include <placegraph/graph/recognition/loop_prediction.h>
+#include <placegraph/graph/recognition/loop_truth.h>
 
 #include <array>
 #include <string>

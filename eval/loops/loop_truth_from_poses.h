@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/eval/loops/same_view.h>
 #include <placegraph/graph/geometry/trajectory.h>
-#include <placegraph/graph/loop_truth.h>
+#include <placegraph/graph/recognition/loop_truth.h>
 
 namespace [[gnu::visibility("default")]] placegraph {
 

@@ -2,7 +2,7 @@
 #include <placegraph/frontend/features/feature_options.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/geometry/camera.h>
-#include <placegraph/graph/landmark.h>
+#include <placegraph/graph/measurements/landmark.h>
 
 #include <vector>
 

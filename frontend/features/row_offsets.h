@@ -2,7 +2,7 @@
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/core/random.h>
 #include <placegraph/graph/geometry/camera.h>
-#include <placegraph/graph/landmark.h>
+#include <placegraph/graph/measurements/landmark.h>
 
 #include <array>
 #include <vector>

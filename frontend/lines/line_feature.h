@@ -5,7 +5,7 @@
 #include <placegraph/graph/geometry/line3.h>
 #include <placegraph/graph/geometry/line_segment.h>
 #include <placegraph/graph/image/image.h>
-#include <placegraph/graph/landmark.h>
+#include <placegraph/graph/measurements/landmark.h>
 
 #include <optional>
 #include <vector>

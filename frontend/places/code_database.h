@@ -3,7 +3,7 @@
 #include <placegraph/frontend/places/landmarks.h>
 #include <placegraph/frontend/places/place_database.h>
 #include <placegraph/frontend/places/place_similarity.h>
-#include <placegraph/graph/word_tree.h>
+#include <placegraph/graph/recognition/word_tree.h>
 
 #include <cstdint>
 #include <memory>

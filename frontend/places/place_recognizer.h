@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/frontend/places/recognition_options.h>
 #include <placegraph/graph/image/image.h>
-#include <placegraph/graph/place_view.h>
+#include <placegraph/graph/recognition/place_view.h>
 
 #include <cstdint>
 #include <memory>

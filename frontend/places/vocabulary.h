@@ -2,7 +2,7 @@
 #include <placegraph/frontend/places/recognition_options.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/core/random.h>
-#include <placegraph/graph/word_tree.h>
+#include <placegraph/graph/recognition/word_tree.h>
 
 #include <cstdint>
 #include <vector>

@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/graph/loop_prediction.h>
-#include <placegraph/graph/loop_truth.h>
+#include <placegraph/graph/recognition/loop_prediction.h>
+#include <placegraph/graph/recognition/loop_truth.h>
 
 #include <string>
 #include <vector>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/graph/word_tree.h>
+#include <placegraph/graph/recognition/word_tree.h>
 
 #include <string>
 

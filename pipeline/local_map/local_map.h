@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/backend/window/sliding_window.h>
 #include <placegraph/graph/core/ids.h>
-#include <placegraph/graph/landmark.h>
+#include <placegraph/graph/measurements/landmark.h>
 #include <placegraph/pipeline/local_map/motion_uncertainty.h>
 
 #include <map>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/graph/place_view.h>
+#include <placegraph/graph/recognition/place_view.h>
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/graph/core/random.h>
 #include <placegraph/graph/geometry/camera.h>
-#include <placegraph/graph/landmark.h>
+#include <placegraph/graph/measurements/landmark.h>
 
 #include <vector>
 

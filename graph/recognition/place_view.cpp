@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/place_view.h>
+#include <placegraph/graph/recognition/place_view.h>
 
 namespace placegraph {
 

@@ -1,4 +1,4 @@
-#include <placegraph/graph/word_tree.h>
+#include <placegraph/graph/recognition/word_tree.h>
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/graph/landmark.h>
+#include <placegraph/graph/measurements/landmark.h>
 
 namespace placegraph {
 namespace landmark_test {

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/graph/word_tree.h>
+#include <placegraph/graph/recognition/word_tree.h>
 
 namespace placegraph {
 namespace word_tree_test {

@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/function_clones.h>
-#include <placegraph/graph/landmark.h>
+#include <placegraph/graph/measurements/landmark.h>
 
 #include <bit>
 

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/graph/landmark.h>
+#include <placegraph/graph/measurements/landmark.h>
 
 #include <cstdint>
 #include <vector>
