@@ -9,8 +9,8 @@
 
 #include "apps/exports/gltf_export.h"
 #include "apps/exports/ply_export.h"
-#include "apps/map/explain.h"
-#include "apps/map/georeference_files.h"
+#include "apps/map/queries/explain.h"
+#include "apps/map/queries/georeference_files.h"
 #include "apps/report/report_run.h"
 #include "apps/results/judgement_text.h"
 #include "apps/results/run_files.h"

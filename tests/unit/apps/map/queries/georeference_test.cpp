@@ -1,4 +1,4 @@
-#include "apps/map/georeference.h"
+#include "apps/map/queries/georeference.h"
 
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/angle.h>

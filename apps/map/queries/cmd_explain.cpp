@@ -1,9 +1,9 @@
-#include "apps/map/cmd_explain.h"
+#include "apps/map/queries/cmd_explain.h"
 
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "apps/map/explain.h"
+#include "apps/map/queries/explain.h"
 #include "apps/support/option_texts.h"
 #include "apps/support/output.h"
 

@@ -1,4 +1,4 @@
-#include "apps/map/georeference.h"
+#include "apps/map/queries/georeference.h"
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
@@ -15,7 +15,7 @@
 #include <filesystem>
 #include <unordered_map>
 
-#include "apps/map/georeference_files.h"
+#include "apps/map/queries/georeference_files.h"
 #include "apps/support/output.h"
 
 namespace placegraph::apps {

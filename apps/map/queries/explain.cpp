@@ -1,4 +1,4 @@
-#include "apps/map/explain.h"
+#include "apps/map/queries/explain.h"
 
 #include <fmt/format.h>
 #include <placegraph/frontend/labels/urban_labels.h>

@@ -1,4 +1,4 @@
-#include "apps/map/route.h"
+#include "apps/map/queries/route.h"
 
 #include <fmt/format.h>
 #include <placegraph/eval/plots/plot.h>

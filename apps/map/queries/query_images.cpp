@@ -1,4 +1,4 @@
-#include "apps/map/query_images.h"
+#include "apps/map/queries/query_images.h"
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>

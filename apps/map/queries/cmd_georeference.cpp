@@ -1,9 +1,9 @@
-#include "apps/map/cmd_georeference.h"
+#include "apps/map/queries/cmd_georeference.h"
 
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "apps/map/georeference.h"
+#include "apps/map/queries/georeference.h"
 #include "apps/support/option_texts.h"
 #include "apps/support/output.h"
 

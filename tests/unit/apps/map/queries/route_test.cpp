@@ -1,4 +1,4 @@
-#include "apps/map/route.h"
+#include "apps/map/queries/route.h"
 
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>

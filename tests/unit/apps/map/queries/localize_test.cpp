@@ -1,4 +1,4 @@
-#include "apps/map/localize.h"
+#include "apps/map/queries/localize.h"
 
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>

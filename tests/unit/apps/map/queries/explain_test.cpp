@@ -1,4 +1,4 @@
-#include "apps/map/explain.h"
+#include "apps/map/queries/explain.h"
 
 #include <gtest/gtest.h>
 

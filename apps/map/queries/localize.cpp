@@ -1,4 +1,4 @@
-#include "apps/map/localize.h"
+#include "apps/map/queries/localize.h"
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/core/utility.hpp>
 
-#include "apps/map/query_images.h"
+#include "apps/map/queries/query_images.h"
 #include "apps/results/map_file.h"
 #include "apps/support/json_file.h"
 #include "apps/support/output.h"

@@ -1,9 +1,9 @@
-#include "apps/map/cmd_route.h"
+#include "apps/map/queries/cmd_route.h"
 
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "apps/map/route.h"
+#include "apps/map/queries/route.h"
 #include "apps/support/option_texts.h"
 #include "apps/support/output.h"
 

@@ -1,9 +1,9 @@
-#include "apps/map/cmd_localize.h"
+#include "apps/map/queries/cmd_localize.h"
 
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "apps/map/localize.h"
+#include "apps/map/queries/localize.h"
 #include "apps/support/option_texts.h"
 #include "apps/support/output.h"
 

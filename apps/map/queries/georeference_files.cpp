@@ -1,4 +1,4 @@
-#include "apps/map/georeference_files.h"
+#include "apps/map/queries/georeference_files.h"
 
 #include <fmt/format.h>
 #include <placegraph/backend/georeference/antenna_trajectory.h>
