@@ -12,8 +12,8 @@
 #include <memory>
 
 #include "apps/exports/colmap_import.h"
+#include "apps/map/map_export.h"
 #include "apps/results/map_file.h"
-#include "apps/saved_map/map_export.h"
 
 namespace placegraph::python {
 namespace {

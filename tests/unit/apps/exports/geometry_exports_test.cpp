@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
 
-#include "apps/saved_map/map_export.h"
-#include "apps/saved_map/map_import.h"
+#include "apps/map/map_export.h"
+#include "apps/map/map_import.h"
 #include "apps/support/output.h"
 #include "tests/support/message_of.h"
 #include "tests/support/pictures.h"

@@ -9,13 +9,13 @@
 
 #include "apps/exports/gltf_export.h"
 #include "apps/exports/ply_export.h"
+#include "apps/map/map_info.h"
 #include "apps/map/queries/explain.h"
 #include "apps/map/queries/georeference_files.h"
 #include "apps/report/report_run.h"
 #include "apps/results/judgement_text.h"
 #include "apps/results/run_files.h"
 #include "apps/results/run_map.h"
-#include "apps/saved_map/map_info.h"
 #include "tests/support/random_map.h"
 #include "tests/support/temporary_folder.h"
 

@@ -9,7 +9,7 @@
 #include "tests/support/message_of.h"
 #include "tests/support/random_map.h"
 #include "tests/support/scenes/street_files.h"
-#include "tests/unit/apps/saved_map/posed_map.h"
+#include "tests/unit/apps/map/posed_map.h"
 
 namespace placegraph::apps {
 namespace explain_test {

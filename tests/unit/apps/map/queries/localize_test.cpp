@@ -6,10 +6,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/saved_map/map_learn.h"
+#include "apps/map/map_learn.h"
 #include "apps/support/output.h"
 #include "tests/support/message_of.h"
-#include "tests/unit/apps/saved_map/walked_rooms.h"
+#include "tests/unit/apps/map/walked_rooms.h"
 
 namespace placegraph::apps {
 namespace localize_test {

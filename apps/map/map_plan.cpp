@@ -1,4 +1,4 @@
-#include "apps/saved_map/map_plan.h"
+#include "apps/map/map_plan.h"
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>

@@ -1,4 +1,4 @@
-#include "apps/saved_map/map_export.h"
+#include "apps/map/map_export.h"
 
 #include <gtest/gtest.h>
 #include <placegraph/io/graphs/g2o.h>

@@ -1,4 +1,4 @@
-#include "apps/saved_map/map_learn.h"
+#include "apps/map/map_learn.h"
 
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
@@ -7,7 +7,7 @@
 #include <set>
 
 #include "tests/support/message_of.h"
-#include "tests/unit/apps/saved_map/walked_rooms.h"
+#include "tests/unit/apps/map/walked_rooms.h"
 
 namespace placegraph::apps {
 namespace map_learn_test {

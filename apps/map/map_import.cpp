@@ -1,4 +1,4 @@
-#include "apps/saved_map/map_import.h"
+#include "apps/map/map_import.h"
 
 #include <fmt/format.h>
 #include <placegraph/io/exports/colmap_reader.h>

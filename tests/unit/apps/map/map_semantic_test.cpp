@@ -1,4 +1,4 @@
-#include "apps/saved_map/map_semantic.h"
+#include "apps/map/map_semantic.h"
 
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
@@ -9,7 +9,7 @@
 #include "tests/support/clean_world.h"
 #include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
-#include "tests/unit/apps/saved_map/posed_map.h"
+#include "tests/unit/apps/map/posed_map.h"
 
 namespace placegraph::apps {
 namespace map_semantic_test {

@@ -1,9 +1,9 @@
-#include "apps/saved_map/cmd_map_learn.h"
+#include "apps/map/cmd_map_learn.h"
 
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "apps/saved_map/map_learn.h"
+#include "apps/map/map_learn.h"
 #include "apps/support/option_texts.h"
 #include "apps/support/output.h"
 

@@ -1,4 +1,4 @@
-#include "apps/saved_map/map_validate.h"
+#include "apps/map/map_validate.h"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,13 @@
-#include "apps/saved_map/map_label.h"
+#include "apps/map/map_label.h"
 
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/map/map_database.h>
 
-#include "apps/saved_map/map_learn.h"
+#include "apps/map/map_learn.h"
 #include "apps/support/output.h"
 #include "tests/support/message_of.h"
-#include "tests/unit/apps/saved_map/walked_rooms.h"
+#include "tests/unit/apps/map/walked_rooms.h"
 
 namespace placegraph::apps {
 namespace map_label_test {

@@ -1,4 +1,4 @@
-#include "apps/saved_map/map_info.h"
+#include "apps/map/map_info.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "apps/saved_map/map_label.h"
+#include "apps/map/map_label.h"
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>

@@ -1,16 +1,16 @@
-#include "apps/saved_map/cmd_map.h"
+#include "apps/map/cmd_map.h"
 
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "apps/saved_map/cmd_map_import.h"
-#include "apps/saved_map/cmd_map_label.h"
-#include "apps/saved_map/cmd_map_learn.h"
-#include "apps/saved_map/cmd_map_plan.h"
-#include "apps/saved_map/cmd_map_semantic.h"
-#include "apps/saved_map/map_export.h"
-#include "apps/saved_map/map_info.h"
-#include "apps/saved_map/map_validate.h"
+#include "apps/map/cmd_map_import.h"
+#include "apps/map/cmd_map_label.h"
+#include "apps/map/cmd_map_learn.h"
+#include "apps/map/cmd_map_plan.h"
+#include "apps/map/cmd_map_semantic.h"
+#include "apps/map/map_export.h"
+#include "apps/map/map_info.h"
+#include "apps/map/map_validate.h"
 #include "apps/support/option_texts.h"
 #include "apps/support/output.h"
 
