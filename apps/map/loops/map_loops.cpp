@@ -1,4 +1,4 @@
-#include "apps/map_edit/map_loops.h"
+#include "apps/map/loops/map_loops.h"
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>

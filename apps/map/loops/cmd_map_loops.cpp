@@ -1,9 +1,9 @@
-#include "apps/map_edit/cmd_map_loops.h"
+#include "apps/map/loops/cmd_map_loops.h"
 
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "apps/map_edit/map_loops.h"
+#include "apps/map/loops/map_loops.h"
 #include "apps/support/option_texts.h"
 #include "apps/support/output.h"
 
