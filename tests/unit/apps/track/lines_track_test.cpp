@@ -1,4 +1,4 @@
-#include "apps/lines/lines_track.h"
+#include "apps/track/lines_track.h"
 
 #include <placegraph/io/synthetic/writers/sequence_writer.h>
 

@@ -1,12 +1,12 @@
-#include "apps/planes/cmd_track_plane.h"
+#include "apps/track/cmd_track_plane.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
 
-#include "apps/planes/track_plane.h"
 #include "apps/support/option_texts.h"
 #include "apps/support/output.h"
+#include "apps/track/track_plane.h"
 
 namespace placegraph::apps {
 namespace {

@@ -1,4 +1,4 @@
-#include "apps/lines/lines_track.h"
+#include "apps/track/lines_track.h"
 
 #include <fmt/format.h>
 #include <placegraph/frontend/lines/track_consistency.h>

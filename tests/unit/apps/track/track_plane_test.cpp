@@ -1,4 +1,4 @@
-#include "apps/planes/track_plane.h"
+#include "apps/track/track_plane.h"
 
 #include <placegraph/io/trajectories/trajectory_file.h>
 

@@ -1,5 +1,5 @@
-#include "apps/planes/plane_track_files.h"
 #include "apps/support/json_file.h"
+#include "apps/track/plane_track_files.h"
 
 #include <fmt/format.h>
 #include <placegraph/graph/image/png_codec.h>

@@ -1,4 +1,4 @@
-#include "apps/planes/track_plane.h"
+#include "apps/track/track_plane.h"
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
@@ -11,12 +11,12 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "apps/planes/plane_track_files.h"
 #include "apps/support/frame_source.h"
 #include "apps/support/output.h"
 #include "apps/support/progress.h"
 #include "apps/support/read_calib.h"
 #include "apps/support/usage.h"
+#include "apps/track/plane_track_files.h"
 
 namespace placegraph::apps {
 namespace {

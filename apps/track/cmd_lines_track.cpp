@@ -1,11 +1,11 @@
-#include "apps/lines/cmd_lines_track.h"
+#include "apps/track/cmd_lines_track.h"
 
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "apps/lines/lines_track.h"
 #include "apps/support/option_texts.h"
 #include "apps/support/output.h"
+#include "apps/track/lines_track.h"
 
 namespace placegraph::apps {
 
