@@ -1,4 +1,4 @@
-#include "apps/lines/vanishing.h"
+#include "apps/image/lines/vanishing.h"
 
 #include <cmath>
 #include <nlohmann/json.hpp>

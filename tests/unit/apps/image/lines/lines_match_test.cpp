@@ -1,4 +1,4 @@
-#include "apps/lines/lines_match.h"
+#include "apps/image/lines/lines_match.h"
 
 #include <placegraph/io/measurements/segment_file.h>
 

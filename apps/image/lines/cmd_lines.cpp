@@ -1,12 +1,12 @@
-#include "apps/lines/cmd_lines.h"
+#include "apps/image/lines/cmd_lines.h"
 
 #include <placegraph/graph/core/error.h>
 
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "apps/lines/lines_detect.h"
-#include "apps/lines/lines_match.h"
+#include "apps/image/lines/lines_detect.h"
+#include "apps/image/lines/lines_match.h"
 #include "apps/support/option_texts.h"
 #include "apps/support/output.h"
 

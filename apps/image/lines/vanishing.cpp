@@ -1,4 +1,4 @@
-#include "apps/lines/vanishing.h"
+#include "apps/image/lines/vanishing.h"
 
 #include <fmt/format.h>
 #include <placegraph/graph/text/json_text.h>

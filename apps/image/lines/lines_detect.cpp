@@ -1,4 +1,4 @@
-#include "apps/lines/lines_detect.h"
+#include "apps/image/lines/lines_detect.h"
 
 #include <fmt/format.h>
 #include <placegraph/io/files/image_file.h>

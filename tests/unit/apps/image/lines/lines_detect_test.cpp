@@ -1,4 +1,4 @@
-#include "apps/lines/lines_detect.h"
+#include "apps/image/lines/lines_detect.h"
 
 #include <placegraph/io/measurements/segment_file.h>
 

@@ -1,9 +1,9 @@
-#include "apps/lines/cmd_vanishing.h"
+#include "apps/image/lines/cmd_vanishing.h"
 
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "apps/lines/vanishing.h"
+#include "apps/image/lines/vanishing.h"
 #include "apps/support/calib_option.h"
 #include "apps/support/option_texts.h"
 #include "apps/support/output.h"

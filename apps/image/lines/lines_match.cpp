@@ -1,4 +1,4 @@
-#include "apps/lines/lines_match.h"
+#include "apps/image/lines/lines_match.h"
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
