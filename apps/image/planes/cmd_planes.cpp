@@ -1,10 +1,10 @@
-#include "apps/planes/cmd_planes.h"
+#include "apps/image/planes/cmd_planes.h"
 
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "apps/planes/cmd_planes_cloud.h"
-#include "apps/planes/planes_two_view.h"
+#include "apps/image/planes/cmd_planes_cloud.h"
+#include "apps/image/planes/planes_two_view.h"
 #include "apps/support/calib_option.h"
 #include "apps/support/option_texts.h"
 #include "apps/support/output.h"

@@ -1,4 +1,4 @@
-#include "apps/planes/planes_two_view.h"
+#include "apps/image/planes/planes_two_view.h"
 
 #include <filesystem>
 #include <nlohmann/json.hpp>

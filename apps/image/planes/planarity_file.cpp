@@ -1,4 +1,4 @@
-#include "apps/planes/planarity_file.h"
+#include "apps/image/planes/planarity_file.h"
 
 #include <placegraph/io/files/text_file.h>
 

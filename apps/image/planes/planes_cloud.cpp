@@ -1,4 +1,4 @@
-#include "apps/planes/planes_cloud.h"
+#include "apps/image/planes/planes_cloud.h"
 
 #include <fmt/format.h>
 #include <placegraph/eval/drawing/picture_bytes.h>
@@ -14,7 +14,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "apps/planes/planarity_file.h"
+#include "apps/image/planes/planarity_file.h"
 #include "apps/support/choice.h"
 #include "apps/support/output.h"
 #include "apps/support/read_calib.h"

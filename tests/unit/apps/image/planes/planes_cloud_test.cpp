@@ -1,4 +1,4 @@
-#include "apps/planes/planes_cloud.h"
+#include "apps/image/planes/planes_cloud.h"
 
 #include <placegraph/io/files/image_file.h>
 

@@ -1,9 +1,9 @@
-#include "apps/planes/cmd_planes_cloud.h"
+#include "apps/image/planes/cmd_planes_cloud.h"
 
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "apps/planes/planes_cloud.h"
+#include "apps/image/planes/planes_cloud.h"
 #include "apps/support/calib_option.h"
 #include "apps/support/option_texts.h"
 #include "apps/support/output.h"
