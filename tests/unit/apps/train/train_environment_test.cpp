@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "tests/support/message_of.h"
-#include "tests/unit/apps/scene/drawn_set.h"
+#include "tests/unit/apps/image/scene/drawn_set.h"
 
 namespace placegraph::apps {
 namespace train_environment_test {

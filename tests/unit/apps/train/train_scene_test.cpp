@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/support/message_of.h"
-#include "tests/unit/apps/scene/drawn_set.h"
+#include "tests/unit/apps/image/scene/drawn_set.h"
 
 namespace placegraph::apps {
 namespace train_scene_test {

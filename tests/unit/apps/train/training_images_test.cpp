@@ -4,7 +4,7 @@
 #include <placegraph/graph/core/error.h>
 
 #include "tests/support/message_of.h"
-#include "tests/unit/apps/scene/drawn_set.h"
+#include "tests/unit/apps/image/scene/drawn_set.h"
 
 namespace placegraph::apps {
 namespace training_images_test {

@@ -1,7 +1,7 @@
 #pragma once
 #include <CLI/App.hpp>
 
-#include "apps/scene/scene_images.h"
+#include "apps/image/scene/scene_images.h"
 
 namespace placegraph::apps {
 

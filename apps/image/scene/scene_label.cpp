@@ -1,9 +1,9 @@
-#include "apps/scene/scene_label.h"
+#include "apps/image/scene/scene_label.h"
 
 #include <placegraph/frontend/labels/urban_labels.h>
 #include <placegraph/frontend/scene/street_trust.h>
 
-#include "apps/scene/street_images.h"
+#include "apps/image/scene/street_images.h"
 #include "apps/shipped/scene_models.h"
 #include "apps/support/output.h"
 

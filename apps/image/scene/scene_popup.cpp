@@ -1,4 +1,4 @@
-#include "apps/scene/scene_popup.h"
+#include "apps/image/scene/scene_popup.h"
 
 #include <fmt/format.h>
 #include <placegraph/frontend/labels/surface_classifier.h>
@@ -14,7 +14,7 @@
 #include <opencv2/core/utility.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "apps/scene/scene_images.h"
+#include "apps/image/scene/scene_images.h"
 #include "apps/shipped/scene_models.h"
 #include "apps/support/output.h"
 #include "apps/support/read_calib.h"

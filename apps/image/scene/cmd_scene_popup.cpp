@@ -1,9 +1,9 @@
-#include "apps/scene/cmd_scene_popup.h"
+#include "apps/image/scene/cmd_scene_popup.h"
 
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "apps/scene/scene_popup.h"
+#include "apps/image/scene/scene_popup.h"
 #include "apps/support/calib_option.h"
 #include "apps/support/option_texts.h"
 #include "apps/support/output.h"

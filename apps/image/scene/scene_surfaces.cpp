@@ -1,4 +1,4 @@
-#include "apps/scene/scene_surfaces.h"
+#include "apps/image/scene/scene_surfaces.h"
 
 #include <placegraph/frontend/labels/surface_classifier.h>
 

@@ -1,4 +1,4 @@
-#include "apps/scene/street_images.h"
+#include "apps/image/scene/street_images.h"
 
 #include <placegraph/frontend/scene/street_trust.h>
 #include <placegraph/graph/core/error.h>

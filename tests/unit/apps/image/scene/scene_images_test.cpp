@@ -1,4 +1,4 @@
-#include "apps/scene/scene_images.h"
+#include "apps/image/scene/scene_images.h"
 
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>

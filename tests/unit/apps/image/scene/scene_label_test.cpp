@@ -1,14 +1,14 @@
-#include "apps/scene/scene_label.h"
+#include "apps/image/scene/scene_label.h"
 
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/synthetic/writers/sequence_writer.h>
 
-#include "apps/scene/scene_surfaces.h"
+#include "apps/image/scene/scene_surfaces.h"
 #include "tests/support/clean_world.h"
 #include "tests/support/message_of.h"
-#include "tests/unit/apps/scene/drawn_set.h"
+#include "tests/unit/apps/image/scene/drawn_set.h"
 
 namespace placegraph::apps {
 namespace scene_label_test {

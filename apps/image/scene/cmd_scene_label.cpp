@@ -1,10 +1,10 @@
-#include "apps/scene/cmd_scene_label.h"
+#include "apps/image/scene/cmd_scene_label.h"
 
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "apps/scene/cmd_scene_images.h"
-#include "apps/scene/scene_label.h"
+#include "apps/image/scene/cmd_scene_images.h"
+#include "apps/image/scene/scene_label.h"
 #include "apps/support/option_texts.h"
 #include "apps/support/output.h"
 

@@ -1,12 +1,12 @@
-#include "apps/scene/cmd_scene.h"
+#include "apps/image/scene/cmd_scene.h"
 
 #include <CLI/CLI.hpp>
 
+#include "apps/image/scene/cmd_scene_label.h"
+#include "apps/image/scene/cmd_scene_orientation.h"
+#include "apps/image/scene/cmd_scene_popup.h"
+#include "apps/image/scene/cmd_scene_surfaces.h"
 #include "apps/scene/cmd_scene_check.h"
-#include "apps/scene/cmd_scene_label.h"
-#include "apps/scene/cmd_scene_orientation.h"
-#include "apps/scene/cmd_scene_popup.h"
-#include "apps/scene/cmd_scene_surfaces.h"
 
 namespace placegraph::apps {
 

@@ -1,4 +1,4 @@
-#include "apps/scene/scene_orientation.h"
+#include "apps/image/scene/scene_orientation.h"
 
 #include <fmt/format.h>
 #include <placegraph/eval/drawing/picture_bytes.h>

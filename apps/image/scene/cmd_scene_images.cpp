@@ -1,4 +1,4 @@
-#include "apps/scene/cmd_scene_images.h"
+#include "apps/image/scene/cmd_scene_images.h"
 
 #include <CLI/CLI.hpp>
 #include "apps/support/option_texts.h"

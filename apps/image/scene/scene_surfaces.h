@@ -1,5 +1,5 @@
 #pragma once
-#include "apps/scene/scene_images.h"
+#include "apps/image/scene/scene_images.h"
 
 namespace placegraph::apps {
 
