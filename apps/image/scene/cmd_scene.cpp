@@ -2,11 +2,11 @@
 
 #include <CLI/CLI.hpp>
 
+#include "apps/eval/cmd_scene_check.h"
 #include "apps/image/scene/cmd_scene_label.h"
 #include "apps/image/scene/cmd_scene_orientation.h"
 #include "apps/image/scene/cmd_scene_popup.h"
 #include "apps/image/scene/cmd_scene_surfaces.h"
-#include "apps/scene/cmd_scene_check.h"
 
 namespace placegraph::apps {
 

@@ -1,9 +1,9 @@
-#include "apps/scene/cmd_scene_check.h"
+#include "apps/eval/cmd_scene_check.h"
 
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "apps/scene/scene_check.h"
+#include "apps/eval/scene_check.h"
 #include "apps/support/option_texts.h"
 #include "apps/support/output.h"
 

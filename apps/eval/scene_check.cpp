@@ -1,4 +1,4 @@
-#include "apps/scene/scene_check.h"
+#include "apps/eval/scene_check.h"
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
