@@ -17,6 +17,9 @@
 #include "apps/graph/cmd_convert.h"
 #include "apps/graph/cmd_optimize.h"
 #include "apps/help.h"
+#include "apps/image/cmd_flow.h"
+#include "apps/image/cmd_markers.h"
+#include "apps/image/cmd_motion.h"
 #include "apps/image/lines/cmd_lines.h"
 #include "apps/image/lines/cmd_vanishing.h"
 #include "apps/image/planes/cmd_planes.h"
@@ -48,9 +51,6 @@
 #include "apps/train/cmd_train.h"
 #include "apps/viewer/cmd_view.h"
 #include "apps/viewer/run_view.h"
-#include "apps/views/cmd_flow.h"
-#include "apps/views/cmd_markers.h"
-#include "apps/views/cmd_motion.h"
 
 namespace placegraph::apps {
 namespace {

@@ -1,4 +1,4 @@
-#include "apps/views/markers_detect.h"
+#include "apps/image/markers_detect.h"
 
 #include <fmt/format.h>
 #include <placegraph/frontend/markers/marker_dictionary.h>
@@ -11,13 +11,13 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "apps/image/draw_markers.h"
 #include "apps/support/choice.h"
 #include "apps/support/output.h"
 #include "apps/support/read_calib.h"
 #include "apps/support/rows_json.h"
 #include "apps/support/usage.h"
 #include "apps/support/write_png.h"
-#include "apps/views/draw_markers.h"
 
 namespace placegraph::apps {
 namespace {

@@ -1,4 +1,4 @@
-#include "apps/views/motion.h"
+#include "apps/image/motion.h"
 
 #include <placegraph/graph/core/error.h>
 

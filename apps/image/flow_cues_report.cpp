@@ -1,4 +1,4 @@
-#include "apps/views/flow_cues_report.h"
+#include "apps/image/flow_cues_report.h"
 
 #include <fmt/format.h>
 

@@ -1,12 +1,12 @@
-#include "apps/views/cmd_motion.h"
+#include "apps/image/cmd_motion.h"
 
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "apps/image/motion.h"
 #include "apps/support/calib_option.h"
 #include "apps/support/option_texts.h"
 #include "apps/support/output.h"
-#include "apps/views/motion.h"
 
 namespace placegraph::apps {
 namespace {

@@ -1,4 +1,4 @@
-#include "apps/views/flow.h"
+#include "apps/image/flow.h"
 
 #include <fmt/format.h>
 #include <placegraph/eval/drawing/picture_bytes.h>
@@ -11,12 +11,12 @@
 
 #include <cmath>
 
+#include "apps/image/draw_flow.h"
+#include "apps/image/flow_cues_report.h"
 #include "apps/support/output.h"
 #include "apps/support/read_calib.h"
 #include "apps/support/usage.h"
 #include "apps/support/write_png.h"
-#include "apps/views/draw_flow.h"
-#include "apps/views/flow_cues_report.h"
 
 namespace placegraph::apps {
 namespace {

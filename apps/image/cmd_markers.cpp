@@ -1,12 +1,12 @@
-#include "apps/views/cmd_markers.h"
+#include "apps/image/cmd_markers.h"
 
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "apps/image/markers_detect.h"
 #include "apps/support/calib_option.h"
 #include "apps/support/option_texts.h"
 #include "apps/support/output.h"
-#include "apps/views/markers_detect.h"
 
 namespace placegraph::apps {
 

@@ -1,4 +1,4 @@
-#include "apps/views/markers_detect.h"
+#include "apps/image/markers_detect.h"
 
 #include <filesystem>
 #include <nlohmann/json.hpp>

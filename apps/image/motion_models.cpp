@@ -1,4 +1,4 @@
-#include "apps/views/motion_models.h"
+#include "apps/image/motion_models.h"
 
 #include <placegraph/frontend/relative_pose/circular_motion.h>
 #include <placegraph/frontend/relative_pose/pose_3d2d.h>

@@ -1,14 +1,14 @@
-#include "apps/views/cmd_flow.h"
+#include "apps/image/cmd_flow.h"
 
 #include <placegraph/frontend/flow/optical_flow.h>
 
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "apps/image/flow.h"
 #include "apps/support/calib_option.h"
 #include "apps/support/option_texts.h"
 #include "apps/support/output.h"
-#include "apps/views/flow.h"
 
 namespace placegraph::apps {
 namespace {

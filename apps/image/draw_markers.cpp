@@ -1,4 +1,4 @@
-#include "apps/views/draw_markers.h"
+#include "apps/image/draw_markers.h"
 
 #include <opencv2/imgproc.hpp>
 

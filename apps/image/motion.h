@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "apps/views/motion_models.h"
+#include "apps/image/motion_models.h"
 
 namespace placegraph::apps {
 

@@ -1,4 +1,4 @@
-#include "apps/views/flow.h"
+#include "apps/image/flow.h"
 
 #include <placegraph/io/measurements/flow_file.h>
 

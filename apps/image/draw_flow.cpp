@@ -1,4 +1,4 @@
-#include "apps/views/draw_flow.h"
+#include "apps/image/draw_flow.h"
 
 #include <fmt/format.h>
 #include <placegraph/eval/drawing/picture_legend.h>
