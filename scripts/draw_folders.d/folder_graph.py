@@ -2,7 +2,7 @@
 import collections
 
 from include_table import read_table
-from source_includes import folder_of, layer_of, project_includes, source_files
+from source_includes import ALL_DOORS, folder_of, layer_of, project_includes, source_files
 
 
 class FolderGraph:
@@ -18,7 +18,7 @@ class FolderGraph:
         self.rank = {folder: place for place, folder in enumerate(self.folders)}
         self.arrows = {folder: set() for folder in self.folders}
         self.pairs = collections.defaultdict(lambda: collections.defaultdict(set))
-        for include in project_includes(root, files):
+        for include in project_includes(root, [file for file in files if file != ALL_DOORS]):
             here, there = folder_of(include.file), folder_of(include.target)
             if here == there:
                 self.pairs[here][pair_of(include.file)].add(pair_of(include.target))

@@ -3,7 +3,7 @@
 # each violation as file:line; fails if there is one.
 #   folders include what ROOT/tests/lint/include_directions.txt permits: include_directions.py
 #   Ceres and CHOLMOD in no header outside backend; OpenGV in no header
-#   OpenCV in headers only through graph/image and graph/image, in the rest of graph and in backend not at all
+#   OpenCV in headers only through graph/image, in the rest of graph and in backend not at all
 #   GeographicLib only in graph/geometry/geodesy.cpp
 #   libraries neither print nor end the process
 #   in apps only the command line (cmd_*, main.cpp, help.*, command_line.*, shell/*) includes CLI11 and prints: include_directions.py
@@ -29,7 +29,7 @@ FNR == 1 {
   here = file
   sub(/\/.*/, "", here)
   header = file ~ /\.h$/
-  images = file ~ /^graph\/(internal\/)?image\//
+  images = file ~ /^graph\/image\//
   block = 0
 }
 
@@ -62,7 +62,7 @@ line ~ /^[ \t]*#[ \t]*include/ {
     else if (!images && (here == "graph" || here == "backend"))
       complain(here " may not use OpenCV: " path)
   }
-  if (project ~ /^graph\/(internal\/)?image\// && !images && (here == "backend" || here == "graph"))
+  if (project ~ /^graph\/image\// && !images && (here == "backend" || here == "graph"))
     complain(here " must do without OpenCV: " path)
   if (tolower(path) ~ /geographiclib/ && file != "graph/geometry/geodesy.cpp")
     complain("GeographicLib outside graph/geometry/geodesy.cpp: " path)

@@ -95,6 +95,14 @@ plant apps/main.cpp '#include <placegraph/io/files/file.h>' 'apps may not includ
 plant io/files/file.cpp '#include "tests/support/data.h"' 'io/files may not include tests/support/data.h'
 plant io/files/file.cpp '#include "../eval/x.h"' 'include by way of the parent folder: ../eval/x.h'
 
+# A divided idea.
+clean_tree
+mkdir graph/internal
+echo 'int a;' > graph/internal/a.h
+sed 's/^graph: .*/&\ngraph\/internal:/' $table > edited
+mv edited $table
+expect 'graph/internal' 'graph/internal/a.h:1: folder graph/internal: a header stands beside its source'
+
 # Tables that do not fit the folders, or in which an arrow points up.
 clean_tree
 mkdir frontend/planes
@@ -109,7 +117,7 @@ expect 'thirty-one sources' \
   "eval/x39.h:1: folder eval holds 31 sources, more than 30: it holds more than one idea"
 table '8s/$/ graph\/core/' "$table:8: no include uses the permission frontend -> graph/core"
 table '15s/$/\nio\/graphs:/' "$table:16: folder io/graphs holds no sources"
-table '3s/$/ graph\/internal\/geometry/' "$table:3: graph/core: graph/geometry has no earlier line: the arrow points up
+table '3s/$/ graph\/geometry/' "$table:3: graph/core: graph/geometry has no earlier line: the arrow points up
 $table:3: no include uses the permission graph/core -> graph/geometry"
 table '11s/$/ backend\/factors/' \
   "$table:11: backend/factors: backend/factors has no earlier line: the arrow points up"

@@ -5,7 +5,7 @@ ROOT/tests/lint/include_directions.txt, see include_table.py. Refused are
   an include that the table does not permit, or that leads through a parent folder,
   a folder of sources that has no line in the table, a line without a folder,
   a permission that no include uses,
-  a folder of more than 30 sources,
+  a folder of more than 30 sources, or of the name `internal`, which divides an idea,
   a table with an arrow that points up,
   a source of apps that includes the option parser or prints and is no part of the command line
   (cmd_*, main.cpp, help.*, command_line.*, shell/*): a command is a function, arguments in and result out.
@@ -16,7 +16,7 @@ import re
 import sys
 
 from include_table import TABLE, read_table
-from source_includes import folder_of, includes_of, layer_of, source_files, without_comments
+from source_includes import ALL_DOORS, folder_of, includes_of, layer_of, source_files, without_comments
 
 MOST_FILES = 30
 COMMAND_LINE = re.compile(r"apps/(.*/)?cmd_[^/]*|apps/(main\.cpp|(help|command_line)\.(h|cpp)|shell/[^/]*)")
@@ -35,15 +35,14 @@ def check_folders(table, files):
     for folder, inside in sorted(members.items()):
         if folder not in table.line_of:
             found.append(f"{inside[0]}:1: folder {folder} is missing in {TABLE}")
+        if "internal" in folder.split("/"):
+            found.append(f"{inside[0]}:1: folder {folder}: a header stands beside its source")
         if len(inside) > MOST_FILES:
             found.append(f"{inside[MOST_FILES]}:1: folder {folder} holds {len(inside)} sources, "
                          f"more than {MOST_FILES}: it holds more than one idea")
     found += [f"{TABLE}:{line}: folder {folder} holds no sources"
               for folder, line in table.line_of.items() if folder not in members]
     return found
-
-
-ALL_DOORS = "pipeline/placegraph.h"  # it includes what it likes, for those who want everything
 
 
 def check_includes(root, table, files):

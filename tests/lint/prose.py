@@ -10,13 +10,13 @@ import pathlib
 import re
 import sys
 
-from public_headers import is_public
+from public_headers import public_headers
 from source_includes import source_files
 
 LONGEST = 90
 PROSE = re.compile(r'(?P<raw>R"(?P<mark>\w*)\(.*?\)(?P=mark)")|//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.S)
 CODE = re.compile(r"```.*?```|`[^`\n]*`", re.S)
-SPELLINGS = "apps/internal/shell/spellings.cpp", "apps/shell/spellings.cpp"  # former names of commands
+SPELLINGS = "apps/shell/spellings.cpp"  # former names of commands
 OPENS = re.compile(r"(template|class|struct|enum|using|inline|constexpr|\[\[)\b|[A-Za-z_][\w:<>,&* ]* [\w:]+\(")
 NO_DECLARATION = re.compile(r"(template|friend|return|namespace|using namespace)\b|(class|struct) (\w+;|\w+<)"
                             r"|void visit\(|.*\boperator(==|!=)")
@@ -47,7 +47,7 @@ def prose_of(path, text):
 
 def faults_of_words(root, rules):
     documents = [root / "README.md", *sorted((root / "docs").rglob("*.md"))]
-    sources = [root / file for file in source_files(str(root)) if file not in SPELLINGS]
+    sources = [root / file for file in source_files(str(root)) if file != SPELLINGS]
     for path in [p for p in documents if p.name not in ("glossary.md", "elements.md")] + sources:
         prose = prose_of(path, path.read_text(encoding="utf-8"))
         for pattern, term in rules:
@@ -78,9 +78,8 @@ def faults_of_docstrings(file, text):
 def main():
     root = pathlib.Path(sys.argv[1])
     faults = list(faults_of_words(root, list(refused(root))))
-    for file in source_files(str(root)):
-        if is_public(file):
-            faults += faults_of_docstrings(file, (root / file).read_text(encoding="utf-8"))
+    for file in public_headers(str(root)):
+        faults += faults_of_docstrings(file, (root / file).read_text(encoding="utf-8"))
     print("\n".join(faults) or "prose: every word is one of the glossary, every public declaration has a docstring")
     sys.exit(1 if faults else 0)
 

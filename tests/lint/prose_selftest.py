@@ -13,7 +13,7 @@ PLANTED = [  # file, text, the line of the fault or None
     ("graph/a.h", "/// " + 90 * "x" + ".\nint f();\n", 2),
     ("graph/a.h", SENTENCE + "template <typename T>\nT f(const T& x,\n    int y);\n\nclass B;\n", None),
     ("graph/a.h", "int a = 0;  // what the eye sees\n", 1),
-    ("graph/a.h", "struct A {};\n", None),
+    ("graph/b.h", "struct A {};\n", None),  # not public
     ("graph/a.cpp", 'void f() { fail("no\tsight of it"); }\n', 1),
     ("graph/a.cpp", '#include "eye.h"\nint eye = at["sight"];  // log odds, `eye`\n', None),
     ("docs/a.md", "The camera.\n\nTwo eyes see\nmore.\n", 3),
@@ -32,6 +32,8 @@ for file, text, line in PLANTED:
             (root / path).touch()
         shutil.copy(pathlib.Path(sys.argv[1]).with_name("words.txt"), root / "tests/lint/words.txt")
         (root / file).write_text(text)
+        (root / "cmake").mkdir()
+        (root / "cmake/public_headers.txt").write_text("graph/a.h\n" if file == "graph/a.h" else "")
         run = subprocess.run([sys.executable, sys.argv[1], folder], capture_output=True, text=True)
         found = [fault.split(":")[:2] for fault in run.stdout.splitlines() if run.returncode]
         if found != ([[file, str(line)]] if line else []):

@@ -2,8 +2,7 @@
 
 A slice of a class is a source that defines member functions of a class which is declared elsewhere
 in a header of another name: "line_cue_views.cpp" with functions of LineCue. A source may define
-members of every class that it, or the header of its own name, declares: graph/core/time.cpp
-those of graph/core/time.h and graph/core/time.h.
+members of every class that it, or the header of its own name, declares.
 """
 import os
 import re
@@ -34,8 +33,7 @@ def faults_of(root, file):
     own = {scope.name for scope in scopes if scope.kind == "class"}
     if file.endswith(".cpp"):
         header = re.sub(r"\.cpp$", ".h", file)
-        for place in (header, header.replace("/internal/", "/")):
-            own |= {scope.name for scope in read_scopes(root, place) if scope.kind == "class"}
+        own |= {scope.name for scope in read_scopes(root, header) if scope.kind == "class"}
     foreign = {}
     for scope in scopes:
         limit = CLASS_LINES if scope.kind == "class" else FUNCTION_LINES

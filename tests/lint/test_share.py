@@ -1,7 +1,6 @@
 """test_share.py ROOT: every folder of sources has at least LEAST lines of unit tests a line.
 
-The unit tests of `backend/internal/solver` and `backend/solver` lie in `tests/unit/backend/solver`; `internal` does not
-count. Prints a line for each folder with fewer, and exits with 1 if there is one.
+The unit tests of `backend/solver` lie in `tests/unit/backend/solver`. Prints a line for each folder with fewer, and exits with 1 if there is one.
 """
 import collections
 import pathlib
@@ -13,13 +12,12 @@ LEAST = 0.3
 
 
 def lines_in(root, folders):
-    """Lines of the C++ files by folder, without `internal`."""
+    """Lines of the C++ files by folder."""
     lines = collections.Counter()
     for folder in folders:
         for path in (root / folder).rglob("*"):
             if path.suffix in (".h", ".cpp"):
-                parts = [part for part in path.relative_to(root).parts[:-1] if part != "internal"]
-                lines["/".join(parts)] += path.read_bytes().count(b"\n")
+                lines[path.relative_to(root).parent.as_posix()] += path.read_bytes().count(b"\n")
     return lines
 
 
