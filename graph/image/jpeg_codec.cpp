@@ -3,9 +3,9 @@
 #include <placegraph/graph/image/picture_size.h>
 
 // clang-format off
-#include <jerror.h>  // its numbers depend on what jpeglib.h defines
-#include <jpeglib.h>
 #include <cstdio>  // jpeglib.h needs FILE
+#include <jpeglib.h>
+#include <jerror.h>  // its numbers depend on what jpeglib.h defines
 // clang-format on
 #include <algorithm>
 #include <csetjmp>
