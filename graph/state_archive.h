@@ -72,10 +72,14 @@ class StateArchive {
   void visit(std::optional<T>& value) {
     std::uint8_t known = value.has_value();
     visit(known);
-    if (known == 0)
+    if (known == 0) {
       value.reset();
-    else
-      visit(value ? *value : value.emplace());
+      return;
+    }
+    // Not emplace(): Clang knows only behind a class that a class inside it has a default
+    // constructor.
+    if (!value) value = T{};
+    visit(*value);
   }
   template <class A, class B>
   void visit(std::pair<A, B>& pair) {

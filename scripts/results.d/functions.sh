@@ -87,7 +87,8 @@ render_kitti06() { render rendered06 "$data/kitti_gt/06/poses.txt" --difficulty 
 # run NAME SEQUENCE ARGUMENTS...: runs quietly into $out/NAME
 run() {
   name=$1; sequence=$2; shift 2
-  if [ -n "${REUSE_RUNS:-}" ] && [ -f "$out/$name/result.json" ]; then return 0; fi
+  if [ -n "${REUSE_RUNS:-}" ] && [ -f "$out/$name/result.json" ] &&
+    ! grep -q '"interrupted": true' "$out/$name/result.json"; then return 0; fi
   say "running $name"
   $placegraph run "$sequence" --out "$out/$name" --force "$@" > "$out/$name.log" 2>&1 || {
     cat "$out/$name.log" >&2; return 1; }

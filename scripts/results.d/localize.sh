@@ -21,7 +21,7 @@ placed_row() {
   # Most is asked of sequences: a single image may well be refused.
   enough=-; case "$1" in *--sequence) enough=$(verdict "$right" ">=" 95) ;; esac
   cells "$2" "$(awk 'END { print NR }' "$out/$1.judged")" "$right" "$enough" "$wrong" "$(verdict "$wrong" "<=" 1)" \
-    "$(grep -c refused "$out/$1.judged")" "$(sed -n 's/.* refused, \([0-9.]*\) ms CPU.*/\1/p' "$out/$1.log")"
+    "$(grep -c refused "$out/$1.judged")" "$(sed -n 's/.* refused.*, \([0-9.]*\) ms CPU.*/\1/p' "$out/$1.log")"
 }
 # by_list NAME GT: an answer is right if its view is among the matches listed
 by_list() {
@@ -75,7 +75,7 @@ if [ -f "$out/localize-gardens_day_thumb.db" ] && [ -d "$data/places/corridor_mi
   for mode in "|single images" "--sequence|sequence"; do
     name=localize-elsewhere${mode%|*}
     place "$name" "$out/localize-gardens_day_thumb.db" "$data/places/corridor_milford" ${mode%|*}
-    awk '{ print ($2 < 0 ? "refused" : "wrong") }' "$out/$name.txt" > "$out/$name.judged"
+    awk '!/^#/ { print ($2 < 0 ? "refused" : "wrong") }' "$out/$name.txt" > "$out/$name.judged"
     cells "images of the corridor in the map of the gardens, ${mode#*|}" "$(awk 'END { print NR }' "$out/$name.judged")" - - \
       "$(judged "$name" wrong)" "$(verdict "$(judged "$name" wrong)" "<=" 1)" "$(grep -c refused "$out/$name.judged")" -
   done

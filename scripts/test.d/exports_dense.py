@@ -104,10 +104,11 @@ def check_dense(placegraph, check, package):
     seen, poses = seen_points(placegraph, "corridor", image, 5)
     surfaces = Surfaces(placegraph.at("corridor/scene.ply"), poses[:, :, 3].min(0) - 12, poses[:, :, 3].max(0) + 12, 0.05)
     for sensor, most_m, least_complete in (("rgbd", 0.02, 0.85), ("stereo", 0.05, 0.5)):
-        placegraph("run", "corridor", "--sensor", sensor, "--out", sensor)
-        check_cloud(placegraph, check, trimesh, sensor, surfaces, seen, most_m, least_complete)
+        run = f"corridor_{sensor}"
+        placegraph("run", "corridor", "--sensor", sensor, "--out", run)
+        check_cloud(placegraph, check, trimesh, run, surfaces, seen, most_m, least_complete)
         if open3d:
-            check_by_open3d(placegraph, check, open3d, sensor, poses)
+            check_by_open3d(placegraph, check, open3d, run, poses)
 
 
 def check_bundle(placegraph, check, pycolmap, model):
