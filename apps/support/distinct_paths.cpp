@@ -139,7 +139,7 @@ void require_no_input(const ResolvedPath& output, const ResolvedPath& input) {
           text + " is the folder of an input, that of " + input.given.option);
 }
 
-/// Files and folders of a recording stay as they are, without exception.
+/// What a recording consists of stays as it is; other files in its folder may be written again.
 void require_no_recording(const ResolvedPath& output) {
   std::error_code ignored;
   if (!fs::exists(output.path, ignored)) return;

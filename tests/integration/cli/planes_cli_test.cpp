@@ -6,7 +6,6 @@
 #include <sstream>
 
 #include "tests/support/cli_test.h"
-#include "tests/support/data.h"
 #include "tests/support/scenes/planes_world.h"
 
 namespace placegraph {
@@ -38,12 +37,6 @@ class PlanesCli : public test::CliTest {
     write_file(dir / "calibration.yaml", yaml.str());
     return world;
   }
-  static std::vector<int> labels_of(const std::string& path) {
-    std::vector<int> labels;
-    std::istringstream in(read_file(path));
-    for (int label; in >> label;) labels.push_back(label);
-    return labels;
-  }
 };
 
 TEST_F(PlanesCli, LabelsMatchesAndTellsTheMotion) {
@@ -52,7 +45,7 @@ TEST_F(PlanesCli, LabelsMatchesAndTellsTheMotion) {
       run("image two-view-planes matches.txt --out labels.txt --calib calibration.yaml "
           "--motion motion.json --json");
   ASSERT_EQ(result.code, 0) << result.err;
-  EXPECT_LT(test::misclassification(world.labels, labels_of(dir / "labels.txt")), 0.05);
+  EXPECT_LT(test::misclassification(world.labels, test::plane_labels(dir / "labels.txt")), 0.05);
   const json report = json::parse(result.out);
   EXPECT_EQ(report["matches"], 110);
   EXPECT_EQ(report["regions"].size(), 2u);
@@ -93,7 +86,7 @@ TEST_F(PlanesCli, LabelsAllZeroWhereThereIsNoPlane) {
   write_file(dir / "matches.txt", text);
   const CommandResult result = run("image two-view-planes matches.txt --out labels.txt");
   ASSERT_EQ(result.code, 0) << result.err;
-  EXPECT_EQ(labels_of(dir / "labels.txt"), std::vector<int>(60, 0));
+  EXPECT_EQ(test::plane_labels(dir / "labels.txt"), std::vector<int>(60, 0));
 }
 
 TEST_F(PlanesCli, ReadsStrictlyAndNeverOverwritesUnasked) {
@@ -113,33 +106,6 @@ TEST_F(PlanesCli, ReadsStrictlyAndNeverOverwritesUnasked) {
   expect_usage_error("image two-view-planes matches.txt --out labels.txt", "labels.txt");
   EXPECT_EQ(read_file(dir / "labels.txt"), "kept");
   EXPECT_EQ(run("image two-view-planes matches.txt --out labels.txt --force").code, 0);
-}
-
-TEST_F(PlanesCli, AgreesWithPeopleOnRealPairs) {
-  PLACEGRAPH_DATA_OR_SKIP(folder, "scene/adelaide_planes");
-  std::vector<double> wrong;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    if (entry.path().extension() != ".txt") continue;
-    std::vector<int> truth;
-    std::istringstream in(read_file(entry.path().string()));
-    for (std::string line; std::getline(in, line);) {
-      std::istringstream fields(line);
-      double px = 0;
-      int label = 0;
-      fields >> px >> px >> px >> px >> label;
-      truth.push_back(label);
-    }
-    const CommandResult result =
-        run("image two-view-planes '" + entry.path().string() + "' --out labels.txt --force");
-    ASSERT_EQ(result.code, 0) << result.err;
-    wrong.push_back(test::misclassification(truth, labels_of(dir / "labels.txt")));
-    std::printf("%s: %.2f %%\n", entry.path().stem().c_str(), 100 * wrong.back());
-  }
-  ASSERT_FALSE(wrong.empty());
-  std::sort(wrong.begin(), wrong.end());
-  const double median = 0.5 * (wrong[(wrong.size() - 1) / 2] + wrong[wrong.size() / 2]);
-  std::printf("median %.2f %%\n", 100 * median);
-  EXPECT_LE(median, 0.10);
 }
 
 }  // namespace planes_cli_test

@@ -1,13 +1,10 @@
 // `placegraph track plane`.
 #include <cmath>
-#include <cstdio>
-#include <limits>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "tests/support/cli_test.h"
-#include "tests/support/data.h"
 #include "tests/support/pictures.h"
+#include "tests/support/plane_track_lines.h"
 #include "tests/support/scenes/board.h"
 #include "tests/support/seed.h"
 
@@ -19,38 +16,10 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using nlohmann::json;
 using test::CommandResult;
+using test::plane_track_lines;
+using test::PlaneTrackLine;
 using test::read_file;
 using test::write_file;
-
-struct Line {
-  std::size_t frame = 0;
-  std::string state;
-  std::vector<Vector2d> corners;
-  double similarity = 0;
-};
-
-double number_in(std::istringstream& in) {
-  std::string word;
-  in >> word;
-  return std::strtod(word.c_str(), nullptr);
-}
-
-std::vector<Line> lines_of(const std::string& path) {
-  std::vector<Line> lines;
-  std::istringstream in(read_file(path));
-  for (std::string text; std::getline(in, text);) {
-    std::istringstream fields(text);
-    Line line;
-    fields >> line.frame >> line.state;
-    for (int c = 0; c < 4; ++c) {
-      const double u = number_in(fields);
-      line.corners.emplace_back(u, number_in(fields));
-    }
-    line.similarity = number_in(fields);
-    lines.push_back(line);
-  }
-  return lines;
-}
 
 class TrackPlaneCli : public test::CliTest {
  protected:
@@ -78,9 +47,9 @@ TEST_F(TrackPlaneCli, WritesALineAFrameAndSaysWhereItIsLost) {
   const CommandResult result = run("track plane images " + corners + "--out t.txt --draw seen");
   ASSERT_EQ(result.code, 0) << result.err;
   EXPECT_THAT(result.out, ::testing::HasSubstr("8 frames, 6 tracked, 2 lost"));
-  const std::vector<Line> lines = lines_of(dir / "t.txt");
+  const std::vector<PlaneTrackLine> lines = plane_track_lines(dir / "t.txt");
   ASSERT_EQ(lines.size(), 8u);
-  for (const Line& line : lines) {
+  for (const PlaneTrackLine& line : lines) {
     const int frame = static_cast<int>(line.frame);
     if (frame >= kGone && frame < kBack) {
       EXPECT_EQ(line.state, "lost");
@@ -161,61 +130,6 @@ TEST_F(TrackPlaneCli, SaysThatABlankOrAbsentTemplateAllowsNoAnswer) {
   expect_failure("track plane blank " + corners + "--template-image template.png --out t.txt", 1,
                  "none of 1 frames");
   EXPECT_FALSE(fs::exists(dir / "t.txt"));
-}
-
-/// Where the world's plane z = 0 is seen, from KITTI's calib.txt and poses.txt.
-struct Poses {
-  Eigen::Matrix<double, 3, 4> P;
-  std::vector<Eigen::Matrix<double, 3, 4>> T_world_cam;
-  explicit Poses(const std::string& folder) {
-    std::istringstream calibration(read_file(folder + "/calib.txt"));
-    std::string name;
-    calibration >> name;
-    for (int i = 0; i < 12; ++i) calibration >> P(i / 4, i % 4);
-    std::istringstream in(read_file(folder + "/poses.txt"));
-    Eigen::Matrix<double, 3, 4> T;
-    while (in >> T(0, 0)) {
-      for (int i = 1; i < 12; ++i) in >> T(i / 4, i % 4);
-      T_world_cam.push_back(T);
-    }
-  }
-  Vector2d px(std::size_t frame, const Vector2d& on_plane) const {
-    const auto& T = T_world_cam.at(frame);
-    const Eigen::Vector3d p_cam =
-        T.leftCols<3>().transpose() * (Eigen::Vector3d(on_plane.x(), on_plane.y(), 0) - T.col(3));
-    return (P.leftCols<3>() * p_cam).hnormalized();
-  }
-};
-
-TEST_F(TrackPlaneCli, FollowsTheBoardOfARealSequence) {
-  PLACEGRAPH_DATA_OR_SKIP(folder, "sequences/cube_planar200");
-  const Poses poses(folder);
-  // Ten by seven squares of 4 cm.
-  const std::vector<Vector2d> board_m = {
-      {-0.04, -0.04}, {0.36, -0.04}, {0.36, 0.24}, {-0.04, 0.24}};
-  std::string given;
-  for (const Vector2d& corner : board_m) {
-    const Vector2d px = poses.px(0, corner);
-    given += (given.empty() ? "" : ",") + std::to_string(px.x()) + "," + std::to_string(px.y());
-  }
-  const CommandResult result =
-      run("track plane '" + folder + "' --template " + given + " --out t.txt");
-  ASSERT_EQ(result.code, 0) << result.err;
-  const std::vector<Line> lines = lines_of(dir / "t.txt");
-  ASSERT_EQ(lines.size(), poses.T_world_cam.size());
-  double squares = 0;
-  int tracked = 0;
-  for (const Line& line : lines) {
-    if (line.state != "tracked") continue;
-    ++tracked;
-    for (std::size_t c = 0; c < 4; ++c)
-      squares += (line.corners[c] - poses.px(line.frame, board_m[c])).squaredNorm() / 4;
-  }
-  const double rmse_px = std::sqrt(squares / std::max(1, tracked));
-  std::printf("%d of %zu frames tracked, corners %.2f px RMSE\n", tracked, lines.size(), rmse_px);
-  EXPECT_GE(tracked, 198);
-  // The truth is good to 0.3 px in each of the two images, and corners leave the view.
-  EXPECT_LT(rmse_px, 1.2);
 }
 
 }  // namespace track_plane_cli_test

@@ -101,41 +101,39 @@ TEST(InterruptedRun, LosesNothingAndIsJudgedAsTheWholeRun) {
     const TemporaryFolder dir;
     RunResult whole = *KilledRun(street, sensor, dir / "whole.db").run(std::nullopt);
     const std::vector<DataNote> expected = whole.notes;
-    for (int repetition = 0; repetition < 2; ++repetition) {
-      const std::string path = dir / ("map" + std::to_string(repetition) + ".db");
-      KilledRun run(street, sensor, path);
-      std::string kills;
-      std::optional<RunResult> result;
-      for (int kill = 0; kill < 3 && !result; ++kill) {
-        const int frames = 1 + random.index(2 * kFrames);
-        kills += " " + std::to_string(frames);
-        const std::size_t before = saved_frames(path);
-        result = run.run(frames);
-        EXPECT_GE(saved_frames(path), before) << "round " << round << ", killed after" << kills;
-      }
-      if (!result) result = run.run(std::nullopt);
-      SCOPED_TRACE("round " + std::to_string(round) + ", killed after" + kills);
-      EXPECT_EQ(result->map.frames.size(), whole.map.frames.size());
-      EXPECT_EQ(causes_of(result->notes), causes_of(expected));
-      for (std::size_t i = 0; i < expected.size() && i < result->notes.size(); ++i)
-        if (expected[i].cause == NoteCause::kRepeatedFrames) {
-          EXPECT_EQ(result->notes[i].text, expected[i].text);
-        }
-      const Judgement judged = judge(*result, {}, 0.5), as_whole = judge(whole, {}, 0.5);
-      EXPECT_EQ(judged.verdict, as_whole.verdict);
-      // What a finished run says, it says again.
-      RunResult again = *run.run(std::nullopt);
-      EXPECT_EQ(causes_of(again.notes), causes_of(result->notes));
-      const Judgement judged_again = judge(again, {}, 0.5);
-      EXPECT_EQ(causes_of(judged_again.findings), causes_of(judged.findings));
-      EXPECT_EQ(judged_again.expected_drift_m, judged.expected_drift_m);
-      ASSERT_EQ(again.stages.size(), result->stages.size());
-      for (const StageTime& stage : result->stages)
-        if (stage.name == "reading") {
-          EXPECT_GE(stage.calls, kFrames);
-        }
-      EXPECT_FALSE(std::filesystem::exists(path + ".restart"));
+    const std::string path = dir / "map.db";
+    KilledRun run(street, sensor, path);
+    std::string kills;
+    std::optional<RunResult> result;
+    for (int kill = 0; kill < 3 && !result; ++kill) {
+      const int frames = 1 + random.index(2 * kFrames);
+      kills += " " + std::to_string(frames);
+      const std::size_t before = saved_frames(path);
+      result = run.run(frames);
+      EXPECT_GE(saved_frames(path), before) << "round " << round << ", killed after" << kills;
     }
+    if (!result) result = run.run(std::nullopt);
+    SCOPED_TRACE("round " + std::to_string(round) + ", killed after" + kills);
+    EXPECT_EQ(result->map.frames.size(), whole.map.frames.size());
+    EXPECT_EQ(causes_of(result->notes), causes_of(expected));
+    for (std::size_t i = 0; i < expected.size() && i < result->notes.size(); ++i)
+      if (expected[i].cause == NoteCause::kRepeatedFrames) {
+        EXPECT_EQ(result->notes[i].text, expected[i].text);
+      }
+    const Judgement judged = judge(*result, {}, 0.5), as_whole = judge(whole, {}, 0.5);
+    EXPECT_EQ(judged.verdict, as_whole.verdict);
+    // What a finished run says, it says again.
+    RunResult again = *run.run(std::nullopt);
+    EXPECT_EQ(causes_of(again.notes), causes_of(result->notes));
+    const Judgement judged_again = judge(again, {}, 0.5);
+    EXPECT_EQ(causes_of(judged_again.findings), causes_of(judged.findings));
+    EXPECT_EQ(judged_again.expected_drift_m, judged.expected_drift_m);
+    ASSERT_EQ(again.stages.size(), result->stages.size());
+    for (const StageTime& stage : result->stages)
+      if (stage.name == "reading") {
+        EXPECT_GE(stage.calls, kFrames);
+      }
+    EXPECT_FALSE(std::filesystem::exists(path + ".restart"));
   }
 }
 

@@ -3,8 +3,10 @@
 #include <placegraph/frontend/planes/homography_fit.h>
 
 #include <algorithm>
+#include <sstream>
 
 #include "tests/support/scenes/scene.h"
+#include "tests/support/temporary_folder.h"
 
 namespace placegraph::test {
 
@@ -54,6 +56,14 @@ inline PlanesWorld make_planes_world(int planes, int per_plane, int outliers, do
     world.labels.push_back(0);
   }
   return world;
+}
+
+/// The labels in a file that `placegraph image two-view-planes` writes.
+inline std::vector<int> plane_labels(const std::string& path) {
+  std::vector<int> labels;
+  std::istringstream in(read_file(path));
+  for (int label; in >> label;) labels.push_back(label);
+  return labels;
 }
 
 /// Share of items whose label is wrong when each label of `estimate` above 0 stands for at most one
