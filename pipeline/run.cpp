@@ -71,15 +71,15 @@ MeasuredMotion read_motion(const Dataset& dataset, const MotionOptions& options,
   return motion.seen_from(T_cam_body);
 }
 
-/// Number of frames within which a run may begin again: this bounds the work that is repeated.
-std::size_t frames_to_restart(std::size_t frames, const LensOptions& options) {
+/// Number of frames after which a lens that is found no longer restarts a run: this bounds the work
+/// that is repeated.
+std::size_t frames_with_restart(std::size_t frames, const LensOptions& options) {
   constexpr std::size_t kShare = 5;  // a fifth of a long run
   return std::max(static_cast<std::size_t>(options.max_frames), frames / kShare);
 }
 
 /// Both tables; stages of one name are one.
-std::vector<StageTime> sum_of(std::vector<StageTime> stages,
-                                      const std::vector<StageTime>& more) {
+std::vector<StageTime> sum_of(std::vector<StageTime> stages, const std::vector<StageTime>& more) {
   for (const StageTime& stage : more) {
     const auto same = std::ranges::find(stages, stage.name, &StageTime::name);
     if (same == stages.end()) {
@@ -230,7 +230,7 @@ class SequenceRun {
   /// Whether the run must restart with what frame `i` of the pass has shown of the images.
   bool restarts(const Slam& slam, std::size_t i) {
     if (images_.learn_overlay(slam, inputs_.log)) return true;
-    if (i - begin_ >= frames_to_restart(end_ - begin_, options_.lens) ||
+    if (i - begin_ >= frames_with_restart(end_ - begin_, options_.lens) ||
         dataset_.images_rectified() || !images_.learn_lens(slam.lens(), options_.lens, inputs_.log))
       return false;
     if (inputs_.events)
@@ -317,7 +317,7 @@ class SequenceRun {
   std::size_t begin_ = 0, end_ = 0;
   LearnedImages images_{RunMask(), Calibration()};
   std::optional<MapDatabase> database_;
-  StageTimes times_;                               // of reading and saving
+  StageTimes times_;                       // of reading and saving
   std::vector<StageTime> earlier_stages_;  // of earlier passes
   RunResult result_;
 };

@@ -46,8 +46,7 @@ struct Slam::Impl {
   FrameResult add_frame(const Frame& given);
   Frame without_overlay(const Frame& frame);
   void leave_contradicted_map(FrameId frame);
-  void place(const Frame& frame, const std::optional<LocatedFrame>& located,
-             const OdometryUpdate& update, FrameResult& result);
+  void place(const Frame& frame, const OdometryUpdate& update, FrameResult& result);
   void record(KeyframeId keyframe, const SE3& T_keyframe_frame, FrameResult& result);
   void rescale(double factor);
   void add_keyframes(const OdometryUpdate& update, FrameResult& result);
@@ -195,24 +194,18 @@ FrameResult Slam::Impl::add_frame(const Frame& given) {
   const Frame frame = without_overlay(given);
   leave_contradicted_map(frame.id);
 
-  // 1. Visual odometry; while no track segment is connected to the map, with the predicted pose.
-  const std::optional<LocatedFrame> expected = recovery.expect(frame, known(), odometry);
-  OdometryUpdate update = odometry.add_frame(
-      frame, expected ? std::optional(known().T_map_frame(*expected)) : std::nullopt);
-  const std::optional<LocatedFrame> located = recovery.locate(expected, update, known(), odometry);
+  // 1. Visual odometry, and after a loss: relocalize, continue with a rotation or other sensors, or
+  //    begin a component.
+  const OdometryUpdate update = recovery.handle(frame, known(), odometry);
 
-  // 2. After a loss: relocalize, continue with a rotation or other sensors, or begin a component.
-  if (recovery.needed(update, known()))
-    update = recovery.restart(frame, located, update, known(), odometry);
-
-  // 3. Add new keyframes to the place graph, and detect loops.
+  // 2. Add new keyframes to the place graph, and detect loops.
   FrameResult result;
   result.frame = frame.id;
   if (update.rescale) rescale(update.rescale->factor);
   add_keyframes(update, result);
 
-  // 4. The frame's pose, relative to a keyframe and as currently estimated.
-  place(frame, located, update, result);
+  // 3. The frame's pose, relative to a keyframe and as currently estimated.
+  place(frame, update, result);
   recorder.finish(result.T_map_cam, result.component);
   recorder.explain(result.confidence, result.outcome ? std::string() : result.outcome.reason);
   if (is_new(frame.id)) {
@@ -223,18 +216,15 @@ FrameResult Slam::Impl::add_frame(const Frame& given) {
   return result;
 }
 
-void Slam::Impl::place(const Frame& frame, const std::optional<LocatedFrame>& located,
-                       const OdometryUpdate& update, FrameResult& result) {
+void Slam::Impl::place(const Frame& frame, const OdometryUpdate& update, FrameResult& result) {
   if (update.state == TrackingState::kTracking) {
-    recovery.tracked();
     result.inliers = update.inliers;
     const double needed = options.odometry.points.pose.ransac.min_inliers;
     if (update.inliers > 0)
       result.confidence = update.agreement * update.inliers / (update.inliers + needed);
     const KeyframeId reference = update.keyframe.value();
     record(reference, odometry.map().pose(reference).inverse() * update.T_odom_cam, result);
-  } else if (const auto at =
-                 recovery.pose_without_tracking(frame, located, update, known(), odometry)) {
+  } else if (const auto at = recovery.pose_without_tracking(frame, update, known(), odometry)) {
     record(at->match, at->T_match_query, result);
   } else if (!recorder.newest_keyframe() && update.reference) {
     recorder.begin_at_origin(update.rotation.has_value());

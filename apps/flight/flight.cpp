@@ -45,7 +45,7 @@ TimeSpan parse_span(const std::string& text) {
 
 FlightRunOptions flight_options(const FlightArguments& arguments, const ImuNoise& noise) {
   FlightRunOptions options;
-  PositionFilterOptions& filter = options.flight.filter;
+  ErrorStateFilterOptions& filter = options.flight.filter;
   filter.gyro_noise = noise.gyro;
   filter.accel_noise = noise.accel;
   filter.gyro_bias_walk = noise.gyro_bias_walk;

@@ -25,17 +25,17 @@ Outcome not_started() {
 
 }  // namespace
 
-PositionFilter::PositionFilter(const PositionFilterOptions& options, const SE3& T_body_cam,
-                               double floor_z_m)
+ErrorStateFilter::ErrorStateFilter(const ErrorStateFilterOptions& options, const SE3& T_body_cam,
+                                   double floor_z_m)
     : options_(options), T_body_cam_(T_body_cam), floor_z_m_(floor_z_m) {
   options_.check();
 }
 
-void PositionFilter::start(const BodyState& state) {
+void ErrorStateFilter::start(const BodyState& state) {
   require(state.T_world_body.translation().allFinite() && state.velocity_world.allFinite() &&
               state.gyro_bias.allFinite() && state.accel_bias.allFinite() &&
               state.covariance.allFinite(),
-          "PositionFilter: the initial state is not finite");
+          "ErrorStateFilter: the initial state is not finite");
   events_.clear();
   Event first;
   first.stamp_ns = state.stamp_ns;
@@ -50,8 +50,8 @@ void PositionFilter::start(const BodyState& state) {
 }
 
 /// One step of the strapdown equations, with the transition and the noise of the error.
-BodyState PositionFilter::predict(const Event& from, std::int64_t to_ns,
-                                  const ImuSample& imu) const {
+BodyState ErrorStateFilter::predict(const Event& from, std::int64_t to_ns,
+                                    const ImuSample& imu) const {
   BodyState state = from.after;
   const double dt = seconds(from.stamp_ns, to_ns);
   state.stamp_ns = to_ns;
@@ -94,7 +94,7 @@ BodyState PositionFilter::predict(const Event& from, std::int64_t to_ns,
 }
 
 /// Empty if the state does not predict the measurement: the camera is below the floor.
-std::optional<PositionFilter::Innovation> PositionFilter::innovation(
+std::optional<ErrorStateFilter::Innovation> ErrorStateFilter::innovation(
     const BodyState& state, const ImuSample& imu, const Measurement& measurement) const {
   Innovation result;
   const Matrix3d R = state.T_world_body.rotation().matrix();
@@ -151,7 +151,7 @@ std::optional<PositionFilter::Innovation> PositionFilter::innovation(
 }
 
 /// False if the measurement is outside the gate; then the state is unchanged.
-bool PositionFilter::correct(const Innovation& innovation, BodyState& state) const {
+bool ErrorStateFilter::correct(const Innovation& innovation, BodyState& state) const {
   const MatrixXd& H = innovation.H;
   MatrixXd PHt = state.covariance * H.transpose();
   MatrixXd S = H * PHt + innovation.R;
@@ -188,7 +188,7 @@ bool PositionFilter::correct(const Innovation& innovation, BodyState& state) con
 }
 
 /// Repeats the predictions and corrections from event `from` on.
-void PositionFilter::replay(std::size_t from) {
+void ErrorStateFilter::replay(std::size_t from) {
   for (std::size_t i = from; i < events_.size(); ++i) {
     Event& event = events_[i];
     const Event& before = events_[i - 1];
@@ -213,13 +213,13 @@ void PositionFilter::replay(std::size_t from) {
   }
 }
 
-void PositionFilter::forget() {
+void ErrorStateFilter::forget() {
   const std::int64_t newest = events_.back().stamp_ns;
   while (events_.size() > 1 && seconds(events_[1].stamp_ns, newest) > options_.history_s)
     events_.pop_front();
 }
 
-Outcome PositionFilter::insert(std::int64_t stamp_ns, const Measurement& measurement) {
+Outcome ErrorStateFilter::insert(std::int64_t stamp_ns, const Measurement& measurement) {
   if (events_.empty()) return not_started();
   if (stamp_ns < events_.front().stamp_ns)
     return Outcome::failure(Code::kTooFewData, "the measurement is older than the history");
@@ -240,7 +240,7 @@ Outcome PositionFilter::insert(std::int64_t stamp_ns, const Measurement& measure
                   : Outcome::failure(Code::kInconsistent, "the measurement is outside the gate");
 }
 
-Outcome PositionFilter::add(const ImuSample& sample) {
+Outcome ErrorStateFilter::add(const ImuSample& sample) {
   if (events_.empty()) return not_started();
   if (!sample.gyro_rad_s.allFinite() || !sample.accel_m_s2.allFinite())
     return Outcome::failure(Code::kInconsistent, "the inertial sample is not finite");
@@ -259,21 +259,21 @@ Outcome PositionFilter::add(const ImuSample& sample) {
   return Outcome::ok();
 }
 
-Outcome PositionFilter::add(const PoseMeasurement& observation) {
+Outcome ErrorStateFilter::add(const PoseMeasurement& observation) {
   if (!observation.T_world_body.translation().allFinite() ||
       !positive_definite(observation.covariance))
     return Outcome::failure(Code::kInconsistent, "the pose or its covariance is unusable");
   return insert(observation.stamp_ns, observation);
 }
 
-Outcome PositionFilter::add(const FlowMeasurement& observation) {
+Outcome ErrorStateFilter::add(const FlowMeasurement& observation) {
   if (!observation.over_distance.allFinite() || !positive_definite(observation.covariance) ||
       observation.to_ns <= observation.from_ns)
     return Outcome::failure(Code::kInconsistent, "the flow or its covariance is unusable");
   return insert(observation.from_ns + (observation.to_ns - observation.from_ns) / 2, observation);
 }
 
-std::optional<double> PositionFilter::deviation2(const PoseMeasurement& observation) const {
+std::optional<double> ErrorStateFilter::deviation2(const PoseMeasurement& observation) const {
   const StateEstimate expected = at(observation.stamp_ns);
   if (!expected.outcome) return std::nullopt;
   const auto found = innovation(expected.state, {}, observation);
@@ -281,7 +281,7 @@ std::optional<double> PositionFilter::deviation2(const PoseMeasurement& observat
   return found->residual.dot(S.ldlt().solve(found->residual));
 }
 
-BodyExpectation PositionFilter::expectation(std::int64_t stamp_ns) const {
+BodyExpectation ErrorStateFilter::expectation(std::int64_t stamp_ns) const {
   BodyExpectation expected;
   if (const StateEstimate estimate = at(stamp_ns); estimate.outcome)
     expected.state = estimate.state;
@@ -291,7 +291,7 @@ BodyExpectation PositionFilter::expectation(std::int64_t stamp_ns) const {
   return expected;
 }
 
-PositionFilter::StateEstimate PositionFilter::at(std::int64_t stamp_ns) const {
+ErrorStateFilter::StateEstimate ErrorStateFilter::at(std::int64_t stamp_ns) const {
   StateEstimate estimate;
   if (events_.empty()) {
     estimate.outcome = not_started();

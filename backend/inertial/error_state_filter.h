@@ -21,12 +21,13 @@ namespace placegraph {
 /// Measurements may arrive late and in any order within `history_s`: the filter inserts them at
 /// their time and repeats the later updates, so that the result is independent of the order of
 /// arrival.
-class PositionFilter {
+class ErrorStateFilter {
  public:
   using Covariance = Eigen::Matrix<double, 15, 15>;
 
   /// `T_body_cam` is the pose of the camera that measures flow; the floor is z = `floor_z_m`.
-  PositionFilter(const PositionFilterOptions& options, const SE3& T_body_cam, double floor_z_m = 0);
+  ErrorStateFilter(const ErrorStateFilterOptions& options, const SE3& T_body_cam,
+                   double floor_z_m = 0);
 
   /// Starts from this state. Throws ArgumentError if it or its covariance is not finite.
   void start(const BodyState& state);
@@ -83,7 +84,7 @@ class PositionFilter {
   bool correct(const Innovation& innovation, BodyState& state) const;
   void forget();
 
-  PositionFilterOptions options_;
+  ErrorStateFilterOptions options_;
   SE3 T_body_cam_;
   double floor_z_m_;
   std::deque<Event> events_;  // in order of time

@@ -3,9 +3,9 @@
 
 namespace placegraph {
 
-void PositionFilterOptions::check() const { check_ranges(*this); }
+void ErrorStateFilterOptions::check() const { check_ranges(*this); }
 
-void visit(OptionVisitor& field, PositionFilterOptions& o) {
+void visit(OptionVisitor& field, ErrorStateFilterOptions& o) {
   field("gyro_noise", o.gyro_noise, "noise density of the gyroscope [rad/s/sqrt(Hz)]", {1e-9, 1});
   field("accel_noise", o.accel_noise, "noise density of the accelerometer [m/s^2/sqrt(Hz)]",
         {1e-9, 10});

@@ -4,7 +4,7 @@
 
 namespace placegraph {
 
-struct PositionFilterOptions {
+struct ErrorStateFilterOptions {
   double gyro_noise = 2e-3;          ///< density of the gyroscope's noise [rad / s / sqrt(Hz)]
   double accel_noise = 2e-2;         ///< density of the accelerometer's noise [m / s^2 / sqrt(Hz)]
   double gyro_bias_walk = 2e-5;      ///< random walk of the bias [rad / s^2 / sqrt(Hz)]
@@ -17,10 +17,10 @@ struct PositionFilterOptions {
   double max_position_sigma_m = 1;   ///< maximum standard deviation of a returned position
   void check() const;
 };
-void visit(OptionVisitor& field, PositionFilterOptions& options);
+void visit(OptionVisitor& field, ErrorStateFilterOptions& options);
 
 struct InertialWindowOptions {
-  ImuNoise noise{2e-3, 2e-2, 2e-5, 5e-4};  ///< defaults of PositionFilterOptions
+  ImuNoise noise{2e-3, 2e-2, 2e-5, 5e-4};  ///< defaults of ErrorStateFilterOptions
   int max_states = 20;                     ///< above this number the oldest is marginalized
   int max_iterations = 4;
   double gate = 0.999;             ///< probability of the gate of a measurement's squared error

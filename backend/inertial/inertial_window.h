@@ -11,14 +11,14 @@
 namespace placegraph {
 
 /// Fixed-lag smoother: pose, velocity and biases at the times of the last images.
-/// It is an alternative to PositionFilter: Gauss-Newton over all measurements of the window, i.e.
+/// It is an alternative to ErrorStateFilter: Gauss-Newton over all measurements of the window, i.e.
 /// preintegrated inertial samples, poses measured by markers, flow over a level floor. Older states
 /// are marginalized into a quadratic prior of the oldest state (Schur complement). The states are a
 /// chain: forward and backward elimination compute the steps and the covariance of every state.
 /// Deterministic; single-threaded.
 class InertialWindow {
  public:
-  /// As PositionFilter: `T_body_cam` is the pose of the camera that measures flow.
+  /// As ErrorStateFilter: `T_body_cam` is the pose of the camera that measures flow.
   InertialWindow(const InertialWindowOptions& options, const SE3& T_body_cam, double floor_z_m = 0);
 
   /// Starts from this state with its covariance. Throws ArgumentError if either is invalid.

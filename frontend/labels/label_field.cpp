@@ -128,7 +128,7 @@ void RelationCounts::add(const Superpixels& superpixels, const std::vector<int>&
 
 RelationTable RelationCounts::table() const {
   const auto n = static_cast<std::size_t>(classes_);
-  const auto odds = [&](const std::vector<double>& counts) {
+  const auto log_ratios = [&](const std::vector<double>& counts) {
     // Pixels of border by chance: a few observations have little effect.
     constexpr double kPrior = 200;
     constexpr double kMost = 3;
@@ -149,7 +149,7 @@ RelationTable RelationCounts::table() const {
       }
     return table;
   };
-  return {odds(above_), odds(beside_)};
+  return {log_ratios(above_), log_ratios(beside_)};
 }
 
 }  // namespace placegraph

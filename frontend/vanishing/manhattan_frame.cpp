@@ -144,13 +144,13 @@ bool seen(const ManhattanFit& fit, std::size_t a, const ManhattanOptions& option
 
 /// Log odds that the directions which the axes' own lines determine are orthogonal: from their
 /// deviations from right angles, against any angle.
-double right_angle_odds(const VanishingEvidence& evidence, const ManhattanFit& fit,
-                        const ManhattanOptions& options) {
+double right_angle_log_odds(const VanishingEvidence& evidence, const ManhattanFit& fit,
+                            const ManhattanOptions& options) {
   const double s = options.orthogonality_deg * kRadPerDeg;
   std::array<AxisOffset, 3> own;
   for (std::size_t a = 0; a < 3; ++a)
     if (seen(fit, a, options)) own[a] = own_direction(evidence, fit, static_cast<int>(a));
-  double odds = 0;
+  double log_odds = 0;
   int pairs = 0;
   for (std::size_t a = 0; a < 3; ++a) {
     const std::size_t b = (a + 1) % 3;
@@ -159,10 +159,10 @@ double right_angle_odds(const VanishingEvidence& evidence, const ManhattanFit& f
     const double off = std::asin(std::clamp(va.dot(vb), -1.0, 1.0));
     const double variance =
         2 * s * s + vb.dot(own[a].covariance * vb) + va.dot(own[b].covariance * va);
-    odds += 0.5 * std::log(std::numbers::pi / (2 * variance)) - 0.5 * off * off / variance;
+    log_odds += 0.5 * std::log(std::numbers::pi / (2 * variance)) - 0.5 * off * off / variance;
     ++pairs;
   }
-  return pairs > 0 ? odds : -std::numeric_limits<double>::infinity();
+  return pairs > 0 ? log_odds : -std::numeric_limits<double>::infinity();
 }
 
 /// Whether an axis of this frame has enough lines that belong to no previous frame, and is also a
@@ -235,12 +235,12 @@ std::vector<ManhattanFrame> find_manhattan_frames(const VanishingEvidence& evide
   std::vector<ManhattanFit> taken;
   for (const ManhattanFit& fit : fits) {
     if (seen(fit, 0, options) + seen(fit, 1, options) + seen(fit, 2, options) < 2) continue;
-    const double odds = right_angle_odds(evidence, fit, options);
-    if (odds < options.min_orthogonality || !shows_more(evidence, fit, points, taken, options))
+    const double log_odds = right_angle_log_odds(evidence, fit, options);
+    if (log_odds < options.min_orthogonality || !shows_more(evidence, fit, points, taken, options))
       continue;
     ManhattanFrame frame = frame_of(fit, SO3());
     if (frame.rank < 3) continue;
-    frame.log_odds = odds;
+    frame.log_odds = log_odds;
     frame.outcome = Outcome::ok();
     frames.push_back(std::move(frame));
     taken.push_back(fit);

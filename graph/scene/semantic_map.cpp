@@ -132,17 +132,17 @@ SemanticMap SemanticGrid::map() const {
     SemanticCell cell = cells_[i];
     cell.mean = (options_.cell_m * cell.at.cast<double>()).cast<float>() + cell.mean / cell.weight;
     cell.height_m /= cell.weight;
-    const float* odds = log_odds_.data() + i * n;
-    const float* best = std::max_element(odds, odds + n);
+    const float* cell_log_odds = log_odds_.data() + i * n;
+    const float* best = std::max_element(cell_log_odds, cell_log_odds + n);
     float sum = 0;
-    for (std::size_t l = 0; l < n; ++l) sum += std::exp(odds[l] - *best);
+    for (std::size_t l = 0; l < n; ++l) sum += std::exp(cell_log_odds[l] - *best);
     cell.confidence = 1 / sum;
     if (static_cast<double>(cell.confidence) >= options_.min_confidence &&
         static_cast<double>(cell.weight) >= options_.min_weight &&
         cell.observations >= options_.min_observations)
-      cell.label = static_cast<int>(best - odds);
+      cell.label = static_cast<int>(best - cell_log_odds);
     map.cells.push_back(cell);
-    map.log_odds.insert(map.log_odds.end(), odds, odds + n);
+    map.log_odds.insert(map.log_odds.end(), cell_log_odds, cell_log_odds + n);
   }
   return map;
 }

@@ -76,7 +76,7 @@ FlightFrame FlightEstimator::add(const FlightMeasurements& observations) {
   if (markers_) markers_->report(result.markers, !observations.markers.empty());
 
   // 3. The state with all measurements available until now.
-  const PositionFilter::StateEstimate estimate = filter_.at(now_ns);
+  const ErrorStateFilter::StateEstimate estimate = filter_.at(now_ns);
   result.outcome = estimate.outcome;
   result.state = estimate.state;
   last_ = LastImage{now_ns, estimate.outcome ? std::optional(estimate.state) : std::nullopt};

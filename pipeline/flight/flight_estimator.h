@@ -26,7 +26,7 @@ struct FlightMeasurements {
 /// Result of one image.
 struct FlightFrame {
   std::int64_t stamp_ns = 0;
-  Outcome outcome;  ///< outcome of `state`: see PositionFilter::at
+  Outcome outcome;  ///< outcome of `state`: see ErrorStateFilter::at
   BodyState state;
   Outcome flow;          ///< whether flow over the floor was measured and accepted
   int flow_points = 0;   ///< inliers of the flow
@@ -50,7 +50,7 @@ class FlightEstimator {
                   const MarkerLayout& layout);
 
   /// Adds inertial samples in the order of their stamps, before the images at or after them.
-  /// Outcomes as PositionFilter's; samples before the start are kept.
+  /// Outcomes as ErrorStateFilter's; samples before the start are kept.
   Outcome add(const ImuSample& sample);
   /// Processes the next image; with `markers_visible` false it is not searched for markers.
   FlightFrame add(const Frame& frame, bool markers_visible = true);
@@ -61,7 +61,7 @@ class FlightEstimator {
   void start(const BodyState& state);
 
   /// State at a time from the last image on, predicted to the last inertial sample.
-  PositionFilter::StateEstimate at(std::int64_t stamp_ns) const { return filter_.at(stamp_ns); }
+  ErrorStateFilter::StateEstimate at(std::int64_t stamp_ns) const { return filter_.at(stamp_ns); }
   const StageTimes& times() const { return times_; }
 
  private:
@@ -83,7 +83,7 @@ class FlightEstimator {
   std::optional<MarkerSensor> markers_;  // nothing: the layout has neither markers nor beacons
   ImuBuffer imu_;
   DelayLine<PoseMeasurement> delayed_poses_;
-  PositionFilter filter_;
+  ErrorStateFilter filter_;
   std::optional<LastImage> last_;
   StageTimes times_;
 };

@@ -61,7 +61,7 @@ struct FlightOptions {
   double marker_delay_s = 0;
   MarkerSensorOptions marker_sensor;
   FlightInitializationOptions initialization;
-  PositionFilterOptions filter;
+  ErrorStateFilterOptions filter;
   /// Time between images that `map_flight_markers` searches completely.
   double map_interval_s = 0.2;
   MarkerMapOptions map;  ///< options of `map_flight_markers`

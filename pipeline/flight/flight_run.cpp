@@ -33,7 +33,7 @@ FlightRun run_flight(const Dataset& images, const ImuRecording& imu, const SE3& 
                     [t](const TimeSpan& span) { return t >= span.from_s && t < span.to_s; });
     FlightFrame result = estimator.add(frame, !blind);
     if (ahead_ns > 0) {
-      const PositionFilter::StateEstimate later = estimator.at(frame.stamp_ns + ahead_ns);
+      const ErrorStateFilter::StateEstimate later = estimator.at(frame.stamp_ns + ahead_ns);
       result.outcome = later.outcome;
       result.state = later.state;
     }
@@ -49,7 +49,7 @@ std::vector<BodyState> smooth_flight(const FlightRun& run, const ImuRecording& i
                                      const SE3& T_body_cam, const FlightOptions& options,
                                      int states) {
   InertialWindowOptions window_options;
-  const PositionFilterOptions& filter = options.filter;
+  const ErrorStateFilterOptions& filter = options.filter;
   window_options.noise = {filter.gyro_noise, filter.accel_noise, filter.gyro_bias_walk,
                           filter.accel_bias_walk};
   window_options.max_states = states;

@@ -29,9 +29,9 @@ using MotionBetween = std::function<std::optional<TrackedMotion>(KeyframeId a, K
 struct KnownMotions {
   MotionBetween odometry;
   std::function<std::optional<PredictedMotion>(KeyframeId a, KeyframeId b)> map;
-  /// Whether the two keyframes have different scales, so that a loop between them must estimate the
-  /// ratio.
-  std::function<bool(KeyframeId a, KeyframeId b)> scale_differs;
+  /// Whether the ratio of the two keyframes' scales is unknown, so that a loop between them must
+  /// estimate it.
+  std::function<bool(KeyframeId a, KeyframeId b)> scale_unknown;
   /// Whether the two keyframes are in different components of the map, which a loop would join.
   std::function<bool(KeyframeId a, KeyframeId b)> apart;
 };

@@ -139,7 +139,7 @@ std::optional<Loop> LoopCloser::judge(const Candidate& candidate, const KnownMot
   record.stage = LoopStage::kRetrieval;
   if (!recognizer_ && candidate.similarity < options_.min_similarity) return std::nullopt;
 
-  const bool free_scale = known.scale_differs && known.scale_differs(match, query);
+  const bool free_scale = known.scale_unknown && known.scale_unknown(match, query);
   const auto odometry = known.odometry ? known.odometry(match, query) : std::nullopt;
   record.stage = LoopStage::kReach;
   if (!free_scale && odometry &&

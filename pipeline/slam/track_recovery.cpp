@@ -26,6 +26,18 @@ std::optional<LocatedFrame> TrackRecovery::by_motion(const Frame& frame,
   return located;
 }
 
+LocatedFrame turned(const LocatedFrame& before, const Matrix6d& covariance_before,
+                    const PureRotation& rotation, double sigma_m) {
+  const SE3 T_before_cam(rotation.R_before_cam, {0, 0, 0});
+  const Matrix6d back = T_before_cam.inverse().adjoint();
+  Matrix6d covariance = back * covariance_before * back.transpose();
+  covariance.topLeftCorner<3, 3>().diagonal().array() += sigma_m * sigma_m;
+  covariance.bottomRightCorner<3, 3>() += rotation.covariance;
+  LocatedFrame located{before.match, before.T_match_query * T_before_cam};
+  located.information.topLeftCorner<6, 6>() = covariance.ldlt().solve(Matrix6d::Identity());
+  return located;
+}
+
 /// Location by the rotation of a monocular camera since the last keyframe, or since it was last
 /// located.
 std::optional<LocatedFrame> TrackRecovery::by_rotation(const OdometryUpdate& update,
@@ -33,28 +45,29 @@ std::optional<LocatedFrame> TrackRecovery::by_rotation(const OdometryUpdate& upd
                                                        double median_depth) const {
   const auto last = known.recorder.newest_keyframe();
   if (!update.rotation || !last) return std::nullopt;
-  const SE3 rotation(update.rotation->R_before_cam, {0, 0, 0});
-  LocatedFrame located{*last, SE3()};
-  if (anchor_) located = *anchor_;
-  Matrix6d covariance = Matrix6d::Zero();
-  if (anchor_) {
-    const Matrix6d back = SE3(update.rotation->R_before_cam.inverse(), {0, 0, 0}).adjoint();
-    const Matrix6d before = anchor_->information.topLeftCorner<6, 6>();
-    covariance = back * before.ldlt().solve(Matrix6d::Identity()) * back.transpose();
-  }
-  const double sigma = options_.rotation_rad * median_depth;
-  covariance.topLeftCorner<3, 3>().diagonal().array() += sigma * sigma;
-  covariance.bottomRightCorner<3, 3>() += update.rotation->covariance;
-  located.T_match_query = located.T_match_query * rotation;
-  located.information.setZero();
-  located.information.topLeftCorner<6, 6>() = covariance.ldlt().solve(Matrix6d::Identity());
-  return located;
+  const double sigma_m = options_.rotation_rad * median_depth;
+  if (!anchor_) return turned({*last, SE3()}, Matrix6d::Zero(), *update.rotation, sigma_m);
+  const Matrix6d information = anchor_->information.topLeftCorner<6, 6>();
+  const Matrix6d covariance = information.ldlt().solve(Matrix6d::Identity());
+  return turned(*anchor_, covariance, *update.rotation, sigma_m);
 }
 
-std::optional<LocatedFrame> TrackRecovery::expect(const Frame& frame, const KnownMap& known,
-                                                  Odometry& odometry) {
+OdometryUpdate TrackRecovery::handle(const Frame& frame, const KnownMap& known,
+                                     Odometry& odometry) {
   continues_ = false;
   apart_ = std::max(0, apart_ - 1);
+  const std::optional<LocatedFrame> before = locate_before(frame, known, odometry);
+  OdometryUpdate update =
+      odometry.add_frame(frame, before ? std::optional(known.T_map_frame(*before)) : std::nullopt);
+  located_ = locate_after(before, update, known, odometry);
+  if (must_restart(update, known)) update = restart(frame, update, known, odometry);
+  if (update.state == TrackingState::kTracking) lost_in_a_row_ = apart_ = 0;
+  return update;
+}
+
+/// Locates a frame before the odometry processes it; only while no segment is connected to the map.
+std::optional<LocatedFrame> TrackRecovery::locate_before(const Frame& frame, const KnownMap& known,
+                                                         Odometry& odometry) {
   if (anchor_) {
     // A monocular camera that restarts within the map waits for its second view; until then every
     // frame is relocalized.
@@ -68,27 +81,30 @@ std::optional<LocatedFrame> TrackRecovery::expect(const Frame& frame, const Know
   return anchor_;
 }
 
-std::optional<LocatedFrame> TrackRecovery::locate(const std::optional<LocatedFrame>& expected,
-                                                  const OdometryUpdate& update,
-                                                  const KnownMap& known, const Odometry& odometry) {
-  if (!anchor_) return expected;
+/// Locates a frame after the odometry has processed it and may have found a pure rotation.
+std::optional<LocatedFrame> TrackRecovery::locate_after(const std::optional<LocatedFrame>& before,
+                                                        const OdometryUpdate& update,
+                                                        const KnownMap& known,
+                                                        const Odometry& odometry) {
+  if (!anchor_) return before;
   const std::optional<LocatedFrame> located =
-      expected ? expected : by_rotation(update, known, odometry.map().median_depth());
+      before ? before : by_rotation(update, known, odometry.map().median_depth());
   if (update.reference) anchor_ = located;
   return located;
 }
 
-bool TrackRecovery::needed(const OdometryUpdate& update, const KnownMap& known) const {
+/// Whether the frame has no pose and is not one with which a segment begins.
+bool TrackRecovery::must_restart(const OdometryUpdate& update, const KnownMap& known) const {
   if (update.state == TrackingState::kLost) return true;
   const bool mapped = known.recorder.newest_keyframe().has_value();
   return update.state == TrackingState::kInitializing && mapped && !anchor_ && apart_ == 0;
 }
 
-OdometryUpdate TrackRecovery::restart(const Frame& frame, std::optional<LocatedFrame> located,
-                                      const OdometryUpdate& update, const KnownMap& known,
-                                      Odometry& odometry) {
+/// Restarts tracking if the frame can be located; otherwise returns the update unchanged.
+OdometryUpdate TrackRecovery::restart(const Frame& frame, const OdometryUpdate& update,
+                                      const KnownMap& known, Odometry& odometry) {
   ++lost_in_a_row_;
-  if (!located) located = known.closer.relocalize(frame);
+  const auto located = located_ ? located_ : known.closer.relocalize(frame);
   if (located) {
     log(log_, LogLevel::kInfo, "frame {} relocalized at frame {}", frame.id,
         known.recorder.frame_of(located->match));
@@ -131,15 +147,16 @@ void TrackRecovery::begin_apart(FrameId frame, Odometry& odometry) {
   apart_ = options_.max_lost_frames + 1;  // the next frame is the first
 }
 
-std::optional<LocatedFrame> TrackRecovery::pose_without_tracking(
-    const Frame& frame, const std::optional<LocatedFrame>& located, const OdometryUpdate& update,
-    const KnownMap& known, const Odometry& odometry) {
+std::optional<LocatedFrame> TrackRecovery::pose_without_tracking(const Frame& frame,
+                                                                 const OdometryUpdate& update,
+                                                                 const KnownMap& known,
+                                                                 const Odometry& odometry) {
   const bool initializing = update.state == TrackingState::kInitializing;
-  if (!anchor_ || !initializing || (!located && lost_in_a_row_ == 0))
+  if (!anchor_ || !initializing || (!located_ && lost_in_a_row_ == 0))
     return by_motion(frame, known);
-  const LocatedFrame at = located ? *located : *anchor_;
+  const LocatedFrame at = located_ ? *located_ : *anchor_;
   if (motion_ && !odometry.started()) anchor_.reset();
-  if (located || update.reference) return at;
+  if (located_ || update.reference) return at;
   return std::nullopt;
 }
 

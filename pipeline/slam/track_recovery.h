@@ -27,6 +27,11 @@ struct KnownMap {
   SE3 T_map_frame(const LocatedFrame& located) const;
 };
 
+/// Location of a camera that has turned on the spot since it was at `before`. `covariance_before`:
+/// of that pose, in its right tangent; `sigma_m`: how far it may have moved, in the map's unit.
+LocatedFrame turned(const LocatedFrame& before, const Matrix6d& covariance_before,
+                    const PureRotation& rotation, double sigma_m);
+
 /// Connects track segments to the map. After a loss, a frame is located by recognizing a keyframe,
 /// by a pure rotation since the last one, or by the motion measured by other sensors; the next
 /// segment begins there. If no method locates a frame for long, a new component of the map begins.
@@ -40,33 +45,21 @@ class TrackRecovery {
   /// Sets the motion of the camera measured by other sensors.
   void use_motion(std::shared_ptr<const MeasuredMotion> motion_cam);
 
-  /// Locates a frame before the odometry processes it; only while no segment is connected to the
-  /// map.
-  std::optional<LocatedFrame> expect(const Frame& frame, const KnownMap& known, Odometry& odometry);
-  /// Locates a frame after the odometry has processed it and may have found a pure rotation.
-  /// `expected`: result of expect().
-  std::optional<LocatedFrame> locate(const std::optional<LocatedFrame>& expected,
-                                     const OdometryUpdate& update, const KnownMap& known,
-                                     const Odometry& odometry);
-  /// Whether the frame has no pose and tracking must restart.
-  bool needed(const OdometryUpdate& update, const KnownMap& known) const;
-  /// Restarts tracking if the frame can be located (`located`: if it already is); the odometry has
-  /// then processed it again. Otherwise returns the update unchanged.
-  OdometryUpdate restart(const Frame& frame, std::optional<LocatedFrame> located,
-                         const OdometryUpdate& update, const KnownMap& known, Odometry& odometry);
+  /// Lets the odometry process a frame. While no segment is connected to the map, the frame is
+  /// located first. If it has no pose and can be located, or if too many frames were lost, tracking
+  /// restarts with it; the odometry has then processed it again.
+  OdometryUpdate handle(const Frame& frame, const KnownMap& known, Odometry& odometry);
   /// Begins a new component of the map with the next frame.
   void begin_component(FrameId frame, Odometry& odometry);
   /// The same where the newest keyframes are wrong: until the component has begun, frames are not
   /// located at keyframes, for as long as a loss may last.
   void begin_apart(FrameId frame, Odometry& odometry);
-  /// Location of a frame that is not tracked; nothing if it is unknown.
+  /// Location of the frame of handle(), which is not tracked; nothing if it is unknown. Follows
+  /// PlaceMapper::add_keyframe() of the keyframes in `update`.
   std::optional<LocatedFrame> pose_without_tracking(const Frame& frame,
-                                                    const std::optional<LocatedFrame>& located,
                                                     const OdometryUpdate& update,
                                                     const KnownMap& known,
                                                     const Odometry& odometry);
-  /// Reports that the newest frame is tracked.
-  void tracked() { lost_in_a_row_ = apart_ = 0; }
   /// Sets the pose in the map of the newest frame that has one.
   void stands_at(const SE3& T_map_frame) { T_map_last_ = T_map_frame; }
   void rescale(double factor) { T_map_last_ = T_map_last_.scaled(factor); }
@@ -82,6 +75,14 @@ class TrackRecovery {
   const MeasuredMotion* motion() const { return motion_.get(); }
 
  private:
+  std::optional<LocatedFrame> locate_before(const Frame& frame, const KnownMap& known,
+                                            Odometry& odometry);
+  std::optional<LocatedFrame> locate_after(const std::optional<LocatedFrame>& before,
+                                           const OdometryUpdate& update, const KnownMap& known,
+                                           const Odometry& odometry);
+  bool must_restart(const OdometryUpdate& update, const KnownMap& known) const;
+  OdometryUpdate restart(const Frame& frame, const OdometryUpdate& update, const KnownMap& known,
+                         Odometry& odometry);
   std::optional<LocatedFrame> by_motion(const Frame& frame, const KnownMap& known) const;
   std::optional<LocatedFrame> by_rotation(const OdometryUpdate& update, const KnownMap& known,
                                           double median_depth) const;
@@ -89,6 +90,7 @@ class TrackRecovery {
   TrackRecoveryOptions options_;
   LogSink log_;
   std::shared_ptr<const MeasuredMotion> motion_;
+  std::optional<LocatedFrame> located_;  // the newest frame, without its landmarks
   std::optional<LocatedFrame> anchor_;
   bool continues_ = false;  // the anchor's keyframe is in the same segment
   SE3 T_map_last_;

@@ -18,7 +18,7 @@ TEST(PositionFilterConsistency, ErrsAsItsCovarianceSaysOverManyFlights) {
   for (int k = 0; k < kFlights; ++k) {
     const SwayingBody flight{.seed = 100 + static_cast<std::uint64_t>(k), .duration_s = 6};
     Random random(flight.seed);
-    PositionFilter filter(flight.noise, flight.T_body_cam);
+    ErrorStateFilter filter(flight.noise, flight.T_body_cam);
     filter.start(flight.start(random));
     for (int i = 1; i <= 1200; ++i) {
       const double t = i / flight.imu_hz;

@@ -41,7 +41,7 @@ TEST(InertialWindowConsistency, IsAsGoodAsTheFilterAtOnceAndBetterASecondLater) 
   for (int k = 0; k < kFlights; ++k) {
     const SwayingBody flight{.seed = 300 + static_cast<std::uint64_t>(k), .duration_s = 6};
     Random random(flight.seed);
-    PositionFilter filter(flight.noise, flight.T_body_cam);
+    ErrorStateFilter filter(flight.noise, flight.T_body_cam);
     const InertialWindowOptions options;
     InertialWindow window(options, flight.T_body_cam);
     const BodyState start = flight.start(random);

@@ -13,7 +13,7 @@ struct SwayingBody {
   std::uint64_t seed = 1;
   double duration_s = 10, imu_hz = 200, image_hz = 20;
   double height_m = 1.5;
-  PositionFilterOptions noise{};
+  ErrorStateFilterOptions noise{};
   SE3 T_body_cam{SO3::exp({std::numbers::pi, 0, 0}), Eigen::Vector3d(0.05, 0.02, -0.03)};
   Eigen::Vector3d gyro_bias{0.004, -0.003, 0.002}, accel_bias{0.05, -0.04, 0.03};
   double flow_sigma = 2e-4;  ///< of the way over the distance, per image

@@ -40,7 +40,7 @@ using All = testing::Types<
     MotionFromPlanesOptions, SegmentDetectorOptions, SegmentMatcherOptions, SceneDirectionOptions,
     PlaneTrackerOptions, GravityPoseOptions, RelativePoseOptions, CircularMotionOptions,
     Pose3d3dOptions, InverseDepthPlaneOptions, DominantSurfaceOptions, LineTrackerOptions,
-    LineStereoOptions, LineTriangulationOptions, PoseFromLinesOptions, PositionFilterOptions,
+    LineStereoOptions, LineTriangulationOptions, PoseFromLinesOptions, ErrorStateFilterOptions,
     SquareFitOptions, MarkerDetectorOptions, MarkerFilterOptions, BeaconDetectorOptions,
     BeaconPoseOptions, PlaceCodeOptions, PlaceClassifierOptions>;
 TYPED_TEST_SUITE(FrontendOptions, All);

@@ -14,14 +14,14 @@ using Eigen::Vector3d;
 using test::SwayingBody;
 
 struct Flown {
-  PositionFilter filter;
+  ErrorStateFilter filter;
   double worst_m = 0, nees_per_dof = 0;
 };
 
 /// With flow from image to image, and a marker every `marker_every_s` outside [outage, outage + 3).
 Flown fly(const SwayingBody& flight, double marker_every_s, double outage_s = 1e9) {
   Random random(flight.seed);
-  Flown flown{PositionFilter(flight.noise, flight.T_body_cam)};
+  Flown flown{ErrorStateFilter(flight.noise, flight.T_body_cam)};
   flown.filter.start(flight.start(random));
   const int steps = static_cast<int>(flight.duration_s * flight.imu_hz);
   const int per_image = static_cast<int>(flight.imu_hz / flight.image_hz);
@@ -46,13 +46,13 @@ Flown fly(const SwayingBody& flight, double marker_every_s, double outage_s = 1e
   return flown;
 }
 
-TEST(PositionFilter, HoldsThePositionByFlowAndMarkersThroughAnOutage) {
+TEST(ErrorStateFilter, HoldsThePositionByFlowAndMarkersThroughAnOutage) {
   const Flown flown = fly({.duration_s = 8}, 0.2, 4);
   EXPECT_LT(flown.worst_m, 0.05);
 }
 
-TEST(PositionFilter, RotatesFromItsStartAsTheFirstSampleSays) {
-  PositionFilter filter({}, SE3());
+TEST(ErrorStateFilter, RotatesFromItsStartAsTheFirstSampleSays) {
+  ErrorStateFilter filter({}, SE3());
   BodyState start;
   start.covariance = 1e-4 * Eigen::Matrix<double, 15, 15>::Identity();
   filter.start(start);
@@ -63,10 +63,10 @@ TEST(PositionFilter, RotatesFromItsStartAsTheFirstSampleSays) {
   EXPECT_NEAR(estimate.state.T_world_body.rotation().log().z(), 0.02, 1e-9);
 }
 
-TEST(PositionFilter, IsTheSameInWhateverOrderMeasurementsArrive) {
+TEST(ErrorStateFilter, IsTheSameInWhateverOrderMeasurementsArrive) {
   const SwayingBody flight;
   Random random(3);
-  PositionFilter in_time(flight.noise, flight.T_body_cam), late(flight.noise, flight.T_body_cam);
+  ErrorStateFilter in_time(flight.noise, flight.T_body_cam), late(flight.noise, flight.T_body_cam);
   const BodyState start = flight.start(random);
   in_time.start(start);
   late.start(start);
@@ -91,11 +91,12 @@ TEST(PositionFilter, IsTheSameInWhateverOrderMeasurementsArrive) {
   EXPECT_LT((a.state.covariance - b.state.covariance).norm(), 1e-12);
 }
 
-TEST(PositionFilter, TakesFlowAndMarkersInAnyOrderWithinItsHistory) {
+TEST(ErrorStateFilter, TakesFlowAndMarkersInAnyOrderWithinItsHistory) {
   for (const std::uint64_t seed : {1, 2, 3, 4}) {
     const SwayingBody flight;
     Random random(seed), order(seed, 7);
-    PositionFilter in_time(flight.noise, flight.T_body_cam), late(flight.noise, flight.T_body_cam);
+    ErrorStateFilter in_time(flight.noise, flight.T_body_cam),
+        late(flight.noise, flight.T_body_cam);
     const BodyState start = flight.start(random);
     in_time.start(start);
     late.start(start);
@@ -127,7 +128,7 @@ TEST(PositionFilter, TakesFlowAndMarkersInAnyOrderWithinItsHistory) {
   }
 }
 
-TEST(PositionFilter, RejectsMeasurementsFarFromThePrediction) {
+TEST(ErrorStateFilter, RejectsMeasurementsFarFromThePrediction) {
   const SwayingBody flight;
   Random random(4);
   Flown flown = fly({.duration_s = 2}, 0.2);
@@ -142,10 +143,10 @@ TEST(PositionFilter, RejectsMeasurementsFarFromThePrediction) {
             before.translation());
 }
 
-TEST(PositionFilter, RefusesRatherThanGuessWhereItsInputsStop) {
+TEST(ErrorStateFilter, RefusesRatherThanGuessWhereItsInputsStop) {
   const SwayingBody flight;
   Random random(5);
-  PositionFilter filter(flight.noise, flight.T_body_cam);
+  ErrorStateFilter filter(flight.noise, flight.T_body_cam);
   EXPECT_EQ(filter.add(flight.imu(0.1, random)).code, Outcome::Code::kNotAttempted);
   EXPECT_EQ(filter.add(flight.marker(0.1, random)).code, Outcome::Code::kNotAttempted);
   EXPECT_EQ(filter.at(0).outcome.code, Outcome::Code::kNotAttempted);
@@ -171,7 +172,7 @@ TEST(PositionFilter, RefusesRatherThanGuessWhereItsInputsStop) {
   EXPECT_THROW(filter.start(nowhere), ArgumentError);
 }
 
-TEST(PositionFilter, LearnsTheBiasesOfItsSensors) {
+TEST(ErrorStateFilter, LearnsTheBiasesOfItsSensors) {
   const SwayingBody flight{.duration_s = 10};
   const Flown flown = fly(flight, 0.1);
   const BodyState state = flown.filter.at(SwayingBody::stamp(10.0)).state;

@@ -121,10 +121,10 @@ TEST(MarkerFilter, LeavesOutAMarkerThatWasMoved) {
   EXPECT_LT(distance_m(estimate.observation.T_world_body, T * kBodyCam.inverse()), 0.02);
 }
 
-TEST(MarkerFilter, DecidesByWhatThePositionFilterExpects) {
+TEST(MarkerFilter, DecidesByWhatTheStateFilterExpects) {
   Random random = seeded_random(6);
   const MarkerLayout layout = layout_of(1);
-  PositionFilter filter({}, kBodyCam);
+  ErrorStateFilter filter({}, kBodyCam);
   BodyState state;
   state.stamp_ns = 900'000'000;
   state.T_world_body = (kFar * kBodyCam.inverse()).plus(Vector6d::Constant(0.01));
@@ -169,7 +169,7 @@ TEST(MarkerFilter, BeginsByBeaconsWhereThereIsNoMarker) {
   EXPECT_EQ(estimate.beacons, 5);
   EXPECT_LT(distance_m(estimate.observation.T_world_body, T * kBodyCam.inverse()), 0.01);
   // Three are enough where a filter expects the camera there.
-  PositionFilter other({}, kBodyCam);
+  ErrorStateFilter other({}, kBodyCam);
   BodyState state;
   state.T_world_body = T * kBodyCam.inverse();
   state.covariance.diagonal().setConstant(0.01 * 0.01);

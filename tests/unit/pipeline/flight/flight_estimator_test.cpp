@@ -311,7 +311,7 @@ TEST(FlightEstimator, CatchesUpWithTheSamplesThatCameAfterTheStateItStartsWith) 
   for (std::int64_t at_ns = kBegin_ns - kImage_ns; at_ns <= now_ns; at_ns += kSample_ns)
     EXPECT_EQ(estimator.add(Pitching::sample(at_ns)).code, Code::kNotAttempted);
   estimator.start(Pitching::start());
-  const PositionFilter::StateEstimate now = estimator.at(now_ns);
+  const ErrorStateFilter::StateEstimate now = estimator.at(now_ns);
   ASSERT_TRUE(now.outcome) << now.outcome.reason;
   const SO3 truth = Pitching::T_world_body(now_ns).rotation();
   EXPECT_LT((now.state.T_world_body.rotation().inverse() * truth).log().norm(), 1e-6);

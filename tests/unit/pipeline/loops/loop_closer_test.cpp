@@ -60,7 +60,7 @@ class LoopCloserOnAStreet : public testing::Test {
   /// The loops after both drives. `drift` is how far off odometry between the drives is; without it
   /// they are two runs of tracking, which no odometry joins.
   std::vector<Loop> drive(LoopCloser& closer, double unit_m, const std::optional<SE3>& drift,
-                          bool scale_differs) {
+                          bool scale_unknown) {
     const auto odometry = [&](KeyframeId from, KeyframeId to) -> std::optional<TrackedMotion> {
       const std::int64_t a = from.value(), b = to.value();
       const bool across = (a < kFirst) != (b < kFirst);
@@ -76,8 +76,8 @@ class LoopCloserOnAStreet : public testing::Test {
       const double unit = k < kFirst ? 1 : unit_m;
       closer.add_view(KeyframeId(k), frame(k),
                       begins ? std::nullopt : std::optional(T_previous_this(k, unit)));
-      const auto differ = [&](KeyframeId, KeyframeId) { return scale_differs; };
-      const auto found = closer.find_loops({odometry, {}, differ, apart_}, kDepth_m / unit);
+      const auto unknown = [&](KeyframeId, KeyframeId) { return scale_unknown; };
+      const auto found = closer.find_loops({odometry, {}, unknown, apart_}, kDepth_m / unit);
       loops.insert(loops.end(), found.begin(), found.end());
     }
     return loops;

@@ -1,6 +1,10 @@
 #include <gtest/gtest.h>
 #include <placegraph/pipeline/slam/track_recovery.h>
 
+#include <algorithm>
+#include <string>
+#include <vector>
+
 #include "tests/support/scenes/street.h"
 
 namespace placegraph {
@@ -16,7 +20,9 @@ struct Scene {
   LoopCloser closer;
   PlaceMapper mapper{PlaceOptions{}};
   TrajectoryRecorder recorder;
-  TrackRecovery recovery{{3, 0.002}, {}};
+  std::vector<std::string> log;
+  TrackRecovery recovery{{3, 0.002},
+                         [this](LogLevel, const std::string& line) { log.push_back(line); }};
   SE3 T_map_keyframe{SO3::exp({0, 0.3, 0}), Eigen::Vector3d(1, 2, 3)};
 
   Scene()
@@ -44,68 +50,72 @@ struct Scene {
     f.right = f.image;
     return f;
   }
-  static OdometryUpdate lost() {
-    OdometryUpdate update;
-    update.state = TrackingState::kLost;
-    return update;
+  void show_dark(std::int64_t id) { (void)recovery.handle(dark(id), known(), odometry); }
+  OdometryUpdate show_street(std::int64_t id) {
+    Frame seen = StreetDataset(1).frame(0, Sensor::kStereo);
+    seen.id = FrameId(id);
+    seen.stamp_ns = id * 1'000'000'000;
+    return recovery.handle(seen, known(), odometry);
+  }
+  /// Number of components that have begun.
+  int components() const {
+    return static_cast<int>(std::ranges::count_if(log, [](const std::string& line) {
+      return line.ends_with("a new component of the map begins");
+    }));
   }
 };
 double error(const SE3& a, const SE3& b) { return (a.inverse() * b).log().norm(); }
 
-TEST(TrackRecovery, IsNeededWhereTrackingIsLostAndWhereAFrameWaitsInVain) {
-  Scene scene;
-  OdometryUpdate update;
-  EXPECT_TRUE(scene.recovery.needed(update, scene.known()));  // waits, and nothing joins it
-  update.state = TrackingState::kTracking;
-  EXPECT_FALSE(scene.recovery.needed(update, scene.known()));
-  EXPECT_TRUE(scene.recovery.needed(Scene::lost(), scene.known()));
-  const TrajectoryRecorder nothing;
-  EXPECT_FALSE(scene.recovery.needed({}, {scene.closer, scene.mapper, nothing}));
-}
-
-TEST(TrackRecovery, APureRotationAnchorsTheNextSegmentAtTheLastKeyframe) {
-  Scene scene;
-  OdometryUpdate update = Scene::lost();
-  const SO3 R = SO3::exp({0, 0.2, 0});
-  update.rotation = PureRotation{R, 1e-6 * Eigen::Matrix3d::Identity()};
-  (void)scene.recovery.restart(Scene::dark(1), std::nullopt, update, scene.known(), scene.odometry);
-  const auto link = scene.recovery.take_link(scene.odometry.map(), scene.mapper);
-  ASSERT_TRUE(link);
-  EXPECT_EQ(link->from, KeyframeId(0));
-  EXPECT_LT(error(link->T_from_this, SE3(R, {0, 0, 0})), 1e-12);
-  EXPECT_EQ(link->source, ConstraintSource::kOther);
-  // Ten metres away, 0.002 rad of a translation pass for a rotation.
-  EXPECT_NEAR(link->information(0, 0), 1 / (0.02 * 0.02), 1);
-  EXPECT_NEAR(link->information(5, 5), 1e6, 1);
-  EXPECT_FALSE(scene.recovery.take_link(scene.odometry.map(), scene.mapper));  // it is used up
-}
-
 TEST(TrackRecovery, BeginsANewComponentAfterTooManyLostFrames) {
   Scene scene;
-  for (int i = 1; i <= 3; ++i)
-    (void)scene.recovery.restart(Scene::dark(i), std::nullopt, Scene::lost(), scene.known(),
-                                 scene.odometry);
+  for (int i = 1; i <= 3; ++i) {
+    EXPECT_EQ(scene.components(), 0) << i;
+    scene.show_dark(i);
+  }
+  EXPECT_EQ(scene.components(), 1);
   EXPECT_FALSE(scene.recovery.take_link(scene.odometry.map(), scene.mapper));
-  const StreetDataset street(1);
-  Frame seen = street.frame(0, Sensor::kStereo);
-  seen.id = FrameId(9);
-  const OdometryUpdate begun = scene.odometry.add_frame(seen);
+  const OdometryUpdate begun = scene.show_street(9);
   ASSERT_EQ(begun.state, TrackingState::kTracking);
   EXPECT_LT(error(begun.T_odom_cam, scene.T_map_keyframe), 1e-9);  // where the last pose was
 }
 
+TEST(TrackRecovery, BeforeTheFirstKeyframeNothingIsLost) {
+  Scene scene;
+  const TrajectoryRecorder nothing;
+  for (int i = 1; i <= 9; ++i)
+    (void)scene.recovery.handle(Scene::dark(i), {scene.closer, scene.mapper, nothing},
+                                scene.odometry);
+  EXPECT_EQ(scene.components(), 0);
+}
+
 TEST(TrackRecovery, ATrackedFrameEndsTheCount) {
   Scene scene;
-  for (int i = 1; i <= 2; ++i)
-    (void)scene.recovery.restart(Scene::dark(i), std::nullopt, Scene::lost(), scene.known(),
-                                 scene.odometry);
-  scene.recovery.tracked();
+  for (int i = 1; i <= 2; ++i) scene.show_dark(i);
+  ASSERT_EQ(scene.show_street(3).state, TrackingState::kTracking);
   scene.odometry.restart(SE3());
-  (void)scene.recovery.restart(Scene::dark(3), std::nullopt, Scene::lost(), scene.known(),
-                               scene.odometry);
-  const StreetDataset street(1);
-  EXPECT_LT(error(scene.odometry.add_frame(street.frame(0, Sensor::kStereo)).T_odom_cam, SE3()),
-            1e-9);  // nothing has begun anew
+  for (int i = 4; i <= 5; ++i) scene.show_dark(i);
+  EXPECT_EQ(scene.components(), 0);
+  scene.show_dark(6);
+  EXPECT_EQ(scene.components(), 1);
+}
+
+TEST(TrackRecovery, ATurnedCameraStandsWhereItWas) {
+  const SO3 R = SO3::exp({0, 0.2, 0});
+  const PureRotation rotation{R, 1e-6 * Eigen::Matrix3d::Identity()};
+  const SE3 T_match_before = pose({0, 0.1, 0}, {1, 0, 2});
+  const LocatedFrame once = turned({KeyframeId(4), SE3()}, Matrix6d::Zero(), rotation, 0.02);
+  EXPECT_EQ(once.match, KeyframeId(4));
+  EXPECT_LT(error(once.T_match_query, SE3(R, {0, 0, 0})), 1e-12);
+  EXPECT_NEAR(once.information(0, 0), 1 / (0.02 * 0.02), 1e-6);
+  EXPECT_NEAR(once.information(5, 5), 1e6, 1e-3);
+  // Of a pose that was uncertain, the tangent turns with the camera.
+  Matrix6d covariance = Matrix6d::Zero();
+  covariance(2, 2) = 0.3 * 0.3;  // along its optical axis
+  const LocatedFrame twice = turned({KeyframeId(4), T_match_before}, covariance, rotation, 0.02);
+  EXPECT_LT(error(twice.T_match_query, T_match_before * SE3(R, {0, 0, 0})), 1e-12);
+  const Eigen::Vector3d along = R.inverse() * Eigen::Vector3d::UnitZ();
+  const Eigen::Matrix3d position = twice.information.topLeftCorner<3, 3>();
+  EXPECT_NEAR(along.dot(position * along), 1 / (0.3 * 0.3 + 0.02 * 0.02), 1e-6);
 }
 
 TEST(TrackRecovery, MotionOfOtherSensorsCarriesAFrameFromTheLastKeyframe) {
@@ -115,8 +125,10 @@ TEST(TrackRecovery, MotionOfOtherSensorsCarriesAFrameFromTheLastKeyframe) {
   step.T_from_to = SE3(SO3(), Eigen::Vector3d(0, 0, 20));
   step.covariance = 0.04 * Matrix6d::Identity();
   scene.recovery.use_motion(std::make_shared<const MeasuredMotion>(std::vector<MotionStep>{step}));
-  const auto at = scene.recovery.pose_without_tracking(Scene::dark(5), std::nullopt, Scene::lost(),
-                                                       scene.known(), scene.odometry);
+  OdometryUpdate lost;
+  lost.state = TrackingState::kLost;
+  const auto at =
+      scene.recovery.pose_without_tracking(Scene::dark(5), lost, scene.known(), scene.odometry);
   ASSERT_TRUE(at);
   EXPECT_EQ(at->match, KeyframeId(0));
   EXPECT_LT(error(at->T_match_query, SE3(SO3(), Eigen::Vector3d(0, 0, 10))), 1e-9);
@@ -138,7 +150,7 @@ TEST(TrackRecovery, ARunThatIsTakenUpContinuesItsSegment) {
 TEST(TrackRecovery, ASegmentThatBeginsLaterIsNoContinuation) {
   Scene scene;
   scene.recovery.take_up(KeyframeId(0), 10, scene.known());
-  (void)scene.recovery.expect(Scene::dark(1), scene.known(), scene.odometry);
+  scene.show_street(1);
   const auto link = scene.recovery.take_link(scene.odometry.map(), scene.mapper);
   ASSERT_TRUE(link);
   EXPECT_EQ(link->source, ConstraintSource::kOther);
@@ -155,16 +167,21 @@ TEST(TrackRecovery, AComponentCanBeginAtOnce) {
 
 TEST(TrackRecovery, AComponentApartWaitsForItsBeginning) {
   Scene scene;
-  const OdometryUpdate waits;
   scene.recovery.begin_apart(FrameId(1), scene.odometry);
-  for (int i = 1; i <= 4; ++i) {  // as long as a loss may last
-    (void)scene.recovery.expect(Scene::dark(i), scene.known(), scene.odometry);
-    EXPECT_EQ(scene.recovery.needed(waits, scene.known()), i > 3) << i;
-  }
-  scene.recovery.begin_apart(FrameId(5), scene.odometry);
-  EXPECT_TRUE(scene.recovery.needed(Scene::lost(), scene.known()));
-  scene.recovery.tracked();  // it has begun
-  EXPECT_TRUE(scene.recovery.needed(waits, scene.known()));
+  // Frames are not counted as lost for as long as a loss may last: three and three frames.
+  for (int i = 1; i <= 5; ++i) scene.show_dark(i);
+  EXPECT_EQ(scene.components(), 1);
+  scene.show_dark(6);
+  EXPECT_EQ(scene.components(), 2);
+}
+
+TEST(TrackRecovery, AComponentApartThatHasBegunWaitsNoLonger) {
+  Scene scene;
+  scene.recovery.begin_apart(FrameId(1), scene.odometry);
+  ASSERT_EQ(scene.show_street(1).state, TrackingState::kTracking);
+  scene.odometry.restart(SE3());
+  for (int i = 2; i <= 4; ++i) scene.show_dark(i);
+  EXPECT_EQ(scene.components(), 2);
 }
 
 }  // namespace track_recovery_test
