@@ -7,8 +7,8 @@
 #include <placegraph/pipeline/health/intrinsics_check.h>
 #include <placegraph/pipeline/health/repeated_images.h>
 #include <placegraph/pipeline/health/right_image_time.h>
-#include <placegraph/pipeline/health/scale_check.h>
 #include <placegraph/pipeline/health/window_residuals.h>
+#include <placegraph/pipeline/scale/scale_check.h>
 
 #include <optional>
 #include <vector>

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/health/scale_check.h>
+#include <placegraph/pipeline/scale/scale_check.h>
 
 #include <cmath>
 #include <vector>

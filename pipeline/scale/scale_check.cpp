@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/median.h>
-#include <placegraph/pipeline/health/scale_check.h>
+#include <placegraph/pipeline/scale/scale_check.h>
 
 #include <algorithm>
 #include <cmath>
