@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <placegraph/backend/pose_graph/pose_marginals.h>
 #include <placegraph/graph/core/median.h>
-#include <placegraph/pipeline/motion_check.h>
+#include <placegraph/pipeline/health/motion_check.h>
 #include <placegraph/pipeline/run.h>
 
 #include <algorithm>

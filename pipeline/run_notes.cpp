@@ -1,7 +1,7 @@
 #include <placegraph/io/calibration/calibration_plausibility.h>
-#include <placegraph/pipeline/motion_check.h>
+#include <placegraph/pipeline/health/motion_check.h>
+#include <placegraph/pipeline/health/stereo_check.h>
 #include <placegraph/pipeline/run_notes.h>
-#include <placegraph/pipeline/stereo_check.h>
 
 namespace placegraph {
 

@@ -2,7 +2,7 @@
 #include <placegraph/frontend/features/detector.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/stereo_check.h>
+#include <placegraph/pipeline/health/stereo_check.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/angle.h>
-#include <placegraph/pipeline/motion_check.h>
+#include <placegraph/pipeline/health/motion_check.h>
 
 #include "tests/support/seed.h"
 

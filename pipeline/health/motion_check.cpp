@@ -6,7 +6,7 @@
 #include <placegraph/graph/geometry/se3.h>
 #include <placegraph/graph/map_index.h>
 #include <placegraph/io/datasets/recorded_sequence.h>
-#include <placegraph/pipeline/motion_check.h>
+#include <placegraph/pipeline/health/motion_check.h>
 
 #include <algorithm>
 #include <array>

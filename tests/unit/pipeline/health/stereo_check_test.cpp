@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/stereo_check.h>
+#include <placegraph/pipeline/health/stereo_check.h>
 
 #include <opencv2/imgproc.hpp>
 
