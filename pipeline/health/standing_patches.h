@@ -1,7 +1,7 @@
 #pragma once
+#include <placegraph/frontend/relative_pose/image_motion.h>
 #include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/image/image.h>
-#include <placegraph/pipeline/health/image_motion.h>
 #include <placegraph/pipeline/health/static_overlay_options.h>
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 #include <placegraph/frontend/relative_pose/epipolar_error.h>
-#include <placegraph/pipeline/health/image_motion.h>
+#include <placegraph/frontend/relative_pose/image_motion.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/health/image_motion.h>
+#include <placegraph/frontend/relative_pose/image_motion.h>
 
 #include "tests/support/scenes/scene.h"
 
