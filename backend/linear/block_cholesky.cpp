@@ -1,27 +1,25 @@
 #include <placegraph/backend/linear/blas_threads.h>
 #include <placegraph/backend/linear/block_cholesky.h>
 #include <placegraph/backend/linear/cholmod_workspace.h>
+#include <placegraph/backend/linear/fill_factor.h>
 #include <placegraph/backend/linear/simplicial_factor.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>
+#include <memory>
 #include <new>
 #include <optional>
-
-#if PLACEGRAPH_GPL
-#include <placegraph/backend/linear/supernodal_factor.h>
-#else
-#include <placegraph/backend/linear/scalar_factor.h>
-#endif
 
 namespace placegraph {
 namespace {
 
+std::unique_ptr<FillFactor> factor_for_much_fill(const BlockPanels& matrix) {
 #if PLACEGRAPH_GPL
-using FactorOfMuchFill = SupernodalFactor;
+  return supernodal_factor(matrix);
 #else
-using FactorOfMuchFill = ScalarFactor;
+  return scalar_factor(matrix);
 #endif
+}
 
 /// If a factor has fewer operations per entry, the block-wise kernels are faster than BLAS on
 /// supernodes (measured on published pose graphs, of which the heaviest has 320).
@@ -89,7 +87,7 @@ struct BlockCholesky::Impl {
   BlockOrdering ordering;
   BlockPanels matrix;
   std::optional<SimplicialFactor> simplicial;  // exactly one of the two is set
-  std::optional<FactorOfMuchFill> supernodal;
+  std::unique_ptr<FillFactor> filled;
   bool factorized = false;
   Eigen::VectorXd factorized_diagonal;  // diagonal of the factorized matrix, by positions
 
@@ -103,7 +101,7 @@ struct BlockCholesky::Impl {
         (!PLACEGRAPH_GPL || ordering.operations * size <= kSupernodalSwitch * ordering.fill))
       simplicial.emplace(matrix);
     else
-      supernodal.emplace(matrix);
+      filled = factor_for_much_fill(matrix);
   }
 
   BlockColumns sorted_pattern(int count, const std::vector<std::pair<int, int>>& pairs) const {
@@ -239,8 +237,8 @@ bool BlockCholesky::factorize(const Eigen::VectorXd& damping) {
     impl_->factorized_diagonal += impl_->to_positions(damping);
     impl_->set_diagonal_by_position(impl_->factorized_diagonal);
   }
-  impl_->factorized = impl_->simplicial ? impl_->simplicial->factorize(impl_->matrix)
-                                        : impl_->supernodal->factorize();
+  impl_->factorized =
+      impl_->simplicial ? impl_->simplicial->factorize(impl_->matrix) : impl_->filled->factorize();
   if (damping.size()) impl_->set_diagonal_by_position(undamped);
   return impl_->factorized;
 }
@@ -248,7 +246,7 @@ bool BlockCholesky::factorize(const Eigen::VectorXd& damping) {
 double BlockCholesky::smallest_pivot() const {
   require(impl_->factorized, "BlockCholesky::smallest_pivot: there is no factor");
   const Eigen::VectorXd pivots =
-      impl_->simplicial ? impl_->simplicial->pivots() : impl_->supernodal->pivots();
+      impl_->simplicial ? impl_->simplicial->pivots() : impl_->filled->pivots();
   if (pivots.size() == 0) return 1;
   return pivots.cwiseAbs2().cwiseQuotient(impl_->factorized_diagonal).minCoeff();
 }
@@ -259,7 +257,7 @@ void BlockCholesky::solve(Eigen::Ref<Eigen::MatrixXd> b) const {
   if (impl_->simplicial)
     impl_->simplicial->solve(permuted);
   else
-    impl_->supernodal->solve(permuted);
+    impl_->filled->solve(permuted);
   impl_->from_positions(permuted, b);
 }
 
@@ -270,13 +268,13 @@ double BlockCholesky::factor_size() const {
 double BlockCholesky::solves_per_factorization() const {
   // A factorization runs its operations several times as fast as a solve, which waits for memory.
   const double operations = impl_->ordering.operations * block_size();
-  const double speed = impl_->supernodal ? 10 : 3 * block_size();  // measured
+  const double speed = impl_->filled ? 10 : 3 * block_size();  // measured
   return std::max(1.0, operations / (speed * impl_->ordering.fill));
 }
 
 BlockFactor BlockCholesky::factor() const {
   require(impl_->factorized, "BlockCholesky::factor: there is no factor");
-  return impl_->simplicial ? impl_->simplicial->blocks() : impl_->supernodal->blocks();
+  return impl_->simplicial ? impl_->simplicial->blocks() : impl_->filled->blocks();
 }
 
 }  // namespace placegraph

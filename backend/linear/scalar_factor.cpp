@@ -1,62 +1,71 @@
-#include <placegraph/backend/linear/scalar_factor.h>
+#include <placegraph/backend/linear/fill_factor.h>
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cstddef>
 
 namespace placegraph {
+namespace {
 
 using Sparse = Eigen::SparseMatrix<double, Eigen::ColMajor, std::ptrdiff_t>;
 
-struct ScalarFactor::Impl {
-  const BlockPanels& panels;
-  Sparse matrix;  // lower part by scalars; its values are those of the panels, in their order
-  Eigen::SimplicialLLT<Sparse, Eigen::Lower, Eigen::NaturalOrdering<std::ptrdiff_t>> llt;
-
-  explicit Impl(const BlockPanels& m) : panels(m) {
-    const int size = panels.block_size, count = panels.pattern.count();
-    matrix.resize(static_cast<Eigen::Index>(count) * size, static_cast<Eigen::Index>(count) * size);
-    matrix.resizeNonZeros(static_cast<Eigen::Index>(panels.values.size()));
+class ScalarFactor : public FillFactor {
+ public:
+  explicit ScalarFactor(const BlockPanels& m) : panels_(m) {
+    const int size = panels_.block_size, count = panels_.pattern.count();
+    matrix_.resize(static_cast<Eigen::Index>(count) * size,
+                   static_cast<Eigen::Index>(count) * size);
+    matrix_.resizeNonZeros(static_cast<Eigen::Index>(panels_.values.size()));
     std::ptrdiff_t next = 0;
     for (int j = 0; j < count; ++j)
       for (int c = 0; c < size; ++c) {
-        matrix.outerIndexPtr()[j * size + c] = next;
-        for (int k = panels.pattern.start[j]; k < panels.pattern.start[j + 1]; ++k)
+        matrix_.outerIndexPtr()[j * size + c] = next;
+        for (int k = panels_.pattern.start[j]; k < panels_.pattern.start[j + 1]; ++k)
           for (int r = 0; r < size; ++r)
-            matrix.innerIndexPtr()[next++] = panels.pattern.row[k] * size + r;
+            matrix_.innerIndexPtr()[next++] = panels_.pattern.row[k] * size + r;
       }
-    matrix.outerIndexPtr()[static_cast<std::ptrdiff_t>(count) * size] = next;
+    matrix_.outerIndexPtr()[static_cast<std::ptrdiff_t>(count) * size] = next;
     take_values();
-    llt.analyzePattern(matrix);
+    llt_.analyzePattern(matrix_);
   }
-  void take_values() { std::copy(panels.values.begin(), panels.values.end(), matrix.valuePtr()); }
+
+  bool factorize() override;
+  void solve(Eigen::Ref<Eigen::MatrixXd> x) override;
+  Eigen::VectorXd pivots() const override;
+  BlockFactor blocks() const override;
+
+ private:
+  void take_values() {
+    std::copy(panels_.values.begin(), panels_.values.end(), matrix_.valuePtr());
+  }
+
+  const BlockPanels& panels_;
+  Sparse matrix_;  // lower part by scalars; its values are those of the panels, in their order
+  Eigen::SimplicialLLT<Sparse, Eigen::Lower, Eigen::NaturalOrdering<std::ptrdiff_t>> llt_;
 };
 
-ScalarFactor::ScalarFactor(const BlockPanels& matrix) : impl_(std::make_unique<Impl>(matrix)) {}
-ScalarFactor::~ScalarFactor() = default;
-
 bool ScalarFactor::factorize() {
-  impl_->take_values();
-  impl_->llt.factorize(impl_->matrix);
-  return impl_->llt.info() == Eigen::Success;
+  take_values();
+  llt_.factorize(matrix_);
+  return llt_.info() == Eigen::Success;
 }
 
 void ScalarFactor::solve(Eigen::Ref<Eigen::MatrixXd> x) {
-  impl_->llt.matrixL().solveInPlace(x);
-  impl_->llt.matrixU().solveInPlace(x);
+  llt_.matrixL().solveInPlace(x);
+  llt_.matrixU().solveInPlace(x);
 }
 
 Eigen::VectorXd ScalarFactor::pivots() const {
-  const Sparse& L = impl_->llt.matrixL().nestedExpression();
+  const Sparse& L = llt_.matrixL().nestedExpression();
   return L.diagonal();
 }
 
 BlockFactor ScalarFactor::blocks() const {
-  const Sparse& L = impl_->llt.matrixL().nestedExpression();
-  const int size = impl_->panels.block_size, square = size * size;
+  const Sparse& L = llt_.matrixL().nestedExpression();
+  const int size = panels_.block_size, square = size * size;
   BlockFactor blocks;
-  std::vector<int> place(static_cast<std::size_t>(impl_->panels.pattern.count()), -1);
-  for (int j = 0; j < impl_->panels.pattern.count(); ++j) {
+  std::vector<int> place(static_cast<std::size_t>(panels_.pattern.count()), -1);
+  for (int j = 0; j < panels_.pattern.count(); ++j) {
     const auto begin = static_cast<std::ptrdiff_t>(blocks.pattern.row.size());
     blocks.pattern.start.push_back(static_cast<int>(begin));
     for (int c = 0; c < size; ++c)
@@ -80,6 +89,12 @@ BlockFactor ScalarFactor::blocks() const {
   }
   blocks.pattern.start.push_back(static_cast<int>(blocks.pattern.row.size()));
   return blocks;
+}
+
+}  // namespace
+
+std::unique_ptr<FillFactor> scalar_factor(const BlockPanels& matrix) {
+  return std::make_unique<ScalarFactor>(matrix);
 }
 
 }  // namespace placegraph

@@ -1,5 +1,5 @@
 #include <placegraph/backend/linear/cholmod_workspace.h>
-#include <placegraph/backend/linear/supernodal_factor.h>
+#include <placegraph/backend/linear/fill_factor.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>
@@ -7,81 +7,84 @@
 #include <new>
 
 namespace placegraph {
+namespace {
 
-struct SupernodalFactor::Impl {
-  const BlockPanels& panels;
-  CholmodWorkspace common;
-  std::vector<int> column_start, row;  // the matrix by scalars
-  cholmod_sparse matrix{};
-  cholmod_factor* factor = nullptr;
-  cholmod_dense *rhs = nullptr, *x = nullptr, *work_y = nullptr, *work_e = nullptr;
-
-  explicit Impl(const BlockPanels& m) : panels(m) {
-    const int size = panels.block_size, count = panels.pattern.count();
-    require(panels.values.size() < static_cast<std::size_t>(std::numeric_limits<int>::max()),
+class SupernodalFactor : public FillFactor {
+ public:
+  explicit SupernodalFactor(const BlockPanels& m) : panels_(m) {
+    const int size = panels_.block_size, count = panels_.pattern.count();
+    require(panels_.values.size() < static_cast<std::size_t>(std::numeric_limits<int>::max()),
             "SupernodalFactor: the matrix is too large");
-    row.reserve(panels.values.size());
+    row_.reserve(panels_.values.size());
     for (int j = 0; j < count; ++j)
       for (int c = 0; c < size; ++c) {
-        column_start.push_back(static_cast<int>(row.size()));
-        for (int k = panels.pattern.start[j]; k < panels.pattern.start[j + 1]; ++k)
-          for (int r = 0; r < size; ++r) row.push_back(panels.pattern.row[k] * size + r);
+        column_start_.push_back(static_cast<int>(row_.size()));
+        for (int k = panels_.pattern.start[j]; k < panels_.pattern.start[j + 1]; ++k)
+          for (int r = 0; r < size; ++r) row_.push_back(panels_.pattern.row[k] * size + r);
       }
-    column_start.push_back(static_cast<int>(row.size()));
-    matrix.nrow = matrix.ncol = static_cast<std::size_t>(count) * size;
-    matrix.nzmax = row.size();
-    matrix.p = column_start.data();
-    matrix.i = row.data();
-    matrix.x = const_cast<double*>(panels.values.data());  // CHOLMOD only reads it
-    matrix.stype = -1;
-    matrix.itype = CHOLMOD_INT;
-    matrix.xtype = CHOLMOD_REAL;
-    matrix.dtype = CHOLMOD_DOUBLE;
-    matrix.sorted = matrix.packed = 1;
-    common->supernodal = CHOLMOD_SUPERNODAL;
-    common->postorder = 0;
-    common->method[0].ordering = CHOLMOD_NATURAL;
-    factor = cholmod_analyze(&matrix, common);
-    if (!factor) throw std::bad_alloc();
+    column_start_.push_back(static_cast<int>(row_.size()));
+    matrix_.nrow = matrix_.ncol = static_cast<std::size_t>(count) * size;
+    matrix_.nzmax = row_.size();
+    matrix_.p = column_start_.data();
+    matrix_.i = row_.data();
+    matrix_.x = const_cast<double*>(panels_.values.data());  // CHOLMOD only reads it
+    matrix_.stype = -1;
+    matrix_.itype = CHOLMOD_INT;
+    matrix_.xtype = CHOLMOD_REAL;
+    matrix_.dtype = CHOLMOD_DOUBLE;
+    matrix_.sorted = matrix_.packed = 1;
+    common_->supernodal = CHOLMOD_SUPERNODAL;
+    common_->postorder = 0;
+    common_->method[0].ordering = CHOLMOD_NATURAL;
+    factor_ = cholmod_analyze(&matrix_, common_);
+    if (!factor_) throw std::bad_alloc();
   }
-  ~Impl() {
-    cholmod_free_factor(&factor, common);
-    for (cholmod_dense** dense : {&rhs, &x, &work_y, &work_e}) cholmod_free_dense(dense, common);
+  ~SupernodalFactor() override {
+    cholmod_free_factor(&factor_, common_);
+    for (cholmod_dense** dense : {&rhs_, &x_, &work_y_, &work_e_})
+      cholmod_free_dense(dense, common_);
   }
+
+  bool factorize() override;
+  void solve(Eigen::Ref<Eigen::MatrixXd> x) override;
+  Eigen::VectorXd pivots() const override;
+  BlockFactor blocks() const override;
+
+ private:
+  const BlockPanels& panels_;
+  CholmodWorkspace common_;
+  std::vector<int> column_start_, row_;  // the matrix by scalars
+  cholmod_sparse matrix_{};
+  cholmod_factor* factor_ = nullptr;
+  cholmod_dense *rhs_ = nullptr, *x_ = nullptr, *work_y_ = nullptr, *work_e_ = nullptr;
 };
 
-SupernodalFactor::SupernodalFactor(const BlockPanels& matrix)
-    : impl_(std::make_unique<Impl>(matrix)) {}
-SupernodalFactor::~SupernodalFactor() = default;
-
 bool SupernodalFactor::factorize() {
-  cholmod_factorize(&impl_->matrix, impl_->factor, impl_->common);
-  const int status = impl_->common->status;
+  cholmod_factorize(&matrix_, factor_, common_);
+  const int status = common_->status;
   if (status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
   if (status < CHOLMOD_OK)
     throw ArgumentError("SupernodalFactor: CHOLMOD failed with status " + std::to_string(status));
-  return status == CHOLMOD_OK && impl_->factor->minor == impl_->factor->n;
+  return status == CHOLMOD_OK && factor_->minor == factor_->n;
 }
 
 void SupernodalFactor::solve(Eigen::Ref<Eigen::MatrixXd> x) {
   const std::size_t rows = static_cast<std::size_t>(x.rows()),
                     columns = static_cast<std::size_t>(x.cols());
-  cholmod_dense*& rhs = impl_->rhs;
+  cholmod_dense*& rhs = rhs_;
   if (!rhs || rhs->ncol != columns) {
-    cholmod_free_dense(&rhs, impl_->common);
-    rhs = cholmod_allocate_dense(rows, columns, rows, CHOLMOD_REAL, impl_->common);
+    cholmod_free_dense(&rhs, common_);
+    rhs = cholmod_allocate_dense(rows, columns, rows, CHOLMOD_REAL, common_);
     if (!rhs) throw std::bad_alloc();
   }
   Eigen::Map<Eigen::MatrixXd>(static_cast<double*>(rhs->x), x.rows(), x.cols()) = x;
-  if (!cholmod_solve2(CHOLMOD_A, impl_->factor, rhs, nullptr, &impl_->x, nullptr, &impl_->work_y,
-                      &impl_->work_e, impl_->common))
+  if (!cholmod_solve2(CHOLMOD_A, factor_, rhs, nullptr, &x_, nullptr, &work_y_, &work_e_, common_))
     throw std::bad_alloc();
-  x = Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(impl_->x->x), x.rows(),
-                                        x.cols());
+  x = Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(x_->x), x.rows(), x.cols());
 }
 
 Eigen::VectorXd SupernodalFactor::pivots() const {
-  const cholmod_factor& factor = *impl_->factor;
+  const cholmod_factor& factor = *factor_;
   const double* const value = static_cast<const double*>(factor.x);
   const int* const super = static_cast<const int*>(factor.super);
   const int* const first_row = static_cast<const int*>(factor.pi);
@@ -96,18 +99,18 @@ Eigen::VectorXd SupernodalFactor::pivots() const {
 }
 
 BlockFactor SupernodalFactor::blocks() const {
-  const cholmod_factor& factor = *impl_->factor;
+  const cholmod_factor& factor = *factor_;
   const double* const value = static_cast<const double*>(factor.x);
   const int* const super = static_cast<const int*>(factor.super);
   const int* const first_row = static_cast<const int*>(factor.pi);
   const int* const first_value = static_cast<const int*>(factor.px);
   const int* const row = static_cast<const int*>(factor.s);
-  const int size = impl_->panels.block_size, square = size * size;
+  const int size = panels_.block_size, square = size * size;
   BlockFactor blocks;
   // A supernode may begin or end inside a block: columns are taken scalar by scalar.
-  std::vector<int> place(static_cast<std::size_t>(impl_->panels.pattern.count()), -1);
+  std::vector<int> place(static_cast<std::size_t>(panels_.pattern.count()), -1);
   std::size_t s = 0;
-  for (int j = 0; j < impl_->panels.pattern.count(); ++j) {
+  for (int j = 0; j < panels_.pattern.count(); ++j) {
     const int begin = static_cast<int>(blocks.pattern.row.size());
     blocks.pattern.start.push_back(begin);
     const std::size_t first_super = s;
@@ -139,6 +142,12 @@ BlockFactor SupernodalFactor::blocks() const {
   }
   blocks.pattern.start.push_back(static_cast<int>(blocks.pattern.row.size()));
   return blocks;
+}
+
+}  // namespace
+
+std::unique_ptr<FillFactor> supernodal_factor(const BlockPanels& matrix) {
+  return std::make_unique<SupernodalFactor>(matrix);
 }
 
 }  // namespace placegraph

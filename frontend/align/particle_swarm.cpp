@@ -1,13 +1,12 @@
 #include <placegraph/frontend/align/particle_swarm.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/parallel.h>
 #include <placegraph/graph/core/random.h>
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <limits>
 #include <numeric>
-#include <thread>
 
 namespace placegraph {
 namespace {
@@ -60,22 +59,10 @@ double constriction(double phi) { return 2 / std::abs(2 - phi - std::sqrt(phi * 
 void evaluate_population(const PopulationCost& cost, const std::vector<VectorXd>& points,
                          int threads, std::vector<double>& costs) {
   costs.resize(points.size());
-  const std::size_t workers = std::clamp<std::size_t>(static_cast<std::size_t>(threads), 1,
-                                                      std::max<std::size_t>(1, points.size()));
-  std::vector<std::exception_ptr> thrown(workers);
-  const auto work = [&](std::size_t worker) {
-    try {
-      for (std::size_t i = worker; i < points.size(); i += workers) costs[i] = cost(points[i]);
-    } catch (...) {
-      thrown[worker] = std::current_exception();
-    }
-  };
-  std::vector<std::thread> pool;
-  for (std::size_t worker = 1; worker < workers; ++worker) pool.emplace_back(work, worker);
-  work(0);
-  for (std::thread& thread : pool) thread.join();
-  for (const std::exception_ptr& error : thrown)
-    if (error) std::rethrow_exception(error);
+  parallel_for(static_cast<int>(points.size()), threads, [&](int i) {
+    const auto at = static_cast<std::size_t>(i);
+    costs[at] = cost(points[at]);
+  });
 }
 
 void sort_population(PopulationResult& population) {

@@ -1,34 +1,24 @@
 #include <fmt/format.h>
-#include <placegraph/graph/core/error.h>
 #include <placegraph/io/exports/little_endian.h>
+#include <placegraph/io/exports/ply_header.h>
 #include <placegraph/io/exports/ply_points.h>
 
 #include <iterator>
 
 namespace placegraph {
-namespace {
-
-std::string ply_points_header(std::size_t points, NumberForm form,
-                              const std::vector<std::string>& comments) {
-  std::string header = fmt::format("ply\nformat {} 1.0\n",
-                                   form == NumberForm::kBinary ? "binary_little_endian" : "ascii");
-  for (const std::string& comment : comments) {
-    require(comment.find_first_of("\r\n") == std::string::npos,
-            "PLY: a comment is one line: " + comment);
-    header += "comment " + comment + "\n";
-  }
-  header += fmt::format("element vertex {}\n", points);
-  for (const char* name : {"x", "y", "z"}) header += fmt::format("property float {}\n", name);
-  for (const char* name : {"red", "green", "blue"})
-    header += fmt::format("property uchar {}\n", name);
-  return header + "property float sigma_m\nend_header\n";
-}
-
-}  // namespace
 
 std::string to_ply(const std::vector<ColouredPoint>& points, NumberForm form,
                    const std::vector<std::string>& comments) {
-  std::string ply = ply_points_header(points.size(), form, comments);
+  std::string ply = ply_header(form, comments,
+                               {{"vertex",
+                                 points.size(),
+                                 {{"float", "x"},
+                                  {"float", "y"},
+                                  {"float", "z"},
+                                  {"uchar", "red"},
+                                  {"uchar", "green"},
+                                  {"uchar", "blue"},
+                                  {"float", "sigma_m"}}}});
   if (form == NumberForm::kBinary) {
     for (const ColouredPoint& point : points) {
       for (int i = 0; i < 3; ++i) append_number(ply, static_cast<float>(point.position[i]));

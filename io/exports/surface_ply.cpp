@@ -1,6 +1,6 @@
 #include <fmt/format.h>
-#include <placegraph/graph/core/error.h>
 #include <placegraph/io/exports/little_endian.h>
+#include <placegraph/io/exports/ply_header.h>
 #include <placegraph/io/exports/surface_ply.h>
 
 #include <iterator>
@@ -8,22 +8,21 @@
 namespace placegraph {
 namespace {
 
-/// The header up to the properties that points and vertices share.
-std::string surface_header(std::size_t vertices, NumberForm form,
-                           const std::vector<std::string>& comments) {
-  std::string header = fmt::format("ply\nformat {} 1.0\n",
-                                   form == NumberForm::kBinary ? "binary_little_endian" : "ascii");
-  for (const std::string& comment : comments) {
-    require(comment.find_first_of("\r\n") == std::string::npos,
-            "PLY: a comment is one line: " + comment);
-    header += "comment " + comment + "\n";
-  }
-  header += fmt::format("element vertex {}\n", vertices);
-  for (const char* name : {"x", "y", "z", "nx", "ny", "nz"})
-    header += fmt::format("property float {}\n", name);
-  for (const char* name : {"red", "green", "blue"})
-    header += fmt::format("property uchar {}\n", name);
-  return header;
+/// The vertices of a surface; `more`: their properties behind those that all have.
+PlyElement surface_vertices(std::size_t count, const std::vector<PlyProperty>& more = {}) {
+  PlyElement vertices{"vertex",
+                      count,
+                      {{"float", "x"},
+                       {"float", "y"},
+                       {"float", "z"},
+                       {"float", "nx"},
+                       {"float", "ny"},
+                       {"float", "nz"},
+                       {"uchar", "red"},
+                       {"uchar", "green"},
+                       {"uchar", "blue"}}};
+  vertices.properties.insert(vertices.properties.end(), more.begin(), more.end());
+  return vertices;
 }
 
 void append_vertex(std::string& ply, NumberForm form, const Eigen::Vector3d& position,
@@ -44,7 +43,7 @@ void append_vertex(std::string& ply, NumberForm form, const Eigen::Vector3d& pos
 std::string to_ply(const std::vector<DensePoint>& points, NumberForm form,
                    const std::vector<std::string>& comments) {
   std::string ply =
-      surface_header(points.size(), form, comments) + "property int pixels\nend_header\n";
+      ply_header(form, comments, {surface_vertices(points.size(), {{"int", "pixels"}})});
   for (const DensePoint& point : points) {
     append_vertex(ply, form, point.position, point.normal, point.rgb);
     if (form == NumberForm::kBinary)
@@ -57,9 +56,10 @@ std::string to_ply(const std::vector<DensePoint>& points, NumberForm form,
 
 std::string to_ply(const TriangleMesh& mesh, NumberForm form,
                    const std::vector<std::string>& comments) {
-  std::string ply = surface_header(mesh.positions.size(), form, comments) +
-                    fmt::format("element face {}\n", mesh.faces.size()) +
-                    "property list uchar int vertex_indices\nend_header\n";
+  std::string ply =
+      ply_header(form, comments,
+                 {surface_vertices(mesh.positions.size()),
+                  {"face", mesh.faces.size(), {{"list uchar int", "vertex_indices"}}}});
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
     append_vertex(ply, form, mesh.positions[i], mesh.normals[i], mesh.rgb[i]);
     if (form == NumberForm::kText) ply += '\n';

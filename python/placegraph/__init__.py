@@ -11,7 +11,7 @@ import importlib as _importlib
 from typing import TYPE_CHECKING as _TYPE_CHECKING
 from typing import Any as _Any
 
-from . import _show, loops, synthetic, vision
+from . import loops, synthetic, vision
 from ._core import version as __version__
 from ._core import (
     ArgumentError,
@@ -102,9 +102,6 @@ from .slam import Event, Recognizer, RunResult, Slam, run
 
 if _TYPE_CHECKING:
     from . import bag, colmap, gtsam, rerun
-
-setattr(OptimizedGraph, "_repr_html_", _show.optimized_html)
-setattr(PoseGraph, "_repr_html_", _show.pose_graph_html)
 
 # Modules for packages that few need are imported when they are first used.
 _BESIDE = ("bag", "colmap", "gtsam", "rerun")

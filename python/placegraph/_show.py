@@ -1,4 +1,4 @@
-"""Pictures and pages of maps, evaluations and pose graphs: in notebooks, and as files."""
+"""Pages of maps, evaluations and pose graphs: in notebooks, and as files."""
 
 from __future__ import annotations
 
@@ -6,95 +6,15 @@ import html
 import os
 import sys
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Union
+from typing import Union
 
 from . import _core
 from ._types import Path
+from .evaluation import Comparison, Evaluation
+from .graphs import OptimizedGraph
+from .maps import Map
 
-if TYPE_CHECKING:
-    from .evaluation import Evaluation
-    from .maps import Map
-
-    from .graphs import OptimizedGraph
-
-    Shown = Union[Map, Evaluation, Sequence[Evaluation], _core.PoseGraph, OptimizedGraph]
-
-
-def _truth_of(shown: Map) -> _core.Trajectory | None:
-    """The ground truth of a map's recording, if it is still there and has a pose for each frame."""
-    if not os.path.isdir(shown.sequence):
-        return None
-    try:
-        truth = _core.open_dataset(shown.sequence).ground_truth
-    except _core.Error:
-        return None
-    frames = shown.tables.frames["frame"]
-    return truth if truth is not None and len(frames) and frames.max() < len(truth) else None
-
-
-def _table(rows: Sequence[tuple[str, str]]) -> str:
-    cells = "".join(f"<tr><th style='text-align:left'>{html.escape(name)}</th>"
-                    f"<td style='text-align:left'>{html.escape(value)}</td></tr>"
-                    for name, value in rows)
-    return f"<table>{cells}</table>"
-
-
-def _figure(rows: Sequence[tuple[str, str]], svg: str) -> str:
-    fitted = svg.replace("<svg ", "<svg style='max-width:100%;height:auto' ", 1)
-    return f"<div>{_table(rows)}{fitted}</div>"
-
-
-def map_picture(shown: Map) -> str:
-    """Trajectories, places and loops of a map, SVG; over the true trajectory if it is known."""
-    return _core.map_picture(shown._core, _truth_of(shown), os.path.basename(shown.sequence))
-
-
-def map_html(shown: Map) -> str:
-    """What a notebook shows of a map: its figures and its picture."""
-    trajectory = shown.trajectory()
-    unit = "m" if shown.metric else "units"
-    accepted = sum(shown.tables.loops["accepted"])
-    rows = [
-        ("frames", f"{len(trajectory)}, {trajectory.posed} with a pose"),
-        ("path", f"{trajectory.path_length:.4g} {unit}"),
-        ("keyframes", str(len(shown.tables.keyframes["id"]))),
-        ("places", str(len(shown._core.place_rows()))),
-        ("landmarks", str(len(shown.tables.landmarks["id"]))),
-        ("loops", f"{accepted} accepted of {len(shown.tables.loops['accepted'])}"),
-    ]
-    if shown.judgement is not None:
-        rows.append(("judgement", shown.judgement.verdict))
-        rows += [("", str(finding)) for finding in shown.judgement.findings]
-    return _figure(rows, map_picture(shown) if trajectory.posed else "")
-
-
-def evaluation_html(shown: Evaluation, kind: str = "overview") -> str:
-    """What a notebook shows of an evaluation: its figures and the picture of a kind."""
-    core = shown._core
-    if not core.ok:
-        return _table([(core.name, core.reason)])
-    rows = [(row["name"], f"{row['value']:.6g} {row['unit']}") for row in core.metric_rows()
-            if row["value"] is not None]
-    return _figure(rows, _core.evaluation_picture([core], kind))
-
-
-def pose_graph_html(graph: _core.PoseGraph) -> str:
-    """What a notebook shows of a pose graph: its size and its picture."""
-    rows = [("nodes", str(len(graph))), ("edges", str(len(graph.edges)))]
-    return _figure(rows, _core.pose_graph_picture(graph) if len(graph) else "")
-
-
-def optimized_html(report: OptimizedGraph) -> str:
-    """What a notebook shows of an optimized pose graph: its costs and its picture."""
-    rejected = [edge.constraint for edge in report.rejected]
-    rows = [("nodes", str(len(report.graph))),
-            ("cost", f"{report.chi2_initial:.6g} -> {report.chi2_final:.6g}"),
-            ("iterations", str(report.iterations)),
-            ("rejected constraints", str(len(rejected)))]
-    if not report.ok:
-        rows.append(("no minimum", report.reason))
-    svg = _core.pose_graph_picture(report.graph, None, rejected) if len(report.graph) else ""
-    return _figure(rows, svg)
+Shown = Union[Map, Evaluation, Sequence[Evaluation], _core.PoseGraph, OptimizedGraph]
 
 
 def page_of(shown: Shown, *, title: str = "", truth: str = "ground truth") -> str:
@@ -103,10 +23,6 @@ def page_of(shown: Shown, *, title: str = "", truth: str = "ground truth") -> st
     It is that of `placegraph report`, `placegraph eval --report` and `placegraph graph optimize
     --report`. `title`: empty for the name of the map; `truth`: name of the truth of evaluations.
     """
-    from .evaluation import Comparison, Evaluation
-    from .graphs import OptimizedGraph
-    from .maps import Map
-
     if isinstance(shown, Map):
         return _core.map_page(shown._core, shown.path, title)
     if isinstance(shown, _core.PoseGraph):

@@ -26,6 +26,7 @@ from ._estimates import (
     read_truth,
     true_of,
 )
+from ._notebook import figure_html, table_html
 from ._tables import table_of
 from .datasets import Dataset
 from .options import EvaluationOptions, given_or_default
@@ -152,9 +153,12 @@ class Evaluation:
         return str(self._core)
 
     def _repr_html_(self) -> str:
-        from ._show import evaluation_html
-
-        return evaluation_html(self)
+        core = self._core
+        if not core.ok:
+            return table_html([(core.name, core.reason)])
+        rows = [(row["name"], f"{row['value']:.6g} {row['unit']}") for row in core.metric_rows()
+                if row["value"] is not None]
+        return figure_html(rows, self.picture().to_svg())
 
 
 class Comparison(Sequence[Evaluation]):

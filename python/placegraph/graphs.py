@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from . import _core
+from ._notebook import figure_html
 from ._optional import optional
 from .options import IncrementalOptions, PoseGraphOptions, given_or_default
 
@@ -205,3 +206,24 @@ def _attribute(data: dict[str, Any], key: str, owner: str) -> Any:
 
 def _networkx() -> Any:
     return optional("networkx", "networkx")
+
+
+def _graph_html(graph: PoseGraph) -> str:
+    rows = [("nodes", str(len(graph))), ("edges", str(len(graph.edges)))]
+    return figure_html(rows, _core.pose_graph_picture(graph) if len(graph) else "")
+
+
+def _optimized_html(report: OptimizedGraph) -> str:
+    rejected = [edge.constraint for edge in report.rejected]
+    rows = [("nodes", str(len(report.graph))),
+            ("cost", f"{report.chi2_initial:.6g} -> {report.chi2_final:.6g}"),
+            ("iterations", str(report.iterations)),
+            ("rejected constraints", str(len(rejected)))]
+    if not report.ok:
+        rows.append(("no minimum", report.reason))
+    svg = _core.pose_graph_picture(report.graph, None, rejected) if len(report.graph) else ""
+    return figure_html(rows, svg)
+
+
+setattr(PoseGraph, "_repr_html_", _graph_html)
+setattr(OptimizedGraph, "_repr_html_", _optimized_html)

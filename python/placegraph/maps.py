@@ -9,6 +9,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from . import _core
+from ._notebook import figure_html
 from ._optional import optional
 from ._tables import table_of
 from ._types import Path
@@ -221,9 +222,36 @@ class Map(MapFile):
         return self._localizer.localize(image)
 
     def _repr_html_(self) -> str:
-        from ._show import map_html
+        trajectory = self.trajectory()
+        unit = "m" if self.metric else "units"
+        accepted = sum(self.tables.loops["accepted"])
+        rows = [
+            ("frames", f"{len(trajectory)}, {trajectory.posed} with a pose"),
+            ("path", f"{trajectory.path_length:.4g} {unit}"),
+            ("keyframes", str(len(self.tables.keyframes["id"]))),
+            ("places", str(len(self._core.place_rows()))),
+            ("landmarks", str(len(self.tables.landmarks["id"]))),
+            ("loops", f"{accepted} accepted of {len(self.tables.loops['accepted'])}"),
+        ]
+        if self.judgement is not None:
+            rows.append(("judgement", self.judgement.verdict))
+            rows += [("", str(finding)) for finding in self.judgement.findings]
+        return figure_html(rows, self._picture() if trajectory.posed else "")
 
-        return map_html(self)
+    def _picture(self) -> str:
+        """Trajectories, places and loops, SVG; over the true trajectory if it is known."""
+        return _core.map_picture(self._core, self._truth(), os.path.basename(self.sequence))
+
+    def _truth(self) -> _core.Trajectory | None:
+        """The ground truth of the recording, if it is there and has a pose for each frame."""
+        if not os.path.isdir(self.sequence):
+            return None
+        try:
+            truth = _core.open_dataset(self.sequence).ground_truth
+        except _core.Error:
+            return None
+        frames = self.tables.frames["frame"]
+        return truth if truth is not None and len(frames) and frames.max() < len(truth) else None
 
     def __repr__(self) -> str:
         trajectory = self.trajectory()

@@ -15,13 +15,7 @@ import numpy as np
 import pytest
 
 import placegraph as pg
-from placegraph._show import (
-    Page,
-    evaluation_html,
-    optimized_html,
-    page_of,
-    pose_graph_html,
-)
+from placegraph._show import Page, page_of
 
 
 def data_of(page: str) -> dict[str, Any]:
@@ -87,7 +81,7 @@ def test_evaluation(drive: pathlib.Path, opened: pg.Map) -> None:
     truth = pg.open_dataset(str(drive)).ground_truth
     assert truth is not None
     result = pg.evaluate(truth, opened.trajectory(), name="mine")
-    html = evaluation_html(result)
+    html = result._repr_html_()
     assert lines_of(html) > 4
     row = next(row for row in result._core.metric_rows() if row["value"] is not None)
     assert row["name"] in html and f"{row['value']:.6g}" in html
@@ -112,10 +106,9 @@ def test_page_of_sequences(tmp_path: pathlib.Path) -> None:
 
 def test_pose_graph() -> None:
     graph = small_graph()
-    assert lines_of(pose_graph_html(graph)) >= 3
-    assert graph._repr_html_() == pose_graph_html(graph)  # type: ignore[attr-defined]
+    assert lines_of(graph._repr_html_()) >= 3  # type: ignore[attr-defined]
     report = pg.optimize(graph)
-    assert "iterations" in optimized_html(report)
+    assert "iterations" in report._repr_html_()  # type: ignore[attr-defined]
     empty = pg.optimize(pg.PoseGraph())
     assert "<th style='text-align:left'>nodes</th><td style='text-align:left'>0</td>" in (
         empty._repr_html_())  # type: ignore[attr-defined]

@@ -129,6 +129,7 @@ EvaluationResult evaluated(const Trajectory& truth, const Trajectory& estimate,
 
 Figure figure_of_results(const std::vector<EvaluationResult>& results, const std::string& kind,
                          bool own_truths) {
+  require(!results.empty(), "results: there is none");
   const auto chosen = choice_of<EvaluationPlot>(kind, evaluation_plot_names(), "kind");
   const nb::gil_scoped_release release;
   return figure_of(results, own_truths ? EvaluatedTruth::kOwn : EvaluatedTruth::kShared, chosen);
@@ -203,6 +204,7 @@ void bind_evaluation(nb::module_& m) {
   bind_result(m);
   m.def("evaluate_trajectory", &evaluated, "truth"_a, "estimate"_a, "options"_a,
         "name"_a = "estimate", doc("evaluate"));
+  m.def("evaluation_plots", &evaluation_plot_names, "Names of the pictures of an evaluation.");
   m.def("evaluation_figure", &figure_of_results, "results"_a, "kind"_a = "overview",
         "own_truths"_a = false,
         "A figure of the results that did not fail.\n\n`kind`: one of `evaluation_plots()`. "

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <placegraph/eval/plots/evaluation_plot.h>
 #include <placegraph/eval/plots/pose_graph_plot.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/datasets/open_dataset.h>
@@ -47,23 +46,6 @@ std::string map_picture(const StoredMap& stored, const std::optional<Trajectory>
             fmt::format("truth: it has no pose of frame {}", each.frame.value()));
   return to_svg(apps::run_plot(stored.map, stored.map.trajectory_optimized(),
                                truth ? &*truth : nullptr, title));
-}
-
-EvaluationPlot kind_of(const std::string& name) {
-  const std::vector<std::string>& names = evaluation_plot_names();
-  const auto found = std::ranges::find(names, name);
-  if (found == names.end()) throw ArgumentError(fmt::format("kind: there is no plot '{}'", name));
-  return static_cast<EvaluationPlot>(found - names.begin());
-}
-
-EvaluatedTruth truth_of(bool sequences) {
-  return sequences ? EvaluatedTruth::kOwn : EvaluatedTruth::kShared;
-}
-
-std::string evaluation_picture(const std::vector<EvaluationResult>& results,
-                               const std::string& kind, bool sequences) {
-  require(!results.empty(), "results: there is none");
-  return to_svg(figure_of(results, truth_of(sequences), kind_of(kind)));
 }
 
 std::string evaluation_page(const std::vector<EvaluationResult>& results, const std::string& truth,
@@ -121,9 +103,6 @@ void bind_reports(nb::module_& m) {
   m.def("map_picture", &map_picture, "map"_a, "truth"_a = nb::none(), "title"_a = "", released,
         "Trajectories, places and loops of a map, over the true trajectory, SVG. `truth`: poses "
         "of the recording's frames, T_world_cam.");
-  m.def("evaluation_plots", &evaluation_plot_names, "Names of the pictures of an evaluation.");
-  m.def("evaluation_picture", &evaluation_picture, "results"_a, "kind"_a = "overview",
-        "sequences"_a = false, released, "A picture of evaluated trajectories, SVG.");
   m.def("evaluation_page", &evaluation_page, "results"_a, "truth"_a, "sequences"_a = false,
         released, "The page of `placegraph eval --report`, HTML; `truth`: name of the truth.");
   m.def("pose_graph_picture", &pose_graph_picture, "graph"_a, "before"_a = nb::none(),

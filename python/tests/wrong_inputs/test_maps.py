@@ -78,7 +78,7 @@ CASES: list[tuple[str, Use, type[Exception], str]] = [
      "truth"),
     ("what is shown", lambda m, p: page_of(3), ValueError, "shown"),  # type: ignore[arg-type]
     ("nothing is shown", lambda m, p: page_of([]), ValueError, "shown"),
-    ("kind of a picture", lambda m, p: _core.evaluation_picture([], "overview"), ValueError,
+    ("kind of a picture", lambda m, p: _core.evaluation_figure([], "overview"), ValueError,
      "results"),
     ("page into no folder", lambda m, p: pg.show(m, p / "none" / "a.html"), OSError, "none"),
     ("other graph", lambda m, p: _core.pose_graph_picture(m.pose_graph, pg.PoseGraph()),
