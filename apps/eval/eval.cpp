@@ -4,8 +4,7 @@
 #include <placegraph/eval/plots/evaluation_plot.h>
 #include <placegraph/eval/trajectory/report.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/datasets/open_dataset.h>
-#include <placegraph/io/trajectories/trajectory_file.h>
+#include <placegraph/io/datasets/evaluated_files.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -20,127 +19,51 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// One estimate to evaluate: both files and the name of the result.
-struct Job {
-  std::string truth, estimate, name;
-};
+std::vector<EvaluatedFiles> files_of_folders(const std::string& truths,
+                                             const std::string& estimates) {
+  const PairedFiles paired = pair_files(truths, estimates);
+  for (const std::string& file : paired.alone)
+    warn(file + ": no file of that name in " + estimates);
+  return paired.pairs;
+}
 
-std::vector<fs::path> files_in(const std::string& folder) {
-  std::vector<fs::path> files;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
-    if (entry.is_regular_file() && entry.path().filename().string().front() != '.')
-      files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
+std::vector<EvaluatedFiles> files_of(const EvalArguments& arguments) {
+  const std::string& truth = arguments.truth;
+  const std::vector<std::string>& estimates = arguments.estimates;
+  const bool one_folder = estimates.size() == 1 && fs::is_directory(estimates.front()) &&
+                          !is_run_folder(estimates.front());
+  if (one_folder && fs::is_directory(truth)) {
+    require(!fs::exists(fs::path(truth) / "poses.txt"),
+            estimates.front() + ": is not an output folder of `placegraph run`");
+    return files_of_folders(truth, estimates.front());
+  }
+  const std::vector<std::string> names = distinct_names(estimates);
+  std::vector<EvaluatedFiles> files;
+  for (std::size_t i = 0; i < estimates.size(); ++i) {
+    const bool folder = fs::is_directory(estimates[i]);
+    require(!folder || is_run_folder(estimates[i]),
+            estimates[i] +
+                ": is a folder without trajectory_optimized.kitti, and the ground truth is "
+                "one trajectory");
+    files.push_back(
+        {truth, folder ? trajectory_of_run(estimates[i], truth_has_times(truth)) : estimates[i],
+         names[i]});
+  }
   return files;
 }
 
-// The file in `folder` with the same name, or else the only one with the same stem.
-fs::path partner(const fs::path& truth, const std::vector<fs::path>& candidates) {
-  std::vector<fs::path> same_stem;
-  for (const fs::path& candidate : candidates) {
-    if (candidate.filename() == truth.filename()) return candidate;
-    if (candidate.stem() == truth.stem()) same_stem.push_back(candidate);
-  }
-  if (same_stem.empty()) return {};
-  require(same_stem.size() == 1,
-          truth.filename().string() + ": both " + same_stem[0].filename().string() + " and " +
-              same_stem.back().filename().string() + " could be its estimate");
-  return same_stem.front();
-}
-
-std::vector<Job> folder_jobs(const std::string& truth, const std::string& estimate) {
-  std::vector<Job> jobs;
-  const std::vector<fs::path> candidates = files_in(estimate);
-  for (const fs::path& file : files_in(truth)) {
-    const fs::path match = partner(file, candidates);
-    if (match.empty())
-      warn(file.string() + ": no file of that name in " + estimate);
-    else
-      jobs.push_back({file.string(), match.string(), file.stem().string()});
-  }
-  require(!jobs.empty(), estimate + ": no file has the name of one in " + truth);
-  return jobs;
-}
-
-// The first of file name, folder name and path that no other estimate shares.
-std::string short_name(const std::string& estimate, const std::vector<std::string>& all) {
-  const auto folder = [](const fs::path& path) { return path.parent_path().filename(); };
-  const auto is_unique = [&](auto&& part) {
-    return 1 == std::count_if(all.begin(), all.end(), [&](const std::string& other) {
-             return part(fs::path(other)) == part(fs::path(estimate));
-           });
-  };
-  const fs::path path(estimate);
-  if (is_unique([](const fs::path& p) { return p.filename(); })) return path.filename().string();
-  if (!folder(path).empty() && is_unique(folder)) return folder(path).string();
-  return estimate;
-}
-
-bool is_run(const std::string& folder) {
-  return fs::exists(fs::path(folder) / "trajectory_optimized.kitti");
-}
-
-/// The trajectory of a run for a truth: with times where the truth has them.
-std::string trajectory_of_run(const std::string& folder, const std::string& truth) {
-  const std::string extension = fs::path(truth).extension().string();
-  const bool timed = fs::is_directory(truth) || extension == ".tum" || extension == ".csv" ||
-                     fs::exists(fs::path(truth).parent_path() / "times.txt");
-  return (fs::path(folder) / (timed ? "trajectory_optimized.tum" : "trajectory_optimized.kitti"))
-      .string();
-}
-
-std::vector<Job> jobs_of(const EvalArguments& arguments) {
-  std::string truth = arguments.truth;
-  const std::vector<std::string>& estimates = arguments.estimates;
-  const bool one_folder =
-      estimates.size() == 1 && fs::is_directory(estimates.front()) && !is_run(estimates.front());
-  if (fs::is_directory(truth)) {
-    const std::string poses = (fs::path(truth) / "poses.txt").string();
-    require(!one_folder || !fs::exists(poses),
-            estimates.front() + ": is not an output folder of `placegraph run`");
-    if (one_folder) return folder_jobs(truth, estimates.front());
-    if (fs::exists(poses)) truth = poses;  // otherwise a sequence of another kind
-  }
-  std::vector<Job> jobs;
-  for (const std::string& estimate : estimates) {
-    const bool folder = fs::is_directory(estimate);
-    require(!folder || is_run(estimate),
-            estimate +
-                ": is a folder without trajectory_optimized.kitti, and the ground truth is "
-                "one trajectory");
-    jobs.push_back({truth, folder ? trajectory_of_run(estimate, truth) : estimate,
-                    short_name(estimate, estimates)});
-  }
-  return jobs;
-}
-
-/// The ground truth of a sequence, as `run` reads it.
-Trajectory truth_of_sequence(const std::string& folder) {
-  const auto dataset = open_dataset(folder);
-  if (!dataset->ground_truth()) throw FileError(folder, "the sequence has no ground truth");
-  return *dataset->ground_truth();
-}
-
-/// `times` are those of a file without times of its own; others keep theirs.
-Trajectory read(const std::string& path, const std::string& times) {
-  Trajectory trajectory = read_trajectory(path, {}, Orientation::kOptional);
-  if (!trajectory.has_times && !times.empty()) give_times(trajectory, path, times);
-  return trajectory;
-}
-
 /// The trajectories are local, because long ones take most of the memory.
-PairingResult pair(const Job& job, const EvalArguments& arguments,
+PairingResult pair(const EvaluatedFiles& files, const EvalArguments& arguments,
                    const EvaluationOptions& options) {
   const std::string truth_times = arguments.times.empty() ? "" : arguments.times.front();
   const std::string estimate_times = arguments.times.empty() ? "" : arguments.times.back();
-  const Trajectory estimate = read(job.estimate, estimate_times);
-  Trajectory truth =
-      fs::is_directory(job.truth) ? truth_of_sequence(job.truth) : read(job.truth, truth_times);
+  const Trajectory estimate = read_evaluated(files.estimate, estimate_times);
+  Trajectory truth = read_truth(files.truth, truth_times);
   // A KITTI sequence stores its times beside its poses; they are needed if the estimate has times.
-  const fs::path beside = fs::path(job.truth).parent_path() / "times.txt";
-  if (!truth.has_times && estimate.has_times && fs::path(job.truth).filename() == "poses.txt" &&
-      options.association != Association::kIndex && fs::exists(beside))
-    give_times(truth, job.truth, beside.string());
+  const std::string beside = times_beside(files.truth);
+  if (!truth.has_times && estimate.has_times && options.association != Association::kIndex &&
+      !beside.empty())
+    truth = read_truth(files.truth, beside);
   return pair_trajectories(truth, estimate, options.association, options.time);
 }
 
@@ -223,11 +146,11 @@ EvalResult eval(const EvalArguments& arguments) {
   check_outputs(arguments);
   EvalResult result;
   const std::string& first = arguments.estimates.front();
-  result.folders = fs::is_directory(first) && !is_run(first);
-  for (const Job& job : jobs_of(arguments)) {
-    result.results.push_back(evaluate(pair(job, arguments, options), options, job.name));
+  result.folders = fs::is_directory(first) && !is_run_folder(first);
+  for (const EvaluatedFiles& files : files_of(arguments)) {
+    result.results.push_back(evaluate(pair(files, arguments, options), options, files.name));
     for (const std::string& warning : result.results.back().warnings)
-      warn(job.name + ": " + warning);
+      warn(files.name + ": " + warning);
   }
   if (!result.refused()) write_outputs(arguments, result);
   return result;

@@ -19,9 +19,7 @@ from ._estimates import (
     estimated_of,
     existing,
     files_of_times,
-    is_run,
     named_estimates,
-    pairs_of_files,
     read_estimate,
     read_truth,
     true_of,
@@ -295,12 +293,12 @@ def compare(
     shared = {"align": align, "times": times, "options": options}
     if isinstance(estimates, (str, os.PathLike)):
         folder = existing(estimates, "estimates")
-        if os.path.isdir(folder) and not is_run(folder):
+        if os.path.isdir(folder) and not _core.is_run_folder(folder):
             if isinstance(truth, (_core.Trajectory, Dataset)) or not os.path.isdir(
                     truths := existing(truth, "truth")):
                 raise _core.ArgumentError("truth: a folder is needed, as estimates is one")
-            return Comparison([evaluate(*pair, name=name, **shared)  # type: ignore[arg-type]
-                               for name, pair in pairs_of_files(truths, folder).items()], True)
+            return Comparison([evaluate(true, estimate, name=name, **shared)  # type: ignore[arg-type]
+                               for name, true, estimate in _core.pair_files(truths, folder)], True)
     named = named_estimates(estimates)
     return Comparison([evaluate(truth, each, name=name, **shared)  # type: ignore[arg-type]
                        for name, each in named], False)

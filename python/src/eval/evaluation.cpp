@@ -1,8 +1,9 @@
+#include <nanobind/stl/array.h>
 #include <placegraph/eval/plots/evaluation_plot.h>
 #include <placegraph/eval/trajectory/evaluate.h>
 #include <placegraph/eval/trajectory/report.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/trajectories/trajectory_file.h>
+#include <placegraph/io/datasets/evaluated_files.h>
 
 #include <limits>
 
@@ -196,6 +197,28 @@ void bind_result(nb::module_& m) {
       .def("__str__", [](const EvaluationResult& r) { return to_text(r); });
 }
 
+void bind_files(nb::module_& m) {
+  const auto released = nb::call_guard<nb::gil_scoped_release>();
+  m.def("is_run_folder", &is_run_folder, "folder"_a, doc("is_run_folder"));
+  m.def("distinct_names", &distinct_names, "paths"_a, doc("distinct_names"));
+  m.def("trajectory_of_run", &trajectory_of_run, "folder"_a, "timed"_a, doc("trajectory_of_run"));
+  m.def("truth_has_times", &truth_has_times, "truth"_a, doc("truth_has_times"));
+  m.def("times_beside", &times_beside, "truth"_a, doc("times_beside"));
+  m.def("read_evaluated", &read_evaluated, "path"_a, "times"_a = "", released,
+        doc("read_evaluated"));
+  m.def("read_truth", &read_truth, "path"_a, "times"_a = "", released, doc("read_truth"));
+  m.def(
+      "pair_files",
+      [](const std::string& truths, const std::string& estimates) {
+        std::vector<std::array<std::string, 3>> pairs;
+        for (const EvaluatedFiles& files : pair_files(truths, estimates).pairs)
+          pairs.push_back({files.name, files.truth, files.estimate});
+        return pairs;
+      },
+      "truths"_a, "estimates"_a,
+      "Pairs the files of two folders by their names: name, truth and estimate of each.");
+}
+
 }  // namespace
 
 void bind_evaluation(nb::module_& m) {
@@ -224,16 +247,7 @@ void bind_evaluation(nb::module_& m) {
       "results_to_table",
       [](const Results& results, bool average) { return to_table(results, average); }, "results"_a,
       "average"_a = false, "The results as a table of text; `average` adds a row of averages.");
-  m.def(
-      "read_evaluated",
-      [](const std::string& path, const std::string& times) {
-        Trajectory trajectory = read_trajectory(path, {}, Orientation::kOptional);
-        if (!trajectory.has_times && !times.empty()) give_times(trajectory, path, times);
-        return trajectory;
-      },
-      "path"_a, "times"_a = "", nb::call_guard<nb::gil_scoped_release>(),
-      "Reads a trajectory to evaluate: poses without orientation are accepted. `times`: file of "
-      "times for a trajectory without.");
+  bind_files(m);
 }
 
 }  // namespace placegraph::python
