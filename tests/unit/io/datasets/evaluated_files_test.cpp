@@ -3,6 +3,7 @@
 #include <placegraph/io/datasets/evaluated_files.h>
 
 #include <filesystem>
+#include <fstream>
 
 #include "tests/support/temporary_folder.h"
 
@@ -16,7 +17,7 @@ class EvaluatedFilesTest : public testing::Test {
  protected:
   void touch(const std::string& file) {
     fs::create_directories(fs::path(dir / file).parent_path());
-    test::write_file(dir / file, "");
+    std::ofstream(dir / file) << "";
   }
   test::TemporaryFolder dir;
 };
@@ -71,8 +72,8 @@ TEST_F(EvaluatedFilesTest, OfARunAreThoseWithTimesWhereTheTruthHasThem) {
 TEST_F(EvaluatedFilesTest, TruthIsThatOfAFileOrOfASequence) {
   touch("kitti/times.txt");
   const std::string pose = "1 0 0 2 0 1 0 3 0 0 1 4\n";
-  test::write_file(dir / "kitti/poses.txt", pose + pose);
-  test::write_file(dir / "kitti/times.txt", "0\n0.5\n");
+  std::ofstream(dir / "kitti/poses.txt") << pose << pose;
+  std::ofstream(dir / "kitti/times.txt") << "0\n0.5\n";
   const Trajectory folder = read_truth(dir / "kitti");
   EXPECT_EQ(folder.size(), 2u);
   EXPECT_FALSE(folder.has_times);
