@@ -34,12 +34,12 @@ fs::path estimate_of(const fs::path& truth, const std::vector<fs::path>& candida
   return same_stem.front();
 }
 
-std::string file_name(const std::string& path) {
+std::string name_of_file(const std::string& path) {
   const fs::path whole = path;
   return (whole.has_filename() ? whole : whole.parent_path()).filename().string();
 }
 
-std::string folder_name(const std::string& path) {
+std::string name_of_folder(const std::string& path) {
   const fs::path whole = path;
   return (whole.has_filename() ? whole : whole.parent_path()).parent_path().filename().string();
 }
@@ -73,9 +73,9 @@ std::vector<std::string> distinct_names(const std::vector<std::string>& paths) {
   };
   std::vector<std::string> names;
   for (const std::string& path : paths)
-    names.push_back(is_unique(path, file_name)     ? file_name(path)
-                    : is_unique(path, folder_name) ? folder_name(path)
-                                                   : path);
+    names.push_back(is_unique(path, name_of_file)     ? name_of_file(path)
+                    : is_unique(path, name_of_folder) ? name_of_folder(path)
+                                                      : path);
   return names;
 }
 
