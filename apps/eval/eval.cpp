@@ -4,13 +4,13 @@
 #include <placegraph/eval/plots/evaluation_plot.h>
 #include <placegraph/eval/trajectory/report.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/io/datasets/distinct_paths.h>
 #include <placegraph/io/datasets/evaluated_files.h>
 
 #include <algorithm>
 #include <filesystem>
 
 #include "apps/support/choice.h"
-#include "apps/support/distinct_paths.h"
 #include "apps/support/output.h"
 #include "apps/support/plot_file.h"
 

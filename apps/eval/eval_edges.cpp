@@ -5,6 +5,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/pose_graph/constraint_source.h>
 #include <placegraph/graph/text/json_text.h>
+#include <placegraph/io/files/rows_json.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -12,7 +13,6 @@
 #include "apps/eval/eval_noise.h"
 #include "apps/results/run_map.h"
 #include "apps/support/output.h"
-#include "apps/support/rows_json.h"
 
 namespace placegraph::apps {
 namespace {

@@ -4,6 +4,7 @@
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/text/json_text.h>
+#include <placegraph/io/files/rows_json.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 
 #include <charconv>
@@ -12,7 +13,6 @@
 #include <optional>
 
 #include "apps/support/output.h"
-#include "apps/support/rows_json.h"
 
 namespace placegraph::apps {
 namespace {

@@ -4,11 +4,11 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/text/json_text.h>
 #include <placegraph/io/exports/colmap_reader.h>
+#include <placegraph/pipeline/exports/colmap_folder.h>
 #include <placegraph/pipeline/map/colmap_bundle.h>
 
 #include <nlohmann/json.hpp>
 
-#include "apps/exports/colmap_folder.h"
 #include "apps/support/choice.h"
 #include "apps/support/output.h"
 #include "apps/support/usage.h"

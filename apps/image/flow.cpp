@@ -7,6 +7,7 @@
 #include <placegraph/graph/text/json_text.h>
 #include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/files/image_file.h>
+#include <placegraph/io/files/png_file.h>
 #include <placegraph/io/measurements/flow_file.h>
 
 #include <cmath>
@@ -16,7 +17,6 @@
 #include "apps/support/output.h"
 #include "apps/support/read_calib.h"
 #include "apps/support/usage.h"
-#include "apps/support/write_png.h"
 
 namespace placegraph::apps {
 namespace {

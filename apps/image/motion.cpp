@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/text/json_text.h>
+#include <placegraph/io/files/rows_json.h>
 
 #include <array>
 #include <cmath>
@@ -12,7 +13,6 @@
 #include "apps/support/choice.h"
 #include "apps/support/output.h"
 #include "apps/support/read_calib.h"
-#include "apps/support/rows_json.h"
 #include "apps/support/usage.h"
 
 namespace placegraph::apps {

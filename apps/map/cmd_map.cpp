@@ -1,5 +1,7 @@
 #include "apps/map/cmd_map.h"
 
+#include <placegraph/pipeline/exports/map_export.h>
+
 #include <CLI/CLI.hpp>
 #include <memory>
 
@@ -8,11 +10,11 @@
 #include "apps/map/cmd_map_learn.h"
 #include "apps/map/cmd_map_plan.h"
 #include "apps/map/cmd_map_semantic.h"
-#include "apps/map/map_export.h"
 #include "apps/map/map_info.h"
 #include "apps/map/map_validate.h"
 #include "apps/support/option_texts.h"
 #include "apps/support/output.h"
+#include "apps/support/progress.h"
 
 namespace placegraph::apps {
 namespace {
@@ -26,10 +28,7 @@ std::pair<CLI::App*, Arguments*> add_report(CLI::App& map, const std::string& na
   auto json = std::make_shared<bool>(false);
   CLI::App* command = map.add_subcommand(name, what);
   command->footer("placegraph map " + name + " out/town-run");
-  command
-      ->add_option("MAP", arguments->map, kMapText)
-      ->type_name(kInput)
-      ->required();
+  command->add_option("MAP", arguments->map, kMapText)->type_name(kInput)->required();
   command->add_flag("--json", *json, kJsonText);
   command->callback([arguments, json, run] {
     const Result result = run(*arguments);
@@ -55,10 +54,7 @@ void add_export_command(CLI::App& map) {
   auto arguments = std::make_shared<MapExportArguments>();
   CLI::App* command = map.add_subcommand("export", "Export parts of a saved map");
   command->footer("placegraph map export out/town-run --g2o graph.g2o --tum trajectory.tum");
-  command
-      ->add_option("MAP", arguments->map, kMapText)
-      ->type_name(kInput)
-      ->required();
+  command->add_option("MAP", arguments->map, kMapText)->type_name(kInput)->required();
   const std::vector<MapExportForm> forms = map_export_forms();
   arguments->paths.resize(forms.size());
   for (std::size_t i = 0; i < forms.size(); ++i)
@@ -77,7 +73,16 @@ void add_export_command(CLI::App& map) {
                    "for depth images, else 1 % of the median depth of the landmarks")
       ->check(CLI::PositiveNumber);
   command->add_flag("--force", arguments->force, kForceText);
-  command->callback([arguments] { print(to_text(map_export(*arguments))); });
+  command->callback([arguments] {
+    std::optional<Progress> progress;
+    const auto show = [&](std::size_t done, std::size_t total) {
+      if (!progress) progress.emplace("dense depth", static_cast<std::int64_t>(total));
+      progress->update(static_cast<std::int64_t>(done));
+    };
+    const MapExportResult result = map_export(*arguments, {messages(), show});
+    progress.reset();
+    print(to_text(result));
+  });
 }
 
 }  // namespace

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <placegraph/io/exports/colmap_reader.h>
 #include <placegraph/io/map/map_database.h>
+#include <placegraph/pipeline/exports/colmap_import.h>
 
-#include "apps/exports/colmap_import.h"
 #include "apps/support/output.h"
 
 namespace placegraph::apps {

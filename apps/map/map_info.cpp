@@ -2,14 +2,15 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/text/json_text.h>
+#include <placegraph/pipeline/map/map_file.h>
 #include <placegraph/pipeline/run.h>
 
 #include <algorithm>
 #include <set>
 
 #include "apps/results/component_files.h"
-#include "apps/results/map_file.h"
 #include "apps/results/run_map.h"
+#include "apps/support/output.h"
 
 namespace placegraph::apps {
 namespace {
@@ -100,7 +101,7 @@ std::string places_text(const json& list, const char* unit) {
 }  // namespace
 
 MapInfoResult map_info(const MapInfoArguments& arguments) {
-  const StoredMap stored = read_stored_map(arguments.map);
+  const StoredMap stored = read_stored_map(arguments.map, messages());
   MapInfoResult result{describe_map(map_path_of(arguments.map), stored)};
   if (arguments.places) result.summary["place_list"] = list_places(stored);
   return result;

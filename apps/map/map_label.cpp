@@ -8,6 +8,7 @@
 #include <placegraph/io/files/input_file.h>
 #include <placegraph/io/files/text_file.h>
 #include <placegraph/io/measurements/label_file.h>
+#include <placegraph/pipeline/map/map_file.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -16,7 +17,6 @@
 #include <memory>
 #include <opencv2/imgproc.hpp>
 
-#include "apps/results/map_file.h"
 #include "apps/support/image_range.h"
 #include "apps/support/output.h"
 

@@ -5,9 +5,10 @@
 #include <placegraph/graph/text/json_text.h>
 #include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/datasets/open_dataset.h>
+#include <placegraph/pipeline/map/map_file.h>
+#include <placegraph/pipeline/map/map_floor_plan.h>
 
 #include "apps/results/floor_plan_files.h"
-#include "apps/results/map_file.h"
 #include "apps/support/output.h"
 
 namespace placegraph::apps {
@@ -18,7 +19,7 @@ MapPlanResult map_plan(const MapPlanArguments& arguments) {
     set_option(options, setting, option_notes());
   options.check();
   require_free_folder(arguments.out, arguments.force);
-  const StoredMap stored = read_stored_map(arguments.map);
+  const StoredMap stored = read_stored_map(arguments.map, messages());
   if (!stored.origin.calibration || stored.map.keyframes.empty())
     throw NoResult(arguments.map + ": nothing in it has a pose");
   const auto dataset = open_dataset(stored.origin.sequence);

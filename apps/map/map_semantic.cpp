@@ -5,11 +5,11 @@
 #include <placegraph/graph/text/json_text.h>
 #include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/datasets/open_dataset.h>
+#include <placegraph/pipeline/map/map_file.h>
 
 #include <algorithm>
 #include <optional>
 
-#include "apps/results/map_file.h"
 #include "apps/support/output.h"
 
 namespace placegraph::apps {
@@ -20,7 +20,7 @@ MapSemanticResult map_semantic(const MapSemanticArguments& a) {
   options.check();
   require_free_folder(a.out, a.force);
   check_urban_models(options, a.models);
-  const StoredMap stored = read_stored_map(a.map);
+  const StoredMap stored = read_stored_map(a.map, messages());
   if (!stored.origin.calibration || stored.map.keyframes.empty())
     throw NoResult(a.map + ": nothing in it has a pose");
   std::optional<Georeference> earth;

@@ -4,12 +4,11 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/text/id_format.h>
 #include <placegraph/graph/text/json_text.h>
+#include <placegraph/pipeline/map/map_file.h>
 #include <placegraph/pipeline/places/place_mapper.h>
 
 #include <nlohmann/json.hpp>
 #include <set>
-
-#include "apps/results/map_file.h"
 
 namespace placegraph::apps {
 namespace {

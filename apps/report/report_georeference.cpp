@@ -2,6 +2,7 @@
 
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/geometry/geodesy.h>
+#include <placegraph/io/files/json_file.h>
 
 #include <filesystem>
 #include <limits>
@@ -9,7 +10,6 @@
 
 #include "apps/page/column.h"
 #include "apps/results/semantic_map_files.h"
-#include "apps/support/json_file.h"
 
 namespace placegraph::apps {
 namespace {

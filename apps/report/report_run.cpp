@@ -5,6 +5,8 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/datasets/open_dataset.h>
+#include <placegraph/io/files/json_file.h>
+#include <placegraph/pipeline/map/map_file.h>
 #include <placegraph/pipeline/run.h>
 
 #include <algorithm>
@@ -21,10 +23,8 @@
 #include "apps/report/report_planes.h"
 #include "apps/report/report_street_map.h"
 #include "apps/results/judgement_text.h"
-#include "apps/results/map_file.h"
 #include "apps/results/run_judgement.h"
 #include "apps/results/run_map.h"
-#include "apps/support/json_file.h"
 #include "apps/support/output.h"
 
 namespace placegraph::apps {
@@ -205,8 +205,8 @@ std::string name_of_run(const std::string& map_path) {
 }
 
 json describe_run_for_report(const std::string& file_or_folder, const std::string& georeference) {
-  return describe_run_for_report(read_stored_map(file_or_folder), map_path_of(file_or_folder),
-                                 georeference);
+  return describe_run_for_report(read_stored_map(file_or_folder, messages()),
+                                 map_path_of(file_or_folder), georeference);
 }
 
 json describe_run_for_report(const StoredMap& stored, const std::string& path,

@@ -6,7 +6,6 @@
 #include <placegraph/io/datasets/dataset.h>
 #include <placegraph/io/map/map_database.h>
 #include <placegraph/io/scene/indoor_map_file.h>
-#include <placegraph/pipeline/lens_correction.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -54,20 +53,6 @@ json check_json(const FloorPlanCheck& check) {
 }
 
 }  // namespace
-
-IndoorMap plan_of_map(const Map& map, const Calibration& calibration, const Dataset& dataset,
-                      Sensor sensor, double lens_k1, const IndoorMapperOptions& options) {
-  LensCorrection lens(dataset.calibration(sensor));
-  if (lens_k1 != 0) lens.add(lens_k1);
-  return map_indoors(
-      map, calibration,
-      [&](const Keyframe& keyframe) {
-        Frame frame = dataset.frame(static_cast<std::size_t>(keyframe.frame.value()), sensor);
-        if (lens_k1 != 0) lens.apply(frame);
-        return frame;
-      },
-      options);
-}
 
 void save_labels(const std::string& map_file, const PlaceGraph& places) {
   StoredMap stored = read_map(map_file);

@@ -13,10 +13,6 @@ class Dataset;
 
 namespace placegraph::apps {
 
-/// The floor plan of a map made from `dataset`; `lens_k1` is the distortion that was removed.
-IndoorMap plan_of_map(const Map& map, const Calibration& calibration, const Dataset& dataset,
-                      Sensor sensor, double lens_k1, const IndoorMapperOptions& options);
-
 /// Writes floor_plan.json, floor_plan.svg and floor_plan.png into a folder.
 void write_floor_plan(const std::string& folder, const IndoorMap& plan, const Map& map,
                       const std::string& title);

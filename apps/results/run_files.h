@@ -8,8 +8,6 @@
 namespace placegraph::apps {
 
 /// Contents of the files that `placegraph run` writes.
-std::string places_json(const Map& map);
-std::string loops_csv(const Map& map);  ///< columns query,match,inliers,accepted,stage,...
 /// Number of constraints from other sensors, and their deviation from the map.
 /// The deviation is the median of |e| in stated standard deviations, per coordinate.
 nlohmann::json describe_motion(const PlaceGraph& graph);

@@ -2,13 +2,12 @@
 
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/pose_graph/constraint_source.h>
+#include <placegraph/io/files/json_file.h>
 #include <placegraph/io/graphs/g2o.h>
 #include <placegraph/io/map/map_database.h>
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
-
-#include "apps/support/json_file.h"
 
 namespace placegraph::apps {
 namespace {

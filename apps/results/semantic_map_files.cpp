@@ -5,6 +5,7 @@
 #include <placegraph/frontend/scene/moving_classes.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/datasets/dataset.h>
+#include <placegraph/io/files/json_file.h>
 #include <placegraph/io/scene/labelled_mesh_file.h>
 #include <placegraph/io/scene/semantic_map_file.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
@@ -17,7 +18,6 @@
 
 #include "apps/results/run_judgement.h"
 #include "apps/shipped/scene_models.h"
-#include "apps/support/json_file.h"
 #include "apps/support/output.h"
 #include "apps/support/plot_file.h"
 #include "apps/support/progress.h"

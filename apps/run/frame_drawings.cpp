@@ -7,6 +7,7 @@
 #include <placegraph/graph/image/jpeg_codec.h>
 #include <placegraph/graph/image/picture_plugin.h>
 #include <placegraph/io/files/atomic_file.h>
+#include <placegraph/io/files/png_file.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -16,7 +17,6 @@
 
 #include "apps/run/draw_frame.h"
 #include "apps/support/output.h"
-#include "apps/support/write_png.h"
 
 namespace placegraph::apps {
 namespace {

@@ -10,6 +10,8 @@
 #include <placegraph/io/graphs/place_graph_export.h>
 #include <placegraph/io/map/map_database.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
+#include <placegraph/pipeline/exports/place_tables.h>
+#include <placegraph/pipeline/map/map_floor_plan.h>
 #include <sys/resource.h>
 
 #include <chrono>

@@ -1,9 +1,10 @@
 #include "apps/shell/path_options.h"
 
+#include <placegraph/io/datasets/distinct_paths.h>
+
 #include <CLI/CLI.hpp>
 #include <filesystem>
 
-#include "apps/support/distinct_paths.h"
 #include "apps/support/option_texts.h"
 
 namespace placegraph::apps {

@@ -1,10 +1,11 @@
 #pragma once
+#include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/log.h>
+#include <placegraph/io/files/output_file.h>
 
 #include <exception>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 namespace placegraph::apps {
 
@@ -21,12 +22,6 @@ enum class ExitCode {
 inline constexpr const char* kExitCodesText =
     "0 success, 1 the data allow no result, 2 usage, configuration or file error, 3 no memory or "
     "an internal error, 130 a signal ended a run";
-
-/// The data allow no result: `main` prints the reason and exits with code 1.
-class NoResult : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 /// A signal ended the command early: `main` prints the reason and ends with exit code 130.
 class Interrupted : public std::runtime_error {
@@ -46,38 +41,8 @@ struct Failure {
 /// internal: a function has broken its contract.
 Failure failure_of(const std::exception& error);
 
-/// Checks that a file can be written to `path`, before the work for its content.
-/// Throws ArgumentError if the file exists and `force` is not set, or if its folder does not exist,
-/// and FileError if nothing can be written there.
-void require_free(const std::string& path, bool force);
-
-/// The same for an output folder, which may exist if it is empty.
-void require_free_folder(const std::string& path, bool force);
-
-/// A folder for results, made before the work for them.
-/// If the work ends without results, the folders that were made are removed. The folder is locked
-/// until then: throws FileError if another process has locked it, or if it cannot be made or
-/// written to.
-class OutputFolder {
- public:
-  explicit OutputFolder(std::string path);
-  ~OutputFolder();
-  OutputFolder(const OutputFolder&) = delete;
-  OutputFolder& operator=(const OutputFolder&) = delete;
-
- private:
-  std::vector<std::string> made_;  ///< folders that were made, from the innermost on
-  int locked_ = -1;                ///< descriptor of the folder; its lock ends with it
-};
-
-/// The extension of a file name with its dot; empty if there is none.
-std::string extension_of(const std::string& path);
-
 /// Checks that a file for a page has an extension that browsers know, .html or .htm.
 void require_page_name(const std::string& path);
-
-/// Writes a whole file, atomically; bytes as they are. Throws FileError.
-void write_file(const std::string& path, const std::string& content);
 
 /// Prints the result of a command on stdout. Throws Error if that cannot be written.
 void print(const std::string& text);
@@ -93,6 +58,9 @@ void note(const std::string& message);
 
 /// Prints notes on old spellings of options, as a sink of read_options and set_option.
 LogSink option_notes();
+
+/// Prints notes and warnings, as a sink of the library; messages of other levels are left out.
+LogSink messages();
 
 /// Prints "warning: ..." as one line on stderr.
 void warn(const std::string& message);

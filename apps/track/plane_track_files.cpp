@@ -1,11 +1,11 @@
-#include "apps/support/json_file.h"
-#include "apps/track/plane_track_files.h"
-
 #include <fmt/format.h>
 #include <placegraph/graph/image/png_codec.h>
+#include <placegraph/io/files/json_file.h>
 
 #include <nlohmann/json.hpp>
 #include <opencv2/imgproc.hpp>
+
+#include "apps/track/plane_track_files.h"
 
 namespace placegraph::apps {
 namespace {

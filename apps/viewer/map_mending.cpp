@@ -3,14 +3,13 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/map/map_database.h>
+#include <placegraph/pipeline/map/map_file.h>
 
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
-
-#include "apps/results/map_file.h"
 
 namespace placegraph::apps {
 namespace {

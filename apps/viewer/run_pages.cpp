@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/pipeline/map/map_file.h>
 #include <placegraph/pipeline/map/map_geometry.h>
 
 #include <algorithm>
@@ -15,7 +16,7 @@
 #include "apps/page/landmark_rows.h"
 #include "apps/report/report.h"
 #include "apps/report/report_run.h"
-#include "apps/results/map_file.h"
+#include "apps/support/output.h"
 
 namespace placegraph::apps {
 namespace {
@@ -80,7 +81,7 @@ HttpResponse json_response(const json& data, int status) {
 RunPages::RunPages(const std::vector<std::string>& runs, std::string program)
     : program_(std::move(program)) {
   for (const std::string& run : runs) {
-    auto stored = std::make_shared<const StoredMap>(read_stored_map(run));
+    auto stored = std::make_shared<const StoredMap>(read_stored_map(run, messages()));
     auto images = std::make_unique<MapImages>(stored->origin);
     const std::string path = map_path_of(run);
     runs_.push_back({path, name_of_run(path), false, std::move(stored), std::move(images)});
@@ -133,8 +134,8 @@ HttpResponse RunPages::of_frame(const std::string& path) {
   if (at->rest == "image.jpg") {
     auto jpeg = runs_[at->run].images->jpeg(FrameId(at->frame));
     if (!jpeg)
-      return text_response(404, fmt::format("no frame {} in {}", at->frame,
-                                            stored(at->run)->origin.sequence));
+      return text_response(
+          404, fmt::format("no frame {} in {}", at->frame, stored(at->run)->origin.sequence));
     HttpResponse response;
     response.type = "image/jpeg";
     response.body = std::move(*jpeg);

@@ -29,6 +29,12 @@ class FileError : public Error {
   FileError(const std::string& path, const std::string& message) : FileError(path, 0, message) {}
 };
 
+/// Data that allow no file: what was to be written would be empty or meaningless.
+class NoResult : public Error {
+ public:
+  using Error::Error;
+};
+
 /// Throws ArgumentError(message) unless `condition` holds.
 inline void require(bool condition, const char* message) {
   if (!condition) throw ArgumentError(message);

@@ -11,6 +11,7 @@ void bind_errors(nb::module_& m) {
   const auto both = [&](PyObject* python) { return nb::make_tuple(error, nb::borrow(python)); };
   nb::exception<ArgumentError>(m, "ArgumentError", both(PyExc_ValueError));
   nb::exception<FileError>(m, "FileError", both(PyExc_OSError));
+  nb::exception<NoResult>(m, "NoResult", m.attr("Error"));
 }
 
 }  // namespace placegraph::python

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/text/json_text.h>
+#include <placegraph/io/files/rows_json.h>
 #include <placegraph/io/measurements/segment_file.h>
 
 #include <nlohmann/json.hpp>
@@ -9,7 +10,6 @@
 
 #include "apps/support/output.h"
 #include "apps/support/read_calib.h"
-#include "apps/support/rows_json.h"
 #include "apps/support/usage.h"
 
 namespace placegraph::apps {

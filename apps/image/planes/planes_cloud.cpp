@@ -6,6 +6,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/text/json_text.h>
 #include <placegraph/io/files/image_file.h>
+#include <placegraph/io/files/png_file.h>
 #include <placegraph/io/measurements/point_cloud_file.h>
 
 #include <algorithm>
@@ -19,7 +20,6 @@
 #include "apps/support/output.h"
 #include "apps/support/read_calib.h"
 #include "apps/support/usage.h"
-#include "apps/support/write_png.h"
 
 namespace placegraph::apps {
 namespace {

@@ -9,6 +9,7 @@
 #include <placegraph/graph/text/json_text.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/files/image_list.h>
+#include <placegraph/io/files/png_file.h>
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -21,7 +22,6 @@
 #include "apps/support/output.h"
 #include "apps/support/progress.h"
 #include "apps/support/usage.h"
-#include "apps/support/write_png.h"
 
 namespace placegraph::apps {
 namespace {

@@ -7,6 +7,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/text/json_text.h>
 #include <placegraph/io/files/image_file.h>
+#include <placegraph/io/files/png_file.h>
 
 #include <array>
 #include <cmath>
@@ -18,7 +19,6 @@
 #include "apps/shipped/scene_models.h"
 #include "apps/support/output.h"
 #include "apps/support/read_calib.h"
-#include "apps/support/write_png.h"
 
 namespace placegraph::apps {
 namespace {

@@ -4,12 +4,12 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/text/json_text.h>
 #include <placegraph/io/map/map_database.h>
+#include <placegraph/pipeline/map/map_file.h>
 
 #include <algorithm>
 #include <charconv>
 #include <nlohmann/json.hpp>
 
-#include "apps/results/map_file.h"
 #include "apps/support/output.h"
 
 namespace placegraph::apps {
@@ -54,7 +54,7 @@ MapLoopsResult map_loops(const MapLoopsArguments& arguments) {
   std::vector<std::pair<FrameId, FrameId>> pairs;
   for (const std::string& pair : arguments.pairs) pairs.push_back(frames_of(pair));
   const std::string path = map_path_of(arguments.map);
-  StoredMap stored = read_stored_map(arguments.map);
+  StoredMap stored = read_stored_map(arguments.map, messages());
   const SlamOptions options = options_of_run(path, stored.origin).slam;
   try {
     LoopEditor editor(std::move(stored), options);

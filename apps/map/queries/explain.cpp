@@ -10,6 +10,7 @@
 #include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/datasets/open_dataset.h>
 #include <placegraph/pipeline/map/explanation.h>
+#include <placegraph/pipeline/map/map_file.h>
 #include <placegraph/pipeline/map_environment.h>
 #include <placegraph/pipeline/run.h>
 
@@ -17,7 +18,6 @@
 #include <cmath>
 #include <filesystem>
 
-#include "apps/results/map_file.h"
 #include "apps/results/run_map.h"
 #include "apps/shipped/scene_models.h"
 #include "apps/support/output.h"
@@ -221,7 +221,7 @@ std::string sees_text(const json& sees) {
 }  // namespace
 
 ExplainResult explain(const ExplainArguments& arguments) {
-  const StoredMap stored = read_stored_map(arguments.map);
+  const StoredMap stored = read_stored_map(arguments.map, messages());
   const auto explanation = explain_frame(stored.map, arguments.frame);
   if (!explanation) throw NoResult(arguments.map + ": has no frame " + to_string(arguments.frame));
   RunOptions options;

@@ -6,6 +6,7 @@
 #include <placegraph/graph/pose_graph/node_index.h>
 #include <placegraph/graph/text/csv_text.h>
 #include <placegraph/graph/text/id_format.h>
+#include <placegraph/io/files/json_file.h>
 #include <placegraph/io/graphs/g2o.h>
 #include <placegraph/io/graphs/pose_graph_file.h>
 #include <placegraph/io/map/map_database.h>
@@ -16,7 +17,6 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/results/run_map.h"
-#include "apps/support/json_file.h"
 
 namespace placegraph::apps {
 namespace {

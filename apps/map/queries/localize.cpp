@@ -4,14 +4,14 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/text/json_text.h>
 #include <placegraph/io/config/yaml_config.h>
+#include <placegraph/io/files/json_file.h>
+#include <placegraph/pipeline/map/map_file.h>
 #include <placegraph/pipeline/run.h>
 
 #include <nlohmann/json.hpp>
 #include <opencv2/core/utility.hpp>
 
 #include "apps/map/queries/query_images.h"
-#include "apps/results/map_file.h"
-#include "apps/support/json_file.h"
 #include "apps/support/output.h"
 #include "apps/support/progress.h"
 #include "apps/support/usage.h"
@@ -187,7 +187,7 @@ LocalizeResult localize_all(const LocalizeArguments& arguments, const MapLocaliz
 LocalizeResult localize(const LocalizeArguments& arguments) {
   require_free(arguments.out, arguments.force);
   const std::string path = map_path_of(arguments.map);
-  StoredMap stored = read_stored_map(arguments.map);
+  StoredMap stored = read_stored_map(arguments.map, messages());
   const LocalizerOptions options = options_of(arguments, stored, path);
   const QueryImages images = query_images(arguments.images, arguments.range, stored.origin);
   for (const std::string& note : images.notes) warn(arguments.images + ": " + note);

@@ -6,12 +6,12 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/text/id_format.h>
 #include <placegraph/graph/text/json_text.h>
+#include <placegraph/io/files/json_file.h>
 
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "apps/support/json_file.h"
 #include "apps/support/output.h"
 #include "apps/support/plot_file.h"
 
@@ -91,7 +91,8 @@ RouteResult route(const RouteArguments& arguments) {
   if (!result.route.outcome) throw NoResult(result.route.outcome.reason);
   if (arguments.backtrack) result.route = backtracked(result.route);
   if (!arguments.out.empty()) write_file(arguments.out, to_json(result));
-  if (!arguments.plot.empty()) write_plot(arguments.plot, to_svg(route_plot(result.route, result.map)));
+  if (!arguments.plot.empty())
+    write_plot(arguments.plot, to_svg(route_plot(result.route, result.map)));
   return result;
 }
 

@@ -1,19 +1,20 @@
 #include "python/src/graph/maps.h"
 
 #include <fmt/format.h>
+#include <nanobind/stl/map.h>
+#include <nanobind/stl/shared_ptr.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/exports/colmap_reader.h>
 #include <placegraph/io/map/map_database.h>
+#include <placegraph/pipeline/exports/colmap_import.h>
+#include <placegraph/pipeline/exports/map_export.h>
 #include <placegraph/pipeline/map/explanation.h>
+#include <placegraph/pipeline/map/map_file.h>
 
-#include <nanobind/stl/map.h>
-#include <nanobind/stl/shared_ptr.h>
 #include <algorithm>
 #include <memory>
 
-#include "apps/exports/colmap_import.h"
-#include "apps/map/map_export.h"
-#include "apps/results/map_file.h"
+#include "python/src/warnings.h"
 
 namespace placegraph::python {
 namespace {
@@ -21,13 +22,13 @@ namespace {
 using namespace nb::literals;
 
 std::shared_ptr<StoredMap> open(const std::string& path) {
-  return std::make_shared<StoredMap>(read_map(apps::map_path_of(path)));
+  return std::make_shared<StoredMap>(read_map(map_path_of(path)));
 }
 
 std::shared_ptr<StoredMap> from_colmap(const std::string& folder, const std::string& sequence,
                                        bool metric) {
   return std::make_shared<StoredMap>(
-      apps::map_of_colmap(read_colmap(folder, ColmapLenses::kPinhole), sequence, metric));
+      map_of_colmap(read_colmap(folder, ColmapLenses::kPinhole), sequence, metric));
 }
 
 Explanation explain(const StoredMap& stored, std::int64_t frame) {
@@ -52,7 +53,7 @@ nb::object thumbnail(const StoredMap& stored, std::int64_t id) {
 }
 
 /// The name of a form in Python: that of its flag.
-std::string name_of(const apps::MapExportForm& form) {
+std::string name_of(const MapExportForm& form) {
   std::string name = form.flag.substr(2);
   std::ranges::replace(name, '-', '_');
   return name;
@@ -61,15 +62,14 @@ std::string name_of(const apps::MapExportForm& form) {
 /// Names of the forms of `export_files` and what each is.
 std::vector<std::pair<std::string, std::string>> export_forms() {
   std::vector<std::pair<std::string, std::string>> forms;
-  for (const apps::MapExportForm& form : apps::map_export_forms())
-    forms.emplace_back(name_of(form), form.what);
+  for (const MapExportForm& form : map_export_forms()) forms.emplace_back(name_of(form), form.what);
   return forms;
 }
 
 std::string export_files(const StoredMap& stored, const std::map<std::string, std::string>& paths,
                          std::optional<int> component, bool ascii, double resolution_m, bool walls,
                          std::optional<double> voxel, bool force) {
-  apps::MapExportArguments arguments;
+  MapExportArguments arguments;
   arguments.map = "map";
   arguments.component = component;
   arguments.ascii = ascii;
@@ -78,14 +78,14 @@ std::string export_files(const StoredMap& stored, const std::map<std::string, st
   arguments.voxel = voxel;
   arguments.force = force;
   std::size_t known = 0;
-  for (const apps::MapExportForm& form : apps::map_export_forms()) {
+  for (const MapExportForm& form : map_export_forms()) {
     const auto path = paths.find(name_of(form));
     arguments.paths.push_back(path == paths.end() ? "" : path->second);
     known += path != paths.end();
   }
   require(known == paths.size(), "paths: the name of a form is unknown");
   require(resolution_m > 0, "resolution_m: it is not positive");
-  return apps::to_text(apps::map_export(stored, arguments));
+  return to_text(map_export(stored, arguments, {.log = python_warnings(), .progress = {}}));
 }
 
 void bind_files(nb::class_<StoredMap>& map) {

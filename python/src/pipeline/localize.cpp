@@ -1,10 +1,10 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/files/image_file.h>
+#include <placegraph/pipeline/map/map_file.h>
 #include <placegraph/pipeline/map/map_localizer.h>
 
 #include <memory>
 
-#include "apps/results/map_file.h"
 #include "python/src/graph/ids.h"
 #include "python/src/graph/images.h"
 #include "python/src/graph/maps.h"
@@ -61,7 +61,7 @@ void bind_localize(nb::module_& m) {
       "localizer_options",
       [](const StoredMap& stored) {
         return std::make_unique<OptionSetOf<LocalizerOptions>>(
-            apps::localizer_options_of("map", stored.origin));
+            localizer_options_of("map", stored.origin));
       },
       "map"_a, "Options for a map: cues of its views, and the loop options of its run.");
   nb::class_<MapLocalizer>(m, "MapLocalizer", doc("MapLocalizer"))

@@ -14,6 +14,7 @@
 #include "apps/results/run_files.h"
 #include "apps/support/output.h"
 #include "python/src/graph/maps.h"
+#include "python/src/warnings.h"
 
 namespace placegraph::python {
 namespace {
@@ -85,17 +86,10 @@ std::string pose_graph_page(const PoseGraph& graph, const PoseGraph& before,
   return apps::graph_page({title, before, graph, chi2, rejected, {}}, kProgram);
 }
 
-/// What the commands would print on stderr are Python's warnings.
-void warn(LogLevel, const std::string& message) {
-  const nb::gil_scoped_acquire gil;
-  if (PyErr_WarnEx(PyExc_RuntimeWarning, message.c_str(), 1) != 0) throw nb::python_error();
-}
-
 }  // namespace
 
 void bind_reports(nb::module_& m) {
-  apps::set_message_sink(&warn);
-  nb::exception<apps::NoResult>(m, "NoResult", m.attr("Error"));
+  apps::set_message_sink(python_warnings());
   const auto released = nb::call_guard<nb::gil_scoped_release>();
   m.def("map_page", &map_page, "map"_a, "path"_a = "", "title"_a = "", released,
         "The page of a map as `placegraph report` writes it, HTML. `path`: the file of the map, "

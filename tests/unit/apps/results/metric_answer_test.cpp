@@ -2,13 +2,13 @@
 #include <placegraph/io/graphs/g2o.h>
 #include <placegraph/io/map/sqlite.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
+#include <placegraph/pipeline/exports/gltf_export.h>
+#include <placegraph/pipeline/exports/ply_export.h>
 #include <placegraph/pipeline/run.h>
 
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "apps/exports/gltf_export.h"
-#include "apps/exports/ply_export.h"
 #include "apps/map/map_info.h"
 #include "apps/map/queries/explain.h"
 #include "apps/map/queries/georeference_files.h"

@@ -1,0 +1,20 @@
+#include <placegraph/pipeline/lens_correction.h>
+#include <placegraph/pipeline/map/map_floor_plan.h>
+
+namespace placegraph {
+
+IndoorMap plan_of_map(const Map& map, const Calibration& calibration, const Dataset& dataset,
+                      Sensor sensor, double lens_k1, const IndoorMapperOptions& options) {
+  LensCorrection lens(dataset.calibration(sensor));
+  if (lens_k1 != 0) lens.add(lens_k1);
+  return map_indoors(
+      map, calibration,
+      [&](const Keyframe& keyframe) {
+        Frame frame = dataset.frame(static_cast<std::size_t>(keyframe.frame.value()), sensor);
+        if (lens_k1 != 0) lens.apply(frame);
+        return frame;
+      },
+      options);
+}
+
+}  // namespace placegraph

@@ -1,0 +1,12 @@
+#pragma once
+#include <placegraph/graph/scene/indoor_map.h>
+#include <placegraph/io/datasets/dataset.h>
+#include <placegraph/pipeline/scene/indoor_mapper.h>
+
+namespace placegraph {
+
+/// The floor plan of a map made from `dataset`; `lens_k1` is the distortion that was removed.
+IndoorMap plan_of_map(const Map& map, const Calibration& calibration, const Dataset& dataset,
+                      Sensor sensor, double lens_k1, const IndoorMapperOptions& options);
+
+}  // namespace placegraph

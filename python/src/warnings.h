@@ -1,0 +1,17 @@
+#pragma once
+#include <placegraph/graph/core/log.h>
+
+#include "python/src/bindings.h"
+
+namespace placegraph::python {
+
+/// Makes warnings of the library those of Python; messages of other levels are left out.
+inline LogSink python_warnings() {
+  return [](LogLevel level, const std::string& message) {
+    if (level != LogLevel::kWarning) return;
+    const nb::gil_scoped_acquire gil;
+    if (PyErr_WarnEx(PyExc_RuntimeWarning, message.c_str(), 1) != 0) throw nb::python_error();
+  };
+}
+
+}  // namespace placegraph::python
