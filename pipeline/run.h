@@ -1,5 +1,6 @@
 #pragma once
 #include <placegraph/graph/core/ids.h>
+#include <placegraph/graph/core/stage_times.h>
 #include <placegraph/graph/measurements/data_note.h>
 #include <placegraph/io/datasets/dataset.h>
 #include <placegraph/pipeline/run_options.h>
