@@ -5,7 +5,7 @@
 #include <placegraph/graph/text/id_format.h>
 #include <placegraph/graph/text/json_text.h>
 #include <placegraph/pipeline/map/map_file.h>
-#include <placegraph/pipeline/places/place_mapper.h>
+#include <placegraph/pipeline/places/history_check.h>
 
 #include <nlohmann/json.hpp>
 #include <set>
@@ -40,8 +40,7 @@ MapValidateResult map_validate(const MapValidateArguments& arguments) {
   (void)map.trajectory_optimized();
   if (!stored.history.keyframes.empty()) {
     try {
-      (void)PlaceMapper(PlaceOptions(), IncrementalOptions(), map.place_graph.places,
-                        stored.history);
+      check_history(map.place_graph.places, stored.history);
     } catch (const ArgumentError& error) {
       throw FileError(path, std::string("tables link, part, place: ") + error.what());
     }

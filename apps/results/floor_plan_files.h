@@ -1,7 +1,6 @@
 #pragma once
 #include <placegraph/graph/map.h>
 #include <placegraph/graph/scene/indoor_map.h>
-#include <placegraph/pipeline/scene/indoor_mapper.h>
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>

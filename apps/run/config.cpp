@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/config/yaml_config.h>
-#include <placegraph/pipeline/flight/flight_estimator.h>
+#include <placegraph/pipeline/flight/flight_options.h>
 #include <placegraph/pipeline/run.h>
 
 #include <algorithm>

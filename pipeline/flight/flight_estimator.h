@@ -4,6 +4,7 @@
 #include <placegraph/graph/image/frame.h>
 #include <placegraph/graph/measurements/marker_layout.h>
 #include <placegraph/pipeline/flight/delay_line.h>
+#include <placegraph/pipeline/flight/flight_frame.h>
 #include <placegraph/pipeline/flight/flight_options.h>
 #include <placegraph/pipeline/flight/floor_flow.h>
 #include <placegraph/pipeline/flight/imu_buffer.h>
@@ -23,26 +24,11 @@ struct FlightMeasurements {
   std::vector<BeaconObservation> beacons = {};
 };
 
-/// Result of one image.
-struct FlightFrame {
-  std::int64_t stamp_ns = 0;
-  Outcome outcome;  ///< outcome of `state`: see ErrorStateFilter::at
-  BodyState state;
-  Outcome flow;          ///< whether flow over the floor was measured and accepted
-  int flow_points = 0;   ///< inliers of the flow
-  double flow_chi2 = 0;  ///< chi2 of the inliers, per degree of freedom
-  Outcome markers;       ///< whether a pose by markers was measured and accepted
-  /// The measurements, accepted or not, for a smoother that runs in addition to the filter.
-  std::optional<FlowMeasurement> flow_measurement;
-  std::optional<PoseMeasurement> pose_measurement;
-  int markers_seen = 0, beacons_seen = 0;  ///< number used to compute the pose
-};
-
 /// Estimates the pose of a small flying robot image by image: flow over the floor without the
 /// rotation measured by the gyro is velocity over height (FloorFlow), markers provide poses
-/// (MarkerSensor), and the position filter fuses both with the inertial sensor. It starts with the
-/// first markers that determine a unique pose, and restarts if markers contradict it persistently;
-/// before the start, and whenever its inputs stop, it has no state.
+/// (MarkerSensor), and an error-state filter fuses both with the inertial sensor. It starts with
+/// the first markers that determine a unique pose, and restarts if markers contradict it
+/// persistently; before the start, and whenever its inputs stop, it has no state.
 class FlightEstimator {
  public:
   /// `camera` has no distortion. World: z up. Throws ArgumentError if an option is out of range.

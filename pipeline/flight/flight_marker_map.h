@@ -2,7 +2,7 @@
 #include <placegraph/pipeline/flight/flight_run.h>
 #include <placegraph/pipeline/flight/marker_map.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Maps the markers of `layout.unplaced_sides_m` after a flight: its images are searched again, and
 /// `map_markers` is called with the estimated motions between them. The uncertainty of the motions

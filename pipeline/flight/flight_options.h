@@ -23,6 +23,7 @@ struct FloorFlowOptions {
                               .min_eigenvalue = 1e-4,
                               .max_anchor_shift_px = 0};
 };
+void visit(OptionVisitor& field, FloorFlowOptions& options);
 
 struct MarkerSensorOptions {
   int max_markers = 4;  ///< maximum number searched for; the largest are preferred

@@ -1,4 +1,5 @@
 #include <placegraph/backend/inertial/inertial_window.h>
+#include <placegraph/pipeline/flight/flight_estimator.h>
 #include <placegraph/pipeline/flight/flight_run.h>
 
 #include <algorithm>

@@ -1,13 +1,16 @@
 #pragma once
+#include <placegraph/graph/core/stage_times.h>
+#include <placegraph/graph/measurements/marker_layout.h>
 #include <placegraph/io/datasets/dataset.h>
 #include <placegraph/io/sensors/imu_file.h>
-#include <placegraph/pipeline/flight/flight_estimator.h>
+#include <placegraph/pipeline/flight/flight_frame.h>
+#include <placegraph/pipeline/flight/flight_options.h>
 
 #include <functional>
 #include <limits>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// A time interval relative to the first image.
 struct TimeSpan {

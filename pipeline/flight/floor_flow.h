@@ -17,7 +17,6 @@
 namespace placegraph {
 
 /// All options except `tracker`.
-void visit(OptionVisitor& field, FloorFlowOptions& options);
 
 /// Flow measurement between two images.
 struct FloorFlowMeasurement {

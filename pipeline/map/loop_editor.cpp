@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/pipeline/loops/loop_closer.h>
 #include <placegraph/pipeline/loops/loop_probability.h>
 #include <placegraph/pipeline/map/loop_editor.h>
 #include <placegraph/pipeline/places/place_mapper.h>
@@ -83,9 +84,12 @@ const Keyframe& LoopEditor::keyframe_of(FrameId frame) const {
 
 const LoopCloser& LoopEditor::closer() {
   if (!closer_)
-    closer_.emplace(options_.loops, *stored_.origin.calibration, options_.seed, stored_.map);
+    closer_ = std::make_unique<LoopCloser>(options_.loops, *stored_.origin.calibration,
+                                           options_.seed, stored_.map);
   return *closer_;
 }
+
+LoopEditor::~LoopEditor() = default;
 
 std::string LoopEditor::refuse(FrameId query, FrameId match) {
   State next = state_;

@@ -1,15 +1,15 @@
 #pragma once
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/io/map/stored_map.h>
-#include <placegraph/pipeline/loops/loop_closer.h>
 #include <placegraph/pipeline/slam_options.h>
 
-#include <optional>
+#include <memory>
 #include <string>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
+class LoopCloser;
 class PlaceMapper;
 
 /// How far an optimization moved the map.
@@ -30,6 +30,7 @@ class LoopEditor {
   /// `options`: those of the run that made the map. Throws ArgumentError for a map that no run can
   /// continue: one that was imported or whose run was interrupted.
   LoopEditor(StoredMap stored, const SlamOptions& options);
+  ~LoopEditor();
 
   /// Removes an accepted loop; its record keeps LoopStage::kManual.
   ///
@@ -77,8 +78,8 @@ class LoopEditor {
   State state_;
   bool scale_doubted_ = false;  // a judgement withdrew the metres of the scale that was measured
   std::vector<State> earlier_;
-  int revisions_ = 0;                 // the greatest number of a state so far
-  std::optional<LoopCloser> closer_;  // made when it is first needed
+  int revisions_ = 0;                   // the greatest number of a state so far
+  std::unique_ptr<LoopCloser> closer_;  // made when it is first needed
 };
 
 }  // namespace placegraph

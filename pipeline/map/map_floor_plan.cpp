@@ -1,5 +1,6 @@
 #include <placegraph/pipeline/lens_correction.h>
 #include <placegraph/pipeline/map/map_floor_plan.h>
+#include <placegraph/pipeline/scene/floor_plan.h>
 
 namespace placegraph {
 

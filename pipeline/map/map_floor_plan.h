@@ -1,9 +1,10 @@
 #pragma once
+#include <placegraph/graph/map.h>
 #include <placegraph/graph/scene/indoor_map.h>
 #include <placegraph/io/datasets/dataset.h>
-#include <placegraph/pipeline/scene/indoor_mapper.h>
+#include <placegraph/pipeline/scene/scene_map_options.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// The floor plan of a map made from `dataset`; `lens_k1` is the distortion that was removed.
 IndoorMap plan_of_map(const Map& map, const Calibration& calibration, const Dataset& dataset,

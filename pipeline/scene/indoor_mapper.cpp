@@ -3,6 +3,7 @@
 #include <placegraph/frontend/vanishing/scene_directions.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/pipeline/scene/floor_plan.h>
 #include <placegraph/pipeline/scene/indoor_mapper.h>
 #include <placegraph/pipeline/scene/indoor_plan.h>
 #include <placegraph/pipeline/scene/map_keyframes.h>

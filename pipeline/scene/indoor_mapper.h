@@ -8,7 +8,7 @@
 #include <placegraph/pipeline/scene/nearby_views.h>
 #include <placegraph/pipeline/scene/scene_map_options.h>
 
-#include <functional>
+#include <vector>
 
 namespace placegraph {
 
@@ -45,14 +45,5 @@ class IndoorMapper {
   Calibration calibration_;
   std::vector<KeyframeSurfacePoints> observations_;
 };
-
-/// Assigns each room's label to its places; other labels remain.
-void label_places(const IndoorMap& plan, PlaceGraph& places);
-
-/// Makes the plan of a finished map: reads the frames of its keyframes (those that are far enough
-/// from each other) with `frame_of`, and fuses them.
-[[nodiscard]] IndoorMap map_indoors(const Map& map, const Calibration& calibration,
-                                    const std::function<Frame(const Keyframe&)>& frame_of,
-                                    const IndoorMapperOptions& options = {});
 
 }  // namespace placegraph

@@ -1,13 +1,13 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/flight/marker_map.h>
+#include <placegraph/pipeline/flight/marker_mapping.h>
 
 #include "tests/support/scenes/marker_scene.h"
 #include "tests/support/scenes/scene.h"
 #include "tests/support/seed.h"
 
 namespace placegraph {
-namespace marker_map_test {
+namespace marker_mapping_test {
 
 using namespace test;
 using Code = Outcome::Code;
@@ -139,5 +139,5 @@ TEST(MarkerMap, SaysWhereNothingWasSeenOftenEnough) {
   EXPECT_THROW((void)map_markers(walk.frames, {}, {{4, -0.2}}, walk.camera), ArgumentError);
 }
 
-}  // namespace marker_map_test
+}  // namespace marker_mapping_test
 }  // namespace placegraph

@@ -4,7 +4,7 @@
 #include <placegraph/graph/core/chi_squared.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/pose_graph/node_index.h>
-#include <placegraph/pipeline/flight/marker_map.h>
+#include <placegraph/pipeline/flight/marker_mapping.h>
 
 #include <Eigen/Cholesky>
 #include <algorithm>
