@@ -17,7 +17,7 @@ using namespace test;
 /// Runs an example in a folder; its exit status. What it prints goes to `out`.
 int run_example(const std::string& name, const std::string& arguments, const std::string& out) {
   std::ostringstream command;
-  command << examples_dir() << "/" << name << " " << arguments << " > " << out << " 2>&1";
+  command << "'" << examples_dir() << "/" << name << "' " << arguments << " > " << out << " 2>&1";
   const int status = std::system(command.str().c_str());
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }

@@ -4,10 +4,11 @@
 set -eu
 status=0
 count=0
-for program in $(for path in "$@"; do
+programs=$(for path in "$@"; do
   [ -d "$path" ] || echo "$path"
   [ ! -d "$path" ] || find "$path" -type f -perm -u+x ! -name '*.so*' ! -path '*/CMakeFiles/*'
-done | LC_ALL=C sort); do
+done | LC_ALL=C sort)
+while IFS= read -r program; do
   libraries=$(ldd "$program" 2> /dev/null) || continue  # a script
   count=$((count + 1))
   if found=$(printf '%s\n' "$libraries" |
@@ -15,6 +16,8 @@ done | LC_ALL=C sort); do
     printf '%s maps\n%s\n' "$program" "$found"
     status=1
   fi
-done
+done << END
+$programs
+END
 [ $count -gt 0 ] || { echo "no_codecs_mapped: no program in $*"; exit 2; }
 exit $status

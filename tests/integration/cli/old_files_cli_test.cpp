@@ -14,14 +14,15 @@ using ::testing::StartsWith;
 
 class OldFiles : public test::CliTest {
  protected:
+  /// Path of a file of version 0.1.0, quoted for the shell.
   static std::string of_0_1_0(const std::string& name) {
-    return test::source_dir() + "/tests/integration/cli/made_by_0.1.0/" + name;
+    return "'" + test::source_dir() + "/tests/integration/cli/made_by_0.1.0/" + name + "'";
   }
   /// Unpacks a map of version 0.1.0 as DIR/NAME/map.db.
   void unpack(const std::string& name) {
     std::filesystem::create_directory(dir / name);
     const std::string command =
-        "gzip -dc '" + of_0_1_0(name + ".db.gz") + "' > '" + (dir / (name + "/map.db")) + "'";
+        "gzip -dc " + of_0_1_0(name + ".db.gz") + " > '" + (dir / (name + "/map.db")) + "'";
     ASSERT_EQ(std::system(command.c_str()), 0);
   }
 };
