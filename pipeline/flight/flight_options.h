@@ -23,6 +23,7 @@ struct FloorFlowOptions {
                               .min_eigenvalue = 1e-4,
                               .max_anchor_shift_px = 0};
 };
+/// All options except `tracker`.
 void visit(OptionVisitor& field, FloorFlowOptions& options);
 
 struct MarkerSensorOptions {

@@ -16,8 +16,6 @@
 
 namespace placegraph {
 
-/// All options except `tracker`.
-
 /// Flow measurement between two images.
 struct FloorFlowMeasurement {
   /// Outcomes: not attempted (no state at the first image), too few data (fewer than
