@@ -32,8 +32,9 @@ struct DenseSummary {
   double cpu_s = 0;                                ///< CPU time [s]
 };
 
-/// One line.
+/// The figures of a model for COLMAP in one line.
 std::string to_text(const ColmapSummary& summary);
+/// The figures of cloud and mesh in one line.
 std::string to_text(const DenseSummary& summary);
 
 }  // namespace placegraph

@@ -26,6 +26,7 @@ struct MapExportForm {
 /// All forms.
 std::vector<MapExportForm> map_export_forms();
 
+/// What is written of a map, and where.
 struct MapExportArguments {
   std::string map;  ///< map.db, or a folder written by `placegraph run`
   std::vector<std::string>
@@ -39,6 +40,7 @@ struct MapExportArguments {
   bool force = false;           ///< overwrite existing files
 };
 
+/// What was written.
 struct MapExportResult {
   std::vector<std::string> written;     ///< paths of the written forms, as in the arguments
   std::optional<ColmapSummary> colmap;  ///< figures of the model for COLMAP, if it was written

@@ -189,18 +189,6 @@ std::vector<MappedMarker> read_markers(const PoseGraph& graph, const PoseMargina
 
 }  // namespace
 
-NodeId marker_node(int id) {
-  constexpr std::int64_t kFirst = 1'000'000'000;
-  return NodeId(kFirst + id);
-}
-
-MarkerLayout MarkerMap::layout(const std::string& dictionary) const {
-  MarkerLayout result;
-  result.dictionary = dictionary;
-  for (const MappedMarker& mapped : markers) result.markers.push_back(mapped.marker);
-  return result;
-}
-
 MarkerMap map_markers(const std::vector<MarkerFrame>& frames, const MarkerLayout& known,
                       const std::map<int, double>& sides_m, const Camera& camera,
                       const MarkerMapOptions& options) {

@@ -1,0 +1,17 @@
+#include <placegraph/pipeline/flight/marker_map.h>
+
+namespace placegraph {
+
+NodeId marker_node(int id) {
+  constexpr std::int64_t kFirst = 1'000'000'000;
+  return NodeId(kFirst + id);
+}
+
+MarkerLayout MarkerMap::layout(const std::string& dictionary) const {
+  MarkerLayout result;
+  result.dictionary = dictionary;
+  for (const MappedMarker& mapped : markers) result.markers.push_back(mapped.marker);
+  return result;
+}
+
+}  // namespace placegraph
