@@ -26,13 +26,13 @@ struct PairedFiles {
 /// pair, or if several files could be the estimate of one.
 PairedFiles pair_files(const std::string& truths, const std::string& estimates);
 
-/// Names that tell estimates apart: file name, folder name or path, the first that is unique.
+/// Different names of estimates: file name, folder name or path, the first that is unique.
 std::vector<std::string> distinct_names(const std::vector<std::string>& paths);
 
 /// Whether a folder is the output folder of a run.
 bool is_run_folder(const std::string& folder);
 
-/// Whether a ground truth has times: `truth` is the file of a trajectory, or a sequence's folder.
+/// Whether the ground truth in a file, or of the sequence in a folder, has times.
 bool truth_has_times(const std::string& truth);
 
 /// Path of the optimized trajectory of a run: of the file with times if `timed`.
