@@ -3,6 +3,7 @@
 #include <placegraph/io/map/sqlite.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 #include <placegraph/pipeline/exports/gltf_export.h>
+#include <placegraph/pipeline/exports/place_tables.h>
 #include <placegraph/pipeline/exports/ply_export.h>
 #include <placegraph/pipeline/run.h>
 

@@ -1,10 +1,10 @@
-#include "apps/results/run_files.h"
-
 #include <gtest/gtest.h>
+#include <placegraph/pipeline/exports/place_tables.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "apps/results/run_files.h"
 #include "tests/support/random_map.h"
 
 namespace placegraph::apps {
