@@ -121,4 +121,13 @@ void visit(OptionVisitor& field, DominantSurfaceOptions& o) {
         "random walk of pitch and roll after a plane that contradicts the filter", {0, 45});
 }
 
+void visit(OptionVisitor& field, PlaneNormalOptions& o) {
+  field("views", o.views, "maximum number of views kept", {2, 1000});
+  field("apart_px", o.apart_px, "minimum distance of a view from every kept one, for it to be kept",
+        {0.01, 1000});
+  field("sigma_px", o.sigma_px, "minimum standard deviation of a corner", {0.001, 100});
+  field("max_sigma_deg", o.max_sigma_deg, "maximum standard deviation of the normal", {0.01, 90});
+  field("distinct_deg", o.distinct_deg, "readings closer than this count as one", {0.1, 90});
+}
+
 }  // namespace placegraph

@@ -117,4 +117,14 @@ struct DominantSurfaceOptions {
 };
 void visit(OptionVisitor& field, DominantSurfaceOptions& options);
 
+struct PlaneNormalOptions {
+  int views = 24;            ///< maximum number of views kept
+  double apart_px = 4;       ///< minimum distance of a view from every kept one, for it to be kept
+  double sigma_px = 0.3;     ///< minimum standard deviation of a corner
+  double max_sigma_deg = 5;  ///< maximum standard deviation of the normal
+  double distinct_deg = 8;   ///< readings closer than this count as one
+  void check() const { check_ranges(*this); }
+};
+void visit(OptionVisitor& field, PlaneNormalOptions& options);
+
 }  // namespace placegraph
