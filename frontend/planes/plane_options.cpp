@@ -130,4 +130,14 @@ void visit(OptionVisitor& field, PlaneNormalOptions& o) {
   field("distinct_deg", o.distinct_deg, "readings closer than this count as one", {0.1, 90});
 }
 
+void MotionFromPlanesOptions::check() const { check_ranges(*this); }
+
+void visit(OptionVisitor& field, MotionFromPlanesOptions& o) {
+  field("max_iterations", o.max_iterations, "maximum number of iterations of the joint refinement",
+        {1, 10000});
+  field.formerly("ambiguity_nats")(
+      "ambiguity_log_ratio", o.ambiguity_log_ratio,
+      "maximum difference in log-likelihood to the best reading that is kept", {0, 1e6});
+}
+
 }  // namespace placegraph

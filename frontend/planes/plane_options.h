@@ -127,4 +127,12 @@ struct PlaneNormalOptions {
 };
 void visit(OptionVisitor& field, PlaneNormalOptions& options);
 
+struct MotionFromPlanesOptions {
+  int max_iterations = 30;
+  /// Readings up to this far below the best in log-likelihood are kept.
+  double ambiguity_log_ratio = 6;
+  void check() const;
+};
+void visit(OptionVisitor& field, MotionFromPlanesOptions& options);
+
 }  // namespace placegraph

@@ -1,3 +1,4 @@
+#include <placegraph/graph/core/ransac.h>
 #include <placegraph/frontend/relative_pose/pose_3d2d.h>
 #include <placegraph/graph/core/error.h>
 

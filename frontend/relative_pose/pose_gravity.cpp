@@ -1,3 +1,4 @@
+#include <placegraph/graph/core/ransac.h>
 #include <placegraph/frontend/relative_pose/epipolar_error.h>
 #include <placegraph/frontend/relative_pose/epipolar_refinement.h>
 #include <placegraph/frontend/relative_pose/pose_gravity.h>
