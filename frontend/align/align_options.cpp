@@ -77,13 +77,6 @@ void visit(OptionVisitor& field, AlignOptions& o) {
         "maximum standard deviation of the most uncertain corner [px]", {0.001, 100});
 }
 
-void visit(OptionVisitor& field, TemplateFinderOptions& o) {
-  field.group("features", o.features, "point features of the images");
-  field("inlier_px", o.inlier_px, "maximum symmetric transfer error of an inlier [px]", {0.1, 50});
-  field.internal().group("ransac", o.ransac, "homography hypotheses");
-  field("places", o.places, "maximum number of proposals", {1, 100});
-}
-
 void PlaneTrackerOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, PlaneTrackerOptions& o) {

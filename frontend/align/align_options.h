@@ -95,16 +95,6 @@ struct AlignOptions {
 };
 void visit(OptionVisitor& field, AlignOptions& options);
 
-/// Options of the template finder.
-struct TemplateFinderOptions {
-  WideMatcherOptions features;  ///< its geometric options are not used
-  double inlier_px = 3;         ///< maximum symmetric transfer error of an inlier
-  RansacOptions ransac{2000, 0.999, 8};
-  int places = 3;  ///< maximum number of proposals; each uses the matches left by the previous ones
-  void check() const { check_ranges(*this); }
-};
-void visit(OptionVisitor& field, TemplateFinderOptions& options);
-
 /// Options of the plane tracker.
 struct PlaneTrackerOptions {
   /// Alignment of the template from frame to frame. The covariance includes the uncertainty of a

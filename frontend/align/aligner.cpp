@@ -1,6 +1,6 @@
 #include <placegraph/frontend/align/aligner.h>
 #include <placegraph/frontend/align/alignment_covariance.h>
-#include <placegraph/frontend/align/grey_pyramid.h>
+#include <placegraph/frontend/flow/grey_pyramid.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>
 

@@ -1,5 +1,5 @@
 #include <placegraph/frontend/align/gradient_alignment.h>
-#include <placegraph/frontend/align/grey_pyramid.h>
+#include <placegraph/frontend/flow/grey_pyramid.h>
 
 #include <Eigen/Dense>
 #include <cmath>

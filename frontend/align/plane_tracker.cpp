@@ -1,10 +1,10 @@
 #include <placegraph/frontend/align/aligner.h>
 #include <placegraph/frontend/align/alignment_covariance.h>
-#include <placegraph/frontend/align/grey_pyramid.h>
 #include <placegraph/frontend/align/null_distribution.h>
 #include <placegraph/frontend/align/plane_tracker.h>
-#include <placegraph/frontend/align/template_finder.h>
+#include <placegraph/frontend/flow/grey_pyramid.h>
 #include <placegraph/frontend/planes/plane_normal.h>
+#include <placegraph/frontend/planes/template_finder.h>
 #include <placegraph/graph/core/error.h>
 
 #include <Eigen/Dense>

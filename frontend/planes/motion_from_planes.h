@@ -1,7 +1,7 @@
 #pragma once
-#include <placegraph/frontend/planes/plane_options.h>
 #include <placegraph/frontend/planes/homography.h>
 #include <placegraph/frontend/planes/planar_regions.h>
+#include <placegraph/frontend/planes/plane_options.h>
 #include <placegraph/graph/geometry/se3.h>
 
 #include <optional>

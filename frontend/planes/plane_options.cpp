@@ -140,4 +140,11 @@ void visit(OptionVisitor& field, MotionFromPlanesOptions& o) {
       "maximum difference in log-likelihood to the best reading that is kept", {0, 1e6});
 }
 
+void visit(OptionVisitor& field, TemplateFinderOptions& o) {
+  field.group("features", o.features, "point features of the images");
+  field("inlier_px", o.inlier_px, "maximum symmetric transfer error of an inlier [px]", {0.1, 50});
+  field.internal().group("ransac", o.ransac, "homography hypotheses");
+  field("places", o.places, "maximum number of proposals", {1, 100});
+}
+
 }  // namespace placegraph

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/frontend/features/feature_options.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/core/ransac_options.h>
 
@@ -134,5 +135,15 @@ struct MotionFromPlanesOptions {
   void check() const;
 };
 void visit(OptionVisitor& field, MotionFromPlanesOptions& options);
+
+/// Options of the template finder.
+struct TemplateFinderOptions {
+  WideMatcherOptions features;  ///< its geometric options are not used
+  double inlier_px = 3;         ///< maximum symmetric transfer error of an inlier
+  RansacOptions ransac{2000, 0.999, 8};
+  int places = 3;  ///< maximum number of proposals; each uses the matches left by the previous ones
+  void check() const { check_ranges(*this); }
+};
+void visit(OptionVisitor& field, TemplateFinderOptions& options);
 
 }  // namespace placegraph

@@ -1,9 +1,9 @@
-#include <placegraph/graph/core/ransac.h>
 #include <placegraph/frontend/relative_pose/epipolar_error.h>
 #include <placegraph/frontend/relative_pose/epipolar_refinement.h>
 #include <placegraph/frontend/relative_pose/pose_gravity.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/ransac.h>
 
 #include <Eigen/Dense>
 #include <array>

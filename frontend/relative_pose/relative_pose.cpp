@@ -1,9 +1,9 @@
-#include <placegraph/frontend/relative_pose/rotation_2d2d.h>
-#include <placegraph/frontend/relative_pose/pose_2d2d.h>
 #include <placegraph/frontend/planes/motion_from_planes.h>
 #include <placegraph/frontend/relative_pose/epipolar_error.h>
 #include <placegraph/frontend/relative_pose/epipolar_refinement.h>
+#include <placegraph/frontend/relative_pose/pose_2d2d.h>
 #include <placegraph/frontend/relative_pose/relative_pose.h>
+#include <placegraph/frontend/relative_pose/rotation_2d2d.h>
 #include <placegraph/graph/core/error.h>
 
 #include <Eigen/Dense>

@@ -1,5 +1,5 @@
-#include <placegraph/frontend/align/template_finder.h>
 #include <placegraph/frontend/planes/homography_fit.h>
+#include <placegraph/frontend/planes/template_finder.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

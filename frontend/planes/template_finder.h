@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/frontend/align/align_options.h>
 #include <placegraph/frontend/features/wide_matcher.h>
+#include <placegraph/frontend/planes/plane_options.h>
 #include <placegraph/graph/core/random.h>
 #include <placegraph/graph/core/ransac.h>
 
