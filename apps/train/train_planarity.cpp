@@ -1,7 +1,7 @@
 #include "apps/train/train_planarity.h"
 
 #include <fmt/format.h>
-#include <placegraph/frontend/cloud_planes/cloud_planes.h>
+#include <placegraph/frontend/cloud_planes/planarity_model.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/text/json_text.h>
 #include <placegraph/io/measurements/point_cloud_file.h>
@@ -26,25 +26,11 @@ struct CloudTrainingSet {
   int clouds = 0;
 };
 
-/// Segments whose points are nearly all of one plane, and those that are mostly something else;
-/// mixed segments are left out.
 void add_samples(const LabelledCloud& labelled, const CloudPlanesOptions& options,
                  CloudTrainingSet& training_set) {
-  constexpr double kPlane = 0.9, kNoPlane = 0.6;
-  const JudgedSegments judged = segments_to_judge(labelled.cloud, options);
   ++training_set.clouds;
-  for (std::size_t k = 0; k < judged.segments.size(); ++k) {
-    std::map<int, int> share;
-    for (const int c : judged.segments[k].cells)
-      for (int i = judged.cloud.cells[c].begin; i < judged.cloud.cells[c].end; ++i)
-        ++share[labelled.labels[judged.points.source[judged.cloud.order[i]]]];
-    int most = 0;
-    for (const auto& [label, count] : share)
-      if (label > 0) most = std::max(most, count);
-    const double purity = most / judged.segments[k].sums.count();
-    if (purity < kPlane && purity > kNoPlane) continue;
-    training_set.samples.push_back({judged.features[k], purity >= kPlane});
-  }
+  for (const PlanaritySample& sample : planarity_samples(labelled.cloud, labelled.labels, options))
+    training_set.samples.push_back(sample);
 }
 
 /// Adds frames of a rendered world with the noise of a depth camera or of a stereo camera.

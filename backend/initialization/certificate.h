@@ -1,7 +1,7 @@
 #pragma once
-#include <placegraph/backend/initialization/isotropic_problem.h>
+#include <placegraph/graph/pose_graph/pose_graph.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// The certificate of an estimate.
 /// Only the isotropic chordal problem is certified: its global minimum is near. The graph's own
@@ -26,15 +26,10 @@ struct CertificateOptions {
   double max_relative_gap = 1e-5;
 };
 
-/// Certifies the poses of `graph`.
+/// Certifies the poses of a pose graph, from which false constraints were removed.
+///
 /// It descends from them to the nearest minimum of the isotropic problem and bounds its distance
-/// from the global minimum.
-template <class Group>
-ChordalIsotropicCertificate certify_chordal_isotropic(const PackedGraph<Group>& graph,
-                                                      RotationError rotation_error,
-                                                      const CertificateOptions& options = {});
-/// The same for a pose graph, from which false constraints were removed. Throws as
-/// PoseGraph::check.
+/// from the global minimum. Throws as PoseGraph::check.
 ChordalIsotropicCertificate certify_chordal_isotropic(const PoseGraph& graph,
                                                       RotationError rotation_error);
 

@@ -1,6 +1,6 @@
 #include <placegraph/frontend/align/aligner.h>
 #include <placegraph/frontend/align/alignment_covariance.h>
-#include <placegraph/frontend/align/grey_pyramid.h>
+#include <placegraph/frontend/flow/grey_pyramid.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>
 
@@ -246,34 +246,6 @@ Outcome judge(const AlignResult& result, const AlignOptions& o) {
 }
 
 }  // namespace
-
-const std::vector<std::string>& align_optimizer_names() {
-  static const std::vector<std::string> names = {"gauss_newton", "esm",     "inverse_compositional",
-                                                 "swarm",        "genetic", "swarm_esm"};
-  return names;
-}
-
-void AlignOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, AlignOptions& o) {
-  field.choice("optimizer", o.optimizer, align_optimizer_names(), "optimizer of the warp");
-  field.group("gradient", o.gradient, "similarity and gradient-based optimizers");
-  field("search_sigma", o.search_sigma,
-        "initial standard deviation of a population's corners [template diagonals]", {0.001, 2});
-  field("search_shift_sigma", o.search_shift_sigma,
-        "standard deviation of a common shift of all corners [template diagonals]", {0, 10});
-  field("search_samples", o.search_samples,
-        "samples from which the similarity of a member is computed", {20, 1000000});
-  field("followed", o.followed, "best members of the swarm that ESM follows", {1, 1000});
-  field.group("swarm", o.swarm, "particle swarm");
-  field.group("genetic", o.genetic, "genetic algorithm");
-  field("min_samples", o.min_samples, "minimum samples of a level", {20, 1000000});
-  field("min_agreement", o.min_agreement, "minimum correlation of image and template", {-1, 1});
-  field("min_inlier_share", o.min_inlier_share,
-        "minimum share of inliers among the samples in view", {0, 1});
-  field("max_sigma_px", o.max_sigma_px,
-        "maximum standard deviation of the most uncertain corner [px]", {0.001, 100});
-}
 
 AlignResult align(const PlanarTemplate& planar_template, const Image& image_cur,
                   const PlanarWarp& start, const AlignOptions& options) {

@@ -1,43 +1,10 @@
 #pragma once
+#include <placegraph/frontend/align/align_options.h>
 #include <placegraph/frontend/align/genetic_search.h>
 #include <placegraph/frontend/align/gradient_alignment.h>
 #include <placegraph/graph/core/outcome.h>
 
 namespace placegraph {
-
-/// Optimizer of the warp of a planar template.
-enum class AlignOptimizer {
-  kGaussNewton,           ///< forward compositional
-  kEsm,                   ///< efficient second-order minimization
-  kInverseCompositional,  ///< the template's gradients only
-  kSwarm,                 ///< particle swarm
-  kGenetic,               ///< genetic algorithm
-  kSwarmEsm,              ///< particle swarm, its best members followed by ESM
-};
-const std::vector<std::string>& align_optimizer_names();
-
-/// Options of the alignment of a planar template with an image.
-struct AlignOptions {
-  AlignOptimizer optimizer = AlignOptimizer::kEsm;
-  GradientAlignmentOptions gradient;  ///< its similarity is also that of the population searches
-  /// Initial standard deviation of a corner's coordinate in a population on the coarsest level
-  /// [diagonals of the template]; every finer level uses a quarter of the coarser one's.
-  double search_sigma = 0.18;
-  /// Standard deviation of an additional common shift of all corners [diagonals of the template]:
-  /// for templates that may move far while their shape changes less.
-  double search_shift_sigma = 0;
-  int search_samples = 400;  ///< samples from which the similarity of a member is computed
-  int followed = 8;          ///< best members of the swarm that ESM follows
-  SwarmOptions swarm;
-  GeneticOptions genetic;
-  int min_samples =
-      100;  ///< minimum samples of the template; a coarse level with fewer is left out
-  double min_agreement = 0.7;      ///< minimum correlation of image and template
-  double min_inlier_share = 0.35;  ///< minimum share of inliers among the samples in view
-  double max_sigma_px = 1;         ///< maximum standard deviation of the most uncertain corner
-  void check() const;
-};
-void visit(OptionVisitor& field, AlignOptions& options);
 
 /// Warp of a planar template with its covariance and quality measures.
 struct AlignResult {

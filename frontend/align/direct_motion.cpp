@@ -1,6 +1,6 @@
 #include <placegraph/frontend/align/direct_motion.h>
 #include <placegraph/frontend/align/direct_motion_equations.h>
-#include <placegraph/frontend/align/grey_pyramid.h>
+#include <placegraph/frontend/flow/grey_pyramid.h>
 #include <placegraph/graph/core/error.h>
 
 #include <Eigen/Dense>

@@ -1,5 +1,5 @@
 #include <placegraph/frontend/align/direct_motion_equations.h>
-#include <placegraph/frontend/align/grey_pyramid.h>
+#include <placegraph/frontend/flow/grey_pyramid.h>
 #include <placegraph/graph/core/median.h>
 
 #include <Eigen/Dense>

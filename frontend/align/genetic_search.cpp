@@ -31,28 +31,6 @@ VectorXd child_of(const VectorXd& a, const VectorXd& b, double sigma, const Gene
 
 }  // namespace
 
-void GeneticOptions::check() const {
-  check_ranges(*this);
-  require(elite < members, "elite: must be below members");
-}
-
-void visit(OptionVisitor& field, GeneticOptions& o) {
-  field("members", o.members, "size of the population", {3, 10000});
-  field("generations", o.generations, "maximum number of generations", {1, 10000});
-  field("stagnation", o.stagnation, "generations without progress after which the search ends",
-        {1, 10000});
-  field("tournament", o.tournament, "members drawn for a parent", {1, 100});
-  field("elite", o.elite, "best members kept unchanged", {0, 1000});
-  field("blend", o.blend, "share by which the box of children exceeds that of the parents", {0, 2});
-  field("mutation_rate", o.mutation_rate, "probability that a coordinate mutates", {0, 1});
-  field("mutation_sigma", o.mutation_sigma,
-        "initial size of mutations [standard deviations of the start]", {0, 10});
-  field("bound", o.bound,
-        "largest absolute value of a coordinate [standard deviations of the start]", {0.1, 100});
-  field("seed", o.seed, "seed of the random stream");
-  field("threads", o.threads, "threads; the result does not depend on it", {1, 256});
-}
-
 PopulationResult genetic_search(const PopulationCost& cost, int n, const GeneticOptions& options) {
   require(n >= 1, "genetic_search: at least one dimension");
   options.check();

@@ -1,5 +1,5 @@
 #include <placegraph/frontend/align/gradient_alignment.h>
-#include <placegraph/frontend/align/grey_pyramid.h>
+#include <placegraph/frontend/flow/grey_pyramid.h>
 
 #include <Eigen/Dense>
 #include <cmath>
@@ -78,21 +78,6 @@ bool limit_step(const PlanarTemplate& planar_template, const PlanarWarp& warp,
 }
 
 }  // namespace
-
-void GradientAlignmentOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, GradientAlignmentOptions& o) {
-  field.choice("similarity", o.similarity, similarity_names(),
-               "similarity measure that is maximized");
-  field.choice("kernel", o.kernel, robust_kernel_names(), "robust kernel against occlusion");
-  field("kernel_width", o.kernel_width,
-        "width of the robust kernel [standard deviations of the residuals]", {0.1, 100});
-  field("iterations", o.iterations, "maximum number of iterations per level", {1, 1000});
-  field("converged_px", o.converged_px, "a level ends when no corner moves by more in a step [px]",
-        {1e-6, 1});
-  field("min_visible_share", o.min_visible_share,
-        "minimum share of the samples in view of the current image", {0.05, 1});
-}
 
 Row generator_row(const Vector2d& x, const Vector2d& g) {
   const double along = -(g.x() * x.x() + g.y() * x.y());

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/frontend/align/align_options.h>
 #include <placegraph/frontend/align/planar_template.h>
 #include <placegraph/frontend/align/similarity.h>
 #include <placegraph/graph/core/options.h>
@@ -11,19 +12,6 @@ enum class Gradients {
   kEsm,      ///< the mean of both: efficient second-order minimization (Benhimane & Malis 2007)
   kInverse,  ///< those of the template: inverse compositional (Baker & Matthews 2004)
 };
-
-/// Options of the gradient-based alignment.
-struct GradientAlignmentOptions {
-  Similarity similarity = Similarity::kZncc;
-  RobustKernel::Kind kernel = RobustKernel::Kind::kTukey;
-  double kernel_width =
-      4.685;            ///< width of the robust kernel [standard deviations of the residuals]
-  int iterations = 20;  ///< maximum number of iterations per level
-  double converged_px = 0.002;     ///< a level ends when no corner moves by more in a step
-  double min_visible_share = 0.4;  ///< minimum share of the samples in view of the current image
-  void check() const;
-};
-void visit(OptionVisitor& field, GradientAlignmentOptions& options);
 
 /// The samples of a template that a warp maps into the current image.
 struct SeenSamples {

@@ -1,5 +1,5 @@
-#include <placegraph/frontend/align/grey_pyramid.h>
 #include <placegraph/frontend/align/null_distribution.h>
+#include <placegraph/frontend/flow/grey_pyramid.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>
 

@@ -1,6 +1,10 @@
+#include <placegraph/frontend/align/aligner.h>
 #include <placegraph/frontend/align/alignment_covariance.h>
-#include <placegraph/frontend/align/grey_pyramid.h>
+#include <placegraph/frontend/align/null_distribution.h>
 #include <placegraph/frontend/align/plane_tracker.h>
+#include <placegraph/frontend/flow/grey_pyramid.h>
+#include <placegraph/frontend/planes/plane_normal.h>
+#include <placegraph/frontend/planes/template_finder.h>
 #include <placegraph/graph/core/error.h>
 
 #include <Eigen/Dense>
@@ -80,56 +84,69 @@ PlaneTrack lost(const Outcome& why, PlaneTrackSource source) {
 
 }  // namespace
 
-const std::vector<std::string>& plane_model_names() {
-  static const std::vector<std::string> names = {"homography", "se3plane", "se2plane"};
-  return names;
-}
-
 const std::vector<std::string>& plane_track_source_names() {
   static const std::vector<std::string> names = {"prediction", "last_place", "second_template",
                                                  "swarm", "features"};
   return names;
 }
 
-void PlaneTrackerOptions::check() const { check_ranges(*this); }
+/// The state of a tracker.
+struct PlaneTracker::Impl {
+  Impl(const Image& image_ref, const std::vector<Eigen::Vector2d>& corners_px,
+       const PlaneTrackerOptions& options, const std::optional<Camera>& camera,
+       const std::optional<Eigen::Vector3d>& normal_ref);
+  double least_similarity() const { return chance_.bound(options_.chance_deviations); }
+  double least_similarity_found() const;
+  PlaneTrack track(const Image& image);
 
-void visit(OptionVisitor& field, PlaneTrackerOptions& o) {
-  field.group("align", o.align, "alignment of the template");
-  field.choice("model", o.model, plane_model_names(), "motion model of the template");
-  field("levels", o.levels, "number of levels of the image pyramid", {1, 10});
-  field("max_samples", o.max_samples, "maximum samples of a level", {100, 10000000});
-  field("chance_trials", o.chance_trials,
-        "surrogate images for the null distribution of the similarity", {2, 1000});
-  field("chance_deviations", o.chance_deviations,
-        "minimum deviations of the similarity above the null distribution's mean", {0, 20});
-  field("rival_margin", o.rival_margin,
-        "minimum similarity of a found template above its repetitions in the image", {0, 1});
-  field("max_area_change", o.max_area_change,
-        "maximum factor of the area between frames, in both directions", {1, 100});
-  field("min_area_px", o.min_area_px, "minimum area of the template's image [px^2]", {1, 1e9});
-  field("search_sigma", o.search_sigma,
-        "standard deviation of corners in the search [template diagonals]", {0.001, 2});
-  field("search_shift", o.search_shift,
-        "standard deviation of a common shift in the search [template diagonals]", {0, 10});
-  field("back_px", o.back_px, "maximum forward-backward error of a template found again [px]",
-        {0.01, 100});
-  field.group("finder", o.finder, "search by point features");
-  field.formerly("key_likeness")("key_similarity", o.key_similarity,
-                                 "minimum similarity of a view that becomes the second template",
-                                 {0, 1});
-  field("key_interval", o.key_interval, "minimum number of frames between second templates",
-        {1, 1000000});
-  field.group("normal", o.normal, "the plane's normal from several views");
-}
+  struct View;
+  struct TemplateView {
+    PlanarTemplate planar_template;
+    std::vector<Eigen::Vector2d> corners_px;
+    Eigen::Matrix3d H_key_ref;
+    Eigen::Matrix<double, 8, 8> covariance;
+  };
 
-struct PlaneTracker::View {
+  PlanarWarp warp_at(const Eigen::Matrix3d& H_cur_ref) const;
+  Outcome judge(const AlignResult& result, const Eigen::Matrix3d& H_cur_ref, double least) const;
+  PlaneTrack aligned(const View& view, const Eigen::Matrix3d& H_start, const AlignOptions& options,
+                     double least, PlaneTrackSource source) const;
+  PlaneTrack follow(const View& view) const;
+  PlaneTrack by_second_template(const View& view) const;
+  PlaneTrack search(const View& view) const;
+  PlaneTrack find(const View& view);
+  Outcome backward_check(const View& view, const PlaneTrack& track) const;
+  void remember(const View& view, const PlaneTrack& track);
+  void add_motion(PlaneTrack& track);
+
+  std::vector<Image> pyramid_ref_;
+  std::vector<Eigen::Vector2d> corners_px_;
+  PlaneTrackerOptions options_;
+  std::optional<Camera> camera_;
+  PlanarTemplate template_;
+  TemplateFinder finder_;
+  Outcome outcome_;
+  NullDistribution chance_;
+  std::optional<PlaneNormalEstimator> normal_;
+  PlaneNormal plane_;  ///< current estimate of the plane
+  std::optional<TemplateView> key_;
+  int frames_ = 0, key_frame_ = 0;
+  int lost_ = 0;  ///< frames since the template was tracked last
+  Eigen::Matrix3d H_last_ref_ =
+      Eigen::Matrix3d::Identity();  ///< where the template was tracked last
+  Eigen::Matrix3d H_last_before_ =
+      Eigen::Matrix3d::Identity();  ///< motion from the frame before that
+  Eigen::Vector2d image_size_px_;
+};
+
+struct PlaneTracker::Impl::View {
   const Image& image;
   std::vector<Image> pyramid;
 };
 
-PlaneTracker::PlaneTracker(const Image& image_ref, const std::vector<Vector2d>& corners_px,
-                           const PlaneTrackerOptions& options, const std::optional<Camera>& camera,
-                           const std::optional<Eigen::Vector3d>& normal_ref)
+PlaneTracker::Impl::Impl(const Image& image_ref, const std::vector<Vector2d>& corners_px,
+                         const PlaneTrackerOptions& options, const std::optional<Camera>& camera,
+                         const std::optional<Eigen::Vector3d>& normal_ref)
     : pyramid_ref_(grey_pyramid(image_ref, options.levels)),
       corners_px_(corners_px),
       options_(options),
@@ -167,12 +184,12 @@ PlaneTracker::PlaneTracker(const Image& image_ref, const std::vector<Vector2d>& 
   outcome_ = Outcome::ok();
 }
 
-double PlaneTracker::least_similarity_found() const {
+double PlaneTracker::Impl::least_similarity_found() const {
   return std::max(least_similarity(), chance_.rival + options_.rival_margin);
 }
 
 /// Warp of the model's family once the plane's normal is known, else a homography.
-PlanarWarp PlaneTracker::warp_at(const Matrix3d& H_cur_ref) const {
+PlanarWarp PlaneTracker::Impl::warp_at(const Matrix3d& H_cur_ref) const {
   if (options_.model == PlaneModel::kHomography || !plane_.outcome)
     return template_.homography(H_cur_ref);
   const Plane plane{plane_.normal_ref, 1};
@@ -181,8 +198,8 @@ PlanarWarp PlaneTracker::warp_at(const Matrix3d& H_cur_ref) const {
   return PlanarWarp::planar_motion(camera_->K(), SE2(), plane).at(H_cur_ref);
 }
 
-Outcome PlaneTracker::judge(const AlignResult& result, const Matrix3d& H_cur_ref,
-                            double least) const {
+Outcome PlaneTracker::Impl::judge(const AlignResult& result, const Matrix3d& H_cur_ref,
+                                  double least) const {
   if (!result.outcome) return result.outcome;
   const double area_px = seen_area_px(H_cur_ref, corners_px_);
   if (area_px < options_.min_area_px)
@@ -201,9 +218,9 @@ Outcome PlaneTracker::judge(const AlignResult& result, const Matrix3d& H_cur_ref
 }
 
 /// The first template aligned from a start.
-PlaneTrack PlaneTracker::aligned(const View& view, const Matrix3d& H_start,
-                                 const AlignOptions& options, double least,
-                                 PlaneTrackSource source) const {
+PlaneTrack PlaneTracker::Impl::aligned(const View& view, const Matrix3d& H_start,
+                                       const AlignOptions& options, double least,
+                                       PlaneTrackSource source) const {
   const AlignResult result = align(template_, view.pyramid, warp_at(H_start), options);
   PlaneTrack track;
   track.source = source;
@@ -220,7 +237,7 @@ PlaneTrack PlaneTracker::aligned(const View& view, const Matrix3d& H_start,
 }
 
 /// Aligns from the predicted position, then from the last position.
-PlaneTrack PlaneTracker::follow(const View& view) const {
+PlaneTrack PlaneTracker::Impl::follow(const View& view) const {
   const Matrix3d H_predicted = H_last_before_ * H_last_ref_;
   const double area_px = seen_area_px(H_last_ref_, corners_px_);
   const double change = seen_area_px(H_predicted, corners_px_) / area_px;
@@ -235,7 +252,7 @@ PlaneTrack PlaneTracker::follow(const View& view) const {
 }
 
 /// Aligns with the second template; from there with the first, whose result has priority.
-PlaneTrack PlaneTracker::by_second_template(const View& view) const {
+PlaneTrack PlaneTracker::Impl::by_second_template(const View& view) const {
   const auto source = PlaneTrackSource::kSecondTemplate;
   if (!key_) return lost(Outcome::failure(Code::kTooFewData, "no second template"), source);
   const Matrix3d H_ref_key = key_->H_key_ref.inverse();
@@ -264,7 +281,7 @@ PlaneTrack PlaneTracker::by_second_template(const View& view) const {
 }
 
 /// Searches about the last position; the range grows with the number of lost frames.
-PlaneTrack PlaneTracker::search(const View& view) const {
+PlaneTrack PlaneTracker::Impl::search(const View& view) const {
   AlignOptions options = swarm_of(options_.align);
   const double widest = image_size_px_.norm() / template_.diagonal_px();
   options.search_sigma = options_.search_sigma;
@@ -277,7 +294,7 @@ PlaneTrack PlaneTracker::search(const View& view) const {
 }
 
 /// Searches the whole image by point features.
-PlaneTrack PlaneTracker::find(const View& view) {
+PlaneTrack PlaneTracker::Impl::find(const View& view) {
   PlaneTrack track = lost(Outcome::failure(Code::kNoConsensus, "not found by features either"),
                           PlaneTrackSource::kFeatures);
   Random random(options_.align.swarm.seed, "template", {frames_});
@@ -294,7 +311,7 @@ PlaneTrack PlaneTracker::find(const View& view) {
 
 /// Aligns the patch found in this frame with the first image, from a start a few pixels off; it
 /// must end at the template's corners.
-Outcome PlaneTracker::backward_check(const View& view, const PlaneTrack& track) const {
+Outcome PlaneTracker::Impl::backward_check(const View& view, const PlaneTrack& track) const {
   constexpr double kBesidePx = 3;
   const PlanarTemplate seen(view.image, track.corners_px, options_.levels, options_.max_samples);
   const Matrix3d H_ref_cur = track.H_cur_ref.inverse();
@@ -314,7 +331,7 @@ Outcome PlaneTracker::backward_check(const View& view, const PlaneTrack& track) 
   return Outcome::ok();
 }
 
-void PlaneTracker::remember(const View& view, const PlaneTrack& track) {
+void PlaneTracker::Impl::remember(const View& view, const PlaneTrack& track) {
   if (!track.outcome) {
     ++lost_;
     H_last_before_ = Matrix3d::Identity();
@@ -334,7 +351,7 @@ void PlaneTracker::remember(const View& view, const PlaneTrack& track) {
   key_frame_ = frames_;
 }
 
-void PlaneTracker::add_motion(PlaneTrack& track) {
+void PlaneTracker::Impl::add_motion(PlaneTrack& track) {
   if (!camera_ || !track.outcome) return;
   if (normal_ && normal_->add(track.H_cur_ref)) plane_ = normal_->estimate();
   track.normal_outcome = plane_.outcome;
@@ -344,7 +361,7 @@ void PlaneTracker::add_motion(PlaneTrack& track) {
     track.T_cur_ref = motion_from_homography(camera_->K(), track.H_cur_ref, plane_.normal_ref);
 }
 
-PlaneTrack PlaneTracker::track(const Image& image) {
+PlaneTrack PlaneTracker::Impl::track(const Image& image) {
   if (!outcome_) return lost(outcome_, PlaneTrackSource::kPrediction);
   const View view{image, grey_pyramid(image, options_.levels)};
   PlaneTrack track = follow(view);
@@ -358,5 +375,17 @@ PlaneTrack PlaneTracker::track(const Image& image) {
   ++frames_;
   return track;
 }
+
+PlaneTracker::PlaneTracker(const Image& image_ref, const std::vector<Vector2d>& corners_px,
+                           const PlaneTrackerOptions& options, const std::optional<Camera>& camera,
+                           const std::optional<Eigen::Vector3d>& normal_ref)
+    : impl_(std::make_unique<Impl>(image_ref, corners_px, options, camera, normal_ref)) {}
+PlaneTracker::~PlaneTracker() = default;
+PlaneTracker::PlaneTracker(PlaneTracker&&) noexcept = default;
+PlaneTracker& PlaneTracker::operator=(PlaneTracker&&) noexcept = default;
+const Outcome& PlaneTracker::outcome() const { return impl_->outcome_; }
+double PlaneTracker::least_similarity() const { return impl_->least_similarity(); }
+double PlaneTracker::least_similarity_found() const { return impl_->least_similarity_found(); }
+PlaneTrack PlaneTracker::track(const Image& image) { return impl_->track(image); }
 
 }  // namespace placegraph

@@ -1,52 +1,16 @@
 #pragma once
-#include <placegraph/frontend/align/aligner.h>
-#include <placegraph/frontend/align/null_distribution.h>
-#include <placegraph/frontend/align/template_finder.h>
-#include <placegraph/frontend/planes/plane_normal.h>
+#include <placegraph/frontend/align/align_options.h>
+#include <placegraph/graph/core/outcome.h>
+#include <placegraph/graph/geometry/camera.h>
+#include <placegraph/graph/geometry/se3.h>
+#include <placegraph/graph/image/image.h>
 
+#include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
-namespace placegraph {
-
-/// Motion model of the template; all but the first need a camera.
-enum class PlaneModel {
-  kHomography,  ///< 8 degrees of freedom
-  kSe3Plane,    ///< a rigid motion before the plane, whose normal must be known first
-  kSe2Plane,    ///< a motion along the plane
-};
-const std::vector<std::string>& plane_model_names();
-
-/// Options of the plane tracker.
-struct PlaneTrackerOptions {
-  /// Alignment of the template from frame to frame. The covariance includes the uncertainty of a
-  /// corner out of view, which is acceptable up to max_sigma_px.
-  AlignOptions align = [] {
-    AlignOptions options;
-    options.max_sigma_px = 8;
-    return options;
-  }();
-  PlaneModel model = PlaneModel::kHomography;
-  int levels = 4;          ///< levels of the pyramid
-  int max_samples = 3000;  ///< maximum samples of a level
-  int chance_trials = 12;  ///< surrogate images for the null distribution
-  double chance_deviations =
-      4;  ///< least deviations of the similarity above the null distribution's mean
-  double rival_margin = 0.1;  ///< once lost, least similarity above the template's repetitions
-  double max_area_change =
-      2;                     ///< maximum factor of the area of the template's image between frames
-  double min_area_px = 100;  ///< minimum area of the template's image
-  double search_sigma = 0.06;  ///< deviation of the corners in the search when lost [diagonals]
-  double search_shift =
-      0.3;  ///< common deviation of all corners [diagonals]; grows by half of it with
-  ///< every further lost frame, up to the image's size
-  double back_px = 2;  ///< maximum forward-backward error of a template found again
-  TemplateFinderOptions finder;
-  double key_similarity = 0.85;  ///< minimum similarity of a view that becomes the second template
-  int key_interval = 5;          ///< minimum number of frames between second templates
-  PlaneNormalOptions normal;
-  void check() const;
-};
-void visit(OptionVisitor& field, PlaneTrackerOptions& options);
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Method by which a template was found in a frame.
 enum class PlaneTrackSource { kPrediction, kLastPlace, kSecondTemplate, kSwarm, kFeatures };
@@ -98,56 +62,22 @@ class PlaneTracker {
   PlaneTracker(const Image& image_ref, const std::vector<Eigen::Vector2d>& corners_px,
                const PlaneTrackerOptions& options, const std::optional<Camera>& camera = {},
                const std::optional<Eigen::Vector3d>& normal_ref = {});
+  ~PlaneTracker();
+  PlaneTracker(PlaneTracker&& other) noexcept;
+  PlaneTracker& operator=(PlaneTracker&& other) noexcept;
 
   /// Whether the template can be tracked: kTooFewData or kDegenerate if not.
-  const Outcome& outcome() const { return outcome_; }
-  const NullDistribution& chance() const { return chance_; }
-  /// Least similarity of a tracked frame; least_similarity_found(): of a template found again.
-  double least_similarity() const { return chance_.bound(options_.chance_deviations); }
+  const Outcome& outcome() const;
+  /// Least similarity of a tracked frame.
+  double least_similarity() const;
+  /// Least similarity of a template that is found again.
   double least_similarity_found() const;
-
   /// Tracks the template in the next frame (CV_8UC1, of any size).
   [[nodiscard]] PlaneTrack track(const Image& image);
 
  private:
-  struct View;
-  struct TemplateView {
-    PlanarTemplate planar_template;
-    std::vector<Eigen::Vector2d> corners_px;
-    Eigen::Matrix3d H_key_ref;
-    Eigen::Matrix<double, 8, 8> covariance;
-  };
-
-  PlanarWarp warp_at(const Eigen::Matrix3d& H_cur_ref) const;
-  Outcome judge(const AlignResult& result, const Eigen::Matrix3d& H_cur_ref, double least) const;
-  PlaneTrack aligned(const View& view, const Eigen::Matrix3d& H_start, const AlignOptions& options,
-                     double least, PlaneTrackSource source) const;
-  PlaneTrack follow(const View& view) const;
-  PlaneTrack by_second_template(const View& view) const;
-  PlaneTrack search(const View& view) const;
-  PlaneTrack find(const View& view);
-  Outcome backward_check(const View& view, const PlaneTrack& track) const;
-  void remember(const View& view, const PlaneTrack& track);
-  void add_motion(PlaneTrack& track);
-
-  std::vector<Image> pyramid_ref_;
-  std::vector<Eigen::Vector2d> corners_px_;
-  PlaneTrackerOptions options_;
-  std::optional<Camera> camera_;
-  PlanarTemplate template_;
-  TemplateFinder finder_;
-  Outcome outcome_;
-  NullDistribution chance_;
-  std::optional<PlaneNormalEstimator> normal_;
-  PlaneNormal plane_;  ///< current estimate of the plane
-  std::optional<TemplateView> key_;
-  int frames_ = 0, key_frame_ = 0;
-  int lost_ = 0;  ///< frames since the template was tracked last
-  Eigen::Matrix3d H_last_ref_ =
-      Eigen::Matrix3d::Identity();  ///< where the template was tracked last
-  Eigen::Matrix3d H_last_before_ =
-      Eigen::Matrix3d::Identity();  ///< motion from the frame before that
-  Eigen::Vector2d image_size_px_;
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace placegraph

@@ -79,11 +79,6 @@ void weigh(const std::vector<double>& cur, const RobustKernel& kernel, Photometr
 
 }  // namespace
 
-const std::vector<std::string>& similarity_names() {
-  static const std::vector<std::string> names = {"ssd", "ssd_gain_bias", "zncc", "mi"};
-  return names;
-}
-
 double similarity(Similarity kind, const std::vector<double>& ref, const std::vector<double>& cur) {
   if (ref.size() < 2) return -std::numeric_limits<double>::infinity();
   const auto n = static_cast<double>(ref.size());

@@ -1,19 +1,11 @@
 #pragma once
+#include <placegraph/frontend/align/align_options.h>
 #include <placegraph/graph/core/robust_kernel.h>
 
 #include <string>
 #include <vector>
 
 namespace placegraph {
-
-/// Measure of the similarity of two lists of grey values.
-enum class Similarity {
-  kSsd,          ///< sum of squared differences
-  kSsdGainBias,  ///< sum of squared differences after the best gain (1/2 to 2) and bias
-  kZncc,         ///< zero-mean normalized cross-correlation
-  kMi,           ///< mutual information of a joint histogram with cubic B-spline windows
-};
-const std::vector<std::string>& similarity_names();
 
 /// Similarity of two lists of grey values; a greater value is more similar.
 ///

@@ -1,9 +1,15 @@
 #include <placegraph/frontend/cloud_planes/cloud_plane_baselines.h>
 #include <placegraph/frontend/cloud_planes/cloud_planes.h>
+#include <placegraph/frontend/cloud_planes/cloud_points.h>
+#include <placegraph/frontend/cloud_planes/planar_segments.h>
+#include <placegraph/frontend/cloud_planes/planarity.h>
 #include <placegraph/frontend/cloud_planes/plane_labels.h>
+#include <placegraph/frontend/cloud_planes/super_points.h>
+#include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/ransac.h>
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 
 namespace placegraph {
@@ -186,18 +192,31 @@ CloudPlanesResult find_cloud_planes(const PointCloud& cloud, const CloudPlanesOp
   return result;
 }
 
-JudgedSegments segments_to_judge(const PointCloud& cloud, const CloudPlanesOptions& options) {
-  JudgedSegments result;
-  result.points = prepare_cloud(cloud, options.flatness);
-  if (result.points.size() < kLeastPoints) return result;
-  result.cloud = make_super_points(result.points);
-  const auto contacts = contacts_of_cells(result.cloud);
+std::vector<PlanaritySample> planarity_samples(const PointCloud& cloud,
+                                               const std::vector<int>& labels,
+                                               const CloudPlanesOptions& options) {
+  constexpr double kPlane = 0.9, kNoPlane = 0.6;
+  require(labels.size() == cloud.points.size(), "planarity_samples: one label a point is needed");
+  std::vector<PlanaritySample> samples;
+  const CloudPoints points = prepare_cloud(cloud, options.flatness);
+  if (points.size() < kLeastPoints) return samples;
+  const SuperPoints super_points = make_super_points(points);
+  const auto contacts = contacts_of_cells(super_points);
   Random random(options.seed);
-  for (PlanarSegment& segment : find_segments(result.points, result.cloud, options, random)) {
-    result.features.push_back(planarity_features(segment, result.points, result.cloud, contacts));
-    result.segments.push_back(std::move(segment));
+  for (const PlanarSegment& segment : find_segments(points, super_points, options, random)) {
+    std::map<int, int> share;
+    for (const int c : segment.cells)
+      for (int i = super_points.cells[c].begin; i < super_points.cells[c].end; ++i)
+        ++share[labels[points.source[super_points.order[i]]]];
+    int most = 0;
+    for (const auto& [label, count] : share)
+      if (label > 0) most = std::max(most, count);
+    const double purity = most / segment.sums.count();
+    if (purity < kPlane && purity > kNoPlane) continue;
+    samples.push_back(
+        {planarity_features(segment, points, super_points, contacts), purity >= kPlane});
   }
-  return result;
+  return samples;
 }
 
 }  // namespace placegraph

@@ -1,12 +1,14 @@
 #pragma once
+#include <placegraph/frontend/cloud_planes/cloud_noise.h>
 #include <placegraph/frontend/cloud_planes/cloud_planes_options.h>
-#include <placegraph/frontend/cloud_planes/cloud_points.h>
-#include <placegraph/frontend/cloud_planes/planarity.h>
+#include <placegraph/frontend/cloud_planes/planarity_model.h>
+#include <placegraph/frontend/planes/homography.h>
 #include <placegraph/graph/core/outcome.h>
+#include <placegraph/graph/measurements/point_cloud.h>
 
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 struct CloudPlane {
   Plane plane;  ///< plane in the sensor's frame, distance_m >= 0
@@ -36,14 +38,5 @@ struct CloudPlanesResult {
 [[nodiscard]] CloudPlanesResult find_cloud_planes(const PointCloud& cloud,
                                                   const CloudPlanesOptions& options,
                                                   const PlanarityModel& planarity);
-
-/// Segments and their features in `find_cloud_planes`, for the training of the planarity model.
-struct JudgedSegments {
-  CloudPoints points;
-  SuperPoints cloud;
-  std::vector<PlanarSegment> segments;
-  std::vector<PlanarityFeatures> features;
-};
-JudgedSegments segments_to_judge(const PointCloud& cloud, const CloudPlanesOptions& options);
 
 }  // namespace placegraph

@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/graph/core/options.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 enum class CloudPlanesMethod {
   kCuts,     ///< super-points, normalized cuts, learned planarity

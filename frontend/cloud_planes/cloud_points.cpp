@@ -14,8 +14,7 @@ namespace {
 
 /// Number of neighbours of a point, for a cloud that is not an image.
 constexpr int kNeighbours = 8;
-constexpr int kNoisePatches = 1500;   ///< number of patches for the noise estimate
-constexpr double kLeastShare = 1e-5;  ///< share of the depth: less noise than that is rounding
+constexpr int kNoisePatches = 1500;  ///< number of patches for the noise estimate
 
 void take_points(const PointCloud& cloud, CloudPoints& points) {
   if (cloud.organised()) {
@@ -209,11 +208,6 @@ double measure_shared(const CloudPoints& points) {
 }
 
 }  // namespace
-
-double CloudNoise::sigma(double depth_m) const {
-  const double factor = power == 0 ? 1 : power == 1 ? depth_m : depth_m * depth_m;
-  return std::max({at_1m * factor, least_m, kLeastShare * depth_m});
-}
 
 CloudPoints prepare_cloud(const PointCloud& cloud, double flatness) {
   CloudPoints points;

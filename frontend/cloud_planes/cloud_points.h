@@ -1,22 +1,11 @@
 #pragma once
+#include <placegraph/frontend/cloud_planes/cloud_noise.h>
 #include <placegraph/frontend/planes/plane_sums.h>
 #include <placegraph/graph/measurements/point_cloud.h>
 
 #include <vector>
 
 namespace placegraph {
-
-/// Standard deviation of a point: `at_1m` times depth to the `power` [m].
-///
-/// Power 0: constant, 1: a share of the depth (laser), 2: a constant disparity (stereo, depth
-/// cameras).
-struct CloudNoise {
-  double at_1m = 0;
-  int power = 1;
-  double least_m = 0;  ///< least value, from the quantization of the depths
-  double shared = 0;   ///< in an image: variance that neighbours have in common, over their own
-  double sigma(double depth_m) const;
-};
 
 /// Cloud in the form that plane finders use: its points, with their noise and neighbours.
 struct CloudPoints {

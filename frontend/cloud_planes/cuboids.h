@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 enum class CuboidKind {
   kBox,   ///< observed from outside: its faces meet at convex edges

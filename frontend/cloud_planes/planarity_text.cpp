@@ -1,4 +1,4 @@
-#include <placegraph/frontend/cloud_planes/planarity.h>
+#include <placegraph/frontend/cloud_planes/planarity_model.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

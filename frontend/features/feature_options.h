@@ -71,4 +71,15 @@ struct RectificationOptions {
 };
 void visit(OptionVisitor& field, RectificationOptions& options);
 
+/// Options of the matching across wide baselines.
+struct WideMatcherOptions {
+  int max_features = 6000;      ///< maximum number of features of an image
+  double min_contrast = 0.006;  ///< minimum contrast of a feature, as a share of the grey range
+  double max_ratio = 0.85;      ///< maximum ratio of best to second best distance (Lowe 2004)
+  double epipolar_px = 1.5;     ///< maximum epipolar distance of an inlier
+  int min_inliers = 16;         ///< minimum inliers of the fundamental matrix
+  void check() const { check_ranges(*this); }
+};
+void visit(OptionVisitor& field, WideMatcherOptions& options);
+
 }  // namespace placegraph

@@ -59,17 +59,6 @@ std::vector<PointPair> match_points(const WideBaselineFeatures& a, const WideBas
   return pairs;
 }
 
-void visit(OptionVisitor& field, WideMatcherOptions& o) {
-  field("max_features", o.max_features, "maximum number of features of an image", {50, 100000});
-  field("min_contrast", o.min_contrast,
-        "minimum contrast of a feature, as a share of the grey range", {0, 1});
-  field("max_ratio", o.max_ratio, "maximum ratio of the best to the second best distance",
-        {0.1, 1});
-  field("epipolar_px", o.epipolar_px,
-        "maximum epipolar distance of an inlier of the fundamental matrix [px]", {0.1, 20});
-  field("min_inliers", o.min_inliers, "minimum inliers of the fundamental matrix", {8, 10000});
-}
-
 WideMatches match_wide(const Image& a, const Image& b, const WideMatcherOptions& options) {
   options.check();
   for (const Image* image : {&a, &b})

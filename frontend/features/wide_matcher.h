@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/frontend/features/feature_options.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/image/image.h>
@@ -7,17 +8,6 @@
 #include <vector>
 
 namespace placegraph {
-
-/// Options of the matching across wide baselines.
-struct WideMatcherOptions {
-  int max_features = 6000;      ///< maximum number of features of an image
-  double min_contrast = 0.006;  ///< minimum contrast of a feature, as a share of the grey range
-  double max_ratio = 0.85;      ///< maximum ratio of best to second best distance (Lowe 2004)
-  double epipolar_px = 1.5;     ///< maximum epipolar distance of an inlier
-  int min_inliers = 16;         ///< minimum inliers of the fundamental matrix
-  void check() const { check_ranges(*this); }
-};
-void visit(OptionVisitor& field, WideMatcherOptions& options);
 
 /// A point in two images, with the local motion estimated from its surroundings.
 struct PointPair {

@@ -95,21 +95,6 @@ void median(Image& field, int side) {
 
 }  // namespace
 
-void HornSchunckOptions::check() const {
-  check_ranges(*this);
-  require(median_px % 2 == 1, "median_px: must be odd");
-}
-
-void visit(OptionVisitor& field, HornSchunckOptions& o) {
-  field("alpha", o.alpha, "weight of smoothness against brightness [grey levels per pixel]",
-        {0.01, 1000});
-  field("levels", o.levels, "levels of the image pyramid; 1: the method of 1981", {1, 12});
-  field("warps", o.warps, "warps of the second image by the current flow, per level", {1, 50});
-  field("iterations", o.iterations, "iterations of successive over-relaxation per warp", {1, 1000});
-  field("median_px", o.median_px, "side of the median filter after each warp; 1: none [px]",
-        {1, 5});
-}
-
 Image horn_schunck(const Image& from, const Image& to, const HornSchunckOptions& options) {
   options.check();
   require(from.type() == CV_8UC1 && !from.empty() && to.type() == CV_8UC1,

@@ -1,19 +1,9 @@
 #pragma once
+#include <placegraph/frontend/flow/flow_options.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/image/image.h>
 
 namespace placegraph {
-
-/// Options of Horn-Schunck flow.
-struct HornSchunckOptions {
-  double alpha = 12;    ///< weight of smoothness against brightness [grey levels per pixel]
-  int levels = 6;       ///< levels of the image pyramid; 1: the method of 1981
-  int warps = 4;        ///< warps of the second image by the current flow, per level
-  int iterations = 40;  ///< iterations of successive over-relaxation per warp
-  int median_px = 5;    ///< side of the median filter of the flow after each warp: 1 (none), 3 or 5
-  void check() const;
-};
-void visit(OptionVisitor& field, HornSchunckOptions& options);
 
 /// Dense smooth flow after Horn & Schunck.
 ///

@@ -13,24 +13,6 @@ using Eigen::Matrix4d;
 using Eigen::Vector2d;
 using Eigen::Vector4d;
 
-void InterpolationFlowOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, InterpolationFlowOptions& o) {
-  field("radius_px", o.radius_px, "half the side of the patch [px]", {2, 64});
-  field("fwhm_px", o.fwhm_px,
-        "full width of the patch's Gaussian weight at half of the maximum [px]", {1, 128});
-  field("levels", o.levels, "number of levels of the image pyramid", {1, 8});
-  field("shift_px", o.shift_px, "shift of the shifted references on each level [px]", {1, 16});
-  field("rotation_rad", o.rotation_rad, "rotation of the rotated references [rad]", {0.001, 0.5});
-  field("rotates", o.rotates, "estimate the rotation of the patch, on the finest level");
-  field("iterations", o.iterations, "maximum number of iterations on each level", {1, 50});
-  field("epsilon_px", o.epsilon_px, "a step shorter than this ends the iterations [px]", {1e-4, 1});
-  field("min_eigenvalue", o.min_eigenvalue,
-        "minimum eigenvalue of the gradient matrix per pixel, for grey levels / 255", {0, 1});
-  field("max_residual", o.max_residual, "maximum RMS of the residual, for grey levels / 255",
-        {0, 1});
-}
-
 /// The linear system of one patch: differences of the copies shifted along u, along v and rotated,
 /// and the grey values for the gain; all without their weighted mean, so that the offset is free.
 struct InterpolationFlow::Patch {

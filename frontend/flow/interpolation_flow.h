@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/frontend/flow/flow_options.h>
 #include <placegraph/frontend/flow/flow_vector.h>
 #include <placegraph/frontend/flow/padded_pyramid.h>
 #include <placegraph/graph/core/options.h>
@@ -8,22 +9,6 @@
 #include <vector>
 
 namespace placegraph {
-
-/// Options of the flow by image interpolation.
-struct InterpolationFlowOptions {
-  int radius_px = 7;          ///< the side of the patch is 2 radius + 1
-  double fwhm_px = 10;        ///< full width of the patch's Gaussian weight at half of the maximum
-  int levels = 3;             ///< levels of the pyramid; references have the same shift on each
-  int shift_px = 1;           ///< shift of the references on each level
-  double rotation_rad = 0.1;  ///< rotation of the references about the patch's centre
-  bool rotates = true;        ///< estimate the rotation, on the finest level only
-  int iterations = 4;         ///< maximum number of iterations on each level
-  double epsilon_px = 0.01;   ///< a step shorter than this ends the iterations
-  double min_eigenvalue = 3e-5;  ///< minimum, of the gradient matrix per pixel, grey levels / 255
-  double max_residual = 0.08;    ///< maximum RMS of the residual, grey levels / 255
-  void check() const;
-};
-void visit(OptionVisitor& field, InterpolationFlowOptions& options);
 
 /// Motion of a patch between two images.
 ///

@@ -57,17 +57,6 @@ std::vector<int> best_partners(const KeyPixels& a, const KeyPixels& b,
 
 }  // namespace
 
-void KeyPixelFlowOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, KeyPixelFlowOptions& o) {
-  field("max_key_pixels", o.max_key_pixels,
-        "maximum number of key-pixels per image, the strongest ones", {10, 100000});
-  field("max_flow_px", o.max_flow_px, "maximum distance of partners [px]", {1, 10000});
-  field("max_ratio", o.max_ratio,
-        "maximum ratio of the descriptor distances of the two best partners", {0.1, 1});
-  field("max_scale_ratio", o.max_scale_ratio, "maximum ratio of the sizes of partners", {1, 10});
-}
-
 std::vector<FlowVector> key_pixel_flow(const Image& from, const Image& to,
                                        const KeyPixelFlowOptions& options) {
   options.check();

@@ -1,18 +1,9 @@
 #pragma once
+#include <placegraph/frontend/flow/flow_options.h>
 #include <placegraph/frontend/flow/flow_vector.h>
 #include <placegraph/graph/core/options.h>
 
 namespace placegraph {
-
-/// Options of the flow at key-pixels.
-struct KeyPixelFlowOptions {
-  int max_key_pixels = 2000;  ///< maximum number of key-pixels per image, the strongest ones
-  double max_flow_px = 100;   ///< maximum distance of partners
-  double max_ratio = 0.8;  ///< maximum ratio of the descriptor distances of the two best partners
-  double max_scale_ratio = 1.6;  ///< maximum ratio of the sizes of partners
-  void check() const;
-};
-void visit(OptionVisitor& field, KeyPixelFlowOptions& options);
 
 /// Sparse flow at key-pixels, extrema of intensity change in Gaussian-smoothed images.
 ///

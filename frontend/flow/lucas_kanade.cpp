@@ -206,23 +206,6 @@ class Follower {
 
 }  // namespace
 
-void LucasKanadeOptions::check() const {
-  check_ranges(*this);
-  require(window_px % 2 == 1, "window_px: must be odd");
-}
-
-void visit(OptionVisitor& field, LucasKanadeOptions& o) {
-  field("window_px", o.window_px, "side of the window, odd [px]", {3, 63});
-  field("levels", o.levels, "number of levels of the image pyramid", {1, 8});
-  field("iterations", o.iterations, "maximum number of iterations on each level", {1, 100});
-  field("epsilon_px", o.epsilon_px, "a step shorter than this ends the iterations of a level [px]",
-        {1e-4, 1});
-  field("min_eigenvalue", o.min_eigenvalue,
-        "minimum eigenvalue of the gradient matrix per pixel, for grey levels / 255", {0, 1});
-  field("max_return_error_px", o.max_return_error_px,
-        "maximum forward-backward error; 0: no check [px]", {0, 10});
-}
-
 std::vector<FlowVector> lucas_kanade(const Image& from, const Image& to,
                                      const std::vector<Vector2d>& points,
                                      const LucasKanadeOptions& options) {

@@ -1,20 +1,9 @@
 #pragma once
+#include <placegraph/frontend/flow/flow_options.h>
 #include <placegraph/frontend/flow/flow_vector.h>
 #include <placegraph/graph/core/options.h>
 
 namespace placegraph {
-
-/// Options of pyramidal Lucas-Kanade.
-struct LucasKanadeOptions {
-  int window_px = 21;              ///< side of the window, odd
-  int levels = 4;                  ///< levels of the image pyramid
-  int iterations = 30;             ///< maximum number of iterations on each level
-  double epsilon_px = 0.01;        ///< a step shorter than this ends the iteration of a level
-  double min_eigenvalue = 3e-5;    ///< minimum, of the gradient matrix per pixel, grey levels / 255
-  double max_return_error_px = 1;  ///< maximum forward-backward error; 0: no check
-  void check() const;
-};
-void visit(OptionVisitor& field, LucasKanadeOptions& options);
 
 /// Pyramidal Lucas-Kanade flow (Lucas & Kanade 1981; Bouguet 2000) at given points.
 ///

@@ -1,3 +1,7 @@
+#include <placegraph/frontend/flow/horn_schunck.h>
+#include <placegraph/frontend/flow/interpolation_flow.h>
+#include <placegraph/frontend/flow/key_pixel_flow.h>
+#include <placegraph/frontend/flow/lucas_kanade.h>
 #include <placegraph/frontend/flow/optical_flow.h>
 #include <placegraph/graph/core/error.h>
 
@@ -75,25 +79,6 @@ Image dis(const Image& from, const Image& to) {
 }
 
 }  // namespace
-
-void FlowOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, FlowOptions& o) {
-  field.choice("method", o.method, flow_method_names(), "method of optical flow");
-  field("step_px", o.step_px, "spacing of the grid, for methods that measure single points [px]",
-        {1, 1000});
-  field.group("interpolation", o.interpolation, "image interpolation");
-  field.group("lucas_kanade", o.lucas_kanade, "Lucas-Kanade, placegraph's and OpenCV's");
-  field.group("horn_schunck", o.horn_schunck, "Horn-Schunck");
-  field.group("key_pixels", o.key_pixels, "flow at key-pixels");
-}
-
-const std::vector<std::string>& flow_method_names() {
-  static const std::vector<std::string> kNames = {
-      "interpolation",       "lucas-kanade", "horn-schunck", "key-pixels",
-      "opencv-lucas-kanade", "farneback",    "dis"};
-  return kNames;
-}
 
 Image optical_flow(const Image& from, const Image& to, const FlowOptions& options) {
   options.check();

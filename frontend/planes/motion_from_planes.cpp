@@ -257,16 +257,6 @@ Readings readings_of(const Views& views, const PlanarRegionsResult& regions,
 
 }  // namespace
 
-void MotionFromPlanesOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, MotionFromPlanesOptions& o) {
-  field("max_iterations", o.max_iterations, "maximum number of iterations of the joint refinement",
-        {1, 10000});
-  field.formerly("ambiguity_nats")(
-      "ambiguity_log_ratio", o.ambiguity_log_ratio,
-      "maximum difference in log-likelihood to the best reading that is kept", {0, 1e6});
-}
-
 MotionFromPlanesResult motion_from_planes(const Camera& camera, const PointMatches& matches,
                                           const PlanarRegionsResult& regions,
                                           const MotionFromPlanesOptions& options) {

@@ -1,19 +1,12 @@
 #pragma once
 #include <placegraph/frontend/planes/homography.h>
 #include <placegraph/frontend/planes/planar_regions.h>
+#include <placegraph/frontend/planes/plane_options.h>
 #include <placegraph/graph/geometry/se3.h>
 
 #include <optional>
 
 namespace placegraph {
-
-struct MotionFromPlanesOptions {
-  int max_iterations = 30;
-  /// Readings up to this far below the best in log-likelihood are kept.
-  double ambiguity_log_ratio = 6;
-  void check() const;
-};
-void visit(OptionVisitor& field, MotionFromPlanesOptions& options);
 
 /// One solution (reading) for two views of planes: motion with |t| = 1, planes in the scale of |t|.
 struct PlanesReading {

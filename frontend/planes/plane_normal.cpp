@@ -126,15 +126,6 @@ std::vector<Reading> readings_of(const Matrix3d& K, const std::vector<Vector2d>&
 
 }  // namespace
 
-void visit(OptionVisitor& field, PlaneNormalOptions& o) {
-  field("views", o.views, "maximum number of views kept", {2, 1000});
-  field("apart_px", o.apart_px, "minimum distance of a view from every kept one, for it to be kept",
-        {0.01, 1000});
-  field("sigma_px", o.sigma_px, "minimum standard deviation of a corner", {0.001, 100});
-  field("max_sigma_deg", o.max_sigma_deg, "maximum standard deviation of the normal", {0.01, 90});
-  field("distinct_deg", o.distinct_deg, "readings closer than this count as one", {0.1, 90});
-}
-
 PlaneNormalEstimator::PlaneNormalEstimator(const Matrix3d& K,
                                            const std::vector<Vector2d>& corners_ref_px,
                                            const PlaneNormalOptions& options)

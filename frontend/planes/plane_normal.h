@@ -1,21 +1,12 @@
 #pragma once
 #include <placegraph/frontend/planes/homography.h>
+#include <placegraph/frontend/planes/plane_options.h>
 #include <placegraph/graph/core/options.h>
 
 #include <array>
 #include <vector>
 
 namespace placegraph {
-
-struct PlaneNormalOptions {
-  int views = 24;            ///< maximum number of views kept
-  double apart_px = 4;       ///< minimum distance of a view from every kept one, for it to be kept
-  double sigma_px = 0.3;     ///< minimum standard deviation of a corner
-  double max_sigma_deg = 5;  ///< maximum standard deviation of the normal
-  double distinct_deg = 8;   ///< readings closer than this count as one
-  void check() const { check_ranges(*this); }
-};
-void visit(OptionVisitor& field, PlaneNormalOptions& options);
 
 /// Unit normal of a plane in the reference camera, estimated from homographies to several views.
 struct PlaneNormal {

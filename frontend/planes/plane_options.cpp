@@ -121,4 +121,30 @@ void visit(OptionVisitor& field, DominantSurfaceOptions& o) {
         "random walk of pitch and roll after a plane that contradicts the filter", {0, 45});
 }
 
+void visit(OptionVisitor& field, PlaneNormalOptions& o) {
+  field("views", o.views, "maximum number of views kept", {2, 1000});
+  field("apart_px", o.apart_px, "minimum distance of a view from every kept one, for it to be kept",
+        {0.01, 1000});
+  field("sigma_px", o.sigma_px, "minimum standard deviation of a corner", {0.001, 100});
+  field("max_sigma_deg", o.max_sigma_deg, "maximum standard deviation of the normal", {0.01, 90});
+  field("distinct_deg", o.distinct_deg, "readings closer than this count as one", {0.1, 90});
+}
+
+void MotionFromPlanesOptions::check() const { check_ranges(*this); }
+
+void visit(OptionVisitor& field, MotionFromPlanesOptions& o) {
+  field("max_iterations", o.max_iterations, "maximum number of iterations of the joint refinement",
+        {1, 10000});
+  field.formerly("ambiguity_nats")(
+      "ambiguity_log_ratio", o.ambiguity_log_ratio,
+      "maximum difference in log-likelihood to the best reading that is kept", {0, 1e6});
+}
+
+void visit(OptionVisitor& field, TemplateFinderOptions& o) {
+  field.group("features", o.features, "point features of the images");
+  field("inlier_px", o.inlier_px, "maximum symmetric transfer error of an inlier [px]", {0.1, 50});
+  field.internal().group("ransac", o.ransac, "homography hypotheses");
+  field("places", o.places, "maximum number of proposals", {1, 100});
+}
+
 }  // namespace placegraph

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/frontend/features/feature_options.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/core/ransac_options.h>
 
@@ -116,5 +117,33 @@ struct DominantSurfaceOptions {
   void check() const;
 };
 void visit(OptionVisitor& field, DominantSurfaceOptions& options);
+
+struct PlaneNormalOptions {
+  int views = 24;            ///< maximum number of views kept
+  double apart_px = 4;       ///< minimum distance of a view from every kept one, for it to be kept
+  double sigma_px = 0.3;     ///< minimum standard deviation of a corner
+  double max_sigma_deg = 5;  ///< maximum standard deviation of the normal
+  double distinct_deg = 8;   ///< readings closer than this count as one
+  void check() const { check_ranges(*this); }
+};
+void visit(OptionVisitor& field, PlaneNormalOptions& options);
+
+struct MotionFromPlanesOptions {
+  int max_iterations = 30;
+  /// Readings up to this far below the best in log-likelihood are kept.
+  double ambiguity_log_ratio = 6;
+  void check() const;
+};
+void visit(OptionVisitor& field, MotionFromPlanesOptions& options);
+
+/// Options of the template finder.
+struct TemplateFinderOptions {
+  WideMatcherOptions features;  ///< its geometric options are not used
+  double inlier_px = 3;         ///< maximum symmetric transfer error of an inlier
+  RansacOptions ransac{2000, 0.999, 8};
+  int places = 3;  ///< maximum number of proposals; each uses the matches left by the previous ones
+  void check() const { check_ranges(*this); }
+};
+void visit(OptionVisitor& field, TemplateFinderOptions& options);
 
 }  // namespace placegraph

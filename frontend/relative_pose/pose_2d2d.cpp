@@ -1,6 +1,7 @@
 #include <placegraph/frontend/planes/homography.h>
 #include <placegraph/frontend/relative_pose/pose_2d2d.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/ransac.h>
 
 #include <Eigen/Dense>
 #include <opencv2/calib3d.hpp>

@@ -1,5 +1,6 @@
 #include <placegraph/frontend/relative_pose/pose_3d2d.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/ransac.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>

@@ -1,6 +1,7 @@
 #pragma once
 #include <placegraph/frontend/relative_pose/relative_pose_options.h>
-#include <placegraph/graph/core/ransac.h>
+#include <placegraph/graph/core/outcome.h>
+#include <placegraph/graph/core/random.h>
 #include <placegraph/graph/geometry/camera.h>
 
 #include <vector>

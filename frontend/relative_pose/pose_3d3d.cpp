@@ -1,5 +1,6 @@
 #include <placegraph/frontend/relative_pose/pose_3d3d.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/ransac.h>
 
 #include <Eigen/Dense>
 #include <cmath>

@@ -3,6 +3,7 @@
 #include <placegraph/frontend/relative_pose/pose_gravity.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/ransac.h>
 
 #include <Eigen/Dense>
 #include <array>

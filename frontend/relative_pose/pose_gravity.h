@@ -1,5 +1,6 @@
 #pragma once
-#include <placegraph/graph/core/ransac.h>
+#include <placegraph/graph/core/outcome.h>
+#include <placegraph/graph/core/random.h>
 #include <placegraph/graph/geometry/camera.h>
 
 #include <vector>

@@ -1,6 +1,9 @@
+#include <placegraph/frontend/planes/motion_from_planes.h>
 #include <placegraph/frontend/relative_pose/epipolar_error.h>
 #include <placegraph/frontend/relative_pose/epipolar_refinement.h>
+#include <placegraph/frontend/relative_pose/pose_2d2d.h>
 #include <placegraph/frontend/relative_pose/relative_pose.h>
+#include <placegraph/frontend/relative_pose/rotation_2d2d.h>
 #include <placegraph/graph/core/error.h>
 
 #include <Eigen/Dense>
@@ -182,24 +185,6 @@ void take_homography(const Views& views, const Pose2d2dResult& found,
 }
 
 }  // namespace
-
-const std::vector<std::string>& relative_pose_model_names() {
-  static const std::vector<std::string> names = {"auto", "essential", "homography", "rotation"};
-  return names;
-}
-
-void RelativePoseOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, RelativePoseOptions& o) {
-  field.choice("model", o.model, relative_pose_model_names(), "model of the relative pose");
-  field.group("two_view", o.two_view, "essential matrix and homography");
-  field.group("rotation", o.rotation, "pure rotation");
-  field.group("plane", o.plane, "motion before one plane");
-  field("min_parallax_px", o.min_parallax_px, "minimum median displacement for a translation [px]",
-        {0, 100});
-  field("ambiguity", o.ambiguity,
-        "share of the best motion's points that makes a second motion a rival", {0, 1});
-}
 
 RelativePose estimate_relative_pose(const Camera& camera,
                                     const std::vector<Eigen::Vector2d>& px_ref,

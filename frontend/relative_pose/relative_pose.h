@@ -1,30 +1,15 @@
 #pragma once
-#include <placegraph/frontend/planes/motion_from_planes.h>
-#include <placegraph/frontend/relative_pose/pose_2d2d.h>
-#include <placegraph/frontend/relative_pose/rotation_2d2d.h>
+#include <placegraph/frontend/relative_pose/relative_pose_options.h>
+#include <placegraph/graph/core/outcome.h>
+#include <placegraph/graph/core/random.h>
+#include <placegraph/graph/geometry/camera.h>
+#include <placegraph/graph/geometry/se3.h>
 
 #include <optional>
 #include <string>
 #include <vector>
 
-namespace placegraph {
-
-/// Model of the relative pose of two views; `kAuto` selects one.
-enum class RelativePoseModel { kAuto, kEssential, kHomography, kRotation };
-/// Names of the models, "auto", "essential", ..., in the order of the enum.
-const std::vector<std::string>& relative_pose_model_names();
-
-/// Options of the relative pose of two views.
-struct RelativePoseOptions {
-  RelativePoseModel model = RelativePoseModel::kAuto;
-  Pose2d2dOptions two_view;
-  Rotation2d2dOptions rotation;
-  MotionFromPlanesOptions plane;
-  double min_parallax_px = 1.0;  ///< least median displacement for a translation
-  double ambiguity = 0.8;  ///< share of the best motion's points that makes a second one a rival
-  void check() const;
-};
-void visit(OptionVisitor& field, RelativePoseOptions& options);
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Relative pose of two views.
 struct RelativePose {

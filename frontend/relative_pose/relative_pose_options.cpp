@@ -46,4 +46,22 @@ void visit(OptionVisitor& field, MonoInitializerOptions& o) {
         "share of the best motion's points that makes a second motion ambiguous", {0, 1});
 }
 
+const std::vector<std::string>& relative_pose_model_names() {
+  static const std::vector<std::string> names = {"auto", "essential", "homography", "rotation"};
+  return names;
+}
+
+void RelativePoseOptions::check() const { check_ranges(*this); }
+
+void visit(OptionVisitor& field, RelativePoseOptions& o) {
+  field.choice("model", o.model, relative_pose_model_names(), "model of the relative pose");
+  field.group("two_view", o.two_view, "essential matrix and homography");
+  field.group("rotation", o.rotation, "pure rotation");
+  field.group("plane", o.plane, "motion before one plane");
+  field("min_parallax_px", o.min_parallax_px, "minimum median displacement for a translation [px]",
+        {0, 100});
+  field("ambiguity", o.ambiguity,
+        "share of the best motion's points that makes a second motion a rival", {0, 1});
+}
+
 }  // namespace placegraph

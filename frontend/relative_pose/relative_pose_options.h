@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/frontend/planes/plane_options.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/core/ransac_options.h>
 
@@ -51,5 +52,23 @@ struct MonoInitializerOptions {
   void check() const;
 };
 void visit(OptionVisitor& field, MonoInitializerOptions& options);
+
+/// Model of the relative pose of two views; `kAuto` selects one.
+enum class RelativePoseModel { kAuto, kEssential, kHomography, kRotation };
+
+/// Names of the models, "auto", "essential", ..., in the order of the enum.
+const std::vector<std::string>& relative_pose_model_names();
+
+/// Options of the relative pose of two views.
+struct RelativePoseOptions {
+  RelativePoseModel model = RelativePoseModel::kAuto;
+  Pose2d2dOptions two_view;
+  Rotation2d2dOptions rotation;
+  MotionFromPlanesOptions plane;
+  double min_parallax_px = 1.0;  ///< least median displacement for a translation
+  double ambiguity = 0.8;  ///< share of the best motion's points that makes a second one a rival
+  void check() const;
+};
+void visit(OptionVisitor& field, RelativePoseOptions& options);
 
 }  // namespace placegraph

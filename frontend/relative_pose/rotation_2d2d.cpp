@@ -1,5 +1,6 @@
 #include <placegraph/frontend/relative_pose/rotation_2d2d.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/ransac.h>
 
 #include <Eigen/Dense>
 #include <cmath>

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 struct HorizonOptions {
   /// Maximum tilt of the camera; directions beyond are neither upright nor level.

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/frontend/segments/edge_segment.h>
 #include <placegraph/frontend/segments/segment_options.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/geometry/line_segment.h>
@@ -8,14 +9,6 @@
 #include <vector>
 
 namespace placegraph {
-
-/// A segment measured on the gradient, brighter side on the right.
-struct EdgeSegment {
-  LineSegment segment;
-  ImageLine line;       ///< the infinite line, with the covariance of its support
-  double contrast = 0;  ///< median gradient across [grey levels / px]
-  int support = 0;      ///< number of points used in the line
-};
 
 /// Intersection of an edge with a profile.
 struct EdgePoint {

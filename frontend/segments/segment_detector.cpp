@@ -1,4 +1,6 @@
+#include <placegraph/frontend/segments/edge_refinement.h>
 #include <placegraph/frontend/segments/segment_detector.h>
+#include <placegraph/frontend/segments/segment_merging.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

@@ -1,6 +1,5 @@
 #pragma once
-#include <placegraph/frontend/segments/edge_refinement.h>
-#include <placegraph/frontend/segments/segment_merging.h>
+#include <placegraph/frontend/segments/edge_segment.h>
 #include <placegraph/frontend/segments/segment_options.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/geometry/line_segment.h>
@@ -8,7 +7,7 @@
 
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Detects straight edges of a grey image (CV_8UC1, else ArgumentError), longest first.
 ///

@@ -1,5 +1,6 @@
 #include <placegraph/frontend/vanishing/manhattan_fit.h>
 #include <placegraph/frontend/vanishing/manhattan_frame.h>
+#include <placegraph/frontend/vanishing/vanishing_evidence.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 

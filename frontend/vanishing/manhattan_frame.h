@@ -6,7 +6,7 @@
 #include <array>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Three orthogonal directions of edges of the scene, in the camera frame.
 struct ManhattanFrame {

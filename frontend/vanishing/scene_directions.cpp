@@ -1,4 +1,5 @@
 #include <placegraph/frontend/vanishing/scene_directions.h>
+#include <placegraph/frontend/vanishing/vanishing_model.h>
 #include <placegraph/frontend/vanishing/vanishing_search.h>
 #include <placegraph/graph/core/angle.h>
 

@@ -2,7 +2,7 @@
 #include <placegraph/frontend/vanishing/manhattan_frame.h>
 #include <placegraph/frontend/vanishing/vanishing_options.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Relation of a vanishing point to the Manhattan frames of its scene.
 struct PointRole {

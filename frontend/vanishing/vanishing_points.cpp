@@ -1,3 +1,4 @@
+#include <placegraph/frontend/vanishing/vanishing_model.h>
 #include <placegraph/frontend/vanishing/vanishing_points.h>
 #include <placegraph/frontend/vanishing/vanishing_search.h>
 #include <placegraph/graph/core/error.h>

@@ -1,10 +1,17 @@
 #pragma once
-#include <placegraph/frontend/vanishing/vanishing_model.h>
 #include <placegraph/frontend/vanishing/vanishing_options.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/core/random.h>
+#include <placegraph/graph/geometry/camera.h>
+#include <placegraph/graph/geometry/line_segment.h>
 
-namespace placegraph {
+#include <Eigen/Core>
+#include <vector>
+
+namespace [[gnu::visibility("default")]] placegraph {
+
+class VanishingEvidence;
+class VanishingModel;
 
 /// Direction of edges in the scene.
 struct VanishingPoint {

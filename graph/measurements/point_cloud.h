@@ -2,7 +2,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Points of a scene in the sensor's frame [m], from a depth camera, a scanner or a stereo pair. An
 /// organised cloud has a point for every pixel of an image, row by row; a point is NaN if nothing

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/align/grey_pyramid.h>
+#include <placegraph/frontend/flow/grey_pyramid.h>
 #include <placegraph/frontend/planes/dominant_surface.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/median.h>

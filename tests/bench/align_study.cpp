@@ -9,7 +9,7 @@
 // templates, OUT_PREFIX_targets.tsv.
 #include <fmt/format.h>
 #include <placegraph/frontend/align/aligner.h>
-#include <placegraph/frontend/align/grey_pyramid.h>
+#include <placegraph/frontend/flow/grey_pyramid.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

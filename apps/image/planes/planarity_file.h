@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/cloud_planes/planarity.h>
+#include <placegraph/frontend/cloud_planes/planarity_model.h>
 
 #include <string>
 

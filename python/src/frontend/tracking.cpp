@@ -1,5 +1,5 @@
-#include <placegraph/frontend/align/aligner.h>
 #include <placegraph/frontend/align/plane_tracker.h>
+#include <placegraph/frontend/align/region_alignment.h>
 #include <placegraph/graph/core/error.h>
 
 #include <mutex>
@@ -49,9 +49,9 @@ class SharedPlaneTracker {
   std::mutex mutex_;
 };
 
-AlignResult aligned(const GreyArgument& image_ref, const GreyArgument& image_cur,
-                    const ArrayArgument<double>& polygon_px, const nb::object& H_start,
-                    const OptionsArgument<AlignOptions>& options, int levels, int max_samples) {
+RegionAlignment aligned(const GreyArgument& image_ref, const GreyArgument& image_cur,
+                        const ArrayArgument<double>& polygon_px, const nb::object& H_start,
+                        const OptionsArgument<AlignOptions>& options, int levels, int max_samples) {
   const Image ref = image_ref.get("image_ref"), cur = image_cur.get("image_cur");
   const auto polygon = points_2d(polygon_px, "polygon_px");
   require(polygon.size() >= 3, "polygon_px: at least three corners are needed");
@@ -61,27 +61,27 @@ AlignResult aligned(const GreyArgument& image_ref, const GreyArgument& image_cur
   if (!H_start.is_none()) H = matrix_3x3(ArrayArgument<double>{H_start}, "H_start");
   require(std::abs(H.determinant()) > 1e-12, "H_start: the matrix is singular");
   const AlignOptions chosen = options.get();
-  chosen.check();
   const nb::gil_scoped_release release;
-  const PlanarTemplate planar_template(ref, polygon, levels, max_samples);
-  return align(planar_template, cur, planar_template.homography(H), chosen);
+  return align_region(ref, cur, polygon, H, chosen, levels, max_samples);
 }
 
 void bind_results(nb::module_& m) {
-  nb::class_<AlignResult> result(m, "AlignResult", doc("AlignResult"));
+  nb::class_<RegionAlignment> result(m, "AlignResult", doc("RegionAlignment"));
   bind_outcome(result);
   result
-      .def_prop_ro(
-          "H_cur_ref", [](const AlignResult& r) { return r.warp.H_cur_ref(); },
-          "The homography, 3 x 3: px_cur ~ H px_ref; meaningful only if ok.")
-      .def_ro("corner_sigma_px", &AlignResult::corner_sigma_px, doc("AlignResult::corner_sigma_px"))
-      .def_ro("similarity", &AlignResult::similarity, doc("AlignResult::similarity"))
-      .def_ro("agreement", &AlignResult::agreement, doc("AlignResult::agreement"))
-      .def_ro("visible_share", &AlignResult::visible_share, doc("AlignResult::visible_share"))
-      .def_ro("inlier_share", &AlignResult::inlier_share, doc("AlignResult::inlier_share"))
-      .def_ro("gain", &AlignResult::gain, "Gain of the grey values from the template to the image.")
-      .def_ro("bias", &AlignResult::bias, "What is added to them [grey levels].")
-      .def_ro("iterations", &AlignResult::iterations, doc("AlignResult::iterations"));
+      .def_ro("H_cur_ref", &RegionAlignment::H_cur_ref,
+              "The homography, 3 x 3: px_cur ~ H px_ref; meaningful only if ok.")
+      .def_ro("corner_sigma_px", &RegionAlignment::corner_sigma_px,
+              doc("RegionAlignment::corner_sigma_px"))
+      .def_ro("similarity", &RegionAlignment::similarity, doc("RegionAlignment::similarity"))
+      .def_ro("agreement", &RegionAlignment::agreement, doc("RegionAlignment::agreement"))
+      .def_ro("visible_share", &RegionAlignment::visible_share,
+              doc("RegionAlignment::visible_share"))
+      .def_ro("inlier_share", &RegionAlignment::inlier_share, doc("RegionAlignment::inlier_share"))
+      .def_ro("gain", &RegionAlignment::gain,
+              "Gain of the grey values from the template to the image.")
+      .def_ro("bias", &RegionAlignment::bias, "What is added to them [grey levels].")
+      .def_ro("iterations", &RegionAlignment::iterations, doc("RegionAlignment::iterations"));
   nb::class_<PlaneTrack> track(m, "PlaneTrack", doc("PlaneTrack"));
   bind_outcome(track);
   track

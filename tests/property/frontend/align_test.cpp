@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/frontend/align/aligner.h>
-#include <placegraph/frontend/align/grey_pyramid.h>
+#include <placegraph/frontend/flow/grey_pyramid.h>
 
 #include "tests/support/scenes/warped_template.h"
 #include "tests/support/seed.h"

@@ -1,10 +1,10 @@
-#include <numbers>
-
 #include <gtest/gtest.h>
 #include <placegraph/frontend/align/aligner.h>
 #include <placegraph/frontend/align/alignment_covariance.h>
-#include <placegraph/frontend/align/grey_pyramid.h>
+#include <placegraph/frontend/flow/grey_pyramid.h>
 #include <placegraph/graph/core/error.h>
+
+#include <numbers>
 
 #include "tests/support/scenes/warped_template.h"
 #include "tests/support/seed.h"

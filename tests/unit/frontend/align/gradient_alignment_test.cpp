@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/frontend/align/alignment_covariance.h>
 #include <placegraph/frontend/align/gradient_alignment.h>
-#include <placegraph/frontend/align/grey_pyramid.h>
+#include <placegraph/frontend/flow/grey_pyramid.h>
 #include <placegraph/graph/core/random.h>
 
 #include <Eigen/Dense>

@@ -1,5 +1,5 @@
-#include <placegraph/frontend/align/template_finder.h>
 #include <placegraph/frontend/planes/homography_fit.h>
+#include <placegraph/frontend/planes/template_finder.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>
@@ -41,13 +41,6 @@ PointMatches without(const PointMatches& matches, const std::vector<int>& gone) 
 }
 
 }  // namespace
-
-void visit(OptionVisitor& field, TemplateFinderOptions& o) {
-  field.group("features", o.features, "point features of the images");
-  field("inlier_px", o.inlier_px, "maximum symmetric transfer error of an inlier [px]", {0.1, 50});
-  field.internal().group("ransac", o.ransac, "homography hypotheses");
-  field("places", o.places, "maximum number of proposals", {1, 100});
-}
 
 TemplateFinder::TemplateFinder(const Image& image_ref,
                                const std::vector<Eigen::Vector2d>& polygon_px,

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/align/template_finder.h>
 #include <placegraph/frontend/align/warp.h>
+#include <placegraph/frontend/planes/template_finder.h>
 #include <placegraph/graph/core/error.h>
 
 #include "tests/support/scenes/board.h"

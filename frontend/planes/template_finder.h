@@ -1,19 +1,10 @@
 #pragma once
 #include <placegraph/frontend/features/wide_matcher.h>
+#include <placegraph/frontend/planes/plane_options.h>
 #include <placegraph/graph/core/random.h>
 #include <placegraph/graph/core/ransac.h>
 
 namespace placegraph {
-
-/// Options of the template finder.
-struct TemplateFinderOptions {
-  WideMatcherOptions features;  ///< its geometric options are not used
-  double inlier_px = 3;         ///< maximum symmetric transfer error of an inlier
-  RansacOptions ransac{2000, 0.999, 8};
-  int places = 3;  ///< maximum number of proposals; each uses the matches left by the previous ones
-  void check() const { check_ranges(*this); }
-};
-void visit(OptionVisitor& field, TemplateFinderOptions& options);
 
 /// A proposed position of the template.
 struct FoundPlace {

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/align/grey_pyramid.h>
+#include <placegraph/frontend/flow/grey_pyramid.h>
 #include <placegraph/graph/core/error.h>
 
 #include <opencv2/imgproc.hpp>
