@@ -118,6 +118,7 @@ struct DominantSurfaceOptions {
 };
 void visit(OptionVisitor& field, DominantSurfaceOptions& options);
 
+/// Options of the estimation of a plane's normal from several views.
 struct PlaneNormalOptions {
   int views = 24;            ///< maximum number of views kept
   double apart_px = 4;       ///< minimum distance of a view from every kept one, for it to be kept
@@ -128,6 +129,7 @@ struct PlaneNormalOptions {
 };
 void visit(OptionVisitor& field, PlaneNormalOptions& options);
 
+/// Options of the motion between two views of several planes.
 struct MotionFromPlanesOptions {
   int max_iterations = 30;
   /// Readings up to this far below the best in log-likelihood are kept.
