@@ -2,6 +2,7 @@
 
 #include <placegraph/backend/incremental/incremental_replay.h>
 #include <placegraph/backend/solver/free_directions.h>
+#include <placegraph/backend/solver/graph_components.h>
 #include <placegraph/graph/text/log_message.h>
 
 #include "apps/support/output.h"

@@ -1,9 +1,13 @@
 #pragma once
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// The connected components of a packed graph, and what ties each of them to the world.
+struct LandmarkGraph;
+struct PoseGraph;
+
+/// The connected components of a graph, and what ties each of them to the world.
+///
 /// Nodes are connected by edges that have weight and by observations of points.
 struct GraphComponents {
   std::vector<int> component;  ///< component of every node, numbered from 0 in node order
@@ -24,5 +28,10 @@ struct GraphComponents {
 
   int count() const { return static_cast<int>(first.size()); }
 };
+
+/// The components of a pose graph, which must have passed PoseGraph::check.
+GraphComponents find_components(const PoseGraph& graph);
+/// The same of a landmark graph: of its nodes, then its points, and last the world.
+GraphComponents find_components(const LandmarkGraph& graph);
 
 }  // namespace placegraph

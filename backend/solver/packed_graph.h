@@ -51,10 +51,6 @@ PackedGraph<Group> pack(const LandmarkGraph& graph);
 /// The components of a packed graph; `fixed` says of every node whether it is fixed.
 template <class Group>
 GraphComponents find_components(const PackedGraph<Group>& graph, std::vector<char> fixed);
-/// The components of a pose graph, which must have passed PoseGraph::check.
-GraphComponents find_components(const PoseGraph& graph);
-/// The same of a landmark graph: of its nodes, then its points, and last the world.
-GraphComponents find_components(const LandmarkGraph& graph);
 
 /// The position of a point, which is stored as a pose without rotation; z is 0 in the plane.
 inline Eigen::Vector3d point_of(const SE2& T) {

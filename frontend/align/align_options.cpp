@@ -1,4 +1,5 @@
 #include <placegraph/frontend/align/align_options.h>
+#include <placegraph/graph/core/error.h>
 
 namespace placegraph {
 

@@ -1,4 +1,5 @@
 #include <placegraph/frontend/lines/vanishing_direction_tracker.h>
+#include <placegraph/frontend/vanishing/vanishing_evidence.h>
 #include <placegraph/graph/geometry/so3.h>
 
 #include <Eigen/Cholesky>

@@ -1,6 +1,8 @@
 #pragma once
+#include <placegraph/graph/core/options.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/core/random.h>
+#include <placegraph/graph/core/ransac_options.h>
 #include <placegraph/graph/geometry/camera.h>
 
 #include <vector>

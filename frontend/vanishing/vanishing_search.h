@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/frontend/vanishing/vanishing_evidence.h>
 #include <placegraph/frontend/vanishing/vanishing_model.h>
 #include <placegraph/graph/core/random.h>
 

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/frontend/vanishing/scene_directions.h>
+#include <placegraph/frontend/vanishing/vanishing_evidence.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 
