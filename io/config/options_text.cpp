@@ -66,7 +66,8 @@ std::string options_markdown(const std::vector<OptionEntry>& entries) {
       group = parent;
       begins = true;
     }
-    text += (begins ? "\n" : "") + list_item(entry);
+    if (begins) text += '\n';
+    text += list_item(entry);
     begins = false;
   }
   return text;

@@ -54,8 +54,9 @@ TEST(DepthSensor, ARectificationErrorIsTakenOffTheDisparity) {
   const auto corrected = sensor_of(Sensor::kStereo).measure(frame, error, pixels());
   const double px_per_inverse = street_camera().fx * kStreetBaseline_m;
   for (std::size_t i = 0; i < plain.size(); ++i)
-    if (plain[i] && corrected[i])
+    if (plain[i] && corrected[i]) {
       EXPECT_NEAR((plain[i]->value - corrected[i]->value) * px_per_inverse, 0.5, 1e-9);
+    }
 }
 
 TEST(DepthSensor, ADisparityIsExpectedWhereThePointIs) {

@@ -41,7 +41,9 @@ TEST(TsdfVolume, MeshOfASphereIsOnItAndFacesOutwards) {
     const Eigen::Vector3d a = mesh.positions[static_cast<std::size_t>(face[0])];
     const Eigen::Vector3d b = mesh.positions[static_cast<std::size_t>(face[1])];
     const Eigen::Vector3d c = mesh.positions[static_cast<std::size_t>(face[2])];
-    if (std::abs(a[1]) < 0.6) EXPECT_GE((b - a).cross(c - a).dot(a), -1e-9);
+    if (std::abs(a[1]) < 0.6) {
+      EXPECT_GE((b - a).cross(c - a).dot(a), -1e-9);
+    }
   }
 }
 

@@ -98,11 +98,15 @@ TEST(ExpectedDrift, IsComparedWithTheDepthOfTheSceneWhereThePathIsShorter) {
        {std::pair(10.0, "9 % of the path"), std::pair(20.0, "7 % of the depth of the scene"),
         std::pair(60.0, "")}) {
     RunResult run = path_of(17, 0.2);
-    run.map.landmarks.push_back({.keyframe = KeyframeId(3), .point_cam = {1, 2, depth}});
+    Landmark& landmark = run.map.landmarks.emplace_back();
+    landmark.keyframe = KeyframeId(3);
+    landmark.point_cam = {1, 2, depth};
     const Judgement judgement = judge(run, {}, 0.5);
     const auto note = std::ranges::find(judgement.findings, NoteCause::kDrift, &DataNote::cause);
     ASSERT_EQ(note == judgement.findings.end(), std::string(reported).empty()) << depth;
-    if (note != judgement.findings.end()) EXPECT_TRUE(note->text.ends_with(reported)) << note->text;
+    if (note != judgement.findings.end()) {
+      EXPECT_TRUE(note->text.ends_with(reported)) << note->text;
+    }
   }
 }
 

@@ -49,7 +49,9 @@ TEST(Odometry, AStereoCameraBeginsWithTheFirstFrameAndFollowsTheStreet) {
     const OdometryUpdate update = run.add(i);
     ASSERT_EQ(update.state, TrackingState::kTracking) << i << update.outcome.reason;
     EXPECT_LT(error(update.T_odom_cam, street_T_world_cam(i)), 0.03) << i;
-    if (i == 0) EXPECT_EQ(update.new_keyframes.size(), 1u);
+    if (i == 0) {
+      EXPECT_EQ(update.new_keyframes.size(), 1u);
+    }
   }
   EXPECT_TRUE(run.odometry.map().metric());
   EXPECT_FALSE(run.odometry.view().tracks.empty());
