@@ -99,8 +99,10 @@ TEST(McapFile, HasMessagesByTimeAndFindsThemByTheIndex) {
 
 TEST(McapFile, BeginsANewChunkAfterAMebibyte) {
   McapRecording recording = small_recording();
-  for (McapRecording::Message& message : recording.messages)
-    message.json = '"' + std::string(1 << 20, 'x') + '"';
+  for (McapRecording::Message& message : recording.messages) {
+    message.json.assign((1 << 20) + 2, 'x');
+    message.json.front() = message.json.back() = '"';
+  }
   const std::string file = to_mcap(recording);
   int chunks = 0;
   for (const Record& record : records_of(file, kMagic, file.size() - kMagic))
