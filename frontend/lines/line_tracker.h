@@ -1,5 +1,6 @@
 #pragma once
 #include <placegraph/frontend/lines/line_options.h>
+#include <placegraph/frontend/segments/edge_refinement.h>
 #include <placegraph/frontend/segments/segment_detector.h>
 #include <placegraph/frontend/segments/segment_flow.h>
 #include <placegraph/graph/core/ids.h>

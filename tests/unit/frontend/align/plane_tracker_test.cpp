@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 #include <placegraph/frontend/align/null_distribution.h>
 #include <placegraph/frontend/align/plane_tracker.h>
+#include <placegraph/frontend/align/warp.h>
+#include <placegraph/frontend/planes/plane_normal.h>
 #include <placegraph/graph/core/error.h>
 
 #include <cmath>

@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <placegraph/frontend/segments/edge_refinement.h>
 #include <placegraph/frontend/segments/segment_detector.h>
+#include <placegraph/frontend/segments/segment_merging.h>
 #include <placegraph/graph/core/error.h>
 
 #include <cmath>

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/frontend/vanishing/scene_directions.h>
 #include <placegraph/frontend/vanishing/vanishing_evidence.h>
+#include <placegraph/frontend/vanishing/vanishing_model.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 
