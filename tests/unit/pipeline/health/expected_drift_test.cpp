@@ -98,7 +98,7 @@ TEST(ExpectedDrift, IsComparedWithTheDepthOfTheSceneWhereThePathIsShorter) {
        {std::pair(10.0, "9 % of the path"), std::pair(20.0, "7 % of the depth of the scene"),
         std::pair(60.0, "")}) {
     RunResult run = path_of(17, 0.2);
-    Landmark& landmark = run.map.landmarks.emplace_back();
+    auto& landmark = run.map.landmarks.emplace_back();
     landmark.keyframe = KeyframeId(3);
     landmark.point_cam = {1, 2, depth};
     const Judgement judgement = judge(run, {}, 0.5);
