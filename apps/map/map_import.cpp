@@ -1,7 +1,6 @@
 #include "apps/map/map_import.h"
 
 #include <fmt/format.h>
-#include <placegraph/io/exports/colmap_reader.h>
 #include <placegraph/io/map/map_database.h>
 #include <placegraph/pipeline/exports/colmap_import.h>
 
@@ -11,9 +10,7 @@ namespace placegraph::apps {
 
 MapImportResult map_import(const MapImportArguments& arguments) {
   require_free(arguments.out, arguments.force);
-  const ColmapModel model = read_colmap(arguments.colmap);
-  if (model.images.empty()) throw NoResult(arguments.colmap + ": the model has no image");
-  const StoredMap stored = map_of_colmap(model, arguments.images, arguments.metric);
+  const StoredMap stored = import_colmap(arguments.colmap, arguments.images, arguments.metric);
   write_map(arguments.out, stored);
   MapImportResult result{.out = arguments.out,
                          .keyframes = stored.map.keyframes.size(),

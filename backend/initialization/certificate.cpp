@@ -1,6 +1,7 @@
 #include <placegraph/backend/initialization/chordal_relaxation.h>
 #include <placegraph/backend/initialization/held_nodes.h>
-#include <placegraph/backend/initialization/packed_certificate.h>
+#include <placegraph/backend/initialization/certificate.h>
+#include <placegraph/backend/initialization/isotropic_problem.h>
 #include <placegraph/backend/initialization/rotation_agreement.h>
 
 #include <algorithm>

@@ -3,6 +3,9 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
+template <class Group>
+struct PackedGraph;
+
 /// The certificate of an estimate.
 /// Only the isotropic chordal problem is certified: its global minimum is near. The graph's own
 /// cost, which also has the directions of the information, kernels and measured positions, may have
@@ -26,6 +29,14 @@ struct CertificateOptions {
   double max_relative_gap = 1e-5;
 };
 
+/// Certifies the poses of `graph`.
+///
+/// It descends from them to the nearest minimum of the isotropic problem and bounds its distance
+/// from the global minimum.
+template <class Group>
+ChordalIsotropicCertificate certify_chordal_isotropic(const PackedGraph<Group>& graph,
+                                                      RotationError rotation_error,
+                                                      const CertificateOptions& options = {});
 /// Certifies the poses of a pose graph, from which false constraints were removed.
 ///
 /// It descends from them to the nearest minimum of the isotropic problem and bounds its distance

@@ -1,6 +1,7 @@
 #pragma once
-#include <placegraph/io/exports/ply_points.h>
+#include <placegraph/io/exports/number_form.h>
 
+#include <cstddef>
 #include <string>
 #include <vector>
 

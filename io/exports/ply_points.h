@@ -1,4 +1,6 @@
 #pragma once
+#include <placegraph/io/exports/number_form.h>
+
 #include <Eigen/Core>
 
 #include <array>
@@ -7,12 +9,6 @@
 #include <vector>
 
 namespace placegraph {
-
-/// Form of the numbers of an exported file.
-enum class NumberForm {
-  kBinary,  ///< little-endian
-  kText     ///< decimal
-};
 
 /// A point of an exported cloud.
 struct ColouredPoint {

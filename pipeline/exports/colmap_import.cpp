@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/io/exports/colmap_reader.h>
 #include <placegraph/pipeline/exports/colmap_import.h>
 #include <placegraph/pipeline/exports/keyframe_images.h>
 
@@ -74,7 +75,9 @@ void add_observed_points(const ColmapModel& model, const ColmapModel::Image& ima
 
 }  // namespace
 
-StoredMap map_of_colmap(const ColmapModel& model, const std::string& sequence, bool metric) {
+StoredMap import_colmap(const std::string& folder, const std::string& sequence, bool metric) {
+  const ColmapModel model = read_colmap(folder);
+  if (model.images.empty()) throw NoResult(folder + ": the model has no image");
   StoredMap stored;
   stored.origin.sequence = sequence;
   stored.origin.calibration.emplace().camera = model.camera;

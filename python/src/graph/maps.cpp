@@ -4,7 +4,6 @@
 #include <nanobind/stl/map.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/exports/colmap_reader.h>
 #include <placegraph/io/map/map_database.h>
 #include <placegraph/pipeline/exports/colmap_import.h>
 #include <placegraph/pipeline/exports/map_export.h>
@@ -27,8 +26,7 @@ std::shared_ptr<StoredMap> open(const std::string& path) {
 
 std::shared_ptr<StoredMap> from_colmap(const std::string& folder, const std::string& sequence,
                                        bool metric) {
-  return std::make_shared<StoredMap>(
-      map_of_colmap(read_colmap(folder, ColmapLenses::kPinhole), sequence, metric));
+  return std::make_shared<StoredMap>(import_colmap(folder, sequence, metric));
 }
 
 Explanation explain(const StoredMap& stored, std::int64_t frame) {

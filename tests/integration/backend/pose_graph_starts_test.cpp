@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/initialization/packed_certificate.h>
+#include <placegraph/backend/initialization/certificate.h>
 #include <placegraph/backend/pose_graph/initialization_selection.h>
 #include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
 #include <placegraph/io/graphs/g2o.h>

@@ -2,7 +2,7 @@
 #include <placegraph/backend/initialization/certificate_matrix.h>
 #include <placegraph/backend/initialization/certified_initialization.h>
 #include <placegraph/backend/initialization/initialization.h>
-#include <placegraph/backend/initialization/packed_certificate.h>
+#include <placegraph/backend/initialization/certificate.h>
 #include <placegraph/backend/pose_graph/initialization_selection.h>
 
 #include <limits>

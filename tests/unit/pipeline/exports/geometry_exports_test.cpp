@@ -2,6 +2,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/map/map_database.h>
 #include <placegraph/io/measurements/point_cloud_file.h>
+#include <placegraph/pipeline/exports/colmap_import.h>
 #include <placegraph/pipeline/exports/map_export.h>
 
 #include <cmath>
@@ -9,14 +10,12 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
 
-#include "apps/map/map_import.h"
-#include "apps/support/output.h"
 #include "tests/support/message_of.h"
 #include "tests/support/pictures.h"
 #include "tests/support/scenes/observed_map.h"
 #include "tests/support/temporary_folder.h"
 
-namespace placegraph::apps {
+namespace placegraph {
 namespace geometry_exports_test {
 
 namespace fs = std::filesystem;
@@ -195,12 +194,9 @@ TEST_F(GeometryExports, McapHasTrajectoryAndLandmarks) {
 TEST_F(GeometryExports, ColmapsModelIsImportedAsTheSameMap) {
   path("--colmap") = folder / "model";
   map_export(arguments);
-  const MapImportResult result =
-      map_import({folder / "model", stored.origin.sequence, folder / "imported.db", true, false});
-  EXPECT_EQ(to_text(result), folder /
-                                 "imported.db: 5 keyframes of 5 frames, 80 landmarks, 400 "
-                                 "observations\n");
-  const StoredMap imported = read_map(folder / "imported.db");
+  const StoredMap imported = import_colmap(folder / "model", stored.origin.sequence, true);
+  EXPECT_EQ(imported.map.frames.size(), std::size_t{kViews});
+  EXPECT_EQ(imported.map.landmarks.size(), std::size_t{kPoints});
   EXPECT_TRUE(imported.map.metric);
   EXPECT_EQ(imported.origin.sequence, stored.origin.sequence);
   ASSERT_EQ(imported.map.keyframes.size(), stored.map.keyframes.size());
@@ -229,19 +225,17 @@ TEST_F(GeometryExports, AnImportNeedsTheImagesAndTheirSize) {
   path("--colmap") = folder / "model";
   arguments.ascii = true;
   map_export(arguments);
-  const MapImportArguments import{folder / "model", folder / "seq", folder / "imported.db", false,
-                                  false};
+  const auto import = [&] { (void)import_colmap(folder / "model", folder / "seq", false); };
   const std::string cameras = test::read_file(folder / "model/cameras.txt");
   folder.write("model/cameras.txt", "1 PINHOLE 640 480 500 500 320 240\n");
-  EXPECT_THAT(message_of<ArgumentError>([&] { map_import(import); }),
+  EXPECT_THAT(message_of<ArgumentError>(import),
               HasSubstr("seq: images of 64x48, the model's camera has 640x480"));
   folder.write("model/cameras.txt", cameras);
   fs::remove(folder / "seq/image_0/000004.png");
-  EXPECT_THAT(message_of<ArgumentError>([&] { map_import(import); }),
+  EXPECT_THAT(message_of<ArgumentError>(import),
               HasSubstr("seq: image image_0/000004.png of the model is missing"));
   folder.write("model/images.txt", "");
-  EXPECT_THAT(message_of<NoResult>([&] { map_import(import); }), HasSubstr("has no image"));
-  EXPECT_FALSE(fs::exists(folder / "imported.db"));
+  EXPECT_THAT(message_of<NoResult>(import), HasSubstr("has no image"));
 }
 
 TEST_F(GeometryExports, AnImportTakesNamesOfFilesAndLeavesOtherFramesLost) {
@@ -249,8 +243,7 @@ TEST_F(GeometryExports, AnImportTakesNamesOfFilesAndLeavesOtherFramesLost) {
   folder.write("model/images.txt",
                "1 1 0 0 0 0 0 -2 1 000003.png\n2 3 9 4 5 9\n2 1 0 0 0 0 0 0 1 000001.png\n\n");
   folder.write("model/points3D.txt", "9 1 2 3 4 5 6 0.1 1 0\n");
-  map_import({folder / "model", folder / "seq", folder / "imported.db", false, false});
-  const Map map = read_map(folder / "imported.db").map;
+  const Map map = import_colmap(folder / "model", folder / "seq", false).map;
   EXPECT_FALSE(map.metric);
   ASSERT_EQ(map.keyframes.size(), 2u);
   EXPECT_EQ(map.keyframes[0].frame, FrameId(1));
@@ -332,4 +325,4 @@ TEST_F(GeometryExports, DenseFormsNeedVoxelsLandmarksAndImages) {
 }
 
 }  // namespace geometry_exports_test
-}  // namespace placegraph::apps
+}  // namespace placegraph
