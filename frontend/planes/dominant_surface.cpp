@@ -111,7 +111,7 @@ InverseDepthPlane DominantSurface::measure(SurfaceRegion region, const SurfaceDe
     expected.push_back(g_cam_.dot(camera_.unproject(p.cast<double>()).value_or(Vector3d::UnitZ())));
   const auto found = depths(px, expected);
   require(found.size() == px.size(), "DominantSurface: needs as many depths as pixels");
-  std::vector<InverseDepth> known;
+  std::vector<MeasuredInverseDepth> known;
   std::vector<Vector2f> known_px;
   for (std::size_t i = 0; i < px.size(); ++i)
     if (found[i]) {

@@ -10,7 +10,7 @@ namespace placegraph {
 /// Measures the depths of pixels, given the predicted inverse depths [1/m].
 ///
 /// Returns one value per pixel, empty where there is no measurement.
-using SurfaceDepths = std::function<std::vector<std::optional<InverseDepth>>(
+using SurfaceDepths = std::function<std::vector<std::optional<MeasuredInverseDepth>>(
     const std::vector<Eigen::Vector2f>& px, const std::vector<double>& expected)>;
 
 /// Region of the surface that is measured.

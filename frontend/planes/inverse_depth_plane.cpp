@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-using Pixels = std::vector<InverseDepth>;
+using Pixels = std::vector<MeasuredInverseDepth>;
 
 /// Least squares over g; `information`, if given, receives the normal matrix.
 Vector3d fit(const Pixels& pixels, const std::vector<int>& indices, Matrix3d* information) {
@@ -24,7 +24,7 @@ Vector3d fit(const Pixels& pixels, const std::vector<int>& indices, Matrix3d* in
   return H.ldlt().solve(b);
 }
 
-double squared_sigmas(const InverseDepth& pixel, const Vector3d& g) {
+double squared_sigmas(const MeasuredInverseDepth& pixel, const Vector3d& g) {
   const double e = (g.dot(pixel.ray_cam) - pixel.value) / pixel.sigma;
   return e * e;
 }

@@ -9,7 +9,7 @@
 namespace placegraph {
 
 /// Inverse depth of a pixel, measured by stereo disparity or a depth camera.
-struct InverseDepth {
+struct MeasuredInverseDepth {
   Eigen::Vector3d ray_cam = Eigen::Vector3d::UnitZ();  ///< viewing ray, z = 1
   double value = 0;                                    ///< 1 / z [1/m]
   double sigma = 1;                                    ///< standard deviation of value [1/m]
@@ -38,8 +38,8 @@ double sigma_log_distance(const Eigen::Vector3d& g, const Eigen::Matrix3d& covar
 /// is at least that of the residuals. Outcomes: too few data, no consensus, degenerate (the pixels
 /// do not determine the normal to max_sigma_deg or the distance to max_sigma_distance, as those of
 /// one row; or the plane passes through the camera centre).
-[[nodiscard]] InverseDepthPlane fit_inverse_depth_plane(const std::vector<InverseDepth>& pixels,
-                                                        const InverseDepthPlaneOptions& options,
-                                                        Random& random);
+[[nodiscard]] InverseDepthPlane fit_inverse_depth_plane(
+    const std::vector<MeasuredInverseDepth>& pixels, const InverseDepthPlaneOptions& options,
+    Random& random);
 
 }  // namespace placegraph

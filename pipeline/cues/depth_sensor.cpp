@@ -3,12 +3,12 @@
 
 namespace placegraph {
 
-std::vector<std::optional<InverseDepth>> DepthSensor::measure(
+std::vector<std::optional<MeasuredInverseDepth>> DepthSensor::measure(
     const Frame& frame, const RectificationError& rectification,
     const std::vector<Eigen::Vector2f>& px,
     const std::vector<std::optional<double>>& expected_px) const {
   const Camera& camera = calibration_.camera;
-  std::vector<std::optional<InverseDepth>> result(px.size());
+  std::vector<std::optional<MeasuredInverseDepth>> result(px.size());
   const auto ray_of = [&](std::size_t i) { return camera.unproject(px[i].cast<double>()); };
   if (calibration_.baseline_m > 0 && !frame.right.empty()) {
     const double per_px = 1 / (camera.fx * calibration_.baseline_m);
@@ -29,10 +29,10 @@ std::vector<std::optional<InverseDepth>> DepthSensor::measure(
   return result;
 }
 
-std::vector<std::optional<InverseDepth>> DepthSensor::measure_surfaces(
+std::vector<std::optional<MeasuredInverseDepth>> DepthSensor::measure_surfaces(
     const Frame& frame, const DepthCamera& depth, const std::vector<Eigen::Vector2f>& px) const {
   const Camera& camera = calibration_.camera;
-  std::vector<std::optional<InverseDepth>> result(px.size());
+  std::vector<std::optional<MeasuredInverseDepth>> result(px.size());
   if (frame.depth.empty()) return result;
   const auto surfaces = lookup_surfaces(frame.depth, camera, depth, px);
   for (std::size_t i = 0; i < px.size(); ++i) {

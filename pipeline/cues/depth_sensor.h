@@ -21,13 +21,13 @@ class DepthSensor {
   /// measurement is valid. `expected_px`: disparity at which the search starts, as observed by the
   /// cameras (including the rectification error), one per pixel or empty; not used for a depth
   /// image.
-  std::vector<std::optional<InverseDepth>> measure(
+  std::vector<std::optional<MeasuredInverseDepth>> measure(
       const Frame& frame, const RectificationError& rectification,
       const std::vector<Eigen::Vector2f>& px,
       const std::vector<std::optional<double>>& expected_px = {}) const;
   /// The same from the depth image, which `depth` took, with the surfaces around the pixels;
   /// nothing without one.
-  std::vector<std::optional<InverseDepth>> measure_surfaces(
+  std::vector<std::optional<MeasuredInverseDepth>> measure_surfaces(
       const Frame& frame, const DepthCamera& depth, const std::vector<Eigen::Vector2f>& px) const;
   /// Disparity [px], as observed by the cameras, of a point at `point_cam` [m] in front of the left
   /// camera; nothing behind it or without a baseline.

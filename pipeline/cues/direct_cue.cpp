@@ -128,7 +128,7 @@ void DirectCue::find_ground(const RectificationError& rectification, Random& ran
     if (p.y() > camera.cy + 0.15 * camera.height &&
         std::abs(p.x() - camera.cx) < 0.35 * camera.width)
       px.push_back(p);
-  std::vector<InverseDepth> known;
+  std::vector<MeasuredInverseDepth> known;
   for (const auto& depth : depth_.measure(frame_, rectification, px))
     if (depth) known.push_back(*depth);
   const InverseDepthPlane plane = fit_inverse_depth_plane(known, options_.planes, random);
@@ -196,7 +196,7 @@ std::vector<SurfacePatch> DirectCue::planes(std::vector<KnownPixel> rest, double
   const double all = static_cast<double>(rest.size());
   std::vector<SurfacePatch> found;
   while (static_cast<int>(found.size()) < options_.max_planes) {
-    std::vector<InverseDepth> depths;
+    std::vector<MeasuredInverseDepth> depths;
     for (const KnownPixel& known : rest) depths.push_back(known.depth);
     const InverseDepthPlane plane = fit_inverse_depth_plane(depths, options_.planes, random);
     if (static_cast<double>(plane.inliers.size()) < options_.min_plane_share * all ||

@@ -17,7 +17,7 @@ namespace placegraph {
 /// A pixel whose depth is known.
 struct KnownPixel {
   Eigen::Vector2f px;
-  InverseDepth depth;
+  MeasuredInverseDepth depth;
 };
 
 /// Motion from direct alignment of surfaces (Siddiqui 2015): detects the dominant surface, or

@@ -14,8 +14,8 @@ namespace placegraph {
 namespace {
 
 void add_observation(KeyframeId keyframe, LandmarkId landmark, const Eigen::Vector2d& px,
-                     const Eigen::Matrix2d& covariance_px, const std::optional<InverseDepth>& depth,
-                     SlidingWindow& window) {
+                     const Eigen::Matrix2d& covariance_px,
+                     const std::optional<MeasuredInverseDepth>& depth, SlidingWindow& window) {
   WindowObservation observation;
   observation.keyframe = keyframe;
   observation.landmark = landmark;
@@ -220,7 +220,7 @@ void PointCue::detect(const Image& mask, bool labelled, const Image& given_mask)
     tracker_.detect(given_mask);
 }
 
-std::vector<std::optional<InverseDepth>> PointCue::measure_depth(
+std::vector<std::optional<MeasuredInverseDepth>> PointCue::measure_depth(
     const Frame& frame, const std::vector<Eigen::Vector2d>& at_px,
     const RectificationError& rectification, const SE3& T_odom_cam,
     const SlidingWindow& window) const {
@@ -243,10 +243,9 @@ std::vector<std::optional<InverseDepth>> PointCue::measure_depth(
 
 /// Position [m] in the odometry frame of a point that is not yet in the window: from its depth, or
 /// from the intersection of the rays of its observations. Nothing if neither is certain enough.
-std::optional<Eigen::Vector3d> PointCue::place_point(KeyframeId keyframe, const Eigen::Vector2d& px,
-                                                     const std::vector<Observation>& before,
-                                                     const std::optional<InverseDepth>& depth,
-                                                     const SlidingWindow& window) const {
+std::optional<Eigen::Vector3d> PointCue::place_point(
+    KeyframeId keyframe, const Eigen::Vector2d& px, const std::vector<Observation>& before,
+    const std::optional<MeasuredInverseDepth>& depth, const SlidingWindow& window) const {
   const SE3 T_odom_cam = window.pose(keyframe);
   // Maximum relative standard deviation of an inverse depth that alone determines a point.
   constexpr double kCertain = 0.2;

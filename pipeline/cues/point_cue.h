@@ -113,14 +113,13 @@ class PointCue {
                                const std::optional<Eigen::Vector3d>& p_cam) const;
   std::vector<Eigen::Vector2d> corrected_px(const SlidingWindow& window,
                                             const SE3& T_odom_cam) const;
-  std::vector<std::optional<InverseDepth>> measure_depth(const Frame& frame,
-                                                         const std::vector<Eigen::Vector2d>& at_px,
-                                                         const RectificationError& rectification,
-                                                         const SE3& T_odom_cam,
-                                                         const SlidingWindow& window) const;
+  std::vector<std::optional<MeasuredInverseDepth>> measure_depth(
+      const Frame& frame, const std::vector<Eigen::Vector2d>& at_px,
+      const RectificationError& rectification, const SE3& T_odom_cam,
+      const SlidingWindow& window) const;
   std::optional<Eigen::Vector3d> place_point(KeyframeId keyframe, const Eigen::Vector2d& px,
                                              const std::vector<Observation>& before,
-                                             const std::optional<InverseDepth>& depth,
+                                             const std::optional<MeasuredInverseDepth>& depth,
                                              const SlidingWindow& window) const;
   bool contradicts_itself(LandmarkId landmark, const SlidingWindow& window) const;
 

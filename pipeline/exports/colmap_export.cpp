@@ -3,14 +3,14 @@
 #include <placegraph/io/exports/colmap_model.h>
 #include <placegraph/pipeline/exports/colmap_export.h>
 #include <placegraph/pipeline/exports/colmap_folder.h>
-#include <placegraph/pipeline/exports/keyframe_images.h>
+#include <placegraph/pipeline/exports/keyframe_image_paths.h>
 #include <placegraph/pipeline/map/map_bundle.h>
 
 namespace placegraph {
 namespace {
 
 /// Ids of images and points are those of keyframes and landmarks plus one: COLMAP's begin at 1.
-ColmapModel colmap_model_of(const MapBundle& bundle, const KeyframeImages& images,
+ColmapModel colmap_model_of(const MapBundle& bundle, const KeyframeImagePaths& images,
                             const Camera& camera) {
   ColmapModel model;
   model.camera = camera;
@@ -34,7 +34,7 @@ ColmapModel colmap_model_of(const MapBundle& bundle, const KeyframeImages& image
 ColmapSummary write_colmap(const std::string& folder, const StoredMap& stored, int component,
                            NumberForm form, const std::string& undistorted,
                            const LogSink& log_sink) {
-  const KeyframeImages images(stored.origin, undistorted, log_sink);
+  const KeyframeImagePaths images(stored.origin, undistorted, log_sink);
   const Camera& camera = stored.origin.calibration.value().camera;
   const MapBundle bundle = adjust_map(stored.map, component, camera);
   if (!bundle.outcome) throw NoResult(folder + ": nothing to write: " + bundle.outcome.reason);

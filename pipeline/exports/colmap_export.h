@@ -10,8 +10,8 @@
 namespace placegraph {
 
 /// Adjusts a component of a map and writes cameras, images and points3D into a folder.
-/// Files of the other form there are removed. `undistorted`: as KeyframeImages. Throws FileError if
-/// the sequence or the folder cannot be used, NoResult if no point is left.
+/// Files of the other form there are removed. `undistorted`: as KeyframeImagePaths. Throws
+/// FileError if the sequence or the folder cannot be used, NoResult if no point is left.
 ColmapSummary write_colmap(const std::string& folder, const StoredMap& stored, int component,
                            NumberForm form, const std::string& undistorted = "",
                            const LogSink& log_sink = {});

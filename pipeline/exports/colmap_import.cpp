@@ -2,7 +2,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/exports/colmap_reader.h>
 #include <placegraph/pipeline/exports/colmap_import.h>
-#include <placegraph/pipeline/exports/keyframe_images.h>
+#include <placegraph/pipeline/exports/keyframe_image_paths.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -17,7 +17,7 @@ namespace {
 /// The images of a model by the frame that each is.
 std::map<std::size_t, const ColmapModel::Image*> images_by_frame(const ColmapModel& model,
                                                                  const std::string& sequence,
-                                                                 const KeyframeImages& images) {
+                                                                 const KeyframeImagePaths& images) {
   std::unordered_map<std::string, std::size_t> frames;
   for (std::size_t i = 0; i < images.dataset().size(); ++i) {
     const std::string name = images.name(FrameId(static_cast<std::int64_t>(i)));
@@ -81,7 +81,7 @@ StoredMap import_colmap(const std::string& folder, const std::string& sequence, 
   StoredMap stored;
   stored.origin.sequence = sequence;
   stored.origin.calibration.emplace().camera = model.camera;
-  const KeyframeImages images(stored.origin);
+  const KeyframeImagePaths images(stored.origin);
   const Dataset& dataset = images.dataset();
   const Camera camera = dataset.calibration(dataset.sensors().back()).camera;
   require(camera.width == model.camera.width && camera.height == model.camera.height,

@@ -4,7 +4,7 @@
 #include <placegraph/io/files/output_file.h>
 #include <placegraph/io/files/png_file.h>
 #include <placegraph/pipeline/exports/keyframe_frames.h>
-#include <placegraph/pipeline/exports/keyframe_images.h>
+#include <placegraph/pipeline/exports/keyframe_image_paths.h>
 #include <placegraph/pipeline/lens_correction.h>
 
 #include <filesystem>
@@ -33,7 +33,7 @@ PosedImages posed_images(const StoredMap& stored, const MapGeometry& geometry) {
 std::size_t write_undistorted(const std::string& folder, const StoredMap& stored, int component) {
   namespace fs = std::filesystem;
   const PosedImages images = posed_images(stored, geometry_of(stored.map, component));
-  const KeyframeImages names(stored.origin, folder);
+  const KeyframeImagePaths names(stored.origin, folder);
   const OutputFolder made(folder);
   std::vector<std::string> written;
   try {

@@ -13,7 +13,7 @@ namespace placegraph {
 PosedImages posed_images(const StoredMap& stored, const MapGeometry& geometry);
 
 /// Writes the images of the keyframes into a folder, undistorted as the run did, under the names of
-/// KeyframeImages. Throws as posed_images, and FileError; then the folder has none of them.
+/// KeyframeImagePaths. Throws as posed_images, and FileError; then the folder has none of them.
 /// Returns their number.
 std::size_t write_undistorted(const std::string& folder, const StoredMap& stored, int component);
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/measurements/data_note.h>
-#include <placegraph/pipeline/health/depth_range.h>
+#include <placegraph/pipeline/health/depth_unit_check.h>
 #include <placegraph/pipeline/health/flow_check.h>
 #include <placegraph/pipeline/health/image_quality.h>
 #include <placegraph/pipeline/health/intrinsics_check.h>
@@ -43,7 +43,7 @@ class HealthMonitor {
   ImageQuality images_{"images", NoteCause::kImages};
   ImageQuality right_images_{"right images", NoteCause::kRightImage};
   RightImageTime right_;
-  DepthRange range_;
+  DepthUnitCheck range_;
   FlowCheck flow_;
   ScaleCheck scale_;
   IntrinsicsCheck intrinsics_;

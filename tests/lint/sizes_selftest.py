@@ -17,6 +17,8 @@ def function(head, lines):
 CLEAN = {
     "graph/chain.h": "#pragma once\nclass Chain {\n public:\n  void add(int link);\n  struct Link {\n"
                      "    int to = 0;\n  };\n};\n",
+    # Another class of that name, in a namespace of its own.
+    "io/chain.h": "#pragma once\nnamespace files {\nclass Chain {\n  int links;\n};\n}\n",
     "graph/core/time.h": "class Time {\n  void pass();\n};\n",
     "graph/core/time.cpp": "void Time::pass() {\n}\n",
     "graph/chain.cpp": '#include "graph/chain.h"\n' + function("void Chain::add(int link)", 60),
@@ -57,6 +59,8 @@ PLANTED = [
      "graph/lambda.cpp:1: function kRule has 61 lines"),
     ("graph/unnamed.h", "struct {\n" + "  int a;\n" * 149 + "} all;\n",
      "graph/unnamed.h:1: class (unnamed) has 151 lines"),
+    ("pipeline/chain.h", "#pragma once\nclass Chain {\n  int links;\n};\n",
+     "pipeline/chain.h:2: class Chain is also in graph/chain.h"),
     ("graph/many.h", "// a line\n" * 401, "graph/many.h: 401 lines, 400 are allowed"),
     ("graph/open.cpp", "void f() {\n", "graph/open.cpp:1: a brace is not closed"),
     ("graph/closed.cpp", "void f() {\n}\n}\n", "graph/closed.cpp:3: a brace is closed"),

@@ -22,13 +22,13 @@ Plane tilted(double pitch_rad, double roll_rad = 0) {
 SurfaceDepths sensor(const Plane& plane, Random& random,
                      std::function<std::optional<double>(const Eigen::Vector3d&)> before = {}) {
   return [=, &random](const std::vector<Eigen::Vector2f>& px, const std::vector<double>&) {
-    std::vector<std::optional<InverseDepth>> depths;
+    std::vector<std::optional<MeasuredInverseDepth>> depths;
     for (const Eigen::Vector2f& p : px) {
       const Eigen::Vector3d ray = *kCamera.unproject(p.cast<double>());
       double value = plane.normal.dot(ray) / plane.distance_m;
       if (before)
         if (const auto nearer = before(ray)) value = std::max(value, *nearer);
-      depths.push_back(InverseDepth{ray, value + kSigma * random.normal(), kSigma});
+      depths.push_back(MeasuredInverseDepth{ray, value + kSigma * random.normal(), kSigma});
     }
     return depths;
   };
@@ -122,7 +122,7 @@ TEST(DominantSurface, IsCarriedAlongByTheMotion) {
   const SE3 T_cur_last = pose({0.05, 0, 0}, {0, 0.3, 0});
   const Plane before = surface.plane_cam(), expected = transform(T_cur_last, before);
   const auto blind = [](const std::vector<Eigen::Vector2f>& px, const std::vector<double>&) {
-    return std::vector<std::optional<InverseDepth>>(px.size());
+    return std::vector<std::optional<MeasuredInverseDepth>>(px.size());
   };
   const SurfaceAppearance appearance = surface.update(blind, T_cur_last, {}, random);
   EXPECT_EQ(appearance.outcome.code, Code::kTooFewData);
@@ -134,10 +134,10 @@ TEST(DominantSurface, RefusesWallsOfNoiseAndMasksOfAnotherSize) {
   Random random = seeded_random(86);
   DominantSurface surface({}, kCamera, tilted(0));
   const auto clutter = [&](const std::vector<Eigen::Vector2f>& px, const std::vector<double>&) {
-    std::vector<std::optional<InverseDepth>> depths;
+    std::vector<std::optional<MeasuredInverseDepth>> depths;
     for (const Eigen::Vector2f& p : px)
-      depths.push_back(
-          InverseDepth{*kCamera.unproject(p.cast<double>()), random.uniform(0.02, 0.6), kSigma});
+      depths.push_back(MeasuredInverseDepth{*kCamera.unproject(p.cast<double>()),
+                                            random.uniform(0.02, 0.6), kSigma});
     return depths;
   };
   EXPECT_EQ(surface.update(clutter, SE3(), {}, random).outcome.code, Code::kNoConsensus);

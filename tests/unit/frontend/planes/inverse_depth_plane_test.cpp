@@ -14,8 +14,8 @@ const Plane kRoad{Eigen::Vector3d(0.02, 1, -0.05).normalized(), 1.65};
 constexpr double kSigma = 1e-3;
 
 /// Pixels below the horizon, on the road up to noise.
-std::vector<InverseDepth> road(int count, double noise, Random& random) {
-  std::vector<InverseDepth> pixels;
+std::vector<MeasuredInverseDepth> road(int count, double noise, Random& random) {
+  std::vector<MeasuredInverseDepth> pixels;
   for (int i = 0; i < count; ++i) {
     const Eigen::Vector3d ray(random.uniform(-0.5, 0.5), random.uniform(0.12, 0.4), 1);
     const double value = kRoad.normal.dot(ray) / kRoad.distance_m;
@@ -55,7 +55,7 @@ TEST(InverseDepthPlane, IsFoundUnderVehiclesAndClaimsWhatItsErrorsBearOut) {
 TEST(InverseDepthPlane, OfOneRowLeavesTheNormalOpen) {
   Random random = seeded_random(63);
   auto pixels = road(80, 0, random);
-  for (InverseDepth& pixel : pixels) {
+  for (MeasuredInverseDepth& pixel : pixels) {
     pixel.ray_cam.y() = 0.2 + 1e-4 * random.normal();
     pixel.value = kRoad.normal.dot(pixel.ray_cam) / kRoad.distance_m + kSigma * random.normal();
   }
@@ -67,7 +67,7 @@ TEST(InverseDepthPlane, RefusesTooFewPixelsAndCrowdsWithoutAPlane) {
   EXPECT_EQ(fit_inverse_depth_plane(road(10, 1, random), {}, random).outcome.code,
             Code::kTooFewData);
   auto pixels = road(80, 1, random);
-  for (InverseDepth& pixel : pixels) pixel.value = random.uniform(0.01, 1);
+  for (MeasuredInverseDepth& pixel : pixels) pixel.value = random.uniform(0.01, 1);
   EXPECT_EQ(fit_inverse_depth_plane(pixels, {}, random).outcome.code, Code::kNoConsensus);
 }
 

@@ -1,7 +1,7 @@
 // Checks that go on from a saved state say what they would have said without an interruption.
 #include <gtest/gtest.h>
 #include <placegraph/pipeline/health/contradicted_steps.h>
-#include <placegraph/pipeline/health/depth_range.h>
+#include <placegraph/pipeline/health/depth_unit_check.h>
 #include <placegraph/pipeline/health/flow_check.h>
 #include <placegraph/pipeline/health/image_quality.h>
 #include <placegraph/pipeline/health/intrinsics_check.h>
@@ -102,7 +102,7 @@ TEST(InterruptedChecks, SayWhatTheyWouldHaveSaidWithoutTheInterruption) {
     said += said_by(random, ResidualCheck(stereo()), [](ResidualCheck& check, int, Random& r) {
       check.add(WindowResiduals{1000, r.index(200), 1000, r.index(200)});
     });
-    said += said_by(random, DepthRange(), [](DepthRange& check, int, Random& r) {
+    said += said_by(random, DepthUnitCheck(), [](DepthUnitCheck& check, int, Random& r) {
       Frame frame;
       frame.depth = Image(120, 160, CV_32FC1, cv::Scalar(20 * r.uniform()));
       check.add(frame);

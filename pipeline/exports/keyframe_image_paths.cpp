@@ -2,7 +2,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/text/log_message.h>
 #include <placegraph/io/datasets/open_dataset.h>
-#include <placegraph/pipeline/exports/keyframe_images.h>
+#include <placegraph/pipeline/exports/keyframe_image_paths.h>
 
 #include <filesystem>
 
@@ -10,8 +10,8 @@ namespace placegraph {
 
 namespace fs = std::filesystem;
 
-KeyframeImages::KeyframeImages(const MapOrigin& origin, std::string undistorted,
-                               const LogSink& log_sink)
+KeyframeImagePaths::KeyframeImagePaths(const MapOrigin& origin, std::string undistorted,
+                                       const LogSink& log_sink)
     : sequence_(origin.sequence),
       undistorted_(std::move(undistorted)),
       dataset_(open_dataset(origin.sequence)) {
@@ -23,7 +23,7 @@ KeyframeImages::KeyframeImages(const MapOrigin& origin, std::string undistorted,
         sequence_, origin.lens_k1);
 }
 
-std::string KeyframeImages::sequence_path(FrameId frame) const {
+std::string KeyframeImagePaths::sequence_path(FrameId frame) const {
   const std::int64_t index = frame.value();
   if (index < 0 || index >= static_cast<std::int64_t>(dataset_->size()))
     throw ArgumentError(
@@ -35,12 +35,12 @@ std::string KeyframeImages::sequence_path(FrameId frame) const {
   return (folder / fmt::format("frame_{:06}.png", index)).string();
 }
 
-std::string KeyframeImages::path(FrameId frame) const {
+std::string KeyframeImagePaths::path(FrameId frame) const {
   return undistorted_.empty() ? sequence_path(frame)
                               : (fs::path(undistorted_) / name(frame)).string();
 }
 
-std::string KeyframeImages::name(FrameId frame) const {
+std::string KeyframeImagePaths::name(FrameId frame) const {
   const fs::path image(sequence_path(frame));
   const fs::path folder =
       fs::is_directory(sequence_) ? fs::path(sequence_) : fs::path(sequence_).parent_path();

@@ -10,13 +10,13 @@
 namespace placegraph {
 
 /// Where the images of a map's keyframes are.
-class KeyframeImages {
+class KeyframeImagePaths {
  public:
   /// Opens the sequence of the map. `undistorted` is the folder of the images without distortion
   /// (write_undistorted); if it is empty, warns if the run removed a lens distortion that the
   /// images still have. Throws FileError if the sequence is no longer there.
-  explicit KeyframeImages(const MapOrigin& origin, std::string undistorted = "",
-                          const LogSink& log_sink = {});
+  explicit KeyframeImagePaths(const MapOrigin& origin, std::string undistorted = "",
+                              const LogSink& log_sink = {});
 
   /// The image of a frame; frame_NUMBER.png in the folder of the sequence for a video. In the
   /// folder of the undistorted images it has the same name, and the extension .png.

@@ -10,7 +10,7 @@ namespace placegraph {
 /// Finds depth images in another unit than assumed: depth cameras measure from two or three tenths
 /// of a metre to some ten metres, and are used in the middle of that range. A wrong unit changes
 /// nothing but the distances.
-class DepthRange {
+class DepthUnitCheck {
  public:
   void add(const Frame& frame);
   /// Reports that in most of at least three images the median distance is below 0.4 m or beyond

@@ -1,12 +1,12 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/health/depth_range.h>
+#include <placegraph/pipeline/health/depth_unit_check.h>
 
 namespace placegraph {
-namespace depth_range_test {
+namespace depth_unit_check_test {
 
 /// A floor that recedes from 0.7 to 4 m, with a part that was not measured, in another unit.
 std::optional<DataNote> note_for(double unit) {
-  DepthRange range;
+  DepthUnitCheck range;
   for (int i = 0; i < 40; ++i) {
     Frame frame;
     frame.id = FrameId(i);
@@ -19,13 +19,13 @@ std::optional<DataNote> note_for(double unit) {
   return range.note();
 }
 
-TEST(DepthRange, AcceptsWhatDepthCamerasMeasure) {
+TEST(DepthUnitCheck, AcceptsWhatDepthCamerasMeasure) {
   EXPECT_FALSE(note_for(1));
   EXPECT_FALSE(note_for(0.4));
   EXPECT_FALSE(note_for(2.5));
 }
 
-TEST(DepthRange, FindsAnotherUnit) {
+TEST(DepthUnitCheck, FindsAnotherUnit) {
   for (const double unit : {0.001, 0.1, 5.0, 1000.0}) {
     const auto note = note_for(unit);
     ASSERT_TRUE(note) << unit;
@@ -34,8 +34,8 @@ TEST(DepthRange, FindsAnotherUnit) {
   }
 }
 
-TEST(DepthRange, NeedsDepths) {
-  DepthRange range;
+TEST(DepthUnitCheck, NeedsDepths) {
+  DepthUnitCheck range;
   Frame frame;
   range.add(frame);
   frame.depth = Image::zeros(240, 320, CV_32FC1);
@@ -43,5 +43,5 @@ TEST(DepthRange, NeedsDepths) {
   EXPECT_FALSE(range.note());
 }
 
-}  // namespace depth_range_test
+}  // namespace depth_unit_check_test
 }  // namespace placegraph

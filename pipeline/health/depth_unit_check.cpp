@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/median.h>
-#include <placegraph/pipeline/health/depth_range.h>
+#include <placegraph/pipeline/health/depth_unit_check.h>
 
 #include <algorithm>
 
 namespace placegraph {
 
-void DepthRange::add(const Frame& frame) {
+void DepthUnitCheck::add(const Frame& frame) {
   constexpr int kFramesAnImage = 10, kStepPx = 8;
   constexpr std::size_t kFewest = 100;
   if (frame.depth.empty() || frames_++ % kFramesAnImage != 0) return;
@@ -20,7 +20,7 @@ void DepthRange::add(const Frame& frame) {
   medians_m_.push_back(*middle);
 }
 
-std::optional<DataNote> DepthRange::note() const {
+std::optional<DataNote> DepthUnitCheck::note() const {
   constexpr std::size_t kFewest = 3;
   constexpr double kNearest_m = 0.4, kFarthest_m = 8;
   if (medians_m_.size() < kFewest) return std::nullopt;
