@@ -1,12 +1,13 @@
 #include <fmt/format.h>
+#include <nanobind/stl/shared_ptr.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/measurements/measured_motion.h>
 #include <placegraph/io/models/scene_model_file.h>
 #include <placegraph/pipeline/cues/frame_view.h>
+#include <placegraph/pipeline/local_map/lens_distortion.h>
 #include <placegraph/pipeline/run.h>
 #include <placegraph/pipeline/slam.h>
 
-#include <nanobind/stl/shared_ptr.h>
 #include <cmath>
 #include <memory>
 
