@@ -55,15 +55,13 @@ std::vector<EvaluatedFiles> files_of(const EvalArguments& arguments) {
 /// The trajectories are local, because long ones take most of the memory.
 PairingResult pair(const EvaluatedFiles& files, const EvalArguments& arguments,
                    const EvaluationOptions& options) {
-  const std::string truth_times = arguments.times.empty() ? "" : arguments.times.front();
+  std::string truth_times = arguments.times.empty() ? "" : arguments.times.front();
   const std::string estimate_times = arguments.times.empty() ? "" : arguments.times.back();
   const Trajectory estimate = read_evaluated(files.estimate, estimate_times);
-  Trajectory truth = read_truth(files.truth, truth_times);
   // A KITTI sequence stores its times beside its poses; they are needed if the estimate has times.
-  const std::string beside = times_beside(files.truth);
-  if (!truth.has_times && estimate.has_times && options.association != Association::kIndex &&
-      !beside.empty())
-    truth = read_truth(files.truth, beside);
+  if (truth_times.empty() && estimate.has_times && options.association != Association::kIndex)
+    truth_times = times_beside(files.truth);
+  const Trajectory truth = read_truth(files.truth, truth_times);
   return pair_trajectories(truth, estimate, options.association, options.time);
 }
 

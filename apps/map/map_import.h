@@ -18,7 +18,7 @@ struct MapImportResult {
 };
 
 /// Makes a map of the model of another program: `placegraph map import`.
-/// Throws ArgumentError and FileError and NoResult as import_colmap.
+/// Throws as import_colmap.
 MapImportResult map_import(const MapImportArguments& arguments);
 
 /// One line.

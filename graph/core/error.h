@@ -7,7 +7,7 @@ namespace [[gnu::visibility("default")]] placegraph {
 /// Base of every exception that the library throws itself.
 /// It reports an error of the caller, an invalid option or a broken file. The message is one line
 /// that names the field or `file:line` and the value. If the data allow no estimate, nothing is
-/// thrown: see outcome.h.
+/// thrown but NoResult: see outcome.h.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -29,7 +29,7 @@ class FileError : public Error {
   FileError(const std::string& path, const std::string& message) : FileError(path, 0, message) {}
 };
 
-/// Data that allow no file: what was to be written would be empty or meaningless.
+/// Data that allow no result where one must be written: a file would be empty or meaningless.
 class NoResult : public Error {
  public:
   using Error::Error;

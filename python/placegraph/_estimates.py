@@ -67,12 +67,15 @@ def named_estimates(
     return named
 
 
-def read_truth(given: TrajectoryLike, times: str) -> tuple[_core.Trajectory, str]:
-    """The truth, and the file of times that is beside the poses of a KITTI sequence."""
+def read_truth(given: TrajectoryLike, times: str) -> _core.Trajectory:
     if isinstance(given, _core.Trajectory):
-        return given, ""
-    path = existing(given, "truth")
-    return _core.read_truth(path, times), _core.times_beside(path)
+        return given
+    return _core.read_truth(existing(given, "truth"), times)
+
+
+def times_beside(given: TrajectoryLike) -> str:
+    """The file of times beside the poses of a KITTI sequence; empty: there is none."""
+    return "" if isinstance(given, _core.Trajectory) else _core.times_beside(existing(given, "truth"))
 
 
 def read_estimate(given: TrajectoryLike, truth: TrajectoryLike, times: str) -> _core.Trajectory:

@@ -22,6 +22,7 @@ from ._estimates import (
     named_estimates,
     read_estimate,
     read_truth,
+    times_beside,
     true_of,
 )
 from ._notebook import figure_html, table_html
@@ -269,10 +270,10 @@ def evaluate(
         if not isinstance(estimate, _core.Trajectory):
             name = os.path.basename(os.path.normpath(existing(estimate, "estimate")))
     estimated = read_estimate(estimate, truth, estimate_times)
-    true, beside = read_truth(truth, truth_times)
-    if beside and not true.has_times and estimated.has_times:
-        if chosen.get("associate") != "index":
-            true, _ = read_truth(truth, beside)
+    # A KITTI sequence stores its times beside its poses; they are needed if the estimate has times.
+    if not truth_times and estimated.has_times and chosen.get("associate") != "index":
+        truth_times = times_beside(truth)
+    true = read_truth(truth, truth_times)
     return Evaluation(_core.evaluate_trajectory(true, estimated, chosen, name))
 
 

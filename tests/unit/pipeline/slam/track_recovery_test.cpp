@@ -145,6 +145,7 @@ TEST(TrackRecovery, ARunThatIsTakenUpContinuesItsSegment) {
   ASSERT_TRUE(link);
   EXPECT_EQ(link->source, ConstraintSource::kOdometry);
   EXPECT_NEAR(link->information(0, 0) / 1e8, 1, 1e-9);  // 1e-5 of ten metres
+  EXPECT_FALSE(scene.recovery.take_link(scene.odometry.map(), scene.mapper));  // it is used up
 }
 
 TEST(TrackRecovery, ASegmentThatBeginsLaterIsNoContinuation) {
