@@ -1,4 +1,5 @@
 #include <placegraph/backend/georeference/fix_statistics.h>
+#include <placegraph/graph/core/chi_squared.h>
 #include <placegraph/graph/core/median.h>
 
 #include <algorithm>
@@ -43,6 +44,11 @@ std::vector<GpsDropout> find_dropouts(const std::vector<NodeVisit>& visits,
   }
   consider(last->stamp_ns);
   return dropouts;
+}
+
+bool is_gross(const Eigen::Vector3d& e_enu, const Eigen::Matrix3d& information) {
+  static const double bound = chi_squared_quantile(1 - 1e-5, 3);
+  return e_enu.dot(information * e_enu) > bound;
 }
 
 std::optional<FixDispersion> dispersion_of(const std::vector<FixResidual>& residuals,

@@ -25,6 +25,9 @@ struct FixResidual {
   double accuracy_m = 1;                            ///< accuracy stated by the receiver [m]
 };
 
+/// Whether the error of a fix is larger than that of all right fixes but one in 100,000.
+bool is_gross(const Eigen::Vector3d& e_enu, const Eigen::Matrix3d& information);
+
 /// Factors by which fixes scatter more than stated; 1 if they do not.
 /// They are estimated from the differences of successive residuals at most `max_gap_s` apart, in
 /// which the errors of the map cancel; the median is robust against gross errors. Empty below
