@@ -7,24 +7,16 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "apps/cmd_elements.h"
+#include "apps/cmd_group.h"
 #include "apps/eval/cmd_eval.h"
 #include "apps/eval/cmd_eval_edges.h"
 #include "apps/eval/cmd_eval_noise.h"
 #include "apps/eval/cmd_loops.h"
-#include "apps/eval/cmd_scene_check.h"
-#include "apps/flight/cmd_flight.h"
 #include "apps/graph/cmd_bundle.h"
 #include "apps/graph/cmd_convert.h"
 #include "apps/graph/cmd_optimize.h"
 #include "apps/help.h"
-#include "apps/image/cmd_flow.h"
-#include "apps/image/cmd_markers.h"
-#include "apps/image/cmd_motion.h"
-#include "apps/image/lines/cmd_lines.h"
-#include "apps/image/lines/cmd_vanishing.h"
-#include "apps/image/planes/cmd_planes.h"
-#include "apps/image/planes/cmd_planes_cloud.h"
-#include "apps/image/scene/cmd_scene.h"
 #include "apps/map/cmd_map.h"
 #include "apps/map/loops/cmd_map_loops.h"
 #include "apps/map/queries/cmd_explain.h"
@@ -32,9 +24,6 @@
 #include "apps/map/queries/cmd_localize.h"
 #include "apps/map/queries/cmd_route.h"
 #include "apps/pages.h"
-#include "apps/places/cmd_match.h"
-#include "apps/places/cmd_places.h"
-#include "apps/places/cmd_vocabulary.h"
 #include "apps/report/cmd_report.h"
 #include "apps/report/report.h"
 #include "apps/run/cmd_config.h"
@@ -46,26 +35,16 @@
 #include "apps/shell/spellings.h"
 #include "apps/synth/cmd_synth.h"
 #include "apps/synth/cmd_synth_graph.h"
-#include "apps/track/cmd_lines_track.h"
-#include "apps/track/cmd_track_plane.h"
-#include "apps/train/cmd_train.h"
 #include "apps/viewer/cmd_view.h"
 #include "apps/viewer/run_view.h"
 
 namespace placegraph::apps {
 namespace {
 
-CLI::App& add_group(CLI::App& app, const std::string& name, const std::string& what,
-                    const std::string& example) {
-  CLI::App* group = app.add_subcommand(name, what);
-  group->footer("placegraph " + name + " " + example);
-  group->require_subcommand(1);
-  return *group;
-}
-
 void add_map_group(CLI::App& app) {
   CLI::App& map = add_group(app, "map", "Saved maps", "info out/town-run");
   add_map_commands(map);
+  add_map_scene_commands(map);
   add_map_loops_commands(map);
   add_localize_command(map);
   add_explain_command(map);
@@ -90,35 +69,7 @@ void add_eval_group(CLI::App& app) {
   add_eval_noise_command(group);
   add_eval_loops_command(
       group, [](const LoopsArguments& a, const LoopsResult& r) { write_loops_page(a, r); });
-  add_eval_labels_command(group);
-}
-
-void add_places_group(CLI::App& app) {
-  CLI::App& places =
-      add_group(app, "places", "Place recognition", "match places/corridor --out found.txt");
-  add_match_command(places);
-  add_classify_command(places);
-  add_vocabulary_command(places);
-}
-
-void add_image_group(CLI::App& app) {
-  CLI::App& image = add_group(app, "image", "Measurements in one or two images",
-                              "flow a.png b.png --out f.flo --draw f.png");
-  add_flow_command(image);
-  add_motion_command(image);
-  add_lines_commands(image);
-  add_vanishing_command(image);
-  add_planes_command(image);
-  add_two_view_planes_command(image);
-  add_markers_command(image);
-  add_scene_commands(image);
-}
-
-void add_track_group(CLI::App& app) {
-  CLI::App& track =
-      add_group(app, "track", "Tracks through a sequence", "lines SEQUENCE -o tracks.txt");
-  add_lines_track_command(track);
-  add_track_plane_command(track);
+  add_eval_scene_commands(group);
 }
 
 void add_synth_group(CLI::App& app) {
@@ -126,13 +77,6 @@ void add_synth_group(CLI::App& app) {
                               "sequence town-loop --out out/town-loop");
   add_synth_sequence_command(group);
   add_synth_graph_command(group);
-}
-
-void add_train_group(CLI::App& app) {
-  CLI::App& train = add_group(app, "train", "Training of the models that come with the program",
-                              "urban camvid --out urban.pgscene");
-  add_train_commands(train);
-  add_train_vocabulary_command(train);
 }
 
 bool is_flag(const std::string& word) { return word.starts_with("-"); }
@@ -191,9 +135,7 @@ std::unique_ptr<CLI::App> make_command_line() {
   add_places_group(*app);
   add_image_group(*app);
   add_track_group(*app);
-  CLI::App& flight = add_group(*app, "flight", "State estimation of flying robots",
-                               "run out/flight --out out/states");
-  add_flight_command(flight);
+  add_flight_group(*app);
   add_synth_group(*app);
   add_train_group(*app);
   add_shell_commands(*app);

@@ -47,8 +47,7 @@ int parse_and_run(CLI::App& app, placegraph::apps::CommandWords line) {
     return unknown.empty() ? app.exit(asked) : complain(ExitCode::kUsage, unknown + see_help(app));
   } catch (const CLI::ParseError& error) {
     const std::string unknown = placegraph::apps::unknown_words(app);
-    return complain(ExitCode::kUsage,
-                    (unknown.empty() ? error.what() : unknown) + see_help(app));
+    return complain(ExitCode::kUsage, (unknown.empty() ? error.what() : unknown) + see_help(app));
   }
 }
 

@@ -99,3 +99,11 @@ function(placegraph_library name)
     set_property(GLOBAL APPEND PROPERTY PLACEGRAPH_LIBRARIES ${target})
   endif()
 endfunction()
+
+# placegraph_elements(sources...): sources of this folder that belong to the library placegraph_elements, which
+# cmake/elements.cmake makes. No other library calls them (tests/lint/core_alone.py).
+function(placegraph_elements)
+  file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
+  list(TRANSFORM ARGN PREPEND ${folder}/)
+  set_property(GLOBAL APPEND PROPERTY PLACEGRAPH_ELEMENTS_SOURCES ${ARGN})
+endfunction()

@@ -6,10 +6,8 @@
 #include <memory>
 
 #include "apps/map/cmd_map_import.h"
-#include "apps/map/cmd_map_label.h"
 #include "apps/map/cmd_map_learn.h"
-#include "apps/map/cmd_map_plan.h"
-#include "apps/map/cmd_map_semantic.h"
+#include "apps/map/floor_planner.h"
 #include "apps/map/map_info.h"
 #include "apps/map/map_validate.h"
 #include "apps/support/option_texts.h"
@@ -73,6 +71,7 @@ void add_export_command(CLI::App& map) {
                    "for depth images, else 1 % of the median depth of the landmarks")
       ->check(CLI::PositiveNumber);
   command->add_flag("--force", arguments->force, kForceText);
+  arguments->floor_plan = floor_planner();
   command->callback([arguments] {
     std::optional<Progress> progress;
     const auto show = [&](std::size_t done, std::size_t total) {
@@ -95,9 +94,6 @@ void add_map_commands(CLI::App& map) {
   add_export_command(map);
   add_map_import_command(map);
   add_map_learn_command(map);
-  add_map_label_command(map);
-  add_map_plan_command(map);
-  add_map_street_command(map);
 }
 
 }  // namespace placegraph::apps

@@ -14,18 +14,13 @@ void add_map_import_command(CLI::App& map) {
   MapImportArguments& a = *arguments;
   CLI::App* command = map.add_subcommand("import", "Make a map of the model of another program");
   command->footer("placegraph map import --colmap model --images out/world --out imported.db");
-  command
-      ->add_option("--colmap", a.colmap, "folder of a COLMAP model")
+  command->add_option("--colmap", a.colmap, "folder of a COLMAP model")
       ->type_name(kInput)
       ->required();
-  command
-      ->add_option("--images", a.images, "the sequence of its images")
+  command->add_option("--images", a.images, "the sequence of its images")
       ->type_name(kInput)
       ->required();
-  command
-      ->add_option("-o,--out", a.out, "file for the map")
-      ->type_name(kOutput)
-      ->required();
+  command->add_option("-o,--out", a.out, "file for the map")->type_name(kOutput)->required();
   command->add_flag("--metric", a.metric, "lengths of the model are metres");
   command->add_flag("--force", a.force, kForceText);
   command->callback([arguments] { print(to_text(map_import(*arguments))); });

@@ -16,10 +16,7 @@ void add_map_label_command(CLI::App& map) {
   CLI::App* command = map.add_subcommand(
       "label", "Label the places of a saved map by a classifier trained on labelled images");
   command->footer("placegraph map label out/office rooms --names rooms/names.txt");
-  command
-      ->add_option("MAP", a.map, kMapText)
-      ->type_name(kInput)
-      ->required();
+  command->add_option("MAP", a.map, kMapText)->type_name(kInput)->required();
   command
       ->add_option("ROOMS", a.house, "a folder with images and labels.txt (`image label` a line)")
       ->required()

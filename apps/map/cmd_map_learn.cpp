@@ -18,10 +18,7 @@ void add_map_learn_command(CLI::App& map) {
   command->add_option("IMAGES", a.images, "a folder of images in the order they were taken")
       ->required()
       ->check(CLI::ExistingDirectory);
-  command
-      ->add_option("-o,--out", a.out, "file for the map")
-      ->type_name(kOutput)
-      ->required();
+  command->add_option("-o,--out", a.out, "file for the map")->type_name(kOutput)->required();
   command->add_option("--range", a.range, kRangeText)->expected(2);
   command->add_option("--set", a.settings, kSetText)->type_size(1)->allow_extra_args(false);
   command->add_flag("--force", a.force, kForceText);

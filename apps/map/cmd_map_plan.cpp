@@ -15,12 +15,8 @@ void add_map_plan_command(CLI::App& map) {
   MapPlanArguments& a = *arguments;
   CLI::App* command = map.add_subcommand("plan", "Draw the floor plan of an indoor map");
   command->footer("placegraph map plan out/office --out out/office-plan");
-  command
-      ->add_option("MAP", a.map, kMapText)
-      ->type_name(kInput)
-      ->required();
-  command
-      ->add_option("-o,--out", a.out, "folder for floor_plan.json, .svg and .png")
+  command->add_option("MAP", a.map, kMapText)->type_name(kInput)->required();
+  command->add_option("-o,--out", a.out, "folder for floor_plan.json, .svg and .png")
       ->type_name(kOutput)
       ->required();
   command->add_option("--set", a.settings, kSetText)->allow_extra_args(false);

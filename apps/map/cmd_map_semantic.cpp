@@ -15,12 +15,8 @@ void add_map_street_command(CLI::App& map) {
   MapSemanticArguments& a = *arguments;
   CLI::App* command = map.add_subcommand("street", "Make the semantic map of the streets of a map");
   command->footer("placegraph map street out/town-run --out out/town-street");
-  command
-      ->add_option("MAP", a.map, kMapText)
-      ->type_name(kInput)
-      ->required();
-  command
-      ->add_option("-o,--out", a.out, "folder for semantic_map.ply, .json and .png")
+  command->add_option("MAP", a.map, kMapText)->type_name(kInput)->required();
+  command->add_option("-o,--out", a.out, "folder for semantic_map.ply, .json and .png")
       ->type_name(kOutput)
       ->required();
   command

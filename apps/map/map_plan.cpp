@@ -23,8 +23,7 @@ MapPlanResult map_plan(const MapPlanArguments& arguments) {
   if (!stored.origin.calibration || stored.map.keyframes.empty())
     throw NoResult(arguments.map + ": nothing in it has a pose");
   const auto dataset = open_dataset(stored.origin.sequence);
-  const IndoorMap plan = plan_of_map(stored.map, *stored.origin.calibration, *dataset,
-                                     stored.origin.sensor, stored.origin.lens_k1, options);
+  const IndoorMap plan = plan_of_map(stored, options);
   if (!plan.outcome) throw NoResult(arguments.map + ": no floor plan: " + plan.outcome.reason);
   const OutputFolder folder(arguments.out);
   write_floor_plan(arguments.out, plan, stored.map, dataset->name());

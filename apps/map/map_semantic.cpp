@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "apps/results/georeference_reader.h"
 #include "apps/support/output.h"
 
 namespace placegraph::apps {

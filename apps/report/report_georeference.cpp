@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/page/column.h"
-#include "apps/results/semantic_map_files.h"
+#include "apps/results/georeference_reader.h"
 
 namespace placegraph::apps {
 namespace {

@@ -5,15 +5,12 @@
 #include <placegraph/frontend/scene/moving_classes.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/datasets/dataset.h>
-#include <placegraph/io/files/json_file.h>
 #include <placegraph/io/scene/labelled_mesh_file.h>
 #include <placegraph/io/scene/semantic_map_file.h>
-#include <placegraph/io/trajectories/trajectory_file.h>
 #include <placegraph/pipeline/lens_correction.h>
 
 #include <algorithm>
 #include <filesystem>
-#include <map>
 #include <nlohmann/json.hpp>
 
 #include "apps/results/run_judgement.h"
@@ -61,38 +58,6 @@ std::vector<std::pair<PlaceId, std::vector<float>>> shares_by_place(const UrbanM
 }
 
 }  // namespace
-
-std::optional<SE3> Georeference::at(std::int64_t stamp_ns) const {
-  constexpr std::int64_t kSame_ns = 1000000;  // rounding of stamps written in decimal seconds
-  const auto found = std::lower_bound(
-      trajectory.poses.begin(), trajectory.poses.end(), stamp_ns - kSame_ns,
-      [](const StampedPose& pose, std::int64_t stamp) { return pose.stamp_ns < stamp; });
-  if (found == trajectory.poses.end() || !found->T_world_body ||
-      found->stamp_ns > stamp_ns + kSame_ns)
-    return std::nullopt;
-  return SE3(*found->T_world_body);
-}
-
-Georeference read_georeference(const std::string& folder, const Map& map) {
-  const std::string path = (fs::path(folder) / "georeference.json").string();
-  Georeference result;
-  take_json(path, "map georeference", [&](const json& file) {
-    const json& origin = file.at("origin");
-    result.origin = {origin.at("latitude_deg").get<double>(),
-                     origin.at("longitude_deg").get<double>(), origin.at("height_m").get<double>()};
-    result.origin.check();
-  });
-  result.trajectory = read_trajectory((fs::path(folder) / "trajectory_enu.tum").string());
-  std::map<KeyframeId, SE3> poses;
-  for (const Keyframe& keyframe : map.keyframes)
-    if (const std::optional<SE3> T = result.at(keyframe.stamp_ns)) poses.emplace(keyframe.id, *T);
-  result.T_enu_keyframe = [poses = std::move(poses)](KeyframeId id) -> std::optional<SE3> {
-    const auto found = poses.find(id);
-    if (found == poses.end()) return std::nullopt;
-    return found->second;
-  };
-  return result;
-}
 
 void check_urban_models(const UrbanMapperOptions& options, const UrbanModelPaths& models) {
   const SceneModel urban = load_scene_model(SceneModel::Kind::kUrban, models.urban);

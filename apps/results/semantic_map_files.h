@@ -18,19 +18,6 @@ struct UrbanModelPaths {
   std::string urban, surfaces;
 };
 
-/// Position of a map on the earth, as written by `placegraph map georeference`.
-struct Georeference {
-  GeodeticPosition origin;
-  Trajectory trajectory;  ///< T_enu_cam of the frames that have a pose, by ascending stamps
-  KeyframePoses T_enu_keyframe;
-
-  /// The pose T_enu_cam of the frame with this stamp; nothing if it has none.
-  std::optional<SE3> at(std::int64_t stamp_ns) const;
-};
-
-/// Reads georeference.json and trajectory_enu.tum in a folder. Throws FileError.
-Georeference read_georeference(const std::string& folder, const Map& map);
-
 /// Checks models and options before any work.
 /// Throws FileError if a model is missing or invalid, with the command that makes it, and
 /// ArgumentError.

@@ -52,8 +52,7 @@ void add_config_command(CLI::App& app) {
       ->transform(CLI::Transformer(std::map<std::string, std::string>{{"hover", "flight"}}))
       ->check(CLI::IsMember({"run", "flight"}))
       ->capture_default_str();
-  command
-      ->add_option("-o,--out", a.out, "file to write instead of standard output")
+  command->add_option("-o,--out", a.out, "file to write instead of standard output")
       ->type_name(kOutput);
   command->add_flag("--force", a.force, kForceText);
   command->callback([config_command] { print_config(*config_command); });

@@ -29,8 +29,7 @@ void add_inspect_command(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("inspect", "Show how a folder or video is read, and what `run` would use");
   command->footer("placegraph inspect kitti/sequences/00");
-  command
-      ->add_option("PATH", arguments->path, "folder or video; see docs/datasets.md")
+  command->add_option("PATH", arguments->path, "folder or video; see docs/datasets.md")
       ->type_name(kInput)
       ->required();
   command->add_flag("--read", arguments->read_all,

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/config/yaml_config.h>
-#include <placegraph/pipeline/flight/flight_options.h>
 #include <placegraph/pipeline/run.h>
 
 #include <algorithm>
 
-#include "apps/shipped/shipped_files.h"
+#include "apps/run/config_of.h"
+#include "apps/run/flight_config.h"
 #include "apps/support/output.h"
 
 namespace placegraph::apps {
@@ -42,15 +42,10 @@ std::vector<OptionEntry> up_to(OptionLevel level, const std::vector<OptionEntry>
   return kept;
 }
 
-/// The options after the file and the settings.
-template <class Options>
-std::string text_of(const ConfigArguments& arguments) {
-  Options options;
-  const LogSink notes = option_notes();
-  if (!arguments.config.empty()) read_options(config_path(arguments.config), options, notes);
-  for (const std::string& setting : arguments.settings) set_option(options, setting, notes);
-  options.check();
-  const std::vector<OptionEntry> entries = up_to(arguments.level, list_options(options));
+}  // namespace
+
+std::string config_text(const ConfigArguments& arguments, const std::vector<OptionEntry>& all) {
+  const std::vector<OptionEntry> entries = up_to(arguments.level, all);
   if (arguments.form == ConfigForm::kYaml) return dump_options(entries);
   if (arguments.form == ConfigForm::kMarkdown)
     return "# Options of `placegraph " + arguments.of +
@@ -58,18 +53,16 @@ std::string text_of(const ConfigArguments& arguments) {
            "`--set\n"
            "group.key=value`. Levels: basic (what most runs set), advanced (to adapt the system to "
            "other\ndata), internal (constants of an algorithm).\n" +
-           options_markdown(list_options(options));
+           options_markdown(all);
   return plain_list(entries);
 }
-
-}  // namespace
 
 std::string config(const ConfigArguments& arguments) {
   if (!arguments.out.empty()) require_free(arguments.out, arguments.force);
   require(arguments.of == "run" || arguments.of == "flight",
           "--of: '" + arguments.of + "' is none of run, flight");
   std::string text =
-      arguments.of == "flight" ? text_of<FlightOptions>(arguments) : text_of<RunOptions>(arguments);
+      arguments.of == "flight" ? config_of_flight(arguments) : config_of<RunOptions>(arguments);
   if (!arguments.out.empty()) write_file(arguments.out, text);
   return text;
 }

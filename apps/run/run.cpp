@@ -11,8 +11,6 @@
 #include <placegraph/io/map/map_database.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 #include <placegraph/pipeline/exports/place_tables.h>
-#include <placegraph/pipeline/map/map_floor_plan.h>
-#include <placegraph/pipeline/scene/floor_plan.h>
 #include <sys/resource.h>
 
 #include <chrono>
@@ -22,14 +20,13 @@
 
 #include "apps/results/component_files.h"
 #include "apps/results/environment_files.h"
-#include "apps/results/floor_plan_files.h"
 #include "apps/results/judgement_text.h"
 #include "apps/results/run_files.h"
 #include "apps/results/run_judgement.h"
-#include "apps/results/semantic_map_files.h"
 #include "apps/run/frame_drawings.h"
 #include "apps/run/run_messages.h"
 #include "apps/run/run_notes.h"
+#include "apps/run/run_scene.h"
 #include "apps/shipped/scene_models.h"
 #include "apps/support/interruption.h"
 #include "apps/support/output.h"
@@ -97,38 +94,6 @@ std::shared_ptr<const SceneModel> surfaces_of(const SlamOptions& options) {
   return std::make_shared<const SceneModel>(load_scene_model(SceneModel::Kind::kSurfaces, ""));
 }
 
-/// Draws the floor plan and labels the places by its rooms; what result.json says of it. Where
-/// there is no plan the run is good all the same.
-json map_scene(const RunArguments& arguments, const RunOptions& options, const Dataset& dataset,
-               RunResult& run) {
-  const IndoorMap plan =
-      plan_of_map(run.map, run.calibration, dataset, run.sensor, run.lens_k1, options.scene.indoor);
-  if (plan.outcome) {
-    label_places(plan, run.map.place_graph);
-    save_labels(run_map_path(arguments.out), run.map.place_graph);
-    write_floor_plan(arguments.out, plan, run.map, dataset.name());
-    if (const auto doubt = doubt_of(plan)) warn(*doubt);
-  } else {
-    warn("no floor plan: " + plan.outcome.reason);
-  }
-  return describe_floor_plan(plan, run.map, dataset, arguments.sequence);
-}
-
-/// Writes the map of the street; what result.json says of it. Where there is none the run is good
-/// all the same.
-json map_street(const RunArguments& arguments, const RunOptions& options, const Dataset& dataset,
-                const RunResult& run) {
-  const UrbanMapper mapper = urban_mapper_of(
-      run.map, run.calibration, dataset, run.sensor, run.lens_k1, options.scene.urban,
-      {options.scene.urban_model, options.scene.surfaces_model});
-  const SemanticMap semantic = mapper.fuse(run.map);
-  if (semantic.outcome)
-    write_semantic_map(arguments.out, semantic, mapper, run.map, poses_of(run.map), dataset.name());
-  else
-    warn("no semantic map: " + semantic.outcome.reason);
-  return describe_semantic_map(semantic, mapper, run.map, dataset, arguments.sequence);
-}
-
 /// What comes before the work: the sequence with its notes, the models, and the folders.
 struct PreparedRun {
   RunArguments arguments;
@@ -141,9 +106,7 @@ struct PreparedRun {
 PreparedRun prepare(RunArguments arguments) {
   PreparedRun prepared;
   const RunOptions options = prepare_run(arguments);
-  if (options.scene.semantics)
-    check_urban_models(options.scene.urban,
-                       {options.scene.urban_model, options.scene.surfaces_model});
+  if (options.scene.semantics) check_street_models(options);
   if (!arguments.draw.empty()) require_free_drawings(arguments.draw, arguments.force);
   prepared.dataset = open_dataset(arguments.sequence);
   prepared.notes = notes_of(*prepared.dataset, options);
@@ -268,7 +231,7 @@ RunReport run(const RunArguments& asked) {
   const Judgement judgement = judge_prepared(prepared, run, optimized);
   json floor_plan, semantic_map;
   if (options.scene.geometry && !run.stopped)
-    floor_plan = map_scene(arguments, options, dataset, run);
+    floor_plan = map_rooms(arguments, options, dataset, run);
   if (options.scene.semantics && !run.stopped)
     semantic_map = map_street(arguments, options, dataset, run);
   clock.stop();

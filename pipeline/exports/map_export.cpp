@@ -34,7 +34,7 @@ struct MapExportInput {
   int component = 0;              ///< number of the component
   NumberForm numbers{};           ///< form of the numbers where there is a choice
   double cell_m = 0.05;           ///< side of a cell of an occupancy grid
-  bool walls = false;             ///< an occupancy grid with the walls of the floor plan
+  FloorPlanner floor_plan{};      ///< makes the floor plan whose walls a grid shows; empty: none
   std::string undistorted{};      ///< folder for the undistorted images; empty: none
   DenseOutputs* dense = nullptr;  ///< cloud and mesh, which are made at once
   const LogSink& log;             ///< receiver of warnings
@@ -120,7 +120,8 @@ std::vector<WrittenForm> geometry_forms() {
       {{"--occupancy", "an occupancy grid as map_server of ROS reads it", MapExportTarget::kImage},
        true,
        [](const std::string& path, const MapExportInput& input, MapExportResult&) {
-         write_occupancy(path, input.stored, input.component, input.cell_m, input.walls, input.log);
+         write_occupancy(path, input.stored, input.component, input.cell_m, input.floor_plan,
+                         input.log);
        }},
       {{"--gltf", "trajectory, landmarks and keyframes for 3D viewers, .glb or .gltf"},
        true,
@@ -197,6 +198,8 @@ void require_free_targets(const std::vector<WrittenForm>& forms,
       targets.push_back({forms[i].form.flag, arguments.paths[i] + extension});
     require_free_target(forms[i].form, arguments.paths[i], arguments.force);
   }
+  require(!arguments.walls || arguments.floor_plan != nullptr,
+          "--walls: nothing here makes floor plans, which is placegraph::elements' work");
   require_distinct_paths(targets, {{"MAP", arguments.map}});
 }
 
@@ -223,7 +226,7 @@ MapExportResult map_export(const StoredMap& stored, const MapExportArguments& ar
                        .component = component_of(arguments, stored.map),
                        .numbers = numbers,
                        .cell_m = arguments.resolution_m,
-                       .walls = arguments.walls,
+                       .floor_plan = arguments.walls ? arguments.floor_plan : FloorPlanner(),
                        .undistorted = {},
                        .dense = &dense,
                        .log = messages.log};

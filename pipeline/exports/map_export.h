@@ -1,8 +1,10 @@
 #pragma once
 #include <placegraph/graph/core/log.h>
+#include <placegraph/graph/scene/indoor_map.h>
 #include <placegraph/io/map/stored_map.h>
 #include <placegraph/pipeline/exports/export_summary.h>
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,6 +28,9 @@ struct MapExportForm {
 /// All forms.
 std::vector<MapExportForm> map_export_forms();
 
+/// Makes the floor plan of a saved map from the images of its sequence.
+using FloorPlanner = std::function<IndoorMap(const StoredMap& stored)>;
+
 /// What is written of a map, and where.
 struct MapExportArguments {
   std::string map;  ///< map.db, or a folder written by `placegraph run`
@@ -33,9 +38,12 @@ struct MapExportArguments {
       paths;  ///< one path per form, in the order of map_export_forms(); empty: none
   /// Component whose trajectory and geometry are written; nothing: the main one.
   std::optional<int> component;
-  bool ascii = false;           ///< numbers as text, of the forms that have both
-  double resolution_m = 0.05;   ///< side of a cell of an occupancy grid
-  bool walls = false;           ///< an occupancy grid with the walls of the floor plan
+  bool ascii = false;          ///< numbers as text, of the forms that have both
+  double resolution_m = 0.05;  ///< side of a cell of an occupancy grid
+  bool walls = false;          ///< an occupancy grid with the walls of the floor plan
+  /// Makes the floor plan for `walls`, as plan_of_map() of placegraph::elements does; empty: none,
+  /// and `walls` is rejected.
+  FloorPlanner floor_plan;
   std::optional<double> voxel;  ///< side of the voxels of cloud and mesh; nothing: see docs
   bool force = false;           ///< overwrite existing files
 };

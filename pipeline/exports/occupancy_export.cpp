@@ -1,9 +1,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/text/log_message.h>
-#include <placegraph/io/datasets/open_dataset.h>
 #include <placegraph/io/files/output_file.h>
 #include <placegraph/pipeline/exports/occupancy_export.h>
-#include <placegraph/pipeline/map/map_floor_plan.h>
 #include <placegraph/pipeline/map/map_occupancy.h>
 
 #include <filesystem>
@@ -13,10 +11,8 @@ namespace {
 
 /// The floor plan of a map; nothing, with a warning, if it has none.
 std::optional<IndoorMap> floor_plan_of(const std::string& base, const StoredMap& stored,
-                                       const LogSink& log_sink) {
-  const auto dataset = open_dataset(stored.origin.sequence);
-  IndoorMap plan = plan_of_map(stored.map, stored.origin.calibration.value(), *dataset,
-                               stored.origin.sensor, stored.origin.lens_k1, {});
+                                       const FloorPlanner& floor_plan, const LogSink& log_sink) {
+  IndoorMap plan = floor_plan(stored);
   if (plan.outcome) return plan;
   log(log_sink, LogLevel::kWarning, "{}: without walls, there is no floor plan: {}", base,
       plan.outcome.reason);
@@ -26,11 +22,11 @@ std::optional<IndoorMap> floor_plan_of(const std::string& base, const StoredMap&
 }  // namespace
 
 void write_occupancy(const std::string& base, const StoredMap& stored, int component, double cell_m,
-                     bool walls, const LogSink& log_sink) {
-  require(!walls || component == stored.map.main_component(),
+                     const FloorPlanner& floor_plan, const LogSink& log_sink) {
+  require(!floor_plan || component == stored.map.main_component(),
           "--walls: the floor plan is that of the main component");
   std::optional<IndoorMap> plan;
-  if (walls && stored.map.metric) plan = floor_plan_of(base, stored, log_sink);
+  if (floor_plan && stored.map.metric) plan = floor_plan_of(base, stored, floor_plan, log_sink);
   MapOccupancyOptions options;
   options.cell_m = cell_m;
   const MapOccupancy occupancy =

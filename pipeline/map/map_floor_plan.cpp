@@ -1,3 +1,5 @@
+#include <placegraph/graph/core/error.h>
+#include <placegraph/io/datasets/open_dataset.h>
 #include <placegraph/pipeline/lens_correction.h>
 #include <placegraph/pipeline/map/map_floor_plan.h>
 #include <placegraph/pipeline/scene/floor_plan.h>
@@ -16,6 +18,13 @@ IndoorMap plan_of_map(const Map& map, const Calibration& calibration, const Data
         return frame;
       },
       options);
+}
+
+IndoorMap plan_of_map(const StoredMap& stored, const IndoorMapperOptions& options) {
+  if (!stored.origin.calibration) throw NoResult("no floor plan: nothing in the map has a pose");
+  const auto dataset = open_dataset(stored.origin.sequence);
+  return plan_of_map(stored.map, *stored.origin.calibration, *dataset, stored.origin.sensor,
+                     stored.origin.lens_k1, options);
 }
 
 }  // namespace placegraph

@@ -2,6 +2,7 @@
 #include <placegraph/graph/map.h>
 #include <placegraph/graph/scene/indoor_map.h>
 #include <placegraph/io/datasets/dataset.h>
+#include <placegraph/io/map/stored_map.h>
 #include <placegraph/pipeline/scene/scene_map_options.h>
 
 namespace [[gnu::visibility("default")]] placegraph {
@@ -9,5 +10,9 @@ namespace [[gnu::visibility("default")]] placegraph {
 /// The floor plan of a map made from `dataset`; `lens_k1` is the distortion that was removed.
 IndoorMap plan_of_map(const Map& map, const Calibration& calibration, const Dataset& dataset,
                       Sensor sensor, double lens_k1, const IndoorMapperOptions& options);
+
+/// The same for a saved map, whose sequence is opened. Throws FileError, and NoResult if nothing in
+/// it has a pose.
+IndoorMap plan_of_map(const StoredMap& stored, const IndoorMapperOptions& options = {});
 
 }  // namespace placegraph

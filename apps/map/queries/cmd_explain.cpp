@@ -16,10 +16,7 @@ void add_explain_command(CLI::App& map) {
   CLI::App* command = map.add_subcommand(
       "explain", "Explain one frame of a map: its pose, the evidence for it, rejected loops");
   command->footer("placegraph map explain out/drive 250 --json");
-  command
-      ->add_option("MAP", a.map, kMapText)
-      ->type_name(kInput)
-      ->required();
+  command->add_option("MAP", a.map, kMapText)->type_name(kInput)->required();
   command
       ->add_option_function<std::int64_t>(
           "FRAME", [&a](std::int64_t frame) { a.frame = FrameId(frame); },

@@ -26,10 +26,7 @@ void add_georeference_command(CLI::App& map) {
                    "OXTS: folder of KITTI raw, or oxts.txt beside its times_oxts.txt")
       ->type_name(kInput)
       ->required();
-  command
-      ->add_option("-o,--out", a.out, "folder for the results")
-      ->type_name(kOutput)
-      ->required();
+  command->add_option("-o,--out", a.out, "folder for the results")->type_name(kOutput)->required();
   command->add_option("--times", a.times, kTimesText)->type_name(kInput);
   command->add_option("--lever-arm", a.lever_arm,
                       "antenna in the nodes' frame, x,y,z [m] (camera: right, down, forward), or "

@@ -14,10 +14,7 @@ void add_localize_command(CLI::App& map) {
   LocalizeArguments& a = *arguments;
   CLI::App* command = map.add_subcommand("localize", "Localize new images in a saved map");
   command->footer("placegraph map localize out/town-run images --out placed.txt --sequence");
-  command
-      ->add_option("MAP", a.map, kMapText)
-      ->type_name(kInput)
-      ->required();
+  command->add_option("MAP", a.map, kMapText)->type_name(kInput)->required();
   command->add_option("IMAGES", a.images, "a folder of images, or a sequence")
       ->required()
       ->check(CLI::ExistingDirectory);

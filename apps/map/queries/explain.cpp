@@ -1,25 +1,21 @@
 #include "apps/map/queries/explain.h"
 
 #include <fmt/format.h>
-#include <placegraph/frontend/labels/urban_labels.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/scene/environment.h>
 #include <placegraph/graph/text/id_format.h>
 #include <placegraph/graph/text/json_text.h>
 #include <placegraph/io/config/yaml_config.h>
-#include <placegraph/io/datasets/open_dataset.h>
 #include <placegraph/pipeline/map/explanation.h>
 #include <placegraph/pipeline/map/map_file.h>
-#include <placegraph/pipeline/map_environment.h>
 #include <placegraph/pipeline/run.h>
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
+#include "apps/map/queries/image_content.h"
 #include "apps/results/run_map.h"
-#include "apps/shipped/scene_models.h"
 #include "apps/support/output.h"
 
 namespace placegraph::apps {
@@ -66,70 +62,6 @@ json where(const Explanation& explanation, const Map& map) {
   at["sigma_position"] = sigma.head<3>().norm();
   at["sigma_angle_deg"] = rad_to_deg(sigma.tail<3>().norm());
   return at;
-}
-
-/// Shares of the image by class; "none" for pixels without a class.
-json shares_of(const SceneLabels& labels, const std::vector<std::string>& classes) {
-  std::vector<std::int64_t> counts(classes.size() + 1);
-  for (int v = 0; v < labels.labels.rows; ++v)
-    for (int u = 0; u < labels.labels.cols; ++u)
-      ++counts[std::min<std::size_t>(labels.labels.at<std::uint8_t>(v, u), classes.size())];
-  json shares = json::object();
-  for (std::size_t c = 0; c < counts.size(); ++c)
-    if (counts[c] > 0)
-      shares[c < classes.size() ? classes[c] : "none"] =
-          static_cast<double>(counts[c]) / static_cast<double>(labels.labels.total());
-  return shares;
-}
-
-/// The last keyframe up to a frame, else the first one.
-KeyframeId keyframe_near(const Map& map, FrameId frame) {
-  const auto after = std::ranges::upper_bound(map.keyframes, frame, {}, &Keyframe::frame);
-  return after == map.keyframes.begin() ? map.keyframes.front().id : std::prev(after)->id;
-}
-
-/// Probability that the frame is in a street: as the run labelled its place, else by the images
-/// and points of the keyframes around it.
-double street_around(const StoredMap& stored, const Explanation& explanation,
-                     const Dataset& dataset, const SceneModel& surfaces) {
-  const Place* place =
-      explanation.posed ? stored.map.place_graph.find(*explanation.place) : nullptr;
-  if (const auto kind = place ? environment_of(*place) : std::nullopt)
-    return assumptions_of(*kind).street_surfaces ? 1 : 0;
-  const SurfaceLabeller labeller(std::make_shared<const SceneModel>(surfaces), {});
-  return street_probability(environment_around(
-      stored.map, keyframe_near(stored.map, explanation.frame),
-      dataset.calibration(stored.origin.sensor).camera, labeller, [&](const Keyframe& keyframe) {
-        return dataset.frame(static_cast<std::size_t>(keyframe.frame.value()),
-                             stored.origin.sensor);
-      }));
-}
-
-/// Content of the image by the installed models, or the reason why it is unknown.
-json seen_in(const StoredMap& stored, const Explanation& explanation) {
-  const FrameId frame = explanation.frame;
-  const std::string& sequence = stored.origin.sequence;
-  if (sequence.empty() || !std::filesystem::exists(sequence))
-    return {{"unknown", "the images are no longer at " + sequence}};
-  SceneModel urban, surfaces;
-  try {
-    urban = load_scene_model(SceneModel::Kind::kUrban, "");
-    surfaces = load_scene_model(SceneModel::Kind::kSurfaces, "");
-  } catch (const FileError& error) {
-    return {{"unknown", error.what()}};
-  }
-  const auto dataset = open_dataset(sequence);
-  if (frame.value() >= static_cast<std::int64_t>(dataset->size()))
-    return {{"unknown", sequence + " has " + std::to_string(dataset->size()) + " frames now"}};
-  const Frame image = dataset->frame(static_cast<std::size_t>(frame.value()), stored.origin.sensor);
-  const SceneView view = view_scene(image.colour.empty() ? image.image : image.colour);
-  const UrbanLabels labels = label_urban(urban, surfaces, view);
-  const double street = street_around(stored, explanation, *dataset, surfaces);
-  return {{"surfaces", shares_of(most_probable(labels.surfaces, surfaces.class_count(), view),
-                                 surfaces.classes)},
-          {"street", street},
-          {"classes", shares_of(street_labels(labels.classes, urban.class_count(), view, street),
-                                urban.classes)}};
 }
 
 /// Assumptions of the run at this frame.
@@ -236,7 +168,7 @@ ExplainResult explain(const ExplainArguments& arguments) {
              {"features_placed", explanation->features_placed},
              {"constraints", explanation->constraints},
              {"loops", list_of(explanation->loops)}}},
-           {"sees", seen_in(stored, *explanation)},
+           {"sees", image_content(stored, *explanation)},
            {"assumed", assumed_by(stored, options, *explanation)},
            {"refused", list_of(explanation->refused)}}};
 }

@@ -18,7 +18,7 @@ std::string file_name(const std::string& path) {
   return std::filesystem::path(path).filename().string();
 }
 
-std::string camera_text(const Camera& camera) {
+std::string query_camera_text(const Camera& camera) {
   return fmt::format("{} x {} px, fx {:.1f}, fy {:.1f}, cx {:.1f}, cy {:.1f}", camera.width,
                      camera.height, camera.fx, camera.fy, camera.cx, camera.cy);
 }
@@ -71,7 +71,7 @@ std::string change_text(const Camera& camera, const Camera& map_camera, double s
   return fmt::format(
       "another camera ({}) than the map's ({}): its images are resampled to the map's, of which "
       "they show {:.0f} %",
-      camera_text(camera), camera_text(map_camera), 100 * seen_share);
+      query_camera_text(camera), query_camera_text(map_camera), 100 * seen_share);
 }
 
 }  // namespace

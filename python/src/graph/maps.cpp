@@ -7,6 +7,7 @@
 #include <placegraph/io/map/map_database.h>
 #include <placegraph/pipeline/exports/colmap_import.h>
 #include <placegraph/pipeline/exports/map_export.h>
+#include <placegraph/pipeline/map/map_floor_plan.h>
 #include <placegraph/pipeline/map/explanation.h>
 #include <placegraph/pipeline/map/map_file.h>
 
@@ -73,6 +74,7 @@ std::string export_files(const StoredMap& stored, const std::map<std::string, st
   arguments.ascii = ascii;
   arguments.resolution_m = resolution_m;
   arguments.walls = walls;
+  arguments.floor_plan = [](const StoredMap& stored) { return plan_of_map(stored); };
   arguments.voxel = voxel;
   arguments.force = force;
   std::size_t known = 0;

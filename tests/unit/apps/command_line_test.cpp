@@ -37,12 +37,28 @@ class UnknownWords : public ::testing::Test {
 };
 
 TEST_F(UnknownWords, AreNoneInAGoodCommandLine) {
-  for (const std::vector<std::string>& words :
-       {std::vector<std::string>{}, {"map"}, {"--help"}, {"map", "info", "a.db", "--help"},
-        {"run", "s", "--out", "o", "--help"}}) {
+  for (const std::vector<std::string>& words : {std::vector<std::string>{},
+                                                {"map"},
+                                                {"--help"},
+                                                {"map", "info", "a.db", "--help"},
+                                                {"run", "s", "--out", "o", "--help"}}) {
     EXPECT_EQ(command_in(words), "") << testing::PrintToString(words);
     EXPECT_EQ(word_in(words), "") << testing::PrintToString(words);
   }
+}
+
+TEST(CommandLine, HasTheGroupsOfTheElementsBesideThoseOfTheCore) {
+  const auto app = make_command_line();
+  const auto commands = [&](const std::string& group) {
+    std::vector<std::string> names;
+    for (const CLI::App* command : commands_of(*app->get_subcommand(group)))
+      names.push_back(command->get_name());
+    return names;
+  };
+  EXPECT_THAT(commands("map"), ::testing::IsSupersetOf({"info", "label", "plan", "street"}));
+  EXPECT_THAT(commands("eval"), ::testing::IsSupersetOf({"trajectory", "labels"}));
+  for (const char* group : {"places", "image", "track", "flight", "train"})
+    EXPECT_THAT(commands(group), ::testing::Not(::testing::IsEmpty())) << group;
 }
 
 TEST_F(UnknownWords, ACommandGetsSimilarOnesOfItsGroup) {
@@ -50,8 +66,7 @@ TEST_F(UnknownWords, ACommandGetsSimilarOnesOfItsGroup) {
   EXPECT_EQ(command_in({"map", "inof", "x"}), "no command 'inof'; did you mean info?");
   EXPECT_EQ(command_in({"map", "optimize"}), "no command 'optimize'");  // of another group
   EXPECT_EQ(command_in({"optimise"}), "no command 'optimise'; did you mean optimize?");
-  EXPECT_EQ(word_in({"map", "inof", "--no-such-flag"}),
-            "no command 'inof'; did you mean info?");
+  EXPECT_EQ(word_in({"map", "inof", "--no-such-flag"}), "no command 'inof'; did you mean info?");
 }
 
 TEST_F(UnknownWords, AFlagIsNoCommand) {
