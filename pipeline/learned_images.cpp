@@ -25,7 +25,7 @@ bool LearnedImages::learn_overlay(const Slam& slam, const LogSink& log) {
   if (!mask_.learn(slam, lens_)) return false;
   lens_.reset();
   lens_pass_ = 0;
-  placegraph::log(log, LogLevel::kInfo, "restarting without what moves with the camera");
+  placegraph::log(log, LogLevel::kInfo, "restarting without the regions that are fixed to the camera");
   return true;
 }
 

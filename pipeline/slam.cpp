@@ -162,7 +162,7 @@ void Slam::Impl::check_frame(const Frame& frame) const {
           "frame " + to_string(frame.id) + ": ids and stamps must increase");
 }
 
-/// The frame as it is used: without what moves with the camera. If that is found in this frame and
+/// The frame as it is used: without the static overlay. If that is found in this frame and
 /// has captured the map, a new component of the map begins.
 Frame Slam::Impl::without_overlay(const Frame& frame) {
   if (!overlay) return frame;

@@ -97,7 +97,7 @@ class Slam {
   /// run_sequence restarts with undistorted images if the thresholds of LensOptions are exceeded
   /// within its first frames.
   LensDistortion lens() const;
-  /// Returns a mask that is 0 where something moves with the camera.
+  /// Returns a mask that is 0 in regions of the images that are fixed to the camera.
   ///
   /// It is CV_8UC1 and of the (left) images; it is empty as long as nothing is found. Later frames
   /// are masked by it; run_sequence restarts.

@@ -32,7 +32,7 @@ void visit(OptionVisitor& field, SlamOptions& o) {
   field.group("views", o.views, "stored appearance of keyframes, for `placegraph map localize`");
   field.group("semantics", o.semantics, "surface labels for odometry and place recognition");
   field.group("context", o.context, "environment class and the assumptions that follow from it");
-  field.group("overlays", o.overlays, "search for what moves with the camera");
+  field.group("overlays", o.overlays, "search for regions of the images that are fixed to the camera");
   field.basic()("max_lost_frames", o.max_lost_frames,
                 "consecutive lost frames after which a new component of the map begins",
                 {1, 1000000});

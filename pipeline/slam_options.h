@@ -46,7 +46,7 @@ struct SlamOptions {
   KeyframeViewOptions views;      ///< stored appearance of keyframes, for localization
   SceneUseOptions semantics;      ///< surface labels
   ContextOptions context;         ///< class of the environment
-  StaticOverlayOptions overlays;  ///< what moves with the camera
+  StaticOverlayOptions overlays;  ///< regions fixed to the camera
   /// Number of consecutive frames without a pose after which a new component of the map begins, or
   /// after which the trajectory continues with SlamInputs::motion if that covers the time.
   int max_lost_frames = 10;

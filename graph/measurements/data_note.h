@@ -25,7 +25,7 @@ enum class NoteCause {
   kDepthMismatch,   ///< the depth images do not belong to the images
   kCalibration,     ///< focal lengths or principal point
   kDistortion,      ///< lens distortion that the calibration does not contain
-  kStaticOverlay,   ///< something in the images moves with the camera
+  kStaticOverlay,   ///< a region of the images is fixed to the camera
   kTimes,           ///< time stamps
   kImages,          ///< images are dark, blank, blurred or of few grey levels
   kRepeatedFrames,  ///< consecutive images are identical

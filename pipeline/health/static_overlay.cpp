@@ -171,7 +171,7 @@ std::string StaticOverlay::text() const {
   const Image region = 255 - mask_;
   const cv::Rect box = cv::boundingRect(region);
   return fmt::format(
-      "what covers {:.0f} % of the image (within columns {} to {} and rows {} to {}) moves with "
+      "a region of {:.0f} % of the image (within columns {} to {} and rows {} to {}) is fixed to "
       "the camera",
       std::ceil(100.0 * area_px(region) / (camera_.width * camera_.height)), box.x,
       box.x + box.width - 1, box.y, box.y + box.height - 1);

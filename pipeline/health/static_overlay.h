@@ -11,7 +11,7 @@
 
 namespace placegraph {
 
-/// Finds and masks static overlays: what moves with the camera, such as dirt on the lens, a time
+/// Finds and masks static overlays: regions fixed to the camera, such as dirt on the lens, a time
 /// stamp or the bonnet. A region that is masked once remains masked.
 ///
 /// Patches that stand still are watched at next to no cost (StandingPatches). Only when some of
@@ -26,7 +26,7 @@ class StaticOverlay {
   bool add(const Frame& frame);
   /// The frame with its mask extended by that of the overlay.
   Frame apply(const Frame& frame) const;
-  /// CV_8UC1, 0 where something moves with the camera; empty: nothing was found.
+  /// CV_8UC1, 0 in regions fixed to the camera; empty: nothing was found.
   const Image& mask() const { return mask_; }
   /// Whether most landmarks of a view lie in the masked region.
   bool has_captured(const FrameView& view) const;

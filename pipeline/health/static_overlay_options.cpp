@@ -6,7 +6,7 @@ void StaticOverlayOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, StaticOverlayOptions& o) {
   field.basic()("enabled", o.enabled,
-                "find and mask what moves with the camera: dirt, time stamps, the bonnet");
+                "find and mask regions fixed to the camera: dirt, time stamps, the bonnet");
   field.internal()("interval", o.interval,
                    "number of frames from one comparison of the patches to the next", {1, 100});
   field.internal()("standing_px", o.standing_px,

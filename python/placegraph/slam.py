@@ -240,7 +240,7 @@ class Slam:
         return self._core.lens()
 
     def overlay_mask(self) -> Image | None:
-        """H x W uint8, 0 where something moves with the camera; None if nothing was found."""
+        """H x W uint8, 0 in regions fixed to the camera; None if nothing was found."""
         return self._core.overlay_mask()
 
     def stages(self) -> dict[str, tuple[float, int]]:

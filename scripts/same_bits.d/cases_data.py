@@ -68,7 +68,7 @@ CASES = [
         f"--segments {SCENE}/line_matching/dunster/lsd1.txt {SCENE}/line_matching/dunster/lsd2.txt -o given.txt")),
     Case("camvid", "classes of a real street, judged", (
         Make(inputs.first_pictures, "camvid", (f"{SCENE}/camvid", 4)),
-        "scene label {inputs}/camvid --out labels --confidence",
+        "scene label {inputs}/camvid --out labels --confidence --draw",
         "scene check labels {inputs}/camvid --json")),
     Case("apriltag", "published marker image", (
         Make(inputs.texts, "apriltag", ("K.txt", "700 700 320 240 640 480\n")),

@@ -54,7 +54,7 @@ CASES = [
         Make(inputs.labelled_streets, "streets", (TOWN, 8)),
         f"scene label {TOWN}/image_0/000005.png --out label --confidence --draw --json",
         f"scene surfaces {TOWN}/image_0/000005.png --out surfaces --confidence",
-        "scene label {inputs}/streets/val --out val --confidence",
+        "scene label {inputs}/streets/val --out val --confidence --draw",
         "scene check val {inputs}/streets/val --json --confusion",
         f"scene orientation {HALL} --every 20 --out maps --json",
         f"scene orientation {HALL}/image_0/000005.png --calib {{inputs}}/K_hall.txt --out map.png --draw drawn.png",

@@ -215,7 +215,7 @@ void bind_slam(nb::module_& m) {
       .def(
           "overlay_mask", &PythonSlam::overlay_mask,
           nb::sig("def overlay_mask(self) -> numpy.typing.NDArray[numpy.uint8] | None"),
-          "H x W uint8, 0 where something moves with the camera; None as long as nothing is found. "
+          "H x W uint8, 0 in regions fixed to the camera; None as long as nothing is found. "
           "Later frames are masked by it.")
       .def("stages", &PythonSlam::stages,
            nb::sig("def stages(self) -> dict[str, tuple[float, int]]"), doc("Slam::stages"));

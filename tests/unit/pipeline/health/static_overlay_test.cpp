@@ -65,7 +65,7 @@ TEST(StaticOverlay, IsFoundWhereTheCameraRotates) {
   const auto note = overlay.note();
   ASSERT_TRUE(note);
   EXPECT_EQ(note->cause, NoteCause::kStaticOverlay);
-  EXPECT_THAT(note->text, HasSubstr("moves with the camera"));
+  EXPECT_THAT(note->text, HasSubstr("is fixed to the camera"));
 }
 
 TEST(StaticOverlay, IsNotSeenInCleanImagesAndCostsNoTrackingThere) {
@@ -149,7 +149,7 @@ TEST(RunWithAStaticOverlay, NamesItOnceAndBeginsAgainWithoutIt) {
   options.threads = 1;
   RunInputs inputs;
   inputs.log = [&](LogLevel, const std::string& message) {
-    restarts += message == "restarting without what moves with the camera";
+    restarts += message == "restarting without the regions that are fixed to the camera";
   };
   const RunResult run = run_sequence(dataset, options, inputs);
   EXPECT_GE(restarts, 1);
