@@ -8,6 +8,7 @@
 #include <placegraph/backend/georeference/map_scale.h>
 #include <placegraph/backend/georeference/variance_components.h>
 #include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
+#include <placegraph/graph/core/chi_squared.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>
 #include <placegraph/graph/pose_graph/node_index.h>
@@ -20,7 +21,10 @@
 namespace placegraph {
 namespace {
 
-constexpr double kHuberWidth = 1.345, kRejectedWeight = 0.1, kGrossChi2 = 25;
+constexpr double kHuberWidth = 1.345;  // 95 % of the efficiency of least squares for normal errors
+constexpr double kRejectedWeight = 0.1;
+/// Share of right fixes whose errors do not count as gross.
+constexpr double kNotGross = 1 - 1e-5;
 
 /// The steps of georeference().
 class Georeferencer {
@@ -218,10 +222,11 @@ void Georeferencer::dispersion_of_fixes() {
     solve({RobustKernel::Kind::kHuber, kHuberWidth});
     if (!options_.estimate_accuracy) return;
     std::vector<FixResidual> residuals;
+    static const double gross = chi_squared_quantile(kNotGross, 3);
     for (std::size_t i = 0; i < observations_.size(); ++i) {
       const Eigen::Vector3d e = residual_of(observations_[i], graph_, calibration_);
       // In the first round no scale is known by which an error can be classified as gross.
-      if (round == 0 || e.dot(observations_[i].information * e) <= kGrossChi2)
+      if (round == 0 || e.dot(observations_[i].information * e) <= gross)
         residuals.push_back({stamps_ns_[fix_of_[i]], e, accuracy_m_[fix_of_[i]]});
     }
     const auto dispersion = dispersion_of(residuals, options_.max_gap_s);

@@ -1,5 +1,6 @@
 #include <placegraph/frontend/planes/dominant_surface.h>
 #include <placegraph/graph/core/angle.h>
+#include <placegraph/graph/core/chi_squared.h>
 #include <placegraph/graph/core/error.h>
 
 #include <Eigen/Dense>
@@ -15,7 +16,6 @@ using Eigen::Vector3d;
 
 constexpr std::array kRegions{SurfaceRegion::kAhead, SurfaceRegion::kNear, SurfaceRegion::kFar,
                               SurfaceRegion::kLeft, SurfaceRegion::kRight};
-constexpr double kChi2 = 16.27;  // 3 degrees of freedom, 99.9 %
 
 /// Bounds in distances of the surface: along the optical axis and to the right.
 struct Bounds {
@@ -151,9 +151,10 @@ SurfaceAppearance DominantSurface::update(const SurfaceDepths& depths, const SE3
     const InverseDepthPlane measured = measure(region, depths, mask, random, appearance);
     if (measured.outcome && appearance.share >= options_.min_share) {
       const Vector3d innovation = measured.g_cam - g_cam_;
+      static const double greatest = chi_squared_quantile(0.999, 3);
       const Matrix3d S = covariance_ + measured.covariance;
       appearance.chi2 = innovation.dot(S.ldlt().solve(innovation));
-      if (appearance.chi2 < kChi2) {
+      if (appearance.chi2 < greatest) {
         const Matrix3d gain = S.ldlt().solve(covariance_).transpose();
         g_cam_ += gain * innovation;
         const Matrix3d rest = Matrix3d::Identity() - gain;

@@ -1,5 +1,6 @@
 #include <placegraph/frontend/planes/plane_normal.h>
 #include <placegraph/graph/core/angle.h>
+#include <placegraph/graph/core/chi_squared.h>
 #include <placegraph/graph/core/error.h>
 
 #include <Eigen/Dense>
@@ -182,10 +183,10 @@ PlaneNormal PlaneNormalEstimator::estimate() const {
   result.normal_ref = best.normal;
   result.sigma_rad =
       least > 0 ? std::sqrt(spread / least) : std::numeric_limits<double>::infinity();
-  constexpr double kChiSquared = 9.2;  // two degrees of freedom, 1 %
+  static const double chi2 = chi_squared_quantile(0.99, 2);
   if (!(result.sigma_rad < deg_to_rad(options_.max_sigma_deg)))
     result.outcome = Outcome::failure(Code::kDegenerate, "the views do not determine the normal");
-  else if (readings.size() > 1 && readings[1].cost < best.cost + kChiSquared * spread)
+  else if (readings.size() > 1 && readings[1].cost < best.cost + chi2 * spread)
     result.outcome =
         Outcome::failure(Code::kDegenerate, "two readings explain the views equally well");
   else

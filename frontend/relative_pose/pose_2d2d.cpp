@@ -1,5 +1,6 @@
 #include <placegraph/frontend/planes/homography.h>
 #include <placegraph/frontend/relative_pose/pose_2d2d.h>
+#include <placegraph/graph/core/chi_squared.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/ransac.h>
 
@@ -133,16 +134,17 @@ Pose2d2dResult estimate_pose_2d2d(const Camera& camera, const std::vector<Vector
     result.outcome = essential.outcome;
     return result;
   }
-  // Score of an inlier: 5.99 sigma^2 (chi2 of 2 d.o.f.) minus its squared error.
-  const double sigma2 = options.threshold_px * options.threshold_px / 3.84;
-  const double allowance = 5.99 * sigma2;
+  // Score of an inlier: the bound of two degrees of freedom minus its squared error.
+  static const double one = chi_squared_quantile(0.95, 1), two = chi_squared_quantile(0.95, 2);
+  const double sigma2 = options.threshold_px * options.threshold_px / one;
+  const double allowance = two * sigma2;
   double score_essential = 0, score_homography = 0;
   const Matrix3d H_inverse =
       homography.outcome ? Matrix3d(homography.model.inverse()) : Matrix3d::Zero();
   for (int i = 0; i < static_cast<int>(px_ref.size()); ++i) {
     if (essential.outcome) {
       const double e = sampson_px2(essential.model, views, i);
-      if (e < 3.84 * sigma2) score_essential += allowance - e;
+      if (e < one * sigma2) score_essential += allowance - e;
     }
     if (homography.outcome) {
       const double e = transfer_px2(homography.model, H_inverse, views, i);

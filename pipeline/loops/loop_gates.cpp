@@ -1,4 +1,5 @@
 #include <placegraph/graph/core/angle.h>
+#include <placegraph/graph/core/chi_squared.h>
 #include <placegraph/pipeline/loops/loop_gates.h>
 
 #include <Eigen/Cholesky>
@@ -43,8 +44,8 @@ bool within_drift(const Loop& loop, const TrackedMotion& odometry, double median
 
 bool within_covariance(const Loop& loop, const PredictedMotion& predicted, double median_depth_m,
                        const LoopOptions& options) {
-  constexpr double kChi2 = 22.46;  // 6 degrees of freedom, 99.9 %
-  constexpr double kSigmas = 3;    // maximum drift in standard deviations
+  static const double chi2 = chi_squared_quantile(0.999, 6);
+  constexpr double kSigmas = 3;  // maximum drift in standard deviations
   const Vector7d error = (predicted.S_a_b.inverse() * loop.S_match_query()).log();
   const Drift most = drift_over(predicted.path_length, predicted.S_a_b.translation().norm(),
                                 median_depth_m, options);
@@ -61,7 +62,7 @@ bool within_covariance(const Loop& loop, const PredictedMotion& predicted, doubl
   Matrix6d covariance = predicted.covariance.topLeftCorner<6, 6>();
   covariance += factor.solve(Matrix7d::Identity()).topLeftCorner<6, 6>();
   covariance.diagonal() += (drift / kSigmas).cwiseAbs2();
-  return error.head<6>().dot(covariance.ldlt().solve(error.head<6>())) < kChi2;
+  return error.head<6>().dot(covariance.ldlt().solve(error.head<6>())) < chi2;
 }
 
 bool agree(const Loop& a, const Loop& b, const TrackedMotion& queries, const TrackedMotion& matches,

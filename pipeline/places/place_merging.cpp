@@ -17,11 +17,11 @@ using PlacePair = std::pair<PlaceId, PlaceId>;
 
 /// Whether the map agrees with the loop: a loop that the robust kernel rejects is no evidence.
 bool agrees(const Loop& loop, const KeyframeChain& chain, const PlacePartition& partition) {
-  constexpr double kChi2 = 24.3;  // 7 degrees of freedom, 99.9 %
+  static const double chi2 = chi_squared_quantile(0.999, 7);
   const Sim3 S_match_query = partition.S_map_keyframe(chain, loop.match).inverse() *
                              partition.S_map_keyframe(chain, loop.query);
   const Vector7d error = (loop.S_match_query().inverse() * S_match_query).log();
-  return error.dot(loop.information * error) < kChi2;
+  return error.dot(loop.information * error) < chi2;
 }
 
 /// Places at the two ends of loops that agree with the map: of all loops, or of the newest.
