@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <placegraph/frontend/labels/scene_labels.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/parallel.h>
 #include <placegraph/graph/text/json_text.h>
@@ -48,8 +49,7 @@ LabelCheck judge_scenes(const SceneModel& model, const LabelledSet& set,
   std::vector<Image> truth(images.size());
   parallel_for(static_cast<int>(images.size()), threads, [&](int i) {
     const auto at = static_cast<std::size_t>(i);
-    const SceneView view = view_scene(colour_of(images[at].image));
-    found[at] = most_probable(classify_superpixels(model, view, options), classes, view);
+    found[at] = label_scene(model, colour_of(images[at].image), 0, options);
     truth[at] = read_class_image(images[at].labels, set.classes, model.classes,
                                  model.kind == SceneModel::Kind::kSurfaces);
   });

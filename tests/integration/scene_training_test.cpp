@@ -1,7 +1,6 @@
 // Models of scenes, learned from drawn streets.
 #include <gtest/gtest.h>
 #include <placegraph/frontend/labels/scene_training.h>
-#include <placegraph/frontend/labels/surface_classifier.h>
 #include <placegraph/frontend/labels/urban_labels.h>
 #include <placegraph/graph/core/error.h>
 
@@ -58,12 +57,9 @@ TEST(SceneTraining, AModelOfDrawnStreetsLabelsOneItHasNotSeen) {
   ASSERT_FALSE(model.problem());
   const test::DrawnStreet street = test::draw_street(7);
   const SceneView view = view_scene(street.bgr);
-  const SurfaceLayout layout = classify_surfaces(model, view);
-  EXPECT_GT(share_right(layout.surfaces.labels, street.labels), 0.93);
-  EXPECT_EQ(cv::norm(layout.ground, layout.surfaces.labels == 1, cv::NORM_INF), 0);
+  EXPECT_GT(share_right(label_scene(model, street.bgr).labels, street.labels), 0.93);
   // Nothing is surer than 1.1: all of it is unknown.
-  EXPECT_EQ(cv::countNonZero(classify_surfaces(model, view, 1.1).surfaces.labels != kSurfaceCount),
-            0);
+  EXPECT_EQ(cv::countNonZero(label_scene(model, street.bgr, 1.1).labels != kSurfaceCount), 0);
 
   SceneModel urban = model;
   urban.kind = SceneModel::Kind::kUrban;
@@ -71,7 +67,9 @@ TEST(SceneTraining, AModelOfDrawnStreetsLabelsOneItHasNotSeen) {
   const SceneLabels classes = most_probable(joint.classes, 4, view);
   EXPECT_GT(share_right(classes.labels, street.labels), 0.93);
   EXPECT_THROW((void)label_urban(model, urban, view), ArgumentError);
-  EXPECT_THROW((void)classify_surfaces(urban, view), ArgumentError);
+  const StreetLabels scene = label_street_scene(urban, model, street.bgr);
+  EXPECT_EQ(cv::countNonZero(scene.classes.labels != classes.labels), 0);
+  EXPECT_THROW((void)label_street_scene(model, urban, street.bgr), ArgumentError);
 }
 
 TEST(SceneTraining, GivesTheSameModelForAnyNumberOfThreads) {
