@@ -34,18 +34,20 @@ SceneModel street_model(SceneModel::Kind kind, int threads, const SceneModel* ba
   model.kind = kind;
   model.classes = {"sky", "ground", "vertical", "object"};
   model.surfaces = {Surface::kSky, Surface::kGround, Surface::kVertical, Surface::kObject};
-  std::vector<SceneExample> examples;
-  for (int i = 0; i < 6; ++i) {
-    const test::DrawnStreet street = test::draw_street(static_cast<std::uint64_t>(100 + i));
-    examples.push_back(make_example(street.bgr, street.labels, 4, i));
-  }
+  std::vector<SceneTrainingImage> images;
+  for (int i = 0; i < 6; ++i)
+    images.push_back({"street " + std::to_string(i), [i] {
+                        const test::DrawnStreet street =
+                            test::draw_street(static_cast<std::uint64_t>(100 + i));
+                        return std::pair(street.bgr, street.labels);
+                      }});
   SceneTrainingOptions options;
   options.forest.min_leaf = 4;
   options.forest.share_rows = 0.8;
   options.forest.trees = 6;
   options.forest.tries = 60;
-  return train_scene_model(
-      model, std::move(examples), options, threads, [](const std::string&) {}, base);
+  options.variants = 1;
+  return train_scene_model(model, images, options, threads, {}, base);
 }
 
 double share_right(const Image& labels, const Image& truth) {
