@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Whether each class of the model is one of `names`, joined by commas.
 ///
