@@ -12,7 +12,6 @@
 #include <placegraph/io/trajectories/trajectory_file.h>
 #include <placegraph/pipeline/exports/place_tables.h>
 #include <placegraph/pipeline/map/map_floor_plan.h>
-#include <placegraph/pipeline/scene/floor_plan.h>
 #include <sys/resource.h>
 
 #include <chrono>

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace [[gnu::visibility("default")]] placegraph {
+namespace placegraph {
 
 /// Whether each class of the model is one of `names`, joined by commas.
 ///

@@ -10,4 +10,7 @@ namespace [[gnu::visibility("default")]] placegraph {
 IndoorMap plan_of_map(const Map& map, const Calibration& calibration, const Dataset& dataset,
                       Sensor sensor, double lens_k1, const IndoorMapperOptions& options);
 
+/// Assigns each room's label to its places; other labels remain.
+void label_places(const IndoorMap& plan, PlaceGraph& places);
+
 }  // namespace placegraph
