@@ -5,7 +5,8 @@
 #include <placegraph/io/measurements/marker_layout_file.h>
 #include <placegraph/io/trajectories/body_state_file.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
-#include <placegraph/pipeline/flight/flight_marker_map.h>
+#include <placegraph/pipeline/flight/flight_run.h>
+#include <placegraph/pipeline/flight/marker_map.h>
 
 #include <filesystem>
 

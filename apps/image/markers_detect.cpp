@@ -1,7 +1,6 @@
 #include "apps/image/markers_detect.h"
 
 #include <fmt/format.h>
-#include <placegraph/frontend/markers/marker_dictionary.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/text/json_text.h>
 #include <placegraph/io/files/image_file.h>
@@ -43,18 +42,6 @@ double side_of(const MarkersDetectArguments& arguments, const MarkerLayout& layo
       unplaced != layout.unplaced_sides_m.end())
     return unplaced->second;
   return arguments.side_m;
-}
-
-/// Pose of the camera in the layout from the visible markers and beacons.
-MarkerPoseEstimate camera_in(const MarkerLayout& layout, const Camera& camera, const Image& grey,
-                             MarkerView& view) {
-  if (!layout.beacons_world.empty()) view.beacons = detect_beacons(grey);
-  if (!layout.markers.empty() || !layout.beacons_world.empty())
-    return MarkerFilter({}, layout, camera, SE3()).observe(view);
-  MarkerPoseEstimate estimate;
-  estimate.outcome =
-      Outcome::failure(Outcome::Code::kTooFewData, "the layout has no pose of a marker or beacon");
-  return estimate;
 }
 
 ordered_json marker_json(const DetectedMarker& marker, double shift_px) {
@@ -129,15 +116,14 @@ MarkersDetectResult markers_detect(const MarkersDetectArguments& arguments) {
                              .markers = {},
                              .camera = {}};
   const Stopwatch watch;
-  MarkerView view;
-  view.stamp_ns = 1;
-  view.markers = detector.detect(grey, &camera);
-  for (const MarkerObservation& observation : view.markers) {
+  const std::vector<MarkerObservation> markers = detector.detect(grey, &camera);
+  for (const MarkerObservation& observation : markers) {
     DetectedMarker found{observation, side_of(arguments, layout, observation.id), {}};
     if (found.side_m > 0) found.poses = estimate_marker_poses(observation, found.side_m, camera);
     result.markers.push_back(std::move(found));
   }
-  if (!arguments.layout.empty()) result.camera = camera_in(layout, camera, grey, view);
+  if (!arguments.layout.empty())
+    result.camera = estimate_layout_pose(grey, markers, layout, camera);
   result.cpu_ms = watch.cpu_ms();
   if (result.markers.empty() && !(result.camera && result.camera->outcome))
     throw NoResult(arguments.image + ": no marker of " + layout.dictionary);
@@ -152,7 +138,7 @@ std::string to_text(const MarkersDetectResult& result) {
   for (const DetectedMarker& marker : result.markers)
     text += marker_lines(marker, result.shift_px());
   if (result.camera && result.camera->outcome) {
-    const Eigen::Vector3d& t = result.camera->observation.T_world_body.translation();
+    const Eigen::Vector3d& t = result.camera->T_world_cam.translation();
     text += fmt::format("  camera at {:.4f} {:.4f} {:.4f} m in the layout's world\n", t.x(), t.y(),
                         t.z());
   } else if (result.camera) {
@@ -172,9 +158,8 @@ std::string to_json(const MarkersDetectResult& result) {
     json["T_world_cam"] = nullptr;
     json["outcome"] = to_string(result.camera->outcome.code);
     if (result.camera->outcome) {
-      const PoseMeasurement& pose = result.camera->observation;
-      json["T_world_cam"] = rows_json(pose.T_world_body.matrix());
-      json["covariance"] = rows_json(pose.covariance);
+      json["T_world_cam"] = rows_json(result.camera->T_world_cam.matrix());
+      json["covariance"] = rows_json(result.camera->covariance);
     }
   }
   json["cpu_ms"] = result.cpu_ms;

@@ -1,6 +1,5 @@
 #pragma once
 #include <placegraph/frontend/markers/marker_detector.h>
-#include <placegraph/frontend/markers/marker_filter.h>
 #include <placegraph/frontend/markers/marker_pose.h>
 
 #include <optional>
@@ -35,7 +34,7 @@ struct DetectedMarker {
 struct MarkersDetectResult {
   std::string image, dictionary, origin;
   std::vector<DetectedMarker> markers;
-  std::optional<MarkerPoseEstimate> camera;  ///< pose in the layout, if there is one
+  std::optional<LayoutPose> camera;  ///< pose in the layout, if there is one
   double cpu_ms = 0;
 
   /// Offset of `origin` from the first pixel's centre.

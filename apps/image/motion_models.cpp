@@ -1,9 +1,6 @@
 #include "apps/image/motion_models.h"
 
-#include <placegraph/frontend/relative_pose/circular_motion.h>
 #include <placegraph/frontend/relative_pose/pose_3d2d.h>
-#include <placegraph/frontend/relative_pose/pose_3d3d.h>
-#include <placegraph/frontend/relative_pose/pose_gravity.h>
 #include <placegraph/frontend/relative_pose/relative_pose.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/files/text_file.h>

@@ -1,6 +1,7 @@
 #include "apps/map/map_label.h"
 
 #include <fmt/format.h>
+#include <placegraph/frontend/places/classifiers/place_classifier.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/text/id_format.h>
 #include <placegraph/graph/text/json_text.h>

@@ -5,6 +5,7 @@
 #include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/files/image_list.h>
+#include <placegraph/io/map/map_database.h>
 
 #include <filesystem>
 

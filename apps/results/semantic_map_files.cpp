@@ -2,7 +2,6 @@
 
 #include <placegraph/eval/plots/semantic_map_plot.h>
 #include <placegraph/eval/scene/semantic_map_check.h>
-#include <placegraph/frontend/scene/moving_classes.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/datasets/dataset.h>
 #include <placegraph/io/scene/labelled_mesh_file.h>
@@ -62,7 +61,7 @@ std::vector<std::pair<PlaceId, std::vector<float>>> shares_by_place(const UrbanM
 void check_urban_models(const UrbanMapperOptions& options, const UrbanModelPaths& models) {
   const SceneModel urban = load_scene_model(SceneModel::Kind::kUrban, models.urban);
   (void)load_scene_model(SceneModel::Kind::kSurfaces, models.surfaces);
-  (void)moving_classes(options.labelling.moving, urban);
+  UrbanMapper::check(options, urban);
 }
 
 UrbanMapper urban_mapper_of(const Map& map, const Calibration& calibration, const Dataset& dataset,

@@ -1,7 +1,6 @@
 #include "apps/run/run_scene.h"
 
 #include <placegraph/pipeline/map/map_floor_plan.h>
-#include <placegraph/pipeline/scene/floor_plan.h>
 
 #include <nlohmann/json.hpp>
 

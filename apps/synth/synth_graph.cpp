@@ -4,7 +4,6 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/graphs/g2o.h>
 #include <placegraph/io/graphs/pose_graph_file.h>
-#include <placegraph/io/synthetic/graphs/false_loops.h>
 #include <placegraph/io/synthetic/graphs/graph_world.h>
 
 #include <filesystem>

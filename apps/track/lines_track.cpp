@@ -40,16 +40,17 @@ RunOptions run_options(const LinesTrackArguments& arguments) {
 LineTracksJudgement judge(const LineTracks& tracks, const Camera& camera, const Trajectory& truth) {
   LineTracksJudgement all;
   for (const auto& [id, track] : tracks) {
-    std::vector<LineMeasurement> observations;
+    std::vector<SE3> T_world_cam;
+    std::vector<ImageLine::Carriers> seen;
     for (const TrackedLine& s : track) {
       const auto index = static_cast<std::size_t>(s.frame.value());
       if (index >= truth.poses.size() || !truth.poses[index].T_world_body) continue;
       const Eigen::Isometry3d& T = *truth.poses[index].T_world_body;
-      observations.push_back(
-          {SE3(SO3::from_matrix(T.linear()), Eigen::Vector3d(T.translation())), s.line.seen});
+      T_world_cam.emplace_back(SO3::from_matrix(T.linear()), Eigen::Vector3d(T.translation()));
+      seen.push_back(s.line.seen);
     }
-    const TrackConsistency judged = judge_line_track(camera, observations);
-    (judged.judged ? all.judged : all.undecided) += observations.size();
+    const TrackConsistency judged = judge_line_track(camera, T_world_cam, seen);
+    (judged.judged ? all.judged : all.undecided) += seen.size();
     all.wrong += static_cast<std::size_t>(judged.wrong());
   }
   return all;

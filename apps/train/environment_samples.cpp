@@ -1,15 +1,12 @@
 #include "apps/train/environment_samples.h"
 
-#include <placegraph/frontend/flow/point_tracker.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/synthetic/render/renderer.h>
 #include <placegraph/io/synthetic/worlds/synthetic_world.h>
-#include <placegraph/io/synthetic/worlds/tours.h>
+#include <placegraph/pipeline/environment.h>
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <opencv2/core.hpp>
@@ -40,34 +37,6 @@ std::optional<Environment> kind_of_room(const nlohmann::json& plan, const Eigen:
   return std::nullopt;
 }
 
-/// Positions of the corners of an image in the camera frame, like the points of a run.
-std::vector<Eigen::Vector3d> corner_points(const Frame& frame, const Camera& camera) {
-  constexpr float kFarthest_m = 150;  // largest depth with a measurable parallax
-  PointTracker tracker{PointTrackerOptions{}};
-  tracker.track(frame.image);
-  tracker.detect();
-  std::vector<Eigen::Vector3d> points;
-  for (const PointTrack& track : tracker.tracks()) {
-    const auto u = static_cast<int>(std::lround(track.px.x()));
-    const auto v = static_cast<int>(std::lround(track.px.y()));
-    const float depth = frame.depth.at<float>(v, u);
-    const auto ray = camera.unproject(track.px.cast<double>());
-    if (depth > 0 && depth < kFarthest_m && ray)
-      points.push_back(static_cast<double>(depth) * *ray);
-  }
-  return points;
-}
-
-EnvironmentEvidence evidence_of(const Frame& frame, const Camera& camera,
-                                const SurfaceLabeller& labeller, bool with_depth) {
-  EnvironmentEvidence evidence;
-  evidence.see(labeller.label(frame, false).shares);
-  const auto [edges, of] = edges_of(frame.image, camera);
-  evidence.see(edges, of);
-  if (with_depth) evidence.see(corner_points(frame, camera), true);
-  return evidence;
-}
-
 /// A view from a random position in a room, as from a handheld camera; nothing if it is blocked.
 std::optional<Frame> handheld_view(const SyntheticWorld& world, const nlohmann::json& room,
                                    double floor_y, Random& random) {
@@ -83,17 +52,10 @@ std::optional<Frame> handheld_view(const SyntheticWorld& world, const nlohmann::
   const Eigen::Vector3d yaw(0, random.uniform(-std::numbers::pi, std::numbers::pi), 0);
   const Eigen::Vector3d pitch(random.uniform(-0.7, 0.2), 0, 0),
       roll(0, 0, random.uniform(-0.5, 0.5));
-  const Eigen::Vector3d origin = world.tour().T_scene_cam.front().translation();
-  const synthetic::View view{world.tour().camera,
-                             SE3(SO3::exp(yaw) * SO3::exp(pitch) * SO3::exp(roll),
-                                 origin + Eigen::Vector3d(x, floor_y - height, z)),
-                             0};
-  const synthetic::Rendering rendering = synthetic::render(world.tour().scene, view, 1, false, 1);
-  Frame frame;
-  frame.depth = synthetic::depth_image(rendering);
+  Frame frame = world.view_from(SE3(SO3::exp(yaw) * SO3::exp(pitch) * SO3::exp(roll),
+                                    Eigen::Vector3d(x, floor_y - height, z)));
   if (cv::countNonZero(frame.depth < kNearest_m) > 0.2 * static_cast<double>(frame.depth.total()))
     return std::nullopt;
-  rendering.grey.convertTo(frame.image, CV_8UC1, 255);
   for (int v = 0; v < frame.image.rows; ++v)
     for (int u = 0; u < frame.image.cols; ++u)
       frame.image.at<std::uint8_t>(v, u) =
@@ -103,7 +65,7 @@ std::optional<Frame> handheld_view(const SyntheticWorld& world, const nlohmann::
 
 /// Adds `count` of such views, the kinds of rooms in turn.
 void add_handheld(const SyntheticWorld& world, const nlohmann::json& plan, int count,
-                  const SurfaceLabeller& labeller, std::vector<EnvironmentSample>& samples) {
+                  const SurfaceModel& surfaces, std::vector<EnvironmentSample>& samples) {
   std::vector<std::vector<const nlohmann::json*>> rooms(kEnvironmentCount);
   for (const nlohmann::json& room : plan.at("rooms"))
     if (const auto kind = kind_of_name(room.at("name").get<std::string>()))
@@ -116,7 +78,7 @@ void add_handheld(const SyntheticWorld& world, const nlohmann::json& plan, int c
     const nlohmann::json& room =
         *rooms[kind][static_cast<std::size_t>(random.index(static_cast<int>(rooms[kind].size())))];
     if (const auto frame = handheld_view(world, room, floor_y, random))
-      samples.push_back({evidence_of(*frame, world.calibration().camera, labeller, true),
+      samples.push_back({evidence_of_view(*frame, world.calibration().camera, surfaces),
                          static_cast<Environment>(kind)});
   }
 }
@@ -124,7 +86,7 @@ void add_handheld(const SyntheticWorld& world, const nlohmann::json& plan, int c
 }  // namespace
 
 std::vector<EnvironmentSample> samples_of_world(const std::string& name, std::uint64_t seed,
-                                                int frames, const SurfaceLabeller& labeller) {
+                                                int frames, const SurfaceModel& surfaces) {
   std::vector<EnvironmentSample> samples;
   SyntheticOptions options;
   options.world = name;
@@ -141,14 +103,14 @@ std::vector<EnvironmentSample> samples_of_world(const std::string& name, std::ui
     if (world.is_indoor()) kind = kind_of_room(plan, truth.poses[at].T_world_body->translation());
     if (!kind) continue;
     const SyntheticFrame seen = world.render(at, {.depth = true});
-    samples.push_back({evidence_of(seen.frame, camera, labeller, true), *kind});
+    samples.push_back({evidence_of_view(seen.frame, camera, surfaces), *kind});
   }
-  if (world.is_indoor()) add_handheld(world, plan, 2 * frames, labeller, samples);
+  if (world.is_indoor()) add_handheld(world, plan, 2 * frames, surfaces, samples);
   return samples;
 }
 
 std::vector<EnvironmentSample> samples_of_images(const std::string& data,
-                                                 const SurfaceLabeller& labeller) {
+                                                 const SurfaceModel& surfaces) {
   std::vector<EnvironmentSample> samples;
   constexpr double kStreetShare = 0.12, kRoadShare = 0.03;
   const LabelledSet set = read_labelled_set(data);
@@ -171,7 +133,7 @@ std::vector<EnvironmentSample> samples_of_images(const std::string& data,
     camera.fx = camera.fy = 0.9 * camera.width;
     camera.cx = 0.5 * (camera.width - 1);
     camera.cy = 0.5 * (camera.height - 1);
-    samples.push_back({evidence_of(frame, camera, labeller, false),
+    samples.push_back({evidence_of_view(frame, camera, surfaces),
                        share < kRoadShare ? Environment::kRoad : Environment::kStreet});
   }
   return samples;

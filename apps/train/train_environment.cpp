@@ -56,9 +56,8 @@ std::string lines_of(const char* set, const EnvironmentScore& score) {
 
 TrainEnvironmentResult train_environment(const TrainEnvironmentArguments& arguments) {
   require_free(arguments.out, arguments.force);
-  const SurfaceLabeller labeller(std::make_shared<const SceneModel>(load_scene_model(
-                                     SceneModel::Kind::kSurfaces, arguments.model)),
-                                 {});
+  const auto surfaces = std::make_shared<const SceneModel>(
+      load_scene_model(SceneModel::Kind::kSurfaces, arguments.model));
   const std::vector<std::string> worlds{"town-loop", "corridor-loop", "warehouse"};
   EnvironmentSamples training_set, test;
   Progress progress("rendering",
@@ -68,15 +67,15 @@ TrainEnvironmentResult train_environment(const TrainEnvironmentArguments& argume
   std::int64_t done = 0;
   for (const std::string& world : worlds) {
     for (const std::uint64_t seed : arguments.seeds) {
-      append(samples_of_world(world, seed, arguments.frames, labeller), training_set);
+      append(samples_of_world(world, seed, arguments.frames, surfaces), training_set);
       progress.update(++done);
     }
     for (const std::uint64_t seed : arguments.left_out) {
-      append(samples_of_world(world, seed, arguments.frames, labeller), test);
+      append(samples_of_world(world, seed, arguments.frames, surfaces), test);
       progress.update(++done);
     }
   }
-  if (!arguments.data.empty()) append(samples_of_images(arguments.data, labeller), training_set);
+  if (!arguments.data.empty()) append(samples_of_images(arguments.data, surfaces), training_set);
   const EnvironmentModel model = train_environments(training_set, arguments.penalty);
   write_file(arguments.out, to_text(model));
   return {arguments.out, score_of(model, training_set), score_of(model, test)};

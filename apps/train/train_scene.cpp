@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <placegraph/frontend/labels/scene_labels.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/parallel.h>
 #include <placegraph/graph/text/json_text.h>
@@ -15,6 +16,7 @@
 
 #include "apps/shipped/scene_models.h"
 #include "apps/support/output.h"
+#include "apps/support/progress.h"
 #include "apps/support/usage.h"
 
 namespace placegraph::apps {
@@ -48,8 +50,7 @@ LabelCheck judge_scenes(const SceneModel& model, const LabelledSet& set,
   std::vector<Image> truth(images.size());
   parallel_for(static_cast<int>(images.size()), threads, [&](int i) {
     const auto at = static_cast<std::size_t>(i);
-    const SceneView view = view_scene(colour_of(images[at].image));
-    found[at] = most_probable(classify_superpixels(model, view, options), classes, view);
+    found[at] = label_scene(model, colour_of(images[at].image), 0, options);
     truth[at] = read_class_image(images[at].labels, set.classes, model.classes,
                                  model.kind == SceneModel::Kind::kSurfaces);
   });
@@ -188,15 +189,23 @@ TrainSceneResult train_scene(const TrainSceneArguments& a, SceneModel::Kind kind
   SceneModel model = blank_model(kind, set.classes, old);
   model.origin = origin_of(a, images.learned.size(), old);
   const Stopwatch watch;
-  const std::vector<TrainingImage> training_set =
+  const std::vector<SceneTrainingImage> training_set =
       training_images(set, images.learned, model, a.options);
-  std::vector<SceneExample> examples = make_examples(training_set, model, a.options);
-  model = train_scene_model(
-      std::move(model), std::move(examples), a.options.training, a.options.threads,
-      [&](const std::string& doing) {
-        if (sink) sink(LogLevel::kInfo, doing);
-      },
-      old);
+  SceneTrainingOptions options = a.options.training;
+  options.block = std::max(1, options.block / a.options.every);
+  const std::size_t count = training_set.size() * static_cast<std::size_t>(options.variants);
+  std::optional<Progress> described(std::in_place, "describing", static_cast<std::int64_t>(count),
+                                    "images");
+  SceneTrainingProgress progress;
+  progress.described = [&](std::size_t done) {
+    described->update(static_cast<std::int64_t>(done));
+    if (done == count) described.reset();
+  };
+  progress.doing = [&](const std::string& doing) {
+    if (sink) sink(LogLevel::kInfo, doing);
+  };
+  model =
+      train_scene_model(std::move(model), training_set, options, a.options.threads, progress, old);
   write_scene_model(a.out, model);
   TrainSceneResult result{a.out,
                           training_set.size(),

@@ -4,7 +4,6 @@
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/geometry/se3.h>
 #include <placegraph/graph/measurements/body_state.h>
-#include <placegraph/graph/measurements/flight_measurement.h>
 #include <placegraph/graph/measurements/imu.h>
 
 #include <Eigen/Core>

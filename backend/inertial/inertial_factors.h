@@ -1,7 +1,6 @@
 #pragma once
 #include <placegraph/backend/inertial/imu_preintegration.h>
 #include <placegraph/graph/measurements/body_state.h>
-#include <placegraph/graph/measurements/flight_measurement.h>
 
 #include <optional>
 

@@ -2,8 +2,9 @@
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/measurements/imu.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
+/// Options of the error-state filter of a body.
 struct ErrorStateFilterOptions {
   double gyro_noise = 2e-3;          ///< density of the gyroscope's noise [rad / s / sqrt(Hz)]
   double accel_noise = 2e-2;         ///< density of the accelerometer's noise [m / s^2 / sqrt(Hz)]
@@ -19,10 +20,11 @@ struct ErrorStateFilterOptions {
 };
 void visit(OptionVisitor& field, ErrorStateFilterOptions& options);
 
+/// Options of the sliding window over states of a body.
 struct InertialWindowOptions {
   ImuNoise noise{2e-3, 2e-2, 2e-5, 5e-4};  ///< defaults of ErrorStateFilterOptions
   int max_states = 20;                     ///< above this number the oldest is marginalized
-  int max_iterations = 4;
+  int max_iterations = 4;                  ///< of each optimization
   double gate = 0.999;             ///< probability of the gate of a measurement's squared error
   double max_prediction_s = 0.25;  ///< longest prediction beyond the last inertial sample
   void check() const;

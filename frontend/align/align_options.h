@@ -35,10 +35,13 @@ enum class PlaneModel {
   kSe2Plane,    ///< a motion along the plane
 };
 
+/// Names of the similarities, in their order.
 const std::vector<std::string>& similarity_names();
 
+/// Names of the optimizers, in their order.
 const std::vector<std::string>& align_optimizer_names();
 
+/// Names of the motion models, in their order.
 const std::vector<std::string>& plane_model_names();
 
 /// Options of the genetic search.

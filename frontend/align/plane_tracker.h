@@ -14,6 +14,7 @@ namespace [[gnu::visibility("default")]] placegraph {
 
 /// Method by which a template was found in a frame.
 enum class PlaneTrackSource { kPrediction, kLastPlace, kSecondTemplate, kSwarm, kFeatures };
+/// Names of the methods, in their order.
 const std::vector<std::string>& plane_track_source_names();
 
 /// State of the template in a frame.

@@ -3,6 +3,7 @@
 #include <placegraph/frontend/cloud_planes/cloud_points.h>
 #include <placegraph/frontend/cloud_planes/planar_segments.h>
 #include <placegraph/frontend/cloud_planes/planarity.h>
+#include <placegraph/frontend/cloud_planes/planarity_model.h>
 #include <placegraph/frontend/cloud_planes/plane_labels.h>
 #include <placegraph/frontend/cloud_planes/super_points.h>
 #include <placegraph/graph/core/error.h>

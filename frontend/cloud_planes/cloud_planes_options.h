@@ -3,12 +3,14 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
+/// Method by which the planes of a cloud are found.
 enum class CloudPlanesMethod {
   kCuts,     ///< super-points, normalized cuts, learned planarity
   kRansac,   ///< one plane after the other by RANSAC
   kGrowing,  ///< regions grown over points whose normals agree
 };
 
+/// Options of find_cloud_planes.
 struct CloudPlanesOptions {
   CloudPlanesMethod method = CloudPlanesMethod::kCuts;
   double flatness = 0.0003;  ///< maximum deviation from a plane, as a share of the depth

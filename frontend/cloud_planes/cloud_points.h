@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/cloud_planes/cloud_noise.h>
+#include <placegraph/frontend/cloud_planes/cloud_planes.h>
 #include <placegraph/frontend/planes/plane_sums.h>
 #include <placegraph/graph/measurements/point_cloud.h>
 

@@ -7,11 +7,13 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
+/// Side from which a cuboid is seen.
 enum class CuboidKind {
   kBox,   ///< observed from outside: its faces meet at convex edges
   kRoom,  ///< observed from inside: walls, floor and ceiling that meet at concave edges
 };
 
+/// Options of find_cuboids.
 struct CuboidOptions {
   /// Maximum deviation of the angle between two faces from a right one.
   double max_off_right_deg = 3;

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Plane in a depth image, in the frame of its camera.
 struct DepthPlane {

@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// A point in two images, with the local motion estimated from its surroundings.
 struct PointPair {

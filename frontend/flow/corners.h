@@ -3,7 +3,7 @@
 
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// A corner of an image.
 struct Corner {

@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// The camera's rotation between two images (that of T_1_2), from a gyro or an estimate.
 struct KnownRotation {

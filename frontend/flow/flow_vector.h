@@ -4,23 +4,24 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Displacement of one point between two images.
 struct FlowVector {
+  /// What is known of a displacement.
   enum class Kind {
     kNone,    ///< nothing
     kNormal,  ///< `flow` is only the component along the gradient (aperture problem)
-    kFull
+    kFull     ///< both components
   };
-  Kind kind = Kind::kNone;
+  Kind kind = Kind::kNone;                         ///< what is known
   Eigen::Vector2d px = Eigen::Vector2d::Zero();    ///< in the first image
   Eigen::Vector2d flow = Eigen::Vector2d::Zero();  ///< [px]
   /// Covariance of `flow` [px^2]. For a normal flow it has the variance of its own direction only.
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
 };
 
-/// Image of full vectors, each at the nearest pixel: CV_32FC2 of the given size, NaN elsewhere.
+/// Image of full vectors, each at the nearest pixel: CV_32FC2 [px], NaN elsewhere.
 Image flow_image(const std::vector<FlowVector>& vectors, int width, int height);
 
 /// The points (u, v) of a grid that begins half a step inside the image.

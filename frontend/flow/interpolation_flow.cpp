@@ -1,4 +1,5 @@
 #include <placegraph/frontend/flow/interpolation_flow.h>
+#include <placegraph/frontend/flow/optical_flow.h>
 #include <placegraph/graph/core/error.h>
 
 #include <Eigen/Cholesky>

@@ -60,9 +60,4 @@ class InterpolationFlow {
   std::vector<Pixel> rotated_, returned_;  // by +rotation_rad and by -rotation_rad
 };
 
-/// One flow vector for each of `points`, at the pixel nearest to it; throws ArgumentError.
-std::vector<FlowVector> interpolation_flow(const Image& from, const Image& to,
-                                           const std::vector<Eigen::Vector2d>& points,
-                                           const InterpolationFlowOptions& options);
-
 }  // namespace placegraph

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/flow/key_pixel_flow.h>
+#include <placegraph/frontend/flow/optical_flow.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/flow/lucas_kanade.h>
+#include <placegraph/frontend/flow/optical_flow.h>
 #include <placegraph/frontend/flow/padded_pyramid.h>
 #include <placegraph/graph/core/error.h>
 

@@ -1,7 +1,5 @@
 #include <placegraph/frontend/flow/horn_schunck.h>
 #include <placegraph/frontend/flow/interpolation_flow.h>
-#include <placegraph/frontend/flow/key_pixel_flow.h>
-#include <placegraph/frontend/flow/lucas_kanade.h>
 #include <placegraph/frontend/flow/optical_flow.h>
 #include <placegraph/graph/core/error.h>
 

@@ -9,18 +9,6 @@
 
 namespace placegraph {
 
-void ForestOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, ForestOptions& o) {
-  field("trees", o.trees, "number of trees", {1, 1000});
-  field("max_depth", o.max_depth, "maximum depth of a tree", {1, 40});
-  field("min_leaf", o.min_leaf, "minimum number of rows of a leaf", {1, 1e6});
-  field("tries", o.tries, "number of features tried for a split", {1, 60000});
-  field("share_blocks", o.share_blocks, "share of the blocks that a tree uses", {0.01, 1});
-  field("share_rows", o.share_rows, "share of the rows of its blocks that a tree uses", {0.001, 1});
-  field("seed", o.seed, "seed of the random samples");
-}
-
 namespace {
 
 constexpr int kMostClasses = 64;

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/graph/core/options.h>
+#include <placegraph/frontend/labels/scene_training.h>
 #include <placegraph/graph/scene/decision_forest.h>
 
 #include <cstdint>
@@ -22,18 +22,6 @@ struct ForestTrainingSet {
   int rows() const { return static_cast<int>(label.size()); }
   int dimension() const { return static_cast<int>(columns.size()); }
 };
-
-struct ForestOptions {
-  int trees = 50;
-  int max_depth = 18;
-  int min_leaf = 15;           ///< minimum number of rows of a leaf
-  int tries = 40;              ///< number of features tried for a split
-  double share_blocks = 0.66;  ///< share of the blocks that a tree uses
-  double share_rows = 0.2;     ///< share of the rows of its blocks that a tree uses
-  std::uint64_t seed = 1;
-  void check() const;
-};
-void visit(OptionVisitor& field, ForestOptions& options);
 
 struct TrainedForest {
   DecisionForest forest;

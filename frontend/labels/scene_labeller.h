@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/labels/label_options.h>
+#include <placegraph/frontend/labels/scene_labels.h>
 #include <placegraph/frontend/labels/superpixel_features.h>
 #include <placegraph/frontend/labels/superpixels.h>
 #include <placegraph/graph/scene/scene_model.h>
@@ -30,12 +30,6 @@ std::vector<float> classify_superpixels(const SceneModel& model, const SceneView
 
 /// Raises shares to a power and normalizes them to sum 1, row by row of n.
 void sharpen(std::vector<float>& shares, int n, float power);
-
-/// Labels of every pixel, at the size of the original image.
-struct SceneLabels {
-  Image labels;      ///< CV_8UC1: class, or the number of classes where it is unknown
-  Image confidence;  ///< CV_32FC1: probability that the label is correct
-};
 
 /// The most probable class of each superpixel; unknown if its probability is less than
 /// `unknown_below`.

@@ -1,11 +1,27 @@
 #include <placegraph/frontend/labels/field_fitting.h>
 #include <placegraph/frontend/labels/model_growth.h>
 #include <placegraph/frontend/labels/scene_training.h>
+#include <placegraph/frontend/labels/scene_training_set.h>
+#include <placegraph/frontend/labels/scene_variants.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/parallel.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace placegraph {
+
+void ForestOptions::check() const { check_ranges(*this); }
+
+void visit(OptionVisitor& field, ForestOptions& o) {
+  field("trees", o.trees, "number of trees", {1, 1000});
+  field("max_depth", o.max_depth, "maximum depth of a tree", {1, 40});
+  field("min_leaf", o.min_leaf, "minimum number of rows of a leaf", {1, 1e6});
+  field("tries", o.tries, "number of features tried for a split", {1, 60000});
+  field("share_blocks", o.share_blocks, "share of the blocks that a tree uses", {0.01, 1});
+  field("share_rows", o.share_rows, "share of the rows of its blocks that a tree uses", {0.001, 1});
+  field("seed", o.seed, "seed of the random samples");
+}
 
 void SceneTrainingOptions::check() const { check_ranges(*this); }
 
@@ -19,16 +35,16 @@ void visit(OptionVisitor& field, SceneTrainingOptions& o) {
         {1, 10000});
 }
 
-SceneModel train_scene_model(SceneModel model, std::vector<SceneExample> examples,
+SceneModel train_scene_model(SceneModel model, const std::vector<SceneTrainingImage>& images,
                              const SceneTrainingOptions& options, int threads,
-                             const std::function<void(const std::string&)>& say,
-                             const SceneModel* base) {
+                             const SceneTrainingProgress& progress, const SceneModel* base) {
   options.check();
-  require(model.class_count() >= 2 && !examples.empty(), "train_scene_model: no training data");
-  for (const SceneExample& example : examples)
-    require(example.pixels.size() ==
-                static_cast<std::size_t>(example.superpixels.count) * model.classes.size(),
-            "train_scene_model: an example has other classes");
+  require(model.class_count() >= 2 && !images.empty(), "train_scene_model: no training data");
+  const auto say = [&](const std::string& doing) {
+    if (progress.doing) progress.doing(doing);
+  };
+  std::vector<SceneExample> examples =
+      make_examples(images, model.class_count(), options, threads, progress.described);
   SceneTrainingSet training_set =
       make_training_set(examples, model.class_count(), options.class_power);
   say("training the first forest from " + std::to_string(training_set.rows.rows()) +

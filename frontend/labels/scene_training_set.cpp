@@ -1,5 +1,7 @@
 #include <placegraph/frontend/labels/scene_training_set.h>
+#include <placegraph/frontend/labels/scene_variants.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/parallel.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +15,19 @@ int class_of(const int* pixels, int classes, int area) {
   const int* best = std::max_element(pixels, pixels + classes);
   return *best > 0 && 2 * *best >= area ? static_cast<int>(best - pixels)
                                         : ForestTrainingSet::kVoid;
+}
+
+/// Block of each image: up to `most` consecutive images of one sequence, which are similar.
+std::vector<int> blocks_of(const std::vector<SceneTrainingImage>& images, int most) {
+  std::vector<int> block;
+  int in_block = 0;
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    const bool same = i > 0 && images[i].sequence == images[i - 1].sequence;
+    const bool full = ++in_block > most;
+    if (!same || full) in_block = 1;
+    block.push_back(i == 0 ? 0 : block.back() + (!same || full ? 1 : 0));
+  }
+  return block;
 }
 
 }  // namespace
@@ -43,6 +58,32 @@ SceneExample make_example(const Image& picture, const Image& labels, int classes
     }
   example.superpixels.index = Image();
   return example;
+}
+
+std::vector<SceneExample> make_examples(const std::vector<SceneTrainingImage>& images, int classes,
+                                        const SceneTrainingOptions& options, int threads,
+                                        const std::function<void(std::size_t)>& described) {
+  const int count = static_cast<int>(images.size()) * options.variants;
+  const std::vector<int> block = blocks_of(images, options.block);
+  std::vector<SceneExample> examples(static_cast<std::size_t>(count));
+  constexpr int kPart = 16;  // images between two reports of the progress
+  for (int begin = 0; begin < count; begin += kPart) {
+    parallel_for(std::min(kPart, count - begin), threads, [&](int k) {
+      const auto at = static_cast<std::size_t>(begin + k), which = at % images.size();
+      const std::size_t variant = at / images.size();
+      const auto [image, labels_of_image] = images[which].read();
+      Image bgr = scene_picture(image);
+      Image labels = fit_labels(labels_of_image, bgr);
+      if (variant > 0) {
+        Random random(options.forest.seed, at);
+        SceneVariant drawn = vary_scene(bgr, labels, 255, variant % 2 == 1, random);
+        bgr = drawn.bgr, labels = drawn.labels;
+      }
+      examples[at] = make_example(bgr, labels, classes, block[which]);
+    });
+    if (described) described(static_cast<std::size_t>(std::min(begin + kPart, count)));
+  }
+  return examples;
 }
 
 bool judges_field(std::size_t example, std::size_t examples) {

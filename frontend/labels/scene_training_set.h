@@ -1,7 +1,10 @@
 #pragma once
 #include <placegraph/frontend/labels/forest_training.h>
 #include <placegraph/frontend/labels/scene_labeller.h>
+#include <placegraph/frontend/labels/scene_training.h>
 
+#include <cstddef>
+#include <functional>
 #include <vector>
 
 namespace placegraph {
@@ -20,6 +23,14 @@ Image fit_labels(const Image& labels, const Image& picture);
 /// Makes an example. `labels`: CV_8UC1 of the image's size, void from `classes` on. Throws
 /// ArgumentError if the sizes do not agree.
 SceneExample make_example(const Image& picture, const Image& labels, int classes, int block);
+
+/// Divides every image into superpixels, once per variant; variants are consecutive blocks.
+///
+/// Up to `options.block` consecutive images of one sequence have the same number of a block.
+/// `described` receives the number of examples made so far, unless it is empty.
+std::vector<SceneExample> make_examples(const std::vector<SceneTrainingImage>& images, int classes,
+                                        const SceneTrainingOptions& options, int threads,
+                                        const std::function<void(std::size_t)>& described = {});
 
 /// Whether an example, out of so many, is used to choose the random field's weights: some hundred
 /// are enough.

@@ -28,4 +28,12 @@ UrbanLabels join_urban(const SceneModel& urban, const UrbanLabels& alone, const 
                        const std::vector<float>& log_likelihoods,
                        const LabellerOptions& options = {});
 
+/// Labels by the classes of streets in an image that may show none of them.
+///
+/// Class c of a superpixel has the probability P(street) P(c), none the probability
+/// 1 - P(street). A pixel has no class (number `classes`) where that is the most probable, or where
+/// its P(c) is less than `unknown_below`. `confidence` is P(c), that of the class in a street.
+SceneLabels street_labels(const std::vector<float>& probabilities, int classes,
+                          const SceneView& view, double street, double unknown_below = 0);
+
 }  // namespace placegraph

@@ -1,4 +1,6 @@
+#include <placegraph/frontend/lines/line_triangulation.h>
 #include <placegraph/frontend/lines/track_consistency.h>
+#include <placegraph/graph/core/error.h>
 
 #include <algorithm>
 
@@ -17,10 +19,13 @@ int TrackConsistency::wrong() const {
   return static_cast<int>(std::count(of_one.begin(), of_one.end(), false));
 }
 
-TrackConsistency judge_line_track(const Camera& camera,
-                                  const std::vector<LineMeasurement>& observations,
-                                  double max_error_px, int kept) {
+TrackConsistency judge_line_track(const Camera& camera, const std::vector<SE3>& T_ref_cam,
+                                  const std::vector<ImageLine::Carriers>& seen, double max_error_px,
+                                  int kept) {
+  require(T_ref_cam.size() == seen.size(), "judge_line_track: one pose per image line is needed");
   TrackConsistency result;
+  std::vector<LineMeasurement> observations;
+  for (std::size_t i = 0; i < seen.size(); ++i) observations.push_back({T_ref_cam[i], seen[i]});
   const int n = static_cast<int>(observations.size());
   result.of_one.assign(observations.size(), true);
   if (n < 3) return result;

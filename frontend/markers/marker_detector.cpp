@@ -1,6 +1,7 @@
 #include <placegraph/frontend/flow/flow_vector.h>
 #include <placegraph/frontend/markers/marker_detector.h>
 #include <placegraph/frontend/markers/marker_dictionary.h>
+#include <placegraph/frontend/markers/square_fit.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

@@ -1,21 +1,32 @@
 #pragma once
 #include <placegraph/frontend/markers/marker_options.h>
-#include <placegraph/frontend/markers/square_fit.h>
+#include <placegraph/graph/geometry/camera.h>
+#include <placegraph/graph/image/image.h>
 
+#include <Eigen/Core>
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
+
+/// Names of the supported families of square markers.
+///
+/// "aruco_4x4_50" to "aruco_7x7_1000", "aruco_original", "apriltag_16h5" to "apriltag_36h11".
+std::vector<std::string> marker_dictionaries();
+
+/// Pixels of the four corners of a square.
+using SquareCorners = std::array<Eigen::Vector2d, 4>;
 
 /// A marker in an image.
 ///
 /// Corners: top left, top right, bottom right, bottom left of the upright marker (those of
 /// PlacedMarker::corners_marker).
 struct MarkerObservation {
-  int id = 0;
-  SquareCorners corners_px;
+  int id = 0;                ///< number in its dictionary
+  SquareCorners corners_px;  ///< see above
   /// Joint covariance of the corners, [x0 y0 x1 y1 ...] [px^2].
   Eigen::Matrix<double, 8, 8> covariance = Eigen::Matrix<double, 8, 8>::Identity();
   double contrast = 0;  ///< contrast of the square to its surroundings [grey levels]
@@ -54,6 +65,7 @@ class MarkerDetector {
                                              const std::vector<ExpectedSquare>& expected,
                                              const Camera* lens = nullptr) const;
 
+  /// Name of the dictionary.
   const std::string& dictionary() const { return dictionary_; }
 
  private:

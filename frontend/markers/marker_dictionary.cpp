@@ -1,3 +1,4 @@
+#include <placegraph/frontend/markers/marker_detector.h>
 #include <placegraph/frontend/markers/marker_dictionary.h>
 #include <placegraph/graph/core/error.h>
 

@@ -6,11 +6,6 @@
 
 namespace placegraph {
 
-/// Names of the supported families of square markers.
-///
-/// "aruco_4x4_50" to "aruco_7x7_1000", "aruco_original", "apriltag_16h5" to "apriltag_36h11".
-std::vector<std::string> marker_dictionaries();
-
 /// The markers of a family.
 struct MarkerFamily {
   Image codes;               ///< one row per marker, in the packing of OpenCV's aruco

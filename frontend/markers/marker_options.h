@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/graph/core/options.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Sub-pixel fit of a square marker's sides.
 struct SquareFitOptions {

@@ -1,3 +1,4 @@
+#include <placegraph/frontend/markers/marker_filter.h>
 #include <placegraph/frontend/markers/marker_pose.h>
 #include <placegraph/frontend/markers/square_pose.h>
 #include <placegraph/graph/core/error.h>
@@ -116,6 +117,23 @@ MarkerPoses estimate_marker_poses(const MarkerObservation& observation, double s
             [](const MarkerPose& a, const MarkerPose& b) { return a.chi2 < b.chi2; });
   result.outcome = Outcome::ok();
   return result;
+}
+
+LayoutPose estimate_layout_pose(const Image& grey, const std::vector<MarkerObservation>& markers,
+                                const MarkerLayout& layout, const Camera& camera) {
+  LayoutPose pose;
+  if (layout.markers.empty() && layout.beacons_world.empty()) {
+    pose.outcome = Outcome::failure(Outcome::Code::kTooFewData,
+                                    "the layout has no pose of a marker or beacon");
+    return pose;
+  }
+  MarkerView view;
+  view.stamp_ns = 1;
+  view.markers = markers;
+  if (!layout.beacons_world.empty()) view.beacons = detect_beacons(grey);
+  const MarkerPoseEstimate found = MarkerFilter({}, layout, camera, SE3()).observe(view);
+  return {found.outcome, found.observation.T_world_body, found.observation.covariance,
+          found.markers, found.beacons};
 }
 
 }  // namespace placegraph

@@ -2,10 +2,12 @@
 #include <placegraph/frontend/markers/marker_detector.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/geometry/se3.h>
+#include <placegraph/graph/image/image.h>
+#include <placegraph/graph/measurements/marker_layout.h>
 
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// One of the poses that explain a marker's four corners.
 struct MarkerPose {
@@ -17,7 +19,7 @@ struct MarkerPose {
 
 /// Both poses of a marker.
 struct MarkerPoses {
-  Outcome outcome;
+  Outcome outcome;                ///< see estimate_marker_poses
   std::vector<MarkerPose> poses;  ///< one or two, the better explanation first
   /// chi2 of the second pose minus that of the first; infinite if there is only one.
   double margin() const;
@@ -34,5 +36,24 @@ struct MarkerPoses {
 /// has the marker in front of the camera with its face towards it).
 [[nodiscard]] MarkerPoses estimate_marker_poses(const MarkerObservation& observation, double side_m,
                                                 const Camera& camera);
+
+/// Pose of a camera in a layout of markers.
+struct LayoutPose {
+  /// Outcomes: too few data (nothing known in view, or no pose is known), inconsistent (two poses
+  /// are still possible, or the markers contradict all), degenerate.
+  Outcome outcome;
+  SE3 T_world_cam;                         ///< meaningful only if outcome
+  Matrix6d covariance = Matrix6d::Zero();  ///< right tangent of T_world_cam
+  int markers = 0;                         ///< number of markers used
+  int beacons = 0;                         ///< number of beacons used
+};
+
+/// Estimates the pose of a camera from the markers and beacons of one image.
+///
+/// `grey`: CV_8UC1, in which the beacons of the layout are detected; `markers`: those that
+/// MarkerDetector found in it. Throws ArgumentError for an invalid camera.
+[[nodiscard]] LayoutPose estimate_layout_pose(const Image& grey,
+                                              const std::vector<MarkerObservation>& markers,
+                                              const MarkerLayout& layout, const Camera& camera);
 
 }  // namespace placegraph

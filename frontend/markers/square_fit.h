@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/markers/marker_options.h>
+#include <placegraph/frontend/markers/marker_detector.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/image/image.h>
@@ -9,9 +9,6 @@
 #include <optional>
 
 namespace placegraph {
-
-/// Pixels of the four corners of a square.
-using SquareCorners = std::array<Eigen::Vector2d, 4>;
 
 /// A dark square measured in an image.
 struct SquareFit {

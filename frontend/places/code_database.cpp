@@ -1,7 +1,11 @@
 #include <placegraph/frontend/places/code_database.h>
+#include <placegraph/frontend/places/cues/corner_agreement.h>
 #include <placegraph/frontend/places/dense_index.h>
 #include <placegraph/frontend/places/float_vocabulary.h>
 #include <placegraph/frontend/places/inverted_index.h>
+#include <placegraph/frontend/places/landmarks.h>
+#include <placegraph/frontend/places/place_database.h>
+#include <placegraph/frontend/places/place_similarity.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>
@@ -158,6 +162,36 @@ class LandmarkDatabase final : public CodeDatabase {
 };
 
 }  // namespace
+
+void FloatFeatureOptions::check() const { check_ranges(*this); }
+
+void visit(OptionVisitor& field, FloatFeatureOptions& o) {
+  field("width_px", o.width_px, "width to which images are resized", {64, 4096});
+  field("max_features", o.max_features, "maximum number of key-points in an image", {20, 10000});
+  field("contrast", o.contrast, "minimum contrast of extrema in scale space", {0.0001, 1});
+}
+
+void LlcOptions::check() const { check_ranges(*this); }
+
+void visit(OptionVisitor& field, LlcOptions& o) {
+  field("most_words", o.most_words,
+        "maximum number of words of the level of the vocabulary that is used", {2, 100000});
+  field("neighbours", o.neighbours, "number of words in the code of a descriptor", {1, 100});
+  field("ridge", o.ridge, "ridge, as a share of the trace of the local covariance", {1e-9, 1});
+  field("pyramid_rows", o.pyramid_rows,
+        "number of cells of the finer level of the spatial pyramid, across and down", {1, 16});
+}
+
+void LandmarkOptions::check() const { check_ranges(*this); }
+
+void visit(OptionVisitor& field, LandmarkOptions& o) {
+  field("bandwidth", o.bandwidth,
+        "radius of the key-points of one landmark, as a share of the width", {0.005, 1});
+  field("min_features", o.min_features, "minimum number of key-points of a landmark", {1, 1000});
+  field("max_shift", o.max_shift,
+        "maximum shift of a landmark between two views, as a share of the width", {0, 10});
+  field("max_landmarks", o.max_landmarks, "maximum number of landmarks of a view", {1, 1000});
+}
 
 void PlaceCodeOptions::check() const { check_ranges(*this); }
 

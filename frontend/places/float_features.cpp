@@ -1,3 +1,4 @@
+#include <placegraph/frontend/places/code_database.h>
 #include <placegraph/frontend/places/float_features.h>
 #include <placegraph/graph/core/error.h>
 
@@ -38,14 +39,6 @@ FloatFeatures features_of(const cv::Mat& image, const std::vector<cv::KeyPoint>&
 }
 
 }  // namespace
-
-void FloatFeatureOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, FloatFeatureOptions& o) {
-  field("width_px", o.width_px, "width to which images are resized", {64, 4096});
-  field("max_features", o.max_features, "maximum number of key-points in an image", {20, 10000});
-  field("contrast", o.contrast, "minimum contrast of extrema in scale space", {0.0001, 1});
-}
 
 FloatFeatures float_features(const Image& grey, const FloatFeatureOptions& options) {
   const cv::Mat image = resized(grey, options.width_px);

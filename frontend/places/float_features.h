@@ -1,5 +1,4 @@
 #pragma once
-#include <placegraph/graph/core/options.h>
 #include <placegraph/graph/image/image.h>
 
 #include <Eigen/Core>
@@ -7,15 +6,7 @@
 
 namespace placegraph {
 
-struct FloatFeatureOptions {
-  int width_px = 320;      ///< width to which images are resized, smaller ones too
-  int max_features = 400;  ///< number of the strongest key-points kept in an image
-  /// Minimum contrast of scale-space extrema, for grey levels in [0, 1]: a quarter of the usual
-  /// value, as walls and lawns have only weak extrema.
-  double contrast = 0.01;
-  void check() const;
-};
-void visit(OptionVisitor& field, FloatFeatureOptions& options);
+struct FloatFeatureOptions;
 
 /// Descriptors as rows.
 using FloatDescriptors = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;

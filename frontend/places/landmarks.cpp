@@ -1,3 +1,4 @@
+#include <placegraph/frontend/places/code_database.h>
 #include <placegraph/frontend/places/landmarks.h>
 #include <placegraph/graph/core/error.h>
 
@@ -29,17 +30,6 @@ Eigen::Vector2f mode_of(Eigen::Vector2f point, const std::vector<Eigen::Vector2f
 }
 
 }  // namespace
-
-void LandmarkOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, LandmarkOptions& o) {
-  field("bandwidth", o.bandwidth,
-        "radius of the key-points of one landmark, as a share of the width", {0.005, 1});
-  field("min_features", o.min_features, "minimum number of key-points of a landmark", {1, 1000});
-  field("max_shift", o.max_shift,
-        "maximum shift of a landmark between two views, as a share of the width", {0, 10});
-  field("max_landmarks", o.max_landmarks, "maximum number of landmarks of a view", {1, 1000});
-}
 
 std::vector<int> group_positions(const std::vector<Eigen::Vector2f>& positions, double bandwidth) {
   require(bandwidth > 0, "group_positions: bandwidth > 0 needed");

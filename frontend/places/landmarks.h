@@ -3,16 +3,7 @@
 
 namespace placegraph {
 
-struct LandmarkOptions {
-  double bandwidth = 0.08;  ///< radius of the key-points of one landmark, as a share of the width
-  int min_features = 3;     ///< minimum number of key-points of a landmark
-  /// Maximum shift of a landmark between two views, as a share of the width.
-  double max_shift = 0.25;
-  /// Maximum number of landmarks of a view; those with the most key-points are kept.
-  int max_landmarks = 40;
-  void check() const;
-};
-void visit(OptionVisitor& field, LandmarkOptions& options);
+struct LandmarkOptions;
 
 /// Groups key-points by mean shift (Comaniciu & Meer 2002) with a flat kernel.
 ///

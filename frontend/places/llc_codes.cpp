@@ -1,3 +1,4 @@
+#include <placegraph/frontend/places/code_database.h>
 #include <placegraph/frontend/places/llc_codes.h>
 #include <placegraph/graph/core/error.h>
 
@@ -21,17 +22,6 @@ Eigen::VectorXf of_unit_length(const Eigen::VectorXf& vector) {
 }
 
 }  // namespace
-
-void LlcOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, LlcOptions& o) {
-  field("most_words", o.most_words,
-        "maximum number of words of the level of the vocabulary that is used", {2, 100000});
-  field("neighbours", o.neighbours, "number of words in the code of a descriptor", {1, 100});
-  field("ridge", o.ridge, "ridge, as a share of the trace of the local covariance", {1e-9, 1});
-  field("pyramid_rows", o.pyramid_rows,
-        "number of cells of the finer level of the spatial pyramid, across and down", {1, 16});
-}
 
 Eigen::VectorXf local_shares(const Eigen::Ref<const FloatDescriptors>& words,
                              const Eigen::Ref<const Eigen::RowVectorXf>& descriptor, double ridge) {

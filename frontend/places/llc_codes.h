@@ -5,16 +5,7 @@
 
 namespace placegraph {
 
-struct LlcOptions {
-  /// The deepest level of the vocabulary with at most this many words is used.
-  int most_words = 1000;
-  int neighbours = 5;   ///< number of words in the code of a descriptor
-  double ridge = 1e-4;  ///< ridge, as a share of the trace of the local covariance
-  /// Number of cells of the finer level of the spatial pyramid, across and down.
-  int pyramid_rows = 2;
-  void check() const;
-};
-void visit(OptionVisitor& field, LlcOptions& options);
+struct LlcOptions;
 
 /// Code of a descriptor: a few words with shares that sum to one; shares may be negative.
 struct LlcCode {

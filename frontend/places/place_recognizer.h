@@ -17,6 +17,12 @@ class DenseIndex;
 /// (1, 1 / zoom, zoom) instead of one, for which it takes about three times as long.
 PlaceView describe_place(const Image& image, const PlaceCueOptions& options, bool query);
 
+/// Similarity of two views by all cues, the full comparison of PlaceRecognizer.
+///
+/// Both must be grey or both in colour (ArgumentError otherwise).
+double place_similarity(const PlaceView& query, const PlaceView& stored,
+                        const PlaceCueOptions& options);
+
 /// Similarity of a stored image to a query.
 struct PlaceSimilarity {
   int view = 0;  ///< index of the stored image

@@ -121,6 +121,11 @@ double corner_similarity(const PlaceView& query, const PlaceView& stored,
                                     options.corner_floor);
 }
 
+double place_similarity(const PlaceView& query, const PlaceView& stored,
+                        const PlaceCueOptions& options) {
+  return grid_similarity(query, stored, options).sum() + corner_similarity(query, stored, options);
+}
+
 double coarse_similarity(const PlaceView& query, const PlaceView& stored,
                          const PlaceCueOptions& options) {
   double similarity = best_alignment(

@@ -4,9 +4,11 @@
 
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// Plane n^T X = d in a camera frame: |n| = 1, d > 0 [m], n points from the camera to the plane.
+/// Plane n^T X = d in a camera frame, |n| = 1, d > 0 [m].
+///
+/// The normal points from the camera to the plane.
 struct Plane {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitY();
   double distance_m = 1;
@@ -15,7 +17,9 @@ struct Plane {
 /// Plane in another camera frame: n' = R n, d' = d + n'^T t for T_cur_ref = (R, t).
 Plane transform(const SE3& T_cur_ref, const Plane& plane_ref);
 
-/// H_cur_ref = K (R + t n^T / d) K^-1 with T_cur_ref = (R, t): px_cur ~ H px_ref on the plane.
+/// H_cur_ref = K (R + t n^T / d) K^-1 with T_cur_ref = (R, t).
+///
+/// On the plane px_cur ~ H px_ref.
 Eigen::Matrix3d homography_from_plane(const Eigen::Matrix3d& K, const SE3& T_cur_ref,
                                       const Plane& plane_ref);
 

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Pixels of the same points in two views: px_ref[i] corresponds to px_cur[i].
 struct PointMatches {
@@ -15,7 +15,9 @@ struct PointMatches {
   int size() const { return static_cast<int>(px_ref.size()); }
 };
 
-/// Transfer error of one match under a homography, with noise of equal variance in both views.
+/// Transfer error of one match under a homography.
+///
+/// The noise has equal variance in both views.
 ///
 /// To first order e = px_cur - H px_ref has the covariance S = I + J J^T times that variance, J
 /// being the derivative of the transfer (Hartley & Zisserman 2004, sec. 4.2.6: the Sampson error,
@@ -26,6 +28,7 @@ struct TransferError {
   double squared = 0;               ///< e^T S^-1 e [px^2]; infinite beyond the horizon
   double log_determinant = 0;       ///< log det S
 };
+/// Computes the transfer error of a match.
 TransferError transfer_error(const Eigen::Matrix3d& H_cur_ref, const Eigen::Vector2d& px_ref,
                              const Eigen::Vector2d& px_cur);
 
@@ -53,6 +56,7 @@ struct TransferNoise {
 std::optional<Eigen::Matrix3d> homography_through(const PointMatches& matches,
                                                   const std::array<int, 4>& which);
 
+/// A homography with its uncertainty.
 struct HomographyFit {
   Outcome outcome;
   /// Homography of Frobenius norm one, det > 0.
@@ -63,9 +67,9 @@ struct HomographyFit {
   int iterations = 0;
 };
 
-/// Refines `H_start` over the matches `which` by Gauss-Newton on the symmetric transfer error.
+/// Refines `H_start` over the matches `which` on their symmetric transfer error.
 ///
-/// The iteration is reweighted, in the eight directions orthogonal to H, with pixels centred and
+/// Gauss-Newton, reweighted, in the eight directions orthogonal to H, with pixels centred and
 /// scaled inside (Hartley 1997). Outcomes: too few data (under four matches), degenerate (the
 /// matches do not determine a homography, or are beyond its horizon). Indices must be valid.
 [[nodiscard]] HomographyFit refine_homography(const Eigen::Matrix3d& H_start,

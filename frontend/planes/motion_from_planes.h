@@ -6,9 +6,11 @@
 
 #include <optional>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// One solution (reading) for two views of planes: motion with |t| = 1, planes in the scale of |t|.
+/// One solution (reading) for two views of planes.
+///
+/// The motion has |t| = 1, and the planes the scale of |t|.
 struct PlanesReading {
   SE3 T_cur_ref;
   /// Covariance of T_cur_ref, perturbed on the right, [translation, rotation]; zero along the
@@ -20,6 +22,7 @@ struct PlanesReading {
   double cost = 0;  ///< joint cost of the matches [nats]
 };
 
+/// Motion between two views of planes, see motion_from_planes.
 struct MotionFromPlanesResult {
   Outcome outcome;
   /// Solutions, the likeliest first. More than one if the data are ambiguous: always for one plane

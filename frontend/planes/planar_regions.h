@@ -3,8 +3,9 @@
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/core/random.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
+/// Options of find_planar_regions.
 struct PlanarRegionsOptions {
   double noise_px = 1;          ///< initial noise of a match, per coordinate and view
   double noise_confidence = 5;  ///< weight of `noise_px` in the noise estimate, in matches
@@ -21,6 +22,7 @@ struct PlanarRegionsOptions {
 };
 void visit(OptionVisitor& field, PlanarRegionsOptions& options);
 
+/// Matches of two views on one plane.
 struct PlanarRegion {
   Eigen::Matrix3d H_cur_ref;               ///< homography of Frobenius norm one, det > 0
   Eigen::Matrix<double, 9, 9> covariance;  ///< covariance of its entries, row by row; rank eight
@@ -28,6 +30,7 @@ struct PlanarRegion {
   double cost = 0;  ///< cost of its matches under the noise [nats]
 };
 
+/// The planes of the matches of two views.
 struct PlanarRegionsResult {
   Outcome outcome;
   std::vector<int> labels;            ///< label of each match: 0 on no plane, k on regions[k - 1]

@@ -1,5 +1,5 @@
-#include <placegraph/frontend/relative_pose/circular_motion.h>
 #include <placegraph/frontend/relative_pose/epipolar_error.h>
+#include <placegraph/frontend/relative_pose/relative_pose.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 
@@ -111,18 +111,6 @@ Fit refine(const Views& views, double yaw_rad, double threshold_px) {
 }
 
 }  // namespace
-
-void CircularMotionOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, CircularMotionOptions& o) {
-  field("threshold_px", o.threshold_px, "maximum Sampson error of an inlier [px]", {0.1, 20});
-  field("max_yaw_deg", o.max_yaw_deg, "maximum yaw between the views [deg]", {0.1, 120});
-  field("bin_deg", o.bin_deg, "bin width of the histogram of votes [deg]", {0.001, 5});
-  field("min_parallax_px", o.min_parallax_px, "minimum median displacement for an estimate [px]",
-        {0, 100});
-  field("min_inliers", o.min_inliers, "minimum number of inliers", {2, 1000000});
-  field("min_share", o.min_share, "minimum share of inliers", {0, 1});
-}
 
 CircularMotionResult estimate_circular_motion(const Camera& camera,
                                               const std::vector<Eigen::Vector2d>& px_ref,

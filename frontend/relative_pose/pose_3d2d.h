@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Pose of a camera from points.
 struct Pose3d2dResult {

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/relative_pose/pose_3d3d.h>
+#include <placegraph/frontend/relative_pose/relative_pose.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/ransac.h>
 
@@ -82,14 +82,6 @@ CloudPoint cloud_point(const Camera& camera, const Eigen::Vector2d& px, double i
   result.covariance(0, 0) += across_x * across_x;
   result.covariance(1, 1) += across_y * across_y;
   return result;
-}
-
-void Pose3d3dOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, Pose3d3dOptions& o) {
-  field.internal().group("ransac", o.ransac, "three-point hypotheses");
-  field("threshold_sigmas", o.threshold_sigmas, "maximum error of an inlier [standard deviations]",
-        {0.5, 20});
 }
 
 Pose3d3dResult estimate_pose_3d3d(const Cloud& points_ref, const Cloud& points_cur,

@@ -1,6 +1,6 @@
 #include <placegraph/frontend/relative_pose/epipolar_error.h>
 #include <placegraph/frontend/relative_pose/epipolar_refinement.h>
-#include <placegraph/frontend/relative_pose/pose_gravity.h>
+#include <placegraph/frontend/relative_pose/relative_pose.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/ransac.h>
@@ -111,17 +111,6 @@ SE3 refine(const LevelViews& views, const std::vector<int>& indices, const SE3& 
 }
 
 }  // namespace
-
-void GravityPoseOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, GravityPoseOptions& o) {
-  field.internal().group("ransac", o.ransac, "three-point hypotheses");
-  field("threshold_px", o.threshold_px, "maximum Sampson error of an inlier [px]", {0.1, 20});
-  field("sigma_gravity_deg", o.sigma_gravity_deg,
-        "standard deviation of each view's vertical [deg]", {1e-4, 10});
-  field("min_parallax_px", o.min_parallax_px, "minimum median displacement for a translation [px]",
-        {0, 100});
-}
 
 GravityPoseResult estimate_pose_with_gravity(const Camera& camera,
                                              const std::vector<Eigen::Vector2d>& px_ref,

@@ -186,6 +186,37 @@ void take_homography(const Views& views, const Pose2d2dResult& found,
 
 }  // namespace
 
+void GravityPoseOptions::check() const { check_ranges(*this); }
+
+void visit(OptionVisitor& field, GravityPoseOptions& o) {
+  field.internal().group("ransac", o.ransac, "three-point hypotheses");
+  field("threshold_px", o.threshold_px, "maximum Sampson error of an inlier [px]", {0.1, 20});
+  field("sigma_gravity_deg", o.sigma_gravity_deg,
+        "standard deviation of each view's vertical [deg]", {1e-4, 10});
+  field("min_parallax_px", o.min_parallax_px, "minimum median displacement for a translation [px]",
+        {0, 100});
+}
+
+void CircularMotionOptions::check() const { check_ranges(*this); }
+
+void visit(OptionVisitor& field, CircularMotionOptions& o) {
+  field("threshold_px", o.threshold_px, "maximum Sampson error of an inlier [px]", {0.1, 20});
+  field("max_yaw_deg", o.max_yaw_deg, "maximum yaw between the views [deg]", {0.1, 120});
+  field("bin_deg", o.bin_deg, "bin width of the histogram of votes [deg]", {0.001, 5});
+  field("min_parallax_px", o.min_parallax_px, "minimum median displacement for an estimate [px]",
+        {0, 100});
+  field("min_inliers", o.min_inliers, "minimum number of inliers", {2, 1000000});
+  field("min_share", o.min_share, "minimum share of inliers", {0, 1});
+}
+
+void Pose3d3dOptions::check() const { check_ranges(*this); }
+
+void visit(OptionVisitor& field, Pose3d3dOptions& o) {
+  field.internal().group("ransac", o.ransac, "three-point hypotheses");
+  field("threshold_sigmas", o.threshold_sigmas, "maximum error of an inlier [standard deviations]",
+        {0.5, 20});
+}
+
 RelativePose estimate_relative_pose(const Camera& camera,
                                     const std::vector<Eigen::Vector2d>& px_ref,
                                     const std::vector<Eigen::Vector2d>& px_cur,

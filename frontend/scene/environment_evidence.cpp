@@ -1,6 +1,7 @@
 #include <placegraph/frontend/scene/environment.h>
 #include <placegraph/frontend/scene/environment_evidence.h>
 #include <placegraph/frontend/scene/evidence_kind.h>
+#include <placegraph/frontend/scene/scene_masks.h>
 #include <placegraph/frontend/vanishing/manhattan_frame.h>
 #include <placegraph/graph/core/quantile.h>
 

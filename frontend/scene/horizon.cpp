@@ -1,4 +1,5 @@
 #include <placegraph/frontend/scene/horizon.h>
+#include <placegraph/frontend/vanishing/vanishing_points.h>
 #include <placegraph/graph/core/angle.h>
 
 #include <Eigen/Dense>

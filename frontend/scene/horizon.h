@@ -1,11 +1,16 @@
 #pragma once
-#include <placegraph/frontend/vanishing/vanishing_points.h>
+#include <placegraph/frontend/vanishing/vanishing_options.h>
+#include <placegraph/graph/core/options.h>
 #include <placegraph/graph/core/outcome.h>
+#include <placegraph/graph/core/random.h>
+#include <placegraph/graph/geometry/camera.h>
+#include <placegraph/graph/geometry/line_segment.h>
 
 #include <vector>
 
 namespace [[gnu::visibility("default")]] placegraph {
 
+/// Options of estimate_horizon.
 struct HorizonOptions {
   /// Maximum tilt of the camera; directions beyond are neither upright nor level.
   double max_tilt_deg = 20;

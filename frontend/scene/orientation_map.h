@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Orientation of the surface behind each pixel, from edges.
 struct OrientationMap {
@@ -43,9 +43,12 @@ struct OrientationMap {
 
 /// Kind of an indoor surface.
 enum class IndoorSurface : std::uint8_t { kNone, kFloor, kCeiling, kWall };
+/// Name of a surface.
 const char* to_string(IndoorSurface surface);
 
-/// Classifies surfaces: floor below the horizon of the vertical axis, ceiling above it, walls. The
+/// Classifies the surfaces of an orientation map.
+///
+/// Floor is below the horizon of the vertical axis, ceiling above it, the others are walls. The
 /// result is CV_8UC1 of IndoorSurface.
 Image indoor_surfaces(const OrientationMap& map, const Camera& camera, const SO3& R_cam_manhattan);
 

@@ -5,7 +5,7 @@
 
 #include <optional>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Camera above level ground.
 struct GroundView {
@@ -19,7 +19,9 @@ struct GroundView {
 /// No result on and above the horizon.
 std::optional<Eigen::Vector3d> ground_point(const GroundView& view, const Eigen::Vector2d& px);
 
-/// Ground point at `right_m` and `forward_m` from the foot of the camera, in its viewing direction.
+/// Ground point at `right_m` and `forward_m` from the foot of the camera.
+///
+/// Ahead is its viewing direction.
 Eigen::Vector3d ground_place(const GroundView& view, double right_m, double forward_m);
 
 /// Distances over the ground for all pixels of an image (automatic photo pop-up).
@@ -38,7 +40,9 @@ struct PopUp {
 /// ArgumentError for another size or a height that is not positive.
 PopUp pop_up(const Image& surfaces, const GroundView& view, double farthest_m = 100);
 
-/// Point of a pixel by its distance over the ground [m, camera frame]; nothing without a distance.
+/// Point of a pixel by its distance over the ground [m, camera frame].
+///
+/// Nothing without a distance.
 std::optional<Eigen::Vector3d> popped_point(const PopUp& popup, const GroundView& view, int u,
                                             int v);
 

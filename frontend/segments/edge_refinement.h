@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/segments/edge_segment.h>
+#include <placegraph/frontend/segments/segment_detector.h>
 #include <placegraph/frontend/segments/segment_options.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/geometry/line_segment.h>

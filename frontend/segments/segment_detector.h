@@ -1,5 +1,4 @@
 #pragma once
-#include <placegraph/frontend/segments/edge_segment.h>
 #include <placegraph/frontend/segments/segment_options.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/geometry/line_segment.h>
@@ -8,6 +7,14 @@
 #include <vector>
 
 namespace [[gnu::visibility("default")]] placegraph {
+
+/// A segment measured on the gradient, brighter side on the right.
+struct EdgeSegment {
+  LineSegment segment;
+  ImageLine line;       ///< the infinite line, with the covariance of its support
+  double contrast = 0;  ///< median gradient across [grey levels / px]
+  int support = 0;      ///< number of points used in the line
+};
 
 /// Detects straight edges of a grey image (CV_8UC1, else ArgumentError), longest first.
 ///

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Options of the matching of segments across wide baselines.
 struct SegmentMatcherOptions {

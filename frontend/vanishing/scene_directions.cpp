@@ -1,3 +1,4 @@
+#include <placegraph/frontend/vanishing/manhattan_frame.h>
 #include <placegraph/frontend/vanishing/scene_directions.h>
 #include <placegraph/frontend/vanishing/vanishing_model.h>
 #include <placegraph/frontend/vanishing/vanishing_search.h>

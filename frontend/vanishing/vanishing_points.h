@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/frontend/vanishing/scene_directions.h>
 #include <placegraph/frontend/vanishing/vanishing_options.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/core/random.h>
@@ -12,22 +13,6 @@ namespace [[gnu::visibility("default")]] placegraph {
 
 class VanishingEvidence;
 class VanishingModel;
-
-/// Direction of edges in the scene.
-struct VanishingPoint {
-  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  ///< unit vector, camera frame, z >= 0
-  /// Covariance of the direction; zero along it.
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  int segments = 0;     ///< number of segments that point there
-  double evidence = 0;  ///< increase of the description length without it [nats]
-};
-
-struct VanishingPoints {
-  Outcome outcome;
-  std::vector<VanishingPoint> points;  ///< points, most evidence first
-  std::vector<int> labels;             ///< label of each segment, an index into points or -1
-  VanishingNoise noise;                ///< estimated noise
-};
 
 /// Finds the vanishing points of an image's segments; their number is unknown.
 ///

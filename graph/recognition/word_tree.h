@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// A tree of visual words, as it is trained, saved and looked up.
 /// A descent from the root to the nearest child at every level ends at a word. Centres are binary

@@ -1,4 +1,5 @@
 #include <placegraph/frontend/scene/orientation_map.h>
+#include <placegraph/frontend/vanishing/manhattan_frame.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/pipeline/cues/manhattan_cue.h>
 

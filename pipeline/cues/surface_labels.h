@@ -1,7 +1,8 @@
 #pragma once
-#include <placegraph/frontend/scene/environment.h>
 #include <placegraph/frontend/scene/scene_masks.h>
 #include <placegraph/graph/core/ids.h>
+#include <placegraph/graph/geometry/camera.h>
+#include <placegraph/graph/geometry/line_segment.h>
 #include <placegraph/graph/image/frame.h>
 
 #include <memory>

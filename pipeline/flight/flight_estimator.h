@@ -4,8 +4,8 @@
 #include <placegraph/graph/image/frame.h>
 #include <placegraph/graph/measurements/marker_layout.h>
 #include <placegraph/pipeline/flight/delay_line.h>
-#include <placegraph/pipeline/flight/flight_frame.h>
 #include <placegraph/pipeline/flight/flight_options.h>
+#include <placegraph/pipeline/flight/flight_run.h>
 #include <placegraph/pipeline/flight/floor_flow.h>
 #include <placegraph/pipeline/flight/imu_buffer.h>
 #include <placegraph/pipeline/flight/marker_sensor.h>

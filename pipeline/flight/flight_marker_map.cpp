@@ -1,6 +1,7 @@
 #include <placegraph/backend/inertial/state_layout.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/flight/flight_marker_map.h>
+#include <placegraph/pipeline/flight/flight_run.h>
+#include <placegraph/pipeline/flight/marker_map.h>
 #include <placegraph/pipeline/flight/marker_mapping.h>
 
 #include <Eigen/Eigenvalues>

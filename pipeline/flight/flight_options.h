@@ -4,8 +4,9 @@
 #include <placegraph/frontend/markers/marker_options.h>
 #include <placegraph/graph/core/options.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
+/// Measurement of the flow over the floor.
 struct FloorFlowOptions {
   double noise_px = 0.05;  ///< standard deviation of a tracked point, beyond the noise of the image
   /// Error common to all flow vectors of an image pair [px]. Chosen so that the drift over seconds
@@ -26,6 +27,7 @@ struct FloorFlowOptions {
 /// All options except `tracker`.
 void visit(OptionVisitor& field, FloorFlowOptions& options);
 
+/// Search for markers and beacons in the images.
 struct MarkerSensorOptions {
   int max_markers = 4;  ///< maximum number searched for; the largest are preferred
   /// Number of consecutive images whose markers contradict the expected state.
@@ -45,6 +47,7 @@ struct FlightInitializationOptions {
 };
 void visit(OptionVisitor& field, FlightInitializationOptions& options);
 
+/// Map of the markers after a flight.
 struct MarkerMapOptions {
   /// Probability of the gate for an observation against the others of its marker.
   double gate = 0.9999;
@@ -54,8 +57,9 @@ struct MarkerMapOptions {
 };
 void visit(OptionVisitor& field, MarkerMapOptions& options);
 
-/// Options of `placegraph flight run`: those of FlightEstimator and of `map_flight_markers`. The
-/// keys of `flow` and `marker_sensor` are not in groups of their own.
+/// Options of `placegraph flight run`: of FlightEstimator and of `map_flight_markers`.
+///
+/// The keys of `flow` and `marker_sensor` are not in groups of their own.
 struct FlightOptions {
   double floor_z_m = 0;  ///< height of the level floor in the world
   FloorFlowOptions flow;

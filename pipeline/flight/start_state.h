@@ -1,7 +1,6 @@
 #pragma once
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/measurements/body_state.h>
-#include <placegraph/graph/measurements/flight_measurement.h>
 #include <placegraph/pipeline/flight/flight_options.h>
 
 #include <optional>

@@ -4,6 +4,8 @@
 #include <placegraph/pipeline/map/map_floor_plan.h>
 #include <placegraph/pipeline/scene/floor_plan.h>
 
+#include <algorithm>
+
 namespace placegraph {
 
 IndoorMap plan_of_map(const Map& map, const Calibration& calibration, const Dataset& dataset,
@@ -25,6 +27,14 @@ IndoorMap plan_of_map(const StoredMap& stored, const IndoorMapperOptions& option
   const auto dataset = open_dataset(stored.origin.sequence);
   return plan_of_map(stored.map, *stored.origin.calibration, *dataset, stored.origin.sensor,
                      stored.origin.lens_k1, options);
+}
+
+void label_places(const IndoorMap& plan, PlaceGraph& places) {
+  for (Place& place : places.places)
+    for (const IndoorRoom& room : plan.rooms)
+      if (std::count(room.places.begin(), room.places.end(), place.id) &&
+          !std::count(place.labels.begin(), place.labels.end(), room.label))
+        place.labels.push_back(room.label);
 }
 
 }  // namespace placegraph

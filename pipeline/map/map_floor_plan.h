@@ -11,8 +11,11 @@ namespace [[gnu::visibility("default")]] placegraph {
 IndoorMap plan_of_map(const Map& map, const Calibration& calibration, const Dataset& dataset,
                       Sensor sensor, double lens_k1, const IndoorMapperOptions& options);
 
-/// The same for a saved map, whose sequence is opened. Throws FileError, and NoResult if nothing in
-/// it has a pose.
+/// The same for a saved map, whose sequence is opened.
+/// Throws FileError, and NoResult if nothing in the map has a pose.
 IndoorMap plan_of_map(const StoredMap& stored, const IndoorMapperOptions& options = {});
+
+/// Assigns each room's label to its places; other labels remain.
+void label_places(const IndoorMap& plan, PlaceGraph& places);
 
 }  // namespace placegraph

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Colour that exports give a landmark whose own is unknown.
 inline constexpr std::array<std::uint8_t, 3> kUnknownColour = {128, 128, 128};

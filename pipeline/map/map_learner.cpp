@@ -1,3 +1,4 @@
+#include <placegraph/frontend/places/place_view.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/median.h>
 #include <placegraph/pipeline/map/map_learner.h>

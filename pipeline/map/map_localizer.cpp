@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <placegraph/frontend/places/place_similarity.h>
 #include <placegraph/frontend/places/place_view.h>
-#include <placegraph/frontend/places/recognition_probability.h>
+#include <placegraph/frontend/places/verification/recognition_probability.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/pipeline/loops/loop_closer.h>
 #include <placegraph/pipeline/map/map_localizer.h>

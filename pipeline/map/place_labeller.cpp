@@ -1,3 +1,4 @@
+#include <placegraph/frontend/places/classifiers/place_classifier.h>
 #include <placegraph/pipeline/map/place_labeller.h>
 
 #include <unordered_map>

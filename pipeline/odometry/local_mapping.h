@@ -1,5 +1,6 @@
 #pragma once
 #include <placegraph/graph/core/stage_times.h>
+#include <placegraph/graph/scene/environment.h>
 #include <placegraph/pipeline/local_map/lens_estimator.h>
 #include <placegraph/pipeline/local_map/rgbd_calibrator.h>
 #include <placegraph/pipeline/local_map/stereo_rectifier.h>

@@ -1,6 +1,7 @@
 #include <placegraph/graph/text/log_message.h>
 #include <placegraph/pipeline/odometry/odometry.h>
 #include <placegraph/pipeline/odometry/odometry_parts.h>
+#include <placegraph/pipeline/tracking/cue_list.h>
 
 namespace placegraph {
 

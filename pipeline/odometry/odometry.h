@@ -1,5 +1,6 @@
 #pragma once
 #include <placegraph/graph/core/ids.h>
+#include <placegraph/graph/scene/environment.h>
 #include <placegraph/pipeline/odometry/initializer.h>
 
 #include <memory>

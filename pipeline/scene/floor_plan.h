@@ -8,11 +8,10 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// Assigns each room's label to its places; other labels remain.
-void label_places(const IndoorMap& plan, PlaceGraph& places);
-
-/// Makes the plan of a finished map: reads the frames of its keyframes (those that are far enough
-/// from each other) with `frame_of`, and fuses them.
+/// Makes the plan of a finished map.
+///
+/// Reads the frames of its keyframes (those that are far enough from each other) with `frame_of`,
+/// and fuses them.
 [[nodiscard]] IndoorMap map_indoors(const Map& map, const Calibration& calibration,
                                     const std::function<Frame(const Keyframe&)>& frame_of,
                                     const IndoorMapperOptions& options = {});

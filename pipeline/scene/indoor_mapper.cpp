@@ -199,14 +199,6 @@ IndoorMap IndoorMapper::fuse(const Map& map) const {
   return fuse_observations(observations_, map, options);
 }
 
-void label_places(const IndoorMap& plan, PlaceGraph& places) {
-  for (Place& place : places.places)
-    for (const IndoorRoom& room : plan.rooms)
-      if (std::count(room.places.begin(), room.places.end(), place.id) &&
-          !std::count(place.labels.begin(), place.labels.end(), room.label))
-        place.labels.push_back(room.label);
-}
-
 IndoorMap map_indoors(const Map& map, const Calibration& calibration,
                       const std::function<Frame(const Keyframe&)>& frame_of,
                       const IndoorMapperOptions& options) {

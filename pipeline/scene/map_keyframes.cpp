@@ -1,20 +1,6 @@
 #include <placegraph/pipeline/scene/map_keyframes.h>
 
-#include <map>
-
 namespace placegraph {
-namespace {
-
-KeyframePoses fetched(std::map<KeyframeId, SE3> poses) {
-  return [poses = std::move(poses)](KeyframeId keyframe) -> std::optional<SE3> {
-    const auto found = poses.find(keyframe);
-    if (found == poses.end()) return std::nullopt;
-    return found->second;
-  };
-}
-
-}  // namespace
-
 SE3 camera_pose(const Map& map, KeyframeId keyframe) {
   const Sim3 S = map.S_map_keyframe(keyframe);
   return {S.rotation(), S.translation()};
@@ -30,24 +16,6 @@ std::set<KeyframeId> connected_keyframes(const Map& map) {
   for (const Keyframe& keyframe : map.keyframes)
     if (places.count(keyframe.place)) keyframes.insert(keyframe.id);
   return keyframes;
-}
-
-KeyframePoses poses_of(const Map& map) {
-  std::map<KeyframeId, SE3> poses;
-  for (const KeyframeId keyframe : connected_keyframes(map))
-    poses.emplace(keyframe, camera_pose(map, keyframe));
-  return fetched(std::move(poses));
-}
-
-KeyframePoses online_poses_of(const Map& map) {
-  std::map<std::int64_t, SE3> by_stamp;
-  std::map<KeyframeId, SE3> poses;
-  for (const StampedPose& pose : map.trajectory_online.poses)
-    if (pose.T_world_body) by_stamp.emplace(pose.stamp_ns, SE3(*pose.T_world_body));
-  for (const Keyframe& keyframe : map.keyframes)
-    if (const auto found = by_stamp.find(keyframe.stamp_ns); found != by_stamp.end())
-      poses.emplace(keyframe.id, found->second);
-  return fetched(std::move(poses));
 }
 
 std::vector<const Keyframe*> keyframes_apart(const Map& map, double step_m, double rotation_rad) {

@@ -1,6 +1,9 @@
+#include <placegraph/frontend/floor_plan/indoor_surfaces.h>
 #include <placegraph/frontend/scene/moving_classes.h>
+#include <placegraph/frontend/scene/street_labelling.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/pipeline/scene/map_keyframes.h>
 #include <placegraph/pipeline/scene/urban_mapper.h>
 
 #include <algorithm>
@@ -8,6 +11,35 @@
 #include <map>
 
 namespace placegraph {
+namespace {
+
+KeyframePoses fetched(std::map<KeyframeId, SE3> poses) {
+  return [poses = std::move(poses)](KeyframeId keyframe) -> std::optional<SE3> {
+    const auto found = poses.find(keyframe);
+    if (found == poses.end()) return std::nullopt;
+    return found->second;
+  };
+}
+
+}  // namespace
+
+KeyframePoses poses_of(const Map& map) {
+  std::map<KeyframeId, SE3> poses;
+  for (const KeyframeId keyframe : connected_keyframes(map))
+    poses.emplace(keyframe, camera_pose(map, keyframe));
+  return fetched(std::move(poses));
+}
+
+KeyframePoses online_poses_of(const Map& map) {
+  std::map<std::int64_t, SE3> by_stamp;
+  std::map<KeyframeId, SE3> poses;
+  for (const StampedPose& pose : map.trajectory_online.poses)
+    if (pose.T_world_body) by_stamp.emplace(pose.stamp_ns, SE3(*pose.T_world_body));
+  for (const Keyframe& keyframe : map.keyframes)
+    if (const auto found = by_stamp.find(keyframe.stamp_ns); found != by_stamp.end())
+      poses.emplace(keyframe.id, found->second);
+  return fetched(std::move(poses));
+}
 
 UrbanMapper::UrbanMapper(const UrbanMapperOptions& options, const Calibration& calibration,
                          SceneModel urban, SceneModel surfaces)
@@ -19,7 +51,12 @@ UrbanMapper::UrbanMapper(const UrbanMapperOptions& options, const Calibration& c
   calibration_.check();
   require(urban_.kind == SceneModel::Kind::kUrban && surfaces_.kind == SceneModel::Kind::kSurfaces,
           "urban mapper: a model of urban classes and one of surfaces are needed");
-  (void)moving_classes(options_.labelling.moving, urban_);
+  check(options_, urban_);
+}
+
+void UrbanMapper::check(const UrbanMapperOptions& options, const SceneModel& urban) {
+  options.check();
+  (void)moving_classes(options.labelling.moving, urban);
 }
 
 void UrbanMapper::add(KeyframeId keyframe, const Frame& frame, const SE3& T_map_cam) {

@@ -1,21 +1,29 @@
 #pragma once
-#include <placegraph/frontend/floor_plan/indoor_surfaces.h>
-#include <placegraph/frontend/scene/street_labelling.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/image/frame.h>
 #include <placegraph/graph/map.h>
+#include <placegraph/graph/scene/scene_model.h>
 #include <placegraph/graph/scene/semantic_map.h>
-#include <placegraph/pipeline/scene/map_keyframes.h>
 #include <placegraph/pipeline/scene/scene_map_options.h>
 
 #include <functional>
 #include <optional>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// Makes a semantic street map from the keyframes of a stereo map. The labelled points of a
-/// keyframe are stored in its own frame; `fuse` transforms all of them with the current poses of
-/// the map, so that after a loop closure the map is recomputed by fusing again.
+/// Pose of a keyframe's camera in the frame of a map; nothing if it is unknown.
+using KeyframePoses = std::function<std::optional<SE3>(KeyframeId keyframe)>;
+
+/// The poses of the keyframes of the main component of a map.
+KeyframePoses poses_of(const Map& map);
+/// Pose of each keyframe when its frame had been processed, before later loops moved it.
+KeyframePoses online_poses_of(const Map& map);
+
+/// Makes a semantic street map from the keyframes of a stereo map.
+///
+/// The labelled points of a keyframe are stored in its own frame; `fuse` transforms all of them
+/// with the current poses of the map, so that after a loop closure the map is recomputed by fusing
+/// again.
 class UrbanMapper {
  public:
   /// Throws ArgumentError for options or a calibration out of range, models of other kinds or a
@@ -23,11 +31,17 @@ class UrbanMapper {
   UrbanMapper(const UrbanMapperOptions& options, const Calibration& calibration, SceneModel urban,
               SceneModel surfaces);
 
+  /// Checks options as the constructor does; `urban` has the classes.
+  static void check(const UrbanMapperOptions& options, const SceneModel& urban);
+
   /// Adds the images of a keyframe; replaces earlier data of this keyframe. `T_map_cam` is used
   /// only for the motion since the keyframe that was added last.
   void add(KeyframeId keyframe, const Frame& frame, const SE3& T_map_cam);
+  /// Adds the labelled points of a keyframe; replaces earlier ones.
   void add(KeyframeSemantics observation);
+  /// The keyframes that were added, in the order of their first addition.
   const std::vector<KeyframeSemantics>& observations() const { return observations_; }
+  /// Names of the classes of the map.
   const std::vector<std::string>& classes() const { return urban_.classes; }
 
   /// Computes the map with the poses of `map` (its first component and those joined to it).
@@ -58,8 +72,10 @@ void add_keyframes(UrbanMapper& mapper, const Map& map, const UrbanMapperOptions
                    const std::function<Frame(const Keyframe&)>& frame_of,
                    const std::function<void(std::size_t, std::size_t)>& progress = {});
 
-/// Observed classes of each place: shares of the map's classes among the points of its keyframes,
-/// in the order of `places`; empty where no keyframe was used.
+/// Observed classes of each place, in the order of `places`.
+///
+/// They are the shares of the map's classes among the points of its keyframes; empty where no
+/// keyframe was used.
 std::vector<std::vector<float>> class_shares(const UrbanMapper& mapper, const Map& map);
 
 }  // namespace placegraph

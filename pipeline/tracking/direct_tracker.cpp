@@ -1,5 +1,6 @@
 #include <placegraph/frontend/align/direct_motion.h>
 #include <placegraph/graph/text/log_message.h>
+#include <placegraph/pipeline/tracking/cue_list.h>
 #include <placegraph/pipeline/tracking/direct_tracker.h>
 
 #include <Eigen/Cholesky>

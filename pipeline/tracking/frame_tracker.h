@@ -1,6 +1,7 @@
 #pragma once
 #include <placegraph/frontend/features/rgbd_errors.h>
 #include <placegraph/graph/core/random.h>
+#include <placegraph/graph/scene/environment.h>
 #include <placegraph/pipeline/cues/frame_view.h>
 #include <placegraph/pipeline/local_map/keyframe_masks.h>
 #include <placegraph/pipeline/local_map/metric_scale.h>

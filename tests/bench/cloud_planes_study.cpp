@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <placegraph/eval/scene/plane_check.h>
 #include <placegraph/frontend/cloud_planes/cloud_planes.h>
+#include <placegraph/frontend/cloud_planes/planarity_model.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>

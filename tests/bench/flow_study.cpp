@@ -6,7 +6,6 @@
 #include <placegraph/eval/scene/flow_error.h>
 #include <placegraph/frontend/flow/flow_cues.h>
 #include <placegraph/frontend/flow/interpolation_flow.h>
-#include <placegraph/frontend/flow/lucas_kanade.h>
 #include <placegraph/frontend/flow/optical_flow.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/synthetic/worlds/synthetic_world.h>

@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 #include <placegraph/io/graphs/g2o.h>
-#include <placegraph/io/synthetic/graphs/false_loops.h>
 #include <placegraph/io/synthetic/graphs/graph_world.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 #include <sys/wait.h>

@@ -1,7 +1,6 @@
 // Models of scenes, learned from drawn streets.
 #include <gtest/gtest.h>
 #include <placegraph/frontend/labels/scene_training.h>
-#include <placegraph/frontend/labels/surface_classifier.h>
 #include <placegraph/frontend/labels/urban_labels.h>
 #include <placegraph/graph/core/error.h>
 
@@ -35,18 +34,20 @@ SceneModel street_model(SceneModel::Kind kind, int threads, const SceneModel* ba
   model.kind = kind;
   model.classes = {"sky", "ground", "vertical", "object"};
   model.surfaces = {Surface::kSky, Surface::kGround, Surface::kVertical, Surface::kObject};
-  std::vector<SceneExample> examples;
-  for (int i = 0; i < 6; ++i) {
-    const test::DrawnStreet street = test::draw_street(static_cast<std::uint64_t>(100 + i));
-    examples.push_back(make_example(street.bgr, street.labels, 4, i));
-  }
+  std::vector<SceneTrainingImage> images;
+  for (int i = 0; i < 6; ++i)
+    images.push_back({"street " + std::to_string(i), [i] {
+                        const test::DrawnStreet street =
+                            test::draw_street(static_cast<std::uint64_t>(100 + i));
+                        return std::pair(street.bgr, street.labels);
+                      }});
   SceneTrainingOptions options;
   options.forest.min_leaf = 4;
   options.forest.share_rows = 0.8;
   options.forest.trees = 6;
   options.forest.tries = 60;
-  return train_scene_model(
-      model, std::move(examples), options, threads, [](const std::string&) {}, base);
+  options.variants = 1;
+  return train_scene_model(model, images, options, threads, {}, base);
 }
 
 double share_right(const Image& labels, const Image& truth) {
@@ -58,12 +59,9 @@ TEST(SceneTraining, AModelOfDrawnStreetsLabelsOneItHasNotSeen) {
   ASSERT_FALSE(model.problem());
   const test::DrawnStreet street = test::draw_street(7);
   const SceneView view = view_scene(street.bgr);
-  const SurfaceLayout layout = classify_surfaces(model, view);
-  EXPECT_GT(share_right(layout.surfaces.labels, street.labels), 0.93);
-  EXPECT_EQ(cv::norm(layout.ground, layout.surfaces.labels == 1, cv::NORM_INF), 0);
+  EXPECT_GT(share_right(label_scene(model, street.bgr).labels, street.labels), 0.93);
   // Nothing is surer than 1.1: all of it is unknown.
-  EXPECT_EQ(cv::countNonZero(classify_surfaces(model, view, 1.1).surfaces.labels != kSurfaceCount),
-            0);
+  EXPECT_EQ(cv::countNonZero(label_scene(model, street.bgr, 1.1).labels != kSurfaceCount), 0);
 
   SceneModel urban = model;
   urban.kind = SceneModel::Kind::kUrban;
@@ -71,7 +69,9 @@ TEST(SceneTraining, AModelOfDrawnStreetsLabelsOneItHasNotSeen) {
   const SceneLabels classes = most_probable(joint.classes, 4, view);
   EXPECT_GT(share_right(classes.labels, street.labels), 0.93);
   EXPECT_THROW((void)label_urban(model, urban, view), ArgumentError);
-  EXPECT_THROW((void)classify_surfaces(urban, view), ArgumentError);
+  const StreetLabels scene = label_street_scene(urban, model, street.bgr);
+  EXPECT_EQ(cv::countNonZero(scene.classes.labels != classes.labels), 0);
+  EXPECT_THROW((void)label_street_scene(model, urban, street.bgr), ArgumentError);
 }
 
 TEST(SceneTraining, GivesTheSameModelForAnyNumberOfThreads) {

@@ -39,12 +39,12 @@ std::vector<std::int64_t> pixels_by_class(const Image& labels, std::size_t class
 /// Labels an image and writes its files; as pixels_by_class().
 std::vector<std::int64_t> label_image(const std::string& path, const SceneImageArguments& a,
                                       const std::vector<std::string>& classes,
-                                      const std::function<SceneLabels(const SceneView&)>& label) {
+                                      const std::function<SceneLabels(const Image&)>& label) {
   const GreyAndColour read = read_image(path);
   const Image image = read.colour.empty() ? read.grey : read.colour;
   SceneLabels found;
   try {
-    found = label(view_scene(image));
+    found = label(image);
   } catch (const ArgumentError& error) {
     throw FileError(path, error.what());
   }
@@ -130,7 +130,7 @@ SceneImageResult label_images(const SceneImageArguments& a, const std::vector<st
     parallel_for(static_cast<int>(count), a.threads, [&](int k) {
       const std::size_t at = begin + static_cast<std::size_t>(k);
       pixels[at] = label_image(images[at], a, classes,
-                               [&](const SceneView& view) { return label(at, view); });
+                               [&](const Image& picture) { return label(at, picture); });
     });
     progress.update(static_cast<std::int64_t>(begin + count));
   }

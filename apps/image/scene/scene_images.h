@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/labels/scene_labeller.h>
+#include <placegraph/frontend/labels/scene_labels.h>
 #include <placegraph/graph/image/image.h>
 
 #include <cstdint>
@@ -40,8 +40,8 @@ struct SceneImageResult {
 /// The image, or the images of the folder in natural order. Throws FileError.
 std::vector<std::string> image_paths_of(const std::string& input);
 
-/// Labels the image of a number, from 0 on.
-using ImageLabeller = std::function<SceneLabels(std::size_t image, const SceneView& view)>;
+/// Labels the image of a number, from 0 on; `picture` is in colour or grey.
+using ImageLabeller = std::function<SceneLabels(std::size_t image, const Image& picture)>;
 
 /// Labels one image or every image of a folder by `label`.
 /// Writes OUT/NAME.png, the image in the colours of its classes with a legend below, or their

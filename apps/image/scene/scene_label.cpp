@@ -1,7 +1,8 @@
 #include "apps/image/scene/scene_label.h"
 
-#include <placegraph/frontend/labels/urban_labels.h>
-#include <placegraph/frontend/scene/street_trust.h>
+#include <placegraph/frontend/labels/street_labels.h>
+
+#include <memory>
 
 #include "apps/image/scene/street_images.h"
 #include "apps/shipped/scene_models.h"
@@ -11,7 +12,8 @@ namespace placegraph::apps {
 
 SceneImageResult scene_label(const SceneImageArguments& a) {
   const SceneModel urban = load_scene_model(SceneModel::Kind::kUrban, a.model);
-  const SceneModel surfaces = load_scene_model(SceneModel::Kind::kSurfaces, a.surfaces_model);
+  const auto surfaces = std::make_shared<const SceneModel>(
+      load_scene_model(SceneModel::Kind::kSurfaces, a.surfaces_model));
   LabellerOptions options;
   options.relations = a.relations;
   const std::vector<std::string> images = image_paths_of(a.input);
@@ -22,9 +24,9 @@ SceneImageResult scene_label(const SceneImageArguments& a) {
     require_free_folder(a.out, a.force);
     street = street_probabilities(images, surfaces, a.surroundings == "sequence", a.threads);
   }
-  return label_images(a, urban.classes, [&](std::size_t image, const SceneView& view) {
-    return street_labels(label_urban(urban, surfaces, view, options).classes, urban.class_count(),
-                         view, street.at(image), a.unknown_below);
+  return label_images(a, urban.classes, [&](std::size_t image, const Image& picture) {
+    return label_street_scene(urban, *surfaces, picture, street.at(image), a.unknown_below, options)
+        .classes;
   });
 }
 

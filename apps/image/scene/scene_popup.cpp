@@ -1,7 +1,7 @@
 #include "apps/image/scene/scene_popup.h"
 
 #include <fmt/format.h>
-#include <placegraph/frontend/labels/surface_classifier.h>
+#include <placegraph/frontend/labels/scene_labels.h>
 #include <placegraph/frontend/scene/popup.h>
 #include <placegraph/frontend/segments/segment_detector.h>
 #include <placegraph/graph/core/error.h>
@@ -83,9 +83,7 @@ std::string mesh_of(const PopUp& popup, const GroundView& view, const Image& bgr
 
 Image surfaces_for(const ScenePopupArguments& a, const Image& image) {
   if (a.surfaces.empty())
-    return classify_surfaces(load_scene_model(SceneModel::Kind::kSurfaces, a.model),
-                             view_scene(image))
-        .surfaces.labels;
+    return label_scene(load_scene_model(SceneModel::Kind::kSurfaces, a.model), image).labels;
   const Image surfaces = read_image_as_stored(a.surfaces);
   if (surfaces.type() != CV_8UC1)
     throw FileError(a.surfaces, "no label image: one channel of 8 bits is needed");

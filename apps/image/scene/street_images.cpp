@@ -1,10 +1,9 @@
 #include "apps/image/scene/street_images.h"
 
-#include <placegraph/frontend/scene/street_trust.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/parallel.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/pipeline/cues/surface_labels.h>
+#include <placegraph/pipeline/environment.h>
 
 #include <algorithm>
 #include <opencv2/core/utility.hpp>
@@ -26,15 +25,15 @@ Camera usual_camera(const Image& image) {
   return camera;
 }
 
-EnvironmentProbabilities kinds_of(const std::string& path, const SceneModel& surfaces) {
+EnvironmentProbabilities kinds_of(const std::string& path,
+                                  const std::shared_ptr<const SceneModel>& surfaces) {
   const GreyAndColour image = read_image(path);
   try {
-    const SceneView view = view_scene(image.colour.empty() ? image.grey : image.colour);
-    EnvironmentEvidence evidence;
-    evidence.see(surface_shares(classify_superpixels(surfaces, view), view));
-    const auto [edges, camera] = edges_of(image.grey, usual_camera(image.grey));
-    evidence.see(edges, camera);
-    return built_in_environments().probabilities(evidence);
+    Frame frame;
+    frame.image = image.grey;
+    frame.colour = image.colour;
+    return built_in_environments().probabilities(
+        evidence_of_view(frame, usual_camera(image.grey), surfaces));
   } catch (const ArgumentError& error) {
     throw FileError(path, error.what());
   }
@@ -43,8 +42,8 @@ EnvironmentProbabilities kinds_of(const std::string& path, const SceneModel& sur
 }  // namespace
 
 std::vector<double> street_probabilities(const std::vector<std::string>& images,
-                                         const SceneModel& surfaces, bool in_sequence,
-                                         int threads) {
+                                         const std::shared_ptr<const SceneModel>& surfaces,
+                                         bool in_sequence, int threads) {
   constexpr std::size_t kFewest = 15, kLongest = 5;
   const std::size_t step =
       in_sequence ? std::clamp<std::size_t>(images.size() / kFewest, 1, kLongest) : 1;

@@ -1,6 +1,7 @@
 #pragma once
 #include <placegraph/graph/scene/scene_model.h>
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@ namespace placegraph::apps {
 /// evidence is that of up to every fifth image. `surfaces`: the installed model. Progress goes to
 /// stderr. Throws FileError for an image that cannot be read or is too small.
 std::vector<double> street_probabilities(const std::vector<std::string>& images,
-                                         const SceneModel& surfaces, bool in_sequence, int threads);
+                                         const std::shared_ptr<const SceneModel>& surfaces,
+                                         bool in_sequence, int threads);
 
 }  // namespace placegraph::apps

@@ -1,13 +1,14 @@
 #include "apps/map/queries/image_content.h"
 
-#include <placegraph/frontend/labels/urban_labels.h>
+#include <placegraph/frontend/labels/street_labels.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/scene/environment.h>
 #include <placegraph/io/datasets/open_dataset.h>
-#include <placegraph/pipeline/map_environment.h>
+#include <placegraph/pipeline/environment.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "apps/shipped/scene_models.h"
@@ -40,15 +41,14 @@ KeyframeId keyframe_near(const Map& map, FrameId frame) {
 /// Probability that the frame is in a street: as the run labelled its place, else by the images
 /// and points of the keyframes around it.
 double street_around(const StoredMap& stored, const Explanation& explanation,
-                     const Dataset& dataset, const SceneModel& surfaces) {
+                     const Dataset& dataset, const std::shared_ptr<const SceneModel>& surfaces) {
   const Place* place =
       explanation.posed ? stored.map.place_graph.find(*explanation.place) : nullptr;
   if (const auto kind = place ? environment_of(*place) : std::nullopt)
     return assumptions_of(*kind).street_surfaces ? 1 : 0;
-  const SurfaceLabeller labeller(std::make_shared<const SceneModel>(surfaces), {});
   return street_probability(environment_around(
       stored.map, keyframe_near(stored.map, explanation.frame),
-      dataset.calibration(stored.origin.sensor).camera, labeller, [&](const Keyframe& keyframe) {
+      dataset.calibration(stored.origin.sensor).camera, surfaces, [&](const Keyframe& keyframe) {
         return dataset.frame(static_cast<std::size_t>(keyframe.frame.value()),
                              stored.origin.sensor);
       }));
@@ -61,10 +61,12 @@ json image_content(const StoredMap& stored, const Explanation& explanation) {
   const std::string& sequence = stored.origin.sequence;
   if (sequence.empty() || !std::filesystem::exists(sequence))
     return {{"unknown", "the images are no longer at " + sequence}};
-  SceneModel urban, surfaces;
+  SceneModel urban;
+  std::shared_ptr<const SceneModel> surfaces;
   try {
     urban = load_scene_model(SceneModel::Kind::kUrban, "");
-    surfaces = load_scene_model(SceneModel::Kind::kSurfaces, "");
+    surfaces =
+        std::make_shared<const SceneModel>(load_scene_model(SceneModel::Kind::kSurfaces, ""));
   } catch (const FileError& error) {
     return {{"unknown", error.what()}};
   }
@@ -72,14 +74,12 @@ json image_content(const StoredMap& stored, const Explanation& explanation) {
   if (frame.value() >= static_cast<std::int64_t>(dataset->size()))
     return {{"unknown", sequence + " has " + std::to_string(dataset->size()) + " frames now"}};
   const Frame image = dataset->frame(static_cast<std::size_t>(frame.value()), stored.origin.sensor);
-  const SceneView view = view_scene(image.colour.empty() ? image.image : image.colour);
-  const UrbanLabels labels = label_urban(urban, surfaces, view);
   const double street = street_around(stored, explanation, *dataset, surfaces);
-  return {{"surfaces", shares_of(most_probable(labels.surfaces, surfaces.class_count(), view),
-                                 surfaces.classes)},
+  const StreetLabels labels = label_street_scene(
+      urban, *surfaces, image.colour.empty() ? image.image : image.colour, street);
+  return {{"surfaces", shares_of(labels.surfaces, surfaces->classes)},
           {"street", street},
-          {"classes", shares_of(street_labels(labels.classes, urban.class_count(), view, street),
-                                urban.classes)}};
+          {"classes", shares_of(labels.classes, urban.classes)}};
 }
 
 }  // namespace placegraph::apps

@@ -1,5 +1,6 @@
 #include <placegraph/frontend/places/classifiers/kernel_machine.h>
 #include <placegraph/frontend/places/classifiers/place_classifier.h>
+#include <placegraph/frontend/places/classifiers/platt_scaling.h>
 #include <placegraph/frontend/places/cues/colour_histogram.h>
 #include <placegraph/frontend/places/cues/gabor_statistics.h>
 #include <placegraph/frontend/places/cues/gradient_layout.h>
@@ -65,6 +66,17 @@ void check(const std::vector<PlaceCueVectors>& views, const std::vector<int>& la
 
 }  // namespace
 
+void PlaceClassifierOptions::check() const { check_ranges(*this); }
+
+void visit(OptionVisitor& field, PlaceClassifierOptions& o) {
+  field.choice("machine", o.machine, {"kernel", "svm", "adaboost"},
+               "machine that learns the places");
+  field("ridge", o.ridge, "value added to the diagonal of the kernel matrix", {1e-9, 1e3});
+  field("folds", o.folds, "number of parts of a visit, each left out of the training once",
+        {2, 20});
+  field("rounds", o.rounds, "number of stumps of one boosted machine", {1, 10000});
+}
+
 PlaceCueVectors describe_for_classes(const Image& image) {
   require(image.type() == CV_8UC1 || image.type() == CV_8UC3,
           "describe_for_classes: grey or BGR image needed");
@@ -81,13 +93,37 @@ PlaceCueVectors describe_for_classes(const Image& image) {
   return vectors;
 }
 
+struct PlaceClassifier::Trained {
+  std::vector<PlaceCueVectors> views;
+  PerCue weights = {}, median = {};
+  std::shared_ptr<const PlaceMachine> machine;
+  std::vector<PlattScaling> scaling;  // of each place
+  double accuracy = 0, log_loss = 0;
+
+  Eigen::VectorXd calibrated(const Eigen::VectorXd& outputs) const {
+    Eigen::VectorXd probabilities(outputs.size());
+    for (Eigen::Index i = 0; i < outputs.size(); ++i)
+      probabilities[i] = scaling[static_cast<std::size_t>(i)].probability(outputs[i]);
+    return probabilities / std::max(probabilities.sum(), 1e-300);
+  }
+};
+
+PlaceClassifier::PlaceClassifier(std::shared_ptr<const Trained> trained)
+    : trained_(std::move(trained)) {}
+
+const PerCue& PlaceClassifier::weights() const { return trained_->weights; }
+
+double PlaceClassifier::cross_validated_accuracy() const { return trained_->accuracy; }
+
+double PlaceClassifier::cross_validated_log_loss() const { return trained_->log_loss; }
+
 PlaceClassifier PlaceClassifier::train(std::vector<PlaceCueVectors> views,
                                        const std::vector<int>& labels,
                                        const PlaceClassifierOptions& options) {
   options.check();
   check(views, labels);
   const auto count = static_cast<Eigen::Index>(views.size());
-  PlaceClassifier result;
+  Trained result;
   PlaceTrainingSet training_set;
   training_set.labels = labels;
   training_set.places = *std::max_element(labels.begin(), labels.end()) + 1;
@@ -100,15 +136,15 @@ PlaceClassifier PlaceClassifier::train(std::vector<PlaceCueVectors> views,
       for (Eigen::Index i = 0; i < j; ++i)
         distances(i, j) = distances(j, i) = squared_distance(views[static_cast<std::size_t>(i)][m],
                                                              views[static_cast<std::size_t>(j)][m]);
-    result.median_[m] = median_above_diagonal(distances);
-    distances /= result.median_[m];
+    result.median[m] = median_above_diagonal(distances);
+    distances /= result.median[m];
   }
   TrainedPlaceMachine trained = train_place_machine(training_set, options);
-  result.weights_ = trained.weights;
-  result.machine_ = std::move(trained.machine);
+  result.weights = trained.weights;
+  result.machine = std::move(trained.machine);
   for (int place = 0; place < training_set.places; ++place)
-    result.scaling_.push_back(fit_platt_scaling(trained.left_out.col(place),
-                                                targets_of(training_set).col(place).array() > 0));
+    result.scaling.push_back(fit_platt_scaling(trained.left_out.col(place),
+                                               targets_of(training_set).col(place).array() > 0));
   int right = 0;
   for (Eigen::Index i = 0; i < count; ++i) {
     const Eigen::VectorXd probabilities = result.calibrated(trained.left_out.row(i));
@@ -116,34 +152,27 @@ PlaceClassifier PlaceClassifier::train(std::vector<PlaceCueVectors> views,
     probabilities.maxCoeff(&best);
     const int label = labels[static_cast<std::size_t>(i)];
     right += best == label;
-    result.log_loss_ -= std::log(std::max(probabilities[label], 1e-12));
+    result.log_loss -= std::log(std::max(probabilities[label], 1e-12));
   }
-  result.accuracy_ = static_cast<double>(right) / static_cast<double>(count);
-  result.log_loss_ /= static_cast<double>(count);
-  result.views_ = std::move(views);
-  return result;
-}
-
-Eigen::VectorXd PlaceClassifier::calibrated(const Eigen::VectorXd& outputs) const {
-  Eigen::VectorXd probabilities(outputs.size());
-  for (Eigen::Index i = 0; i < outputs.size(); ++i)
-    probabilities[i] = scaling_[static_cast<std::size_t>(i)].probability(outputs[i]);
-  return probabilities / std::max(probabilities.sum(), 1e-300);
+  result.accuracy = static_cast<double>(right) / static_cast<double>(count);
+  result.log_loss /= static_cast<double>(count);
+  result.views = std::move(views);
+  return PlaceClassifier(std::make_shared<const Trained>(std::move(result)));
 }
 
 Eigen::VectorXd PlaceClassifier::classify(const PlaceCueVectors& view) const {
   std::array<Eigen::VectorXd, kClassifierCues> distances;
   for (std::size_t m = 0; m < distances.size(); ++m) {
-    if (weights_[m] == 0) continue;
-    distances[m].resize(static_cast<Eigen::Index>(views_.size()));
-    for (std::size_t i = 0; i < views_.size(); ++i) {
-      require(view[m].size() == views_[i][m].size(),
+    if (trained_->weights[m] == 0) continue;
+    distances[m].resize(static_cast<Eigen::Index>(trained_->views.size()));
+    for (std::size_t i = 0; i < trained_->views.size(); ++i) {
+      require(view[m].size() == trained_->views[i][m].size(),
               "PlaceClassifier: the image has another shape, or is grey and not in colour");
       distances[m][static_cast<Eigen::Index>(i)] =
-          squared_distance(view[m], views_[i][m]) / median_[m];
+          squared_distance(view[m], trained_->views[i][m]) / trained_->median[m];
     }
   }
-  return calibrated(machine_->outputs(distances));
+  return trained_->calibrated(trained_->machine->outputs(distances));
 }
 
 double entropy_share(const Eigen::VectorXd& probabilities) {

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/graph/core/options.h>
+#include <placegraph/frontend/places/classifiers/place_classifier.h>
 
 #include <Eigen/Core>
 #include <array>
@@ -7,30 +7,6 @@
 #include <vector>
 
 namespace placegraph {
-
-constexpr int kClassifierCues = 5;
-/// One number per cue: a weight, or the squared distance between two views.
-using PerCue = std::array<double, kClassifierCues>;
-
-/// Kinds of machines that learn the places.
-///
-/// The kernel machine is the default. The two of OpenCV serve for comparison: on the same views and
-/// cues of vtm_virtual_house they classify 0.994 and 0.955 of the places correctly, the kernel
-/// machine 0.994 (`placegraph places classify --classifier KIND`).
-enum class PlaceMachineKind {
-  kKernel,    ///< least-squares support vector machines over one kernel of all cues
-  kSvm,       ///< support vector machines over the same kernel (OpenCV)
-  kAdaboost,  ///< boosted stumps over the outputs of one machine per cue (OpenCV)
-};
-
-struct PlaceClassifierOptions {
-  PlaceMachineKind machine = PlaceMachineKind::kKernel;
-  double ridge = 0.01;  ///< value added to the diagonal of the kernel matrix
-  int folds = 4;        ///< number of parts of every visit to a place, each left out once
-  int rounds = 60;      ///< number of stumps of one boosted machine
-  void check() const;
-};
-void visit(OptionVisitor& field, PlaceClassifierOptions& options);
 
 /// Labelled views, represented by the distances between them.
 struct PlaceTrainingSet {

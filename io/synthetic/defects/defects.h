@@ -6,9 +6,32 @@
 #include <string>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// Ways in which real recordings differ from their files. With every number 0 a world is exact.
+namespace synthetic {
+
+struct SensorModel;
+
+/// Difficulty of the images.
+///
+/// The numbers of a level are frozen, because results are quoted by level.
+enum class Difficulty {
+  kClean,     ///< neither noise nor blur, and no traffic
+  kStandard,  ///< those of an ordinary camera and drive
+  kHard       ///< much noise, low contrast, long exposures and dense traffic
+};
+/// The level of a name: clean, standard or hard. Throws ArgumentError for others.
+Difficulty difficulty_from(const std::string& name);
+/// The name of a level.
+const char* to_string(Difficulty difficulty);
+/// The camera of a level.
+SensorModel sensor_model(Difficulty difficulty);
+
+}  // namespace synthetic
+
+/// Ways in which real recordings differ from their files.
+///
+/// With every number 0 a world is exact.
 struct SyntheticDefects {
   double calibration_error = 0;   ///< written minus true calibration, sigma as a share
   double time_jitter_s = 0;       ///< true minus written time of an image, sigma
@@ -36,9 +59,11 @@ std::string defect_list(const SyntheticDefects& defects);
 
 namespace synthetic {
 
-/// What a calibration with relative errors of sigma `error` says: the focal length, the baseline
-/// and the camera height are multiplied by 1 + N(0, error), each coordinate of the principal point
-/// is shifted by N(0, error * fx). The depth camera has errors of its own.
+/// What a calibration with relative errors of sigma `error` says.
+///
+/// The focal length, the baseline and the camera height are multiplied by 1 + N(0, error), each
+/// coordinate of the principal point is shifted by N(0, error * fx). The depth camera has errors of
+/// its own.
 Calibration miscalibrated(Calibration calibration, double error, std::uint64_t seed);
 
 }  // namespace synthetic

@@ -1,4 +1,3 @@
-#include <placegraph/graph/core/error.h>
 #include <placegraph/io/synthetic/render/hash_noise.h>
 #include <placegraph/io/synthetic/render/sensor_model.h>
 
@@ -36,30 +35,6 @@ float blurred(const Image& image, int u, int v, float du, float dv) {
 }
 
 }  // namespace
-
-Difficulty difficulty_from(const std::string& name) {
-  for (const Difficulty d : {Difficulty::kClean, Difficulty::kStandard, Difficulty::kHard}) {
-    if (name == to_string(d)) return d;
-  }
-  throw ArgumentError("difficulty: '" + name + "' is none of clean, standard, hard");
-}
-
-const char* to_string(Difficulty difficulty) {
-  static constexpr const char* kNames[] = {"clean", "standard", "hard"};
-  return kNames[static_cast<int>(difficulty)];
-}
-
-SensorModel sensor_model(Difficulty difficulty) {
-  switch (difficulty) {
-    case Difficulty::kClean:
-      return {};
-    case Difficulty::kStandard:
-      return {.noise_grey = 2, .exposure = 0.05, .shutter_s = 0.006, .contrast = 1, .traffic = 6};
-    case Difficulty::kHard:
-      break;
-  }
-  return {.noise_grey = 5, .exposure = 0.20, .shutter_s = 0.012, .contrast = 0.6, .traffic = 14};
-}
 
 std::vector<AffineMap> point_velocities(const Scene& scene, const View& view,
                                         const Eigen::Vector3d& velocity_cam,

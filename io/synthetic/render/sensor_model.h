@@ -3,12 +3,7 @@
 
 namespace placegraph::synthetic {
 
-/// Difficulty of the images. The numbers in sensor_model.cpp are frozen, because results are quoted
-/// by level.
-enum class Difficulty { kClean, kStandard, kHard };
-Difficulty difficulty_from(const std::string& name);  ///< throws ArgumentError naming the choices
-const char* to_string(Difficulty difficulty);
-
+/// How a camera degrades its images.
 struct SensorModel {
   double noise_grey = 0;  ///< sigma of white noise [grey levels of 255]
   double exposure = 0;    ///< the gain drifts within 1 +- this
@@ -16,7 +11,6 @@ struct SensorModel {
   double contrast = 1;    ///< contrast of all textures
   double traffic = 0;     ///< approximate number of moving cars per minute of driving
 };
-SensorModel sensor_model(Difficulty difficulty);
 
 /// Velocity of the visible points in the camera frame: dp/dt = maps[object + 1] applied to p.
 std::vector<AffineMap> point_velocities(const Scene& scene, const View& view,

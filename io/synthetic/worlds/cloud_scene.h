@@ -5,7 +5,8 @@
 
 #include <vector>
 
-namespace placegraph::synthetic {
+namespace [[gnu::visibility("default")]] placegraph {
+namespace synthetic {
 
 /// Solids that a ray may hit, each a unit solid in its own frame before scaling.
 enum class SolidKind {
@@ -15,6 +16,7 @@ enum class SolidKind {
   kCylinder,  ///< x^2 + y^2 <= 1, |z| <= 1: its two ends are planes
 };
 
+/// A solid of a scene.
 struct Solid {
   SolidKind kind = SolidKind::kBox;
   SE3 T_sensor_solid;
@@ -45,9 +47,12 @@ struct LabelledCloud {
 LabelledCloud take_cloud(const std::vector<Solid>& solids, const CloudSensor& sensor,
                          Random& random);
 
-/// A random scene: a room or an open space, 0.3 to 60 m, with boxes, cylinders, ellipsoids and
-/// heaps of small ones, taken by a depth camera or a scanner with some kind of noise; partly
-/// through leaves, or moved away from its viewpoint and mixed with points that fill a volume.
+/// The cloud of a random scene.
+///
+/// A room or an open space, 0.3 to 60 m, with boxes, cylinders, ellipsoids and heaps of small ones,
+/// taken by a depth camera or a scanner with some kind of noise; partly through leaves, or moved
+/// away from its viewpoint and mixed with points that fill a volume.
 LabelledCloud random_cloud(Random& random);
 
-}  // namespace placegraph::synthetic
+}  // namespace synthetic
+}  // namespace placegraph

@@ -1,5 +1,6 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>
+#include <placegraph/graph/scene/labelled_mesh.h>
 #include <placegraph/io/synthetic/defects/camera_motion.h>
 #include <placegraph/io/synthetic/render/depth_sensor.h>
 #include <placegraph/io/synthetic/render/hash_noise.h>
@@ -104,8 +105,9 @@ const std::vector<std::string>& SyntheticWorld::worlds() {
 
 SyntheticWorld::SyntheticWorld(const SyntheticOptions& options) : options_(options) {
   options_.check();
-  sensor_ = synthetic::sensor_model(options_.difficulty);
-  if (options_.defects.shutter_s > 0) sensor_.shutter_s = options_.defects.shutter_s;
+  synthetic::SensorModel sensor = synthetic::sensor_model(options_.difficulty);
+  if (options_.defects.shutter_s > 0) sensor.shutter_s = options_.defects.shutter_s;
+  sensor_ = std::make_unique<const synthetic::SensorModel>(sensor);
   Tour tour = make_tour(options_);
   if (options_.width > 0) resize(tour.camera, options_.width, options_.height);
   tour_ = std::make_unique<const Tour>(std::move(tour));
@@ -161,7 +163,7 @@ View SyntheticWorld::view(std::size_t index, bool right, double delay_s) const {
 }
 
 synthetic::Rendering SyntheticWorld::see(std::size_t index, bool right) const {
-  const auto contrast = static_cast<float>(sensor_.contrast);
+  const auto contrast = static_cast<float>(sensor_->contrast);
   const double readout_s = options_.defects.rolling_shutter_s;
   if (readout_s == 0)
     return synthetic::render(tour_->scene, view(index, right), contrast, false, options_.threads);
@@ -192,7 +194,7 @@ Image SyntheticWorld::expose(std::size_t index, bool right,
         (2 * dt);
   }
   const auto velocities = synthetic::point_velocities(tour_->scene, at, velocity, angular_velocity);
-  return synthetic::expose(rendering, at, velocities, sensor_, frame_seed(index, right ? 1 : 0),
+  return synthetic::expose(rendering, at, velocities, *sensor_, frame_seed(index, right ? 1 : 0),
                            static_cast<std::uint32_t>(options_.seed) + 99U);
 }
 
@@ -225,7 +227,7 @@ SyntheticFrame SyntheticWorld::render(std::size_t index, const SyntheticContents
   const bool maps = contents.labels || contents.planes;
   synthetic::Rendering rendering;  // all rows at one time
   if (!rolling || maps || contents.depth || contents.flow)
-    rendering = synthetic::render(tour_->scene, left, static_cast<float>(sensor_.contrast), maps,
+    rendering = synthetic::render(tour_->scene, left, static_cast<float>(sensor_->contrast), maps,
                                   options_.threads);
   SyntheticFrame out;
   out.frame.id = FrameId(index);
@@ -239,6 +241,17 @@ SyntheticFrame SyntheticWorld::render(std::size_t index, const SyntheticContents
   if (contents.flow && index + 1 < size())
     out.flow = synthetic::flow_image(tour_->scene, rendering, left, view(index + 1, false));
   return out;
+}
+
+Frame SyntheticWorld::view_from(const SE3& T_plan_cam) const {
+  const Eigen::Vector3d origin = tour_->T_scene_cam.front().translation();
+  const View view{tour_->camera, SE3(T_plan_cam.rotation(), origin + T_plan_cam.translation()), 0};
+  const synthetic::Rendering rendering =
+      synthetic::render(tour_->scene, view, 1, false, options_.threads);
+  Frame frame;
+  frame.depth = synthetic::depth_image(rendering);
+  rendering.grey.convertTo(frame.image, CV_8UC1, 255);
+  return frame;
 }
 
 std::vector<std::string> SyntheticWorld::class_names() {

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/io/synthetic/writers/sequence_writer.h>
+#include <placegraph/io/synthetic/writers/world_writer.h>
 
 namespace placegraph {
 

@@ -1,16 +1,10 @@
 #pragma once
-#include <placegraph/io/synthetic/worlds/synthetic_world.h>
+#include <placegraph/io/synthetic/writers/world_writer.h>
 
 #include <functional>
 #include <string>
 
 namespace placegraph {
-
-struct SequenceWriterOptions {
-  SyntheticContents contents;
-  int threads = 1;     ///< frames rendered and written at the same time
-  bool force = false;  ///< write into a folder that is not empty, replacing a sequence there
-};
 
 /// Writes a whole sequence in KITTI's layout: image_0/%06d.png, image_1, depth_0 (16-bit; its unit
 /// and camera in calib_depth.txt), labels_0, planes_0 (with planes.txt), flow_0 (KITTI's 16-bit

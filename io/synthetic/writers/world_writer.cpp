@@ -1,5 +1,6 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/synthetic/writers/flight_writer.h>
+#include <placegraph/io/synthetic/writers/sequence_writer.h>
 #include <placegraph/io/synthetic/writers/world_writer.h>
 
 namespace placegraph {

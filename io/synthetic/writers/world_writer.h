@@ -1,10 +1,22 @@
 #pragma once
-#include <placegraph/io/synthetic/writers/sequence_writer.h>
+#include <placegraph/io/synthetic/worlds/synthetic_world.h>
 
-namespace placegraph {
+#include <cstddef>
+#include <functional>
+#include <string>
 
-/// What a sequence of a world holds unless something else is asked for: images of two cameras
-/// outdoors, of one with depth indoors.
+namespace [[gnu::visibility("default")]] placegraph {
+
+/// How a rendered sequence is written.
+struct SequenceWriterOptions {
+  SyntheticContents contents;  ///< files beside the left images
+  int threads = 1;             ///< frames rendered and written at the same time
+  bool force = false;  ///< write into a folder that is not empty, replacing a sequence there
+};
+
+/// What a sequence of a world holds unless something else is asked for.
+///
+/// Images of two cameras outdoors, of one with depth indoors.
 SyntheticContents usual_contents(const SyntheticWorld& world);
 
 /// Writes a whole sequence: a flight in EuRoC's layout, of any other world in KITTI's.

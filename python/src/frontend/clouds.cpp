@@ -1,6 +1,7 @@
 #include <placegraph/frontend/cloud_planes/cloud_planes.h>
 #include <placegraph/frontend/cloud_planes/cuboids.h>
 #include <placegraph/frontend/cloud_planes/depth_planes.h>
+#include <placegraph/frontend/cloud_planes/planarity_model.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/measurements/point_cloud_file.h>
 

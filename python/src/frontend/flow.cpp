@@ -1,9 +1,6 @@
 #include <fmt/format.h>
 #include <placegraph/eval/scene/flow_error.h>
 #include <placegraph/frontend/flow/corners.h>
-#include <placegraph/frontend/flow/interpolation_flow.h>
-#include <placegraph/frontend/flow/key_pixel_flow.h>
-#include <placegraph/frontend/flow/lucas_kanade.h>
 #include <placegraph/frontend/flow/optical_flow.h>
 #include <placegraph/graph/core/error.h>
 

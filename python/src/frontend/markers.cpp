@@ -1,5 +1,4 @@
 #include <placegraph/frontend/markers/marker_detector.h>
-#include <placegraph/frontend/markers/marker_dictionary.h>
 #include <placegraph/frontend/markers/marker_pose.h>
 #include <placegraph/graph/core/error.h>
 

@@ -1,5 +1,4 @@
 #include <placegraph/frontend/places/place_recognizer.h>
-#include <placegraph/frontend/places/place_view.h>
 #include <placegraph/frontend/places/sequence_filter.h>
 #include <placegraph/graph/core/error.h>
 
@@ -63,7 +62,7 @@ class SharedRecognizer {
     if (!a) a = described(image_a, true);
     if (!b) b = described(image_b, false);
     const PlaceCueOptions& cues = recognizer_.options().cues;
-    return grid_similarity(*a, *b, cues).sum() + corner_similarity(*a, *b, cues);
+    return place_similarity(*a, *b, cues);
   }
 
   PlaceView view(int index) {

@@ -1,6 +1,5 @@
 #include <placegraph/frontend/features/wide_matcher.h>
-#include <placegraph/frontend/labels/surface_classifier.h>
-#include <placegraph/frontend/labels/urban_labels.h>
+#include <placegraph/frontend/labels/street_labels.h>
 #include <placegraph/frontend/scene/horizon.h>
 #include <placegraph/frontend/scene/orientation_map.h>
 #include <placegraph/frontend/segments/segment_detector.h>
@@ -112,7 +111,7 @@ LabelledImage classified(const SceneModel& model, const PictureArgument& image,
   require_share(unknown_below, "unknown_below");
   const Image picture = image.get("image");
   const nb::gil_scoped_release release;
-  return {classify_surfaces(model, view_scene(picture), unknown_below).surfaces, model.classes};
+  return {label_scene(model, picture, unknown_below), model.classes};
 }
 
 LabelledImage labelled(const SceneModel& urban, const SceneModel& surfaces,
@@ -122,9 +121,7 @@ LabelledImage labelled(const SceneModel& urban, const SceneModel& surfaces,
   require_share(unknown_below, "unknown_below");
   const Image picture = image.get("image");
   const nb::gil_scoped_release release;
-  const SceneView view = view_scene(picture);
-  const UrbanLabels found = label_urban(urban, surfaces, view);
-  return {most_probable(found.classes, urban.class_count(), view, unknown_below), urban.classes};
+  return {label_street_scene(urban, surfaces, picture, 1, unknown_below).classes, urban.classes};
 }
 
 /// Matched points of two images as columns.

@@ -1,6 +1,7 @@
 // Boxes and rooms of generated scenes, as a depth camera sees them.
 #include <gtest/gtest.h>
 #include <placegraph/frontend/cloud_planes/cuboids.h>
+#include <placegraph/frontend/cloud_planes/planarity_model.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/io/synthetic/worlds/cloud_scene.h>
 

@@ -1,8 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/relative_pose/circular_motion.h>
 #include <placegraph/frontend/relative_pose/epipolar_error.h>
-#include <placegraph/frontend/relative_pose/pose_3d3d.h>
-#include <placegraph/frontend/relative_pose/pose_gravity.h>
 #include <placegraph/frontend/relative_pose/relative_pose.h>
 #include <placegraph/graph/core/angle.h>
 

@@ -15,11 +15,8 @@
 #include <placegraph/frontend/planes/dominant_surface.h>
 #include <placegraph/frontend/planes/ground_plane.h>
 #include <placegraph/frontend/planes/motion_from_planes.h>
-#include <placegraph/frontend/relative_pose/circular_motion.h>
 #include <placegraph/frontend/relative_pose/mono_initializer.h>
 #include <placegraph/frontend/relative_pose/pose_3d2d.h>
-#include <placegraph/frontend/relative_pose/pose_3d3d.h>
-#include <placegraph/frontend/relative_pose/pose_gravity.h>
 #include <placegraph/frontend/relative_pose/relative_pose.h>
 #include <placegraph/frontend/segments/segment_detector.h>
 #include <placegraph/frontend/segments/segment_matcher.h>

@@ -23,13 +23,6 @@ class SceneTrainingSet : public testing::Test {
     model.surfaces = {Surface::kVertical, Surface::kGround, Surface::kSky};
     options.threads = 1;
   }
-  std::vector<int> blocks() const {
-    std::vector<int> blocks;
-    for (const SceneExample& example :
-         make_examples(training_images(set, set.train, model, options), model, options))
-      blocks.push_back(example.block);
-    return blocks;
-  }
   test::TemporaryFolder folder;
   LabelledSet set;
   SceneModel model;
@@ -65,20 +58,10 @@ TEST_F(SceneTrainingSet, RenderedStreetsFollowThePhotographs) {
     }
 }
 
-TEST_F(SceneTrainingSet, ABlockIsSoManyPicturesOfOneDrive) {
-  options.training.variants = 1;
-  options.training.block = 2;
-  EXPECT_EQ(blocks(), (std::vector<int>{0, 0, 1, 2, 2}));
-  options.training.block = 9;
-  options.training.variants = 2;
-  EXPECT_EQ(blocks(), (std::vector<int>{0, 0, 0, 1, 1, 0, 0, 0, 1, 1}));
-}
-
 TEST_F(SceneTrainingSet, NamesTheFileThatCannotBeRead) {
   folder.write("set/train/images/one_2.png", "no image");
   const auto training_set = training_images(set, set.train, model, options);
-  EXPECT_THAT(message_of([&] { make_examples(training_set, model, options); }),
-              HasSubstr("one_2.png"));
+  EXPECT_THAT(message_of([&] { training_set[1].read(); }), HasSubstr("one_2.png"));
 }
 
 }  // namespace training_images_test

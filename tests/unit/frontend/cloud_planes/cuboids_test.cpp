@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/frontend/cloud_planes/cuboids.h>
+#include <placegraph/frontend/cloud_planes/planarity_model.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

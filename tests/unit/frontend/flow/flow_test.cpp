@@ -2,8 +2,6 @@
 #include <placegraph/frontend/flow/flow_vector.h>
 #include <placegraph/frontend/flow/horn_schunck.h>
 #include <placegraph/frontend/flow/interpolation_flow.h>
-#include <placegraph/frontend/flow/key_pixel_flow.h>
-#include <placegraph/frontend/flow/lucas_kanade.h>
 #include <placegraph/frontend/flow/optical_flow.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>

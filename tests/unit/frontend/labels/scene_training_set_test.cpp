@@ -105,5 +105,28 @@ TEST(SceneTrainingSet, ContextIsWhatTheFirstForestSaysAround) {
   }
 }
 
+std::vector<int> blocks_of_drives(const SceneTrainingOptions& options) {
+  std::vector<SceneTrainingImage> images;
+  for (const char* drive : {"one", "one", "one", "two", "two"})
+    images.push_back({drive, [] {
+                        return std::pair(Image(48, 64, CV_8UC3, cv::Scalar(90, 60, 30)),
+                                         Image(48, 64, CV_8UC1, cv::Scalar(0)));
+                      }});
+  std::vector<int> blocks;
+  for (const SceneExample& made : make_examples(images, kClasses, options, 1))
+    blocks.push_back(made.block);
+  return blocks;
+}
+
+TEST(SceneTrainingSet, ABlockIsSoManyPicturesOfOneDrive) {
+  SceneTrainingOptions options;
+  options.variants = 1;
+  options.block = 2;
+  EXPECT_EQ(blocks_of_drives(options), (std::vector<int>{0, 0, 1, 2, 2}));
+  options.block = 9;
+  options.variants = 2;
+  EXPECT_EQ(blocks_of_drives(options), (std::vector<int>{0, 0, 0, 1, 1, 0, 0, 0, 1, 1}));
+}
+
 }  // namespace scene_training_set_test
 }  // namespace placegraph

@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 #include <placegraph/frontend/labels/model_growth.h>
-#include <placegraph/frontend/labels/surface_classifier.h>
 #include <placegraph/frontend/labels/urban_labels.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>
@@ -113,20 +112,19 @@ TEST(JoinUrban, MultipliesByTheLikelihoodOfEachClass) {
   EXPECT_THROW((void)join_urban(urban, alone, view, logs), ArgumentError);
 }
 
-TEST(ClassifySurfaces, LabelsPixelsAtTheSizeOfTheImage) {
-  const SurfaceLayout layout = classify_surfaces(surface_model(), two_halves(), 0.5);
-  ASSERT_EQ(layout.surfaces.labels.size(), cv::Size(16, 8));
+TEST(MostProbable, LabelsPixelsAtTheSizeOfTheImage) {
+  const SceneLabels surfaces = most_probable(classify_superpixels(surface_model(), two_halves()),
+                                             kSurfaceCount, two_halves(), 0.5);
+  ASSERT_EQ(surfaces.labels.size(), cv::Size(16, 8));
   for (int v = 0; v < 8; ++v)
     for (int u = 0; u < 16; ++u) {
       // On the left the best share is 2 / 5, less than a half.
-      EXPECT_EQ(layout.surfaces.labels.at<std::uint8_t>(v, u), u < 8 ? kSurfaceCount : 1);
-      EXPECT_NEAR(layout.surfaces.confidence.at<float>(v, u), u < 8 ? 0.4 : 0.8, 2e-3);
-      EXPECT_EQ(layout.ground.at<std::uint8_t>(v, u), u < 8 ? 0 : 255);
+      EXPECT_EQ(surfaces.labels.at<std::uint8_t>(v, u), u < 8 ? kSurfaceCount : 1);
+      EXPECT_NEAR(surfaces.confidence.at<float>(v, u), u < 8 ? 0.4 : 0.8, 2e-3);
     }
-  EXPECT_THROW((void)classify_surfaces(urban_model(), two_halves()), ArgumentError);
   SceneView other = two_halves();
   other.features = {2, 5, std::vector<std::uint8_t>(10)};
-  EXPECT_THROW((void)classify_surfaces(surface_model(), other), ArgumentError);
+  EXPECT_THROW((void)classify_superpixels(surface_model(), other), ArgumentError);
 }
 
 TEST(Sharpen, RaisesRatiosToThePower) {

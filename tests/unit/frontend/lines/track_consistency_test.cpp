@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <placegraph/frontend/lines/line_triangulation.h>
 #include <placegraph/frontend/lines/track_consistency.h>
 
 namespace placegraph {
@@ -21,10 +22,20 @@ LineMeasurement upright(double x, int frame) {
   return s;
 }
 
+TrackConsistency judge(const std::vector<LineMeasurement>& track) {
+  std::vector<SE3> T_ref_cam;
+  std::vector<ImageLine::Carriers> seen;
+  for (const LineMeasurement& s : track) {
+    T_ref_cam.push_back(s.T_ref_cam);
+    seen.push_back(s.seen);
+  }
+  return judge_line_track(camera(), T_ref_cam, seen);
+}
+
 TEST(TrackConsistency, ATrackOfOneLineHasNoWrongObservation) {
   std::vector<LineMeasurement> track;
   for (int k = 0; k < 20; ++k) track.push_back(upright(0.3, k));
-  const TrackConsistency judged = judge_line_track(camera(), track);
+  const TrackConsistency judged = judge(track);
   EXPECT_TRUE(judged.judged);
   EXPECT_EQ(judged.wrong(), 0);
 }
@@ -32,7 +43,7 @@ TEST(TrackConsistency, ATrackOfOneLineHasNoWrongObservation) {
 TEST(TrackConsistency, ObservationsAfterAJumpToAnotherEdgeAreWrong) {
   std::vector<LineMeasurement> track;
   for (int k = 0; k < 20; ++k) track.push_back(upright(k < 13 ? 0.3 : 1.1, k));
-  const TrackConsistency judged = judge_line_track(camera(), track);
+  const TrackConsistency judged = judge(track);
   EXPECT_TRUE(judged.judged);
   EXPECT_EQ(judged.wrong(), 7);
   EXPECT_TRUE(judged.of_one[12]);
@@ -41,13 +52,13 @@ TEST(TrackConsistency, ObservationsAfterAJumpToAnotherEdgeAreWrong) {
 
 TEST(TrackConsistency, ACameraThatDoesNotMoveTellsNothing) {
   std::vector<LineMeasurement> track(5, upright(0.3, 0));
-  const TrackConsistency judged = judge_line_track(camera(), track);
+  const TrackConsistency judged = judge(track);
   EXPECT_FALSE(judged.judged);
   EXPECT_EQ(judged.wrong(), 0);
 }
 
 TEST(TrackConsistency, TwoObservationsAlwaysAgree) {
-  EXPECT_FALSE(judge_line_track(camera(), {upright(0.3, 0), upright(0.9, 1)}).judged);
+  EXPECT_FALSE(judge({upright(0.3, 0), upright(0.9, 1)}).judged);
 }
 
 }  // namespace track_consistency_test

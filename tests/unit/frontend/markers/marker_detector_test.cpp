@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/frontend/markers/marker_detector.h>
+#include <placegraph/frontend/markers/square_fit.h>
 #include <placegraph/graph/core/error.h>
 
 #include "tests/support/message_of.h"

@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 #include <placegraph/frontend/places/code_database.h>
+#include <placegraph/frontend/places/cues/corner_agreement.h>
 #include <placegraph/frontend/places/dense_index.h>
 #include <placegraph/frontend/places/float_vocabulary.h>
 #include <placegraph/frontend/places/inverted_index.h>
+#include <placegraph/frontend/places/landmarks.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>
 

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/places/recognition_probability.h>
+#include <placegraph/frontend/places/verification/recognition_probability.h>
 #include <placegraph/graph/core/error.h>
 
 #include <cmath>

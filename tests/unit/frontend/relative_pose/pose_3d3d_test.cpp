@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/relative_pose/pose_3d3d.h>
+#include <placegraph/frontend/relative_pose/relative_pose.h>
 #include <placegraph/graph/core/error.h>
 
 #include <Eigen/Cholesky>

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/relative_pose/pose_gravity.h>
+#include <placegraph/frontend/relative_pose/relative_pose.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 

@@ -1,7 +1,10 @@
 #include <gtest/gtest.h>
 #include <placegraph/frontend/scene/environment.h>
+#include <placegraph/frontend/scene/scene_masks.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>
+#include <placegraph/graph/geometry/camera.h>
+#include <placegraph/graph/geometry/line_segment.h>
 
 #include <cmath>
 

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/scene/street_trust.h>
+#include <placegraph/frontend/labels/urban_labels.h>
+#include <placegraph/frontend/scene/environment.h>
 #include <placegraph/graph/core/error.h>
 
 #include <numeric>

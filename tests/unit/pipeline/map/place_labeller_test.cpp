@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <placegraph/frontend/places/classifiers/place_classifier.h>
 #include <placegraph/graph/core/random.h>
 #include <placegraph/pipeline/map/place_labeller.h>
 

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/pipeline/map/map_floor_plan.h>
 #include <placegraph/pipeline/scene/floor_plan.h>
 #include <placegraph/pipeline/scene/indoor_mapper.h>
 

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/pipeline/scene/map_keyframes.h>
 #include <placegraph/pipeline/scene/urban_mapper.h>
 
 #include <numbers>

@@ -20,11 +20,11 @@ using testing::HasSubstr;
 
 /// The left half is of the first class, of the right half a quarter unknown and the rest of the
 /// second; all a fifth certain.
-SceneLabels by_columns(std::size_t, const SceneView& view) {
-  SceneLabels found{Image(view.rows, view.cols, CV_8UC1, cv::Scalar(0)),
-                    Image(view.rows, view.cols, CV_32FC1, cv::Scalar(0.2))};
-  found.labels.colRange(view.cols / 2, view.cols).setTo(1);
-  found.labels.colRange(view.cols * 7 / 8, view.cols).setTo(2);
+SceneLabels by_columns(std::size_t, const Image& picture) {
+  SceneLabels found{Image(picture.rows, picture.cols, CV_8UC1, cv::Scalar(0)),
+                    Image(picture.rows, picture.cols, CV_32FC1, cv::Scalar(0.2))};
+  found.labels.colRange(picture.cols / 2, picture.cols).setTo(1);
+  found.labels.colRange(picture.cols * 7 / 8, picture.cols).setTo(2);
   return found;
 }
 

@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/synthetic/graphs/false_loops.h>
 #include <placegraph/io/synthetic/graphs/graph_world.h>
 
 #include <algorithm>

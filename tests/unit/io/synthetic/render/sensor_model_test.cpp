@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/io/synthetic/defects/defects.h>
 #include <placegraph/io/synthetic/render/sensor_model.h>
 
 #include <opencv2/core.hpp>

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/places/recognition_probability.h>
+#include <placegraph/frontend/places/verification/recognition_probability.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

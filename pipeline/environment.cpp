@@ -1,8 +1,11 @@
+#include <placegraph/frontend/flow/point_tracker.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/map_environment.h>
+#include <placegraph/pipeline/cues/surface_labels.h>
+#include <placegraph/pipeline/environment.h>
 #include <placegraph/pipeline/slam/environment_monitor.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace placegraph {
 namespace {
@@ -16,14 +19,44 @@ std::vector<Eigen::Vector3d> points_of(const Keyframe& keyframe) {
   return points_cam;
 }
 
+/// Positions of the corners of an image in the camera frame, like the points of a run.
+std::vector<Eigen::Vector3d> corner_points(const Frame& frame, const Camera& camera) {
+  constexpr float kFarthest_m = 150;  // largest depth with a measurable parallax
+  PointTracker tracker{PointTrackerOptions{}};
+  tracker.track(frame.image);
+  tracker.detect();
+  std::vector<Eigen::Vector3d> points;
+  for (const PointTrack& track : tracker.tracks()) {
+    const auto u = static_cast<int>(std::lround(track.px.x()));
+    const auto v = static_cast<int>(std::lround(track.px.y()));
+    const float depth = frame.depth.at<float>(v, u);
+    const auto ray = camera.unproject(track.px.cast<double>());
+    if (depth > 0 && depth < kFarthest_m && ray)
+      points.push_back(static_cast<double>(depth) * *ray);
+  }
+  return points;
+}
+
 }  // namespace
 
+EnvironmentEvidence evidence_of_view(const Frame& frame, const Camera& camera,
+                                     const std::shared_ptr<const SceneModel>& surfaces) {
+  EnvironmentEvidence evidence;
+  evidence.see(SurfaceLabeller(surfaces, {}).label(frame, false).shares);
+  const auto [edges, of] = edges_of(frame.image, camera);
+  evidence.see(edges, of);
+  if (!frame.depth.empty()) evidence.see(corner_points(frame, camera), true);
+  return evidence;
+}
+
 EnvironmentProbabilities environment_around(const Map& map, KeyframeId keyframe,
-                                            const Camera& camera, const SurfaceLabeller& labeller,
+                                            const Camera& camera,
+                                            const std::shared_ptr<const SceneModel>& surfaces,
                                             const std::function<Frame(const Keyframe&)>& frame_of) {
   const auto found = std::ranges::find(map.keyframes, keyframe, &Keyframe::id);
   require(found != map.keyframes.end(), "environment_around: unknown keyframe");
   const std::ptrdiff_t centre = found - map.keyframes.begin(), last = std::ssize(map.keyframes) - 1;
+  const SurfaceLabeller labeller(surfaces, {});
   EnvironmentMonitor monitor({}, camera);
   std::size_t at = 0;
   for (std::ptrdiff_t i = centre - kReach; i <= std::min(last, centre + kReach); i += kStep) {

@@ -1,0 +1,33 @@
+#include <placegraph/io/exports/colmap_reader.h>
+#include <placegraph/pipeline/exports/colmap_adjustment.h>
+#include <placegraph/pipeline/exports/colmap_folder.h>
+#include <placegraph/pipeline/map/colmap_bundle.h>
+
+namespace placegraph {
+
+struct ColmapAdjustment::Impl {
+  ColmapModel model;
+  NumberForm form;
+};
+
+ColmapAdjustment::ColmapAdjustment(const std::string& folder)
+    : impl_(new Impl{read_colmap(folder, ColmapLenses::kAny), colmap_form(folder)}) {}
+
+ColmapAdjustment::~ColmapAdjustment() = default;
+
+std::size_t ColmapAdjustment::images() const { return impl_->model.images.size(); }
+
+std::size_t ColmapAdjustment::points() const { return impl_->model.points.size(); }
+
+ColmapAdjustmentReport ColmapAdjustment::adjust(const BundleOptions& options) {
+  ColmapBundleReport report = adjust_colmap(impl_->model, options);
+  impl_->model = std::move(report.model);
+  return {report.outcome,         report.observations, report.cost_initial, report.cost_final,
+          report.error_before_px, report.error_px,     report.iterations};
+}
+
+void ColmapAdjustment::write(const std::string& folder) const {
+  write_colmap_folder(folder, impl_->model, impl_->form);
+}
+
+}  // namespace placegraph
