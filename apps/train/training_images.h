@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/labels/scene_training.h>
+#include <placegraph/frontend/labels/training/scene_training.h>
 #include <placegraph/graph/image/image.h>
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // Models of scenes, learned from drawn streets.
 #include <gtest/gtest.h>
-#include <placegraph/frontend/labels/scene_training.h>
+#include <placegraph/frontend/labels/training/scene_training.h>
 #include <placegraph/frontend/labels/urban_labels.h>
 #include <placegraph/graph/core/error.h>
 

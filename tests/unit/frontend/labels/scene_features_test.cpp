@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/frontend/labels/box_sums.h>
 #include <placegraph/frontend/labels/scene_channels.h>
-#include <placegraph/frontend/labels/scene_variants.h>
+#include <placegraph/frontend/labels/training/scene_variants.h>
 #include <placegraph/frontend/labels/superpixels.h>
 #include <placegraph/graph/core/error.h>
 

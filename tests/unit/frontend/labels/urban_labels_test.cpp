@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/labels/model_growth.h>
+#include <placegraph/frontend/labels/training/model_growth.h>
 #include <placegraph/frontend/labels/urban_labels.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>

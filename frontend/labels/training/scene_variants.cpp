@@ -1,4 +1,4 @@
-#include <placegraph/frontend/labels/scene_variants.h>
+#include <placegraph/frontend/labels/training/scene_variants.h>
 #include <placegraph/graph/core/error.h>
 
 #include <array>

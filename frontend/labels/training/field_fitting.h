@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/labels/scene_training_set.h>
+#include <placegraph/frontend/labels/training/scene_training_set.h>
 
 #include <vector>
 

@@ -1,5 +1,5 @@
-#include <placegraph/frontend/labels/scene_training_set.h>
-#include <placegraph/frontend/labels/scene_variants.h>
+#include <placegraph/frontend/labels/training/scene_training_set.h>
+#include <placegraph/frontend/labels/training/scene_variants.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/parallel.h>
 

@@ -1,8 +1,8 @@
-#include <placegraph/frontend/labels/field_fitting.h>
-#include <placegraph/frontend/labels/model_growth.h>
-#include <placegraph/frontend/labels/scene_training.h>
-#include <placegraph/frontend/labels/scene_training_set.h>
-#include <placegraph/frontend/labels/scene_variants.h>
+#include <placegraph/frontend/labels/training/field_fitting.h>
+#include <placegraph/frontend/labels/training/model_growth.h>
+#include <placegraph/frontend/labels/training/scene_training.h>
+#include <placegraph/frontend/labels/training/scene_training_set.h>
+#include <placegraph/frontend/labels/training/scene_variants.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/parallel.h>
 

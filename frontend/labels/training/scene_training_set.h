@@ -1,7 +1,7 @@
 #pragma once
-#include <placegraph/frontend/labels/forest_training.h>
+#include <placegraph/frontend/labels/training/forest_training.h>
 #include <placegraph/frontend/labels/scene_labeller.h>
-#include <placegraph/frontend/labels/scene_training.h>
+#include <placegraph/frontend/labels/training/scene_training.h>
 
 #include <cstddef>
 #include <functional>

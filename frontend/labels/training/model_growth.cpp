@@ -1,4 +1,4 @@
-#include <placegraph/frontend/labels/model_growth.h>
+#include <placegraph/frontend/labels/training/model_growth.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

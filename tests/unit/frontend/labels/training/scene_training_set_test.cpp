@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/labels/scene_training_set.h>
+#include <placegraph/frontend/labels/training/scene_training_set.h>
 #include <placegraph/graph/core/error.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/labels/field_fitting.h>
+#include <placegraph/frontend/labels/training/field_fitting.h>
 #include <placegraph/frontend/labels/label_field.h>
 
 #include <opencv2/core.hpp>

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/labels/forest_training.h>
+#include <placegraph/frontend/labels/training/forest_training.h>
 #include <placegraph/frontend/labels/label_field.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/labels/field_fitting.h>
+#include <placegraph/frontend/labels/training/field_fitting.h>
 #include <placegraph/frontend/labels/label_field.h>
 #include <placegraph/frontend/labels/scene_labeller.h>
 

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/labels/forest_training.h>
+#include <placegraph/frontend/labels/training/forest_training.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/parallel.h>
 #include <placegraph/graph/core/random.h>
