@@ -35,10 +35,9 @@
 #include "apps/places/cmd_match.h"
 #include "apps/places/cmd_places.h"
 #include "apps/places/cmd_vocabulary.h"
-#include "apps/report/cmd_report.h"
-#include "apps/report/report.h"
 #include "apps/run/cmd_config.h"
 #include "apps/run/cmd_inspect.h"
+#include "apps/run/cmd_report.h"
 #include "apps/run/cmd_run.h"
 #include "apps/shell/cmd_shell.h"
 #include "apps/shell/cmd_tree.h"
@@ -175,7 +174,7 @@ std::unique_ptr<CLI::App> make_command_line() {
   app->require_subcommand(1);
   RunPresentation presentation;
   presentation.write_page = [](const std::string& folder, const std::string& file) {
-    write_run_page(folder, file, kProgram);
+    write_folder_page(folder, file);
   };
   presentation.show = [](const ViewerOptions& options, const std::string& title) {
     return std::make_unique<RunView>(options, title, kProgram);

@@ -7,6 +7,7 @@
 #include <placegraph/graph/text/id_format.h>
 #include <placegraph/graph/text/json_text.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
+#include <placegraph/pipeline/report/run_page.h>
 
 #include <algorithm>
 #include <filesystem>

@@ -9,6 +9,7 @@
 #include <placegraph/graph/text/log_message.h>
 #include <placegraph/io/graphs/g2o.h>
 #include <placegraph/io/graphs/pose_graph_file.h>
+#include <placegraph/pipeline/report/run_page.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,7 @@
 #include "apps/run/cmd_run.h"
 
 #include <placegraph/graph/core/error.h>
+#include <placegraph/pipeline/report/run_page.h>
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -92,12 +93,10 @@ void add_run_command(CLI::App& app, const RunPresentation& presentation) {
   CLI::App* command =
       app.add_subcommand("run", "Estimate the trajectory and the place graph of a sequence");
   command->footer("placegraph run kitti/sequences/00 --out out/kitti00");
-  command
-      ->add_option("SEQUENCE", a.sequence, "folder or video; see docs/datasets.md")
+  command->add_option("SEQUENCE", a.sequence, "folder or video; see docs/datasets.md")
       ->type_name(kInput);
   command->add_option("-o,--out", a.out, "folder for the results")->type_name(kOutput);
-  command
-      ->add_option("--resume", a.resume, "continue the unfinished run in this folder")
+  command->add_option("--resume", a.resume, "continue the unfinished run in this folder")
       ->type_name(kOutput);
   command->add_option("--sensor", a.sensor, kSensorText)
       ->check(CLI::IsMember({"auto", "mono", "stereo", "rgbd"}));

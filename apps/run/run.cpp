@@ -12,6 +12,9 @@
 #include <placegraph/io/trajectories/trajectory_file.h>
 #include <placegraph/pipeline/exports/place_tables.h>
 #include <placegraph/pipeline/map/map_floor_plan.h>
+#include <placegraph/pipeline/results/floor_plan_files.h>
+#include <placegraph/pipeline/results/run_results.h>
+#include <placegraph/pipeline/results/semantic_map_files.h>
 #include <placegraph/pipeline/scene/floor_plan.h>
 #include <sys/resource.h>
 
@@ -20,13 +23,8 @@
 #include <memory>
 #include <opencv2/core/utility.hpp>
 
-#include "apps/results/component_files.h"
 #include "apps/results/environment_files.h"
-#include "apps/results/floor_plan_files.h"
-#include "apps/results/judgement_text.h"
-#include "apps/results/run_files.h"
-#include "apps/results/run_judgement.h"
-#include "apps/results/semantic_map_files.h"
+#include "apps/results/street_mapper.h"
 #include "apps/run/frame_drawings.h"
 #include "apps/run/run_messages.h"
 #include "apps/run/run_notes.h"
@@ -80,7 +78,7 @@ void write_results(const std::string& folder, const RunResult& run, const Trajec
   write_file(path("places.graphml"), to_graphml(run.map.place_graph, transitions));
   write_file(path("places.dot"), to_dot(run.map.place_graph, transitions));
   write_file(path("loops.csv"), loops_csv(run.map));
-  write_plot_beside(path("plot.png"), to_svg(run_plot(run.map, optimized, truth, title)));
+  write_plot_beside(path("plot.png"), run_picture(run.map, optimized, truth, title));
   write_file(path("result.json"), json_text(summary, 1));
 }
 
@@ -106,27 +104,28 @@ json map_scene(const RunArguments& arguments, const RunOptions& options, const D
   if (plan.outcome) {
     label_places(plan, run.map.place_graph);
     save_labels(run_map_path(arguments.out), run.map.place_graph);
-    write_floor_plan(arguments.out, plan, run.map, dataset.name());
+    write_floor_plan(arguments.out, plan, run.map, dataset.name(), messages());
     if (const auto doubt = doubt_of(plan)) warn(*doubt);
   } else {
     warn("no floor plan: " + plan.outcome.reason);
   }
-  return describe_floor_plan(plan, run.map, dataset, arguments.sequence);
+  return json::parse(floor_plan_json(plan, run.map, dataset, arguments.sequence));
 }
 
 /// Writes the map of the street; what result.json says of it. Where there is none the run is good
 /// all the same.
 json map_street(const RunArguments& arguments, const RunOptions& options, const Dataset& dataset,
                 const RunResult& run) {
-  const UrbanMapper mapper = urban_mapper_of(
+  const UrbanMapper mapper = street_mapper_of(
       run.map, run.calibration, dataset, run.sensor, run.lens_k1, options.scene.urban,
       {options.scene.urban_model, options.scene.surfaces_model});
   const SemanticMap semantic = mapper.fuse(run.map);
   if (semantic.outcome)
-    write_semantic_map(arguments.out, semantic, mapper, run.map, poses_of(run.map), dataset.name());
+    write_semantic_map(arguments.out, semantic, mapper, run.map, poses_of(run.map), dataset.name(),
+                       {}, messages());
   else
     warn("no semantic map: " + semantic.outcome.reason);
-  return describe_semantic_map(semantic, mapper, run.map, dataset, arguments.sequence);
+  return json::parse(semantic_map_json(semantic, mapper, run.map, dataset, arguments.sequence));
 }
 
 /// What comes before the work: the sequence with its notes, the models, and the folders.
@@ -209,8 +208,9 @@ Judgement judge_prepared(PreparedRun& prepared, RunResult& run, const Trajectory
 json summarize(const PreparedRun& prepared, const RunResult& run, const Trajectory& optimized) {
   const RunOptions& options = prepared.options;
   const Dataset& dataset = *prepared.dataset;
-  json summary = describe_run(run, optimized);
-  if (!options.motion.file.empty()) summary["motion"] = describe_motion(run.map.place_graph);
+  json summary = json::parse(run_json(run, optimized));
+  if (!options.motion.file.empty())
+    summary["motion"] = json::parse(motion_json(run.map.place_graph));
   if (!run.environments.empty())
     summary["environments"] = describe_environments(run.map.place_graph);
   if (run.resumed_at) summary["resumed_at"] = *run.resumed_at;
@@ -283,9 +283,9 @@ RunReport run(const RunArguments& asked) {
                environment_csv(run.environments));
   const Trajectory* truth = truth_of(dataset);
   if (run.stopped) summary["interrupted"] = true;
-  if (truth) summary.update(judge_run(*truth, run, optimized));
+  if (truth) summary.update(json::parse(truth_json(*truth, run, optimized)));
   if (measured && !judgement.metric) summary["scale_doubted"] = true;
-  summary["judgement"] = describe_judgement(judgement);
+  summary["judgement"] = json::parse(judgement_json(judgement));
   const std::string map_path = interrupted_map_path(run_map_path(arguments.out));
   if (fs::exists(map_path)) write_judgement(map_path, judgement);
   write_results(arguments.out, run, optimized, truth, dataset.name(), summary);

@@ -12,13 +12,13 @@
 #include <placegraph/pipeline/map/explanation.h>
 #include <placegraph/pipeline/map/map_file.h>
 #include <placegraph/pipeline/map_environment.h>
+#include <placegraph/pipeline/results/run_map.h>
 #include <placegraph/pipeline/run.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 
-#include "apps/results/run_map.h"
 #include "apps/shipped/scene_models.h"
 #include "apps/support/output.h"
 

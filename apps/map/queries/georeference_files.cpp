@@ -12,11 +12,10 @@
 #include <placegraph/io/map/map_database.h>
 #include <placegraph/io/sensors/oxts_file.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
+#include <placegraph/pipeline/results/run_map.h>
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
-
-#include "apps/results/run_map.h"
 
 namespace placegraph::apps {
 namespace {
@@ -63,9 +62,7 @@ GeoreferenceInput read_run(const std::string& folder) {
   input.graph = read_g2o(path("graph.g2o"));
   input.visits = read_visits(path("places.json"));
   input.motion = read_trajectory(path("trajectory_optimized.tum"));
-  take_json(path("result.json"), "run", [&](const json& result) {
-    if (!metric_of(result)) input.graph = similarity_graph(input.graph);
-  });
+  if (!metric_of_run(folder)) input.graph = similarity_graph(input.graph);
   return input;
 }
 
