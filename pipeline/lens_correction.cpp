@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <placegraph/io/calibration/rectification.h>
 #include <placegraph/pipeline/lens_correction.h>
 
 #include <cmath>
@@ -41,23 +42,23 @@ void LensCorrection::add(double k1) {
   Camera camera = as_given_.camera;
   camera.distortion = Distortion::kRadialTangential;
   camera.coefficients = {k1_};
-  undistorted_ = undistort_camera(camera);
+  undistorted_ = std::make_shared<const UndistortedCamera>(undistort_camera(camera));
 }
 
 Calibration LensCorrection::calibration() const {
   Calibration calibration = as_given_;
-  if (k1_ != 0) calibration.camera = undistorted_.camera;
+  if (k1_ != 0) calibration.camera = undistorted_->camera;
   return calibration;
 }
 
 void LensCorrection::apply(Frame& frame) const {
   if (k1_ == 0) return;
-  frame.image = undistorted_.remap.bilinear(frame.image);
-  if (!frame.mask.empty()) frame.mask = undistorted_.remap.nearest(frame.mask);
+  frame.image = undistorted_->remap.bilinear(frame.image);
+  if (!frame.mask.empty()) frame.mask = undistorted_->remap.nearest(frame.mask);
 }
 
 Image LensCorrection::corrected(const Image& image) const {
-  return k1_ == 0 ? image : undistorted_.remap.bilinear(image);
+  return k1_ == 0 ? image : undistorted_->remap.bilinear(image);
 }
 
 Image LensCorrection::mask_as_taken(const Image& mask) const {
@@ -69,8 +70,8 @@ Image LensCorrection::mask_as_taken(const Image& mask) const {
   for (int v = 0; v < taken.rows; ++v)
     for (int u = 0; u < taken.cols; ++u) {
       const auto ray = camera.unproject({u, v});
-      const auto px = ray ? undistorted_.camera.project(*ray) : std::nullopt;
-      if (px && undistorted_.camera.contains(*px))
+      const auto px = ray ? undistorted_->camera.project(*ray) : std::nullopt;
+      if (px && undistorted_->camera.contains(*px))
         taken.at<std::uint8_t>(v, u) = mask.at<std::uint8_t>(
             static_cast<int>(std::lround(px->y())), static_cast<int>(std::lround(px->x())));
     }

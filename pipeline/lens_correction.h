@@ -1,18 +1,20 @@
 #pragma once
 #include <placegraph/graph/image/frame.h>
 #include <placegraph/graph/measurements/data_note.h>
-#include <placegraph/io/calibration/rectification.h>
 #include <placegraph/pipeline/local_map/lens_distortion.h>
 #include <placegraph/pipeline/run_options.h>
 
+#include <memory>
 #include <optional>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
+
+struct UndistortedCamera;
 
 /// Whether `lens` is clear: beyond its standard deviation and by its effect.
 bool is_clear(const LensDistortion& lens, const LensOptions& options);
-/// Whether images should be undistorted with `lens` before they are used: it is clear, and more
-/// than one stretch of motion shows it.
+/// Whether images should be undistorted with `lens` before they are used.
+/// It is clear, and more than one stretch of motion shows it.
 bool is_distorted(const LensDistortion& lens, const LensOptions& options);
 
 /// Change of the removed k1 with which a run should begin again, if it should.
@@ -24,8 +26,8 @@ bool is_distorted(const LensDistortion& lens, const LensOptions& options);
 /// rather than inaccurate.
 std::optional<double> change_of_k1(double removed, const LensDistortion& seen, int pass,
                                    const LensOptions& options);
-/// What a run reports of the distortion `seen` that it leaves in its images, besides that
-/// `removed`.
+/// What a run reports of the distortion `seen` that it leaves in its images.
+/// `removed` is what it took out of them.
 DataNote distortion_note(double removed, const LensDistortion& seen);
 
 /// Removes radial distortion from monocular images that are expected to be undistorted.
@@ -49,7 +51,7 @@ class LensCorrection {
  private:
   Calibration as_given_;
   double k1_ = 0;
-  UndistortedCamera undistorted_;
+  std::shared_ptr<const UndistortedCamera> undistorted_;  // null: nothing was removed yet
 };
 
 }  // namespace placegraph

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Notes on the data of the sequence, on its images and on the options.
 std::vector<DataNote> notes_of(const Dataset& dataset, const RunOptions& options);

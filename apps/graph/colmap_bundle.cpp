@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/text/json_text.h>
-#include <placegraph/io/exports/colmap_reader.h>
-#include <placegraph/pipeline/exports/colmap_folder.h>
-#include <placegraph/pipeline/map/colmap_bundle.h>
+#include <placegraph/pipeline/exports/colmap_adjustment.h>
 
 #include <nlohmann/json.hpp>
 
@@ -21,16 +19,15 @@ ColmapBundleResult colmap_bundle(const BundleArguments& arguments) {
       choice<RobustKernel::Kind>("--kernel", robust_kernel_names(), arguments.kernel);
   options.check();
   if (!arguments.out.empty()) require_free_folder(arguments.out, arguments.force);
-  const ColmapModel start = read_colmap(arguments.in, ColmapLenses::kAny);
+  ColmapAdjustment adjustment(arguments.in);
   const Stopwatch stopwatch;
-  const ColmapBundleReport report = adjust_colmap(start, options);
+  const ColmapAdjustmentReport report = adjustment.adjust(options);
   if (!report.outcome) throw NoResult(arguments.in + ": " + report.outcome.reason);
-  if (!arguments.out.empty())
-    write_colmap_folder(arguments.out, report.model, colmap_form(arguments.in));
+  if (!arguments.out.empty()) adjustment.write(arguments.out);
   return {.in = arguments.in,
           .out = arguments.out,
-          .images = start.images.size(),
-          .points = start.points.size(),
+          .images = report.images,
+          .points = report.points,
           .observations = report.observations,
           .cost_initial = report.cost_initial,
           .cost = report.cost_final,

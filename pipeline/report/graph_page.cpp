@@ -1,3 +1,4 @@
+#include <placegraph/eval/plots/pose_graph_plot.h>
 #include <placegraph/io/files/output_file.h>
 #include <placegraph/pipeline/report/graph_page.h>
 
@@ -58,6 +59,24 @@ json describe_graph(const GraphPage& page) {
 }
 
 }  // namespace
+
+std::string graph_picture(const PoseGraph& before, const PoseGraph& after,
+                          const std::vector<int>& rejected, const std::string& title,
+                          const std::vector<std::string>& notes) {
+  Plot plot = plot_of(before, after, rejected);
+  plot.title = title;
+  plot.notes = notes;
+  return to_svg(plot);
+}
+
+std::string graph_picture(const PoseGraph& graph, const std::vector<int>& rejected,
+                          const std::string& title) {
+  Plot plot = plot_of(graph, graph, rejected);
+  plot.curves.erase(plot.curves.begin());
+  plot.curves.front().name = "poses";
+  plot.title = title;
+  return to_svg(plot);
+}
 
 std::string graph_page(const GraphPage& graph, const std::string& program) {
   nlohmann::json report = bare_report(program, graph.name);

@@ -17,6 +17,17 @@ struct GraphPage {
   std::vector<std::pair<std::string, double>> figures;  ///< names and values of costs
 };
 
+/// The picture of an optimized pose graph over what it was before, SVG.
+///
+/// Both graphs have the same nodes and constraints; `rejected` are positions among the constraints,
+/// `notes` lines below the title.
+std::string graph_picture(const PoseGraph& before, const PoseGraph& after,
+                          const std::vector<int>& rejected, const std::string& title,
+                          const std::vector<std::string>& notes = {});
+/// The same of the graph alone.
+std::string graph_picture(const PoseGraph& graph, const std::vector<int>& rejected,
+                          const std::string& title);
+
 /// A page, HTML, that shows the graph; `program`: name and version of the program.
 std::string graph_page(const GraphPage& graph, const std::string& program);
 

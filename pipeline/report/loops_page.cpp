@@ -153,22 +153,30 @@ json run_of(const LoopsPage& page, const LoopsPageSystem& system, const json& fr
 
 }  // namespace
 
+std::string precision_recall_picture(const std::string& protocol,
+                                     const std::vector<NamedPrecisionRecall>& systems) {
+  PrecisionRecallPlot plot;
+  plot.protocol = protocol;
+  for (const NamedPrecisionRecall& system : systems)
+    plot.curves.push_back({system.name, system.curve});
+  return to_svg(plot);
+}
+
 void write_loops_page(const std::string& file, const LoopsPage& page, const std::string& program,
                       const LogSink& log) {
   const json frames = frames_of(page);
-  PrecisionRecallPlot plot;
-  plot.protocol = page.protocol;
+  std::vector<NamedPrecisionRecall> curves;
   std::string names;
   json runs = json::array();
   for (const LoopsPageSystem& system : page.systems) {
     runs.push_back(run_of(page, system, frames, log));
-    plot.curves.push_back({system.name, system.benchmark.curve});
+    curves.push_back({system.name, system.benchmark.curve});
     names += (names.empty() ? "" : ", ") + system.name;
   }
   json report = bare_report(program, "Loops of " + names);
   report["runs"] = std::move(runs);
-  report["pictures"].push_back(
-      describe_picture("Precision and recall", page.protocol, to_svg(plot)));
+  report["pictures"].push_back(describe_picture("Precision and recall", page.protocol,
+                                                precision_recall_picture(page.protocol, curves)));
   write_file(file, page_with(report));
 }
 

@@ -28,6 +28,17 @@ struct LoopsPage {
   std::vector<LoopsPageSystem> systems;  ///< the recognizers, each a run of the page
 };
 
+/// The curve of precision over recall of a system.
+struct NamedPrecisionRecall {
+  std::string name;       ///< name of the system
+  PrecisionRecall curve;  ///< its figures
+};
+
+/// Curves of precision over recall, SVG; `protocol`: how predictions were judged.
+/// Throws ArgumentError if there is no curve.
+std::string precision_recall_picture(const std::string& protocol,
+                                     const std::vector<NamedPrecisionRecall>& systems);
+
 /// Writes a page of judged loops, as `placegraph eval loops --report` does.
 ///
 /// Every system is a run: its loops on the true poses, its figures, and the precision-recall curves

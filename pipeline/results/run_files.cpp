@@ -1,5 +1,5 @@
 #include <fmt/format.h>
-#include <placegraph/eval/plots/evaluation_plot.h>
+#include <placegraph/eval/plots/plot.h>
 #include <placegraph/eval/trajectory/evaluate.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/place_transitions.h>

@@ -95,6 +95,18 @@ bool metric_of_run(const std::string& folder) {
   return metric;
 }
 
+std::vector<std::pair<std::int64_t, PlaceId>> read_visits(const std::string& folder) {
+  std::vector<std::pair<std::int64_t, PlaceId>> visits;
+  take_json((std::filesystem::path(folder) / "places.json").string(), "run",
+            [&](const json& document) {
+              for (const json& place : document.at("places"))
+                for (const json& member : place.at("members"))
+                  visits.emplace_back(member.at("stamp_ns").get<std::int64_t>(),
+                                      place.at("id").get<PlaceId>());
+            });
+  return visits;
+}
+
 RunMap read_run_map(const std::string& folder) {
   if (std::filesystem::is_regular_file(folder)) return run_map_of(read_map(folder), folder);
   const std::filesystem::path root(folder);

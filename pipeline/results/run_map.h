@@ -1,11 +1,15 @@
 #pragma once
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/place_graph.h>
+#include <placegraph/graph/route.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace [[gnu::visibility("default")]] placegraph {
 
@@ -29,9 +33,16 @@ struct RunMap {
 /// Whether lengths are metres, by result.json in the folder of a run. Throws FileError.
 bool metric_of_run(const std::string& folder);
 
+/// Members of the places in the folder of a run, each once.
+/// They are the stamp of a keyframe [ns], and its place. Throws FileError.
+std::vector<std::pair<std::int64_t, PlaceId>> read_visits(const std::string& folder);
+
 /// Reads the places of a folder or of a saved map.
 /// Throws FileError if a file is missing or not written by `placegraph run`, ArgumentError for a
 /// map without poses.
 RunMap read_run_map(const std::string& folder);
+
+/// A route over the places of a map, and the loops of the map; SVG.
+std::string route_picture(const Route& route, const RunMap& map);
 
 }  // namespace placegraph

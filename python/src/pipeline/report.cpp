@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <placegraph/eval/plots/pose_graph_plot.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/datasets/open_dataset.h>
 #include <placegraph/pipeline/report/evaluation_page.h>
@@ -52,13 +51,8 @@ std::string pose_graph_picture(const PoseGraph& graph, const PoseGraph* before,
                                const std::vector<int>& rejected, const std::string& title) {
   require(!graph.nodes.empty(), "graph: it has no nodes");
   require_same_graph(before ? *before : graph, graph, rejected);
-  Plot plot = plot_of(before ? *before : graph, graph, rejected);
-  if (!before) {
-    plot.curves.erase(plot.curves.begin());
-    plot.curves.front().name = "poses";
-  }
-  plot.title = title;
-  return to_svg(plot);
+  return before ? graph_picture(*before, graph, rejected, title)
+                : graph_picture(graph, rejected, title);
 }
 
 std::string pose_graph_page(const PoseGraph& graph, const PoseGraph& before,

@@ -104,7 +104,7 @@ std::map<std::string, bool> answers(const JudgedRun& judged, const test::Tempora
 /// Whether a drift in metres is said, by every output that has one.
 std::map<std::string, bool> drifts(const JudgedRun& judged, const test::TemporaryFolder& folder) {
   const Judgement& judgement = *judged.stored.judgement;
-  const json page = describe_run_for_report(folder / "map.db");
+  const json page = report::describe_run_for_report(folder / "map.db");
   SqliteDatabase database(folder / "map.db", SqliteDatabase::Access::kRead);
   return {{"judgement", judgement.expected_drift_m.has_value()},
           {"result.json", describe_judgement(judgement).contains("expected_drift_m")},

@@ -1,11 +1,11 @@
+#include "apps/support/match_file.h"
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/files/text_file.h>
-#include <placegraph/io/measurements/match_file.h>
 
 #include <array>
 #include <cmath>
 
-namespace placegraph {
+namespace placegraph::apps {
 namespace {
 
 /// Larger than any image or scene; its fourth power does not overflow by far.
@@ -68,4 +68,4 @@ SeenPointFile read_seen_points(const std::string& path) {
   return seen;
 }
 
-}  // namespace placegraph
+}  // namespace placegraph::apps

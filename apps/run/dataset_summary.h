@@ -2,7 +2,7 @@
 #include <placegraph/graph/measurements/stamp_spacing.h>
 #include <placegraph/io/datasets/dataset.h>
 
-namespace placegraph {
+namespace placegraph::apps {
 
 /// Statistics of a recorded sequence; no images are read for them.
 struct DatasetSummary {
@@ -20,10 +20,12 @@ struct DatasetSummary {
   std::vector<DataNote> notes;  ///< skipped data and implausible data
 };
 
+/// The statistics of a sequence.
 DatasetSummary summarize(const Dataset& dataset);
 
-/// The source of metric scale when `sensor` runs with `calibration`: "the baseline of 0.537 m",
-/// "the depth images", "the camera's height of 1.65 m"; empty if the scale is unknown.
+/// The source of metric scale when `sensor` runs with `calibration`.
+/// "The baseline of 0.537 m", "the depth images", "the camera's height of 1.65 m"; empty if the
+/// scale is unknown.
 std::string metric_by(Sensor sensor, const Calibration& calibration);
 
-}  // namespace placegraph
+}  // namespace placegraph::apps

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace placegraph {
+namespace placegraph::apps {
 
 /// Counts of right pixels of orientation maps.
 struct OrientationCheck {
@@ -24,4 +24,4 @@ void check_orientation(const Image& labels, const Eigen::Matrix3d& R_cam_manhatt
                        const Image& planes, const std::vector<Eigen::Vector3d>& normals_world,
                        const Eigen::Matrix3d& R_cam_world, OrientationCheck& check);
 
-}  // namespace placegraph
+}  // namespace placegraph::apps

@@ -1,11 +1,11 @@
+#include "apps/run/dataset_summary.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <placegraph/io/datasets/dataset_summary.h>
 #include <placegraph/io/datasets/open_dataset.h>
 
 #include "tiny_images.h"
 
-namespace placegraph {
+namespace placegraph::apps {
 namespace dataset_summary_test {
 
 using test::TemporaryFolder;
@@ -55,4 +55,4 @@ TEST(DatasetSummary, SaysWhatGivesMetres) {
 }
 
 }  // namespace dataset_summary_test
-}  // namespace placegraph
+}  // namespace placegraph::apps

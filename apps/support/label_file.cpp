@@ -1,10 +1,10 @@
+#include "apps/support/label_file.h"
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/files/text_file.h>
-#include <placegraph/io/measurements/label_file.h>
 
 #include <vector>
 
-namespace placegraph {
+namespace placegraph::apps {
 
 std::map<FrameId, int> read_labels(const std::string& path) {
   constexpr std::int64_t kLargest = 1'000'000'000;
@@ -29,4 +29,4 @@ std::map<FrameId, int> read_labels(const std::string& path) {
   return labels;
 }
 
-}  // namespace placegraph
+}  // namespace placegraph::apps

@@ -1,7 +1,7 @@
+#include "apps/run/dataset_summary.h"
 #include <fmt/format.h>
-#include <placegraph/io/datasets/dataset_summary.h>
 
-namespace placegraph {
+namespace placegraph::apps {
 namespace {
 
 /// The calibration of a dataset for all its sensors together.
@@ -59,4 +59,4 @@ std::string metric_by(Sensor sensor, const Calibration& calibration) {
   return {};
 }
 
-}  // namespace placegraph
+}  // namespace placegraph::apps

@@ -1,12 +1,12 @@
+#include "apps/support/label_file.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/measurements/label_file.h>
 
 #include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
 
-namespace placegraph {
+namespace placegraph::apps {
 namespace label_file_test {
 
 using ::testing::HasSubstr;
@@ -34,4 +34,4 @@ TEST(LabelFile, NamesTheBrokenLine) {
 }
 
 }  // namespace label_file_test
-}  // namespace placegraph
+}  // namespace placegraph::apps

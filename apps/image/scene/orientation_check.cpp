@@ -1,11 +1,11 @@
-#include <placegraph/eval/scene/orientation_check.h>
+#include "apps/image/scene/orientation_check.h"
 #include <placegraph/graph/core/error.h>
 
 #include <cmath>
 #include <cstdint>
 #include <numbers>
 
-namespace placegraph {
+namespace placegraph::apps {
 
 void check_orientation(const Image& labels, const Eigen::Matrix3d& R_cam_manhattan,
                        const Image& planes, const std::vector<Eigen::Vector3d>& normals_world,
@@ -31,4 +31,4 @@ void check_orientation(const Image& labels, const Eigen::Matrix3d& R_cam_manhatt
     }
 }
 
-}  // namespace placegraph
+}  // namespace placegraph::apps

@@ -1,10 +1,10 @@
+#include "apps/image/scene/plane_truth.h"
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/files/text_file.h>
-#include <placegraph/io/measurements/plane_truth.h>
 
 #include <cmath>
 
-namespace placegraph {
+namespace placegraph::apps {
 
 std::vector<Eigen::Vector4d> read_planes(const std::string& path) {
   TextFile file(path);
@@ -25,4 +25,4 @@ std::vector<Eigen::Vector4d> read_planes(const std::string& path) {
   return planes;
 }
 
-}  // namespace placegraph
+}  // namespace placegraph::apps

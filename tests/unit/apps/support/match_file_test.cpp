@@ -1,11 +1,11 @@
+#include "apps/support/match_file.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/measurements/match_file.h>
 
 #include "tests/support/command.h"
 
-namespace placegraph {
+namespace placegraph::apps {
 namespace match_file_test {
 
 using test::TemporaryFolder;
@@ -64,4 +64,4 @@ TEST(MatchFile, NamesTheLineThatIsBroken) {
 }
 
 }  // namespace match_file_test
-}  // namespace placegraph
+}  // namespace placegraph::apps
