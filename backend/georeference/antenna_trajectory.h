@@ -7,9 +7,10 @@
 #include <optional>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// A fix relative to a node: the antenna at the time of the fix, in the node's frame and scale,
+/// A fix relative to a node.
+/// The antenna at the time of the fix, in the node's frame and scale,
 ///
 ///   p_node = A lever_arm + t + v clock_offset,
 ///

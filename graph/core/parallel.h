@@ -6,10 +6,10 @@
 #include <thread>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// Calls fn(0) ... fn(count - 1) from `threads` threads (the caller's included) and waits. The
-/// items must be independent. The first exception thrown is thrown again here.
+/// Calls fn(0) ... fn(count - 1) from `threads` threads (the caller's included) and waits.
+/// The items must be independent. The first exception thrown is thrown again here.
 inline void parallel_for(int count, int threads, const std::function<void(int)>& fn) {
   std::atomic<int> next{0};
   std::exception_ptr failure;

@@ -4,10 +4,10 @@
 #include <string_view>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// PCG32 (O'Neill 2014): small, seeded, the same numbers on every platform and library. Streams of
-/// one seed are independent, so parallel work takes one stream per item.
+/// PCG32 (O'Neill 2014): small, seeded, the same numbers on every platform and library.
+/// Streams of one seed are independent, so parallel work takes one stream per item.
 class Random {
  public:
   explicit Random(std::uint64_t seed, std::uint64_t stream = 0);

@@ -7,10 +7,10 @@
 #include <functional>
 #include <optional>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// Pose, velocity and sensor biases of a body. World: z up, gravity along -z; body: the inertial
-/// sensor's axes.
+/// Pose, velocity and sensor biases of a body.
+/// World: z up, gravity along -z; body: the inertial sensor's axes.
 struct BodyState {
   std::int64_t stamp_ns = 0;
   SE3 T_world_body;

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// A pose of the body measured from a marker.
 struct PoseMeasurement {

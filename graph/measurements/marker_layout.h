@@ -7,10 +7,11 @@
 #include <string>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// A square marker at a known pose. Its frame: origin in the middle, x to the right and y up for a
-/// viewer in front of it, z out of its face towards the viewer.
+/// A square marker at a known pose.
+/// Its frame: origin in the middle, x to the right and y up for a viewer in front of it, z out of
+/// its face towards the viewer.
 struct PlacedMarker {
   int id = 0;         ///< id in the layout's dictionary
   double side_m = 0;  ///< side of the black square [m]

@@ -4,9 +4,9 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// Points of a scene in the sensor's frame [m], from a depth camera, a scanner or a stereo pair. An
-/// organised cloud has a point for every pixel of an image, row by row; a point is NaN if nothing
-/// was measured.
+/// Points of a scene in the sensor's frame [m].
+/// They are from a depth camera, a scanner or a stereo pair. An organised cloud has a point for
+/// every pixel of an image, row by row; a point is NaN if nothing was measured.
 struct PointCloud {
   std::vector<Eigen::Vector3d> points;
   int width = 0, height = 0;  ///< [px] of an organised cloud, else 0

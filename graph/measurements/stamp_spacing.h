@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Two neighbouring stamps that are farther apart than the others.
 struct StampGap {

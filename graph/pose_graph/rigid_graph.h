@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/graph/pose_graph/pose_graph.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Converts a graph of similarities to one over SE(3), for programs without scale.
 /// Nodes keep rotation and position, and every measured translation is multiplied by the scale of
