@@ -8,9 +8,9 @@
 #include <string>
 
 #include "apps/cmd_elements.h"
+#include "apps/config/flight_config.h"
 #include "apps/map/floor_planner.h"
 #include "apps/map/queries/image_content.h"
-#include "apps/run/flight_config.h"
 #include "apps/run/run_scene.h"
 #include "apps/support/output.h"
 

@@ -1,13 +1,16 @@
 #include "apps/pages.h"
 
+#include <placegraph/pipeline/report/evaluation_page.h>
+#include <placegraph/pipeline/report/graph_page.h>
+#include <placegraph/pipeline/report/loops_page.h>
+#include <placegraph/pipeline/report/run_page.h>
+
 #include <filesystem>
 
 #include "apps/eval/eval.h"
 #include "apps/eval/loops.h"
 #include "apps/graph/optimize.h"
-#include "apps/report/report_eval.h"
-#include "apps/report/report_graph.h"
-#include "apps/report/report_loops.h"
+#include "apps/support/output.h"
 
 namespace placegraph::apps {
 namespace {
@@ -37,8 +40,8 @@ void write_optimize_page(const OptimizeArguments& arguments, const OptimizeResul
 }
 
 void write_eval_page(const EvalArguments& arguments, const EvalResult& result) {
-  write_eval_page(arguments.report, {name_of(arguments.truth), result.results, result.folders},
-                  kProgram);
+  write_evaluation_page(arguments.report,
+                        {name_of(arguments.truth), result.results, result.folders}, kProgram);
 }
 
 void write_loops_page(const LoopsArguments& arguments, const LoopsResult& result) {
@@ -46,7 +49,17 @@ void write_loops_page(const LoopsArguments& arguments, const LoopsResult& result
   for (const LoopJudgement& judgement : result.systems)
     page.systems.push_back(
         {judgement.name, judgement.path, judgement.benchmark, judgement.reliability});
-  write_loops_page(arguments.report, page, kProgram);
+  write_loops_page(arguments.report, page, kProgram, messages());
+}
+
+void write_folder_page(const std::string& folder, const std::string& file) {
+  if (!fs::exists(fs::path(folder) / "map.db")) return;
+  RunPageArguments arguments;
+  arguments.runs = {folder};
+  arguments.out = file;
+  arguments.program = kProgram;
+  arguments.force = true;
+  (void)write_run_page(arguments, messages());
 }
 
 }  // namespace placegraph::apps

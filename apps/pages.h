@@ -19,4 +19,7 @@ void write_optimize_page(const OptimizeArguments& arguments, const OptimizeResul
 void write_eval_page(const EvalArguments& arguments, const EvalResult& result);
 void write_loops_page(const LoopsArguments& arguments, const LoopsResult& result);
 
+/// Writes the page of the run in a folder, if the run has a map, and replaces an earlier one.
+void write_folder_page(const std::string& folder, const std::string& file);
+
 }  // namespace placegraph::apps

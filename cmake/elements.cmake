@@ -4,7 +4,7 @@
 get_property(elements GLOBAL PROPERTY PLACEGRAPH_ELEMENTS_SOURCES)
 placegraph_library(elements
   SOURCES ${elements} ${PROJECT_BINARY_DIR}/frontend/built_in_planarity.cpp
-  PUBLIC placegraph::pipeline placegraph::eval
+  PUBLIC placegraph::pipeline placegraph::report placegraph::eval
   PRIVATE opencv_aruco opencv_video opencv_features2d opencv_calib3d opencv_ml opencv_line_descriptor opengv
     nlohmann_json::nlohmann_json fmt::fmt Threads::Threads
   PRECOMPILED_BY frontend)

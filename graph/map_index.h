@@ -4,10 +4,10 @@
 #include <optional>
 #include <unordered_map>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// Keyframes and places of a map by their ids, for those who look up many: Map searches its places.
-/// The map must outlive it and not change.
+/// Keyframes and places of a map by their ids, for those who look up many.
+/// Map searches its places. The map must outlive it and not change.
 class MapIndex {
  public:
   explicit MapIndex(const Map& map);

@@ -6,6 +6,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/datasets/distinct_paths.h>
 #include <placegraph/io/datasets/evaluated_files.h>
+#include <placegraph/pipeline/report/run_page.h>
 
 #include <algorithm>
 #include <filesystem>

@@ -5,13 +5,13 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/pose_graph/constraint_source.h>
 #include <placegraph/graph/text/json_text.h>
-#include <placegraph/io/files/rows_json.h>
+#include <placegraph/pipeline/results/run_map.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "apps/eval/eval_noise.h"
-#include "apps/results/run_map.h"
+#include "apps/support/numbers_json.h"
 #include "apps/support/output.h"
 
 namespace placegraph::apps {

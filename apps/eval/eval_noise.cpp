@@ -4,7 +4,6 @@
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/text/json_text.h>
-#include <placegraph/io/files/rows_json.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 
 #include <charconv>
@@ -12,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "apps/support/numbers_json.h"
 #include "apps/support/output.h"
 
 namespace placegraph::apps {

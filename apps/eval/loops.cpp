@@ -1,12 +1,12 @@
 #include "apps/eval/loops.h"
 
 #include <fmt/format.h>
-#include <placegraph/eval/plots/precision_recall_plot.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/text/csv_text.h>
-#include <placegraph/graph/text/id_format.h>
 #include <placegraph/graph/text/json_text.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
+#include <placegraph/pipeline/report/loops_page.h>
+#include <placegraph/pipeline/report/run_page.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -55,9 +55,9 @@ void require_known(const std::string& path, const std::vector<LoopPrediction>& p
                    std::int64_t images) {
   for (const LoopPrediction& p : predictions)
     if (p.query.value() >= images || p.candidate.value() >= images)
-      throw FileError(
-          path, p.line,
-          fmt::format("image {}, and the poses are of {}", std::max(p.query, p.candidate), images));
+      throw FileError(path, p.line,
+                      fmt::format("image {}, and the poses are of {}",
+                                  std::max(p.query, p.candidate).value(), images));
 }
 
 std::vector<LoopJudgement> judge(const LoopsArguments& arguments, const Protocol& protocol) {
@@ -151,7 +151,7 @@ std::string to_log(const std::vector<LoopJudgement>& judgements) {
           query.verdict == LoopVerdict::kHit || query.verdict == LoopVerdict::kMiss;
       const LoopPrediction& best = query.best;
       csv.row(judgement.name, query.query, query.has_match ? 1 : 0, to_string(query.verdict),
-              predicted ? fmt::format("{}", best.candidate) : "",
+              predicted ? to_string(best.candidate) : "",
               predicted ? fmt::format("{:.9g}", best.score) : "", query.rank, best.stage);
     }
   return csv.text();
@@ -161,11 +161,10 @@ void write_outputs(const LoopsArguments& arguments, const std::vector<LoopJudgem
                    const std::string& protocol) {
   if (!arguments.csv.empty()) write_file(arguments.csv, to_log(judgements));
   if (arguments.plot.empty()) return;
-  PrecisionRecallPlot plot;
-  plot.protocol = protocol;
+  std::vector<NamedPrecisionRecall> curves;
   for (const LoopJudgement& judgement : judgements)
-    plot.curves.push_back({judgement.name, judgement.benchmark.curve});
-  write_plot(arguments.plot, to_svg(plot));
+    curves.push_back({judgement.name, judgement.benchmark.curve});
+  write_plot(arguments.plot, precision_recall_picture(protocol, curves));
 }
 
 void check(const LoopsArguments& arguments) {

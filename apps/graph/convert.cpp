@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/pose_graph/position_of.h>
 #include <placegraph/graph/pose_graph/rigid_graph.h>
 #include <placegraph/io/files/text_file.h>
 #include <placegraph/io/graphs/g2o.h>
@@ -60,9 +59,12 @@ Form wanted_form(const ConvertArguments& arguments) {
 /// T_world_node without its scale; nodes of a plane have z = 0.
 Eigen::Isometry3d rigid(const Pose& pose) {
   if (const SE2* planar = std::get_if<SE2>(&pose))
-    return SE3(SO3::exp({0, 0, planar->rotation().angle()}), position_of(pose)).isometry();
+    return SE3(SO3::exp({0, 0, planar->rotation().angle()}),
+               {planar->translation().x(), planar->translation().y(), 0})
+        .isometry();
   if (const SE3* T = std::get_if<SE3>(&pose)) return T->isometry();
-  return SE3(std::get<Sim3>(pose).rotation(), position_of(pose)).isometry();
+  const Sim3& S = std::get<Sim3>(pose);
+  return SE3(S.rotation(), S.translation()).isometry();
 }
 
 /// The poses in the order of their ids.

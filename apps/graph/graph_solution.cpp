@@ -1,9 +1,9 @@
 #include "apps/graph/graph_solution.h"
 
+#include <fmt/format.h>
 #include <placegraph/backend/incremental/incremental_replay.h>
 #include <placegraph/backend/solver/free_directions.h>
 #include <placegraph/backend/solver/graph_components.h>
-#include <placegraph/graph/text/log_message.h>
 
 #include "apps/support/output.h"
 #include "apps/support/usage.h"
@@ -18,9 +18,9 @@ PoseGraphReport solve_incrementally(const PoseGraph& graph, const GraphTask& tas
   IncrementalOptions options;
   options.rotation_error = task.options.rotation_error;
   const auto watch = [&](int steps, const IncrementalOptimizer& optimizer) {
-    if (steps % kStepsPerLine == 0)
-      placegraph::log(log, LogLevel::kDebug, "{} of {} poses, cost {:.9g}", steps,
-                      graph.nodes.size(), optimizer.cost());
+    if (log && steps % kStepsPerLine == 0)
+      log(LogLevel::kDebug,
+          fmt::format("{} of {} poses, cost {:.9g}", steps, graph.nodes.size(), optimizer.cost()));
   };
   IncrementalReplay replay = optimize_incrementally(graph, options, watch);
   step_cpu_ms.insert(step_cpu_ms.end(), replay.step_cpu_ms.begin(), replay.step_cpu_ms.end());

@@ -1,14 +1,13 @@
 #include "apps/graph/optimize.h"
 
 #include <fmt/format.h>
-#include <placegraph/eval/plots/pose_graph_plot.h>
 #include <placegraph/graph/core/chi_squared.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/text/id_format.h>
 #include <placegraph/graph/text/json_text.h>
-#include <placegraph/graph/text/log_message.h>
 #include <placegraph/io/graphs/g2o.h>
 #include <placegraph/io/graphs/pose_graph_file.h>
+#include <placegraph/pipeline/report/graph_page.h>
+#include <placegraph/pipeline/report/run_page.h>
 
 #include <algorithm>
 #include <cmath>
@@ -128,11 +127,12 @@ void draw(const std::string& path, const PoseGraph& before, const GraphSolution&
           const GraphCosts& costs) {
   std::vector<int> rejected;
   for (const RejectedEdge& edge : solution.rejected) rejected.push_back(edge.constraint);
-  Plot plot = plot_of(before, solution.graph, rejected);
-  plot.title = fmt::format("{} poses, {} constraints", solution.graph.nodes.size(),
-                           solution.graph.constraints.size());
-  plot.notes = {fmt::format("chi2 {:.5g} (log), {:.5g} (g2o); not aligned", costs.log, costs.g2o)};
-  write_plot(path, to_svg(plot));
+  write_plot(path,
+             graph_picture(before, solution.graph, rejected,
+                           fmt::format("{} poses, {} constraints", solution.graph.nodes.size(),
+                                       solution.graph.constraints.size()),
+                           {fmt::format("chi2 {:.5g} (log), {:.5g} (g2o); not aligned", costs.log,
+                                        costs.g2o)}));
 }
 
 /// Checks all arguments and returns the options that their names stand for.
@@ -218,8 +218,9 @@ void optimize_poses(const OptimizeArguments& arguments, const GraphTask& task, P
   if (!arguments.covariances.empty())
     write_covariances(arguments.covariances, arguments.in, kept, task.options.rotation_error);
   if (!arguments.plot.empty()) draw(arguments.plot, drawn, solution, result.after);
-  if (const auto misfit = misfit_of(result))
-    log(sink, LogLevel::kWarning, "warning: {}: {}", arguments.in, misfit_text(result, *misfit));
+  if (const auto misfit = misfit_of(result); misfit && sink)
+    sink(LogLevel::kWarning,
+         fmt::format("warning: {}: {}", arguments.in, misfit_text(result, *misfit)));
   warn_of_free_directions(arguments.in, solution.free.count, free_vertices(solution));
   if (!solution.loops_judged)
     warn(fmt::format(

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <placegraph/backend/pose_graph/pose_graph_report.h>
-#include <placegraph/graph/text/id_format.h>
 
 #include <algorithm>
 
@@ -16,7 +15,7 @@ std::string some_ids(const std::vector<NodeId>& ids) {
   constexpr std::size_t kMost = 10;
   std::string text;
   for (std::size_t i = 0; i < std::min(kMost, ids.size()); ++i)
-    text += fmt::format("{}{}", i == 0 ? "" : ", ", ids[i]);
+    text += fmt::format("{}{}", i == 0 ? "" : ", ", ids[i].value());
   if (ids.size() > kMost) text += fmt::format(" and {} more", ids.size() - kMost);
   return text;
 }

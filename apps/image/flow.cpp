@@ -7,7 +7,7 @@
 #include <placegraph/graph/text/json_text.h>
 #include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/files/png_file.h>
+#include <placegraph/io/files/picture_file.h>
 #include <placegraph/io/measurements/flow_file.h>
 
 #include <cmath>

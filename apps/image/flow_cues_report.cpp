@@ -1,10 +1,11 @@
 #include "apps/image/flow_cues_report.h"
 
 #include <fmt/format.h>
-#include <placegraph/io/files/rows_json.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+
+#include "apps/support/numbers_json.h"
 
 namespace placegraph::apps {
 namespace {

@@ -4,8 +4,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/text/json_text.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/files/png_file.h>
-#include <placegraph/io/files/rows_json.h>
+#include <placegraph/io/files/picture_file.h>
 #include <placegraph/io/measurements/marker_layout_file.h>
 
 #include <cmath>
@@ -14,6 +13,7 @@
 
 #include "apps/image/draw_markers.h"
 #include "apps/support/choice.h"
+#include "apps/support/numbers_json.h"
 #include "apps/support/output.h"
 #include "apps/support/read_calib.h"
 #include "apps/support/usage.h"

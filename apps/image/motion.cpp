@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/text/json_text.h>
-#include <placegraph/io/files/rows_json.h>
 
 #include <array>
 #include <cmath>
@@ -11,6 +10,7 @@
 #include <set>
 
 #include "apps/support/choice.h"
+#include "apps/support/numbers_json.h"
 #include "apps/support/output.h"
 #include "apps/support/read_calib.h"
 #include "apps/support/usage.h"

@@ -2,7 +2,7 @@
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/core/random.h>
 #include <placegraph/graph/geometry/camera.h>
-#include <placegraph/io/measurements/match_file.h>
+#include "apps/support/match_file.h"
 
 #include <nlohmann/json.hpp>
 #include <optional>

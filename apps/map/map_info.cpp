@@ -3,13 +3,14 @@
 #include <fmt/format.h>
 #include <placegraph/graph/text/json_text.h>
 #include <placegraph/pipeline/map/map_file.h>
+#include <placegraph/pipeline/results/run_map.h>
+#include <placegraph/pipeline/results/run_results.h>
 #include <placegraph/pipeline/run.h>
 
 #include <algorithm>
 #include <set>
 
-#include "apps/results/component_files.h"
-#include "apps/results/run_map.h"
+#include "apps/results/result_texts.h"
 #include "apps/support/output.h"
 
 namespace placegraph::apps {
@@ -36,7 +37,7 @@ json describe_map(const std::string& path, const StoredMap& stored) {
                {"sensor", stored.origin.calibration ? to_string(stored.origin.sensor) : "images"},
                {"places", map.place_graph.places.size()},
                {"components", components.size()},
-               {"component_trajectories", describe_components(map)},
+               {"component_trajectories", json::parse(components_json(map))},
                {"keyframes", map.keyframes.size()},
                {"views", views},
                {"features", features},

@@ -3,13 +3,11 @@
 #include <fmt/format.h>
 #include <placegraph/frontend/places/classifiers/place_classifier.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/text/id_format.h>
 #include <placegraph/graph/text/json_text.h>
 #include <placegraph/io/datasets/open_dataset.h>
-#include <placegraph/io/files/input_file.h>
 #include <placegraph/io/files/text_file.h>
-#include <placegraph/io/measurements/label_file.h>
 #include <placegraph/pipeline/map/map_file.h>
+#include "apps/support/label_file.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -74,7 +72,7 @@ std::function<Frame(const Keyframe&)> frames_of(const StoredMap& stored) {
       if (keyframe.frame.value() >= count)
         throw FileError(stored.origin.sequence,
                         fmt::format("has {} images, and keyframe {} of the map is of image {}",
-                                    count, keyframe.id, keyframe.frame));
+                                    count, keyframe.id.value(), keyframe.frame.value()));
     return [images](const Keyframe& keyframe) {
       return read_frame(images, static_cast<std::size_t>(keyframe.frame.value()));
     };

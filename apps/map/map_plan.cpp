@@ -7,8 +7,8 @@
 #include <placegraph/io/datasets/open_dataset.h>
 #include <placegraph/pipeline/map/map_file.h>
 #include <placegraph/pipeline/map/map_floor_plan.h>
+#include <placegraph/pipeline/results/floor_plan_files.h>
 
-#include "apps/results/floor_plan_files.h"
 #include "apps/support/output.h"
 
 namespace placegraph::apps {
@@ -26,12 +26,15 @@ MapPlanResult map_plan(const MapPlanArguments& arguments) {
   const IndoorMap plan = plan_of_map(stored, options);
   if (!plan.outcome) throw NoResult(arguments.map + ": no floor plan: " + plan.outcome.reason);
   const OutputFolder folder(arguments.out);
-  write_floor_plan(arguments.out, plan, stored.map, dataset->name());
+  write_floor_plan(arguments.out, plan, stored.map, dataset->name(), messages());
   if (const auto doubt = doubt_of(plan)) warn(arguments.map + ": " + *doubt);
   return {
-      arguments.map,     arguments.out,
-      plan.walls.size(), plan.doors.size(),
-      plan.rooms.size(), describe_floor_plan(plan, stored.map, *dataset, stored.origin.sequence)};
+      arguments.map,
+      arguments.out,
+      plan.walls.size(),
+      plan.doors.size(),
+      plan.rooms.size(),
+      nlohmann::json::parse(floor_plan_json(plan, stored.map, *dataset, stored.origin.sequence))};
 }
 
 std::string to_text(const MapPlanResult& result) {

@@ -6,11 +6,11 @@
 #include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/datasets/open_dataset.h>
 #include <placegraph/pipeline/map/map_file.h>
+#include <placegraph/pipeline/results/georeference_reader.h>
 
 #include <algorithm>
 #include <optional>
 
-#include "apps/results/georeference_reader.h"
 #include "apps/support/output.h"
 
 namespace placegraph::apps {
@@ -28,23 +28,23 @@ MapSemanticResult map_semantic(const MapSemanticArguments& a) {
   if (!a.georeference.empty()) earth = read_georeference(a.georeference, stored.map);
   const auto dataset = open_dataset(stored.origin.sequence);
   const UrbanMapper mapper =
-      urban_mapper_of(stored.map, *stored.origin.calibration, *dataset, stored.origin.sensor,
-                      stored.origin.lens_k1, options, a.models);
+      street_mapper_of(stored.map, *stored.origin.calibration, *dataset, stored.origin.sensor,
+                       stored.origin.lens_k1, options, a.models);
   const KeyframePoses poses = earth ? earth->T_enu_keyframe : poses_of(stored.map);
   const SemanticMap semantic =
       earth ? mapper.fuse(poses, -Eigen::Vector3d::UnitZ()) : mapper.fuse(stored.map);
   if (!semantic.outcome) throw NoResult(a.map + ": no semantic map: " + semantic.outcome.reason);
   const OutputFolder folder(a.out);
   write_semantic_map(a.out, semantic, mapper, stored.map, poses, dataset->name(),
-                     earth ? std::optional(earth->origin) : std::nullopt);
+                     earth ? std::optional(earth->origin) : std::nullopt, messages());
   MapSemanticResult result{a.map, a.out, {}};
   result.summary = {
       {"keyframes", mapper.observations().size()},
       {"cells", std::count_if(semantic.cells.begin(), semantic.cells.end(),
                               [](const SemanticCell& cell) { return cell.label >= 0; })}};
   if (!earth)  // true scenes have no position on the earth
-    result.summary =
-        describe_semantic_map(semantic, mapper, stored.map, *dataset, stored.origin.sequence);
+    result.summary = nlohmann::json::parse(
+        semantic_map_json(semantic, mapper, stored.map, *dataset, stored.origin.sequence));
   return result;
 }
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/results/semantic_map_files.h"
+#include "apps/results/street_mapper.h"
 
 namespace placegraph::apps {
 

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/text/id_format.h>
 #include <placegraph/graph/text/json_text.h>
 #include <placegraph/pipeline/map/map_file.h>
 #include <placegraph/pipeline/places/history_check.h>
@@ -20,12 +19,13 @@ void require_frames(const std::string& path, const Map& map) {
   for (const Keyframe& keyframe : map.keyframes)
     if (!frames.count(keyframe.frame))
       throw FileError(path, fmt::format("table keyframe, row {}: frame {} is no frame of the map",
-                                        keyframe.id, keyframe.frame));
+                                        keyframe.id.value(), keyframe.frame.value()));
   for (std::size_t i = 0; i < map.loops.size(); ++i)
     if (!frames.count(map.loops[i].query_frame) || !frames.count(map.loops[i].match_frame))
-      throw FileError(path, fmt::format("table loop, row {}: frames {} and {} are not both of the "
-                                        "map",
-                                        i, map.loops[i].query_frame, map.loops[i].match_frame));
+      throw FileError(
+          path, fmt::format("table loop, row {}: frames {} and {} are not both of the "
+                            "map",
+                            i, map.loops[i].query_frame.value(), map.loops[i].match_frame.value()));
 }
 
 }  // namespace

@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 #include <placegraph/frontend/places/classifiers/place_classifier.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/text/id_format.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/files/image_list.h>
-#include <placegraph/io/measurements/label_file.h>
 #include <placegraph/io/measurements/loop_file.h>
+#include "apps/support/label_file.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -53,14 +52,14 @@ Halves halves_of(const ClassifyPlacesArguments& arguments, int images) {
     throw FileError(listed, "lists no candidates (query first last ...): use --train");
   for (const auto& [image, query] : file.truth.queries) {
     if (image.value() >= images || query.last.value() >= images)
-      throw FileError(
-          listed, fmt::format("image {}, and there are {}", std::max(image, query.last), images));
+      throw FileError(listed, fmt::format("image {}, and there are {}",
+                                          std::max(image, query.last).value(), images));
     halves.asked.insert(image);
     for (FrameId i = query.first; i <= query.last; ++i) halves.training.insert(i);
   }
   for (const FrameId image : halves.asked)
     require(!halves.training.contains(image),
-            fmt::format("{}: image {} is a query and a candidate", listed, image));
+            fmt::format("{}: image {} is a query and a candidate", listed, image.value()));
   return halves;
 }
 
@@ -100,7 +99,7 @@ LabelledViews read_training_set(const ClassifyPlacesArguments& arguments,
   for (const FrameId image : training) {
     const auto label = all_labels.find(image);
     if (label == all_labels.end())
-      throw FileError(label_path, fmt::format("no label for training image {}", image));
+      throw FileError(label_path, fmt::format("no label for training image {}", image.value()));
     constexpr int kMostPlaces = 10000;
     if (label->second >= kMostPlaces)
       throw FileError(label_path,
@@ -155,7 +154,7 @@ ClassifyPlacesResult classify_places(const ClassifyPlacesArguments& arguments) {
   std::string lines;
   for (const ClassifiedPlace& place : result.predictions) {
     result.refused += place.label < 0;
-    lines += fmt::format("{} {} {:.6f}\n", place.image, place.label, place.probability);
+    lines += fmt::format("{} {} {:.6f}\n", place.image.value(), place.label, place.probability);
   }
   write_file(arguments.out, lines);
   result.weights = {classifier.weights().begin(), classifier.weights().end()};

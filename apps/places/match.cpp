@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/text/id_format.h>
 #include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/files/image_list.h>
@@ -58,8 +57,8 @@ std::vector<MatchQuery> listed_queries(const std::string& path, int images) {
   std::vector<MatchQuery> queries;
   for (const auto& [image, query] : file.truth.queries) {
     if (image.value() >= images || query.last.value() >= images)
-      throw FileError(
-          path, fmt::format("image {}, and there are {}", std::max(image, query.last), images));
+      throw FileError(path, fmt::format("image {}, and there are {}",
+                                        std::max(image, query.last).value(), images));
     queries.push_back({static_cast<int>(image.value()), static_cast<int>(query.first.value()),
                        static_cast<int>(query.last.value())});
   }

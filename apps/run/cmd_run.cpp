@@ -1,6 +1,7 @@
 #include "apps/run/cmd_run.h"
 
 #include <placegraph/graph/core/error.h>
+#include <placegraph/pipeline/report/run_page.h>
 
 #include <CLI/CLI.hpp>
 #include <filesystem>

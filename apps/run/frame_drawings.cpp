@@ -3,11 +3,7 @@
 #include <fmt/format.h>
 #include <placegraph/eval/drawing/picture_bytes.h>
 #include <placegraph/eval/drawing/picture_legend.h>
-#include <placegraph/graph/core/error.h>
-#include <placegraph/graph/image/jpeg_codec.h>
-#include <placegraph/graph/image/picture_plugin.h>
-#include <placegraph/io/files/atomic_file.h>
-#include <placegraph/io/files/png_file.h>
+#include <placegraph/io/files/picture_file.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -47,7 +43,7 @@ class FolderDrawings : public FrameDrawings {
   explicit FolderDrawings(const std::string& path) : path_(path), folder_(path), legended_(path) {}
   void add(const Frame& frame, const FrameResult& result, const FrameView& view) override {
     const auto file = fs::path(path_) / fmt::format("{:06d}.png", frame.id.value());
-    write_png(file.string(), legended_(draw_frame(frame, result, view)), {.level = 3});
+    write_png(file.string(), legended_(draw_frame(frame, result, view)), 3);
   }
   void finish() override {}
 
@@ -59,30 +55,18 @@ class FolderDrawings : public FrameDrawings {
 
 class VideoDrawings : public FrameDrawings {
  public:
-  explicit VideoDrawings(const std::string& path) : path_(path), file_(path), legended_(path) {}
+  explicit VideoDrawings(const std::string& path) : file_(path), legended_(path) {}
   void add(const Frame& frame, const FrameResult& result, const FrameView& view) override {
     Image drawing = legended_(draw_frame(frame, result, view));
     // H.264 has a colour for every second pixel.
     cv::copyMakeBorder(drawing, drawing, 0, drawing.rows % 2, 0, drawing.cols % 2,
                        cv::BORDER_CONSTANT, cv::Scalar::all(255));
-    constexpr double kRate_hz = 10;
-    if (!video_)
-      video_ = picture_plugin(path_).create_video(file_.temporary_path(), drawing.cols,
-                                                  drawing.rows, kRate_hz);
-    if (!video_) throw FileError(path_, "no video can be written there");
-    if (!video_->write(drawing)) throw FileError(path_, "a frame of the video cannot be written");
+    file_.write(drawing);
   }
-  void finish() override {
-    if (!video_) return;
-    if (!video_->finish()) throw FileError(path_, "the video cannot be written");
-    video_.reset();
-    file_.commit();
-  }
+  void finish() override { file_.finish(); }
 
  private:
-  std::string path_;
-  AtomicFile file_;  ///< closed after the video
-  std::unique_ptr<VideoWriter> video_;
+  VideoFile file_;
   Legended legended_;
 };
 
@@ -117,8 +101,10 @@ class SheetDrawings : public FrameDrawings {
           cv::Rect(i % columns * (width + kGap), i / columns * (height + kGap), width, height)));
     sheet = with_legend(sheet, frame_legend(), path_);
     constexpr int kQuality = 90;
-    write_file(path_, extension_of(path_) == ".png" ? encode_png(sheet, {.level = 6})
-                                                    : encode_jpeg(sheet, kQuality));
+    if (extension_of(path_) == ".png")
+      write_png(path_, sheet, 6);
+    else
+      write_jpeg(path_, sheet, kQuality);
   }
 
  private:
@@ -148,7 +134,7 @@ void require_free_drawings(const std::string& path, bool force) {
   else
     require_free_folder(path, force);
   require_drawings(path);
-  if (is_video(path)) picture_plugin(path);
+  if (is_video(path)) require_videos(path);
 }
 
 std::unique_ptr<FrameDrawings> frame_drawings(const std::string& path, std::int64_t frames) {

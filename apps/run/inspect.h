@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/io/datasets/dataset_summary.h>
+#include "apps/run/dataset_summary.h"
 
 #include <cstddef>
 #include <optional>

@@ -11,6 +11,7 @@
 #include <placegraph/io/map/map_database.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 #include <placegraph/pipeline/exports/place_tables.h>
+#include <placegraph/pipeline/results/run_results.h>
 #include <sys/resource.h>
 
 #include <chrono>
@@ -18,11 +19,7 @@
 #include <memory>
 #include <opencv2/core/utility.hpp>
 
-#include "apps/results/component_files.h"
 #include "apps/results/environment_files.h"
-#include "apps/results/judgement_text.h"
-#include "apps/results/run_files.h"
-#include "apps/results/run_judgement.h"
 #include "apps/run/frame_drawings.h"
 #include "apps/run/run_messages.h"
 #include "apps/run/run_notes.h"
@@ -77,7 +74,7 @@ void write_results(const std::string& folder, const RunResult& run, const Trajec
   write_file(path("places.graphml"), to_graphml(run.map.place_graph, transitions));
   write_file(path("places.dot"), to_dot(run.map.place_graph, transitions));
   write_file(path("loops.csv"), loops_csv(run.map));
-  write_plot_beside(path("plot.png"), to_svg(run_plot(run.map, optimized, truth, title)));
+  write_plot_beside(path("plot.png"), run_picture(run.map, optimized, truth, title));
   write_file(path("result.json"), json_text(summary, 1));
 }
 
@@ -172,8 +169,9 @@ Judgement judge_prepared(PreparedRun& prepared, RunResult& run, const Trajectory
 json summarize(const PreparedRun& prepared, const RunResult& run, const Trajectory& optimized) {
   const RunOptions& options = prepared.options;
   const Dataset& dataset = *prepared.dataset;
-  json summary = describe_run(run, optimized);
-  if (!options.motion.file.empty()) summary["motion"] = describe_motion(run.map.place_graph);
+  json summary = json::parse(run_json(run, optimized));
+  if (!options.motion.file.empty())
+    summary["motion"] = json::parse(motion_json(run.map.place_graph));
   if (!run.environments.empty())
     summary["environments"] = describe_environments(run.map.place_graph);
   if (run.resumed_at) summary["resumed_at"] = *run.resumed_at;
@@ -246,9 +244,9 @@ RunReport run(const RunArguments& asked) {
                environment_csv(run.environments));
   const Trajectory* truth = truth_of(dataset);
   if (run.stopped) summary["interrupted"] = true;
-  if (truth) summary.update(judge_run(*truth, run, optimized));
+  if (truth) summary.update(json::parse(truth_json(*truth, run, optimized)));
   if (measured && !judgement.metric) summary["scale_doubted"] = true;
-  summary["judgement"] = describe_judgement(judgement);
+  summary["judgement"] = json::parse(judgement_json(judgement));
   const std::string map_path = interrupted_map_path(run_map_path(arguments.out));
   if (fs::exists(map_path)) write_judgement(map_path, judgement);
   write_results(arguments.out, run, optimized, truth, dataset.name(), summary);

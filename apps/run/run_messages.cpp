@@ -1,7 +1,6 @@
 #include "apps/run/run_messages.h"
 
 #include <fmt/format.h>
-#include <placegraph/graph/text/id_format.h>
 
 #include <utility>
 
@@ -31,45 +30,47 @@ void RunMessages::lens_found(const LensFound& lens) {
   print(Verbosity::kNormal, "event",
         fmt::format("frame {}: lens distortion found (k1 = {:.4f} +- {:.4f}): the run begins again "
                     "with undistorted images, pass {}",
-                    lens.frame, lens.k1, lens.sigma_k1, lens.pass));
+                    lens.frame.value(), lens.k1, lens.sigma_k1, lens.pass));
 }
 
 void RunMessages::frame_posed(const FrameResult& frame) {
   if (lost_ > 0)
     print(Verbosity::kNormal, "event",
-          fmt::format("frame {}: tracking recovered after {} {} without a pose", frame.frame, lost_,
-                      lost_ == 1 ? "frame" : "frames"));
+          fmt::format("frame {}: tracking recovered after {} {} without a pose",
+                      frame.frame.value(), lost_, lost_ == 1 ? "frame" : "frames"));
   lost_ = 0;
 }
 
 void RunMessages::frame_lost(const FrameResult& frame) {
   if (frame.state == TrackingState::kInitializing)
-    return print(Verbosity::kVerbose, "event",
-                 fmt::format("frame {}: no pose yet: {}", frame.frame, frame.outcome.reason));
+    return print(
+        Verbosity::kVerbose, "event",
+        fmt::format("frame {}: no pose yet: {}", frame.frame.value(), frame.outcome.reason));
   print(lost_ == 0 ? Verbosity::kNormal : Verbosity::kVerbose, "event",
-        fmt::format("frame {}: tracking lost: {}", frame.frame, frame.outcome.reason));
+        fmt::format("frame {}: tracking lost: {}", frame.frame.value(), frame.outcome.reason));
   ++lost_;
 }
 
 void RunMessages::loop_accepted(const LoopRecord& loop) {
   print(Verbosity::kNormal, "event",
-        fmt::format("frame {}: loop closed with frame {}", loop.query_frame, loop.match_frame));
+        fmt::format("frame {}: loop closed with frame {}", loop.query_frame.value(),
+                    loop.match_frame.value()));
 }
 
 void RunMessages::loop_refused(const LoopRecord& loop) {
   print(Verbosity::kDebug, "event",
-        fmt::format("frame {}: loop with frame {} refused at stage {}", loop.query_frame,
-                    loop.match_frame, to_string(loop.stage)));
+        fmt::format("frame {}: loop with frame {} refused at stage {}", loop.query_frame.value(),
+                    loop.match_frame.value(), to_string(loop.stage)));
 }
 
 void RunMessages::place_added(const PlaceAdded& place) {
   print(Verbosity::kVerbose, "event",
-        fmt::format("place {} added to component {}", place.place, place.component));
+        fmt::format("place {} added to component {}", place.place.value(), place.component));
 }
 
 void RunMessages::places_merged(const PlacesMerged& places) {
   print(Verbosity::kVerbose, "event",
-        fmt::format("place {} merged into place {}", places.gone, places.kept));
+        fmt::format("place {} merged into place {}", places.gone.value(), places.kept.value()));
 }
 
 void RunMessages::component_joined(const ComponentJoined& component) {

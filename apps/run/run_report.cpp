@@ -5,8 +5,7 @@
 
 #include <algorithm>
 
-#include "apps/results/component_files.h"
-#include "apps/results/judgement_text.h"
+#include "apps/results/result_texts.h"
 
 namespace placegraph::apps {
 namespace {

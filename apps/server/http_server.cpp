@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/image/plugin_folders.h>
 #include <placegraph/graph/image/plugin_loader.h>
 
 namespace placegraph::apps {
@@ -21,8 +20,7 @@ HttpResponse text_response(int status, const std::string& sentence) {
 }
 
 std::unique_ptr<HttpServer> bind_http(int port, HttpHandlers handlers) {
-  static const auto& module =
-      *static_cast<const HttpModule*>(load_plugin(kKind, plugin_folders(), "the viewer"));
+  static const auto& module = *static_cast<const HttpModule*>(load_plugin(kKind, "the viewer"));
   auto server = module.bind(port, std::move(handlers));
   if (!server)
     throw Error(port == 0 ? std::string("no free port on 127.0.0.1")

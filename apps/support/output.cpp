@@ -65,11 +65,6 @@ Failure failure_of(const std::exception& error) {
           std::string("internal error, please report it with the command: ") + error.what()};
 }
 
-void require_page_name(const std::string& path) {
-  const std::string extension = extension_of(path);
-  require(extension == ".html" || extension == ".htm", path + ": a page ends in .html");
-}
-
 void print(const std::string& text) {
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) fail_to_print();
 }

@@ -41,9 +41,6 @@ struct Failure {
 /// internal: a function has broken its contract.
 Failure failure_of(const std::exception& error);
 
-/// Checks that a file for a page has an extension that browsers know, .html or .htm.
-void require_page_name(const std::string& path);
-
 /// Prints the result of a command on stdout. Throws Error if that cannot be written.
 void print(const std::string& text);
 /// Writes what is buffered on stdout; Error as print().

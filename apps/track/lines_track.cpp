@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 #include <placegraph/frontend/lines/track_consistency.h>
-#include <placegraph/graph/core/median.h>
-#include <placegraph/graph/text/id_format.h>
 #include <placegraph/graph/text/json_text.h>
 #include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/datasets/open_dataset.h>
@@ -19,6 +17,13 @@
 
 namespace placegraph::apps {
 namespace {
+
+/// The upper median; needs at least one value.
+double middle_of(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
 
 struct TrackedLine {
   FrameId frame;
@@ -60,9 +65,9 @@ std::string tracks_text(const LineTracks& tracks) {
   std::string text;
   for (const auto& [id, track] : tracks)
     for (const TrackedLine& s : track)
-      text +=
-          fmt::format("{} {} {:.3f} {:.3f} {:.3f} {:.3f}\n", id, s.frame, s.line.segment.start.x(),
-                      s.line.segment.start.y(), s.line.segment.end.x(), s.line.segment.end.y());
+      text += fmt::format("{} {} {:.3f} {:.3f} {:.3f} {:.3f}\n", id.value(), s.frame.value(),
+                          s.line.segment.start.x(), s.line.segment.start.y(),
+                          s.line.segment.end.x(), s.line.segment.end.y());
   return text;
 }
 
@@ -74,9 +79,9 @@ void count_lengths(const LineTracks& tracks, LinesTrackResult& result) {
   std::copy_if(lengths.begin(), lengths.end(), std::back_inserter(of_use),
                [](double n) { return n >= 3; });
   result.tracks = tracks.size();
-  result.median_length_frames = median_of(lengths);
+  result.median_length_frames = middle_of(lengths);
   result.tracks_of_use = of_use.size();
-  result.median_length_of_use = of_use.empty() ? 0 : median_of(of_use);
+  result.median_length_of_use = of_use.empty() ? 0 : middle_of(of_use);
 }
 
 }  // namespace

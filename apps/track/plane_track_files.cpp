@@ -1,11 +1,11 @@
 #include <fmt/format.h>
-#include <placegraph/graph/image/png_codec.h>
-#include <placegraph/io/files/json_file.h>
 
 #include <nlohmann/json.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "apps/track/plane_track_files.h"
+
+#include "apps/support/numbers_json.h"
 
 namespace placegraph::apps {
 namespace {
@@ -68,7 +68,7 @@ std::optional<SE3> pose_of(const PlaneTrack& track) {
   return track.T_cur_ref->inverse();
 }
 
-std::string track_drawing(const Image& image, const PlaneTrack& track, std::size_t frame) {
+Image track_drawing(const Image& image, const PlaneTrack& track, std::size_t frame) {
   Image drawing;
   cv::cvtColor(image, drawing, cv::COLOR_GRAY2BGR);
   const cv::Scalar colour = track.outcome ? cv::Scalar(80, 200, 0) : cv::Scalar(40, 40, 230);
@@ -90,7 +90,7 @@ std::string track_drawing(const Image& image, const PlaneTrack& track, std::size
                         track.similarity)
           : fmt::format("{}: lost, {}", frame, track.outcome.reason);
   cv::putText(drawing, text, {8, 20}, cv::FONT_HERSHEY_SIMPLEX, 0.5, colour, 1, cv::LINE_AA);
-  return encode_png(drawing);
+  return drawing;
 }
 
 }  // namespace placegraph::apps

@@ -16,7 +16,7 @@ std::string track_lines(const std::vector<PlaneTrack>& tracks);
 nlohmann::ordered_json track_json(const PlaneTrack& track, std::size_t frame);
 /// T_ref_cur in units of the plane's distance; nothing if the track or its motion is unknown.
 std::optional<SE3> pose_of(const PlaneTrack& track);
-/// The frame with the template's outline, or the reason for the loss; PNG bytes.
-std::string track_drawing(const Image& image, const PlaneTrack& track, std::size_t frame);
+/// The frame with the template's outline, or the reason for the loss, CV_8UC3.
+Image track_drawing(const Image& image, const PlaneTrack& track, std::size_t frame);
 
 }  // namespace placegraph::apps

@@ -4,6 +4,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/text/json_text.h>
 #include <placegraph/io/files/image_file.h>
+#include <placegraph/io/files/picture_file.h>
 #include <placegraph/io/files/text_file.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 
@@ -95,7 +96,7 @@ void write_drawings(const std::string& path, const FrameSource& source,
                     const std::vector<PlaneTrack>& tracks) {
   for (std::size_t i = 0; i < tracks.size(); ++i) {
     const auto file = std::filesystem::path(path) / fmt::format("{:06d}.png", i);
-    write_file(file.string(), track_drawing(source.image(i), tracks[i], i));
+    write_png(file.string(), track_drawing(source.image(i), tracks[i], i));
   }
 }
 

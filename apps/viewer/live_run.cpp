@@ -1,13 +1,11 @@
 #include "apps/viewer/live_run.h"
 
-#include <placegraph/graph/image/jpeg_codec.h>
+#include <placegraph/pipeline/report/served_page.h>
 
 #include <cmath>
 #include <limits>
 
-#include "apps/page/column.h"
 #include "apps/support/output.h"
-#include "apps/viewer/jpeg_url.h"
 
 namespace placegraph::apps {
 namespace {
@@ -19,6 +17,11 @@ constexpr std::chrono::seconds kAlone(20);
 /// The newest places move with every keyframe: browsers need not follow each of these motions.
 constexpr std::chrono::seconds kBetweenAnnouncements(1);
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+
+template <class Value>
+json column(const std::vector<Value>& values, int width = 1) {
+  return json::parse(column_json(values, width));
+}
 
 const char* state_name(TrackingState state) {
   switch (state) {
@@ -73,7 +76,7 @@ json frames_json(const std::vector<LiveMap::TrackedFrame>& frames) {
           {"component", column(components)},
           {"pose", column(poses, 7)},
           {"inliers", column(inliers)},
-          {"state", text_column(states)},
+          {"state", json::parse(text_column_json(states))},
           {"keyframe", column(keyframes)}};
 }
 

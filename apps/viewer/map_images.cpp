@@ -1,11 +1,9 @@
 #include "apps/viewer/map_images.h"
 
-#include <placegraph/graph/image/jpeg_codec.h>
 #include <placegraph/io/datasets/open_dataset.h>
+#include <placegraph/pipeline/report/served_page.h>
 
 #include <filesystem>
-
-#include "apps/viewer/jpeg_url.h"
 
 namespace placegraph::apps {
 
@@ -24,7 +22,7 @@ std::optional<std::string> MapImages::jpeg(FrameId frame) {
   if (index < 0 || index >= static_cast<std::int64_t>(dataset_->size())) return std::nullopt;
   const Frame read = dataset_->frame(static_cast<std::size_t>(index), sensor_);
   const Image& image = read.colour.empty() ? read.image : read.colour;
-  return encode_jpeg(lens_k1_ == 0 ? image : lens_->corrected(image), kJpegQuality);
+  return jpeg_of_page(lens_k1_ == 0 ? image : lens_->corrected(image));
 }
 
 }  // namespace placegraph::apps

@@ -3,19 +3,14 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/pipeline/map/map_file.h>
-#include <placegraph/pipeline/map/map_geometry.h>
+#include <placegraph/pipeline/report/served_page.h>
 
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <unordered_map>
 
-#include "apps/page/column.h"
-#include "apps/page/landmark_rows.h"
-#include "apps/report/report.h"
-#include "apps/report/report_run.h"
 #include "apps/support/output.h"
 
 namespace placegraph::apps {
@@ -50,31 +45,19 @@ std::optional<FramePath> frame_path(std::string_view path) {
   return FramePath{static_cast<std::size_t>(*run), *frame, std::string(parts[4])};
 }
 
-/// Pixels of the keyframe's landmarks, with the row of each in the report.
-json observations_of(const Map& map, const Keyframe& keyframe) {
-  const std::vector<PlacedLandmark> landmarks = geometry_of(map, std::nullopt).landmarks;
-  const LandmarkRows rows(landmarks.size());
-  std::unordered_map<LandmarkId, std::size_t> positions;
-  for (std::size_t i = 0; i < landmarks.size(); ++i) positions[landmarks[i].id] = i;
-  std::vector<float> points;
-  for (const LandmarkObservation& seen : keyframe.observations) {
-    const auto found = positions.find(seen.landmark);
-    const std::optional<std::size_t> row =
-        found == positions.end() ? std::nullopt : rows.row_of(found->second);
-    points.push_back(seen.px.x());
-    points.push_back(seen.px.y());
-    points.push_back(row ? static_cast<float>(*row) : -1.0F);
-  }
-  return {{"points", column(points, 3)}};
+HttpResponse json_text_response(std::string text) {
+  HttpResponse response;
+  response.type = "application/json";
+  response.body = std::move(text);
+  return response;
 }
 
 }  // namespace
 
 HttpResponse json_response(const json& data, int status) {
-  HttpResponse response;
+  HttpResponse response =
+      json_text_response(data.dump(-1, ' ', false, json::error_handler_t::replace));
   response.status = status;
-  response.type = "application/json";
-  response.body = data.dump(-1, ' ', false, json::error_handler_t::replace);
   return response;
 }
 
@@ -107,25 +90,21 @@ void RunPages::show(std::shared_ptr<const StoredMap> stored, bool edited) {
   runs_.front().edited = edited;
 }
 
-json RunPages::describe_run(std::size_t number) const {
+ServedRun RunPages::served(std::size_t number) const {
   const Run& run = runs_[number];
-  std::string path = run.path;
-  std::shared_ptr<const StoredMap> stored;
-  {
-    // Both at once: the map of one state must not be described with the files of another.
-    const std::lock_guard lock(mutex_);
-    stored = run.stored;
-    if (run.edited) path = (std::filesystem::path(path).parent_path() / "edited.db").string();
-  }
-  json described = describe_run_for_report(*stored, path);
-  described["name"] = run.name;
-  return described;
+  ServedRun served{run.name, run.path, nullptr};
+  // Both at once: the map of one state must not be described with the files of another.
+  const std::lock_guard lock(mutex_);
+  served.stored = run.stored;
+  if (run.edited)
+    served.path = (std::filesystem::path(run.path).parent_path() / "edited.db").string();
+  return served;
 }
 
 HttpResponse RunPages::report() const {
-  json runs = json::array();
-  for (std::size_t i = 0; i < runs_.size(); ++i) runs.push_back(describe_run(i));
-  return json_response(report_data(title(), program_, std::move(runs)));
+  std::vector<ServedRun> runs;
+  for (std::size_t i = 0; i < runs_.size(); ++i) runs.push_back(served(i));
+  return json_text_response(served_runs(title(), program_, runs, messages()));
 }
 
 HttpResponse RunPages::of_frame(const std::string& path) {
@@ -147,7 +126,7 @@ HttpResponse RunPages::of_frame(const std::string& path) {
   const auto keyframe =
       std::ranges::find(keyframes, FrameId(at->frame), [](const Keyframe& k) { return k.frame; });
   if (keyframe == keyframes.end()) return text_response(404, "the frame is no keyframe");
-  return json_response(observations_of(map->map, *keyframe));
+  return json_text_response(served_observations(map->map, *keyframe));
 }
 
 HttpResponse RunPages::respond(const std::string& path) {

@@ -1,5 +1,6 @@
 #pragma once
 #include <placegraph/io/map/stored_map.h>
+#include <placegraph/pipeline/report/served_page.h>
 
 #include <memory>
 #include <mutex>
@@ -45,7 +46,7 @@ class RunPages {
     std::shared_ptr<const StoredMap> stored;
     std::unique_ptr<MapImages> images;
   };
-  nlohmann::json describe_run(std::size_t number) const;
+  ServedRun served(std::size_t number) const;
   HttpResponse report() const;
   HttpResponse of_frame(const std::string& path);
   std::shared_ptr<const StoredMap> stored(std::size_t run) const;

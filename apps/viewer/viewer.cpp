@@ -1,6 +1,7 @@
 #include "apps/viewer/viewer.h"
 
 #include <fcntl.h>
+#include <placegraph/pipeline/report/served_page.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -9,7 +10,6 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "apps/page/page.h"
 #include "apps/support/output.h"
 
 namespace placegraph::apps {
@@ -20,7 +20,8 @@ HttpResponse page_response(const nlohmann::json& start) {
   const std::string nonce = new_token();
   HttpResponse response;
   response.type = "text/html; charset=utf-8";
-  response.body = page_served(start, nonce);
+  response.body =
+      served_page(start.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), nonce);
   response.headers = {
       {"Content-Security-Policy",
        "default-src 'none'; script-src 'nonce-" + nonce +

@@ -10,6 +10,7 @@
 #include <placegraph/backend/solver/ceres_factor.h>
 #include <placegraph/backend/solver/kernel_loss.h>
 #include <placegraph/backend/solver/packed_graph.h>
+#include <placegraph/graph/pose_graph/rigid_graph.h>
 
 #include <Eigen/SparseCholesky>
 #include <deque>

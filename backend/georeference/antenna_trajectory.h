@@ -7,9 +7,10 @@
 #include <optional>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// A fix relative to a node: the antenna at the time of the fix, in the node's frame and scale,
+/// A fix relative to a node.
+/// The antenna at the time of the fix, in the node's frame and scale,
 ///
 ///   p_node = A lever_arm + t + v clock_offset,
 ///
@@ -62,10 +63,5 @@ class AntennaTrack {
   std::vector<Visit> visits_;  ///< visits in time order
   Trajectory motion_;          ///< T_map_body
 };
-
-/// A pose without its scale; a node of SE(2) is at z = 0.
-SE3 rigid_part(const Pose& pose);
-/// Scale of a pose; 1 unless the pose is Sim3.
-double scale_of(const Pose& pose);
 
 }  // namespace placegraph

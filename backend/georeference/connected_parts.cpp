@@ -1,6 +1,7 @@
 #include <placegraph/backend/georeference/antenna_trajectory.h>
 #include <placegraph/backend/georeference/connected_parts.h>
 #include <placegraph/graph/pose_graph/node_index.h>
+#include <placegraph/graph/pose_graph/rigid_graph.h>
 
 #include <cmath>
 

@@ -11,11 +11,11 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>
 #include <placegraph/graph/pose_graph/node_index.h>
+#include <placegraph/graph/pose_graph/rigid_graph.h>
 #include <placegraph/graph/text/log_message.h>
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace placegraph {
 namespace {

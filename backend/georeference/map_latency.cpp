@@ -1,5 +1,6 @@
 #include <placegraph/backend/georeference/map_latency.h>
 #include <placegraph/graph/pose_graph/node_index.h>
+#include <placegraph/graph/pose_graph/rigid_graph.h>
 
 #include <cmath>
 #include <optional>

@@ -3,8 +3,9 @@
 
 #include <functional>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
+/// A graph that was solved pose by pose.
 struct IncrementalReplay {
   Outcome outcome;
   PoseGraph graph;  ///< graph with the final poses; nodes and constraints in the order of the input

@@ -25,6 +25,7 @@ struct ChordalIsotropicCertificate {
   double eigenvalue_scale = 0;     ///< mean diagonal entry, for comparison with the eigenvalue
 };
 
+/// Tolerances of a certificate.
 struct CertificateOptions {
   double max_relative_gap = 1e-5;
 };

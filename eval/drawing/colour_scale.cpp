@@ -1,4 +1,4 @@
-#include <placegraph/eval/drawing/colour_scale.h>
+#include <placegraph/eval/drawing/figure.h>
 #include <placegraph/eval/drawing/plot_style.h>
 
 #include <algorithm>

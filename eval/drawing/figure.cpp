@@ -1,9 +1,13 @@
 #include <placegraph/eval/drawing/figure.h>
+#include <placegraph/eval/drawing/legend.h>
 #include <placegraph/eval/drawing/panel_drawing.h>
+#include <placegraph/eval/drawing/plot_axis.h>
 #include <placegraph/eval/drawing/plot_style.h>
+#include <placegraph/eval/drawing/svg_canvas.h>
 #include <placegraph/eval/drawing/text_width.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace placegraph {
 namespace {
@@ -11,6 +15,12 @@ namespace {
 constexpr double kSide = 24, kTitleLine = 28, kNoteLine = 21;
 
 }  // namespace
+
+void Interval::add(double value) {
+  if (!std::isfinite(value)) return;
+  min = std::min(min, value);
+  max = std::max(max, value);
+}
 
 void make_equal(FigurePanel& panel) {
   const double unit_per_px =

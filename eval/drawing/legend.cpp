@@ -1,6 +1,7 @@
-#include <placegraph/eval/drawing/colour_scale.h>
+#include <placegraph/eval/drawing/figure.h>
 #include <placegraph/eval/drawing/legend.h>
 #include <placegraph/eval/drawing/plot_style.h>
+#include <placegraph/eval/drawing/svg_canvas.h>
 #include <placegraph/eval/drawing/text_width.h>
 
 #include <algorithm>

@@ -6,16 +6,6 @@
 
 namespace placegraph {
 
-enum class LegendMark { kLine, kRing, kDisc, kArea, kScale };
-
-/// A mark as it is in the picture, and what it means. Of a ring the width of the stroke is its
-/// radius; kScale is a line in the colours of a scale.
-struct LegendEntry {
-  std::string text;
-  Stroke stroke;
-  LegendMark mark = LegendMark::kLine;
-};
-
 /// Entries in columns of equal width, as many as there is room for; longer texts are shortened in
 /// their middle. The first column is read first.
 class Legend {

@@ -1,7 +1,9 @@
-#include <placegraph/eval/drawing/colour_scale.h>
+#include <placegraph/eval/drawing/figure.h>
 #include <placegraph/eval/drawing/label_room.h>
 #include <placegraph/eval/drawing/panel_drawing.h>
+#include <placegraph/eval/drawing/plot_axis.h>
 #include <placegraph/eval/drawing/plot_style.h>
+#include <placegraph/eval/drawing/svg_canvas.h>
 #include <placegraph/eval/drawing/text_width.h>
 
 #include <algorithm>

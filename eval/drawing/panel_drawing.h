@@ -1,5 +1,6 @@
 #pragma once
 #include <placegraph/eval/drawing/figure.h>
+#include <placegraph/eval/drawing/svg_canvas.h>
 
 namespace placegraph {
 

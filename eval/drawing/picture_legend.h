@@ -1,14 +1,14 @@
 #pragma once
-#include <placegraph/eval/drawing/legend.h>
+#include <placegraph/eval/drawing/figure.h>
 #include <placegraph/graph/image/image.h>
 
 #include <string>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// A strip of this width with notes above a legend, on white: CV_8UC3. `wanted` names the purpose.
-/// Throws FileError if the module that draws is missing.
+/// A strip of this width with notes above a legend, on white: CV_8UC3.
+/// `wanted` names the purpose. Throws FileError if the module that draws is missing.
 Image legend_strip(const std::vector<LegendEntry>& entries, const std::vector<std::string>& notes,
                    int width_px, const std::string& wanted);
 

@@ -24,12 +24,6 @@ double offset_of(const Interval& interval) {
 
 }  // namespace
 
-void Interval::add(double value) {
-  if (!std::isfinite(value)) return;
-  min = std::min(min, value);
-  max = std::max(max, value);
-}
-
 Interval resized(const Interval& interval, double size) {
   return {interval.middle() - 0.5 * size, interval.middle() + 0.5 * size};
 }

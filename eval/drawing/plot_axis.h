@@ -1,19 +1,11 @@
 #pragma once
-#include <limits>
+#include <placegraph/eval/drawing/figure.h>
+
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace placegraph {
-
-struct Interval {
-  double min = std::numeric_limits<double>::infinity();
-  double max = -std::numeric_limits<double>::infinity();
-  void add(double value);  ///< a value that is not finite adds nothing
-  bool empty() const { return !(max >= min); }
-  double size() const { return max - min; }
-  double middle() const { return 0.5 * (min + max); }
-};
 
 /// The interval of this size around the same middle.
 Interval resized(const Interval& interval, double size);

@@ -1,21 +1,11 @@
 #pragma once
+#include <placegraph/eval/drawing/figure.h>
+
 #include <Eigen/Core>
 #include <string>
 #include <vector>
 
 namespace placegraph {
-
-struct Colour {
-  int red = 0, green = 0, blue = 0;
-  bool operator==(const Colour&) const = default;
-};
-
-struct Stroke {
-  Colour colour;
-  double width_px = 1;
-  double opacity = 1;
-  std::string dash = {};  ///< lengths of dashes and gaps [px], as "6 4"; empty: a whole line
-};
 
 enum class TextAnchor { kLeft, kMiddle, kRight };
 

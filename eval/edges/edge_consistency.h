@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Errors relative to a covariance.
 struct Nees {
@@ -43,8 +43,9 @@ struct EdgeConsistency {
   std::vector<AxisConsistency> axes;  ///< those that were tested
 };
 
-/// Compares the edges of a graph with the truth, by their source. Nothing is fitted: only relative
-/// poses are compared. Throws ArgumentError for edges in the plane.
+/// Compares the edges of a graph with the truth, by their source.
+/// Nothing is fitted: only relative poses are compared. Throws ArgumentError for edges in the
+/// plane.
 std::map<ConstraintSource, EdgeConsistency> edge_consistency(
     const std::vector<RelativePoseConstraint>& edges, const TrueNodes& truth);
 
@@ -61,13 +62,14 @@ enum class EdgeVerdict {
 /// The name of a verdict as in JSON: "hold", "too small" and so on.
 const char* to_string(EdgeVerdict verdict);
 
-/// The interval of 95 % of the mean NEES of more edges of the same kind: its ends, by the
-/// chi-squared distribution of the degrees of freedom of all edges.
+/// The ends of the interval of 95 % of the mean NEES of more edges of the same kind.
+/// They follow from the chi-squared distribution of the degrees of freedom of all edges.
 std::pair<double, double> nees_interval(const Nees& nees, int degrees_of_freedom);
 
-/// The verdict on edges by the intervals of their mean NEES. Noise of the truth makes errors
-/// larger: covariances are too large if they are by the stated covariances alone, and too small if
-/// they are with the truth's. An interval that spans a bound allows no answer.
+/// The verdict on edges by the intervals of their mean NEES.
+/// Noise of the truth makes errors larger: covariances are too large if they are by the stated
+/// covariances alone, and too small if they are with the truth's. An interval that spans a bound
+/// allows no answer.
 EdgeVerdict verdict_on(const EdgeConsistency& consistency);
 
 /// The verdict as a sentence, "The covariances of the odometry hold: NEES 1.10 (0.5 to 2).".

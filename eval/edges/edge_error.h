@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// True poses of the nodes of a graph, and their noise.
 struct TrueNodes {

@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/eval/edges/edge_error.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// The camera in the frame of which the truth gives the poses.
 struct TruthMount {

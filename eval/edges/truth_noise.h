@@ -5,10 +5,11 @@
 
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// Disagreement of a vehicle's direction of motion with its heading: wheels roll along the vehicle,
-/// so that what is left of the angle between both is noise of the true heading or position.
+/// Disagreement of a vehicle's direction of motion with its heading.
+/// Wheels roll along the vehicle, so that what is left of the angle between both is noise of the
+/// true heading or position.
 struct DirectionNoise {
   int frames = 1;  ///< frames over which the direction is taken
   double lateral_rad = 0, vertical_rad = 0;

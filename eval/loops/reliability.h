@@ -3,12 +3,13 @@
 
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Predictions whose probabilities are in one tenth, and the share of right ones.
 struct ReliabilityBin {
-  int predictions = 0;
-  double mean_probability = 0, share_right = 0;  ///< 0 without predictions
+  int predictions = 0;          ///< their number
+  double mean_probability = 0;  ///< 0 without predictions
+  double share_right = 0;       ///< 0 without predictions
 };
 
 /// Agreement of predicted probabilities with the share of right predictions.

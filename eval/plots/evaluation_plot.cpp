@@ -1,7 +1,9 @@
 #include <fmt/format.h>
+#include <placegraph/eval/drawing/plot_axis.h>
 #include <placegraph/eval/plots/distribution_plot.h>
 #include <placegraph/eval/plots/evaluation_plot.h>
 #include <placegraph/eval/plots/evaluation_series.h>
+#include <placegraph/eval/plots/plot.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

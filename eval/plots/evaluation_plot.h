@@ -1,11 +1,11 @@
 #pragma once
-#include <placegraph/eval/plots/plot.h>
+#include <placegraph/eval/drawing/figure.h>
 #include <placegraph/eval/trajectory/result.h>
 
 #include <string>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// What an evaluation is drawn as.
 enum class EvaluationPlot {
@@ -18,19 +18,19 @@ enum class EvaluationPlot {
   kViolin     ///< densities of the position errors
 };
 
-/// Their names, in the order of EvaluationPlot: overview, xyz, rpy, rpe, lengths, box, violin.
+/// Their names, in the order of EvaluationPlot.
+/// They are overview, xyz, rpy, rpe, lengths, box, violin.
 const std::vector<std::string>& evaluation_plot_names();
 
 /// Whether the results belong to one ground truth, or each to its own sequence.
-enum class EvaluatedTruth { kShared, kOwn };
+enum class EvaluatedTruth {
+  kShared,  ///< one ground truth
+  kOwn      ///< each has a sequence of its own
+};
 
-/// Ground truth, aligned estimates and their errors; failed results are left out. The curve of a
-/// single estimate is coloured by its error.
-Plot plot_of(const std::vector<EvaluationResult>& results);
-
-/// A figure of the results that did not fail, of which the notes name the alignment. Several
-/// sequences have a panel each in the overview. Throws ArgumentError for kXyz and kRpy of several
-/// sequences, which have no time in common, and if there is nothing to draw.
+/// A figure of the results that did not fail, of which the notes name the alignment.
+/// Several sequences have a panel each in the overview. Throws ArgumentError for kXyz and kRpy of
+/// several sequences, which have no time in common, and if there is nothing to draw.
 Figure figure_of(const std::vector<EvaluationResult>& results, EvaluatedTruth truth,
                  EvaluationPlot kind);
 

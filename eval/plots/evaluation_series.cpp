@@ -1,3 +1,4 @@
+#include <placegraph/eval/drawing/plot_axis.h>
 #include <placegraph/eval/drawing/plot_style.h>
 #include <placegraph/eval/plots/evaluation_series.h>
 #include <placegraph/graph/core/angle.h>

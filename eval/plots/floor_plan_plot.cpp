@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <placegraph/eval/drawing/figure.h>
+#include <placegraph/eval/drawing/plot_axis.h>
 #include <placegraph/eval/drawing/plot_style.h>
 #include <placegraph/eval/plots/floor_plan_plot.h>
 

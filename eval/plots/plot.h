@@ -1,5 +1,6 @@
 #pragma once
 #include <placegraph/eval/drawing/figure.h>
+#include <placegraph/eval/trajectory/result.h>
 
 #include <Eigen/Core>
 #include <optional>
@@ -54,6 +55,10 @@ std::string to_svg(const Plot& plot);
 /// Views from above of several sequences, each with its title and its own axes.
 Figure figure_of(const std::vector<Plot>& sequences, const std::string& title,
                  const std::vector<std::string>& notes);
+
+/// Ground truth, aligned estimates and their errors; failed results are left out. The curve of a
+/// single estimate is coloured by its error.
+Plot plot_of(const std::vector<EvaluationResult>& results);
 
 /// The two axes (0 = x, 1 = y, 2 = z) of largest extent of the positions, ascending; x and z for a
 /// drive along z with a lateral extent of less than a tenth.

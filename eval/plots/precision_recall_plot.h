@@ -6,13 +6,15 @@
 
 namespace placegraph {
 
+/// The curve of a system.
 struct PrecisionRecallCurve {
   std::string name;  ///< in the legend
   PrecisionRecall figures;
 };
 
-/// Precision over recall, both from 0 to 1: a curve per system, a disc at the last threshold
-/// without a false prediction. Recall increases in steps, one per threshold.
+/// Precision over recall, both from 0 to 1.
+/// A curve per system, a disc at the last threshold without a false prediction. Recall increases in
+/// steps, one per threshold.
 struct PrecisionRecallPlot {
   std::vector<PrecisionRecallCurve> curves;
   std::string protocol;  ///< how predictions were judged

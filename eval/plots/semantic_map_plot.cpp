@@ -1,4 +1,5 @@
 #include <placegraph/eval/drawing/figure.h>
+#include <placegraph/eval/drawing/plot_axis.h>
 #include <placegraph/eval/drawing/plot_style.h>
 #include <placegraph/eval/plots/semantic_map_plot.h>
 

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <placegraph/eval/drawing/plot_axis.h>
 #include <placegraph/eval/drawing/plot_style.h>
 #include <placegraph/eval/plots/trajectory_views.h>
 

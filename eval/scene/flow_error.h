@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Error of optical flow over the pixels whose true flow is known and stays inside the image.
 struct FlowError {
@@ -21,7 +21,8 @@ struct FlowRange {
   double min_px = 0, max_px = std::numeric_limits<double>::infinity();
 };
 
-/// Compares two flow images, CV_32FC2 of one size, NaN where unknown; else throws ArgumentError.
+/// Compares two flow images, CV_32FC2 of one size, NaN where unknown.
+/// Throws ArgumentError for others.
 FlowError flow_error(const Image& flow, const Image& truth, const FlowRange& range = {});
 
 }  // namespace placegraph

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Agreement of label images with the truth, pixel by pixel, over all images that were added.
 class LabelCheck {

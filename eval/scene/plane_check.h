@@ -1,8 +1,9 @@
 #pragma once
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
+/// Which regions match.
 struct PlaneCheckOptions {
   double overlap = 0.8;  ///< least share of each of two regions that is in the other
   int min_points = 0;    ///< regions of the truth with fewer points are ignored
@@ -16,8 +17,9 @@ struct PlaneCheckMatch {
   int common = 0;  ///< points in both regions
 };
 
-/// A segmentation into planes, compared with the truth, in the terms of Hoover et al. (1996, "An
-/// experimental comparison of range image segmentation algorithms").
+/// A segmentation into planes, compared with the truth.
+/// Its terms are those of Hoover et al. (1996, "An experimental comparison of range image
+/// segmentation algorithms").
 struct PlaneCheck {
   int truth = 0;    ///< regions of the truth that count
   int correct = 0;  ///< regions that share `overlap` with one found region, in both directions
@@ -32,9 +34,9 @@ struct PlaneCheck {
   double over_segmented_per_plane() const;
 };
 
-/// Compares labels of the same points; 0 and negative labels mean no plane. Points without a true
-/// plane count for the found region that they belong to. Throws ArgumentError if the sizes differ
-/// or the options are out of range.
+/// Compares labels of the same points; 0 and negative labels mean no plane.
+/// Points without a true plane count for the found region that they belong to. Throws ArgumentError
+/// if the sizes differ or the options are out of range.
 PlaneCheck check_planes(const std::vector<int>& truth, const std::vector<int>& found,
                         const PlaneCheckOptions& options);
 

@@ -5,11 +5,11 @@
 #include <optional>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// Interpolates the state of a recording (stamps increasing) at a time: position, velocity and
-/// biases linearly, rotation along the geodesic. Nothing outside the recording or across a gap
-/// wider than `max_gap_s`.
+/// Interpolates the state of a recording (stamps increasing) at a time.
+/// Position, velocity and biases linearly, rotation along the geodesic. Nothing outside the
+/// recording or across a gap wider than `max_gap_s`.
 std::optional<BodyState> interpolate(const std::vector<BodyState>& recording, std::int64_t stamp_ns,
                                      double max_gap_s = 0.1);
 
@@ -28,9 +28,9 @@ struct BodyStateError {
   double anees = 0, anees_position = 0, anees_velocity = 0, anees_attitude = 0;
 };
 
-/// Computes the errors of all states at times of the ground truth. Outcomes: too few data (no such
-/// state), degenerate (a covariance that is not positive definite; then only the averages of that
-/// kind are missing).
+/// Computes the errors of all states at times of the ground truth.
+/// Outcomes: too few data (no such state), degenerate (a covariance that is not positive definite;
+/// then only the averages of that kind are missing).
 [[nodiscard]] BodyStateError body_state_error(const std::vector<BodyState>& truth,
                                               const std::vector<BodyState>& estimated);
 

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// The upper median; needs at least one value.
 inline double median_of(std::vector<double> values) {

@@ -49,4 +49,8 @@ const void* load_plugin(const PluginKind& kind, const std::vector<std::string>& 
                           kind.file, fmt::join(folders, ", "), kind.packages));
 }
 
+const void* load_plugin(const PluginKind& kind, const std::string& wanted) {
+  return load_plugin(kind, plugin_folders(), wanted);
+}
+
 }  // namespace placegraph

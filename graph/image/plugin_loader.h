@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// What a module of the library offers, and what a message says if it is missing.
 struct PluginKind {
@@ -19,5 +19,8 @@ struct PluginKind {
 /// the module and the folders, if it is in none of them or cannot be loaded.
 const void* load_plugin(const PluginKind& kind, const std::vector<std::string>& folders,
                         const std::string& wanted);
+
+/// The same in the folders of plugin_folders().
+const void* load_plugin(const PluginKind& kind, const std::string& wanted);
 
 }  // namespace placegraph

@@ -19,6 +19,19 @@ Information rigid_information(const Information& of_similarity, double scale) {
 
 }  // namespace
 
+SE3 rigid_part(const Pose& pose) {
+  if (const SE2* T = std::get_if<SE2>(&pose))
+    return SE3(SO3::exp({0, 0, T->rotation().angle()}),
+               {T->translation().x(), T->translation().y(), 0});
+  if (const SE3* T = std::get_if<SE3>(&pose)) return *T;
+  return rigid_part(std::get<Sim3>(pose));
+}
+
+double scale_of(const Pose& pose) {
+  const Sim3* S = std::get_if<Sim3>(&pose);
+  return S ? S->scale() : 1.0;
+}
+
 PoseGraph rigid_graph(const PoseGraph& graph) {
   if (graph.kind() != PoseKind::kSim3) return graph;
   const NodeIndex index = graph.index_by_id();

@@ -1,7 +1,12 @@
 #pragma once
 #include <placegraph/graph/pose_graph/pose_graph.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
+
+/// A pose without its scale; a node of SE(2) is at z = 0.
+SE3 rigid_part(const Pose& pose);
+/// Scale of a pose; 1 unless the pose is Sim3.
+double scale_of(const Pose& pose);
 
 /// Converts a graph of similarities to one over SE(3), for programs without scale.
 /// Nodes keep rotation and position, and every measured translation is multiplied by the scale of

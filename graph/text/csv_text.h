@@ -1,20 +1,34 @@
 #pragma once
-#include <fmt/core.h>
-#include <placegraph/graph/text/id_format.h>
+#include <placegraph/graph/core/ids.h>
 
+#include <concepts>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// A table as CSV by RFC 4180, with lines that end in "\n": a field with a comma, a quotation mark
-/// or a line break stands in quotation marks, and those in it are doubled.
+/// A table as CSV by RFC 4180, with lines that end in "\n".
+/// A field with a comma, a quotation mark or a line break stands in quotation marks, and those in
+/// it are doubled.
 class CsvText {
  public:
-  /// Adds a field to the present row: a text, or a number or id as fmt::format("{}") writes it.
-  template <class Field>
-  CsvText& add(const Field& field) {
-    return add_text(fmt::format("{}", field));
+  /// Adds a field to the present row.
+  CsvText& add(std::string_view field);
+  /// The same for a number: with as many digits as it takes to read it back.
+  CsvText& add(double field);
+  /// The same for a number of 32 bits, which takes fewer digits.
+  CsvText& add(float field);
+  /// The same for an integer.
+  template <std::integral Integer>
+    requires(!std::same_as<Integer, bool> && !std::same_as<Integer, char>)
+  CsvText& add(Integer field) {
+    return add(std::string_view(std::to_string(field)));
+  }
+  /// The same for the number of an id.
+  template <class Tag>
+  CsvText& add(Id<Tag> field) {
+    return add(field.value());
   }
   /// Ends the present row.
   void end_row() {
@@ -27,19 +41,10 @@ class CsvText {
     (add(fields), ...);
     end_row();
   }
+  /// The rows that were ended, and what the present row has.
   const std::string& text() const { return text_; }
 
  private:
-  CsvText& add_text(std::string_view field) {
-    if (begun_) text_ += ',';
-    begun_ = true;
-    const bool quoted = field.find_first_of(",\"\r\n") != std::string_view::npos;
-    if (quoted) text_ += '"';
-    for (const char c : field) text_.append(quoted && c == '"' ? 2 : 1, c);
-    if (quoted) text_ += '"';
-    return *this;
-  }
-
   std::string text_;
   bool begun_ = false;  ///< whether the present row has a field
 };

@@ -4,10 +4,11 @@
 #include <string_view>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// Insertions, deletions and substitutions of a byte, and swaps of neighbours, that change `a` to `b`.
-/// The optimal string alignment distance: no byte is changed twice.
+/// How many changes of a byte make `b` of `a`.
+/// These are insertions, deletions, substitutions, and swaps of neighbours: the optimal string
+/// alignment distance: no byte is changed twice.
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
 /// The candidates that are likely misspelled as `word`, the nearest first, at most three.

@@ -1,5 +1,6 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/calibration/camera_change.h>
+#include <placegraph/io/calibration/rectification.h>
 
 #include <algorithm>
 #include <cmath>
@@ -27,17 +28,19 @@ CameraChange::CameraChange(const Camera& from, const Camera& to) {
   require_pinhole(from);
   require_pinhole(to);
   if (same(from, to)) return;
-  remap_.map_x.create(to.height, to.width, CV_32FC1);
-  remap_.map_y.create(to.height, to.width, CV_32FC1);
+  Remap remap;
+  remap.map_x.create(to.height, to.width, CV_32FC1);
+  remap.map_y.create(to.height, to.width, CV_32FC1);
   seen_.create(to.height, to.width, CV_8UC1);
   for (int v = 0; v < to.height; ++v)
     for (int u = 0; u < to.width; ++u) {
       const double x = from.fx * (u - to.cx) / to.fx + from.cx;
       const double y = from.fy * (v - to.cy) / to.fy + from.cy;
-      remap_.map_x.at<float>(v, u) = static_cast<float>(x);
-      remap_.map_y.at<float>(v, u) = static_cast<float>(y);
+      remap.map_x.at<float>(v, u) = static_cast<float>(x);
+      remap.map_y.at<float>(v, u) = static_cast<float>(y);
       seen_.at<std::uint8_t>(v, u) = from.contains({x, y}) ? 255 : 0;
     }
+  remap_ = std::make_shared<const Remap>(std::move(remap));
   seen_share_ = cv::countNonZero(seen_) / static_cast<double>(seen_.total());
   // The patch of a feature's descriptor must be within the visible part; the border of the image
   // itself counts as in any image.
@@ -50,14 +53,15 @@ CameraChange::CameraChange(const Camera& from, const Camera& to) {
 void CameraChange::apply(Frame& frame) const {
   if (is_identity()) return;
   const auto resampled = [this](const Image& image) {
-    if (image.empty() || blur_sigma_px_ == 0) return image.empty() ? image : remap_.bilinear(image);
+    if (image.empty() || blur_sigma_px_ == 0)
+      return image.empty() ? image : remap_->bilinear(image);
     Image smooth;
     cv::GaussianBlur(image, smooth, {}, blur_sigma_px_);
-    return remap_.bilinear(smooth);
+    return remap_->bilinear(smooth);
   };
   frame.image = resampled(frame.image);
   frame.colour = resampled(frame.colour);
-  frame.mask = frame.mask.empty() ? seen_ : Image(remap_.nearest(frame.mask) & seen_);
+  frame.mask = frame.mask.empty() ? seen_ : Image(remap_->nearest(frame.mask) & seen_);
   frame.right = frame.depth = Image();
 }
 

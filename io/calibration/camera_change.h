@@ -1,19 +1,23 @@
 #pragma once
+#include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/image/frame.h>
-#include <placegraph/io/calibration/rectification.h>
 
-namespace placegraph {
+#include <memory>
 
-/// Converts the images of one camera into those that another would have taken from the same
-/// position and in the same direction. Neither has distortion. Immutable: may be used from several
-/// threads.
+namespace [[gnu::visibility("default")]] placegraph {
+
+struct Remap;
+
+/// Converts the images of one camera into those of another.
+/// The other one is at the same position and in the same direction. Neither has distortion.
+/// Immutable: may be used from several threads.
 class CameraChange {
  public:
   /// Throws ArgumentError for invalid or distorted cameras.
   CameraChange(const Camera& from, const Camera& to);
 
   /// Whether the two cameras agree to a millionth: frames are then left unchanged.
-  bool is_identity() const { return remap_.is_identity(); }
+  bool is_identity() const { return remap_ == nullptr; }
   /// Share of the other camera's image that this one covers, 0 to 1.
   double seen_share() const { return seen_share_; }
   /// Converts image, colour and mask; pixels outside the first camera's view are masked (and
@@ -22,7 +26,7 @@ class CameraChange {
   void apply(Frame& frame) const;
 
  private:
-  Remap remap_;
+  std::shared_ptr<const Remap> remap_;  // null: the two cameras agree
   Image seen_;  ///< CV_8UC1, 0 where `from` has no view or a descriptor's patch is partly outside
   double seen_share_ = 1;
   double blur_sigma_px_ = 0;  ///< blur of the input image before downscaling

@@ -1,6 +1,7 @@
 #pragma once
 #include <placegraph/io/calibration/rectification.h>
 #include <placegraph/io/datasets/dataset.h>
+#include <placegraph/io/datasets/resample.h>
 
 #include <functional>
 
@@ -31,11 +32,6 @@ std::vector<Sensor> sensors_of(const Calibration& calibration);
 
 /// Last folder of a path, which may end in dots and slashes.
 std::string folder_name(const std::string& path);
-
-/// The poses at `stamps_ns`, interpolated in a denser or sparser recording with another clock rate;
-/// frames without a pose within `max_gap_s` get none.
-Trajectory resample(const Trajectory& recorded, const std::vector<std::int64_t>& stamps_ns,
-                    double max_gap_s);
 
 /// Stamps for a recording without times: 10 Hz from 0, or another rate.
 inline constexpr double kDefaultRateHz = 10;

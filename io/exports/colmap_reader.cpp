@@ -2,7 +2,6 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/exports/colmap_reader.h>
 #include <placegraph/io/exports/little_endian.h>
-#include <placegraph/io/files/input_file.h>
 #include <placegraph/io/files/text_file.h>
 
 #include <cmath>

@@ -1,4 +1,6 @@
 #pragma once
+#include <placegraph/io/files/output_file.h>
+
 #include <fstream>
 #include <string>
 
@@ -32,9 +34,5 @@ class AtomicFile {
 /// before the name: after a power cut `path` has the old content or the whole new one. Throws
 /// FileError.
 void replace_file(const std::string& fresh, const std::string& path);
-
-/// Creates the folder and its parents; an existing one is accepted (the caller decides whether its
-/// content may be overwritten). Throws FileError if it cannot be created.
-void make_output_folder(const std::string& path);
 
 }  // namespace placegraph

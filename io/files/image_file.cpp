@@ -3,7 +3,7 @@
 #include <placegraph/graph/image/picture.h>
 #include <placegraph/io/files/atomic_file.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/files/input_file.h>
+#include <placegraph/io/files/text_file.h>
 
 #include <algorithm>
 #include <filesystem>

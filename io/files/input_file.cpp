@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/files/input_file.h>
+#include <placegraph/io/files/text_file.h>
 
 #include <filesystem>
 

@@ -1,6 +1,6 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/files/input_file.h>
 #include <placegraph/io/files/json_file.h>
+#include <placegraph/io/files/text_file.h>
 
 #include <array>
 #include <cmath>

@@ -4,7 +4,6 @@
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
-#include <vector>
 
 namespace placegraph {
 
@@ -21,14 +20,5 @@ nlohmann::json pose_json(const SE3& T);
 /// Inverse of pose_json.
 /// Throws nlohmann::json::exception for another form, ArgumentError if the numbers are no pose.
 SE3 pose_of(const nlohmann::json& pose);
-
-/// Elements of a matrix row by row, or of a vector.
-template <class Matrix>
-std::vector<double> numbers(const Eigen::MatrixBase<Matrix>& matrix) {
-  std::vector<double> values;
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i)
-    for (Eigen::Index j = 0; j < matrix.cols(); ++j) values.push_back(matrix(i, j));
-  return values;
-}
 
 }  // namespace placegraph

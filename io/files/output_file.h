@@ -28,6 +28,11 @@ class OutputFolder {
   int locked_ = -1;                ///< descriptor of the folder; its lock ends with it
 };
 
+/// Creates the folder and its parents; an existing one is accepted.
+/// (The caller decides whether its content may be overwritten.) Throws FileError if it cannot be
+/// created.
+void make_output_folder(const std::string& path);
+
 /// The extension of a file name with its dot; empty if there is none.
 std::string extension_of(const std::string& path);
 

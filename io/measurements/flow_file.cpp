@@ -3,7 +3,7 @@
 #include <placegraph/graph/image/png_codec.h>
 #include <placegraph/io/files/atomic_file.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/files/input_file.h>
+#include <placegraph/io/files/text_file.h>
 #include <placegraph/io/measurements/flow_file.h>
 
 #include <array>
@@ -27,7 +27,7 @@ constexpr std::int64_t kMaxPixels = std::int64_t{1} << 27;  // 1 GiB of flow
 
 bool known(const cv::Vec2f& d) { return std::isfinite(d[0]) && std::isfinite(d[1]); }
 
-std::string extension_of(const std::string& path) {
+std::string lower_extension(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return extension;
@@ -108,7 +108,7 @@ Image encode_kitti_flow(const Image& flow) {
 }
 
 void require_flow_extension(const std::string& path) {
-  const std::string extension = extension_of(path);
+  const std::string extension = lower_extension(path);
   require(extension == ".flo" || extension == ".png",
           path + ": flow is written as .flo (Middlebury) or .png (KITTI)");
 }
@@ -116,7 +116,7 @@ void require_flow_extension(const std::string& path) {
 Image read_flow(const std::string& path) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) throw FileError(path, "flow is missing");
-  const std::string extension = extension_of(path);
+  const std::string extension = lower_extension(path);
   if (extension == ".flo") return read_middlebury(path);
   if (extension == ".png") return read_kitti_flow(path);
   throw FileError(path, "flow is read from .flo (Middlebury) or .png (KITTI)");
@@ -126,7 +126,7 @@ void write_flow(const std::string& path, const Image& flow) {
   require(flow.type() == CV_32FC2, "write_flow: flow of two channels is needed");
   require_flow_extension(path);
   AtomicFile file(path);
-  if (extension_of(path) == ".flo") {
+  if (lower_extension(path) == ".flo") {
     write_middlebury(file.stream(), flow);
   } else {
     const std::string bytes = encode_png(encode_kitti_flow(flow));

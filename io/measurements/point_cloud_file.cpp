@@ -1,5 +1,4 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/files/input_file.h>
 #include <placegraph/io/files/text_file.h>
 #include <placegraph/io/measurements/point_cloud_file.h>
 

@@ -4,11 +4,12 @@
 #include <string>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// Reads line segments of an image as text, `u1 v1 u2 v2` [px] per line, separated by blanks or
-/// tabs, `#` before a comment. Throws FileError "file:line: ..." if a line is anything else or its
-/// segment has no length: the number of a line is the segment's, so that none can be skipped.
+/// Reads line segments of an image as text, `u1 v1 u2 v2` [px] per line.
+/// They are separated by blanks or tabs, `#` before a comment. Throws FileError "file:line: ..." if
+/// a line is anything else or its segment has no length: the number of a line is the segment's, so
+/// that none can be skipped.
 std::vector<LineSegment> read_segments(const std::string& path);
 
 /// The same from the first four columns of a table: further columns are not read.

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/files/atomic_file.h>
-#include <placegraph/io/files/input_file.h>
+#include <placegraph/io/files/text_file.h>
 #include <placegraph/io/models/vocabulary_file.h>
 
 #include <array>

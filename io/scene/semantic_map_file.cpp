@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/files/input_file.h>
+#include <placegraph/io/files/text_file.h>
 #include <placegraph/io/scene/semantic_map_file.h>
 
 #include <algorithm>

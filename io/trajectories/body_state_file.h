@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// Reads states in the format of EuRoC's `state_groundtruth_estimate0/data.csv`: t_ns, position
-/// [m], quaternion (w first), velocity [m/s], gyro bias [rad/s], accelerometer bias [m/s^2], 17
-/// numbers per line, in the order of their stamps. Their covariances are zero. Throws FileError
-/// with file and line.
+/// Reads states in the format of EuRoC's `state_groundtruth_estimate0/data.csv`.
+/// A line has t_ns, position [m], quaternion (w first), velocity [m/s], gyro bias [rad/s],
+/// accelerometer bias [m/s^2], 17 numbers per line, in the order of their stamps. Their covariances
+/// are zero. Throws FileError with file and line.
 std::vector<BodyState> read_body_states(const std::string& path);
 
 /// Writes states in that format; covariances are left out. Throws FileError.

@@ -2,7 +2,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/datasets/open_dataset.h>
 #include <placegraph/io/files/output_file.h>
-#include <placegraph/io/files/png_file.h>
+#include <placegraph/io/files/picture_file.h>
 #include <placegraph/pipeline/exports/keyframe_frames.h>
 #include <placegraph/pipeline/exports/keyframe_image_paths.h>
 #include <placegraph/pipeline/lens_correction.h>

@@ -6,6 +6,7 @@ Prints one line for each violation, as file:line where there is one, and fails i
   a public header includes one that is not installed,
   a public header includes one of another project but Eigen, and graph/image/image.h OpenCV's cv::Mat,
   a public header opens the namespace without its visibility, so that a shared library would hide it,
+  the command line (apps) or the Python module (python/src) includes a header of a library that is not public,
   more than 280 public headers; more than 40 behind pipeline/slam.h.
 """
 import os
@@ -17,6 +18,7 @@ from source_includes import includes_of, layer_of
 LIST = "cmake/public_headers.txt"
 MOST_HEADERS, MOST_BEHIND_SLAM = 280, 40
 SLAM = "pipeline/slam.h"
+USERS = ("apps", "python/src")
 FOREIGN = re.compile(r"[a-z_]+$|Eigen/")  # the standard library's and Eigen's
 OPENCV = ("graph/image/image.h", "opencv2/core/mat.hpp")
 HIDDEN = re.compile(r"^namespace placegraph\b")
@@ -55,6 +57,19 @@ def behind(root, header):
     return seen
 
 
+def sources_of_users(root):
+    """The sources of the command line and of the Python module."""
+    return sorted(os.path.relpath(os.path.join(folder, name), root)
+                  for top in USERS for folder, _, names in os.walk(os.path.join(root, top))
+                  for name in names if name.endswith((".h", ".cpp")))
+
+
+def faults_of_users(root, public):
+    return [f"{user}:{include.line}: includes {include.target}, which is not public"
+            for user in sources_of_users(root) for include in includes_of(root, user)
+            if include.target and layer_of(include.target) != "apps" and include.target not in public]
+
+
 def check(root):
     headers = public_headers(root)
     found = [f"{LIST}:{number}: {header} stands behind {before}"
@@ -64,6 +79,7 @@ def check(root):
             found.append(f"{LIST}:{number}: {header} is no header of a library")
         else:
             found += faults_of(root, header, set(headers))
+    found += faults_of_users(root, set(headers))
     if len(headers) > MOST_HEADERS:
         found.append(f"{len(headers)} public headers, {MOST_HEADERS} are allowed")
     if SLAM in headers and len(behind(root, SLAM)) > MOST_BEHIND_SLAM:

@@ -34,6 +34,10 @@ PLANTED = [
     ("io/file.h", "#include <fmt/core.h>\n" + OPEN, "io/file.h:1: fmt/core.h is no business"),
     ("io/file.h", "#include <opencv2/core/mat.hpp>\n" + OPEN, "io/file.h:1: opencv2/core/mat.hpp is no business"),
     ("io/file.h", "\nnamespace placegraph {\n}\n", "io/file.h:2: hidden by a shared library"),
+    ("apps/main.cpp", "#include <placegraph/graph/core/tree.h>\n",
+     "apps/main.cpp:1: includes graph/core/tree.h, which is not public"),
+    ("python/src/map.cpp", "\n#include <placegraph/graph/core/tree.h>\n",
+     "python/src/map.cpp:2: includes graph/core/tree.h, which is not public"),
 ]
 
 

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/text/json_text.h>
-#include <placegraph/io/files/rows_json.h>
 #include <placegraph/io/measurements/segment_file.h>
 
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "apps/support/numbers_json.h"
 #include "apps/support/output.h"
 #include "apps/support/read_calib.h"
 #include "apps/support/usage.h"

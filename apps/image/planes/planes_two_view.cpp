@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/text/json_text.h>
-#include <placegraph/io/files/json_file.h>
-#include <placegraph/io/measurements/match_file.h>
+#include "apps/support/match_file.h"
 
 #include <nlohmann/json.hpp>
 
+#include "apps/support/numbers_json.h"
 #include "apps/support/output.h"
 #include "apps/support/read_calib.h"
 #include "apps/support/usage.h"

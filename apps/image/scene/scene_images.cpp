@@ -9,7 +9,7 @@
 #include <placegraph/graph/text/json_text.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/files/image_list.h>
-#include <placegraph/io/files/png_file.h>
+#include <placegraph/io/files/picture_file.h>
 
 #include <filesystem>
 #include <nlohmann/json.hpp>

@@ -8,9 +8,9 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/text/json_text.h>
 #include <placegraph/io/datasets/open_dataset.h>
-#include <placegraph/io/files/atomic_file.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/measurements/plane_truth.h>
+#include <placegraph/io/files/output_file.h>
+#include "apps/image/scene/plane_truth.h"
 
 #include <filesystem>
 #include <nlohmann/json.hpp>

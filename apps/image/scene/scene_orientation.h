@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/eval/scene/orientation_check.h>
 #include <placegraph/frontend/scene/orientation_map.h>
+#include "apps/image/scene/orientation_check.h"
 
 #include <cstdint>
 #include <optional>

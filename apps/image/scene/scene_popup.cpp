@@ -7,7 +7,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/text/json_text.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/files/png_file.h>
+#include <placegraph/io/files/picture_file.h>
 
 #include <array>
 #include <cmath>

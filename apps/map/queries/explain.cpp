@@ -4,18 +4,17 @@
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/scene/environment.h>
-#include <placegraph/graph/text/id_format.h>
 #include <placegraph/graph/text/json_text.h>
 #include <placegraph/io/config/yaml_config.h>
 #include <placegraph/pipeline/map/explanation.h>
 #include <placegraph/pipeline/map/map_file.h>
+#include <placegraph/pipeline/results/run_map.h>
 #include <placegraph/pipeline/run.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "apps/map/queries/image_content.h"
-#include "apps/results/run_map.h"
 #include "apps/support/output.h"
 
 namespace placegraph::apps {

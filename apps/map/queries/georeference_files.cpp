@@ -1,22 +1,21 @@
 #include "apps/map/queries/georeference_files.h"
 
 #include <fmt/format.h>
-#include <placegraph/backend/georeference/antenna_trajectory.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/pose_graph/node_index.h>
+#include <placegraph/graph/pose_graph/rigid_graph.h>
 #include <placegraph/graph/text/csv_text.h>
-#include <placegraph/graph/text/id_format.h>
-#include <placegraph/io/files/json_file.h>
 #include <placegraph/io/graphs/g2o.h>
 #include <placegraph/io/graphs/pose_graph_file.h>
 #include <placegraph/io/map/map_database.h>
 #include <placegraph/io/sensors/oxts_file.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
+#include <placegraph/pipeline/results/run_map.h>
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "apps/results/run_map.h"
+#include "apps/support/numbers_json.h"
 
 namespace placegraph::apps {
 namespace {
@@ -26,17 +25,6 @@ using nlohmann::json;
 
 /// Allowed change of the scale of a monocular map from one place to the next.
 constexpr double kScaleSigma = 0.02;
-
-/// Members of the places, each once: the time of a keyframe at its place.
-std::vector<NodeVisit> read_visits(const std::string& path) {
-  std::vector<NodeVisit> visits;
-  take_json(path, "run", [&](const json& document) {
-    for (const json& place : document.at("places"))
-      for (const json& member : place.at("members"))
-        visits.push_back({member.at("stamp_ns").get<std::int64_t>(), place.at("id").get<NodeId>()});
-  });
-  return visits;
-}
 
 Sim3 with_scale(const Pose& pose) { return Sim3(std::get<SE3>(pose)); }
 
@@ -61,11 +49,10 @@ GeoreferenceInput read_run(const std::string& folder) {
   const auto path = [&](const char* name) { return (fs::path(folder) / name).string(); };
   GeoreferenceInput input;
   input.graph = read_g2o(path("graph.g2o"));
-  input.visits = read_visits(path("places.json"));
+  for (const auto& [stamp_ns, place] : read_visits(folder))
+    input.visits.push_back({stamp_ns, node_of_place(place)});
   input.motion = read_trajectory(path("trajectory_optimized.tum"));
-  take_json(path("result.json"), "run", [&](const json& result) {
-    if (!metric_of(result)) input.graph = similarity_graph(input.graph);
-  });
+  if (!metric_of_run(folder)) input.graph = similarity_graph(input.graph);
   return input;
 }
 
@@ -103,8 +90,8 @@ GeoreferenceInput read_georeference_input(const std::string& path, const std::st
   const std::vector<std::int64_t> stamps_ns = read_kitti_times(times_path);
   for (const PoseNode& node : input.graph.nodes) {
     if (node.id.value() < 0 || node.id.value() >= static_cast<std::int64_t>(stamps_ns.size()))
-      throw FileError(times_path,
-                      fmt::format("holds {} times, none for node {}", stamps_ns.size(), node.id));
+      throw FileError(times_path, fmt::format("holds {} times, none for node {}", stamps_ns.size(),
+                                              node.id.value()));
     input.visits.push_back({stamps_ns[static_cast<std::size_t>(node.id.value())], node.id});
   }
   return input;
@@ -142,7 +129,7 @@ std::string fixes_csv(const GeoreferenceResult& result, const std::vector<GpsFix
   for (std::size_t i = 0; i < fixes.size(); ++i) {
     const FixReport& fix = result.fixes[i];
     csv.add(fixes[i].stamp_ns);
-    csv.add(fix.node ? fmt::format("{}", result.graph.nodes[*fix.node].id) : "");
+    csv.add(fix.node ? to_string(result.graph.nodes[*fix.node].id) : "");
     for (const double value : {fix.residual_enu[0], fix.residual_enu[1], fix.residual_enu[2],
                                fix.sigma_horizontal_m, fix.sigma_vertical_m, fix.weight})
       csv.add(fix.node ? fmt::format("{:.4f}", value) : "");

@@ -4,7 +4,6 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/text/json_text.h>
 #include <placegraph/io/config/yaml_config.h>
-#include <placegraph/io/files/json_file.h>
 #include <placegraph/pipeline/map/map_file.h>
 #include <placegraph/pipeline/run.h>
 
@@ -12,6 +11,7 @@
 #include <opencv2/core/utility.hpp>
 
 #include "apps/map/queries/query_images.h"
+#include "apps/support/numbers_json.h"
 #include "apps/support/output.h"
 #include "apps/support/progress.h"
 #include "apps/support/usage.h"

@@ -1,17 +1,14 @@
 #include "apps/map/queries/route.h"
 
 #include <fmt/format.h>
-#include <placegraph/eval/plots/plot.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/text/id_format.h>
 #include <placegraph/graph/text/json_text.h>
-#include <placegraph/io/files/json_file.h>
 
-#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "apps/support/numbers_json.h"
 #include "apps/support/output.h"
 #include "apps/support/plot_file.h"
 
@@ -42,44 +39,6 @@ json step_json(const Route& route, std::size_t i, const RunMap& map) {
   return entry;
 }
 
-/// The places in the order in which their numbers get room in a plot: both ends of the path, its
-/// other places, the rest of the map.
-std::vector<Place> places_by_rank(const Route& route, const PlaceGraph& graph) {
-  const auto rank = [&](const Place& place) {
-    if (place.id == route.steps.front().place || place.id == route.steps.back().place) return 0;
-    return std::ranges::any_of(route.steps,
-                               [&](const RouteStep& step) { return step.place == place.id; })
-               ? 1
-               : 2;
-  };
-  std::vector<Place> places = graph.places;
-  std::ranges::stable_sort(places, {}, rank);
-  return places;
-}
-
-Plot route_plot(const Route& route, const RunMap& map) {
-  Plot plot;
-  plot.title = fmt::format("from place {} to place {}: {:.1f} {}", route.steps.front().place,
-                           route.steps.back().place, route.length_m(), map.unit());
-  plot.unit = map.unit();
-  plot.notes = {"positions and numbers of the places, in the frame of the map"};
-  PlotCurve all{"map", {}, true}, path{"path", {}, false, 4};
-  for (const Place& place : map.graph.places)
-    all.positions_m.emplace_back(place.T_map_place.translation());
-  for (const Place& place : places_by_rank(route, map.graph)) {
-    plot.places_m.push_back(place.T_map_place.translation());
-    plot.place_names.push_back(to_string(place.id));
-  }
-  for (const RouteStep& step : route.steps)
-    path.positions_m.emplace_back(map.graph.find(step.place)->T_map_place.translation());
-  plot.curves = {all, path};
-  for (const RelativePoseConstraint& edge : map.graph.constraints)
-    if (edge.source == ConstraintSource::kLoop)
-      plot.links_m.emplace_back(map.graph.find(place_of_node(edge.from))->T_map_place.translation(),
-                                map.graph.find(place_of_node(edge.to))->T_map_place.translation());
-  return plot;
-}
-
 }  // namespace
 
 RouteResult route(const RouteArguments& arguments) {
@@ -91,8 +50,7 @@ RouteResult route(const RouteArguments& arguments) {
   if (!result.route.outcome) throw NoResult(result.route.outcome.reason);
   if (arguments.backtrack) result.route = backtracked(result.route);
   if (!arguments.out.empty()) write_file(arguments.out, to_json(result));
-  if (!arguments.plot.empty())
-    write_plot(arguments.plot, to_svg(route_plot(result.route, result.map)));
+  if (!arguments.plot.empty()) write_plot(arguments.plot, route_picture(result.route, result.map));
   return result;
 }
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "apps/results/run_map.h"
+#include <placegraph/pipeline/results/run_map.h>
 
 namespace placegraph::apps {
 

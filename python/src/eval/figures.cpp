@@ -1,4 +1,3 @@
-#include <placegraph/eval/drawing/colour_scale.h>
 #include <placegraph/eval/drawing/figure.h>
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/geometry/se3.h>
 #include <placegraph/graph/geometry/trajectory.h>
-#include <placegraph/io/datasets/recorded_sequence.h>
+#include <placegraph/io/datasets/resample.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 
 #include <cmath>

@@ -1,18 +1,11 @@
 #include <fmt/format.h>
-#include <placegraph/eval/plots/pose_graph_plot.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/datasets/open_dataset.h>
+#include <placegraph/pipeline/report/evaluation_page.h>
+#include <placegraph/pipeline/report/graph_page.h>
+#include <placegraph/pipeline/report/run_page.h>
+#include <placegraph/pipeline/results/run_results.h>
 
-#include <filesystem>
-#include <nlohmann/json.hpp>
-
-#include "apps/page/page.h"
-#include "apps/report/report.h"
-#include "apps/report/report_eval.h"
-#include "apps/report/report_graph.h"
-#include "apps/report/report_run.h"
-#include "apps/results/run_files.h"
-#include "apps/support/output.h"
 #include "python/src/graph/maps.h"
 #include "python/src/warnings.h"
 
@@ -26,18 +19,7 @@ constexpr const char* kProgram = "placegraph " PLACEGRAPH_VERSION;
 /// The page of a map, as `placegraph report` writes it; `path`: its file, empty for a map of this
 /// process, which is named after its recording.
 std::string map_page(const StoredMap& stored, const std::string& path, const std::string& title) {
-  namespace fs = std::filesystem;
-  std::string file = path;
-  if (file.empty()) {
-    const fs::path recording = (fs::path(stored.origin.sequence) / "").parent_path().filename();
-    file = (recording.empty() ? "map" : recording.string()) + ".db";
-  }
-  nlohmann::json run = apps::describe_run_for_report(stored, file);
-  if (path.empty()) run["folder"] = "";
-  const std::string name = title.empty() ? run["name"].get<std::string>() : title;
-  nlohmann::json runs = nlohmann::json::array();
-  runs.push_back(std::move(run));
-  return apps::page_with(apps::report_data(name, kProgram, std::move(runs)));
+  return run_page(stored, path, title, kProgram, python_warnings());
 }
 
 std::string map_picture(const StoredMap& stored, const std::optional<Trajectory>& truth,
@@ -45,14 +27,14 @@ std::string map_picture(const StoredMap& stored, const std::optional<Trajectory>
   for (const FrameRecord& each : stored.map.frames)
     require(!truth || each.frame.value() < static_cast<std::int64_t>(truth->size()),
             fmt::format("truth: it has no pose of frame {}", each.frame.value()));
-  return to_svg(apps::run_plot(stored.map, stored.map.trajectory_optimized(),
-                               truth ? &*truth : nullptr, title));
+  return run_picture(stored.map, stored.map.trajectory_optimized(), truth ? &*truth : nullptr,
+                     title);
 }
 
 std::string evaluation_page(const std::vector<EvaluationResult>& results, const std::string& truth,
                             bool sequences) {
   require(!results.empty(), "results: there is none");
-  return apps::eval_page({truth, results, sequences}, kProgram);
+  return placegraph::evaluation_page({truth, results, sequences}, kProgram);
 }
 
 void require_same_graph(const PoseGraph& before, const PoseGraph& after,
@@ -69,13 +51,8 @@ std::string pose_graph_picture(const PoseGraph& graph, const PoseGraph* before,
                                const std::vector<int>& rejected, const std::string& title) {
   require(!graph.nodes.empty(), "graph: it has no nodes");
   require_same_graph(before ? *before : graph, graph, rejected);
-  Plot plot = plot_of(before ? *before : graph, graph, rejected);
-  if (!before) {
-    plot.curves.erase(plot.curves.begin());
-    plot.curves.front().name = "poses";
-  }
-  plot.title = title;
-  return to_svg(plot);
+  return before ? graph_picture(*before, graph, rejected, title)
+                : graph_picture(graph, rejected, title);
 }
 
 std::string pose_graph_page(const PoseGraph& graph, const PoseGraph& before,
@@ -83,13 +60,12 @@ std::string pose_graph_page(const PoseGraph& graph, const PoseGraph& before,
                             const std::string& title) {
   require(!graph.nodes.empty(), "graph: it has no nodes");
   require_same_graph(before, graph, rejected);
-  return apps::graph_page({title, before, graph, chi2, rejected, {}}, kProgram);
+  return graph_page({title, before, graph, chi2, rejected, {}}, kProgram);
 }
 
 }  // namespace
 
 void bind_reports(nb::module_& m) {
-  apps::set_message_sink(python_warnings());
   const auto released = nb::call_guard<nb::gil_scoped_release>();
   m.def("map_page", &map_page, "map"_a, "path"_a = "", "title"_a = "", released,
         "The page of a map as `placegraph report` writes it, HTML. `path`: the file of the map, "

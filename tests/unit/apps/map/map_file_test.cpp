@@ -3,7 +3,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/pipeline/map/map_file.h>
 
-#include "apps/results/run_map.h"
+#include <placegraph/pipeline/results/run_map.h>
 #include "apps/support/output.h"
 #include "tests/support/message_of.h"
 #include "tests/support/random_map.h"

@@ -5,6 +5,10 @@
 #include <placegraph/pipeline/exports/gltf_export.h>
 #include <placegraph/pipeline/exports/place_tables.h>
 #include <placegraph/pipeline/exports/ply_export.h>
+#include <placegraph/pipeline/report/run_part.h>
+#include <placegraph/pipeline/results/result_json.h>
+#include <placegraph/pipeline/results/run_files.h>
+#include <placegraph/pipeline/results/run_map.h>
 #include <placegraph/pipeline/run.h>
 
 #include <map>
@@ -13,10 +17,7 @@
 #include "apps/map/map_info.h"
 #include "apps/map/queries/explain.h"
 #include "apps/map/queries/georeference_files.h"
-#include "apps/report/report_run.h"
-#include "apps/results/judgement_text.h"
-#include "apps/results/run_files.h"
-#include "apps/results/run_map.h"
+#include "apps/results/result_texts.h"
 #include "tests/support/random_map.h"
 #include "tests/support/temporary_folder.h"
 
@@ -69,7 +70,7 @@ std::map<std::string, bool> answers(const JudgedRun& judged, const test::Tempora
 
   const StoredMap read = read_map(map_file);
   SqliteDatabase database(map_file, SqliteDatabase::Access::kRead);
-  const json page = describe_run_for_report(map_file);
+  const json page = report::describe_run_for_report(map_file);
   const MapInfoResult info = map_info({map_file});
   const json explained = explain({map_file, read.map.keyframes.front().frame}).explanation;
   const auto has = [](const std::string& text, const char* part) {
@@ -103,7 +104,7 @@ std::map<std::string, bool> answers(const JudgedRun& judged, const test::Tempora
 /// Whether a drift in metres is said, by every output that has one.
 std::map<std::string, bool> drifts(const JudgedRun& judged, const test::TemporaryFolder& folder) {
   const Judgement& judgement = *judged.stored.judgement;
-  const json page = describe_run_for_report(folder / "map.db");
+  const json page = report::describe_run_for_report(folder / "map.db");
   SqliteDatabase database(folder / "map.db", SqliteDatabase::Access::kRead);
   return {{"judgement", judgement.expected_drift_m.has_value()},
           {"result.json", describe_judgement(judgement).contains("expected_drift_m")},

@@ -1,5 +1,8 @@
 #include "apps/viewer/live_run.h"
 
+#include <placegraph/pipeline/report/column.h>
+#include <placegraph/pipeline/report/served_page.h>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,8 +13,6 @@
 #include <sstream>
 #include <thread>
 
-#include "apps/page/column.h"
-#include "apps/viewer/jpeg_url.h"
 #include "tests/support/sleeping_thread.h"
 #include "tests/unit/io/datasets/tiny_images.h"
 
@@ -19,6 +20,8 @@ namespace placegraph::apps {
 namespace live_run_test {
 
 using nlohmann::json;
+using report::column;
+using report::text_column;
 using ::testing::ElementsAre;
 
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();

@@ -6,12 +6,12 @@
 #include <placegraph/graph/image/jpeg_codec.h>
 #include <placegraph/io/exports/base64.h>
 #include <placegraph/io/map/map_database.h>
+#include <placegraph/pipeline/report/column.h>
+#include <placegraph/pipeline/report/served_page.h>
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "apps/page/column.h"
-#include "apps/viewer/jpeg_url.h"
 #include "tests/support/message_of.h"
 #include "tests/support/random_map.h"
 #include "tests/unit/io/datasets/tiny_images.h"
@@ -20,6 +20,7 @@ namespace placegraph::apps {
 namespace run_pages_test {
 
 using nlohmann::json;
+using report::column;
 using ::testing::HasSubstr;
 
 /// A recording of three images and a map of it that lacks many of the landmarks that were seen.
@@ -85,7 +86,7 @@ TEST_F(RunPagesTest, ImagesAreThoseOfTheRecording) {
         pages.respond("runs/0/frames/" + std::to_string(i) + "/image.jpg");
     EXPECT_EQ(response.status, 200);
     EXPECT_EQ(response.type, "image/jpeg");
-    EXPECT_EQ(response.body, encode_jpeg(test::tiny_grey(8, 6, i), kJpegQuality));
+    EXPECT_EQ(response.body, jpeg_of_page(test::tiny_grey(8, 6, i)));
   }
   EXPECT_EQ(pages.respond("runs/0/frames/3/image.jpg").body,
             "no frame 3 in " + (dir / "seq") + "\n");
@@ -97,13 +98,26 @@ TEST_F(RunPagesTest, ImagesAreThoseOfTheRecording) {
 
 TEST_F(RunPagesTest, OtherPathsAreNotThere) {
   RunPages pages({dir / "town"}, "");
-  for (const char* path :
-       {"", "report", "report.json/", "runs", "runs/0", "runs/0/frames/1", "runs/0/frames/1/",
-        "runs/1/frames/1/image.jpg", "runs/-1/frames/1/image.jpg", "runs/0/frames/x/image.jpg",
-        "runs/0/frames/1x/image.jpg", "runs/0/frames//image.jpg", "runs/0/frames/-1/image.jpg",
-        "runs/0/frames/99999999999999999999/image.jpg", "runs/0/frame/1/image.jpg",
-        "run/0/frames/1/image.jpg", "/runs/0/frames/1/image.jpg", "runs/0/frames/1/image.png",
-        "runs/0/frames/1/observations.json/", "runs/0/frames/0/observations.json"})
+  for (const char* path : {"",
+                           "report",
+                           "report.json/",
+                           "runs",
+                           "runs/0",
+                           "runs/0/frames/1",
+                           "runs/0/frames/1/",
+                           "runs/1/frames/1/image.jpg",
+                           "runs/-1/frames/1/image.jpg",
+                           "runs/0/frames/x/image.jpg",
+                           "runs/0/frames/1x/image.jpg",
+                           "runs/0/frames//image.jpg",
+                           "runs/0/frames/-1/image.jpg",
+                           "runs/0/frames/99999999999999999999/image.jpg",
+                           "runs/0/frame/1/image.jpg",
+                           "run/0/frames/1/image.jpg",
+                           "/runs/0/frames/1/image.jpg",
+                           "runs/0/frames/1/image.png",
+                           "runs/0/frames/1/observations.json/",
+                           "runs/0/frames/0/observations.json"})
     EXPECT_EQ(pages.respond(path).status, 404) << path;  // frame 0 is no keyframe
 }
 
@@ -142,7 +156,9 @@ TEST_F(RunPagesTest, WhatLiesBesideAMapDoesNotBelongToAnEditedOne) {
 }
 
 TEST_F(RunPagesTest, AMapThatCannotBeReadIsNamed) {
-  EXPECT_THAT(test::message_of([&] { RunPages({dir / "town", dir / "none"}, ""); }),
+  EXPECT_THAT(test::message_of([&] {
+                RunPages({dir / "town", dir / "none"}, "");
+              }),
               HasSubstr("none: there is no such file"));
 }
 
@@ -154,8 +170,7 @@ TEST(JsonResponse, IsValidWhateverTheBytesOfItsTexts) {
 
 TEST(JpegUrl, HoldsTheFileInBase64) {
   const Image image = test::tiny_grey(16, 12, 3);
-  EXPECT_EQ(jpeg_url(image),
-            "data:image/jpeg;base64," + to_base64(encode_jpeg(image, kJpegQuality)));
+  EXPECT_EQ(jpeg_url(image), "data:image/jpeg;base64," + to_base64(encode_jpeg(image, 90)));
   EXPECT_THAT(jpeg_url(image), HasSubstr(",/9j/"));  // ff d8 ff, as every JPEG file begins
 }
 

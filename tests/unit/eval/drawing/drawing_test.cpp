@@ -1,6 +1,5 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <placegraph/eval/drawing/colour_scale.h>
 #include <placegraph/eval/drawing/figure.h>
 #include <placegraph/eval/drawing/picture_bytes.h>
 #include <placegraph/eval/drawing/picture_legend.h>

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
-#include <placegraph/eval/drawing/colour_scale.h>
+#include <placegraph/eval/drawing/figure.h>
 #include <placegraph/eval/drawing/panel_drawing.h>
+#include <placegraph/eval/drawing/plot_axis.h>
+#include <placegraph/eval/drawing/svg_canvas.h>
 
 #include "svg_check.h"
 #include "tests/support/seed.h"
@@ -106,7 +108,7 @@ TEST(PanelDrawing, StretchesOfAColouredLineMeetAndCoverIt) {
     ends.push_back(at[at.size() - 2]);
     ++stretches;
   }
-  EXPECT_EQ(stretches, 25u);  // the levels of the scale
+  EXPECT_EQ(stretches, 25u);                          // the levels of the scale
   EXPECT_NEAR(ends.back(), 490, 0.5 + kRounding_px);  // a single point is 0.5 px long
 }
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/eval/plots/distribution_plot.h>
 #include <placegraph/eval/plots/evaluation_plot.h>
+#include <placegraph/eval/plots/plot.h>
 #include <placegraph/eval/trajectory/evaluate.h>
 #include <placegraph/graph/core/error.h>
 

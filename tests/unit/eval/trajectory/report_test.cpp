@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/eval/drawing/picture_bytes.h>
 #include <placegraph/eval/plots/evaluation_plot.h>
+#include <placegraph/eval/plots/plot.h>
 #include <placegraph/eval/trajectory/evaluate.h>
 #include <placegraph/eval/trajectory/report.h>
 #include <placegraph/graph/image/png_codec.h>

@@ -2,7 +2,6 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>
 #include <placegraph/io/files/json_file.h>
-#include <placegraph/io/files/rows_json.h>
 
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -85,16 +84,6 @@ TEST(JsonFile, WhatIsNoPoseIsRefused) {
     EXPECT_EQ(test::message_of<ArgumentError>([&] { (void)pose_of(pose); }),
               "quaternion_xyzw is not of unit length");
   }
-}
-
-TEST(JsonFile, MatricesAreListedRowByRow) {
-  Eigen::Matrix<double, 2, 3> matrix;
-  matrix << 1, 2, 3, 4, 5, 6;
-  EXPECT_EQ(numbers(matrix), (std::vector<double>{1, 2, 3, 4, 5, 6}));
-  EXPECT_EQ(numbers(matrix.transpose()), (std::vector<double>{1, 4, 2, 5, 3, 6}));
-  EXPECT_EQ(numbers(Eigen::Vector3d(7, 8, 9)), (std::vector<double>{7, 8, 9}));
-  EXPECT_EQ(rows_json(matrix), (json{{1.0, 2.0, 3.0}, {4.0, 5.0, 6.0}}));
-  EXPECT_EQ(rows_json(Eigen::MatrixXd(0, 3)), json::array());
 }
 
 }  // namespace json_file_test

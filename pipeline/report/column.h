@@ -1,0 +1,20 @@
+#pragma once
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+namespace placegraph::report {
+
+/// A column of a report: {"type", "width", "data"} with little-endian values in base64, `width` of
+/// them a row. Throws ArgumentError if the values are no whole number of rows.
+nlohmann::json column(const std::vector<float>& values, int width = 1);
+nlohmann::json column(const std::vector<double>& values, int width = 1);
+nlohmann::json column(const std::vector<std::int32_t>& values, int width = 1);
+nlohmann::json column(const std::vector<std::uint8_t>& values, int width = 1);
+
+/// A column of texts: {"table": the different texts, "index": a column with a position in it for
+/// every row, -1 for an empty text}.
+nlohmann::json text_column(const std::vector<std::string>& texts);
+
+}  // namespace placegraph::report

@@ -1,0 +1,23 @@
+#pragma once
+#include <placegraph/graph/scene/indoor_map.h>
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+
+namespace placegraph::report {
+
+/// floor_plan.json in the folder of a run; nothing where there is none. Throws FileError.
+std::optional<IndoorMap> read_floor_plan(const std::string& folder);
+
+/// The direction up in the map, against y of a plan.
+nlohmann::json up_of_plan(const SO3& R_plan_map);
+
+/// Walls, doors and rooms as polylines in the plan.
+nlohmann::json describe_floor_plan(const IndoorMap& plan);
+
+/// The surfaces of the plan as polygons in the map: walls between the heights at which they were
+/// observed, doors up to their heads, floors of the rooms.
+nlohmann::json describe_planes(const IndoorMap& plan);
+
+}  // namespace placegraph::report

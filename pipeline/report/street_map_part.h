@@ -1,0 +1,23 @@
+#pragma once
+#include <placegraph/graph/scene/semantic_map.h>
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+
+namespace placegraph::report {
+
+/// semantic_map.ply in the folder of a run; nothing where there is none, or where
+/// semantic_map.geojson beside it says that its axes are those of the earth, not of the map.
+/// Throws FileError.
+std::optional<SemanticMap> read_street_map(const std::string& folder);
+
+/// The top view of a semantic map as an image, a pixel for each column of cells, and the ground
+/// below it as a lattice of points in the map, one for every kStreetTile pixels; null if nothing is
+/// known.
+nlohmann::json describe_street_map(const SemanticMap& map);
+
+/// Columns of cells along the side of a square of the lattice.
+inline constexpr int kStreetTile = 16;
+
+}  // namespace placegraph::report
