@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/pose_graph/position_of.h>
 #include <placegraph/graph/pose_graph/rigid_graph.h>
 #include <placegraph/io/files/text_file.h>
 #include <placegraph/io/graphs/g2o.h>

@@ -20,19 +20,6 @@ SE3 between(const SE3& a, const SE3& b, double share) {
 
 }  // namespace
 
-SE3 rigid_part(const Pose& pose) {
-  if (const SE2* T = std::get_if<SE2>(&pose))
-    return SE3(SO3::exp({0, 0, T->rotation().angle()}),
-               {T->translation().x(), T->translation().y(), 0});
-  if (const SE3* T = std::get_if<SE3>(&pose)) return *T;
-  return rigid_part(std::get<Sim3>(pose));
-}
-
-double scale_of(const Pose& pose) {
-  const Sim3* S = std::get_if<Sim3>(&pose);
-  return S ? S->scale() : 1.0;
-}
-
 AntennaTrack::AntennaTrack(const PoseGraph& graph, std::vector<NodeVisit> visits, Trajectory motion)
     : motion_(std::move(motion)) {
   require(!visits.empty(), "georeference: no node has a time");

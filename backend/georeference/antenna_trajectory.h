@@ -3,6 +3,7 @@
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/geometry/trajectory.h>
 #include <placegraph/graph/pose_graph/pose_graph.h>
+#include <placegraph/graph/pose_graph/rigid_graph.h>
 
 #include <optional>
 #include <vector>
@@ -62,10 +63,5 @@ class AntennaTrack {
   std::vector<Visit> visits_;  ///< visits in time order
   Trajectory motion_;          ///< T_map_body
 };
-
-/// A pose without its scale; a node of SE(2) is at z = 0.
-SE3 rigid_part(const Pose& pose);
-/// Scale of a pose; 1 unless the pose is Sim3.
-double scale_of(const Pose& pose);
 
 }  // namespace placegraph

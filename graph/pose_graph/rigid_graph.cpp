@@ -39,4 +39,24 @@ PoseGraph rigid_graph(const PoseGraph& graph) {
   return rigid;
 }
 
+Eigen::Vector3d position_of(const Pose& T_world_node) {
+  if (const SE2* planar = std::get_if<SE2>(&T_world_node))
+    return {planar->translation().x(), planar->translation().y(), 0};
+  if (const SE3* T = std::get_if<SE3>(&T_world_node)) return T->translation();
+  return std::get<Sim3>(T_world_node).translation();
+}
+
+SE3 rigid_part(const Pose& pose) {
+  if (const SE2* T = std::get_if<SE2>(&pose))
+    return SE3(SO3::exp({0, 0, T->rotation().angle()}),
+               {T->translation().x(), T->translation().y(), 0});
+  if (const SE3* T = std::get_if<SE3>(&pose)) return *T;
+  return rigid_part(std::get<Sim3>(pose));
+}
+
+double scale_of(const Pose& pose) {
+  const Sim3* S = std::get_if<Sim3>(&pose);
+  return S ? S->scale() : 1.0;
+}
+
 }  // namespace placegraph

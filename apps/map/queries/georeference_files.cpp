@@ -1,9 +1,9 @@
 #include "apps/map/queries/georeference_files.h"
 
 #include <fmt/format.h>
-#include <placegraph/backend/georeference/antenna_trajectory.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/pose_graph/node_index.h>
+#include <placegraph/graph/pose_graph/rigid_graph.h>
 #include <placegraph/graph/text/csv_text.h>
 #include <placegraph/graph/text/id_format.h>
 #include <placegraph/io/files/json_file.h>
