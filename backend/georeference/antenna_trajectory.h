@@ -3,6 +3,7 @@
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/geometry/trajectory.h>
 #include <placegraph/graph/pose_graph/pose_graph.h>
+#include <placegraph/graph/pose_graph/rigid_graph.h>
 
 #include <optional>
 #include <vector>

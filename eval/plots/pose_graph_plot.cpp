@@ -1,6 +1,6 @@
 #include <placegraph/eval/plots/pose_graph_plot.h>
 #include <placegraph/graph/pose_graph/node_index.h>
-#include <placegraph/graph/pose_graph/position_of.h>
+#include <placegraph/graph/pose_graph/rigid_graph.h>
 
 #include <algorithm>
 

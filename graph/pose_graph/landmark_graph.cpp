@@ -1,7 +1,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/pose_graph/landmark_graph.h>
 #include <placegraph/graph/pose_graph/node_index.h>
-#include <placegraph/graph/pose_graph/position_of.h>
+#include <placegraph/graph/pose_graph/rigid_graph.h>
 
 #include <string>
 

@@ -19,6 +19,13 @@ Information rigid_information(const Information& of_similarity, double scale) {
 
 }  // namespace
 
+Eigen::Vector3d position_of(const Pose& T_world_node) {
+  if (const SE2* planar = std::get_if<SE2>(&T_world_node))
+    return {planar->translation().x(), planar->translation().y(), 0};
+  if (const SE3* T = std::get_if<SE3>(&T_world_node)) return T->translation();
+  return std::get<Sim3>(T_world_node).translation();
+}
+
 SE3 rigid_part(const Pose& pose) {
   if (const SE2* T = std::get_if<SE2>(&pose))
     return SE3(SO3::exp({0, 0, T->rotation().angle()}),

@@ -3,12 +3,15 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// A pose without its scale; a node of SE(2) is at z = 0.
+/// Position of a pose; z is 0 in the plane.
+Eigen::Vector3d position_of(const Pose& T_world_node);
+/// A pose without its scale; a pose of SE(2) is at z = 0.
 SE3 rigid_part(const Pose& pose);
 /// Scale of a pose; 1 unless the pose is Sim3.
 double scale_of(const Pose& pose);
 
 /// Converts a graph of similarities to one over SE(3), for programs without scale.
+///
 /// Nodes keep rotation and position, and every measured translation is multiplied by the scale of
 /// its first node. Information on the scale is marginalized out, information on the translation
 /// divided by the squared scale; measured positions are unchanged. Other graphs are returned

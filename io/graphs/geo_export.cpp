@@ -2,7 +2,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/pose_graph/constraint_source.h>
 #include <placegraph/graph/pose_graph/node_index.h>
-#include <placegraph/graph/pose_graph/position_of.h>
+#include <placegraph/graph/pose_graph/rigid_graph.h>
 #include <placegraph/graph/text/id_format.h>
 #include <placegraph/io/files/atomic_file.h>
 #include <placegraph/io/graphs/geo_export.h>

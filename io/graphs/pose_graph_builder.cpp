@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/pose_graph/node_index.h>
-#include <placegraph/graph/pose_graph/position_of.h>
+#include <placegraph/graph/pose_graph/rigid_graph.h>
 #include <placegraph/graph/text/id_format.h>
 #include <placegraph/io/graphs/pose_graph_builder.h>
 #include <placegraph/io/graphs/printed_rounding.h>

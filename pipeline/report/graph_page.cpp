@@ -4,7 +4,7 @@
 
 #include <placegraph/graph/pose_graph/constraint_source.h>
 #include <placegraph/graph/pose_graph/node_index.h>
-#include <placegraph/graph/pose_graph/position_of.h>
+#include <placegraph/graph/pose_graph/rigid_graph.h>
 
 #include <limits>
 #include <nlohmann/json.hpp>

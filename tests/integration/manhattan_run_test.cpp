@@ -1,6 +1,7 @@
 // Rectangular worlds in a run through a rendered corridor.
 #include <gtest/gtest.h>
 #include <placegraph/frontend/segments/segment_detector.h>
+#include <placegraph/frontend/vanishing/manhattan_frame.h>
 #include <placegraph/frontend/vanishing/scene_directions.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/io/synthetic/worlds/synthetic_world.h>

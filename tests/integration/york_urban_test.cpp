@@ -1,5 +1,6 @@
 // Vanishing points of real segments against those that people marked.
 #include <gtest/gtest.h>
+#include <placegraph/frontend/vanishing/manhattan_frame.h>
 #include <placegraph/frontend/vanishing/scene_directions.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/io/calibration/camera_file.h>

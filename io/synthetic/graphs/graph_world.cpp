@@ -1,6 +1,6 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>
-#include <placegraph/graph/pose_graph/position_of.h>
+#include <placegraph/graph/pose_graph/rigid_graph.h>
 #include <placegraph/io/synthetic/graphs/graph_world.h>
 
 #include <Eigen/Geometry>

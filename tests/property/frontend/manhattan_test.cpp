@@ -1,5 +1,6 @@
 // Vanishing points and rectangular worlds of generated scenes.
 #include <gtest/gtest.h>
+#include <placegraph/frontend/vanishing/manhattan_frame.h>
 #include <placegraph/frontend/vanishing/scene_directions.h>
 #include <placegraph/graph/core/angle.h>
 

@@ -2,6 +2,7 @@
 #include <placegraph/frontend/vanishing/scene_directions.h>
 #include <placegraph/frontend/vanishing/vanishing_evidence.h>
 #include <placegraph/frontend/vanishing/vanishing_model.h>
+#include <placegraph/frontend/vanishing/vanishing_points.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 

@@ -1,4 +1,4 @@
-#include <placegraph/graph/pose_graph/position_of.h>
+#include <placegraph/graph/pose_graph/rigid_graph.h>
 #include <placegraph/io/graphs/g2o.h>
 #include <placegraph/io/graphs/parse_graph.h>
 #include <placegraph/io/graphs/pose_graph_file.h>
