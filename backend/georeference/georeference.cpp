@@ -22,7 +22,7 @@ namespace placegraph {
 namespace {
 
 constexpr double kHuberWidth = 1.345;  // 95 % of the efficiency of least squares for normal errors
-constexpr double kRejectedWeight = 0.1;
+constexpr double kRejectedWeight = 0.1;  // a fix of less weight is reported as rejected; chosen
 /// Share of right fixes whose errors do not count as gross.
 constexpr double kNotGross = 1 - 1e-5;
 
@@ -253,7 +253,7 @@ void Georeferencer::scale_odometry_by(double translation, double rotation) {
 /// deform before its dispersion can be estimated.
 void Georeferencer::bound_odometry() {
   if (!options_.estimate_odometry) return;
-  constexpr double kMuchWorse = 5;
+  constexpr double kMuchWorse = 5;  // Stated drift over the seen one that is not assumed. Chosen.
   const ClaimedDrift drift = claimed_drift(map_);
   const double seen =
       std::max(result_.alignment_rmse_m, options_.min_accuracy_m) / result_.T_enu_map.scale();
@@ -268,7 +268,7 @@ void Georeferencer::bound_odometry() {
 /// could distinguish the edges from a rigid map.
 void Georeferencer::variance_components_of_odometry() {
   if (!options_.estimate_odometry) return;
-  constexpr int kRounds = 15;
+  constexpr int kRounds = 15;  // Rounds at most. Chosen.
   constexpr double kContradicted = 3, kSettled = 0.05, kRigid = 0.1;
   const ClaimedDrift drift = claimed_drift(map_);
   const double rigid = kRigid * *std::min_element(accuracy_m_.begin(), accuracy_m_.end()) /
@@ -292,7 +292,7 @@ void Georeferencer::variance_components_of_odometry() {
 /// Corrects a significant latency (or advance) of the map's poses.
 /// Map and motion are moved to their stamps; this repeats until the remaining delay is negligible.
 void Georeferencer::undo_delay() {
-  constexpr int kRounds = 6;
+  constexpr int kRounds = 6;                   // Rounds at most. Chosen.
   constexpr double kClear = 3, kLittle = 0.2;  // standard deviations
   for (int round = 0; round < kRounds; ++round) {
     AntennaCalibration prior;
