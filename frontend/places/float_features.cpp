@@ -49,6 +49,7 @@ void visit(OptionVisitor& field, FloatFeatureOptions& o) {
 
 FloatFeatures float_features(const Image& grey, const FloatFeatureOptions& options) {
   const cv::Mat image = resized(grey, options.width_px);
+  // Those of SIFT (Lowe 2004): three layers an octave, edge ratio 10, blur 1.6.
   constexpr int kLayers = 3;
   constexpr double kEdge = 10, kSigma = 1.6;
   const auto sift =
@@ -60,6 +61,7 @@ FloatFeatures float_features(const Image& grey, const FloatFeatureOptions& optio
 }
 
 FloatFeatures dense_float_features(const Image& grey) {
+  // Width and distance of dense features. Chosen.
   constexpr int kWidth = 160, kStep = 8;
   constexpr std::array<float, 2> kSizes = {4, 8};  // diameters; a patch is six of them wide
   const cv::Mat image = resized(grey, kWidth);

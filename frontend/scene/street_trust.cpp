@@ -36,6 +36,7 @@ std::vector<EnvironmentProbabilities> smoothed_kinds(
 SceneLabels street_labels(const std::vector<float>& probabilities, int classes,
                           const SceneView& view, double street, double unknown_below) {
   require(street >= 0 && street <= 1, "street_labels: a probability is needed");
+  // Above any probability.
   constexpr double kNever = 2;
   const double least = street > 0 ? (1 - street) / street : kNever;  // street P(c) >= 1 - street
   return most_probable(probabilities, classes, view, std::max(least, unknown_below));
