@@ -101,7 +101,7 @@ IndoorMap fuse_observations(const std::vector<KeyframeSurfacePoints>& all, const
   constexpr double kShoulder_m = 0.45;
   const std::vector<WallPiece> walls =
       cut_at_path(find_walls(observations.points, voxels, options.walls), observations.path,
-                  kShoulder_m, options.walls.min_length_m);
+                  kShoulder_m, kMinWallLength_m);
   if (walls.empty()) {
     plan.outcome = Outcome::failure(Outcome::Code::kDegenerate, "no wall is seen");
     return plan;
