@@ -10,6 +10,7 @@
 namespace placegraph {
 namespace {
 
+// Keyframes on either side, every second one. Chosen.
 constexpr std::ptrdiff_t kReach = 14, kStep = 2;
 
 std::vector<Eigen::Vector3d> points_of(const Keyframe& keyframe) {

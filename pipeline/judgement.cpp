@@ -75,6 +75,8 @@ double usual_confidence(const std::vector<FrameRecord>& frames) {
 
 /// Frames in which far fewer of the tracked landmarks agree with the pose than usual.
 std::optional<DataNote> note_of_confidence(const std::vector<FrameRecord>& frames) {
+  // Half of the usual confidence, in more than one frame in a hundred (docs/datasets.md). Chosen by
+  // the faults of group "fixed" (tests/faults/README.md).
   constexpr double kOfUsual = 0.5, kShare = 0.01;
   const double usual = usual_confidence(frames);
   const auto low = [&](const FrameRecord& frame) {
@@ -95,6 +97,8 @@ std::optional<DataNote> note_of_confidence(const std::vector<FrameRecord>& frame
 
 /// Spans of frames in which fewer of the tracked landmarks agree with the pose than usual.
 std::optional<DataNote> note_of_spans(const std::vector<FrameRecord>& frames) {
+  // Ten frames whose median is below two thirds of the usual (docs/datasets.md). Chosen by the
+  // faults of group "fixed" (tests/faults/README.md).
   constexpr std::size_t kFrames = 10;
   constexpr double kOfUsual = 2.0 / 3;
   const double usual = usual_confidence(frames);
@@ -146,6 +150,8 @@ std::optional<double> drift_of(const PlaceGraph& places,
 /// with the depth of what it sees (landmark_depth).
 std::optional<DataNote> note_of_drift(const std::optional<double>& drift, const Map& map,
                                       double depth) {
+  // Drift over the length of the path. Chosen by the faults of group "fixed"
+  // (tests/faults/README.md).
   constexpr double kMostShare = 0.03;
   if (!drift) return std::nullopt;
   const double length = map.trajectory_optimized().path_length();

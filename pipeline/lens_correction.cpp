@@ -12,6 +12,8 @@ bool is_clear(const LensDistortion& lens, const LensOptions& options) {
 }
 
 bool is_distorted(const LensDistortion& lens, const LensOptions& options) {
+  // At least two stretches of different view or motion agree (docs/datasets.md); one that overlaps
+  // another counts for less.
   constexpr double kStretches = 1.8;
   return is_clear(lens, options) && lens.stretches >= kStretches;
 }

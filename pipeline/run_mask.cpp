@@ -27,6 +27,7 @@ void RunMask::take_up(const std::vector<MaskedOverlay>& overlays, const Camera& 
 }
 
 bool RunMask::learn(const Slam& slam, const LensCorrection& lens) {
+  // Restarts of a run for what moves with the camera: the cost. Chosen.
   constexpr std::size_t kMost = 2;
   if (overlays_.size() >= kMost) return false;
   const Image found = slam.overlay_mask();

@@ -13,6 +13,7 @@ class SaveSchedule {
   void saved(std::size_t frames) { saved_ = frames; }
 
  private:
+  // The five-hundredth above. Chosen.
   static constexpr std::size_t kShare = 500;
   std::size_t saved_ = 0;  // frames that are saved
 };

@@ -17,6 +17,7 @@ NuisanceEvidence with_own_errors(const NuisanceEvidence& evidence,
 
 double squared_difference(const NuisanceEvidence& evidence, const Eigen::VectorXd& q,
                           const Eigen::VectorXd& prior_sigmas, double& freedom) {
+  // Eigenvalue, in units of the prior, of a direction without evidence. Chosen.
   constexpr double kNothing = 1e-6;
   const auto unit = prior_sigmas.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(unit * evidence.information * unit);

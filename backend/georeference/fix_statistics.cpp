@@ -9,6 +9,7 @@ namespace placegraph {
 namespace {
 
 constexpr double kMedianOfNormal = 0.6745;  ///< median of |x| for x of unit deviation
+// Pairs for a median. Chosen.
 constexpr std::size_t kLeastPairs = 20;
 
 }  // namespace

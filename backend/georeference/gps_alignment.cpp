@@ -10,6 +10,7 @@ namespace placegraph {
 namespace {
 
 constexpr double kGate = 3.0;  ///< standard deviations
+// Chosen: a majority.
 constexpr double kMinInlierShare = 0.5;
 
 /// Least-squares rotation about the vertical and translation, without heights.

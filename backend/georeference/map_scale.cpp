@@ -8,6 +8,7 @@
 
 namespace placegraph {
 namespace {
+// Nodes with a covariance: the cost. Chosen.
 constexpr std::size_t kMostNodes = 64;
 }  // namespace
 

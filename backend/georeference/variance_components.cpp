@@ -10,6 +10,7 @@
 namespace placegraph {
 namespace {
 
+// Redundancy without which a component keeps its factor. Chosen.
 constexpr double kLeastRedundancy = 0.5;
 constexpr double kSmallest = 1e-3, kLargest = 1e3;  ///< bounds of a factor in one step
 

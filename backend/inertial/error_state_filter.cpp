@@ -119,6 +119,7 @@ std::optional<ErrorStateFilter::Innovation> ErrorStateFilter::innovation(
   // The height at the first image, half the interval earlier.
   const double height = (state.T_world_body * arm).z() - floor_z_m_ -
                         0.5 * dt * (state.velocity_world + R * rate.cross(arm)).z();
+  // Keeps the quotient finite. Chosen.
   constexpr double kLeastHeight_m = 0.01;
   if (!(height > kLeastHeight_m) || !(dt > 0)) return std::nullopt;
   const double share = dt / height;
@@ -197,6 +198,7 @@ void ErrorStateFilter::replay(std::size_t from) {
     if (const auto* sample = std::get_if<ImuSample>(&event.measurement)) {
       // The mean of two successive samples, except across a gap.
       ImuSample mean = *sample;
+      // A gap in the samples. Chosen.
       constexpr double kSkipped_s = 0.1;
       if (!before.imu_assumed && seconds(before.imu.stamp_ns, sample->stamp_ns) < kSkipped_s) {
         mean.gyro_rad_s = 0.5 * (before.imu.gyro_rad_s + sample->gyro_rad_s);

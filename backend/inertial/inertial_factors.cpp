@@ -112,6 +112,7 @@ std::optional<StateError> flow_error(const FlowMeasurement& observation, const S
   const Matrix3d R_second = second.T_world_body.rotation().matrix();
   const Vector3d begin = first.T_world_body * arm, end = second.T_world_body * arm;
   const double height = begin.z() - floor_z_m;
+  // Keeps the quotient finite. Chosen.
   constexpr double kLeastHeight_m = 0.01;
   if (!(height > kLeastHeight_m)) return std::nullopt;
   const Vector3d translation = R_first.transpose() * (end - begin);

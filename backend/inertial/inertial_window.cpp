@@ -283,6 +283,7 @@ void InertialWindow::forget() {
 
 /// Gauss-Newton steps from the current states.
 void InertialWindow::improve(int iterations) {
+  // Largest step that ends the iteration. Chosen.
   constexpr double kStill = 1e-6;
   for (int i = 0; i < iterations; ++i) {
     const std::vector<StateStep> steps = linearize(0, states_.size()).step();

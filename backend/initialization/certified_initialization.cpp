@@ -9,6 +9,7 @@
 namespace placegraph {
 namespace {
 
+// Ranks above d that the staircase tries: the cost. Chosen.
 constexpr int kMostLifts = 6;
 /// Maximum steps of all lifted descents times poses: without a tight relaxation many steps gain
 /// nothing.
@@ -24,7 +25,9 @@ constexpr double kGapOfNoReturn = 1e-2;
 constexpr double kDescentShare = 0.4;
 /// Number of systems that a restart of the Lanczos search for an eigenvalue solves.
 constexpr int kSolutionsOfRestart = 12;
+// Bounds of the restarts that the effort affords. Chosen.
 constexpr double kFewestRestarts = 5, kMostRestarts = 300;
+// Relative gap of a minimum that counts as global. Chosen.
 constexpr double kTightGap = 1e-5;
 /// A shift of the certificate matrix that lowers the bound by this share is accepted without a
 /// search.

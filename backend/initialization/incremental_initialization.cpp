@@ -11,6 +11,7 @@
 namespace placegraph {
 namespace {
 
+// Parts between which the graph is optimized: the cost. Chosen.
 constexpr std::size_t kParts = 100;
 
 /// The nodes in the order of the odometry, run by run; without odometry in their own order.

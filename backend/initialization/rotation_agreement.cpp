@@ -24,6 +24,7 @@ bool rotations_agree(const std::vector<Group>& a, const std::vector<Group>& b) {
 
 template <int dim>
 bool points_agree(const Eigen::MatrixXd& X, const Eigen::MatrixXd& Z) {
+  // Trace of a rotation by the angle whose cosine is kCosineOfSame.
   constexpr double kTraceOfSame = dim == 2 ? 2 * kCosineOfSame : 1 + 2 * kCosineOfSame;
   for (Eigen::Index column = 0; column < X.cols(); column += dim + 1)
     if (!(X.middleCols<dim>(column).cwiseProduct(Z.middleCols<dim>(column)).sum() > kTraceOfSame))

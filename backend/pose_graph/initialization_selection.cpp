@@ -13,6 +13,7 @@
 namespace placegraph {
 namespace {
 
+// Log odds, 400 to 1, that a ring holds no further turn. Chosen.
 constexpr double kLogOdds = 6;
 constexpr int kMostContinued = 4;   // continuations of a descent at its maximum of iterations
 constexpr double kWithinReach = 2;  // cost over the lowest minimum, above which it is aborted
@@ -20,6 +21,7 @@ constexpr double kWithinReach = 2;  // cost over the lowest minimum, above which
 /// certified initialization may take at least this number of iterations; with a tight relaxation it
 /// takes a few dozen.
 constexpr double kCertifiedDescents = 5, kLeastCertifiedIterations = 200;
+// As above. Chosen.
 constexpr double kReplayDescents = 10;
 constexpr double kCosineOfNear = 0.88;  // 0.5 rad
 

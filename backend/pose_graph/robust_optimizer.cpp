@@ -105,6 +105,7 @@ RobustSolution solve_pcm(PackedGraph<Group>& graph, const OdometryChain<Group>& 
 template <class Group>
 bool contested(const PackedGraph<Group>& graph, const LoopSupport& support,
                const RobustSolution& solution) {
+  // Noise over that of the rings. Chosen: an order of magnitude.
   constexpr double kFarMore = 10;
   constexpr std::ptrdiff_t kLarge = 10;  // loops; fewer agree by chance
   if (!solution.local.outcome || solution.noise_scale > kFarMore * support.noise_scale) return true;
@@ -137,6 +138,7 @@ void try_consistent_loops(const PackedGraph<Group>& given, const OdometryChain<G
                           const RobustOptions& options, PackedGraph<Group>& graph,
                           RobustSolution& solution) {
   constexpr std::size_t kMostLoops = 10'000;  // every pair of loops is compared
+  // A cost that is lower by more than rounding. Chosen: a millionth.
   constexpr double kLower = 1 - 1e-6;
   if (support.loops() > kMostLoops) return;
   const double gate = gate_of<Group>(support.noise_scale, options);

@@ -154,6 +154,7 @@ std::optional<Mixture> likeliest_mixture(const std::vector<RingMisclosure>& ring
                                          double log_volume) {
   // A few rings select the initial scale, more rings determine the parameters.
   constexpr std::size_t kFew = 500, kSample = 4000;
+  // Iterations at most. Chosen.
   constexpr int kFewIterations = 20, kIterations = 60;
   const auto sample = [&](std::size_t size) {
     std::vector<RingMisclosure> some;

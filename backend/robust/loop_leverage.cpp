@@ -54,6 +54,7 @@ class RelativeCovariance {
   /// An estimate from samples of the noise propagated to the poses: x = H^-1 J^T Omega^1/2 n has
   /// covariance H^-1.
   std::vector<Jacobian> sampled(const std::vector<int>& edges) const {
+    // Samples of a covariance; kSafety below bounds what they miss. Chosen.
     constexpr int kSamples = 48;
     std::vector<Jacobian> result(edges.size(), Jacobian::Zero());
     Random random(1);
@@ -133,6 +134,7 @@ std::vector<double> cost_of_adding(const PackedGraph<Group>& graph, const std::v
   // Largest ratio of a sampled estimate to the true cost: an eigenvalue of a sampled covariance is
   // below a third of the true one with a probability of about 1e-6.
   constexpr double kSafety = 4;
+  // Fewer edges are computed exactly: the cost. Chosen.
   constexpr std::size_t kWorthSampling = 100;
   if (edges.empty()) return {};
   const RelativeCovariance<Group> relative(graph, rotation_error);

@@ -119,6 +119,7 @@ class Growth {
         in_question[edge] = stands;
       }
     }
+    // Rounds of a test until nothing changes, at most. Chosen.
     constexpr int kRounds = 3;
     for (int round = 0; round < kRounds && test(in_question) > 0; ++round)
       (void)rough_solver_.solve(graph_);

@@ -96,6 +96,7 @@ class Surroundings {
   }
 
   std::vector<Ring> shortest_rings(int u, int v) const {
+    // Rings of a pair, the shortest ones: the cost. Chosen.
     constexpr std::size_t kRings = 20;
     std::vector<Ring> rings;
     for (std::size_t i = 0; i < loops_.size(); ++i)

@@ -49,6 +49,7 @@ class NullSpace {
   /// The free part of the subspace, after iterations of (H + shift)^-1 on it. In scaled coordinates
   /// y = sqrt(diag) x.
   Eigen::MatrixXd flat_part(Eigen::MatrixXd y) const {
+    // Inverse iterations. Chosen.
     constexpr int kIterations = 4;
     for (int k = 0; k < kIterations; ++k) {
       y = root_.asDiagonal() * y;
@@ -77,6 +78,7 @@ class NullSpace {
 
 template <class Group>
 FreeDirections find_free_directions(const PackedGraph<Group>& graph, RotationError rotation_error) {
+  // As in native_solver.cpp; a node moves with a thousandth of the largest motion. Chosen.
   constexpr double kSingularPivot = 1e-12, kMoves = 1e-3;
   FreeDirections free;
   NormalEquations<Group> equations(graph);

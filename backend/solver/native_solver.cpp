@@ -14,6 +14,7 @@ constexpr double kForcing = 1e-2;
 /// Pivots below this share of the diagonal are regarded as undetermined directions.
 constexpr double kSingularPivot = 1e-12;
 constexpr double kLeastGain = 1e-4;  ///< minimum share of the predicted decrease
+// Rejected steps in a row that end a descent. Chosen.
 constexpr int kMaxRejections = 30;
 /// After this number of successive shortened steps the solver restarts from the initial poses with
 /// damping: the dogleg would need hundreds of steps to bend a long chain. The initial damping is

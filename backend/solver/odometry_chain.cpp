@@ -45,6 +45,7 @@ Successors successors(const PackedGraph<Group>& graph) {
 
 template <class Jacobian>
 Jacobian covariance_of(const Jacobian& information) {
+  // Keeps the inverse finite. Chosen.
   constexpr double kLeast = 1e-9;
   Eigen::SelfAdjointEigenSolver<Jacobian> eigen(information);
   const double floor = kLeast * eigen.eigenvalues().maxCoeff();

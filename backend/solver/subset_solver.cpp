@@ -7,6 +7,7 @@ namespace placegraph {
 template <class Group>
 bool SubsetSolver<Group>::fits(const PackedGraph<Group>& graph) const {
   if (!solver_ || subset_.poses.size() != graph.poses.size()) return false;
+  // Share of the edges in use with which a pattern is kept. Chosen.
   constexpr double kLeastShareInUse = 0.9;
   std::vector<char> in_pattern(graph.edges.size(), false);
   std::size_t in_use = 0;

@@ -51,6 +51,7 @@ std::optional<Eigen::Matrix3d> propagated_covariance(const Eigen::MatrixXd& info
   const Eigen::VectorXd scale = information.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * information *
                                                              scale.asDiagonal());
+  // Of a matrix of unit diagonal: four orders above rounding. Chosen.
   constexpr double kFloor = 1e-12;
   if (!(eigen.eigenvalues()[0] > kFloor)) return std::nullopt;
   const Eigen::MatrixXd root = J * scale.asDiagonal() * eigen.eigenvectors() *
@@ -75,6 +76,7 @@ WindowInformation window_information(const WindowState& state) {
   const Eigen::MatrixXd H_measured = equations.form.H;
   equations.add_prior();
 
+  // Share of the prior that keeps directions finite which no image determines. Chosen.
   constexpr double kShareOfPrior = 0.01;
   const Eigen::MatrixXd weak_prior = kShareOfPrior * (equations.form.H - H_measured);
   WindowInformation::WithoutPrior& without_prior = result.without_prior;
@@ -199,6 +201,7 @@ std::optional<Eigen::Matrix3d> plane_covariance(const SlidingWindow& window, Pla
   const Eigen::Vector3d scale = H.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(scale.asDiagonal() * H *
                                                              scale.asDiagonal());
+  // Of a matrix of unit diagonal: four orders above rounding. Chosen.
   constexpr double kFloor = 1e-12;
   if (!(eigen.eigenvalues()[0] > kFloor)) return std::nullopt;
   const Eigen::Matrix3d root = scale.asDiagonal() * eigen.eigenvectors() *
@@ -208,6 +211,7 @@ std::optional<Eigen::Matrix3d> plane_covariance(const SlidingWindow& window, Pla
 
 std::optional<Eigen::Matrix3d> landmark_covariance(const SlidingWindow& window,
                                                    LandmarkId landmark) {
+  // Ratio of eigenvalues: four orders above rounding. Chosen.
   constexpr double kLeastCondition = 1e-12;
   const WindowState& state = window.state();
   const auto found = state.landmarks.find(landmark);
@@ -265,6 +269,7 @@ double sigma_log_length_ratio(const SlidingWindow& window, KeyframeId first, Key
                                                              scale.asDiagonal());
   const Eigen::VectorXd share =
       eigen.eigenvectors().transpose() * (J * scale.asDiagonal()).transpose();
+  // Eigenvalue of an undetermined direction, of a matrix of unit diagonal. Chosen.
   constexpr double kOpen = 1e-10;
   double variance = 0;
   for (Eigen::Index k = 0; k < share.size(); ++k)

@@ -213,6 +213,7 @@ Outcome WindowProblem::check() const {
 }
 
 bool WindowProblem::settled() {
+  // A cost of rounding errors. Chosen.
   constexpr double kNothing = 1e-12;
   double cost = 1;
   return state_.landmarks.empty() && state_.lines.empty() &&

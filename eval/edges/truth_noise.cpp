@@ -16,6 +16,7 @@ constexpr std::array<double, 5> kDifference = {1, -4, 6, -4, 1};   // fourth ord
 constexpr std::array<double, 4> kStepDifference = {-1, 3, -3, 1};  // the same, of relative poses
 constexpr double kSquaresOfDifference = 70;  // sum over the coefficients of the first
 constexpr int kPosesOfDifference = static_cast<int>(kDifference.size());
+// Chosen.
 constexpr int kDifferencesOfWindow = 16;
 constexpr int kPosesOfWindow = kDifferencesOfWindow + kPosesOfDifference - 1;
 
@@ -37,6 +38,7 @@ std::optional<Vector6d> difference_at(const TruthSteps& truth, int frame) {
 /// Lower quartile of the mean square of a window's differences of white noise of unit size. Fourth
 /// differences at distance 1 to 4 are correlated.
 double quartile_of_window() {
+  // Products of the coefficients of fourth differences, over their squares, 70.
   constexpr std::array<double, 4> kCorrelation = {-56. / 70, 28. / 70, -8. / 70, 1. / 70};
   double sum = kDifferencesOfWindow;
   for (int k = 1; k <= 4; ++k)

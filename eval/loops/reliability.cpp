@@ -7,6 +7,7 @@
 namespace placegraph {
 
 Reliability reliability_of(const std::vector<ScoredPrediction>& predictions) {
+  // Bins of a tenth. Chosen.
   constexpr int kBins = 10;
   Reliability result;
   result.bins.resize(kBins);

@@ -12,6 +12,7 @@ namespace {
 
 using Eigen::Vector2d;
 
+// Distance of the samples along walls. Chosen.
 constexpr double kStep_m = 0.05;
 
 struct Segment {

@@ -29,6 +29,7 @@ class LabelCheck {
   double calibration_error() const;
 
  private:
+  // As Guo et al. 2017.
   static constexpr int kBins = 15;
   struct Bin {
     std::int64_t pixels = 0, right = 0;

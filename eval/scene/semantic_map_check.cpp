@@ -60,6 +60,7 @@ class TrueCells {
   }
 
  private:
+  // Cells of a block on a side: the cost. Chosen.
   static constexpr int kBlock = 8;
 
   void add_blocks(const Vector3i& cell) {

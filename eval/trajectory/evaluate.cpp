@@ -92,6 +92,7 @@ std::string who_stands(const std::vector<FramePair>& pairs) {
     truth_m = std::max(truth_m, from(pair.T_world_truth, *first_truth));
     estimate_m = std::max(estimate_m, from(*pair.T_world_estimate, *first_estimate));
   }
+  // A nanometre: rounding. Chosen.
   constexpr double kNoPath_m = 1e-9;
   if (estimate_m < kNoPath_m) return ": the estimate never moves";
   return truth_m < kNoPath_m ? ": the ground truth never moves" : "";

@@ -13,6 +13,8 @@
 namespace placegraph {
 namespace {
 
+// Frames by which trajectories may be shifted, and the share of the misfit with which another
+// reading is better. Chosen.
 constexpr int kMaxShift = 5;
 constexpr double kClearlyBetter = 0.5;
 /// Misfits below this (1 % of the motion) need no explanation.
@@ -153,6 +155,7 @@ std::string never_rotates(const std::vector<FramePair>& pairs) {
         "and r_rel mean nothing",
         one, other, rad_to_deg(angle));
   };
+  // A rotation, three degrees, that is not noise. Chosen.
   constexpr double kRotated_rad = 0.05;
   if (truth_rotations < kSameOrientation_rad && estimate_rotations > kRotated_rad)
     return text("the ground truth", "the estimate", estimate_rotations);

@@ -235,6 +235,7 @@ Outcome judge(const AlignResult& result, const AlignOptions& o) {
   if (result.inlier_share < o.min_inlier_share)
     return Outcome::failure(Code::kInconsistent,
                             "share of inliers " + std::to_string(result.inlier_share));
+  // A last step of a pixel: no minimum was reached. Chosen.
   constexpr double kUnsettledPx = 1;
   if (result.last_step_px > std::min(o.max_sigma_px, kUnsettledPx))
     return Outcome::failure(Code::kNotConverged,

@@ -11,6 +11,22 @@
 namespace placegraph {
 namespace {
 
+/// Minimum number of samples in view on the finest level (25 for each of the six coordinates).
+/// Chosen.
+constexpr int kMinDirectSamples = 150;
+/// Maximum number of iterations per level. Chosen.
+constexpr int kDirectIterations = 12;
+/// Mean displacement of the samples by a step that ends a level. Chosen.
+constexpr double kDirectConverged_px = 0.01;
+/// Minimum share of the samples that is in view. Chosen.
+constexpr double kMinVisibleShare = 0.3;
+/// Minimum correlation of observed and predicted grey values. Chosen; as for the ground plane.
+constexpr double kMinDirectAgreement = 0.5;
+/// Minimum share of inliers among the samples in view. Chosen.
+constexpr double kMinDirectInlierShare = 0.4;
+/// Side of the tiles within which residuals may be correlated. Chosen.
+constexpr int kDirectTile_px = 32;
+
 using Code = Outcome::Code;
 
 /// Pixel of greatest gradient of each cell of q x q pixels, among those with a patch in `patch_of`.
@@ -62,13 +78,13 @@ Image patches_on(const cv::Size& size, const std::vector<SurfacePatch>& patches,
   return patch_of;
 }
 
-Outcome judge(const DirectMotion& motion, const DirectMotionOptions& o, int visible) {
-  if (visible < o.min_samples || motion.visible_share < o.min_visible_share)
+Outcome judge(const DirectMotion& motion, int visible) {
+  if (visible < kMinDirectSamples || motion.visible_share < kMinVisibleShare)
     return Outcome::failure(Code::kTooFewData,
                             std::to_string(visible) + " pixels of surfaces in view");
-  if (!(motion.agreement >= o.min_agreement))
+  if (!(motion.agreement >= kMinDirectAgreement))
     return Outcome::failure(Code::kInconsistent, "correlation " + std::to_string(motion.agreement));
-  if (!(motion.inlier_share >= o.min_inlier_share))
+  if (!(motion.inlier_share >= kMinDirectInlierShare))
     return Outcome::failure(Code::kInconsistent,
                             "share of inliers " + std::to_string(motion.inlier_share));
   if (!(motion.last_step_px < 0.5))
@@ -91,23 +107,23 @@ DirectReference::DirectReference(const std::vector<Image>& pyramid, const Camera
     const Image patch_of = patches_on(pyramid[i].size(), patches_, scale);
     const double pixels = cv::countNonZero(patch_of);
     const int q = std::max(1, static_cast<int>(std::ceil(std::sqrt(pixels / options.samples))));
-    levels_.push_back(strongest(pyramid[i], patch_of, q, camera_, scale, options.tile_px));
+    levels_.push_back(strongest(pyramid[i], patch_of, q, camera_, scale, kDirectTile_px));
   }
 }
 
 DirectMotion align_motion(const DirectReference& reference, const std::vector<Image>& pyramid_cur,
-                          const SE3& T_ref_cur_start, const MotionGuess& guess,
-                          const DirectMotionOptions& options) {
+                          const SE3& T_ref_cur_start, const MotionGuess& guess) {
   require(!pyramid_cur.empty(), "align_motion: a pyramid without levels");
   DirectMotion motion;
   motion.T_ref_cur = T_ref_cur_start;
   motion.covariance.setZero();
-  DirectEquations equations(reference, T_ref_cur_start, guess, options);
+  DirectEquations equations(reference, T_ref_cur_start, guess);
   const auto levels = std::min(reference.levels().size(), pyramid_cur.size());
+  // Samples of a coarse level that is used: ten for each coordinate. Chosen.
   constexpr std::size_t kCoarseSamples = 60;
   for (std::size_t i = levels; i-- > 0;) {
     if (i > 0 && reference.levels()[i].size() < kCoarseSamples) continue;
-    for (int k = 0; k < options.iterations; ++k) {
+    for (int k = 0; k < kDirectIterations; ++k) {
       equations.linearize(pyramid_cur[i], static_cast<int>(i));
       ++motion.iterations;
       if (!equations.step()) {
@@ -117,12 +133,12 @@ DirectMotion align_motion(const DirectReference& reference, const std::vector<Im
         return motion;
       }
       motion.last_step_px = equations.step_px();
-      if (equations.step_px() < options.converged) break;
+      if (equations.step_px() < kDirectConverged_px) break;
     }
   }
   equations.linearize(pyramid_cur[0], 0);
   equations.report(motion);
-  motion.outcome = judge(motion, options, equations.visible());
+  motion.outcome = judge(motion, equations.visible());
   if (motion.outcome && !equations.covariance(motion))
     motion.outcome =
         Outcome::failure(Code::kDegenerate, "a direction of the motion is unobservable");
@@ -135,6 +151,7 @@ SE3 search_motion(const DirectReference& reference, const std::vector<Image>& py
   const int level =
       static_cast<int>(std::min(reference.levels().size(), pyramid_cur.size())) - 1 > 1 ? 2 : 0;
   const auto& all = reference.levels().at(static_cast<std::size_t>(level));
+  // Samples of the search: the cost. Chosen.
   constexpr std::size_t kSamples = 400;
   std::vector<DirectReference::Sample> samples;
   for (std::size_t i = 0; i < all.size(); i += all.size() / kSamples + 1) samples.push_back(all[i]);

@@ -88,8 +88,7 @@ struct DirectMotion {
 /// image differs from the planes' appearance), not converged.
 [[nodiscard]] DirectMotion align_motion(const DirectReference& reference,
                                         const std::vector<Image>& pyramid_cur,
-                                        const SE3& T_ref_cur_start, const MotionGuess& guess,
-                                        const DirectMotionOptions& options);
+                                        const SE3& T_ref_cur_start, const MotionGuess& guess);
 
 /// Searches the motion about `T_ref_cur` within deviations `sigmas` [translation, rotation].
 ///

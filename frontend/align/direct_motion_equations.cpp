@@ -10,6 +10,9 @@
 namespace placegraph {
 namespace {
 
+/// Width of Tukey's weights: 95 % efficiency for normal residuals (Holland & Welsch 1977).
+constexpr double kDirectTukeyWidth = 4.685;
+
 using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -57,8 +60,8 @@ Matrix6d bounded_below(const Matrix6d& M, const Matrix6d& floor) {
 }  // namespace
 
 DirectEquations::DirectEquations(const DirectReference& reference, const SE3& T_ref_cur,
-                                 const MotionGuess& guess, const DirectMotionOptions& options)
-    : reference_(reference), options_(options), guess_(guess), T_cur_ref_(T_ref_cur.inverse()) {
+                                 const MotionGuess& guess)
+    : reference_(reference), guess_(guess), T_cur_ref_(T_ref_cur.inverse()) {
   for (const SurfacePatch& patch : reference.patches())
     planes_.push_back({patch.g_ref, 1, 0, information_of(patch.g_covariance)});
 }
@@ -114,7 +117,7 @@ void DirectEquations::weigh() {
   for (const Row& row : rows_) magnitudes_.push_back(std::abs(row.residual));
   if (magnitudes_.empty()) return;
   sigma_ = std::max(kLeastSigmaGrey, 1.4826 * median_of(magnitudes_));
-  const double cut = options_.kernel_width * sigma_;
+  const double cut = kDirectTukeyWidth * sigma_;
   for (Row& row : rows_) {
     const double q = 1 - row.residual * row.residual / (cut * cut);
     row.weight = q > 0 ? q * q : 0;
@@ -205,6 +208,7 @@ void DirectEquations::report(DirectMotion& motion) const {
     n[static_cast<std::size_t>(row.plane)] += row.weight;
     mean[static_cast<std::size_t>(row.plane)] += row.weight * row.grey;
   }
+  // Grey levels beyond which noise is contradiction, and deviations of an inlier. Chosen.
   constexpr double kWidestSigma = 12, kInlierSigmas = 2.5;
   const double inlier = kInlierSigmas * std::min(sigma_, kWidestSigma);
   const auto parts = blocks(false);

@@ -9,8 +9,7 @@ namespace placegraph {
 /// eliminated.
 class DirectEquations {
  public:
-  DirectEquations(const DirectReference& reference, const SE3& T_ref_cur, const MotionGuess& guess,
-                  const DirectMotionOptions& options);
+  DirectEquations(const DirectReference& reference, const SE3& T_ref_cur, const MotionGuess& guess);
 
   void linearize(const Image& image_cur, int level);
   /// Takes a step; false if the equations are singular.
@@ -49,7 +48,6 @@ class DirectEquations {
   void start_photometry();
 
   const DirectReference& reference_;
-  const DirectMotionOptions& options_;
   MotionGuess guess_;
   SE3 T_cur_ref_;
   std::vector<PlaneState> planes_;

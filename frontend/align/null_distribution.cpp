@@ -79,6 +79,7 @@ void ask_surrogates(const Image& patch, const PlanarTemplate& planar_template,
 /// Greatest similarity away from the true position, from starts a quarter to a whole side off.
 double best_rival(const Image& image_ref, const PlanarTemplate& planar_template,
                   const AlignOptions& options, int trials, Random& random) {
+  // Distance of another place of the template. Chosen.
   constexpr double kElsewherePx = 3;
   const auto& corners = planar_template.corners_px();
   const double side = (corners[2] - corners[0]).norm() / std::sqrt(2.0);

@@ -127,6 +127,7 @@ std::optional<Eigen::Matrix3d> homography_of_box(const std::array<Vector2d, 4>& 
   const auto cross = [](const Vector2d& a, const Vector2d& b) {
     return a.x() * b.y() - a.y() * b.x();
   };
+  // Half a degree: the corner is straight. Chosen.
   constexpr double kLeastSine = 0.01;
   for (std::size_t i = 0; i < 4; ++i) {
     const Vector2d in = corners[(i + 1) % 4] - corners[i];

@@ -312,6 +312,7 @@ PlaneTrack PlaneTracker::Impl::find(const View& view) {
 /// Aligns the patch found in this frame with the first image, from a start a few pixels off; it
 /// must end at the template's corners.
 Outcome PlaneTracker::Impl::backward_check(const View& view, const PlaneTrack& track) const {
+  // Distance at which the search back begins. Chosen.
   constexpr double kBesidePx = 3;
   const PlanarTemplate seen(view.image, track.corners_px, options_.levels, options_.max_samples);
   const Matrix3d H_ref_cur = track.H_cur_ref.inverse();

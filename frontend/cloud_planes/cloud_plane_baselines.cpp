@@ -49,6 +49,7 @@ FittedPlane fit_to(const CloudPoints& points, const std::vector<int>& some) {
 /// Best of the planes through three points near each other, by the number of sampled points within.
 FittedPlane draw_plane(const CloudPoints& points, const std::vector<int>& left,
                        const std::vector<int>& labels, double sigmas, Random& random) {
+  // Samples of RANSAC and points that score them: the cost. Chosen.
   constexpr int kDraws = 400, kScored = 2000;
   constexpr std::size_t kLeastPatch = 30, kMostPatch = 400;
   std::vector<int> patch, scored;
@@ -79,6 +80,7 @@ FittedPlane draw_plane(const CloudPoints& points, const std::vector<int>& left,
 }  // namespace
 
 PlaneLabels planes_by_ransac(const CloudPoints& points, const CloudPlanesOptions& options) {
+  // Planes in a row without enough points that end the search. Chosen.
   constexpr int kFailures = 3;
   Random random(options.seed);
   PlaneLabels result;
@@ -111,6 +113,7 @@ PlaneLabels planes_by_ransac(const CloudPoints& points, const CloudPlanesOptions
 }
 
 PlaneLabels planes_by_growing(const CloudPoints& points, const CloudPlanesOptions& options) {
+  // Points of a patch. Chosen.
   constexpr std::size_t kPatch = 25;
   const double rotation_cos = std::cos(deg_to_rad(10));
   PlaneLabels result;

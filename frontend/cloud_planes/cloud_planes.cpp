@@ -23,6 +23,7 @@ constexpr int kLeastPoints = 12;  ///< least number of points of a cloud
 FittedPlane robust_plane(const PlanarSegment& segment, const CloudPoints& points,
                          const SuperPoints& cloud, double sigmas, double least_share,
                          Random& random) {
+  // Samples of RANSAC and rounds of the fit. Chosen.
   constexpr int kSamples = 300, kRounds = 2;
   std::vector<int> all;
   for (const int c : segment.cells)
@@ -67,6 +68,7 @@ FittedPlane robust_plane(const PlanarSegment& segment, const CloudPoints& points
 std::vector<PlanarSegment> split(std::vector<PlanarSegment> segments, const CloudPoints& points,
                                  const SuperPoints& cloud, const CloudPlanesOptions& options,
                                  Random& random) {
+  // Deviations of points of a plane, and the share of them that keeps it. Chosen.
   constexpr double kNear = 2.5, kLeastShare = 0.1;
   const double least = std::max(8, options.min_points / 4);
   std::vector<PlanarSegment> result;
@@ -107,6 +109,7 @@ std::vector<PlanarSegment> find_segments(const CloudPoints& points, const SuperP
 
 PlaneLabels planes_by_cuts(const CloudPoints& points, const CloudPlanesOptions& options,
                            const PlanarityModel& planarity, std::vector<double>& probabilities) {
+  // A majority. Chosen.
   constexpr double kLeastShare = 0.5;
   Random random(options.seed);
   const SuperPoints cloud = make_super_points(points);
@@ -127,6 +130,7 @@ PlaneLabels planes_by_cuts(const CloudPoints& points, const CloudPlanesOptions& 
     probabilities.push_back(probability);
   }
   spread_labels(points, cloud, options.inlier_sigmas, result);
+  // Share of the area that points cover. Chosen.
   constexpr double kPorous = 0.5;
   drop_porous(points, kPorous, result);
   std::vector<int> kept;
@@ -196,6 +200,7 @@ CloudPlanesResult find_cloud_planes(const PointCloud& cloud, const CloudPlanesOp
 std::vector<PlanaritySample> planarity_samples(const PointCloud& cloud,
                                                const std::vector<int>& labels,
                                                const CloudPlanesOptions& options) {
+  // Shares of one label in a segment that is an example for either class. Chosen.
   constexpr double kPlane = 0.9, kNoPlane = 0.6;
   require(labels.size() == cloud.points.size(), "planarity_samples: one label a point is needed");
   std::vector<PlanaritySample> samples;

@@ -74,6 +74,8 @@ void join_nearest(const std::vector<Eigen::Vector3d>& where, const NeighbourTree
 /// Whether points in adjacent directions from the origin have about equal distances: then there is
 /// one surface along each ray.
 bool seen_from_origin(const std::vector<Eigen::Vector3d>& xyz, const NeighbourTree& by_direction) {
+  // Points that are asked and neighbours of each; difference of depths along a ray, and share of
+  // the points. Chosen.
   constexpr int kSamples = 1000, kOfEach = 2;
   constexpr double kSimilar = 0.06, kShare = 0.75;
   const int stride = std::max<int>(1, static_cast<int>(xyz.size()) / kSamples);
@@ -91,6 +93,7 @@ bool seen_from_origin(const std::vector<Eigen::Vector3d>& xyz, const NeighbourTr
 /// Points around one, itself first: in an image a square, otherwise neighbours of neighbours. False
 /// if the patch is not complete.
 bool patch_about(const CloudPoints& points, int i, std::vector<int>& patch) {
+  // A patch is 5 x 5 pixels; half of them must be there.
   constexpr int kHalf = 2, kMost = 25, kLeast = 12;
   patch.clear();
   if (points.width > 0) {

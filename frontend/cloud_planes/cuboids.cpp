@@ -28,6 +28,7 @@ struct Face {
 };
 
 std::vector<Face> faces_of(const PointCloud& cloud, const CloudPlanesResult& found) {
+  // Points of a face: the cost. Chosen.
   constexpr int kMostPoints = 2000;
   std::vector<Face> faces(found.planes.size());
   for (std::size_t k = 0; k < faces.size(); ++k) {
@@ -76,6 +77,7 @@ EdgeSide edge_side(const Face& face, const Face& other, const Eigen::Vector3d& a
     all.push_back(along.dot(X));
     if (std::abs(other.height(X)) < gap * X.norm()) near.push_back(all.back());
   }
+  // Points with quantiles. Chosen.
   constexpr std::size_t kFewest = 5;
   if (near.size() < kFewest) return {};
   return {true, quantile_of(near, kStray), quantile_of(near, 1 - kStray),
@@ -203,6 +205,7 @@ std::optional<Cuboid> cuboid_of(const std::vector<Face>& faces, const std::vecto
       cuboid.faces[static_cast<std::size_t>(2 * axis + upper)] = k;
     }
     if (beside.empty()) return std::nullopt;
+    // Quantile of an end without a face. Chosen.
     constexpr double kEnd = 0.01;
     low[axis] = side[0] ? *side[0] : quantile_of(beside, kEnd);
     high[axis] = side[1] ? *side[1] : quantile_of(beside, 1 - kEnd);

@@ -15,6 +15,13 @@
 namespace placegraph {
 namespace {
 
+/// Distance of the pixels used; at most half of the least cell_px. Chosen.
+constexpr int kDepthStep_px = 2;
+/// Maximum standard deviation of the normal of a plane. Chosen.
+constexpr double kMaxPlaneNormalSigma_deg = 1;
+/// Maximum deviation from a plane, as a share of the depth. Chosen.
+constexpr double kDepthFlatness = 0.002;
+
 constexpr double kSigmas = 3;  ///< largest distance of a plane's cells
 
 /// Sums over pixels of rays (z = 1) and inverse depths.
@@ -88,7 +95,7 @@ class Grid {
   }
   /// Largest deviation of the mean of a cell from a plane [1/m].
   double tolerance(const Cell& c) const {
-    const double bend = options_.flatness * c.sums.inverse_depth();
+    const double bend = kDepthFlatness * c.sums.inverse_depth();
     return kSigmas * std::sqrt(roughness_ + bend * bend);
   }
   Eigen::Vector3d middle_ray(int i) const {
@@ -123,7 +130,7 @@ class Grid {
 };
 
 void Grid::sum_up(const Image& depth_m) {
-  const int step = options_.step_px, size = options_.cell_px;
+  const int step = kDepthStep_px, size = options_.cell_px;
   for (int v = step / 2; v < rows_ * size; v += step) {
     const float* const row = depth_m.ptr<float>(v);
     for (int u = step / 2; u < cols_ * size; u += step) {
@@ -138,7 +145,7 @@ void Grid::sum_up(const Image& depth_m) {
 /// A cell with a depth edge in it is not part of a plane.
 void Grid::judge_cells() {
   const double full =
-      std::pow(std::floor(options_.cell_px / static_cast<double>(options_.step_px)), 2);
+      std::pow(std::floor(options_.cell_px / static_cast<double>(kDepthStep_px)), 2);
   std::vector<double> variances(cells_.size(), -1), known;
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     const Sums& sums = cells_[i].sums;
@@ -152,7 +159,7 @@ void Grid::judge_cells() {
   noise_ = median_of(known);
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     if (variances[i] < 0) continue;
-    const double bend = 2 * options_.flatness * cells_[i].sums.inverse_depth();
+    const double bend = 2 * kDepthFlatness * cells_[i].sums.inverse_depth();
     cells_[i].even = variances[i] < kSigmas * kSigmas * noise_ + bend * bend;
   }
 }
@@ -246,7 +253,7 @@ bool Grid::coplanar(const Region& large, const Region& small) const {
   const auto g = both.fit();
   if (!g) return false;
   for (const Region* region : {&large, &small}) {
-    const double bend = options_.flatness * region->sums.inverse_depth();
+    const double bend = kDepthFlatness * region->sums.inverse_depth();
     if (mean_square(*region, *g) > 1.5 * mean_square(*region, region->g) + bend * bend)
       return false;
   }
@@ -308,6 +315,7 @@ std::vector<Region> Grid::regions() const {
 /// blocks of the squares of their gradients, with a correction for a small number of blocks. Zero
 /// with too few.
 Eigen::Matrix3d Grid::covariance(const Region& region, int block_cells) const {
+  // Twice the unknowns of a plane.
   constexpr std::size_t kLeastBlocks = 6;
   std::map<int, Eigen::Vector3d> pulls;
   for (const int i : region.cells) {
@@ -362,7 +370,6 @@ double sigma_normal_rad(const DepthPlane& plane) {
 std::vector<DepthPlane> find_depth_planes(const Image& depth_m, const Camera& depth_camera,
                                           const DepthPlanesOptions& options) {
   options.check();
-  require(options.step_px * 2 <= options.cell_px, "step_px: must be at most half of cell_px");
   require(depth_m.type() == CV_32FC1 && depth_m.cols == depth_camera.width &&
               depth_m.rows == depth_camera.height,
           "depth planes: needs a CV_32FC1 depth image of the camera's size");
@@ -372,7 +379,7 @@ std::vector<DepthPlane> find_depth_planes(const Image& depth_m, const Camera& de
     if (static_cast<int>(planes.size()) == options.max_planes) break;
     const DepthPlane plane = grid.describe(region);
     if (plane.covariance.allFinite() && !plane.points_cam.empty() &&
-        sigma_normal_rad(plane) < options.max_sigma_deg * kRadPerDeg)
+        sigma_normal_rad(plane) < kMaxPlaneNormalSigma_deg * kRadPerDeg)
       planes.push_back(plane);
   }
   return planes;

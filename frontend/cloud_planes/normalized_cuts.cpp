@@ -36,6 +36,7 @@ class Deflated {
 std::optional<Eigen::VectorXd> second_vector(const Eigen::SparseMatrix<double>& matrix,
                                              const Eigen::VectorXd& known) {
   constexpr Eigen::Index kDense = 40;
+  // Size of the Lanczos basis and restarts. Chosen.
   constexpr int kBasis = 16, kRestarts = 60;
   constexpr double kAccuracy = 1e-4;
   const Eigen::Index n = matrix.rows();

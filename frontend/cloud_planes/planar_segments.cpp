@@ -80,6 +80,8 @@ double rise_of(const PlanarSegment& segment, const FittedPlane& plane, const Fit
 /// to the allowed deviation. (A common plane tilts over a step between them; the larger one's does
 /// not.)
 bool are_coplanar(const PlanarSegment& large, const PlanarSegment& small, const FitModel& model) {
+  // Four standard deviations, squared; share of the noise and bending that are allowed beside.
+  // Chosen.
   constexpr double kChance = 16, kNoiseShare = 0.1, kBending = 4;
   if (std::abs(small.plane.plane.normal.dot(large.plane.plane.normal)) < kMaxRotationCos)
     return false;

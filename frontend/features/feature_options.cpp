@@ -29,10 +29,7 @@ void visit(OptionVisitor& field, PointTrackerOptions& o) {
                    "minimum correlation with the anchor; below it a new anchor is taken", {0, 1});
   field("sigma_px", o.sigma_px, "noise added at a keyframe where the anchor was not found [px]",
         {0.05, 10});
-  field.internal()("min_sigma_px", o.min_sigma_px,
-                   "minimum standard deviation of a point whose anchor was found [px]", {0.01, 10});
-  field.internal()("max_sigma_px", o.max_sigma_px,
-                   "maximum accumulated noise of a track; beyond, the track ends [px]", {0.1, 100});
+  field.retired({{"min_sigma_px", 0.25}, {"max_sigma_px", 1.5}});
 }
 
 void DetectorOptions::check() const { check_ranges(*this); }

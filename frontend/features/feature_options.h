@@ -20,9 +20,7 @@ struct PointTrackerOptions {
   double max_anchor_shift_px = 3;
   /// Minimum correlation with the anchor; below it a new anchor is taken.
   double min_anchor_correlation = 0.8;
-  double sigma_px = 0.7;       ///< noise added at a keyframe where the anchor was not found
-  double min_sigma_px = 0.25;  ///< minimum standard deviation of a point whose anchor was found
-  double max_sigma_px = 1.5;   ///< maximum accumulated noise of a track; beyond, it ends
+  double sigma_px = 0.7;  ///< noise added at a keyframe where the anchor was not found
   void check() const;
 };
 void visit(OptionVisitor& field, PointTrackerOptions& options);

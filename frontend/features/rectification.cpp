@@ -23,6 +23,7 @@ struct Batch {
 /// Cauchy weights about `state`, relative to the scatter of the samples: their sigmas may be too
 /// small.
 Batch weigh(const std::vector<DisparitySample>& samples, const Vector4d& state) {
+  // Width of the kernel [standard deviations]. Chosen.
   constexpr double kWidth = 2;
   std::vector<double> errors, magnitudes;
   for (const DisparitySample& s : samples) {
@@ -65,6 +66,7 @@ void RectificationEstimator::add(const std::vector<DisparitySample>& samples) {
   // rank.
   const double variance = options_.batch_sigma_px * options_.batch_sigma_px;
   const Matrix4d common = Vector4d(0, variance, variance, variance).asDiagonal();
+  // Iterations at most. Chosen.
   constexpr int kIterations = 10;
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     const Batch batch = weigh(samples, state_);

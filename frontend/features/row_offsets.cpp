@@ -16,6 +16,7 @@ Vector5d terms(const Eigen::Vector2d& ray) {
   return {1, ray.x(), ray.y(), ray.x() * ray.y(), ray.y() * ray.y()};
 }
 
+// Distance of an inlier from its row. Chosen.
 constexpr double kInlierPx = 2;
 
 /// Constant, x and y terms through three samples.
@@ -39,6 +40,7 @@ std::vector<Vector5d> through(const std::vector<RowSample>& samples,
 /// of every coefficient is about ten pixels.
 Vector5d weighed_fit(const std::vector<RowSample>& samples, const std::vector<int>& some,
                      const Vector5d& about) {
+  // A weak prior that no offset contradicts. Chosen.
   constexpr double kPriorSigmaPx = 10;
   Matrix5d information = Matrix5d::Identity() / (kPriorSigmaPx * kPriorSigmaPx);
   Vector5d right = Vector5d::Zero();
@@ -57,6 +59,8 @@ Vector5d weighed_fit(const std::vector<RowSample>& samples, const std::vector<in
 
 std::vector<RowSample> row_samples(const Camera& camera, const std::vector<Feature>& left,
                                    const std::vector<Feature>& right, double band_px) {
+  // Noise of a feature on the finest level, and its growth by level. Chosen; the latter is that of
+  // the detector.
   constexpr double kSigmaPx = 0.7, kScaleOfOctave = 1.3;
   std::vector<RowSample> samples;
   for (const double side : {1.0, -1.0}) {

@@ -33,6 +33,7 @@ Eigen::Vector3d shared_direction(const std::vector<SurfacePoint>& points,
 
 /// Lowest level with a fifth as many points as the fullest one, of those observed from above.
 std::optional<double> floor_level(const std::vector<std::pair<double, double>>& levels) {
+  // A cell of the plan. Chosen.
   constexpr double kBin_m = 0.05;
   if (levels.size() < kFewest) return std::nullopt;
   double low = 1e9, high = -1e9;
@@ -63,6 +64,7 @@ std::optional<double> floor_level(const std::vector<std::pair<double, double>>& 
 /// refined.
 std::optional<double> shared_rotation(const std::vector<double>& angles) {
   if (angles.size() < kFewest) return std::nullopt;
+  // Half a degree each. Chosen.
   constexpr int kBins = 180;
   const double quarter = std::numbers::pi / 2;
   std::vector<int> histogram(kBins, 0);

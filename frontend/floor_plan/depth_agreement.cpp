@@ -10,6 +10,7 @@ namespace {
 void mark_certain(const std::vector<PixelDepth>& found, const SweepGeometry& geometry,
                   SweptDepth& result) {
   const Camera& camera = geometry.camera;
+  // Pixels on either side that are asked. Chosen.
   constexpr int kReach = 2;
   const auto at = [&](int u, int v) -> const PixelDepth& {
     return found[static_cast<std::size_t>(v) * camera.width + u];

@@ -8,6 +8,11 @@
 namespace placegraph {
 namespace {
 
+/// Minimum depth of a leaf behind its wall's surface (docs/indoor.md). Chosen.
+constexpr double kMinRecess_m = 0.025;
+/// Maximum depth of a leaf behind its wall's surface (docs/indoor.md). Chosen.
+constexpr double kMaxRecess_m = 0.16;
+
 /// Length without evidence of a door, or without rays where no wall is visible, at which a door
 /// ends.
 constexpr double kUnseen_m = 0.4;
@@ -62,6 +67,7 @@ std::optional<DoorPiece> judge(const WallProfile& profile, const DoorFinderOptio
 
 /// Whether most of the steps before a position (`direction` -1), or from it on (1), are wall.
 bool jamb(const WallProfile& profile, std::size_t at, int direction) {
+  // Four of six steps, 20 of 30 cm, are wall. Chosen.
   constexpr std::size_t kLong = 6, kLeast = 4;
   const std::size_t from = direction < 0 ? at - std::min(at, kLong) : at;
   const std::size_t to = direction < 0 ? at : std::min(profile.steps.size(), at + kLong);
@@ -132,8 +138,7 @@ std::vector<DoorPiece> find_doors(const std::vector<WallPiece>& walls,
                                   const std::vector<Eigen::Vector3d>& path,
                                   const DoorFinderOptions& options) {
   options.check();
-  const DoorShape shape{options.max_width_m, options.min_head_m, options.min_recess_m,
-                        options.max_recess_m};
+  const DoorShape shape{options.max_width_m, options.min_head_m, kMinRecess_m, kMaxRecess_m};
   std::vector<DoorPiece> doors, half_seen, once;
   for (const WallPlane& plane : planes_of(walls, options.max_width_m)) {
     const ProfileDoors found = doors_of(profile_wall(plane, points, voxels, path, shape), options);

@@ -8,6 +8,10 @@
 namespace placegraph {
 namespace {
 
+/// Maximum relative rms distance of a patch's inverse depths from its plane, beyond their noise; a
+/// point with a larger one has no normal. Chosen: 1 % of the depth.
+constexpr double kMaxPatchResidual = 0.01;
+
 /// Plane of a patch in inverse depth over normalized coordinates: (a, b, c) . (x, y, 1) = 1/z.
 struct PatchPlane {
   Eigen::Vector3d plane = Eigen::Vector3d::Zero();
@@ -71,7 +75,7 @@ std::vector<SurfacePoint> surface_points(const Image& depth_m, const Image& sigm
       const PatchPlane fit = fit_patch(depth_m, depth_camera, u, v, options.radius_px);
       const double sigma_at_1m = sigma_inverse.at<float>(v, u);
       double sigma = sigma_at_1m * z * z;
-      if (fit.good && fit.residual < options.max_residual + 2 * sigma_at_1m * z) {
+      if (fit.good && fit.residual < kMaxPatchResidual + 2 * sigma_at_1m * z) {
         const Eigen::Vector3d normal = -fit.plane.normalized();
         // The patch's own depth is more accurate than that of one pixel.
         const double z_plane = 1 / fit.plane.dot(ray);

@@ -10,6 +10,28 @@
 namespace placegraph {
 namespace {
 
+/// Smoothness over neighbouring pixels (Hirschmueller 2008: two penalties). Chosen; the cost of
+/// a pixel is at most kMostCost.
+constexpr PathCosts kPathCosts = {.step = 8, .jump = 32};
+
+/// Displacement between two planes in the image that moves most. About a pixel (docs/indoor.md).
+constexpr double kLevelStep_px = 1;
+/// Maximum number of planes; their spacing grows if more would be needed. Chosen.
+constexpr int kMaxSweptPlanes = 192;
+/// Window over which brightness and contrast are normalized. Chosen; odd.
+constexpr int kNormalizedWindow_px = 9;
+/// Weakest contrast that is normalized to full strength, in standard deviations of the image noise,
+/// but at least one grey level. Chosen.
+constexpr double kNoiseShare = 2.7;
+/// Window over which costs are averaged. Chosen; odd.
+constexpr int kCostBlock_px = 5;
+/// Relative lead that a depth must have over any other. Chosen.
+constexpr double kUniqueness = 0.05;
+/// Standard deviation of the position of a surface in another image. Chosen; planes a
+/// pixel apart alone give 1 / sqrt(12) px.
+constexpr double kSweptSigma_px = 0.3;
+
+// Differences beyond are outliers; kUnit is one deviation. Chosen.
 constexpr std::uint8_t kMostCost = 60;
 
 /// Halves an image and its camera until the width is small enough.
@@ -38,8 +60,8 @@ double noise_of(const Image& image) {
 
 /// Brightness over the contrast around each pixel, 1 to 255; lighting that changes between views
 /// has no effect.
-Image normalized(const Image& image, double noise, const PlaneSweepOptions& options) {
-  const cv::Size window(options.window_px, options.window_px);
+Image normalized(const Image& image, double noise) {
+  const cv::Size window(kNormalizedWindow_px, kNormalizedWindow_px);
   Image grey, mean, squares;
   image.convertTo(grey, CV_32F);
   cv::blur(grey, mean, window);
@@ -47,6 +69,7 @@ Image normalized(const Image& image, double noise, const PlaneSweepOptions& opti
   Image contrast = squares - mean.mul(mean);
   contrast = cv::max(contrast, 0) + noise * noise;
   cv::sqrt(contrast, contrast);
+  // Grey levels of one standard deviation: three fit 8 bits.
   constexpr double kUnit = 40;
   Image result;
   Image((grey - mean) / contrast).convertTo(result, CV_8U, kUnit, 128);
@@ -62,28 +85,28 @@ class PlaneSweep {
     Image small = image;
     Camera small_camera = camera;
     shrink(small, small_camera, options.max_width_px);
-    const double noise = std::max(1.0, options.noise_share * noise_of(small));
-    reference_ = normalized(small, noise, options);
+    const double noise = std::max(1.0, kNoiseShare * noise_of(small));
+    reference_ = normalized(small, noise);
     std::vector<SE3> T_view_cam;
     for (const SweptView& view : views) {
       T_view_cam.push_back(view.T_view_cam);
       Image other = view.image;
       Camera same = camera;
       shrink(other, same, options.max_width_px);
-      views_.push_back(normalized(other, noise, options));
+      views_.push_back(normalized(other, noise));
     }
-    geometry_ = sweep_geometry(
-        small_camera, T_view_cam,
-        {options.min_depth_m, options.max_depth_m, options.step_px, options.max_planes});
+    geometry_ =
+        sweep_geometry(small_camera, T_view_cam,
+                       {options.min_depth_m, options.max_depth_m, kLevelStep_px, kMaxSweptPlanes});
   }
 
   SweptDepth depth() const {
     std::vector<PixelDepth> found(reference_.total());
     if (geometry_.levels >= 4) {
       const CostVolume volume = costs();
-      found = winners(volume, sum_over_paths(volume, options_.paths));
+      found = winners(volume, sum_over_paths(volume, kPathCosts));
     }
-    return agreed_depth(found, geometry_, options_.sigma_px);
+    return agreed_depth(found, geometry_, kSweptSigma_px);
   }
 
  private:
@@ -115,7 +138,7 @@ class PlaneSweep {
         cv::absdiff(reference_, warped, cost);
         cv::min(cost, kMostCost, cost);
         cost.setTo(kMostCost, warped == 0);
-        cv::blur(cost, cost, {options_.block_px, options_.block_px});
+        cv::blur(cost, cost, {kCostBlock_px, kCostBlock_px});
         for (Image& b : best) {
           cv::min(b, cost, lower);
           cv::max(b, cost, cost);
@@ -157,7 +180,7 @@ class PlaneSweep {
         int second = 1 << 16;
         for (int d = 0; d < geometry_.levels; ++d)
           if (std::abs(d - best) > 1) second = std::min<int>(second, sum[d]);
-        if (second * (1 - options_.uniqueness) < sum[best]) continue;
+        if (second * (1 - kUniqueness) < sum[best]) continue;
         const double bend = sum[best - 1] + sum[best + 1] - 2.0 * sum[best];
         const double shift = bend > 0 ? 0.5 * (sum[best - 1] - sum[best + 1]) / bend : 0;
         const std::uint8_t* cost = volume.costs.data() + volume.at(u, v);
@@ -166,6 +189,7 @@ class PlaneSweep {
             cost[best] < options_.distinct * mean_where_seen(cost)};
         fine.at<std::int16_t>(v, u) = static_cast<std::int16_t>(std::lround(16 * (best + shift)));
       }
+    // Smaller parts are removed; their depths differ by two levels, in sixteenths. Chosen.
     constexpr int kSpeckle_px = 50, kSpeckleRange = 32;
     cv::filterSpeckles(fine, 0, kSpeckle_px, kSpeckleRange);
     for (std::size_t i = 0; i < found.size(); ++i)

@@ -9,6 +9,15 @@
 namespace placegraph {
 namespace {
 
+/// Maximum distance from free cells at which unseen cells count as free. Chosen; three cells.
+constexpr double kClosing_m = 0.15;
+/// Share of a box between walls above which all of it is added to the room: most (docs/indoor.md).
+constexpr double kCompletedShare = 0.5;
+/// Maximum share of walls in the border of an unseen part that is filled: a fifth (docs/indoor.md).
+constexpr double kWalledShare = 0.2;
+/// Maximum error of the polygon that outlines a room. Chosen.
+constexpr double kOutline_m = 0.08;
+
 constexpr double kBehind_m = 0.12;  ///< assumed thickness of a surface, away from its viewer
 
 Image disc(int radius) {
@@ -87,7 +96,7 @@ class Partitioner {
   }
 
   RoomPartition partition() {
-    const int closing = std::max(1, cells(options_.closing_m));
+    const int closing = std::max(1, cells(kClosing_m));
     cv::Mat1b space;
     cv::morphologyEx(free_, space, cv::MORPH_CLOSE, disc(closing));
     space.setTo(0, blocked_);
@@ -102,8 +111,8 @@ class Partitioner {
     grid.entered = entered_of(path_, grid.rooms, count);
     const Image neck = disc(std::max(1, cells(0.5 * options_.neck_m)));
     for (int k = 1; k < count; ++k)
-      if (grid.entered[k]) fill_shadows(grid, k, neck, options_.walled_share);
-    fill_boxes(grid, cuts_, options_.completed_share);
+      if (grid.entered[k]) fill_shadows(grid, k, neck, kWalledShare);
+    fill_boxes(grid, cuts_, kCompletedShare);
     RoomPartition result;
     result.room_of_cell = Image(space.size(), CV_32SC1, cv::Scalar(0));
     for (int k = 1; k < count; ++k) add_room(grid.rooms == k, distance, result);
@@ -122,12 +131,12 @@ class Partitioner {
       const cv::Rect about(p.x - 2, p.y - 2, 5, 5);
       near += cv::countNonZero(blocked_(about & cv::Rect({0, 0}, blocked_.size()))) > 0;
     }
-    return near > options_.walled_share * static_cast<double>(hole.size());
+    return near > kWalledShare * static_cast<double>(hole.size());
   }
 
   std::vector<Eigen::Vector2d> polygon(const std::vector<cv::Point>& contour) const {
     std::vector<cv::Point> simple;
-    cv::approxPolyDP(contour, simple, options_.outline_m / voxels_.cell_m(), true);
+    cv::approxPolyDP(contour, simple, kOutline_m / voxels_.cell_m(), true);
     std::vector<Eigen::Vector2d> points;
     // A contour goes through the middles of cells: the border is about half a cell outside.
     for (const cv::Point& p : simple)
@@ -184,6 +193,7 @@ RoomPartition partition_rooms(const VoxelEvidence& voxels, const std::vector<Wal
                       wall.offset_at(wall.to_m));
   for (const DoorPiece& door : doors)
     partitioner.block(door.axis, door.sign, door.from_m, door.offset_m, door.to_m, door.offset_m);
+  // Length of a wall whose line cuts the plan. Chosen.
   constexpr double kCutting_m = 0.8;
   for (const WallPiece& wall : walls)
     if (wall.to_m - wall.from_m > kCutting_m) partitioner.cut(wall.axis, wall.offset_m);

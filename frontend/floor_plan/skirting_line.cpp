@@ -8,6 +8,12 @@
 namespace placegraph {
 namespace {
 
+/// Distance of neighbouring points in the image. Chosen.
+constexpr int kFloorStep_px = 8;
+/// Standard deviation of the row where floor and wall meet. Chosen; the cells
+/// of the orientation map are 3 px wide.
+constexpr double kBoundarySigma_px = 1.5;
+
 /// End of the floor in an image's column, from below.
 struct FloorEnd {
   double row = -1;    ///< row where it meets the wall
@@ -32,7 +38,7 @@ class FloorViewer {
   }
 
   std::vector<SurfacePoint> find() {
-    for (int u = options_.step_px / 2; u < camera_.width; u += options_.step_px) {
+    for (int u = kFloorStep_px / 2; u < camera_.width; u += kFloorStep_px) {
       add_floor(u);
       if (const FloorEnd end = floor_end(u); end.axis >= 0) add_wall(u, end);
     }
@@ -57,7 +63,7 @@ class FloorViewer {
 
   void add_floor(int u) {
     const auto sigma = static_cast<float>(0.02 * height_m_);
-    for (int v = camera_.height - 1; v > first_row(u); v -= options_.step_px) {
+    for (int v = camera_.height - 1; v > first_row(u); v -= kFloorStep_px) {
       if (label(u, v) != map_.vertical_axis) continue;
       const Eigen::Vector3d point = on_floor(u, v);
       if (point.z() > options_.max_range_m) break;
@@ -84,6 +90,7 @@ class FloorViewer {
   double foot(int u, const FloorEnd& end) const {
     const int along = 3 - map_.vertical_axis - end.axis;
     const Eigen::Vector3d normal = R_.col(end.axis), top = ray(u, end.row);
+    // Distance of an edge below and above the end of the floor. Chosen.
     constexpr double kReach_px = 8, kAbove_px = 4;
     double lowest = std::max(end.row - kAbove_px, first_row(u) + 1.0);
     bool found = false;
@@ -111,9 +118,9 @@ class FloorViewer {
     const double distance = normal.dot(foot);
     // Displacement of the wall for an error of one row at the foot.
     const double shift = std::abs(normal.dot(on_floor(u, end.row + 1)) - distance);
-    const auto sigma = static_cast<float>(std::max(0.01, options_.sigma_boundary_px * shift));
+    const auto sigma = static_cast<float>(std::max(0.01, kBoundarySigma_px * shift));
     int labelled_row = end.wall_row;
-    for (int v = end.wall_row; v >= 0; v -= options_.step_px) {
+    for (int v = end.wall_row; v >= 0; v -= kFloorStep_px) {
       const int axis = label(u, v);
       if (axis < 0 && 2 * (labelled_row - v) <= camera_.height) continue;
       if (axis != end.axis) break;

@@ -10,6 +10,22 @@
 namespace placegraph {
 namespace {
 
+/// Maximum standard deviation of a point that is used. Chosen.
+constexpr double kMaxPointSigma_m = 0.12;
+/// Maximum angle between the normals of a point and its wall. Chosen.
+constexpr double kMaxNormalAngle_deg = 15;
+/// Minimum observed height of a wall, in all its parts together. Chosen.
+constexpr double kMinWallHeight_m = 0.8;
+/// Minimum share of wall in the height that is observed or seen through. Chosen.
+constexpr double kMinWallShare = 0.6;
+/// Longest gap within a wall. Chosen; less than the width of a door.
+constexpr double kMaxWallGap_m = 0.3;
+/// Maximum offset between pieces of one wall, caused by drift of the poses (docs/indoor.md).
+constexpr double kMaxWallStep_m = 0.07;
+/// Minimum height of the upper end of short pieces: door leaves and furniture end below it. Chosen.
+constexpr double kMinShortTop_m = 2.3;
+
+// Sides of a cell along and across a wall. Chosen.
 constexpr double kAlong_m = 0.1, kOffset_m = 0.02;
 constexpr int kMostLayers = 64;
 
@@ -23,9 +39,9 @@ class SideCoverage {
     const double cells[2] = {voxels.columns() * voxels.cell_m(), voxels.rows() * voxels.cell_m()};
     alongs_ = static_cast<int>(cells[1 - axis] / kAlong_m) + 1;
     offsets_ = static_cast<int>(cells[axis] / kOffset_m) + 1;
-    const double least = std::cos(deg_to_rad(options.max_rotation_deg));
+    const double least = std::cos(deg_to_rad(kMaxNormalAngle_deg));
     for (const PlacedPoint& p : points)
-      if (sign * p.normal[axis] > least && p.sigma < options.max_sigma_m) points_.push_back(&p);
+      if (sign * p.normal[axis] > least && p.sigma < kMaxPointSigma_m) points_.push_back(&p);
     layers_.assign(static_cast<std::size_t>(alongs_) * offsets_, 0);
     for (const PlacedPoint* p : points_)
       if (const auto cell = cell_of(*p)) layers_[*cell] |= layer_bit(p->point[2]);
@@ -42,7 +58,7 @@ class SideCoverage {
         const int count = walls_at(o);
         if (count > most) most = count, best = o;
       }
-      if (best < 0 || most * kAlong_m < options_.min_length_m) break;
+      if (best < 0 || most * kAlong_m < kMinWallLength_m) break;
       take(best, band, found);
       for (int o = std::max(0, best - 2 * band); o <= std::min(offsets_ - 1, best + 2 * band); ++o)
         for (int a = 0; a < alongs_; ++a)
@@ -50,16 +66,17 @@ class SideCoverage {
       for (int a = 0; a < alongs_; ++a) wall_[static_cast<std::size_t>(best) * alongs_ + a] = 0;
     }
     join_walls(points_, tolerance(), found);
+    // Pieces of less length must reach kMinShortTop_m. Chosen.
     constexpr double kShort_m = 1.3;
     std::erase_if(found, [&](const WallPiece& piece) {
-      return piece.to_m - piece.from_m < kShort_m && piece.high_m < options_.min_top_m;
+      return piece.to_m - piece.from_m < kShort_m && piece.high_m < kMinShortTop_m;
     });
     return found;
   }
 
  private:
   WallTolerance tolerance() const {
-    return {options_.band_m, options_.max_rotation_deg, options_.max_gap_m, options_.max_step_m};
+    return {options_.band_m, kMaxNormalAngle_deg, kMaxWallGap_m, kMaxWallStep_m};
   }
   std::uint64_t layer_bit(double z) const {
     const int layer = voxels_.layer_of(z);
@@ -93,7 +110,7 @@ class SideCoverage {
   void find_walls_of_columns() {
     wall_.assign(layers_.size(), 0);
     const int band = std::max(1, static_cast<int>(options_.band_m / kOffset_m));
-    const int least = static_cast<int>(std::ceil(options_.min_height_m / voxels_.layer_m()));
+    const int least = static_cast<int>(std::ceil(kMinWallHeight_m / voxels_.layer_m()));
     for (int a = 0; a < alongs_; ++a)
       for (int o = 0; o < offsets_; ++o) {
         const std::size_t cell = static_cast<std::size_t>(o) * alongs_ + a;
@@ -107,7 +124,7 @@ class SideCoverage {
         const int top = 63 - std::countl_zero(covered);
         const std::uint64_t over = top >= 63 ? 0 : through >> (top + 1);
         if (std::popcount(over) >= 2) continue;
-        if (height < options_.min_share * (height + std::popcount(through))) continue;
+        if (height < kMinWallShare * (height + std::popcount(through))) continue;
         wall_[cell] = 1;
       }
   }
@@ -119,7 +136,7 @@ class SideCoverage {
     for (int o = std::max(0, offset - band / 2); o <= std::min(offsets_ - 1, offset + band / 2);
          ++o)
       for (int a = 0; a < alongs_; ++a) here[a] |= wall_[static_cast<std::size_t>(o) * alongs_ + a];
-    const int gap = static_cast<int>(options_.max_gap_m / kAlong_m + 0.5);
+    const int gap = static_cast<int>(kMaxWallGap_m / kAlong_m + 0.5);
     for (int a = 0; a < alongs_;) {
       if (!here[a]) {
         ++a;
@@ -130,8 +147,7 @@ class SideCoverage {
         if (here[end]) last = end;
         ++end;
       }
-      if ((last + 1 - a) * kAlong_m >= options_.min_length_m - 1e-9)
-        add_piece(offset, a, last, found);
+      if ((last + 1 - a) * kAlong_m >= kMinWallLength_m - 1e-9) add_piece(offset, a, last, found);
       for (int k = a; k <= last; ++k) used_[k] = 1;
       a = last + 1;
     }

@@ -9,6 +9,9 @@
 
 namespace placegraph {
 
+/// Minimum length of a wall. Chosen.
+inline constexpr double kMinWallLength_m = 0.4;
+
 /// Finds upright planes orthogonal to the axes that are covered over their height.
 ///
 /// No ray passes through them or above them: furniture ends below the ceiling, and surfaces behind

@@ -31,6 +31,7 @@ struct WallStep {
 
 /// Surface of a wall's plane step by step, extended by a door's width beyond its ends.
 struct WallProfile {
+  // A cell of the plan. Chosen.
   static constexpr double kStep_m = 0.05;
   WallPlane plane;
   double from_m = 0;  ///< position along the wall where the first step begins

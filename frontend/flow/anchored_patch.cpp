@@ -104,6 +104,7 @@ std::optional<AnchoredPatch::Place> AnchoredPatch::find(const std::vector<Image>
   const Eigen::Matrix2f A_start = place.A;
   const Eigen::Matrix2f A_start_inverse = A_start.inverse();
   Row grey;
+  // Iterations at most. Chosen.
   constexpr int kMost = 15;
   for (int iteration = 0;; ++iteration) {
     if (!is_inside(image, place) || (place.px * unit - start.px).norm() > max_shift_px)

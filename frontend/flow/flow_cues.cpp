@@ -17,6 +17,7 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 using Code = Outcome::Code;
 
+// Least noise of a vector. Chosen.
 constexpr double kLeastSigma_px = 0.02;
 constexpr double kTukey = 4.685;  // 95 % of the efficiency of least squares
 
@@ -47,6 +48,7 @@ Fit fit(const std::vector<FlowRow>& rows) {
   Fit result;
   result.x = VectorXd::Zero(unknowns);
   result.weights = VectorXd::Ones(n);
+  // Iterations at most. Chosen.
   constexpr int kIterations = 20;
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     MatrixXd normal = MatrixXd::Zero(unknowns, unknowns);
@@ -57,6 +59,7 @@ Fit fit(const std::vector<FlowRow>& rows) {
       right += result.weights[i] * row.A.transpose() * row.information * row.y;
     }
     const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(normal);
+    // Ratio of eigenvalues of an undetermined direction. Chosen.
     constexpr double kLeastCondition = 1e-9;
     if (!(eigen.eigenvalues()[0] > kLeastCondition * eigen.eigenvalues()[unknowns - 1])) {
       result.degenerate = true;
@@ -139,6 +142,7 @@ std::vector<DerotatedFlow> derotate(const Camera& camera, const std::vector<Flow
 VentralMotion ventral_motion(const std::vector<DerotatedFlow>& flow, const Vector3d& normal,
                              const Matrix3d& rotation_covariance) {
   VentralMotion result;
+  // Vectors of two numbers each, for at most six unknowns: twice as many.
   constexpr std::size_t kLeast = 6;
   if (std::abs(normal.norm() - 1) > 1e-6) {
     result.outcome =
@@ -174,6 +178,7 @@ VentralMotion ventral_motion(const std::vector<DerotatedFlow>& flow, const Vecto
   result.J_rotation = by_rotation(fitted, rows, used);
   result.covariance = covariance_of(fitted) +
                       result.J_rotation * rotation_covariance * result.J_rotation.transpose();
+  // Share of the vectors on the plane. Chosen.
   constexpr double kLeastSupport = 0.4;
   result.outcome = result.inliers < kLeastSupport * static_cast<double>(rows.size())
                        ? Outcome::failure(Code::kNoConsensus, "most vectors contradict a plane")
@@ -202,6 +207,7 @@ TimeToContact time_to_contact(const VentralMotion& motion, const Vector3d& norma
 AffineFlow affine_flow(const std::vector<DerotatedFlow>& flow,
                        const Matrix3d& rotation_covariance) {
   AffineFlow result;
+  // Vectors of two numbers each, for six unknowns: twice as many.
   constexpr std::size_t kLeast = 6;
   if (flow.size() < kLeast) {
     result.outcome = too_few(flow.size(), kLeast);
@@ -248,6 +254,7 @@ LateralBalance lateral_balance(const std::vector<DerotatedFlow>& flow,
     side.variance += along.dot(f.covariance * along);
     side.J += along.transpose() * f.J_end_rotation;
   }
+  // Vectors on each side. Chosen.
   constexpr std::size_t kLeast = 3;
   if (std::min(left.count, right.count) < kLeast) {
     result.outcome = too_few(std::min(left.count, right.count), kLeast);

@@ -30,6 +30,7 @@ std::vector<Eigen::Vector2d> flow_grid(int width, int height, int step_px) {
 }
 
 double image_noise(const Image& image) {
+  // One row in eight: the cost. Chosen.
   constexpr int kStep = 8;
   constexpr double kLeast = 0.5, kMaskNorm = 6, kQuartile = 0.3186;  // quartile of |x|, x normal
   std::vector<int> responses;

@@ -62,6 +62,7 @@ Brightness linearize(const Image& from, const Image& to, const Image& u, const I
 /// One sweep of over-relaxation in place: moves every pixel to the optimum given its four
 /// neighbours, and a little beyond.
 void relax(const Brightness& brightness, float alpha2, Image& u, Image& v) {
+  // Successive over-relaxation; it converges below 2. Chosen.
   constexpr float kBeyond = 1.85F;
   const int width = u.cols, height = u.rows;
   for (int y = 0; y < height; ++y) {

@@ -15,6 +15,7 @@ struct Displacement {
 
 /// Median, per coordinate, of the displacements that begin nearest to `px`.
 Eigen::Vector2f median_nearby(const std::vector<Displacement>& all, const Eigen::Vector2f& px) {
+  // Displacements with a median that two outliers do not affect. Chosen.
   constexpr std::size_t kNearest = 5;
   std::vector<std::pair<float, std::size_t>> order;
   for (std::size_t i = 0; i < all.size(); ++i)
@@ -31,6 +32,7 @@ Eigen::Vector2f median_nearby(const std::vector<Displacement>& all, const Eigen:
 }  // namespace
 
 bool track_near_matches(PointTracker& tracker, const Image& image) {
+  // Matches with displacements. Chosen.
   constexpr std::size_t kLeastMatches = 20;
   if (tracker.image().empty() || tracker.tracks().empty()) return false;
   const std::vector<Feature> before = detect_features(tracker.image(), DetectorOptions());

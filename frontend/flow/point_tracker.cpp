@@ -7,10 +7,18 @@
 #include <opencv2/video/tracking.hpp>
 
 namespace placegraph {
+namespace {
+
+/// Minimum standard deviation of a point whose anchor was found. Chosen.
+constexpr double kMinTrackSigma_px = 0.25;
+/// Maximum accumulated noise of a track; beyond, the track ends. Chosen.
+constexpr double kMaxTrackSigma_px = 1.5;
+
+}  // namespace
 
 PointTracker::PointTracker(const PointTrackerOptions& options) : options_(options) {
   options_.check();
-  least_ *= static_cast<float>(options.min_sigma_px * options.min_sigma_px);
+  least_ *= static_cast<float>(kMinTrackSigma_px * kMinTrackSigma_px);
 }
 
 void PointTracker::reset() {
@@ -101,7 +109,7 @@ std::vector<std::optional<Eigen::Vector2f>> PointTracker::follow(
 void PointTracker::anchor() {
   if (!(options_.max_anchor_shift_px > 0)) return;
   const auto step = static_cast<float>(options_.sigma_px * options_.sigma_px);
-  const double most = 2 * options_.max_sigma_px * options_.max_sigma_px;
+  const double most = 2 * kMaxTrackSigma_px * kMaxTrackSigma_px;
   std::size_t kept = 0;
   for (PointTrack& track : tracks_) {
     std::optional<AnchoredPatch::Place> place;
@@ -152,6 +160,7 @@ void PointTracker::detect(const Image& mask) {
   for (const PointTrack& track : tracks_)
     ++occupied[static_cast<int>(track.px.y()) / options_.cell_px * columns +
                static_cast<int>(track.px.x()) / options_.cell_px];
+  // Pixels along the border without new points. Chosen.
   constexpr int kBorder = 8;
   for (const Corner& corner : find_corners(image_, options_.min_eigenvalue, kBorder, blocked, mask))
     cells[corner.v / options_.cell_px * columns + corner.u / options_.cell_px].push_back(corner);

@@ -9,6 +9,7 @@
 namespace placegraph {
 namespace {
 
+// Rounds of the mean field, and its least share. Chosen.
 constexpr int kRounds = 10;
 constexpr float kLeastShare = 1e-3f;
 

@@ -9,6 +9,7 @@
 namespace placegraph {
 namespace {
 
+// Size to which images are reduced. Chosen.
 constexpr double kWorkPixels = 480 * 360;
 constexpr int kLeastSide = 32;
 

@@ -10,21 +10,31 @@
 namespace placegraph {
 namespace {
 
+/// Deviation of vertical edges from the floor's normal. Chosen.
+constexpr double kUpright_deg = 3;
+/// Standard deviation of a vertical edge's end from its floor contact. Chosen.
+constexpr double kFloorContact_px = 3;
+/// Standard deviation of the floor [camera heights]. Chosen.
+constexpr double kUnevenness = 0.01;
+/// Maximum standard deviation of a height with a vote [camera heights]. Chosen.
+constexpr double kMaxVoteSigma = 0.1;
+/// Minimum ratio of the floor's votes to those of the level with most. Chosen.
+constexpr double kMinVoteShare = 0.35;
+
 /// Standard deviation of a line's direction, from the two rotations of U that change it.
 double direction_sigma(const PlacedLine& line) {
   return std::sqrt(std::max(0.0, line.covariance(0, 0) + line.covariance(2, 2)));
 }
 
-/// Deviation from parallel of a built edge and of a shared direction, as shares of upright_deg.
+/// Deviation from parallel of a built edge and of a shared direction, as shares of kUpright_deg.
 constexpr double kEdgeShare = 0.3, kSharedShare = 0.1;
 
 /// Directions for the vertical: the shared ones, and those of lines without a shared direction.
 /// Lines of a shared direction have correlated errors, from the path that they were triangulated
 /// from, and would outvote it by their number.
 std::vector<SharedDirection> directions_of(const std::vector<PlacedLine>& lines,
-                                           const std::vector<SharedDirection>& shared,
-                                           const FloorFromLinesOptions& options) {
-  const double tolerance = options.upright_deg * kRadPerDeg;
+                                           const std::vector<SharedDirection>& shared) {
+  const double tolerance = kUpright_deg * kRadPerDeg;
   std::vector<SharedDirection> directions;
   for (const PlacedLine& line : lines) {
     const Eigen::Vector3d d = line.line_ref.direction();
@@ -46,8 +56,8 @@ std::optional<Eigen::Vector3d> vertical(const std::vector<SharedDirection>& dire
                                         const Eigen::Vector3d& down_guess,
                                         const FloorFromLinesOptions& options) {
   Eigen::Vector3d down = down_guess;
-  for (const double gate_deg : {options.max_tilt_deg, options.max_tilt_deg / 2,
-                                options.max_tilt_deg / 4, options.upright_deg}) {
+  for (const double gate_deg :
+       {options.max_tilt_deg, options.max_tilt_deg / 2, options.max_tilt_deg / 4, kUpright_deg}) {
     const double gate = std::sin(gate_deg * kRadPerDeg);
     Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
     int used = 0;
@@ -63,7 +73,7 @@ std::optional<Eigen::Vector3d> vertical(const std::vector<SharedDirection>& dire
       ++used;
     }
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(A);
-    if (used < 2 || !(eigen.eigenvalues()[1] > 1 / (options.upright_deg * kRadPerDeg)))
+    if (used < 2 || !(eigen.eigenvalues()[1] > 1 / (kUpright_deg * kRadPerDeg)))
       return std::nullopt;
     const Eigen::Vector3d v = eigen.eigenvectors().col(0);
     down = v.dot(down) < 0 ? Eigen::Vector3d(-v) : v;
@@ -91,6 +101,7 @@ std::optional<Mark> mark_at(const Camera& camera, const SE3& T_ref_cam, const Pl
     if (!z || !(*z > 0)) return std::nullopt;
     return T_ref_cam.rotation() * Eigen::Vector3d(*z * ray);
   };
+  // Step of the difference quotient. Chosen, well above rounding.
   constexpr double kStep = 1e-6;
   const auto point = at(line.line_ref, px);
   if (!point) return std::nullopt;
@@ -107,11 +118,10 @@ std::optional<Mark> mark_at(const Camera& camera, const SE3& T_ref_cam, const Pl
 }
 
 std::vector<Mark> marks_of(const Camera& camera, const SE3& T_ref_cam,
-                           const std::vector<PlacedLine>& lines, const Eigen::Vector3d& down,
-                           const FloorFromLinesOptions& options) {
+                           const std::vector<PlacedLine>& lines, const Eigen::Vector3d& down) {
   constexpr double kBorder_px = 8;  // an edge that ends there continues outside
   std::vector<Mark> marks;
-  const double gate = std::sin(options.upright_deg * kRadPerDeg);
+  const double gate = std::sin(kUpright_deg * kRadPerDeg);
   for (const PlacedLine& line : lines) {
     const Eigen::Vector3d d = line.line_ref.direction();
     const double sigma = direction_sigma(line);
@@ -124,8 +134,8 @@ std::vector<Mark> marks_of(const Camera& camera, const SE3& T_ref_cam,
         marks.push_back(*m);
       continue;
     }
-    const auto a = mark_at(camera, T_ref_cam, line, line.seen.start, down, options.end_px);
-    const auto b = mark_at(camera, T_ref_cam, line, line.seen.end, down, options.end_px);
+    const auto a = mark_at(camera, T_ref_cam, line, line.seen.start, down, kFloorContact_px);
+    const auto b = mark_at(camera, T_ref_cam, line, line.seen.end, down, kFloorContact_px);
     if (!a || !b) continue;
     const bool first = a->point.dot(down) > b->point.dot(down);
     const Eigen::Vector2d& end = first ? line.seen.start : line.seen.end;
@@ -134,21 +144,22 @@ std::vector<Mark> marks_of(const Camera& camera, const SE3& T_ref_cam,
   return marks;
 }
 
-double sigma_of(const Mark& mark, double height, const FloorFromLinesOptions& options) {
-  return std::hypot(mark.sigma, 1.5 * options.unevenness * height);
+double sigma_of(const Mark& mark, double height) {
+  return std::hypot(mark.sigma, 1.5 * kUnevenness * height);
 }
 
 /// The marks of one level: those near a height, then near their own mean, until it converges. The
 /// initial height has no weight, or the lowest level would be the lower half of one.
 std::vector<Mark> level_at(const std::vector<Mark>& marks, double height,
-                           const Eigen::Vector3d& down, const FloorFromLinesOptions& options) {
+                           const Eigen::Vector3d& down) {
+  // Iterations at most. Chosen.
   constexpr int kRounds = 10;
   std::vector<Mark> level;
   for (int round = 0; round < kRounds; ++round) {
     level.clear();
     double sum = 0, weights = 0;
     for (const Mark& m : marks) {
-      const double sigma = sigma_of(m, height, options), h = m.point.dot(down);
+      const double sigma = sigma_of(m, height), h = m.point.dot(down);
       if (std::abs(h - height) > 2 * sigma) continue;
       level.push_back(m);
       sum += h / (sigma * sigma), weights += 1 / (sigma * sigma);
@@ -169,12 +180,12 @@ std::vector<Mark> lowest_level(const std::vector<Mark>& marks, const Eigen::Vect
   std::size_t most = 0;
   for (const Mark& m : marks) {
     const double height = m.point.dot(down);
-    if (!(height > 0) || m.sigma > options.max_sigma * height) continue;
-    levels.push_back(level_at(marks, height, down, options));
+    if (!(height > 0) || m.sigma > kMaxVoteSigma * height) continue;
+    levels.push_back(level_at(marks, height, down));
     most = std::max(most, levels.back().size());
   }
   const double needed =
-      std::max<double>(options.min_lines, options.min_share * static_cast<double>(most));
+      std::max<double>(options.min_lines, kMinVoteShare * static_cast<double>(most));
   std::vector<Mark> best;
   double lowest = 0;
   for (std::vector<Mark>& level : levels) {
@@ -199,10 +210,11 @@ struct FloorPlane {
 /// Reweighted least squares (Huber) over the level's marks, n . p = h, over vertical lines, n x d =
 /// 0, and over horizontal lines, n . d = 0.
 FloorPlane fit_plane(const std::vector<Mark>& level, const std::vector<SharedDirection>& directions,
-                     const Eigen::Vector3d& down, const FloorFromLinesOptions& options) {
+                     const Eigen::Vector3d& down) {
   const Eigen::Vector3d e1 = down.unitOrthogonal(), e2 = down.cross(e1);
   Eigen::Vector3d x = Eigen::Vector3d::Zero();  // parameters of n, and h
   Eigen::Matrix3d H;
+  // Iterations at most. Chosen.
   constexpr int kRounds = 6;
   for (int round = 0; round < kRounds; ++round) {
     H = 1e-9 * Eigen::Matrix3d::Identity();
@@ -215,8 +227,8 @@ FloorPlane fit_plane(const std::vector<Mark>& level, const std::vector<SharedDir
     };
     for (const Mark& m : level)
       add({e1.dot(m.point), e2.dot(m.point), -1}, -down.dot(m.point),
-          std::hypot(m.sigma, options.unevenness * down.dot(m.point)));
-    const double gate = std::sin(options.upright_deg * kRadPerDeg);
+          std::hypot(m.sigma, kUnevenness * down.dot(m.point)));
+    const double gate = std::sin(kUpright_deg * kRadPerDeg);
     for (const auto& [d, sigma] : directions) {
       if (d.cross(down).norm() < gate) {
         const double sign = d.dot(down) < 0 ? -1 : 1;
@@ -239,7 +251,7 @@ FloorFromLines floor_from_lines(const Camera& camera, const SE3& T_ref_cam,
                                 const std::vector<SharedDirection>& shared) {
   options.check();
   FloorFromLines result;
-  const auto directions = directions_of(lines, shared, options);
+  const auto directions = directions_of(lines, shared);
   const auto down = vertical(
       directions, T_ref_cam.rotation() * Eigen::Vector3d(Eigen::Vector3d::UnitY()), options);
   if (!down) {
@@ -248,13 +260,13 @@ FloorFromLines floor_from_lines(const Camera& camera, const SE3& T_ref_cam,
     return result;
   }
   const std::vector<Mark> floor =
-      lowest_level(marks_of(camera, T_ref_cam, lines, *down, options), *down, options);
+      lowest_level(marks_of(camera, T_ref_cam, lines, *down), *down, options);
   if (static_cast<int>(floor.size()) < options.min_lines) {
     result.outcome = Outcome::failure(Outcome::Code::kNoConsensus,
                                       "no level below the camera has enough support");
     return result;
   }
-  const FloorPlane plane = fit_plane(floor, directions, *down, options);
+  const FloorPlane plane = fit_plane(floor, directions, *down);
   result.down_ref = plane.n.normalized();
   result.height = plane.h / plane.n.norm();
   result.sigma_height = std::sqrt(std::max(0.0, plane.information.inverse()(2, 2)));

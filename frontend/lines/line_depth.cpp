@@ -9,6 +9,7 @@
 namespace placegraph {
 namespace {
 
+// Columns of samples along a segment. Chosen.
 constexpr int kColumns = 12;
 constexpr std::array<double, 3> kRows_px{3, 5, 8};  // distances from the edge
 constexpr double kLeastShare = 0.5;                 // least share of columns with depth
@@ -21,6 +22,7 @@ struct Side {
 
 /// Fits a plane to samples: position along the segment (0 to 1), distance across, inverse depth.
 std::optional<Side> fit_plane(const std::vector<Eigen::Vector3d>& samples, double sigma) {
+  // Fits, each without what is beyond three deviations of the last. Chosen.
   constexpr int kRounds = 3;
   constexpr double kGate = 3;
   std::vector<Eigen::Vector3d> kept = samples;

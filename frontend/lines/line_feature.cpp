@@ -12,6 +12,15 @@
 namespace placegraph {
 namespace {
 
+/// Maximum Hamming distance of the descriptors [bits of 256]. Chosen; as for points of a loop.
+constexpr int kMaxLineDistance = 60;
+/// Maximum distance of a segment from its predicted line. Chosen.
+constexpr double kLineGate_px = 9;
+/// Maximum angle between a segment and its predicted line. Chosen.
+constexpr double kMaxLineAngle_deg = 8;
+/// Minimum share of the shorter segment that the other covers. Chosen.
+constexpr double kMinLineOverlap = 0.3;
+
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
@@ -51,16 +60,15 @@ std::optional<LineSegment> expected_in(const Camera& camera, const SE3& T_a_b,
   return segment;
 }
 
-bool lies_along(const LineSegment& seen, const LineSegment& expected,
-                const LineFeatureMatcherOptions& options) {
+bool lies_along(const LineSegment& seen, const LineSegment& expected) {
   // Both segments have a polarity: the same edge has the same direction.
-  if (seen.direction().dot(expected.direction()) < std::cos(deg_to_rad(options.max_angle_deg)))
+  if (seen.direction().dot(expected.direction()) < std::cos(deg_to_rad(kMaxLineAngle_deg)))
     return false;
-  if (std::abs(expected.offset_of(seen.middle())) > options.gate_px) return false;
+  if (std::abs(expected.offset_of(seen.middle())) > kLineGate_px) return false;
   const double from = expected.position_of(seen.start), to = expected.position_of(seen.end);
   const double common =
       std::min(std::max(from, to), expected.length()) - std::max(std::min(from, to), 0.0);
-  return common >= options.min_overlap * std::min(seen.length(), expected.length());
+  return common >= kMinLineOverlap * std::min(seen.length(), expected.length());
 }
 
 }  // namespace
@@ -92,8 +100,7 @@ std::vector<BinaryDescriptor> describe_segments(const Image& image,
 std::vector<LineFeatureMatch> match_lines_guided(const Camera& camera,
                                                  const std::vector<LineFeature>& a,
                                                  const std::vector<LineFeature>& b,
-                                                 const SE3& T_b_a,
-                                                 const LineFeatureMatcherOptions& options) {
+                                                 const SE3& T_b_a) {
   const SE3 T_a_b = T_b_a.inverse();
   struct Best {
     int b = -1, distance = 0;
@@ -103,9 +110,9 @@ std::vector<LineFeatureMatch> match_lines_guided(const Camera& camera,
     if (!b[j].line_cam) continue;
     const auto expected = expected_in(camera, T_a_b, b[j]);
     if (!expected) continue;
-    int best = -1, least = options.max_distance + 1;
+    int best = -1, least = kMaxLineDistance + 1;
     for (std::size_t i = 0; i < a.size(); ++i) {
-      if (!lies_along(a[i].segment, *expected, options)) continue;
+      if (!lies_along(a[i].segment, *expected)) continue;
       const int distance = hamming_distance(a[i].descriptor, b[j].descriptor);
       if (distance < least) {
         best = static_cast<int>(i);

@@ -38,7 +38,6 @@ struct LineFeatureMatch {
 std::vector<LineFeatureMatch> match_lines_guided(const Camera& camera,
                                                  const std::vector<LineFeature>& a,
                                                  const std::vector<LineFeature>& b,
-                                                 const SE3& T_b_a,
-                                                 const LineFeatureMatcherOptions& options);
+                                                 const SE3& T_b_a);
 
 }  // namespace placegraph

@@ -11,6 +11,11 @@
 namespace placegraph {
 namespace {
 
+/// Maximum residual in the middle image of a line from the others. Chosen.
+constexpr double kMaxLineResidual_px = 3;
+/// Minimum rotation of a line's plane for use in the translation. Chosen.
+constexpr double kMinPlaneRotation_deg = 0.7;
+
 using Ids = std::vector<LineId>;
 
 Outcome failure(Outcome::Code code, const std::string& reason) {
@@ -46,6 +51,7 @@ struct Direction {
 /// weighted by the accuracy of its segment's direction, reweighted (Cauchy).
 std::optional<Direction> direction_of(const Camera& camera, const LineView& view,
                                       const Ids& cluster) {
+  // Two lines determine a direction, the third one tests it; iterations.
   constexpr std::size_t kLeast = 3;
   constexpr int kRounds = 5;
   constexpr double kFloorRad = 2e-3;  // least deviation of edges from parallel
@@ -76,6 +82,7 @@ std::optional<Direction> direction_of(const Camera& camera, const LineView& view
   // Planes of a family with little rotation about the direction leave it undetermined along
   // themselves.
   result.sigma_rad = 1 / std::sqrt(std::max(1e-12, eigen.eigenvalues()[1]));
+  // Deviation of a direction that is used: 1.7 degrees. Chosen.
   constexpr double kMostRad = 0.03;
   if (!(result.sigma_rad < kMostRad)) return std::nullopt;
   return result;
@@ -132,6 +139,7 @@ struct Three {
   }
   /// Error in the middle view of the line from the first and the last; infinite behind any of them.
   double squared_error(std::size_t i, const std::vector<SE3>& T_ref_view) const {
+    // Above any squared error.
     constexpr double kInfinity = 1e30;
     const auto line = place(i, T_ref_view);
     if (!line) return kInfinity;
@@ -148,6 +156,7 @@ struct Three {
 
 RansacResult<std::vector<SE3>> translate(const Three& three, const LineInitializerOptions& options,
                                          Random& random) {
+  // Deviation of a normal. Chosen.
   constexpr double kSigmaRad = 1e-3;
   const auto solve_for = [&](const std::vector<int>& which) {
     std::vector<LineNormals> lines;
@@ -168,10 +177,11 @@ RansacResult<std::vector<SE3>> translate(const Three& three, const LineInitializ
       if (model[2].translation().dot(T_ref_view[2].translation()) > 0) return model;
     return T_ref_view;
   };
+  // Six unknowns up to scale.
   constexpr int kSample = 5;
   return ransac<std::vector<SE3>>(static_cast<int>(three.ids.size()), kSample,
-                                  options.threshold_px * options.threshold_px, options.ransac,
-                                  random, solve_for, error, refine);
+                                  kMaxLineResidual_px * kMaxLineResidual_px, options.ransac, random,
+                                  solve_for, error, refine);
 }
 
 /// Triangulates every line from all views with a pose.
@@ -195,14 +205,13 @@ std::map<LineId, Line3> place_lines(const Camera& camera, const std::vector<Line
 }
 
 PoseFromLines pose_view(const Camera& camera, const LineView& view,
-                        const std::map<LineId, Line3>& lines, const SE3& expected,
-                        const LineInitializerOptions& options, Random& random) {
+                        const std::map<LineId, Line3>& lines, const SE3& expected, Random& random) {
   constexpr double kSigma = 0.1;  // [rad], [translation from first to last view]
   std::vector<SeenLine> seen;
   for (const auto& [id, line] : lines)
     if (const auto at = view.find(id); at != view.end()) seen.push_back({line, at->second.seen});
   PoseFromLinesOptions pose;
-  pose.threshold_px = options.threshold_px;
+  pose.threshold_px = kMaxLineResidual_px;
   const PoseGuess guess{expected, Matrix6d::Identity() / (kSigma * kSigma)};
   return estimate_pose_from_lines(camera, seen, pose, random, &guess);
 }
@@ -215,13 +224,12 @@ SE3 expected_between(const SE3& T_ref_from, const SE3& T_ref_to, double share) {
 /// Estimates the poses of the views between two known ones from the lines; a view without a
 /// consistent pose remains without one.
 void pose_between(const Camera& camera, const std::vector<LineView>& views, std::size_t from,
-                  std::size_t to, const std::map<LineId, Line3>& lines,
-                  const LineInitializerOptions& options, Random& random,
+                  std::size_t to, const std::map<LineId, Line3>& lines, Random& random,
                   std::vector<std::optional<SE3>>& T_ref_view) {
   for (std::size_t k = from + 1; k < to; ++k) {
     const double share = static_cast<double>(k - from) / static_cast<double>(to - from);
     const SE3 expected = expected_between(*T_ref_view[from], *T_ref_view[to], share);
-    const auto pose = pose_view(camera, views[k], lines, expected, options, random);
+    const auto pose = pose_view(camera, views[k], lines, expected, random);
     if (pose.outcome) T_ref_view[k] = pose.T_ref_cam;
   }
 }
@@ -256,7 +264,7 @@ LineInitialization initialize_from_lines(const Camera& camera, const std::vector
     }
     three.R_view_ref[k] = rotation.R_cur_ref;
   }
-  three.take(common, deg_to_rad(options.min_rotation_deg));
+  three.take(common, deg_to_rad(kMinPlaneRotation_deg));
   result.candidates = static_cast<int>(three.ids.size());
   const auto found = translate(three, options, random);
   result.inliers = static_cast<int>(found.inliers.size());
@@ -270,8 +278,8 @@ LineInitialization initialize_from_lines(const Camera& camera, const std::vector
   T_ref_view[middle] = found.model[1].scaled(unit);
   T_ref_view[n - 1] = found.model[2].scaled(unit);
   result.lines = place_lines(camera, views, T_ref_view);
-  pose_between(camera, views, 0, middle, result.lines, options, random, T_ref_view);
-  pose_between(camera, views, middle, n - 1, result.lines, options, random, T_ref_view);
+  pose_between(camera, views, 0, middle, result.lines, random, T_ref_view);
+  pose_between(camera, views, middle, n - 1, result.lines, random, T_ref_view);
   for (const auto& pose : T_ref_view)
     if (!pose) {
       result.outcome =

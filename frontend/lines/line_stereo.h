@@ -19,7 +19,6 @@ namespace placegraph {
 /// disparity. Images: CV_8UC1 of one size, else ArgumentError.
 std::vector<std::optional<EdgeSegment>> match_stereo_segments(
     const Image& left, const Image& right, const std::vector<LineSegment>& segments_left,
-    const StereoMatcherOptions& points, const EdgeRefinementOptions& refinement,
-    const LineStereoOptions& options);
+    const StereoMatcherOptions& points, const LineStereoOptions& options);
 
 }  // namespace placegraph

@@ -1,4 +1,5 @@
 #include <placegraph/frontend/lines/line_tracker.h>
+#include <placegraph/frontend/segments/segment_merging.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 
@@ -10,6 +11,7 @@ namespace {
 
 /// Similarity of both sides of an edge, or of one side if the other has changed.
 double similarity(const LineProfileSimilarity& similar) {
+  // Correlation that one side must exceed both by. Chosen.
   constexpr double kOneSidePenalty = 0.1;
   return std::max(similar.both, std::max(similar.left, similar.right) - kOneSidePenalty);
 }
@@ -52,6 +54,7 @@ LineSegment common_part(const LineSegment& segment, const LineSegment& other) {
 
 double share_inside(const LineSegment& segment, const Image& mask) {
   if (mask.empty()) return 1;
+  // Points of a segment that are looked up: the cost. Chosen.
   constexpr int kSamples = 8;
   int inside = 0;
   for (int i = 0; i < kSamples; ++i) {
@@ -87,21 +90,21 @@ void LineTracker::track(const Image& image, const std::vector<LineSegment>& expe
   require(expected.empty() || expected.size() == tracks_.size(),
           "LineTracker: one expected segment per track needed");
   const auto strips = std::make_shared<const LineProfileImage>(image);
-  const auto refiner = std::make_shared<const EdgeRefiner>(image, options_.detector.refinement);
+  const auto refiner = std::make_shared<const EdgeRefiner>(image);
   merged_.clear();
   std::vector<LineTrack> kept;
   if (!tracks_.empty()) {
     const double border = options_.detector.border_px;
     const int coarsest =
         std::max(0, static_cast<int>(std::ceil(std::log2(options_.max_shift_px / 4))));
-    const double max_rotation = deg_to_rad(options_.flow.max_rotation_deg);
+    const double max_rotation = deg_to_rad(kMaxSegmentRotation_deg);
     for (std::size_t i = 0; i < tracks_.size(); ++i) {
       LineTrack track = tracks_[i];
       const LineSegment& wanted = expected.empty() ? track.edge.segment : expected[i];
       const LineSegment seen = clipped(wanted, image, border);
       if (seen.length() < options_.min_length_px) continue;
       const LineSegment before = part_of(track.edge.segment, wanted, seen);
-      const auto flow = follow_segment(*strips_, before, *strips, seen, coarsest, options_.flow);
+      const auto flow = follow_segment(*strips_, before, *strips, seen, coarsest);
       if (!flow || std::abs(flow->shift_px) > options_.max_shift_px ||
           similarity(flow->similar) < options_.min_similarity)
         continue;
@@ -134,12 +137,13 @@ void LineTracker::track(const Image& image, const std::vector<LineSegment>& expe
 bool LineTracker::leads_back(const LineSegment& origin, const LineSegment& before,
                              const LineSegment& aligned, const EdgeSegment& edge,
                              const LineProfileImage& strips) const {
+  // Length with a direction, as for the alignment. Chosen.
   constexpr double kLeast_px = 4;
   const LineSegment supported = common_part(aligned, edge.segment);
   if (supported.length() < kLeast_px) return false;
   const LineSegment measured{edge.line.foot(supported.start), edge.line.foot(supported.end)};
-  const auto back = follow_segment(strips, measured, *strips_, part_of(before, aligned, supported),
-                                   0, options_.flow);
+  const auto back =
+      follow_segment(strips, measured, *strips_, part_of(before, aligned, supported), 0);
   if (!back) return false;
   const auto agrees = [&](const LineSegment& seen) {
     return std::max(std::abs(origin.offset_of(seen.start)), std::abs(origin.offset_of(seen.end))) <=
@@ -159,8 +163,7 @@ void LineTracker::merge_tracks() {
     for (std::size_t i = 0; i < j && keep[j]; ++i) {
       if (!keep[i]) continue;
       LineTrack &older = tracks_[i], &younger = tracks_[j];
-      const double gate = options_.detector.merging.max_distance_px;
-      if (!same_edge(older.edge.segment, younger.edge.segment, gate)) continue;
+      if (!same_edge(older.edge.segment, younger.edge.segment, kMaxEdgeDistance_px)) continue;
       // The longer of the two measurements is more accurate.
       if (younger.edge.segment.length() > older.edge.segment.length()) older.edge = younger.edge;
       merged_.emplace_back(younger.id, older.id);

@@ -44,6 +44,7 @@ double rotation_sigma_rad(const Camera& camera, const LineMeasurement& a,
 void refine_line(const Camera& camera, const std::vector<LineMeasurement>& observations,
                  TriangulatedLine& result) {
   Eigen::Matrix4d H;
+  // Iterations at most. Chosen.
   constexpr int kIterations = 6;
   for (int iteration = 0; iteration <= kIterations; ++iteration) {
     H.setZero();

@@ -14,6 +14,11 @@
 namespace placegraph {
 namespace {
 
+/// RANSAC is skipped if this share of the lines are inliers of the predicted pose. Chosen.
+constexpr double kPriorLineInlierRatio = 0.6;
+/// Width of the Huber kernel [standard deviations]. Chosen.
+constexpr double kLineHuberSigmas = 3;
+
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double squared_error_px(const Camera& camera, const SE3& T_ref_cam, const SeenLine& line) {
@@ -74,8 +79,8 @@ PoseFromLines finish(const Camera& camera, const std::vector<SeenLine>& lines,
   PoseFromLines result;
   result.T_ref_cam = T_start;
   for (int round = 0; round < 2; ++round) {
-    result.T_ref_cam = refine(camera, lines, inliers, result.T_ref_cam, guess, options.huber_sigmas,
-                              0, 8, &result.information);
+    result.T_ref_cam = refine(camera, lines, inliers, result.T_ref_cam, guess, kLineHuberSigmas, 0,
+                              8, &result.information);
     inliers = inliers_of(camera, result.T_ref_cam, lines, options.threshold_px);
   }
   result.inliers = std::move(inliers);
@@ -109,6 +114,7 @@ PoseFromLines finish(const Camera& camera, const std::vector<SeenLine>& lines,
 /// spaced angles.
 std::vector<double> trigonometric_roots(const std::array<double, 9>& values) {
   using Complex = std::complex<double>;
+  // Degree of the polynomial of three lines.
   constexpr int kDegree = 8;
   Eigen::Matrix<Complex, kDegree + 1, 1>
       c;  // coefficients of z^0 .. z^8, z = exp(i angle), times z^4
@@ -213,10 +219,10 @@ PoseFromLines estimate_pose_from_lines(const Camera& camera, const std::vector<S
     std::vector<int> all(n);
     std::iota(all.begin(), all.end(), 0);
     // A wide kernel first, so that lines are not rejected for the guess' error of some pixels.
-    const SE3 T = refine(camera, lines, all, guess->T_ref_cam, guess, options.huber_sigmas,
+    const SE3 T = refine(camera, lines, all, guess->T_ref_cam, guess, kLineHuberSigmas,
                          options.threshold_px, 10, nullptr);
     std::vector<int> inliers = inliers_of(camera, T, lines, options.threshold_px);
-    if (static_cast<double>(inliers.size()) >= options.prior_inlier_ratio * n)
+    if (static_cast<double>(inliers.size()) >= kPriorLineInlierRatio * n)
       return finish(camera, lines, options, guess, T, std::move(inliers));
   }
   std::vector<Eigen::Vector3d> normals;
@@ -234,7 +240,7 @@ PoseFromLines estimate_pose_from_lines(const Camera& camera, const std::vector<S
     return squared_error_px(camera, T_ref_cam, lines[i]);
   };
   const auto improve = [&](const SE3& T_ref_cam, const std::vector<int>& inliers) {
-    return refine(camera, lines, inliers, T_ref_cam, nullptr, options.huber_sigmas,
+    return refine(camera, lines, inliers, T_ref_cam, nullptr, kLineHuberSigmas,
                   options.threshold_px / 2, 4, nullptr);
   };
   const auto consensus = ransac<SE3>(n, 3, options.threshold_px * options.threshold_px,

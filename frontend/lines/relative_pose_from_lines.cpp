@@ -34,6 +34,7 @@ std::optional<Eigen::Matrix<double, 1, 6>> three_view_row(const LineNormals& m, 
 /// Variance of a row's product with x for independent errors of the three normals.
 double row_variance(const LineNormals& m, const SO3& R_21, const SO3& R_31,
                     const Eigen::Matrix<double, 6, 1>& x, double sigma_rad) {
+  // Step of the difference quotient. Chosen, well above rounding.
   constexpr double kStep = 1e-6;
   const auto base = three_view_row(m, R_21, R_31, 0);
   double variance = 0;
@@ -111,6 +112,7 @@ TranslationFromLines translation_from_three_views(const std::vector<LineNormals>
                                                   const SO3& R_21, const SO3& R_31,
                                                   double sigma_rad) {
   require(sigma_rad > 0, "translation_from_three_views: sigma_rad must be positive");
+  // Six unknowns up to scale.
   constexpr int kNeeded = 5;
   constexpr double kLeastRotationSigmas = 12;  // below, the error of beta is no longer proportional
   TranslationFromLines result;
@@ -129,6 +131,7 @@ TranslationFromLines translation_from_three_views(const std::vector<LineNormals>
   Eigen::MatrixXd W = A.topRows(n);
   Eigen::Matrix<double, 6, 1> x = Eigen::Matrix<double, 6, 1>::Constant(1 / std::sqrt(6.0));
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen;
+  // Chosen.
   constexpr int kRounds = 4;
   for (int round = 0; round < kRounds; ++round) {
     for (Eigen::Index i = 0; i < n; ++i)
@@ -146,6 +149,7 @@ TranslationFromLines translation_from_three_views(const std::vector<LineNormals>
     const auto axis = eigen.eigenvectors().col(k);
     result.covariance += axis * axis.transpose() / std::max(1e-30, eigen.eigenvalues()[k]);
   }
+  // Ratio of deviations: the solution stands out by four. Chosen.
   constexpr double kLeastCondition = 4;
   result.outcome = result.condition > kLeastCondition
                        ? Outcome::ok()

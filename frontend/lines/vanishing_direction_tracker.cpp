@@ -45,6 +45,7 @@ Eigen::Matrix3d with_floor(const Eigen::Matrix3d& information) {
 VanishingDirectionTracker::RotationEstimate VanishingDirectionTracker::read(
     const Camera& camera, const LineView& view, const SO3& R_ref_cam_guess,
     double sigma_rad) const {
+  // Lines for three unknowns; iterations at most.
   constexpr int kLeast = 3, kIterations = 10;
   RotationEstimate result;
   result.R_ref_cam = R_ref_cam_guess;
@@ -88,6 +89,7 @@ VanishingDirectionTracker::RotationEstimate VanishingDirectionTracker::read(
 
 std::vector<VanishingDirectionTracker::DirectionCluster> VanishingDirectionTracker::clusters()
     const {
+  // Two lines determine a direction, the third one tests it.
   constexpr std::size_t kLeast = 3;
   std::vector<DirectionCluster> clusters;
   for (const Known& known : directions_) {
@@ -108,6 +110,7 @@ std::vector<VanishingDirectionTracker::DirectionCluster> VanishingDirectionTrack
 /// none of them and never did.
 LineView VanishingDirectionTracker::assign(const Evidence& evidence, const LineView& view,
                                            const SO3& R_ref_cam) {
+  // Deviations at which a line joins a direction and at which it leaves it. Chosen.
   constexpr double kJoinSigmas = 2.5, kLeaveSigmas = 5;
   std::map<LineId, int> now;
   LineView left;
@@ -156,6 +159,7 @@ void VanishingDirectionTracker::find_new(const Camera& camera, const LineView& l
 /// Moves every direction to the intersection of the planes of its tracks, those of earlier views
 /// with a decreasing weight.
 void VanishingDirectionTracker::refine(const Evidence& evidence, const SO3& R_ref_cam) {
+  // Weight of a frame on the next: a memory of about 30 frames. Chosen.
   constexpr double kForget = 0.97;
   for (Known& known : directions_) known.across *= kForget;
   for (int i = 0; i < evidence.lines.size(); ++i) {

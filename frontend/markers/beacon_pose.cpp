@@ -32,6 +32,7 @@ std::optional<Expected> expect(const Camera& camera, const SE3& T_world_cam,
 
 int beacons_in_view(const Camera& camera, const SE3& T_world_cam,
                     const std::vector<Eigen::Vector3d>& beacons_world) {
+  // Margin of the border. Chosen.
   constexpr double kBorder_px = 5;
   int count = 0;
   for (const Eigen::Vector3d& beacon : beacons_world) {
@@ -81,6 +82,7 @@ BeaconPose refined(const std::vector<BeaconObservation>& spots,
 }
 
 bool same_pose(const SE3& a, const SE3& b, double range_m) {
+  // Shares of the range and angles that are one pose. Chosen.
   constexpr double kSame = 1e-3;
   const SE3 between = a.inverse() * b;
   return between.translation().norm() < kSame * range_m && between.rotation().log().norm() < kSame;
@@ -145,6 +147,7 @@ class AssignmentSearch {
   }
   /// Number of spots with a beacon within some pixels; it rejects most assignments.
   int rough_count(const SE3& T_world_cam) const {
+    // Distance of a spot that may be the beacon. Chosen.
     constexpr double kNear_px = 4;
     const SE3 T_cam_world = T_world_cam.inverse();
     int count = 0;

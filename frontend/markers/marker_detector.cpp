@@ -60,6 +60,7 @@ void drop_copies(std::vector<MarkerObservation>& found) {
       found.begin(), found.end(),
       [](const MarkerObservation& a, const MarkerObservation& b) { return a.id < b.id; });
   const auto same = [](const MarkerObservation& a, const MarkerObservation& b) {
+    // Distance of corners of one marker. Chosen.
     constexpr double kSame_px = 3;
     if (a.id != b.id) return false;
     for (int k = 0; k < 4; ++k)

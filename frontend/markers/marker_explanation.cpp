@@ -162,6 +162,7 @@ MarkerExplanation by_beacons(const Camera& camera, const std::vector<BeaconObser
 }  // namespace
 
 double log_likelihood(double chi2, int dimensions) {
+  // Degrees of freedom of a Student t distribution, for heavy tails. Chosen.
   constexpr double kFreedom = 4;
   return -0.5 * (kFreedom + dimensions) * std::log1p(chi2 / kFreedom);
 }

@@ -204,6 +204,7 @@ bool fit_side(const std::vector<SidePixel>& pixels, const Band& band, double min
   Normal H, H_next;
   Parameters g, g_next;
   double cost = evaluate(x, H, g), damping = 1e-3;
+  // Iterations at most, and bounds of the blur. Chosen.
   constexpr int kIterations = 12;
   constexpr double kLeastBlur_px = 0.2, kMostBlur_px = 4;
   for (int i = 0; i < kIterations && damping < 1e6; ++i) {
@@ -305,6 +306,7 @@ bool fit_once(const StraightPixels& pixels, double border_share, const SquareFit
     band.inside_px = first ? std::clamp(band.border_px, kFound_px, options.reach_px)
                            : std::clamp(0.5 * band.border_px, kLeast_px, options.reach_px);
     band.outside_px = band.inside_px;
+    // Margin at a corner, and its largest share of a side. Chosen.
     constexpr double kCorner_px = 1.5, kMostMargin = 0.3;
     band.start_margin =
         std::min(kMostMargin, (kCorner_px + band.inside_px * cotangent(before, extent)) / length);
@@ -336,6 +338,7 @@ std::optional<SquareFit> fit_square(const Image& grey, const SquareCorners& expe
   }
   std::array<Parameters, 4> parameters;
   parameters.fill(Parameters::Zero());
+  // Rounds at most. Chosen.
   constexpr int kRounds = 3;
   for (int round = 0; round < kRounds; ++round) {
     const SquareCorners before = fit.corners_px;

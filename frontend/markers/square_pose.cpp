@@ -116,6 +116,7 @@ SquarePose refine(const Camera& camera, const std::vector<SeenSquare>& squares,
     result.outcome = Outcome::failure(Code::kNoConsensus, "a corner or point is behind the camera");
     return result;
   }
+  // Iterations at most. Chosen.
   constexpr int kIterations = 60;
   double damping = 1e-2;  // short steps at first, so that they stay near the same minimum
   bool converged = false;
@@ -185,6 +186,7 @@ SquarePose find_planar_rival(const Camera& camera, const std::vector<SeenSquare>
 
 bool same_minimum(const SquarePose& a, const SquarePose& b) {
   const Vector6d d = (a.T_ref_cam.inverse() * b.T_ref_cam).log();
+  // A tenth of a standard deviation is one minimum. Chosen.
   constexpr double kSame = 0.1;
   return d.dot(a.covariance.ldlt().solve(d)) < kSame * kSame;
 }

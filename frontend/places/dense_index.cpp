@@ -21,6 +21,7 @@ class OneThread {
   int before_;
 };
 
+// Links of a node and efforts (HNSW, Malkov 2018). Chosen.
 constexpr int kLinks = 16, kBuildEffort = 40, kLeastSearchEffort = 64;
 
 }  // namespace

@@ -31,6 +31,7 @@ class DenseIndex {
   int size() const;
   int dimension() const { return dimension_; }
 
+  // Fewer views are compared one by one: the cost. Chosen.
   static constexpr int kExactBelow = 5000;
 
  private:

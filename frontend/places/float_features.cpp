@@ -42,6 +42,7 @@ FloatFeatures features_of(const cv::Mat& image, const std::vector<cv::KeyPoint>&
 
 FloatFeatures float_features(const Image& grey, const FloatFeatureOptions& options) {
   const cv::Mat image = resized(grey, options.width_px);
+  // Those of SIFT (Lowe 2004): three layers an octave, edge ratio 10, blur 1.6.
   constexpr int kLayers = 3;
   constexpr double kEdge = 10, kSigma = 1.6;
   const auto sift =
@@ -53,6 +54,7 @@ FloatFeatures float_features(const Image& grey, const FloatFeatureOptions& optio
 }
 
 FloatFeatures dense_float_features(const Image& grey) {
+  // Width and distance of dense features. Chosen.
   constexpr int kWidth = 160, kStep = 8;
   constexpr std::array<float, 2> kSizes = {4, 8};  // diameters; a patch is six of them wide
   const cv::Mat image = resized(grey, kWidth);

@@ -53,6 +53,7 @@ void InvertedIndex::reweigh() {
 int InvertedIndex::add(const std::vector<std::uint32_t>& words) {
   views_.push_back(count(words));
   for (const auto& [word, times] : views_.back()) ++views_with_[word];
+  // Views for weights of words. Chosen.
   constexpr std::size_t kFirstWeighing = 20;
   if (views_.size() >= std::max(kFirstWeighing, 2 * weighed_views_))
     reweigh();

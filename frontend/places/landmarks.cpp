@@ -11,6 +11,7 @@ namespace {
 /// Mode that a point climbs to among the others.
 Eigen::Vector2f mode_of(Eigen::Vector2f point, const std::vector<Eigen::Vector2f>& positions,
                         float radius) {
+  // Iterations at most. Chosen.
   constexpr int kRounds = 30;
   for (int round = 0; round < kRounds; ++round) {
     Eigen::Vector2f sum = Eigen::Vector2f::Zero();

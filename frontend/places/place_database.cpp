@@ -7,6 +7,9 @@
 namespace placegraph {
 namespace {
 
+/// Maximum number of features in one training. Chosen.
+constexpr int kMaxTrainingFeatures = 60000;
+
 std::vector<BinaryDescriptor> descriptors_of(const std::vector<Feature>& features) {
   std::vector<BinaryDescriptor> descriptors;
   descriptors.reserve(features.size());
@@ -37,7 +40,7 @@ void PlaceDatabase::train() {
   for (const View& view : views_) total += view.descriptors.size();
   if (total == 0) return;
   // Every n-th feature of every view.
-  const std::size_t stride = total / options_.max_training_features + 1;
+  const std::size_t stride = total / kMaxTrainingFeatures + 1;
   std::vector<BinaryDescriptor> sample;
   for (const View& view : views_)
     for (std::size_t i = 0; i < view.descriptors.size(); i += stride)

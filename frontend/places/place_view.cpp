@@ -14,6 +14,14 @@
 namespace placegraph {
 namespace {
 
+/// Number of corners that agree by chance (docs/place_recognition.md); as many or fewer add
+/// nothing.
+constexpr int kCornerFloor = 12;
+/// Width of the shrunk image [px] (docs/place_recognition.md). Chosen.
+constexpr int kTinyColumns = 24;
+/// Loss of similarity for a shift by the whole image: a tenth (docs/place_recognition.md). Chosen.
+constexpr double kShiftLoss = 0.1;
+
 /// Shifts of a quarter of the tiny image's width and height, of a third of the gradients' cells.
 constexpr int kTinyShiftX = 6, kTinyShiftY = 4, kGradientShiftX = 4, kGradientShiftY = 3;
 
@@ -49,6 +57,7 @@ std::vector<std::int16_t> thumbnail_of(const PlaceView& view) {
   append_pooled(view.colour, 1, 1, 1, code);
   append_pooled(view.coarse, 4, 3, 1, code);
   if (!view.gradients.empty()) append_pooled(view.gradients.front(), 4, 3, 1, code);
+  // 2^13 - 1. Chosen.
   constexpr float kUnit = 8191;
   std::vector<std::int16_t> thumbnail;
   thumbnail.reserve(code.size());
@@ -76,10 +85,10 @@ PlaceView describe_place(const Image& image, const PlaceCueOptions& options, boo
     cv::resize(grey, sized_grey, size, 0, 0, cv::INTER_AREA);
   }
   for (const double scale : scales) {
-    if (options.tiny > 0) view.tiny.push_back(tiny_image_cue(sized, options.tiny_columns, scale));
+    if (options.tiny > 0) view.tiny.push_back(tiny_image_cue(sized, kTinyColumns, scale));
     if (options.gradients > 0) view.gradients.push_back(gradient_layout_cue(sized_grey, {}, scale));
   }
-  view.coarse = tiny_image_cue(sized, options.tiny_columns / 2);
+  view.coarse = tiny_image_cue(sized, kTinyColumns / 2);
   if (options.colour > 0 && image.channels() == 3) view.colour = colour_histogram_cue(sized);
   if (options.gabor > 0) view.gabor = gabor_cue(sized_grey);
   if (options.corners > 0) view.corners = corners_of_view(grey, options.corner_agreement);
@@ -93,11 +102,11 @@ GridSimilarity grid_similarity(const PlaceView& query, const PlaceView& stored,
           "grid_similarity: one view is grey and one in colour");
   GridSimilarity similarity;
   if (options.tiny > 0)
-    similarity.tiny = options.tiny * best_over_scales(query.tiny, stored.tiny.front(),
-                                                      {.shift_x = kTinyShiftX,
-                                                       .shift_y = kTinyShiftY,
-                                                       .step = 2,
-                                                       .loss = options.shift_loss});
+    similarity.tiny =
+        options.tiny *
+        best_over_scales(
+            query.tiny, stored.tiny.front(),
+            {.shift_x = kTinyShiftX, .shift_y = kTinyShiftY, .step = 2, .loss = kShiftLoss});
   if (!query.colour.empty())
     similarity.colour =
         options.colour * best_alignment(query.colour, stored.colour, {.shift_x = 1, .shift_y = 1});
@@ -106,19 +115,19 @@ GridSimilarity grid_similarity(const PlaceView& query, const PlaceView& stored,
         options.gradients *
         best_over_scales(
             query.gradients, stored.gradients.front(),
-            {.shift_x = kGradientShiftX, .shift_y = kGradientShiftY, .loss = options.shift_loss});
+            {.shift_x = kGradientShiftX, .shift_y = kGradientShiftY, .loss = kShiftLoss});
   if (options.gabor > 0)
     similarity.gabor =
-        options.gabor * best_alignment(query.gabor, stored.gabor,
-                                       {.shift_x = 1, .shift_y = 1, .loss = options.shift_loss});
+        options.gabor *
+        best_alignment(query.gabor, stored.gabor, {.shift_x = 1, .shift_y = 1, .loss = kShiftLoss});
   return similarity;
 }
 
 double corner_similarity(const PlaceView& query, const PlaceView& stored,
                          const PlaceCueOptions& options) {
   const int agreeing = corner_agreement(query.corners, stored.corners, options.corner_agreement);
-  return options.corners * std::log(static_cast<double>(std::max(agreeing, options.corner_floor)) /
-                                    options.corner_floor);
+  return options.corners *
+         std::log(static_cast<double>(std::max(agreeing, kCornerFloor)) / kCornerFloor);
 }
 
 double place_similarity(const PlaceView& query, const PlaceView& stored,
@@ -128,9 +137,9 @@ double place_similarity(const PlaceView& query, const PlaceView& stored,
 
 double coarse_similarity(const PlaceView& query, const PlaceView& stored,
                          const PlaceCueOptions& options) {
-  double similarity = best_alignment(
-      query.coarse, stored.coarse,
-      {.shift_x = kTinyShiftX / 2, .shift_y = kTinyShiftY / 2, .loss = options.shift_loss});
+  double similarity =
+      best_alignment(query.coarse, stored.coarse,
+                     {.shift_x = kTinyShiftX / 2, .shift_y = kTinyShiftY / 2, .loss = kShiftLoss});
   if (!query.colour.empty() && !stored.colour.empty())
     similarity += options.colour * best_alignment(query.colour, stored.colour, {});
   return similarity;

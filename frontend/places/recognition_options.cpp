@@ -16,8 +16,7 @@ void visit(OptionVisitor& field, PlaceDatabaseOptions& o) {
   field.group("vocabulary", o.vocabulary, "tree of visual words, trained online");
   field("first_training", o.first_training,
         "number of keyframes at which the first vocabulary is trained", {2, 100000});
-  field("max_training_features", o.max_training_features,
-        "maximum number of features in one training", {100, 10000000});
+  field.retired({{"max_training_features", 60000}});
 }
 
 void LoopTwoViewOptions::check() const { check_ranges(*this); }
@@ -25,14 +24,10 @@ void LoopTwoViewOptions::check() const { check_ranges(*this); }
 void visit(OptionVisitor& field, LoopTwoViewOptions& o) {
   field.group("pose", o.pose, "essential matrix or homography");
   field.formerly("turn").group("rotation", o.rotation, "views that differ by a rotation alone");
-  field("min_parallax_px", o.min_parallax_px,
-        "minimum median displacement beyond that of the rotation", {0.1, 1000});
-  field("min_depths", o.min_depths, "minimum number of known depths that agree on the baseline",
-        {3, 1000});
-  field("max_depth_spread", o.max_depth_spread,
-        "maximum |log ratio| between an agreeing depth and the median", {0.01, 2});
-  field("min_depth_share", o.min_depth_share, "minimum share of the known depths that agree",
-        {0, 1});
+  field.retired({{"min_parallax_px", 4},
+                 {"max_depth_spread", 0.2},
+                 {"min_depths", 8},
+                 {"min_depth_share", 0.6}});
 }
 
 void LoopVerifierOptions::check() const { check_ranges(*this); }
@@ -41,15 +36,16 @@ void visit(OptionVisitor& field, LoopVerifierOptions& o) {
   field.group("matcher", o.matcher, "descriptor matching");
   field.group("pose", o.pose, "relative pose from 3-D points to pixels");
   field.group("two_view", o.two_view, "relative pose where too few points have a depth");
-  field.group("lines", o.lines, "lines that the pose predicts in the query");
   field("min_inlier_ratio", o.min_inlier_ratio,
         "minimum share of the matches that agree with the pose", {0, 1});
-  field("min_spread", o.min_spread, "minimum share of the image that the inliers cover", {0, 1});
   field("max_scale_error", o.max_scale_error,
         "maximum |log| of the median ratio of the two keyframes' depths", {0, 10});
   field("max_baseline_depths", o.max_baseline_depths,
         "maximum translation between the views over the inliers' median depth", {0.01, 100});
   field("max_angle_deg", o.max_angle_deg, "maximum rotation between the views", {1, 180});
+  field.retired({{"max_distance", 60}, {"gate_px", 9}, {"max_angle_deg", 8}, {"min_overlap", 0.3}},
+                "lines");
+  field.retired({{"min_spread", 0.03}});
 }
 
 void PlaceRecognizerOptions::check() const { check_ranges(*this); }

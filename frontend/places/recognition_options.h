@@ -31,7 +31,6 @@ void visit(OptionVisitor& field, VocabularyOptions& options);
 struct PlaceDatabaseOptions {
   VocabularyOptions vocabulary;  ///< the visual words
   int first_training = 20;       ///< number of keyframes at which the first vocabulary is trained
-  int max_training_features = 60000;  ///< maximum number of features in one training
   void check() const;
 };
 void visit(OptionVisitor& field, PlaceDatabaseOptions& options);
@@ -56,11 +55,6 @@ struct LoopTwoViewOptions {
   Pose2d2dOptions pose{.ransac = {.max_iterations = 400, .confidence = 0.9999, .min_inliers = 50},
                        .threshold_px = 1.5};
   Rotation2d2dOptions rotation;  ///< model of images that differ by a rotation alone
-  double min_parallax_px = 4;    ///< minimum median displacement beyond that of the rotation
-  /// Minimum number of known depths of one keyframe that agree on the baseline.
-  int min_depths = 8;
-  double max_depth_spread = 0.2;  ///< maximum |log ratio| between an agreeing depth and the median
-  double min_depth_share = 0.6;   ///< minimum share of the known depths that agree
   void check() const;
 };
 void visit(OptionVisitor& field, LoopTwoViewOptions& options);
@@ -73,11 +67,8 @@ struct LoopVerifierOptions {
   Pose3d2dOptions pose{.ransac = {.max_iterations = 400, .confidence = 0.9999, .min_inliers = 40},
                        .threshold_px = 3.0,
                        .prior_inlier_ratio = 1.01};
-  LoopTwoViewOptions two_view;      ///< pose if too few points have a depth for `pose`
-  LineFeatureMatcherOptions lines;  ///< matching of the lines that the pose predicts in the query
-  double min_inlier_ratio = 0.35;   ///< minimum share of the matches that agree with the pose
-  /// Minimum share of the image that a box of +-2 standard deviations of the inliers covers.
-  double min_spread = 0.03;
+  LoopTwoViewOptions two_view;     ///< pose if too few points have a depth for `pose`
+  double min_inlier_ratio = 0.35;  ///< minimum share of the matches that agree with the pose
   /// Maximum |log| of the median ratio of the depths that are known in both keyframes.
   double max_scale_error = 0.15;
   /// Maximum translation between the keyframes over the median depth of the inliers; errors of

@@ -11,6 +11,7 @@
 namespace placegraph {
 namespace {
 
+// Pace of a query over that of the map, either way. Chosen.
 constexpr std::array kPaces = {1.0, -1.0, 0.5, -0.5, 2.0, -2.0};
 
 // best[i] = max(best[i], before[i] - penalty)
@@ -21,6 +22,7 @@ void raise(double* best, const double* before, std::size_t count, double penalty
 
 // Median of the scores; of many scores only a sample is used, as the map may be large.
 double middle_of(const std::vector<double>& scores) {
+  // Scores of a sample: the cost. Chosen.
   constexpr std::size_t kMost = 2000;
   const std::size_t stride = 1 + (scores.size() - 1) / kMost;
   if (stride == 1) return median_of(scores);

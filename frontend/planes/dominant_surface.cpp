@@ -10,6 +10,19 @@
 namespace placegraph {
 namespace {
 
+/// Number of pixels in one region whose depth is measured. Chosen.
+constexpr int kRegionPixels = 400;
+/// Minimum share of a region's pixels on the surface. Chosen.
+constexpr double kMinSurfaceShare = 0.4;
+/// Initial relative standard deviation of the height. Chosen.
+constexpr double kMountingSigmaDistance = 0.3;
+/// Random walk of pitch and roll from image to image. Chosen.
+constexpr double kPitchingSigma_deg = 0.3;
+/// Relative random walk of the height from image to image. Chosen.
+constexpr double kDistanceDrift = 0.005;
+/// Random walk of pitch and roll after a plane that contradicts the filter. Chosen.
+constexpr double kSlopeSigma_deg = 2;
+
 using Eigen::Matrix3d;
 using Eigen::Vector2f;
 using Eigen::Vector3d;
@@ -53,7 +66,7 @@ DominantSurface::DominantSurface(const DominantSurfaceOptions& options, const Ca
       g_cam_(mounting_cam.normal.normalized() / mounting_cam.distance_m) {
   options_.check();
   require(mounting_cam.distance_m > 0, "DominantSurface: the distance must be positive");
-  widen(deg_to_rad(options_.mounting_sigma_deg), options_.mounting_sigma_distance);
+  widen(deg_to_rad(options_.mounting_sigma_deg), kMountingSigmaDistance);
 }
 
 Plane DominantSurface::plane_cam() const { return {g_cam_.normalized(), 1 / g_cam_.norm()}; }
@@ -76,7 +89,7 @@ void DominantSurface::predict(const SE3& T_cur_last) {
     g_cam_ = rotated / stretch;
     covariance_ = J * covariance_ * J.transpose();
   }
-  widen(deg_to_rad(options_.pitching_sigma_deg), options_.distance_drift);
+  widen(deg_to_rad(kPitchingSigma_deg), kDistanceDrift);
 }
 
 std::vector<Vector2f> DominantSurface::pixels_of(SurfaceRegion region, const Image& mask) const {
@@ -99,7 +112,7 @@ std::vector<Vector2f> DominantSurface::pixels_of(SurfaceRegion region, const Ima
   // The grid's step follows from the number of pixels of a coarse grid.
   constexpr int kCoarse = 8;
   const double area = kCoarse * kCoarse * static_cast<double>(on_grid(kCoarse).size());
-  return on_grid(std::max(1, static_cast<int>(std::sqrt(area / options_.pixels))));
+  return on_grid(std::max(1, static_cast<int>(std::sqrt(area / kRegionPixels))));
 }
 
 InverseDepthPlane DominantSurface::measure(SurfaceRegion region, const SurfaceDepths& depths,
@@ -149,7 +162,7 @@ SurfaceAppearance DominantSurface::update(const SurfaceDepths& depths, const SE3
   for (const SurfaceRegion region : order) {
     SurfaceAppearance appearance;
     const InverseDepthPlane measured = measure(region, depths, mask, random, appearance);
-    if (measured.outcome && appearance.share >= options_.min_share) {
+    if (measured.outcome && appearance.share >= kMinSurfaceShare) {
       const Vector3d innovation = measured.g_cam - g_cam_;
       static const double greatest = chi_squared_quantile(0.999, 3);
       const Matrix3d S = covariance_ + measured.covariance;
@@ -183,7 +196,7 @@ SurfaceAppearance DominantSurface::update(const SurfaceDepths& depths, const SE3
     if (rank(appearance.outcome) > rank(best.outcome)) best = std::move(appearance);
   }
   if (best.outcome.code == Outcome::Code::kInconsistent)
-    widen(deg_to_rad(options_.slope_sigma_deg), options_.distance_drift);
+    widen(deg_to_rad(kSlopeSigma_deg), kDistanceDrift);
   best.plane_cam = plane_cam();
   best.sigma_normal_rad = placegraph::sigma_normal_rad(g_cam_, covariance_);
   best.sigma_log_distance = placegraph::sigma_log_distance(g_cam_, covariance_);

@@ -11,6 +11,20 @@
 namespace placegraph {
 namespace {
 
+/// Distance of neighbouring samples in the reference image. Chosen.
+constexpr int kGroundStep_px = 3;
+/// Levels of the image pyramid, coarse to fine. Chosen.
+constexpr int kGroundLevels = 3;
+/// Maximum number of Gauss-Newton iterations per level. Chosen.
+constexpr int kGroundIterations = 12;
+/// Share of the samples that counts as independent, for the covariance: neighbours are correlated.
+/// Chosen.
+constexpr double kIndependentShare = 0.1;
+/// Minimum correlation of the aligned samples; there is no result below it. Chosen.
+constexpr double kMinGroundZncc = 0.5;
+/// Minimum number of samples seen in both images. Chosen.
+constexpr int kMinGroundSamples = 400;
+
 using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -197,12 +211,11 @@ bool linearize(const Level& level, const Motion& motion, const Fit& fit, const S
 }
 
 void align_level(const Level& level, const std::vector<Sample>& samples,
-                 const GroundPlanePrior& prior, const GroundPlaneOptions& o, Motion& motion,
-                 Fit& fit) {
+                 const GroundPlanePrior& prior, Motion& motion, Fit& fit) {
   std::vector<double> residuals(samples.size()), magnitudes;
   std::vector<Parameters> jacobians(samples.size());
   constexpr double kMoved = 5e-4;  // share of the distance: a twentieth of the flatness of a road
-  for (int iteration = 0; iteration < o.iterations; ++iteration) {
+  for (int iteration = 0; iteration < kGroundIterations; ++iteration) {
     magnitudes.clear();
     for (std::size_t i = 0; i < samples.size(); ++i) {
       if (linearize(level, motion, fit, samples[i], residuals[i], jacobians[i]))
@@ -219,7 +232,7 @@ void align_level(const Level& level, const std::vector<Sample>& samples,
     for (std::size_t i = 0; i < samples.size(); ++i) {
       if (!(std::abs(residuals[i]) < cut)) continue;
       const double q = 1 - residuals[i] * residuals[i] / (cut * cut);
-      const double weight = q * q * o.pixel_correlation / (sigma * sigma);
+      const double weight = q * q * kIndependentShare / (sigma * sigma);
       H.selfadjointView<Eigen::Lower>().rankUpdate(jacobians[i], weight);
       b.noalias() -= weight * residuals[i] * jacobians[i];
     }
@@ -266,7 +279,7 @@ GroundPlaneResult align_ground_plane(const Image& image_ref, const Image& image_
   require(image_ref.type() == CV_8UC1 && image_ref.size() == image_cur.size(),
           "align_ground_plane: needs two grey images of one size");
   require(prior_ref.distance_m > 0, "align_ground_plane: the prior's distance must be positive");
-  const auto levels = build_levels(image_ref, image_cur, mask_ref, camera, options.pyramid_levels);
+  const auto levels = build_levels(image_ref, image_cur, mask_ref, camera, kGroundLevels);
   const Matrix3d R = T_cur_ref.rotation().matrix();
   const Vector3d& t = T_cur_ref.translation();
 
@@ -282,13 +295,13 @@ GroundPlaneResult align_ground_plane(const Image& image_ref, const Image& image_
   std::vector<Sample> samples;
   for (int i = static_cast<int>(levels.size()) - 1; i >= 0; --i) {
     // The step follows the pixel size, so that all levels have the same number of samples.
-    const int step = std::max(1, (options.step_px + (1 << i) - 1) >> i);
+    const int step = std::max(1, (kGroundStep_px + (1 << i) - 1) >> i);
     samples = collect_samples(levels[i], prior_ref, options, step);
     if (i > 0) samples = thinned(std::move(samples));
-    align_level(levels[i], samples, prior, options, motion, fit);
+    align_level(levels[i], samples, prior, motion, fit);
   }
   result.samples = fit.seen;
-  if (fit.seen < options.min_samples || !fit.g.allFinite()) {
+  if (fit.seen < kMinGroundSamples || !fit.g.allFinite()) {
     result.outcome = Outcome::failure(Outcome::Code::kTooFewData,
                                       std::to_string(fit.seen) + " road pixels in both views");
     return result;
@@ -310,7 +323,7 @@ GroundPlaneResult align_ground_plane(const Image& image_ref, const Image& image_
                  std::sqrt(std::max(0.0, e.dot(covariance.topLeftCorner<3, 3>() * e))) / length);
   if (!(result.sigma_log_distance < 0.5)) {
     result.outcome = Outcome::failure(Outcome::Code::kDegenerate, "the distance is too uncertain");
-  } else if (result.zncc < options.min_zncc) {
+  } else if (result.zncc < kMinGroundZncc) {
     result.outcome =
         Outcome::failure(Outcome::Code::kInconsistent, "ZNCC " + std::to_string(result.zncc));
   } else {

@@ -15,6 +15,7 @@ using Eigen::VectorXd;
 /// Least share of a plane's matches in front of both cameras.
 constexpr double kInFront = 0.9;
 constexpr double kSameAngle_rad = 1e-3;  ///< readings closer than this count as one
+// Ratio of eigenvalues: two orders above rounding. Chosen.
 constexpr double kMinMotionCondition = 1e-14;
 constexpr int kHalvings = 8;
 

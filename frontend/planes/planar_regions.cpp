@@ -19,6 +19,7 @@ constexpr double kMaxCost = 1e4;  ///< maximum cost of one match [nats], for imp
 constexpr double kNoiseStarts[] = {0.3, 0.6, 1.2, 2.4};
 /// Number of neighbours, beside the sample itself, that must agree with it.
 constexpr int kMoreNeighbours = 2;
+// Iterations at most. Chosen.
 constexpr int kFitIterations = 10;
 constexpr int kRounds = 12;  ///< rounds that estimate labels, models and noise in alternation
 

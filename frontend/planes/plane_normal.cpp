@@ -33,6 +33,7 @@ std::optional<Vector2d> seen(const Matrix3d& H, const Vector2d& px) {
 /// standard deviations; a large residual if the motion puts a corner behind the camera.
 VectorXd residuals(const Matrix3d& K, const std::vector<Vector2d>& corners,
                    const std::vector<Matrix3d>& views, const Vector3d& normal, double sigma_px) {
+  // Residual of a view without a motion: far above any other. Chosen.
   constexpr double kMissPx = 100;
   const auto per_view = static_cast<Eigen::Index>(2 * corners.size());
   VectorXd r(per_view * static_cast<Eigen::Index>(views.size()));
@@ -58,6 +59,7 @@ Vector3d moved(const Vector3d& normal, const Vector2d& by) {
 
 Reading refined(const Matrix3d& K, const std::vector<Vector2d>& corners,
                 const std::vector<Matrix3d>& views, Vector3d normal, double sigma_px) {
+  // Step of the difference quotient. Chosen, well above rounding.
   constexpr double kStep = 1e-5;
   Reading best{normal};
   double damping = 1e-6;

@@ -27,38 +27,27 @@ void visit(OptionVisitor& field, DirectMotionOptions& o) {
   field("levels", o.levels, "levels of the image pyramid, coarse to fine", {1, 8});
   field("samples", o.samples, "number of samples of all planes together, per level",
         {100, 1000000});
-  field("min_samples", o.min_samples, "minimum number of samples in view on the finest level",
-        {20, 1000000});
-  field("iterations", o.iterations, "maximum number of iterations per level", {1, 1000});
-  field("converged", o.converged,
-        "mean displacement of the samples by a step that ends a level [px]", {1e-6, 1});
-  field("kernel_width", o.kernel_width, "width of Tukey's weights [sigma of the residuals]",
-        {0.1, 100});
-  field("min_visible_share", o.min_visible_share, "minimum share of the samples that is in view",
-        {0.05, 1});
-  field("min_agreement", o.min_agreement,
-        "minimum correlation of observed and predicted grey values", {-1, 1});
-  field("min_inlier_share", o.min_inlier_share,
-        "minimum share of inliers among the samples in view", {0, 1});
-  field("tile_px", o.tile_px, "side of the tiles within which residuals may be correlated",
-        {4, 1000});
   field.group("swarm", o.swarm, "search without an initial motion");
+  field.retired({{"min_samples", 150},
+                 {"iterations", 12},
+                 {"converged", 0.01},
+                 {"min_visible_share", 0.3},
+                 {"min_agreement", 0.5},
+                 {"min_inlier_share", 0.4},
+                 {"tile_px", 32},
+                 {"kernel_width", 4.685}});
 }
 
 void visit(OptionVisitor& field, DepthPlanesOptions& o) {
   field("cell_px", o.cell_px, "side of the cells that planes are grown over", {4, 64});
-  field("step_px", o.step_px, "distance of the pixels used", {1, 16});
-  field("flatness", o.flatness, "maximum deviation from a plane, as a share of the depth",
-        {0, 0.1});
   field("min_share", o.min_share, "minimum share of the image's cells on a plane", {0, 1});
   field("max_planes", o.max_planes, "maximum number of planes; the largest ones are kept",
         {1, 100});
-  field("max_sigma_deg", o.max_sigma_deg, "maximum standard deviation of the normal of a plane",
-        {0.01, 30});
   field("floor_deg", o.floor_deg,
         "minimum standard deviation of a normal, beyond the residuals' covariance", {1e-3, 10});
   field("floor_distance", o.floor_distance,
         "minimum relative standard deviation of the distance of a plane", {1e-5, 0.5});
+  field.retired({{"step_px", 2}, {"max_sigma_deg", 1}, {"flatness", 0.002}});
 }
 
 void GroundPlaneOptions::check() const {
@@ -72,15 +61,12 @@ void visit(OptionVisitor& field, GroundPlaneOptions& o) {
   field("far_heights", o.far_heights, "farthest ground that is aligned [camera heights]", {1, 200});
   field("half_width_heights", o.half_width_heights,
         "half the width of the ground that is aligned [camera heights]", {0.2, 50});
-  field("step_px", o.step_px, "distance of neighbouring samples in the reference image", {1, 32});
-  field("pyramid_levels", o.pyramid_levels, "levels of the image pyramid, coarse to fine", {1, 6});
-  field("iterations", o.iterations, "Gauss-Newton iterations per level", {1, 100});
-  field("pixel_correlation", o.pixel_correlation,
-        "share of the samples that counts as independent, for the covariance", {0.001, 1});
-  field("min_zncc", o.min_zncc,
-        "minimum correlation of the aligned samples; there is no result below it", {-1, 1});
-  field("min_samples", o.min_samples, "minimum number of samples seen in both images",
-        {50, 1000000});
+  field.retired({{"step_px", 3},
+                 {"pyramid_levels", 3},
+                 {"iterations", 12},
+                 {"pixel_correlation", 0.1},
+                 {"min_zncc", 0.5},
+                 {"min_samples", 400}});
 }
 
 void InverseDepthPlaneOptions::check() const { check_ranges(*this); }
@@ -107,18 +93,14 @@ void visit(OptionVisitor& field, DominantSurfaceOptions& o) {
         "far end of the region tried first [distances of the surface]", {1, 200});
   field("half_width_heights", o.half_width_heights,
         "half the width of the region tried first [distances of the surface]", {0.2, 50});
-  field("pixels", o.pixels, "number of pixels in one region whose depth is measured", {50, 100000});
-  field("min_share", o.min_share, "minimum share of a region's pixels on the surface", {0, 1});
   field("mounting_sigma_deg", o.mounting_sigma_deg, "initial standard deviation of pitch and roll",
         {0.01, 45});
-  field("mounting_sigma_distance", o.mounting_sigma_distance,
-        "initial relative standard deviation of the height", {1e-3, 1});
-  field("pitching_sigma_deg", o.pitching_sigma_deg,
-        "random walk of pitch and roll from image to image", {0, 45});
-  field("distance_drift", o.distance_drift,
-        "relative random walk of the height from image to image", {0, 1});
-  field("slope_sigma_deg", o.slope_sigma_deg,
-        "random walk of pitch and roll after a plane that contradicts the filter", {0, 45});
+  field.retired({{"pixels", 400},
+                 {"min_share", 0.4},
+                 {"mounting_sigma_distance", 0.3},
+                 {"pitching_sigma_deg", 0.3},
+                 {"distance_drift", 0.005},
+                 {"slope_sigma_deg", 2}});
 }
 
 void visit(OptionVisitor& field, PlaneNormalOptions& o) {

@@ -39,17 +39,8 @@ void visit(OptionVisitor& field, SwarmOptions& options);
 
 /// Motion between two images by direct alignment of the grey values of several planes.
 struct DirectMotionOptions {
-  int levels = 4;           ///< levels of the image pyramid, coarse to fine
-  int samples = 1500;       ///< number of samples of all planes together, per level
-  int min_samples = 150;    ///< minimum number of samples in view on the finest level
-  int iterations = 12;      ///< maximum number of iterations per level
-  double converged = 0.01;  ///< mean displacement of the samples by a step that ends a level [px]
-  double kernel_width = 4.685;  ///< width of Tukey's weights [standard deviations of the residuals]
-  double min_visible_share = 0.3;  ///< minimum share of the samples that is in view
-  double min_agreement = 0.5;      ///< minimum correlation of observed and predicted grey values
-  double min_inlier_share = 0.4;   ///< minimum share of inliers among the samples in view
-  /// Side of the tiles within which residuals may be correlated; the covariance allows for it.
-  int tile_px = 32;
+  int levels = 4;      ///< levels of the image pyramid, coarse to fine
+  int samples = 1500;  ///< number of samples of all planes together, per level
   /// Search without an initial motion.
   SwarmOptions swarm{.particles = 48, .generations = 40};
   void check() const;
@@ -58,12 +49,9 @@ void visit(OptionVisitor& field, DirectMotionOptions& options);
 
 /// Planes in a depth image, grown over cells.
 struct DepthPlanesOptions {
-  int cell_px = 8;           ///< side of the cells that planes are grown over
-  int step_px = 2;           ///< distance of the pixels used; at most half of cell_px
-  double flatness = 0.002;   ///< maximum deviation from a plane, as a share of the depth
-  double min_share = 0.02;   ///< minimum share of the image's cells on a plane
-  int max_planes = 8;        ///< maximum number of planes; the largest ones are kept
-  double max_sigma_deg = 1;  ///< maximum standard deviation of the normal of a plane
+  int cell_px = 8;          ///< side of the cells that planes are grown over
+  double min_share = 0.02;  ///< minimum share of the image's cells on a plane
+  int max_planes = 8;       ///< maximum number of planes; the largest ones are kept
   /// Minimum standard deviation of a normal, beyond the residuals' covariance: the depths of a
   /// camera have systematic bend and scale errors, which its planes share.
   double floor_deg = 0.1;
@@ -78,13 +66,6 @@ struct GroundPlaneOptions {
   /// Region of the ground that is aligned, ahead of the camera, in camera heights. It must contain
   /// only the road, and only one lane, as roads are arched.
   double near_heights = 2.5, far_heights = 12, half_width_heights = 1.4;
-  int step_px = 3;                 ///< distance of neighbouring samples in the reference image
-  int pyramid_levels = 3;          ///< levels of the image pyramid, coarse to fine
-  int iterations = 12;             ///< Gauss-Newton iterations per level
-  double pixel_correlation = 0.1;  ///< share of the samples that counts as independent
-  /// Minimum correlation of the aligned samples; there is no result below it.
-  double min_zncc = 0.5;
-  int min_samples = 400;  ///< minimum number of samples seen in both images
   void check() const;
 };
 void visit(OptionVisitor& field, GroundPlaneOptions& options);
@@ -106,14 +87,7 @@ struct DominantSurfaceOptions {
   /// Region ahead of the camera that is tried first, in distances of the surface; other regions are
   /// in it or beside it.
   double near_heights = 2, far_heights = 12, half_width_heights = 1.5;
-  int pixels = 400;                      ///< number of pixels in one region whose depth is measured
-  double min_share = 0.4;                ///< minimum share of a region's pixels on the surface
-  double mounting_sigma_deg = 5;         ///< initial standard deviation of pitch and roll
-  double mounting_sigma_distance = 0.3;  ///< initial relative standard deviation of the height
-  double pitching_sigma_deg = 0.3;       ///< random walk of pitch and roll from image to image
-  double distance_drift = 0.005;         ///< relative random walk of the height
-  /// Random walk of pitch and roll after a plane that contradicts the filter.
-  double slope_sigma_deg = 2;
+  double mounting_sigma_deg = 5;  ///< initial standard deviation of pitch and roll
   void check() const;
 };
 void visit(OptionVisitor& field, DominantSurfaceOptions& options);

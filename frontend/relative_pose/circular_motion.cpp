@@ -82,6 +82,7 @@ struct Fit {
 /// Gauss-Newton over the yaw on the inliers.
 Fit refine(const Views& views, double yaw_rad, double threshold_px) {
   Fit fit;
+  // Iterations at most. Chosen.
   constexpr int kIterations = 8;
   for (int iteration = 0; iteration <= kIterations; ++iteration) {
     const EpipolarError error(views.camera, camera_motion(views, yaw_rad));
@@ -127,6 +128,7 @@ CircularMotionResult estimate_circular_motion(const Camera& camera,
     return result;
   }
   const Views views{camera, rays_of(camera, px_ref), rays_of(camera, px_cur), R_level_cam};
+  // Peaks of the histogram that are refined: the cost. Chosen.
   constexpr std::size_t kPeaks = 5;
   Fit best;
   best.score_px2 = options.threshold_px * options.threshold_px * n;

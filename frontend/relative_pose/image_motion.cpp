@@ -9,6 +9,7 @@ std::optional<ImageMotion> ImageMotion::estimate(const Camera& camera,
                                                  const std::vector<Eigen::Vector2d>& px_ref,
                                                  const std::vector<Eigen::Vector2d>& px_cur,
                                                  Random& random) {
+  // Share of inliers of a motion that is accepted. Chosen: a clear majority.
   constexpr double kLeastShare = 0.6;
   const RelativePose pose =
       estimate_relative_pose(camera, px_ref, px_cur, RelativePoseOptions(), random);

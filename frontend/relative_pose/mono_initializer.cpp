@@ -21,6 +21,7 @@ Hypothesis triangulate_all(const Camera& camera, const std::vector<Eigen::Vector
                            const std::vector<Eigen::Vector2d>& px_cur,
                            const std::vector<int>& inliers, const SE3& T_ref_cur,
                            double max_error_px) {
+  // Angle from which a point is triangulated. Chosen.
   constexpr double kMinParallaxRad = deg_to_rad(0.1);
   Hypothesis hypothesis{T_ref_cur, {}, {}, 0};
   hypothesis.points_ref.resize(px_ref.size());
@@ -94,6 +95,7 @@ MonoInitialization initialize_mono(const Camera& camera, const std::vector<Eigen
                                    options.ambiguity * hypotheses[0].parallaxes_rad.size()) {
     const auto first = judge_between(camera, hypotheses[0], between);
     const auto second = judge_between(camera, hypotheses[1], between);
+    // Ratio of the errors of two motions in views between that decides. Chosen.
     constexpr double kVerdict = 0.7;
     if (first && second && *second < kVerdict * *first) {
       best = &hypotheses[1];

@@ -89,6 +89,7 @@ void take_essential(const Views& views, const Pose2d2dResult& found,
   };
   // The inliers of a model from five points are biased; those of a model from all of them less so.
   SE3 T = ranked[0].second;
+  // Chosen.
   constexpr int kRounds = 3;
   for (int round = 0; round < kRounds; ++round) {
     T = refine(T, 1, nullptr);
@@ -119,6 +120,7 @@ void take_essential(const Views& views, const Pose2d2dResult& found,
 /// The inliers of a homography as one region, with the noise estimated from them.
 PlanarRegionsResult one_plane(const PointMatches& matches, const std::vector<int>& inliers,
                               HomographyFit& fit) {
+  // Iterations at most, and the least noise. Chosen.
   constexpr int kIterations = 20;
   constexpr double kLeastSigma_px = 0.1;
   PlanarRegionsResult regions;

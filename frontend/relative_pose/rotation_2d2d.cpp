@@ -45,6 +45,7 @@ struct Fit {
 Fit refine(const Rays& rays, const Matrix3d& start, const std::vector<int>& inliers) {
   Fit fit;
   fit.R_ref_cur = SO3(Eigen::Quaterniond(start));
+  // Iterations. Chosen.
   constexpr int kIterations = 3;
   for (int iteration = 0; iteration <= kIterations; ++iteration) {
     fit.normal.setZero();

@@ -11,6 +11,11 @@
 namespace placegraph {
 namespace {
 
+/// Exponent on a keyframe's probabilities, as errors of neighbours are correlated. Chosen.
+constexpr double kEvidenceExponent = 0.5;
+/// Number of keyframes before a kind is accepted. Chosen.
+constexpr int kMinEnvironmentViews = 3;
+
 void normalize(std::array<double, kEnvironmentCount>& shares) {
   const double sum = std::accumulate(shares.begin(), shares.end(), 0.0);
   for (double& share : shares) share /= sum;
@@ -96,6 +101,7 @@ EnvironmentModel train_environments(const std::vector<EnvironmentSample>& sample
   }
   // A kind without samples gets a negligible probability.
   for (std::size_t k = 0; k < kEnvironmentCount; ++k) model.bias[k] = count[k] > 0 ? 0 : -20;
+  // Steps of the descent and their rate. Chosen.
   constexpr int kSteps = 3000;
   constexpr double kRate = 0.5;
   for (int step = 0; step < kSteps; ++step) {
@@ -190,9 +196,9 @@ std::optional<Environment> EnvironmentFilter::add(
   const double change = (1 - options_.stay) / (kEnvironmentCount - 1);
   for (std::size_t k = 0; k < kEnvironmentCount; ++k)
     state_[k] = (change + (options_.stay - change) * state_[k]) *
-                std::pow(std::max(1e-3, probabilities[k]), options_.evidence);
+                std::pow(std::max(1e-3, probabilities[k]), kEvidenceExponent);
   normalize(state_);
-  if (++views_ < options_.min_views) return kind_;
+  if (++views_ < kMinEnvironmentViews) return kind_;
   if (kind_ && state_[static_cast<std::size_t>(*kind_)] < options_.leave) kind_.reset();
   const auto best = std::max_element(state_.begin(), state_.end());
   if (*best >= options_.enter) kind_ = static_cast<Environment>(best - state_.begin());

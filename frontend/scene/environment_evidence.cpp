@@ -55,6 +55,7 @@ void EnvironmentEvidence::see(const std::vector<LineSegment>& segments, const Ca
 }
 
 void EnvironmentEvidence::see(const std::vector<Eigen::Vector3d>& points_cam, bool metric) {
+  // Points with quantiles. Chosen.
   constexpr std::size_t kFewest = 20;
   std::vector<double> depth, side, above;
   for (const Eigen::Vector3d& p : points_cam) {

@@ -38,6 +38,7 @@ Horizon estimate_horizon(const std::vector<LineSegment>& segments, const Camera&
   const double most = std::sin(options.max_tilt_deg * kRadPerDeg);
   const double structure = std::pow(options.structure_deg * kRadPerDeg, 2);
   Tilts tilts;
+  // Iterations at most. Chosen.
   constexpr int kRounds = 15;
   for (int round = 0; round < kRounds; ++round) {
     Eigen::Matrix<double, 3, 2> basis;

@@ -8,6 +8,11 @@
 namespace placegraph {
 namespace {
 
+/// Longest sweep of an edge [image widths]. Chosen.
+constexpr double kMaxSweep = 0.6;
+/// Radius of the vote among neighbouring cells. Chosen.
+constexpr int kSmoothingCells = 2;
+
 /// Edges on a raster, a bit for each axis, and the search from a cell towards a vanishing point.
 class Sweeper {
  public:
@@ -19,7 +24,7 @@ class Sweeper {
   Sweeper(const std::vector<LineSegment>& segments, const std::vector<int>& axis,
           const Camera& camera, const SO3& R_cam_manhattan, const OrientationMapOptions& options)
       : cell_px_(options.cell_px),
-        reach_(options.max_sweep * camera.width / options.cell_px),
+        reach_(kMaxSweep * camera.width / options.cell_px),
         bits_(static_cast<int>(std::ceil(camera.height / options.cell_px)),
               static_cast<int>(std::ceil(camera.width / options.cell_px)), CV_8UC1, cv::Scalar(0)) {
     for (std::size_t i = 0; i < segments.size(); ++i)
@@ -154,7 +159,7 @@ OrientationMap compute_orientation_map(const std::vector<LineSegment>& segments,
       const auto s = support_of(sweeper, u, v, halfway);
       for (int c = 0; c < 3; ++c) support(v, u)[c] = static_cast<float>(s[c]);
     }
-  support = smoothed(support, options.smoothing_cells);
+  support = smoothed(support, kSmoothingCells);
   cv::Mat1b labels(support.size(), 0);
   cv::Mat1f confidence(support.size(), 0);
   for (int v = 0; v < support.rows; ++v)

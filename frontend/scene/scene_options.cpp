@@ -25,21 +25,17 @@ void EnvironmentFilterOptions::check() const {
 
 void visit(OptionVisitor& field, EnvironmentFilterOptions& o) {
   field("stay", o.stay, "probability that the next keyframe is in the same kind", {0.2, 1});
-  field("evidence", o.evidence,
-        "exponent on a keyframe's probabilities, as errors of neighbours are correlated", {0, 1});
   field("enter", o.enter, "probability from which a kind is accepted", {0, 1});
   field("leave", o.leave, "probability below which the accepted kind is dropped", {0, 1});
-  field("min_views", o.min_views, "number of keyframes before a kind is accepted", {1, 1000});
+  field.retired({{"evidence", 0.5}, {"min_views", 3}});
 }
 
 void visit(OptionVisitor& field, OrientationMapOptions& o) {
   field("cell_px", o.cell_px, "side of the cells of the raster that lines are swept over", {1, 64});
-  field("max_sweep", o.max_sweep, "longest sweep of an edge [image widths]", {0.01, 10});
   field("min_margin", o.min_margin,
         "minimum ratio of the support of the best to the second orientation", {1, 100});
   field("min_confidence", o.min_confidence, "pixels of less confidence get no orientation", {0, 1});
-  field("smoothing_cells", o.smoothing_cells,
-        "radius of the vote among neighbouring cells; 0: none", {0, 50});
+  field.retired({{"max_sweep", 0.6}, {"smoothing_cells", 2}});
 }
 
 }  // namespace placegraph

@@ -5,11 +5,9 @@ namespace [[gnu::visibility("default")]] placegraph {
 
 /// Orientations of surfaces in a single image by line sweeping (Lee, Hebert & Kanade 2009).
 struct OrientationMapOptions {
-  double cell_px = 3;      ///< side of the cells of the raster that lines are swept over
-  double max_sweep = 0.6;  ///< longest sweep of an edge [image widths]
-  double min_margin = 2;   ///< minimum ratio of the support of the best to the second orientation
+  double cell_px = 3;     ///< side of the cells of the raster that lines are swept over
+  double min_margin = 2;  ///< minimum ratio of the support of the best to the second orientation
   double min_confidence = 0.1;  ///< pixels of less confidence (0 to 1) get no orientation
-  int smoothing_cells = 2;      ///< radius of the vote among neighbouring cells; 0: none
   void check() const { check_ranges(*this); }
 };
 void visit(OptionVisitor& field, OrientationMapOptions& options);
@@ -34,11 +32,8 @@ void visit(OptionVisitor& field, SceneMaskOptions& options);
 /// Filter of the kind of environment over consecutive keyframes (hidden Markov model).
 struct EnvironmentFilterOptions {
   double stay = 0.97;  ///< probability that the next keyframe is in the same kind
-  /// Exponent on a keyframe's probabilities, as the errors of neighbours are correlated.
-  double evidence = 0.5;
   double enter = 0.8;  ///< probability from which a kind is accepted
   double leave = 0.4;  ///< probability below which the accepted kind is dropped
-  int min_views = 3;   ///< number of keyframes before a kind is accepted
   void check() const;
 };
 void visit(OptionVisitor& field, EnvironmentFilterOptions& options);

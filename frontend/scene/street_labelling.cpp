@@ -8,6 +8,15 @@
 namespace placegraph {
 namespace {
 
+/// Minimum disparity between a point and the surface behind it. Chosen.
+constexpr double kMinThroughDisparity_px = 2;
+/// Radius within which all depths must be farther. Chosen.
+constexpr int kThroughRadius_px = 2;
+
+/// Maximum distance of a disparity from its superpixel's plane [sigma]. Chosen: 99.7 %
+/// of a normal distribution lie within it.
+constexpr double kMaxPlaneResidual = 3;
+
 /// Every `step`-th pixel that has a depth up to `farthest`.
 std::vector<DepthSample> sample_depth(const Image& depth_m, const Camera& camera,
                                       const Superpixels& superpixels, int step, double farthest) {
@@ -51,9 +60,9 @@ StreetLabelling see_street(const Image& picture, const Image& depth_m, const Cam
   for (std::size_t i = 0; i < regions; ++i)
     ground[i] =
         seen.labels.surfaces[i * kSurfaceCount + static_cast<std::size_t>(Surface::kGround)];
-  seen.ground = fit_ground(samples, ground, camera_height_m, options.geometry);
-  const std::vector<RegionPlace> places = place_regions(
-      samples, seen.view.superpixels.count, camera, disparity_m_px, seen.ground, options.geometry);
+  seen.ground = fit_ground(samples, ground, camera_height_m);
+  const std::vector<RegionPlace> places =
+      place_regions(samples, seen.view.superpixels.count, camera, disparity_m_px, seen.ground);
   const std::size_t n = urban.classes.size();
   const bool known = seen.ground.outcome || camera_height_m > 0;
   seen.labels = join_urban(urban, seen.labels, seen.view,
@@ -76,7 +85,7 @@ StreetLabelling see_street(const Image& picture, const Image& depth_m, const Cam
     const Eigen::Vector3d p = sample.point.cast<double>();
     if (place.plane.isZero()) continue;  // too few depths around it for a reliable one
     const double off = disparity_m_px / p[2] * std::abs(1 - place.plane.dot(p));
-    if (off > options.max_residual * place.disparity_sigma_px) continue;
+    if (off > kMaxPlaneResidual * place.disparity_sigma_px) continue;
     SemanticPoint point;
     point.point = sample.point;
     point.sigma = static_cast<float>(p[2] * p[2] * place.disparity_sigma_px / disparity_m_px);
@@ -88,9 +97,7 @@ StreetLabelling see_street(const Image& picture, const Image& depth_m, const Cam
 }
 
 std::vector<bool> seen_through(const std::vector<SemanticPoint>& points, const SE3& T_other_cam,
-                               const Image& depth_m, const Camera& camera, double baseline_m,
-                               const SeenThroughOptions& options) {
-  options.check();
+                               const Image& depth_m, const Camera& camera, double baseline_m) {
   require(depth_m.type() == CV_32FC1 && depth_m.cols == camera.width &&
               depth_m.rows == camera.height && baseline_m > 0,
           "seen_through: needs a CV_32FC1 depth image of the camera's size, and a baseline");
@@ -101,11 +108,11 @@ std::vector<bool> seen_through(const std::vector<SemanticPoint>& points, const S
     if (p[2] < 0.5) continue;
     const int u = static_cast<int>(std::lround(camera.fx * p[0] / p[2] + camera.cx));
     const int v = static_cast<int>(std::lround(camera.fy * p[1] / p[2] + camera.cy));
-    const int r = options.radius_px;
+    const int r = kThroughRadius_px;
     if (u < r || v < r || u + r >= depth_m.cols || v + r >= depth_m.rows) continue;
     // Disparity error of the point in this image, from the uncertainty of the first one.
     const double sigma_px = static_cast<double>(points[i].sigma) * disparity_m_px / (p[2] * p[2]);
-    const double limit = disparity_m_px / p[2] - std::max(options.min_disparity_px, 3 * sigma_px);
+    const double limit = disparity_m_px / p[2] - std::max(kMinThroughDisparity_px, 3 * sigma_px);
     int seen = 0, farther = 0;
     for (int y = v - r; y <= v + r; ++y)
       for (int x = u - r; x <= u + r; ++x) {

@@ -35,7 +35,6 @@ StreetLabelling see_street(const Image& picture, const Image& depth_m, const Cam
 /// surface when the image was taken. `depth_m` as above, of that image; `T_other_cam` maps the
 /// points into its camera.
 std::vector<bool> seen_through(const std::vector<SemanticPoint>& points, const SE3& T_other_cam,
-                               const Image& depth_m, const Camera& camera, double baseline_m,
-                               const SeenThroughOptions& options = {});
+                               const Image& depth_m, const Camera& camera, double baseline_m);
 
 }  // namespace placegraph

@@ -11,6 +11,14 @@
 namespace placegraph {
 namespace {
 
+/// Minimum standard deviation of the disparity of one pixel. Chosen.
+constexpr double kDisparitySigma_px = 0.25;
+/// Unevenness of the ground at the camera. Chosen.
+constexpr double kGroundSigma_m = 0.03;
+/// Increase of that unevenness per metre of distance [m/m]. Chosen.
+constexpr double kGroundSigmaRate = 0.004;
+
+// Farther points bend the plane of the ground. Chosen.
 constexpr double kFarthestForPlane_m = 25;
 // In front of the camera is road; the ground beside it may be higher.
 constexpr double kHalfRoad_m = 3.5;
@@ -79,6 +87,7 @@ PlaneFit fit_plane(const std::vector<Eigen::Vector3d>& points, const std::vector
 /// Plane with the least median distance from the points, among many through three of them.
 PlaneFit search_plane(const std::vector<Eigen::Vector3d>& points, const std::vector<double>& sigmas,
                       Random& random) {
+  // Samples of three points, and the steepest ground [m/m]. Chosen.
   constexpr int kTries = 60;
   constexpr double kSteepest = 0.2;
   PlaneFit best;
@@ -113,14 +122,13 @@ double GroundProfile::height_of(const Eigen::Vector3d& point) const {
 }
 
 GroundProfile fit_ground(const std::vector<DepthSample>& samples,
-                         const std::vector<float>& ground_share, double camera_height_m,
-                         const UrbanGeometryOptions& options) {
+                         const std::vector<float>& ground_share, double camera_height_m) {
   GroundProfile profile;
   profile.camera_height_m = camera_height_m;
   std::vector<Eigen::Vector3d> points, all;
   std::vector<double> sigmas;
   const auto sigma_of = [&](const Eigen::Vector3d& p) {
-    return options.ground_sigma_m + options.ground_sigma_rate * p[2];
+    return kGroundSigma_m + kGroundSigmaRate * p[2];
   };
   for (const DepthSample& sample : samples) {
     if (ground_share[static_cast<std::size_t>(sample.superpixel)] < 0.5F) continue;
@@ -166,6 +174,7 @@ GroundProfile fit_ground(const std::vector<DepthSample>& samples,
   }
   double last = 0;
   for (const auto& bin : rises) {
+    // Points with a median. Chosen.
     constexpr std::size_t kEnough = 15;
     if (bin.size() >= kEnough) last = median_of(bin);
     profile.rise_m.push_back(last);
@@ -185,8 +194,7 @@ struct DisparityPlane {
 
 /// Reweighted least squares (Tukey) over the samples of a region.
 DisparityPlane fit_disparity(const std::vector<const DepthSample*>& samples,
-                             const std::vector<double>& depths, double disparity_m_px,
-                             const UrbanGeometryOptions& options) {
+                             const std::vector<double>& depths, double disparity_m_px) {
   DisparityPlane plane;
   // About the mean, for a good condition number; inverse depth is linear on a plane.
   for (const DepthSample* s : samples)
@@ -210,7 +218,7 @@ DisparityPlane fit_disparity(const std::vector<const DepthSample*>& samples,
           std::abs(disparity_m_px / depths[i] -
                    s.dot(Eigen::Vector3d(static_cast<double>(samples[i]->u) - middle[0],
                                          static_cast<double>(samples[i]->v) - middle[1], 1)));
-    plane.sigma_px = std::max(options.disparity_sigma_px, 1.48 * median_of(residuals));
+    plane.sigma_px = std::max(kDisparitySigma_px, 1.48 * median_of(residuals));
     for (std::size_t i = 0; i < samples.size(); ++i) {
       const double x = residuals[i] / (3 * plane.sigma_px);
       weights[i] = x < 1 ? std::pow(1 - x * x, 2) : 0;
@@ -222,8 +230,8 @@ DisparityPlane fit_disparity(const std::vector<const DepthSample*>& samples,
 
 /// Robust fit of the samples of one region.
 RegionPlace place_region(const std::vector<const DepthSample*>& samples, const Camera& camera,
-                         double disparity_m_px, const GroundProfile& ground,
-                         const UrbanGeometryOptions& options) {
+                         double disparity_m_px, const GroundProfile& ground) {
+  // Twice the unknowns of a plane.
   constexpr std::size_t kLeast = 6;
   RegionPlace place;
   place.samples = static_cast<int>(samples.size());
@@ -239,7 +247,7 @@ RegionPlace place_region(const std::vector<const DepthSample*>& samples, const C
                    heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 10),
                    heights.end());
   place.low_m = heights[heights.size() / 10];
-  const DisparityPlane fit = fit_disparity(samples, depths, disparity_m_px, options);
+  const DisparityPlane fit = fit_disparity(samples, depths, disparity_m_px);
   const Eigen::Vector3d &s = fit.coefficients, &middle = fit.middle;
   place.disparity_sigma_px = fit.sigma_px;
   // disparity = a u + b v + c  =>  1/z = (a fx x + b fy y + c') / fB with x, y normalized.
@@ -264,14 +272,13 @@ RegionPlace place_region(const std::vector<const DepthSample*>& samples, const C
 
 std::vector<RegionPlace> place_regions(const std::vector<DepthSample>& samples, int regions,
                                        const Camera& camera, double disparity_m_px,
-                                       const GroundProfile& ground,
-                                       const UrbanGeometryOptions& options) {
+                                       const GroundProfile& ground) {
   std::vector<std::vector<const DepthSample*>> of(static_cast<std::size_t>(regions));
   for (const DepthSample& sample : samples)
     of[static_cast<std::size_t>(sample.superpixel)].push_back(&sample);
   std::vector<RegionPlace> places;
   for (const auto& region : of)
-    places.push_back(place_region(region, camera, disparity_m_px, ground, options));
+    places.push_back(place_region(region, camera, disparity_m_px, ground));
   return places;
 }
 
@@ -284,11 +291,12 @@ std::vector<float> geometry_log_likelihoods(const std::vector<RegionPlace>& regi
   std::vector<ClassHeights> heights;
   for (std::size_t c = 0; c < n; ++c)
     heights.push_back(heights_of(model.classes[c], model.surfaces[c]));
+  // Heights over which an outlier is uniform. Chosen.
   constexpr double kHeightRange_m = 14, kFloorDensity = 1 / kHeightRange_m;
   for (std::size_t i = 0; i < regions.size(); ++i) {
     const RegionPlace& r = regions[i];
     if (r.plane.isZero()) continue;
-    const double sigma = std::hypot(options.ground_sigma_m, options.ground_sigma_rate * r.depth_m);
+    const double sigma = std::hypot(kGroundSigma_m, kGroundSigmaRate * r.depth_m);
     for (std::size_t c = 0; c < n; ++c) {
       const Surface surface = model.surfaces[c];
       double likelihood = 0;

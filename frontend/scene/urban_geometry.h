@@ -36,7 +36,7 @@ struct GroundProfile {
 /// probability of ground, by superpixel. `camera_height_m`: 0 if it is unknown.
 [[nodiscard]] GroundProfile fit_ground(const std::vector<DepthSample>& samples,
                                        const std::vector<float>& ground_share,
-                                       double camera_height_m, const UrbanGeometryOptions& options);
+                                       double camera_height_m);
 
 /// Position of a superpixel in space.
 struct RegionPlace {
@@ -54,8 +54,7 @@ struct RegionPlace {
 /// Computes the positions of all regions. `disparity_m_px`: focal length times baseline [m px].
 std::vector<RegionPlace> place_regions(const std::vector<DepthSample>& samples, int regions,
                                        const Camera& camera, double disparity_m_px,
-                                       const GroundProfile& ground,
-                                       const UrbanGeometryOptions& options);
+                                       const GroundProfile& ground);
 
 /// log P(height, normal | class) of each region, regions x classes.
 ///

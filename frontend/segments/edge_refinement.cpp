@@ -10,6 +10,18 @@
 namespace placegraph {
 namespace {
 
+/// Search distance for the edge on both sides of the segment. Chosen.
+constexpr int kEdgeReach_px = 3;
+/// Standard deviation of the blur before the gradient is taken. Chosen.
+constexpr double kEdgeBlur_px = 1;
+/// Minimum gradient of a point of the edge [grey levels / px]. Chosen.
+constexpr double kMinGradient = 2;
+/// Minimum share of the segment's samples at which the edge is found. Chosen: half.
+constexpr double kMinEdgeSupport = 0.5;
+/// Minimum standard deviation of a sample across the edge. Chosen.
+constexpr double kMinEdgeSigma_px = 0.03;
+
+// Two points determine a line; two more estimate its noise.
 constexpr int kLeastPoints = 4;
 
 /// The edge of one polarity nearest to the middle of a row of gradients across a segment: the
@@ -38,12 +50,10 @@ double distance(const ImageLine& line, const Eigen::Vector2d& px) {
 
 }  // namespace
 
-EdgeRefiner::EdgeRefiner(const Image& image, const EdgeRefinementOptions& options)
-    : options_(options) {
-  options_.check();
+EdgeRefiner::EdgeRefiner(const Image& image) {
   require(!image.empty() && image.type() == CV_8UC1, "EdgeRefiner: grey image needed");
   image.convertTo(smooth_, CV_32F);
-  cv::GaussianBlur(smooth_, smooth_, cv::Size(), options_.blur_px);
+  cv::GaussianBlur(smooth_, smooth_, cv::Size(), kEdgeBlur_px);
 }
 
 double EdgeRefiner::grey(const Eigen::Vector2d& px) const {
@@ -59,7 +69,7 @@ double EdgeRefiner::grey(const Eigen::Vector2d& px) const {
 /// The edge of the given polarity on every profile that has one.
 std::vector<EdgePoint> EdgeRefiner::edge_points(const LineSegment& segment, int sign) const {
   const Eigen::Vector2d normal = segment.normal();
-  const int reach = options_.reach_px, samples = static_cast<int>(segment.length());
+  const int reach = kEdgeReach_px, samples = static_cast<int>(segment.length());
   std::vector<EdgePoint> points;
   std::vector<double> profile(2 * reach + 3), gradient(2 * reach + 1);
   for (int s = 0; s < samples; ++s) {
@@ -68,7 +78,7 @@ std::vector<EdgePoint> EdgeRefiner::edge_points(const LineSegment& segment, int 
     if (p.x() < 1 || p.y() < 1 || p.x() > smooth_.cols - 2 || p.y() > smooth_.rows - 2) continue;
     for (int k = 0; k < 2 * reach + 3; ++k) profile[k] = grey(p + (k - reach - 1) * normal);
     for (int k = 0; k < 2 * reach + 1; ++k) gradient[k] = 0.5 * (profile[k + 2] - profile[k]);
-    if (const auto peak = nearest_peak(gradient, sign, options_.min_gradient))
+    if (const auto peak = nearest_peak(gradient, sign, kMinGradient))
       points.push_back(
           {p + (peak->position - reach) * normal, peak->gradient, share * segment.length()});
   }
@@ -86,11 +96,12 @@ std::optional<EdgeSegment> EdgeRefiner::fit(const std::vector<EdgePoint>& points
     gradients.push_back(std::abs(point.gradient));
   }
   std::optional<ImageLine> line = fit_line(kept, std::vector<double>(kept.size(), 1));
+  // Chosen.
   constexpr int kRounds = 3;
   for (int round = 0; line && round < kRounds; ++round) {
     std::vector<double> distances;
     for (const EdgePoint& point : points) distances.push_back(distance(*line, point.px));
-    const double sigma = std::max(options_.min_sigma_px, 1.4826 * median_of(distances));
+    const double sigma = std::max(kMinEdgeSigma_px, 1.4826 * median_of(distances));
     kept.clear();
     for (const EdgePoint& point : points)
       if (distance(*line, point.px) <= 2.5 * sigma) kept.push_back(point.px);
@@ -100,9 +111,9 @@ std::optional<EdgeSegment> EdgeRefiner::fit(const std::vector<EdgePoint>& points
   if (!line) return std::nullopt;
   double squared = 0;
   for (const Eigen::Vector2d& px : kept) squared += std::pow(distance(*line, px), 2);
-  const double variance = std::max(options_.min_sigma_px * options_.min_sigma_px,
-                                   squared / static_cast<double>(kept.size() - 2));
-  line->covariance *= variance * std::max(1.0, 2 * std::sqrt(std::numbers::pi) * options_.blur_px);
+  const double variance =
+      std::max(kMinEdgeSigma_px * kMinEdgeSigma_px, squared / static_cast<double>(kept.size() - 2));
+  line->covariance *= variance * std::max(1.0, 2 * std::sqrt(std::numbers::pi) * kEdgeBlur_px);
   return EdgeSegment{{}, *line, median_of(gradients), static_cast<int>(kept.size())};
 }
 
@@ -117,7 +128,7 @@ std::optional<EdgeSegment> EdgeRefiner::refine(const LineSegment& given) const {
   };
   const bool rotated = strength(dark) > strength(points);
   if (rotated) points = std::move(dark);
-  auto edge = fit(points, static_cast<int>(std::ceil(options_.min_support * samples)));
+  auto edge = fit(points, static_cast<int>(std::ceil(kMinEdgeSupport * samples)));
   if (!edge) return std::nullopt;
   edge->segment = {edge->line.foot(given.start), edge->line.foot(given.end)};
   if (rotated) std::swap(edge->segment.start, edge->segment.end);
@@ -130,7 +141,7 @@ std::optional<EdgeSegment> EdgeRefiner::follow(const LineSegment& expected,
   const Eigen::Vector2d beyond = growth.beyond_px * expected.direction();
   const LineSegment wide{expected.start - beyond, expected.end + beyond};
   const std::vector<EdgePoint> inside = edge_points(expected, 1);
-  const auto core = fit(inside, static_cast<int>(options_.min_support * expected.length() / 2));
+  const auto core = fit(inside, static_cast<int>(kMinEdgeSupport * expected.length() / 2));
   if (!core) return std::nullopt;
   // Further points belong to the edge if they fit the line of the middle part.
   const double gate = std::max(0.5, 3 * std::sqrt(core->line.covariance(1, 1)));
@@ -143,7 +154,7 @@ std::optional<EdgeSegment> EdgeRefiner::follow(const LineSegment& expected,
   }
   if (longest.size() < 2) return std::nullopt;
   const double length = longest.back().position - longest.front().position;
-  auto edge = fit(longest, static_cast<int>(std::ceil(options_.min_support * length)));
+  auto edge = fit(longest, static_cast<int>(std::ceil(kMinEdgeSupport * length)));
   if (!edge) return std::nullopt;
   edge->segment = {edge->line.foot(longest.front().px), edge->line.foot(longest.back().px)};
   return edge;

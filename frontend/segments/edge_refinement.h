@@ -26,11 +26,11 @@ struct EdgePoint {
 class EdgeRefiner {
  public:
   /// Prepares the gradient of an image (CV_8UC1, else ArgumentError).
-  EdgeRefiner(const Image& image, const EdgeRefinementOptions& options);
+  explicit EdgeRefiner(const Image& image);
 
   /// Refines a segment; its ends are the feet of the given ones on the line.
   ///
-  /// Nothing if an edge of one polarity is found at less than `min_support` of the samples.
+  /// Nothing if an edge of one polarity is found at less than half of the samples.
   std::optional<EdgeSegment> refine(const LineSegment& segment) const;
   /// Refines an edge from another image with its brighter side on the right of `expected`.
   ///
@@ -43,7 +43,6 @@ class EdgeRefiner {
   std::optional<EdgeSegment> fit(const std::vector<EdgePoint>& points, int least) const;
   double grey(const Eigen::Vector2d& px) const;
 
-  EdgeRefinementOptions options_;
   Image smooth_;
 };
 

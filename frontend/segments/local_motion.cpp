@@ -36,6 +36,7 @@ double distance_between(const LineSegment& a, const LineSegment& b) {
 /// Iteratively reweighted least squares with a weak prior on the linear part.
 Row solve_robust(const std::vector<Equation>& equations, int groups, const Eigen::Matrix2d& prior,
                  double prior_weight, std::vector<double>& group_weight) {
+  // Iterations at most. Chosen.
   constexpr int kRounds = 6;
   constexpr double kScalePx = 2;  // Cauchy
   Row x;

@@ -31,9 +31,9 @@ std::vector<EdgeSegment> detect_segments(const Image& image,
                                          const SegmentDetectorOptions& options) {
   options.check();
   require(!image.empty() && image.type() == CV_8UC1, "detect_segments: grey image needed");
-  const EdgeRefiner refiner(image, options.refinement);
+  const EdgeRefiner refiner(image);
   std::vector<EdgeSegment> edges;
-  for (const LineSegment& piece : merge_segments(find_pieces(image), options.merging)) {
+  for (const LineSegment& piece : merge_segments(find_pieces(image))) {
     if (piece.length() < options.min_length_px || on_border(piece, image, options.border_px))
       continue;
     if (auto edge = refiner.refine(piece))

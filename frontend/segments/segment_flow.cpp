@@ -8,6 +8,13 @@
 namespace placegraph {
 namespace {
 
+/// Half the width of the strip. Chosen.
+constexpr int kStrip_px = 7;
+/// Maximum number of Gauss-Newton iterations on each level. Chosen.
+constexpr int kFlowIterations = 8;
+/// Width of the Huber kernel on residuals [grey levels of 255]. Chosen.
+constexpr double kRobustGrey = 12;
+
 /// The grid of samples of one level.
 struct Grid {
   int columns = 0, half_width = 0;
@@ -48,15 +55,15 @@ std::vector<Sample> sample_strip(const LineProfileImage& image, const LineSegmen
 
 /// Aligns one level; false if there is too little gradient.
 bool align_level(const LineProfileImage& from, const LineSegment& segment,
-                 const LineProfileImage& to, const LineSegment& expected, int level,
-                 const SegmentFlowOptions& options, double& shift, double& lean) {
+                 const LineProfileImage& to, const LineSegment& expected, int level, double& shift,
+                 double& lean) {
   Grid grid;
   grid.step_px = 1 << level;
-  grid.half_width = options.strip_px;
+  grid.half_width = kStrip_px;
   grid.columns = std::clamp(static_cast<int>(segment.length() / (2 * grid.step_px)), 4, 24);
   const std::vector<Sample> samples = sample_strip(from, segment, grid, level);
   double gain = 1, bias = 0;
-  for (int iteration = 0; iteration < options.iterations; ++iteration) {
+  for (int iteration = 0; iteration < kFlowIterations; ++iteration) {
     const LineSegment now = moved(expected, shift, lean);
     if (now.length() < 1) return false;
     const Eigen::Vector2d across = grid.step_px * now.normal();
@@ -73,7 +80,7 @@ bool align_level(const LineProfileImage& from, const LineSegment& segment,
       const double slope = 0.5 * (gradient + gain * s.gradient_from);
       const double residual = grey - gain * s.grey_from - bias;
       const double size = std::abs(residual);
-      const double weight = size > options.robust_grey ? options.robust_grey / size : 1;
+      const double weight = size > kRobustGrey ? kRobustGrey / size : 1;
       const Eigen::Vector4d J(slope, slope * s.u, -s.grey_from, -1);
       H.noalias() += weight * J * J.transpose();
       g.noalias() += weight * residual * J;
@@ -97,19 +104,19 @@ bool align_level(const LineProfileImage& from, const LineSegment& segment,
 
 std::optional<SegmentFlow> follow_segment(const LineProfileImage& from, const LineSegment& segment,
                                           const LineProfileImage& to, const LineSegment& expected,
-                                          int coarsest, const SegmentFlowOptions& options) {
+                                          int coarsest) {
   if (segment.length() < 4 || expected.length() < 4) return std::nullopt;
   double shift = 0, lean = 0;
   for (int level = std::min(coarsest, to.level_of(1 << coarsest)); level >= 0; --level)
-    if (!align_level(from, segment, to, expected, level, options, shift, lean)) return std::nullopt;
+    if (!align_level(from, segment, to, expected, level, shift, lean)) return std::nullopt;
   const double angle = std::abs(std::atan2(2 * lean, expected.length()));
-  if (angle > deg_to_rad(options.max_rotation_deg)) return std::nullopt;
+  if (angle > deg_to_rad(kMaxSegmentRotation_deg)) return std::nullopt;
   SegmentFlow flow;
   flow.segment = moved(expected, shift, lean);
   flow.shift_px = shift;
-  flow.similar = compare_strips(from, {segment.start, segment.end, segment.normal()}, to,
-                                {flow.segment.start, flow.segment.end, flow.segment.normal()},
-                                options.strip_px);
+  flow.similar =
+      compare_strips(from, {segment.start, segment.end, segment.normal()}, to,
+                     {flow.segment.start, flow.segment.end, flow.segment.normal()}, kStrip_px);
   return flow;
 }
 

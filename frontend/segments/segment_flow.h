@@ -7,6 +7,9 @@
 
 namespace placegraph {
 
+/// Maximum rotation of a segment from its predicted direction. Chosen.
+inline constexpr double kMaxSegmentRotation_deg = 15;
+
 /// A segment tracked into a second image.
 struct SegmentFlow {
   LineSegment segment;  ///< in the second image; its ends correspond as the expected ones do
@@ -24,6 +27,6 @@ struct SegmentFlow {
 /// of `expected` [px].
 std::optional<SegmentFlow> follow_segment(const LineProfileImage& from, const LineSegment& segment,
                                           const LineProfileImage& to, const LineSegment& expected,
-                                          int coarsest, const SegmentFlowOptions& options);
+                                          int coarsest);
 
 }  // namespace placegraph

@@ -16,6 +16,7 @@ constexpr double kOneSidePenalty = 0.1;  // least advantage of a match on one si
 constexpr double kDistanceCost = 0.3;    // reduction of the score at the edge of the gate
 constexpr double kDoubtCost = 0.005;     // per px by which the gate is wider than gate_px
 constexpr double kPartCost = 0.1;        // if only a small part of the longer segment is shared
+// Widest gate, margin of the border, and angle and distance of pieces of one edge. Chosen.
 constexpr double kMaxGatePx = 40;
 constexpr double kBorderPx = 3.5;
 constexpr double kOnePieceAngleRad = 0.07, kOnePiecePx = 2.5;
@@ -72,6 +73,7 @@ struct Overlap {
 double position_along(const LineSegment& b, const Eigen::Vector2d& px_a,
                       const Eigen::Vector2d& expected, const Eigen::Matrix3d& F_b_a,
                       double gate_px) {
+  // 20 degrees: nearer to the epipolar line the crossing is not determined. Chosen.
   constexpr double kLeastSine = 0.35;
   const double foot = b.position_of(expected);
   const Eigen::Vector3d epipolar = F_b_a * px_a.homogeneous();

@@ -9,6 +9,11 @@
 namespace placegraph {
 namespace {
 
+/// Maximum angle between pieces of one edge. Chosen.
+constexpr double kMaxPieceAngle_deg = 2;
+/// Maximum gap between pieces, along the line. Chosen; as for tracked edges.
+constexpr double kMaxPieceGap_px = 10;
+
 /// A piece with quantities by which most pairs are rejected quickly.
 struct Piece {
   LineSegment segment;
@@ -16,14 +21,13 @@ struct Piece {
   double half_length = 0;
 };
 
-bool joined(const Piece& a, const Piece& b, double least_cosine,
-            const SegmentMergingOptions& options) {
+bool joined(const Piece& a, const Piece& b, double least_cosine) {
   if (a.direction.dot(b.direction) < least_cosine) return false;
-  const double reach = a.half_length + b.half_length + options.max_gap_px + options.max_distance_px;
+  const double reach = a.half_length + b.half_length + kMaxPieceGap_px + kMaxEdgeDistance_px;
   if ((a.middle - b.middle).squaredNorm() > reach * reach) return false;
   const Collinearity lie = collinearity(a.segment, b.segment);
-  return lie.gap_px <= options.max_gap_px && lie.distance_px <= options.max_distance_px &&
-         lie.angle_rad <= deg_to_rad(options.max_angle_deg);
+  return lie.gap_px <= kMaxPieceGap_px && lie.distance_px <= kMaxEdgeDistance_px &&
+         lie.angle_rad <= deg_to_rad(kMaxPieceAngle_deg);
 }
 
 /// One segment over all pieces; nothing if an end is too far from the common line.
@@ -51,18 +55,16 @@ std::optional<LineSegment> common(const std::vector<LineSegment>& pieces, double
 
 }  // namespace
 
-std::vector<LineSegment> merge_segments(const std::vector<LineSegment>& pieces,
-                                        const SegmentMergingOptions& options) {
-  options.check();
+std::vector<LineSegment> merge_segments(const std::vector<LineSegment>& pieces) {
   const int n = static_cast<int>(pieces.size());
   std::vector<Piece> known;
   for (const LineSegment& piece : pieces)
     known.push_back({piece, piece.direction(), piece.middle(), 0.5 * piece.length()});
-  const double least_cosine = std::cos(deg_to_rad(options.max_angle_deg)) - 1e-9;
+  const double least_cosine = std::cos(deg_to_rad(kMaxPieceAngle_deg)) - 1e-9;
   DisjointSets sets(pieces.size());
   for (int i = 0; i < n; ++i)
     for (int j = i + 1; j < n; ++j)
-      if (joined(known[i], known[j], least_cosine, options)) sets.join(i, j);
+      if (joined(known[i], known[j], least_cosine)) sets.join(i, j);
   const std::vector<int> number = sets.numbers();
   std::vector<std::vector<LineSegment>> edges;
   for (int i = 0; i < n; ++i) {
@@ -72,7 +74,7 @@ std::vector<LineSegment> merge_segments(const std::vector<LineSegment>& pieces,
   std::vector<LineSegment> merged;
   for (const std::vector<LineSegment>& edge : edges) {
     const auto whole =
-        edge.size() > 1 ? common(edge, options.max_distance_px) : std::optional<LineSegment>();
+        edge.size() > 1 ? common(edge, kMaxEdgeDistance_px) : std::optional<LineSegment>();
     if (whole)
       merged.push_back(*whole);
     else

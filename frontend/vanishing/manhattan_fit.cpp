@@ -80,6 +80,7 @@ Eigen::Vector3d observed_rotation(const Eigen::Matrix3d& A, const Eigen::Vector3
     if (eigen.eigenvalues()[k] > kLeast)
       rotation += eigen.eigenvectors().col(k) *
                   (eigen.eigenvectors().col(k).dot(b) / eigen.eigenvalues()[k]);
+  // Longest step [rad]. Chosen.
   constexpr double kMaxRotation = 0.2;
   const double norm = rotation.norm();
   return norm > kMaxRotation ? Eigen::Vector3d(rotation * (kMaxRotation / norm)) : rotation;
@@ -97,6 +98,7 @@ void assign(const VanishingEvidence& evidence, double widen_rad, ManhattanFit& f
   const double total = std::max(evidence.total_weight(), 1e-9);
   std::array<double, 4> share{0.4, 0.2, 0.2, 0.2};  // none, then the axes
   for (double& part : share) part *= total;
+  // Chosen.
   constexpr int kRounds = 2;
   for (int round = 0; round <= kRounds; ++round) {
     std::array<double, 3> bonus{}, gain{};

@@ -10,6 +10,9 @@
 namespace placegraph {
 namespace {
 
+/// Minimum log odds, from the angles between the axes, that they are orthogonal. Chosen.
+constexpr double kMinOrthogonality = 1;
+
 /// Directions of a fit nearer than this are the same.
 constexpr double kSameRad = 5 * kRadPerDeg;
 
@@ -59,6 +62,7 @@ class Candidates {
       for (const int line : longest) {
         if (points_.labels[static_cast<std::size_t>(line)] == static_cast<int>(p)) continue;
         const Eigen::Vector3d v2 = direction(p).cross(evidence_.normal(line));
+        // Three degrees: nearer directions determine no axis. Chosen.
         constexpr double kLeastSine = 0.05;
         if (v2.norm() < kLeastSine) continue;
         add(v2.normalized());
@@ -221,6 +225,7 @@ std::vector<ManhattanFrame> find_manhattan_frames(const VanishingEvidence& evide
                                                   const VanishingPoints& points,
                                                   const ManhattanOptions& options) {
   options.check();
+  // Points and lines that make candidates, and candidates that are fitted: the cost. Chosen.
   constexpr std::size_t kPoints = 3, kLines = 60, kFits = 5;
   constexpr double kWidenRad = 1.5 * kRadPerDeg;
   Candidates candidates(evidence, points);
@@ -237,7 +242,7 @@ std::vector<ManhattanFrame> find_manhattan_frames(const VanishingEvidence& evide
   for (const ManhattanFit& fit : fits) {
     if (seen(fit, 0, options) + seen(fit, 1, options) + seen(fit, 2, options) < 2) continue;
     const double log_odds = right_angle_log_odds(evidence, fit, options);
-    if (log_odds < options.min_orthogonality || !shows_more(evidence, fit, points, taken, options))
+    if (log_odds < kMinOrthogonality || !shows_more(evidence, fit, points, taken, options))
       continue;
     ManhattanFrame frame = frame_of(fit, SO3());
     if (frame.rank < 3) continue;

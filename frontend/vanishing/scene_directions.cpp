@@ -10,6 +10,11 @@
 namespace placegraph {
 namespace {
 
+/// Deviation of further vanishing points from right angles to an axis. Chosen.
+constexpr double kOffRight_deg = 2;
+/// Prior share of further vanishing points in any direction. Chosen.
+constexpr double kFreeShare = 0.25;
+
 constexpr double kSame = 0.9962;  ///< cosine of 5 degrees: axes nearer than that are one
 
 /// Axis `a` of a frame from its own lines, constrained to the frame's axis with the accuracy of the
@@ -85,10 +90,10 @@ bool is_axis(const std::vector<int>& labels, int point, const std::vector<Manhat
 
 /// Axes of all frames, one that two frames share once, with their roles.
 std::pair<DirectionPrior, std::vector<PointRole>> prior_of(
-    const std::vector<ManhattanFrame>& frames, const SceneDirectionOptions& options) {
+    const std::vector<ManhattanFrame>& frames) {
   DirectionPrior prior;
-  prior.sigma_rad = options.off_right_deg * kRadPerDeg;
-  prior.free_share = options.free_share;
+  prior.sigma_rad = kOffRight_deg * kRadPerDeg;
+  prior.free_share = kFreeShare;
   std::vector<PointRole> roles;
   for (std::size_t f = 0; f < frames.size(); ++f)
     for (int a = 0; a < 3; ++a) {
@@ -118,7 +123,7 @@ SceneDirections find_scene_directions(const std::vector<LineSegment>& segments,
   std::vector<FittedDirection> directions;
   for (const auto& axis : axes) directions.push_back(axis.second);
   VanishingModel model(evidence, options.points.point_cost, options.points.min_segments);
-  const auto [prior, roles_across] = prior_of(scene.frames, options);
+  const auto [prior, roles_across] = prior_of(scene.frames);
   model = model.with_all(directions);
   model.expect(prior);
   // Other points, as far as the axes have left lines for them.

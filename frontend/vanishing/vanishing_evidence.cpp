@@ -50,6 +50,7 @@ VanishingEvidence::VanishingEvidence(const std::vector<LineSegment>& segments, c
 }
 
 void VanishingEvidence::weigh_collinear() {
+  // Collinear segments are one edge in pieces. Chosen.
   constexpr double kMaxAngle = 0.7 * kRadPerDeg, kMaxDistancePx = 2;
   const double max_distance = kMaxDistancePx / focal_px_;
   const int n = size();

@@ -33,9 +33,7 @@ void visit(OptionVisitor& field, ManhattanOptions& options) {
         {2, 1e6});
   field("min_evidence", options.min_evidence,
         "minimum evidence of each of the two best axes [nats]", {0, 1e6});
-  field("min_orthogonality", options.min_orthogonality,
-        "minimum log odds, from the angles between the axes, that they are orthogonal",
-        {-100, 100});
+  field.retired({{"min_orthogonality", 1}});
 }
 
 void SceneDirectionOptions::check() const { check_ranges(*this); }
@@ -43,10 +41,7 @@ void SceneDirectionOptions::check() const { check_ranges(*this); }
 void visit(OptionVisitor& field, SceneDirectionOptions& options) {
   field.group("points", options.points, "vanishing points");
   field.group("manhattan", options.manhattan, "Manhattan frames");
-  field("off_right_deg", options.off_right_deg,
-        "deviation of further vanishing points from right angles to an axis [deg]", {0.01, 45});
-  field("free_share", options.free_share,
-        "prior share of further vanishing points in any direction", {0.01, 1});
+  field.retired({{"off_right_deg", 2}, {"free_share", 0.25}});
 }
 
 }  // namespace placegraph

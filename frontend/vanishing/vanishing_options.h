@@ -32,8 +32,6 @@ struct ManhattanOptions {
   double orthogonality_deg = 1;
   int min_segments = 4;     ///< minimum number of segments of an observed axis
   double min_evidence = 8;  ///< minimum evidence of each of the two best axes [nats]
-  /// Minimum log odds, from the angles between the axes, that they are orthogonal.
-  double min_orthogonality = 1;
   void check() const { check_ranges(*this); }
 };
 void visit(OptionVisitor& field, ManhattanOptions& options);
@@ -42,9 +40,6 @@ void visit(OptionVisitor& field, ManhattanOptions& options);
 struct SceneDirectionOptions {
   VanishingPointOptions points;  ///< the vanishing points
   ManhattanOptions manhattan;    ///< the Manhattan frames
-  /// Standard deviation of further vanishing points from right angles to an axis.
-  double off_right_deg = 2;
-  double free_share = 0.25;  ///< prior share of further vanishing points in any direction
   void check() const;
 };
 void visit(OptionVisitor& field, SceneDirectionOptions& options);

@@ -80,6 +80,7 @@ std::vector<Eigen::Vector3d> VanishingSearch::best(const Eigen::ArrayXf& present
 }
 
 void VanishingSearch::grow(VanishingModel& model, int max_directions) {
+  // Directions that are tried: the cost. Chosen.
   constexpr int kTrials = 3;
   bool fresh = false;
   while (model.size() < max_directions) {

@@ -5,7 +5,11 @@
 #include <cmath>
 #include <utility>
 
-namespace placegraph::internal {
+namespace placegraph {
+
+void OptionVisitor::retired(const std::vector<RetiredOption>&, const char*) {}
+
+namespace internal {
 namespace {
 
 /// The shortest text that reads back as the same number, in YAML's spelling.
@@ -92,6 +96,16 @@ void OptionCollector::choice_index(const char* key, int& index,
   add(key, known ? names[index] : std::to_string(index), doc, "choice", {}, names);
 }
 
+void OptionCollector::retired(const std::vector<RetiredOption>& keys, const char* group) {
+  for (const RetiredOption& each : keys) {
+    const std::string key = group == nullptr ? each.key : std::string(group) + "." + each.key;
+    OptionEntry& entry = retired_entries.emplace_back();
+    entry.path = join(prefix_, key.c_str());
+    entry.value = to_text(each.value);
+    entry.type = "double";
+  }
+}
+
 void OptionCollector::begin_group(const char* key, const char* doc) {
   add(key, "", doc, "group");
   levels_.push_back(entries.back().level);
@@ -130,4 +144,5 @@ void OptionCollector::check_range(const char* key, double value, Range range) co
                       to_text(range.min) + ", " + to_text(range.max) + "]");
 }
 
-}  // namespace placegraph::internal
+}  // namespace internal
+}  // namespace placegraph

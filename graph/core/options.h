@@ -22,6 +22,12 @@ enum class OptionLevel {
   kInternal   ///< developers: constants of an algorithm
 };
 
+/// A key that became a constant: files of earlier versions may hold it.
+struct RetiredOption {
+  const char* key;  ///< last word of its path
+  double value;     ///< the constant's value
+};
+
 /// Visits the fields of an options struct.
 /// From this one protocol come strict YAML reading, `placegraph config`, `--set a.b.c=v`, range
 /// checks and docs/options.md.
@@ -34,6 +40,7 @@ enum class OptionLevel {
 ///       field.group("ransac", o.ransac, "outlier rejection");              // nested options
 ///       field.basic()("enabled", o.enabled, "whether points are tracked"); // for everybody
 ///       field.formerly("sigma")("sigma_px", o.sigma_px, "noise [px]");     // had another key
+///       field.retired({{"blur_px", 1}});                                   // is a constant now
 ///     }
 class OptionVisitor {
  public:
@@ -49,6 +56,10 @@ class OptionVisitor {
     marks_.former_key = key;
     return *this;
   }
+
+  /// Names keys that are constants now; `group`, if not null, was the group around them.
+  /// Files and `--set` may still hold them; their values are not used.
+  virtual void retired(const std::vector<RetiredOption>& keys, const char* group = nullptr);
 
   /// A switch: YAML's true or false.
   virtual void operator()(const char* key, bool& value, const char* doc) = 0;
@@ -142,7 +153,9 @@ class OptionCollector : public OptionVisitor {
   void operator()(const char* key, std::string& value, const char* doc) override;
   void operator()(const char* key, std::vector<double>& value, const char* doc,
                   Range range) override;
+  void retired(const std::vector<RetiredOption>& keys, const char* group = nullptr) override;
   std::vector<OptionEntry> entries;
+  std::vector<OptionEntry> retired_entries;  ///< paths, values and types alone
 
  protected:
   void choice_index(const char* key, int& index, const std::vector<std::string>& names,
@@ -169,6 +182,15 @@ std::vector<OptionEntry> list_options(const Options& options) {
   Options copy = options;
   visit(collector, copy);
   return collector.entries;
+}
+
+/// Keys that files of earlier versions may hold and that are constants now: paths and values.
+template <class Options>
+std::vector<OptionEntry> list_retired_options(const Options& options) {
+  internal::OptionCollector collector(false);
+  Options copy = options;
+  visit(collector, copy);
+  return collector.retired_entries;
 }
 
 /// Throws ArgumentError naming the first field that is NaN or outside its range.

@@ -37,6 +37,7 @@ template <class Model, class Solve, class SquaredError, class Refine>
 RansacResult<Model> ransac(int n, int sample_size, double threshold_squared,
                            const RansacOptions& options, Random& random, Solve&& solve,
                            SquaredError&& squared_error, Refine&& refine) {
+  // Rounds of refinement at most. Chosen.
   constexpr int kRefinements = 4;
   RansacResult<Model> best;
   best.score = threshold_squared * n;

@@ -9,6 +9,7 @@
 namespace placegraph {
 namespace {
 
+// 0.2 ms and 10 s (docs/datasets.md). Chosen.
 constexpr double kLeastSpacing_s = 2e-4, kGreatestSpacing_s = 10;
 /// Frames of cameras, poses of motion capture: from 500 Hz to one in 2 s.
 constexpr double kLikelyLeast_s = 2e-3, kLikelyGreatest_s = 2;
@@ -46,6 +47,7 @@ std::string odd_spacing(const std::vector<std::int64_t>& stamps_ns, const std::s
 }
 
 std::string irregular_spacing(const std::vector<std::int64_t>& stamps_ns) {
+  // Gaps of five median distances; a fifth of the distances off by a fifth. Chosen.
   constexpr double kGap = 5, kDeviation = 0.2, kShare = 0.2;
   const double median_s = median_spacing_s(stamps_ns);
   if (!(median_s > 0)) return {};

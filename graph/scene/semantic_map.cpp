@@ -9,6 +9,7 @@
 namespace placegraph {
 namespace {
 
+// Least share of a class: none is impossible. Chosen.
 constexpr float kLeastShare = 1e-3F;
 constexpr int kBits = 21, kMiddle = 1 << (kBits - 1);  // coordinates in a cell's key
 
@@ -200,6 +201,7 @@ TopView top_view(const SemanticMap& map, double standing_m) {
     const SemanticCell& cell = map.cells[i];
     if (!cell.label) continue;
     const Column& column = columns[{cell.at[0], cell.at[2]}];
+    // Weight of what stands over that of the ground below. Chosen.
     constexpr float kEnough = 0.25F;
     const bool standing =
         column.standing.weight > 0 && column.standing.weight >= kEnough * column.ground.weight;

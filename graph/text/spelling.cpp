@@ -24,6 +24,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 std::vector<std::string> similar_spellings(std::string_view word,
                                            const std::vector<std::string>& candidates) {
+  // Largest distance of a suggestion, and number of them. Chosen.
   constexpr std::size_t kLargest = 3, kMost = 3;
   std::vector<std::pair<std::size_t, std::string>> near;
   for (const std::string& candidate : candidates) {

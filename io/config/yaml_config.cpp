@@ -119,12 +119,17 @@ class AssigningVisitor : public OptionVisitor {
     take(key, [&](const YAML::Node& node, const Fail& fail) { assign(node, value, range, fail); });
   }
 
-  /// Lines about old spellings that were used.
+  /// Lines about old spellings and retired keys that were used.
   std::vector<std::string> notes;
 
  protected:
   void note_spelling(const std::string& place, const std::string& former, const std::string& path) {
     notes.push_back(fmt::format("{}'{}' is an old spelling of '{}'", place, former, path));
+  }
+
+  void note_retired(const std::string& place, const std::string& path, double value) {
+    notes.push_back(fmt::format("{}'{}' is a constant now, {}; the value here is not used", place,
+                                path, value));
   }
 
   using Assign = std::function<void(const YAML::Node&, const Fail&)>;
@@ -149,6 +154,22 @@ class OptionsFile::Reader : public AssigningVisitor {
   void finish() {
     leave();
     if (unknown_) throw *unknown_;
+  }
+
+  void retired(const std::vector<RetiredOption>& keys, const char* group) override {
+    if (group != nullptr) {
+      const YAML::Node value = find(group, nullptr);
+      prefix_.emplace_back(group);
+      enter(value.IsDefined() ? value : YAML::Node());
+    }
+    for (const RetiredOption& each : keys) {
+      levels_.back().former.emplace_back(each.key);
+      const YAML::Node value = value_of(each.key);
+      if (value.IsDefined())
+        note_retired(fmt::format("{}:{}: ", document_.path(), yaml_line(value)),
+                     joined(prefix_, each.key), each.value);
+    }
+    if (group != nullptr) end_group();
   }
 
  private:
@@ -263,6 +284,16 @@ class OptionAssignment::Setter : public AssigningVisitor {
     } catch (const YAML::Exception& error) {
       fail("the value is not YAML: " + error.msg);
     }
+  }
+
+  void retired(const std::vector<RetiredOption>& keys, const char* group) override {
+    if (group != nullptr) begin_group(group, "");
+    for (const RetiredOption& each : keys) {
+      if (!is_spelled(each.key, nullptr, prefix_.size() + 1)) continue;
+      note_retired("--set ", key_, each.value);
+      assigned_ = true;
+    }
+    if (group != nullptr) end_group();
   }
 
   void finish(const std::vector<OptionEntry>& known) const {

@@ -47,7 +47,8 @@ class OptionAssignment {
 ///
 /// Throws FileError for an unknown or duplicate key, a wrong type, NaN, or a value out of range, as
 /// in "configs/kitti.yaml:12: frontend.flow.level: unknown key"; `options` is untouched then.
-/// Each former spelling of a key is named to `log` with its present one, as a warning.
+/// Each former spelling of a key is named to `log` with its present one, as a warning, and each
+/// key that is a constant now with its value.
 /// Relations between fields are not checked: call `options.check()` once everything is set.
 template <class Options>
 void read_options(const std::string& path, Options& options, const LogSink& log = {}) {

@@ -20,6 +20,7 @@ namespace placegraph {
 namespace fs = std::filesystem;
 namespace {
 
+// 0.2 s (docs/datasets.md). Chosen.
 constexpr double kMaxTruthGap_s = 0.2;
 
 fs::path mav_folder(const std::string& folder) {

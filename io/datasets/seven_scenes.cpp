@@ -14,6 +14,7 @@ namespace placegraph {
 namespace fs = std::filesystem;
 namespace {
 
+// The Kinect's rate; the files have no times.
 constexpr double kRateHz = 30;
 const std::string kPrefix = "frame-";
 
@@ -72,6 +73,7 @@ CalibrationYaml read_calibration(const fs::path& folder, const Image& first,
       read_calibration_yaml((at / "calibration.yaml").string(), yaml);
       return yaml;
     }
+  // Those of docs/datasets.md.
   constexpr double kColourFocal = 525, kDepthFocal = 585, kWidth = 640;
   const double scale = first.cols / kWidth;
   yaml.width = yaml.depth.width = first.cols;

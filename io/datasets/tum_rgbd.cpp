@@ -15,6 +15,7 @@ namespace placegraph {
 namespace fs = std::filesystem;
 namespace {
 
+// That of TUM's associate.py, 0.02 s; 0.2 s without truth (docs/datasets.md); TUM's depth unit.
 constexpr double kMaxDepthDelay_s = 0.02;
 constexpr double kMaxTruthGap_s = 0.2;
 constexpr double kDepthUnit_m = 1.0 / 5000;

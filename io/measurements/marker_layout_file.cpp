@@ -58,6 +58,7 @@ bool read_marker(const YamlDocument& yaml, const YAML::Node& node, PlacedMarker&
       position(yaml, yaml.member(node, "position"), yaml.member(node, "position"));
   const std::vector<double> q = yaml.numbers(node, "quaternion", 4);
   const Eigen::Quaterniond quaternion(q[0], q[1], q[2], q[3]);
+  // Rounding of a text of three decimals.
   constexpr double kUnitTolerance = 1e-3;
   if (std::abs(quaternion.norm() - 1) > kUnitTolerance)
     yaml.fail(node["quaternion"],

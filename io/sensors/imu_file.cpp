@@ -21,6 +21,7 @@ void read_sensor(const fs::path& path, ImuRecording& recording) {
   const YamlDocument yaml(path.string());
   if (!yaml.root().IsMap()) yaml.fail(yaml.root(), "is not the sensor.yaml of an inertial sensor");
   const SE3 T_body_imu = read_T_body_sensor(yaml);
+  // Rounding of a text. Chosen.
   constexpr double kSame = 1e-6;
   if (T_body_imu.log().norm() > kSame)
     yaml.fail(yaml.root()["T_BS"],

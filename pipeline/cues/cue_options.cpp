@@ -16,13 +16,12 @@ void visit(OptionVisitor& field, GroundPlaneScaleOptions& o) {
         "initial standard deviation of the camera's pitch and roll [deg]", {0.01, 45});
   field("pitching_sigma_deg", o.pitching_sigma_deg,
         "standard deviation of one frame's pitch and roll about their mean [deg]", {0.01, 45});
-  field.internal()("mounting_drift_deg", o.mounting_drift_deg,
-                   "random walk of mean pitch and roll per measurement [deg]", {0, 10});
   field.internal()("level_sigma_deg", o.level_sigma_deg,
                    "standard deviation of a level floor's normal, beyond that of the edges [deg]",
                    {0.001, 45});
   field("min_baseline_heights", o.min_baseline_heights,
         "minimum translation between the two frames, in camera heights", {0.01, 10});
+  field.retired({{"mounting_drift_deg", 0.03}});
 }
 
 void FloorLineScaleOptions::check() const { check_ranges(*this); }
@@ -31,12 +30,10 @@ void visit(OptionVisitor& field, FloorLineScaleOptions& o) {
   field.internal().group("floor", o.floor, "selection of the lines on the floor");
   field("sigma_relative", o.sigma_relative,
         "relative standard deviation of one height, beyond that of its lines", {0, 1});
-  field.internal()("max_log_jump", o.max_log_jump,
-                   "maximum distance of a used scale from the median of the last five (logarithm)",
-                   {0.01, 5});
   field.internal()("max_sigma_at_first", o.max_sigma_at_first,
                    "maximum relative standard deviation of the height for the first scale",
                    {0.001, 1});
+  field.retired({{"max_log_jump", 0.12}});
 }
 
 void LineCueOptions::check() const { check_ranges(*this); }
@@ -65,17 +62,14 @@ void visit(OptionVisitor& field, LineCueOptions& o) {
 }
 
 void visit(OptionVisitor& field, ManhattanFrameOptions& o) {
-  field("sigma_floor_deg", o.sigma_floor_deg,
-        "standard deviation of one frame's directions, beyond its lines' noise [deg]", {1e-3, 10});
   field("correlation", o.correlation, "number of neighbouring keyframes that count as one",
         {1, 1000});
-  field("sigma_drift_deg", o.sigma_drift_deg,
-        "standard deviation in a new keyframe, beyond the window's covariance [deg]", {1e-3, 10});
   field("persistence", o.persistence,
         "keyframes of the window that must observe a new Manhattan frame", {1, 1000});
   field.formerly("max_worlds")("max_count", o.max_count,
                                "maximum number; the one unobserved for longest is removed",
                                {1, 100});
+  field.retired({{"sigma_floor_deg", 0.1}, {"sigma_drift_deg", 1}});
 }
 
 void ManhattanCueOptions::check() const { check_ranges(*this); }
@@ -124,20 +118,13 @@ void visit(OptionVisitor& field, DirectCueOptions& o) {
   field("max_planes", o.max_planes, "maximum number of planes aligned at once", {1, 50});
   field("min_plane_share", o.min_plane_share, "minimum share of the depths that support a plane",
         {0, 1});
-  field.internal()("evenness_distance", o.evenness_distance,
-                   "minimum relative standard deviation of a plane's distance", {0, 1});
-  field.internal()("evenness_deg", o.evenness_deg,
-                   "minimum standard deviation of a plane's normal [deg]", {0, 45});
-  field.internal()("nodding_deg", o.nodding_deg,
-                   "standard deviation of pitch and roll about their mean; monocular [deg]",
-                   {0, 45});
-  field.internal()("sigma_height", o.sigma_height,
-                   "relative standard deviation of the camera height; monocular", {1e-4, 1});
   field("keyframe_share", o.keyframe_share,
         "share of the samples in view or inlying below which a keyframe is created", {0, 1});
-  field.internal()("max_disagreement", o.max_disagreement,
-                   "maximum difference of forward and backward motion, in standard deviations",
-                   {0.1, 1000});
+  field.retired({{"evenness_distance", 0.005},
+                 {"evenness_deg", 0.1},
+                 {"nodding_deg", 0.4},
+                 {"sigma_height", 0.01},
+                 {"max_disagreement", 5}});
 }
 
 }  // namespace placegraph

@@ -21,7 +21,6 @@ struct GroundPlaneScaleOptions {
   double mounting_sigma_deg = 3;  ///< initial standard deviation of the camera's pitch and roll
   /// Standard deviation of pitch and roll in one frame about their mean (vehicle pitching).
   double pitching_sigma_deg = 0.5;
-  double mounting_drift_deg = 0.03;  ///< random walk of the mean from one measurement to the next
   /// Standard deviation of the normal of a floor that is level according to edges, added to that of
   /// the edges.
   double level_sigma_deg = 0.03;
@@ -37,9 +36,6 @@ struct FloorLineScaleOptions {
   FloorFromLinesOptions floor;  ///< selection of the lines on the floor
   /// Relative standard deviation of one height: uneven floor, camera bobbing.
   double sigma_relative = 0.01;
-  /// Maximum distance of a scale from the median of the last five (in logarithm); scales with a
-  /// larger distance are not used.
-  double max_log_jump = 0.12;
   /// Maximum relative standard deviation of the height that provides the first scale.
   double max_sigma_at_first = 0.04;
   void check() const;
@@ -75,9 +71,6 @@ struct PointCueOptions {
   PointTrackerOptions tracker;  ///< points followed from frame to frame
   Pose3d2dOptions pose;         ///< pose of a frame from landmarks
   double outlier_px = 4;        ///< reprojection error [px] above which a landmark is removed
-  /// A landmark whose reprojection errors over at least three keyframes exceed both limits (root
-  /// mean square per coordinate, in pixels and in standard deviations) is removed with its track.
-  double misfit_px = 0.4, misfit_sigmas = 1.5;
   /// Masks from semantic labels are ignored if they would leave fewer tracks than this.
   int min_unmasked_tracks = 150;
   /// Minimum angle between the rays of two keyframes to triangulate a landmark.
@@ -88,17 +81,10 @@ struct PointCueOptions {
 ///
 /// A Manhattan frame consists of three orthogonal directions that many edges of the scene share.
 struct ManhattanFrameOptions {
-  /// Standard deviation of the directions in one keyframe in addition to the noise of its lines:
-  /// the scene is not exactly rectangular, lines are assigned to wrong axes, the lens is distorted.
-  double sigma_floor_deg = 0.1;
   /// Number of neighbouring keyframes that count as one, because they observe the same lines and
   /// their errors are correlated. In front of a blank wall the rotation from points is less
   /// accurate than its covariance states, so a large number does harm.
   double correlation = 1;
-  /// Standard deviation of a Manhattan frame observed from a new keyframe, in addition to the
-  /// covariance of the window: rotations drift by more than the noise of the points explains.
-  /// Frames that differ by less than about three of these are treated as one.
-  double sigma_drift_deg = 1;
   int persistence = 3;  ///< keyframes of the window that must observe a new Manhattan frame
   /// Maximum number of stored frames; the one unobserved for longest is removed.
   int max_count = 4;
@@ -109,7 +95,7 @@ void visit(OptionVisitor& field, ManhattanFrameOptions& options);
 /// Rotation from the directions of Manhattan frames.
 struct ManhattanCueOptions {
   /// Detection of straight edges.
-  SegmentDetectorOptions segments{.min_length_px = 20, .merging = {}, .refinement = {}};
+  SegmentDetectorOptions segments{.min_length_px = 20};
   SceneDirectionOptions directions;  ///< detection of vanishing points and Manhattan frames
   ManhattanFrameOptions frames;      ///< tracking of Manhattan frames in the sliding window
   int max_width_px = 800;    ///< image width above which images are halved before edge detection
@@ -150,17 +136,9 @@ struct DirectCueOptions {
   int depths = 800;           ///< number of depths measured over the whole image to find planes
   int max_planes = 5;  ///< maximum number of planes aligned at once, in addition to the ground
   double min_plane_share = 0.06;  ///< minimum share of the depths that support a plane
-  /// Minimum relative standard deviation of a plane's distance: surfaces are uneven.
-  double evenness_distance = 0.005;
-  double evenness_deg = 0.1;  ///< minimum standard deviation of a plane's normal
-  /// Standard deviation of a vehicle's pitch and roll about their mean; monocular.
-  double nodding_deg = 0.4;
-  double sigma_height = 0.01;  ///< relative standard deviation of the camera height; monocular
   /// A keyframe is created when the share of samples in view, or of inliers among them, falls below
   /// this value.
   double keyframe_share = 0.6;
-  /// Maximum difference of forward and backward motion, in standard deviations.
-  double max_disagreement = 5;
   void check() const;
 };
 void visit(OptionVisitor& field, DirectCueOptions& options);

@@ -11,6 +11,17 @@
 namespace placegraph {
 namespace {
 
+/// Minimum relative standard deviation of a plane's distance: surfaces are uneven. Chosen.
+constexpr double kEvennessDistance = 0.005;
+/// Minimum standard deviation of a plane's normal. Chosen.
+constexpr double kEvenness_deg = 0.1;
+/// Standard deviation of a vehicle's pitch and roll about their mean; monocular. Chosen.
+constexpr double kNodding_deg = 0.4;
+/// Relative standard deviation of the camera height; monocular. Chosen.
+constexpr double kSigmaHeight = 0.01;
+/// Maximum difference of forward and backward motion, in standard deviations. Chosen.
+constexpr double kMaxDisagreement = 5;
+
 using Eigen::Matrix3d;
 using Eigen::Vector2f;
 using Eigen::Vector3d;
@@ -68,13 +79,13 @@ void DirectCue::see(const Frame& frame) {
 
 DirectMotion DirectCue::align(const MotionGuess& guess) const {
   if (!has_reference()) return no_reference();
-  return align_motion(reference_, pyramid_, guess.T_ref_cur, guess, options_.align);
+  return align_motion(reference_, pyramid_, guess.T_ref_cur, guess);
 }
 
 DirectMotion DirectCue::search(const MotionGuess& guess, const Vector6d& sigmas) const {
   if (!has_reference()) return no_reference();
   const SE3 start = search_motion(reference_, pyramid_, guess.T_ref_cur, sigmas, options_.align);
-  return align_motion(reference_, pyramid_, start, guess, options_.align);
+  return align_motion(reference_, pyramid_, start, guess);
 }
 
 int DirectCue::grid_step(int count) const {
@@ -111,8 +122,7 @@ SurfacePatch DirectCue::patch(const Vector3d& g, const Matrix3d& covariance,
                               std::vector<Vector2f> px, double reach_px) const {
   SurfacePatch patch;
   patch.g_ref = g;
-  patch.g_covariance =
-      covariance + covariance_of(g, options_.evenness_deg * kRadPerDeg, options_.evenness_distance);
+  patch.g_covariance = covariance + covariance_of(g, kEvenness_deg * kRadPerDeg, kEvennessDistance);
   patch.support_px = std::move(px);
   patch.reach_px = reach_px;
   return patch;
@@ -121,6 +131,7 @@ SurfacePatch DirectCue::patch(const Vector3d& g, const Matrix3d& covariance,
 /// Ground for a stereo camera of unknown height: the plane below that contains most depths of the
 /// lower image.
 void DirectCue::find_ground(const RectificationError& rectification, Random& random) {
+  // A ground that is tilted by more, 23 degrees, is none. Chosen.
   constexpr double kMostTilt_rad = 0.4;
   const Camera& camera = calibration_.camera;
   std::vector<Vector2f> px;
@@ -155,10 +166,10 @@ std::vector<SurfacePatch> DirectCue::ground(const SE3& T_last_cur,
   if (mono_) {
     const Vector3d g = mounting_ / *calibration_.camera_height_m;
     const double sigma_rad =
-        std::hypot(std::sqrt(mounting_variance_rad2_), options_.nodding_deg * kRadPerDeg);
+        std::hypot(std::sqrt(mounting_variance_rad2_), kNodding_deg * kRadPerDeg);
     std::vector<Vector2f> px = ground_->pixels_of(SurfaceRegion::kAhead, mask_of_ground());
     const double reach = 0.5 * step_of(px);
-    return {patch(g, covariance_of(g, sigma_rad, options_.sigma_height), std::move(px), reach)};
+    return {patch(g, covariance_of(g, sigma_rad, kSigmaHeight), std::move(px), reach)};
   }
   SurfaceAppearance appearance = ground_->update(
       [&](const std::vector<Vector2f>& px, const std::vector<double>& expected) {
@@ -226,7 +237,7 @@ void DirectCue::refine(std::vector<SurfacePatch>& patches,
   const DirectReference reference(pyramid_, calibration_.camera, patches, options_.align);
   const DirectMotion seen =
       align_motion(reference, grey_pyramid(frame_.right, options_.align.levels),
-                   left_to_right.T_ref_cur, left_to_right, options_.align);
+                   left_to_right.T_ref_cur, left_to_right);
   if (!seen.outcome) return;
   // The rectification error is itself a plane of disparities.
   const double px_per_inverse = calibration_.camera.fx * calibration_.baseline_m;
@@ -243,6 +254,7 @@ bool DirectCue::become_reference(const SE3& T_last_cur, const RectificationError
                                  const std::vector<KnownPixel>& landmarks, Random& random) {
   std::vector<SurfacePatch> patches = ground(T_last_cur, rectification, random);
   if (several_ || patches.empty()) {
+    // Pixels around a landmark that have its depth. Chosen, as the distance of tracked points.
     constexpr double kAroundLandmark_px = 10;
     auto others =
         mono_ ? planes(landmarks, kAroundLandmark_px, random)
@@ -282,8 +294,7 @@ bool DirectCue::become_reference(const SE3& T_last_cur, const RectificationError
 DirectMotion DirectCue::confirm(const DirectMotion& forward) const {
   if (!has_reference() || last_pyramid_.empty()) return forward;
   const MotionGuess guess{forward.T_ref_cur.inverse()};
-  const DirectMotion back =
-      align_motion(reference_, last_pyramid_, guess.T_ref_cur, guess, options_.align);
+  const DirectMotion back = align_motion(reference_, last_pyramid_, guess.T_ref_cur, guess);
   if (!back.outcome) return forward;
   const SE3 T_ref_cur = back.T_ref_cur.inverse();
   const Matrix6d A = back.T_ref_cur.adjoint();
@@ -291,7 +302,7 @@ DirectMotion DirectCue::confirm(const DirectMotion& forward) const {
   const Vector6d off = (forward.T_ref_cur.inverse() * T_ref_cur).log();
   DirectMotion both = forward;
   const double chi2 = off.dot((forward.covariance + covariance).ldlt().solve(off));
-  if (!(chi2 < 6 * options_.max_disagreement * options_.max_disagreement)) {
+  if (!(chi2 < 6 * kMaxDisagreement * kMaxDisagreement)) {
     both.outcome =
         Outcome::failure(Outcome::Code::kInconsistent,
                          "forward and backward motion differ, chi2 " + std::to_string(chi2));
@@ -314,10 +325,11 @@ DirectMotion DirectCue::confirm(const DirectMotion& forward) const {
 void DirectCue::learn(const DirectMotion& motion) {
   if (!mono_ || !motion.outcome || motion.planes.empty() || !ground_) return;
   const auto& seen = motion.planes.front();
-  const double nodding = std::pow(options_.nodding_deg * kRadPerDeg, 2);
+  const double nodding = std::pow(kNodding_deg * kRadPerDeg, 2);
   const double before = mounting_variance_rad2_ + nodding;
   const double gain = mounting_variance_rad2_ / before;
   const double after = std::pow(sigma_normal_rad(seen.g_ref, seen.g_covariance), 2);
+  // Random walk of the mounting from keyframe to keyframe. Chosen.
   constexpr double kDrift_rad = 5e-4;
   mounting_ = (mounting_ + gain * (seen.g_ref.normalized() - mounting_)).normalized();
   mounting_variance_rad2_ += kDrift_rad * kDrift_rad - gain * gain * std::max(0.0, before - after);

@@ -9,6 +9,11 @@
 namespace placegraph {
 namespace {
 
+/// Standard deviation of one frame's directions, beyond its lines' noise (docs/cues.md). Chosen.
+constexpr double kDirectionFloor_deg = 0.1;
+/// Standard deviation in a new keyframe, beyond the window's covariance (docs/cues.md). Chosen.
+constexpr double kDirectionDrift_deg = 1;
+
 /// Squared distance between two rotations in standard deviations.
 double frame_chi2(const SO3& a, const SO3& b, const Eigen::Matrix3d& covariance) {
   const Eigen::Vector3d e = (a.inverse() * b).log();
@@ -24,7 +29,7 @@ double frame_gate() {
 }  // namespace
 
 Eigen::Matrix3d ManhattanFrames::honest(const Eigen::Matrix3d& covariance) const {
-  const double floor_rad = options_.sigma_floor_deg * kRadPerDeg;
+  const double floor_rad = kDirectionFloor_deg * kRadPerDeg;
   return covariance + floor_rad * floor_rad * Eigen::Matrix3d::Identity();
 }
 
@@ -35,7 +40,7 @@ std::vector<ManhattanFrames::Expected> ManhattanFrames::expected(const SlidingWi
     if (covariance_.contains(manhattan_frame)) order.emplace_back(seen, manhattan_frame);
   std::sort(order.rbegin(), order.rend());
   const SO3 R_cam_map = window.pose(keyframe).rotation().inverse();
-  const double drift_rad = options_.sigma_drift_deg * kRadPerDeg;
+  const double drift_rad = kDirectionDrift_deg * kRadPerDeg;
   std::vector<Expected> result;
   for (const auto& [seen, manhattan_frame] : order)
     result.push_back(
@@ -99,6 +104,7 @@ std::optional<ManhattanFrameId> ManhattanFrames::begin_manhattan_frame(const Can
   candidates_ = std::move(others);
   forget_one(window);
   if (!window.manhattan_frame(kMapAxes)) {
+    // Chosen: far below any measurement of a direction, so that the axes are held.
     constexpr double kExactRad = 1e-4;
     window.add_manhattan_frame(kMapAxes, SO3());
     add_manhattan_observation(window, {oldest, kMapAxes, window.pose(oldest).rotation().inverse(),

@@ -18,6 +18,7 @@ struct KnownDepth {
 /// that have one; `otherwise` if fewer are known.
 inline double depth_nearby(const std::vector<KnownDepth>& known, const Eigen::Vector2f& px,
                            double otherwise) {
+  // Chosen: the median of three survives one outlier.
   constexpr std::size_t kNeighbours = 3;
   if (known.size() < kNeighbours) return otherwise;
   std::array<std::pair<float, double>, kNeighbours> nearest;  // squared distance, depth

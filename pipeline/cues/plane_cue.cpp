@@ -49,6 +49,7 @@ std::vector<Eigen::Vector3d> thinned(const std::vector<Eigen::Vector3d>& points,
 /// The share of the points of the smaller set that are within the larger one.
 double overlap(const std::vector<Eigen::Vector3d>& points_cam,
                const std::vector<Eigen::Vector3d>& others_cam) {
+  // Points of a set that are compared: the cost. Chosen.
   constexpr std::size_t kSamples = 150;
   const auto share = [](const std::vector<Eigen::Vector3d>& a,
                         const std::vector<Eigen::Vector3d>& b) {
@@ -252,6 +253,8 @@ std::vector<std::optional<PlaneId>> PlaneCue::add(KeyframeId keyframe,
 }
 
 void PlaneCue::prune(SlidingWindow& window) {
+  // Deviation of an observation that does not fit, and the number of them with which a landmark
+  // remains. Chosen.
   constexpr double kSigmas = 4;
   constexpr int kMostMisfits = 2;
   if (window.keyframes().empty()) return;

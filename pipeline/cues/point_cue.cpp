@@ -13,6 +13,9 @@
 namespace placegraph {
 namespace {
 
+/// RMS errors that remove a landmark and its track if both are exceeded. Chosen.
+constexpr double kMisfit_px = 0.4, kMisfitSigmas = 1.5;
+
 void add_observation(KeyframeId keyframe, LandmarkId landmark, const Eigen::Vector2d& px,
                      const Eigen::Matrix2d& covariance_px,
                      const std::optional<MeasuredInverseDepth>& depth, SlidingWindow& window) {
@@ -83,6 +86,7 @@ std::vector<Eigen::Vector2f> PointCue::predict(const SlidingWindow& window, cons
 Eigen::Vector2d PointCue::corrected_px(const Eigen::Vector2d& px, const Vector6d& twist,
                                        const std::optional<Eigen::Vector3d>& p_cam) const {
   if (!errors_.any()) return px;
+  // Depth of a track without a point: its displacement by translation vanishes. Chosen.
   constexpr double kFar_m = 1e3;
   const auto ray = camera_.unproject(px);
   if (p_cam && p_cam->z() > 0) return px - errors_.displacement_px(camera_, px, *p_cam, twist);
@@ -109,6 +113,8 @@ std::vector<Eigen::Vector2d> PointCue::corrected_px(const SlidingWindow& window,
 PointCue::TrackedPose PointCue::follow(const Image& image, const SlidingWindow& window,
                                        const SE3& T_odom_last, const SE3& T_odom_expected,
                                        bool velocity_known, double median_depth, Random& random) {
+  // Share of the landmarks that are inliers, and median error of the prediction, with which a
+  // search near the predictions suffices. Chosen.
   constexpr double kEnough = 0.5, kNear_px = 4;
   const PointTracker before = tracker_;
   const auto predicted = predict(window, T_odom_last, T_odom_expected, median_depth);
@@ -330,9 +336,8 @@ bool PointCue::contradicts_itself(LandmarkId landmark, const SlidingWindow& wind
     sum_sigmas += sigmas->squaredNorm() / 2;
     ++views;
   }
-  const double most_px = options_.misfit_px, most_sigmas = options_.misfit_sigmas;
-  return views > 2 && sum_px > most_px * most_px * views &&
-         sum_sigmas > most_sigmas * most_sigmas * views;
+  return views > 2 && sum_px > kMisfit_px * kMisfit_px * views &&
+         sum_sigmas > kMisfitSigmas * kMisfitSigmas * views;
 }
 
 std::vector<double> PointCue::prune(SlidingWindow& window, KeyframeId newest) {
@@ -370,6 +375,7 @@ std::vector<std::pair<LandmarkId, Eigen::Vector2d>> PointCue::landmark_pixels(
 
 std::vector<KnownPixel> PointCue::landmark_depths(const SlidingWindow& window,
                                                   KeyframeId keyframe) const {
+  // Relative standard deviation of a landmark's depth. Chosen.
   constexpr double kSigmaShare = 0.03;
   const SE3 T_cam_odom = window.pose(keyframe).inverse();
   std::vector<KnownPixel> known;

@@ -26,6 +26,7 @@ SurfaceLabels SurfaceLabeller::label(const Frame& frame, bool masks) const {
 }
 
 std::pair<std::vector<LineSegment>, Camera> edges_of(const Image& grey, const Camera& camera) {
+  // Wider images are halved: the cost. Chosen.
   constexpr int kMostWidth = 640;
   Image image = grey;
   Camera of = camera;

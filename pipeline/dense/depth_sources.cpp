@@ -76,6 +76,7 @@ class SensorDepth final : public DepthFromImages {
 class StereoDepth final : public DepthFromImages {
  public:
   StereoDepth(PosedImages images, const DepthRange& range) : DepthFromImages(std::move(images)) {
+    // OpenCV needs multiples of 16; the range is bounded by the cost. Chosen.
     constexpr int kStep = 16, kFewest = 32, kMost = 256;
     const double nearest = 2 * calibration().camera.fx * calibration().baseline_m / range.near;
     const double steps = std::ceil(std::clamp(nearest, 1.0 * kFewest, 1.0 * kMost) / kStep);
@@ -109,6 +110,7 @@ class SweepDepth final : public DepthFromImages {
     constexpr double kNearest_m = 0.1, kFarthest_m = 1000;  // a hundredth and 100 of the median
     options_.min_depth_m = std::max(0.5 * range.near / unit(), kNearest_m);
     options_.max_depth_m = std::min(2 * range.far / unit(), kFarthest_m);
+    // Larger images are halved: the cost of the sweep. Chosen.
     constexpr int kMostPixels = 150'000;
     int width = calibration().camera.width, height = calibration().camera.height;
     while (width * height > kMostPixels) width /= 2, height /= 2;

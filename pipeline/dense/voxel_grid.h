@@ -34,6 +34,7 @@ class VoxelGrid {
   double side() const { return side_; }
   /// The cube that contains a point. Throws ArgumentError for one that is too far away.
   VoxelIndex at(const Eigen::Vector3d& point) const {
+    // Half the range of std::int32_t.
     constexpr double kFarthest = 1 << 30;
     VoxelIndex index{};
     for (int i = 0; i < 3; ++i) {

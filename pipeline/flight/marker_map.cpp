@@ -3,6 +3,7 @@
 namespace placegraph {
 
 NodeId marker_node(int id) {
+  // Above the numbers of keyframes, which are those of frames. Chosen.
   constexpr std::int64_t kFirst = 1'000'000'000;
   return NodeId(kFirst + id);
 }

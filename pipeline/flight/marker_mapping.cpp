@@ -80,6 +80,7 @@ std::vector<Chosen> choose(const std::vector<MarkerFrame>& frames, const std::ve
     // Mirrored poses are far apart where the choice matters: odometry drift does not change it.
     const SE3 off =
         nearer->T_cam_marker.inverse() * frames[view.frame].T_odom_cam.inverse() * T_odom_marker;
+    // 20 degrees. Chosen between drift and the distance of mirrored poses.
     constexpr double kMisled_rad = 0.35;
     if (off.rotation().log().norm() < kMisled_rad) chosen.push_back({view.frame, *nearer});
   }

@@ -58,6 +58,7 @@ std::vector<ExpectedSquare> MarkerSensor::expected_squares(const BodyState& expe
 
 /// Whether any beacon may be in the image or just beyond its edge.
 bool MarkerSensor::beacons_in_view(const BodyState& expected) const {
+  // Margin for the error of the expected pose. Chosen.
   constexpr double kEdge_px = 40;
   const SE3 T_cam_world = (expected.T_world_body * T_body_cam_).inverse();
   return std::any_of(beacons_world_.begin(), beacons_world_.end(), [&](const Vector3d& beacon) {

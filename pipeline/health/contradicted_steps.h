@@ -26,6 +26,8 @@ class ContradictedSteps {
   void visit_state(auto& archive) { archive(row_, found_); }
 
  private:
+  // Steps in a row that are reported (docs/datasets.md). Chosen by the faults of group "fixed"
+  // (tests/faults/README.md).
   static constexpr int kSteps = 3;
   struct Row {
     FrameId first, last;

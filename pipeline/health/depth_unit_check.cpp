@@ -7,7 +7,9 @@
 namespace placegraph {
 
 void DepthUnitCheck::add(const Frame& frame) {
+  // Chosen: one image in ten and one pixel in 64 give the median at little cost.
   constexpr int kFramesAnImage = 10, kStepPx = 8;
+  // Distances of an image with a median. Chosen.
   constexpr std::size_t kFewest = 100;
   if (frame.depth.empty() || frames_++ % kFramesAnImage != 0) return;
   std::vector<float> distances;
@@ -21,7 +23,10 @@ void DepthUnitCheck::add(const Frame& frame) {
 }
 
 std::optional<DataNote> DepthUnitCheck::note() const {
+  // Images that are judged. Chosen.
   constexpr std::size_t kFewest = 3;
+  // Depth cameras measure from about 0.3 to 10 m (docs/datasets.md). Chosen by the faults of group
+  // "fixed" (tests/faults/README.md).
   constexpr double kNearest_m = 0.4, kFarthest_m = 8;
   if (medians_m_.size() < kFewest) return std::nullopt;
   const double median_m = median_of(medians_m_);

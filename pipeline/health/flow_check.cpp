@@ -69,6 +69,7 @@ std::optional<double> distance_to_half_line(const Camera& camera, const SE3& T_r
 FlowCheck::FlowCheck(const Calibration& calibration) : camera_(calibration.camera) {}
 
 void FlowCheck::add(const Frame& frame, const std::optional<SE3>& T_map_cam) {
+  // Motion over two frames is compared, once in four frames. Chosen: the cost.
   constexpr int kFramesAPair = 4, kFramesBetween = 2;
   ++frames_since_pair_;
   if (frames_since_pair_ == kFramesAPair - kFramesBetween) {
@@ -84,7 +85,10 @@ void FlowCheck::add(const Frame& frame, const std::optional<SE3>& T_map_cam) {
 
 std::optional<double> FlowCheck::share_contradicting(const Frame& frame,
                                                      const SE3& T_map_cam) const {
+  // Displacements that are judged. Chosen.
   constexpr std::size_t kFewest = 20;
+  // Displacement that contradicts the motion, the larger of both. Chosen by the faults of group
+  // "fixed" (tests/faults/README.md).
   constexpr double kLeast_rad = 0.008, kLeast_px = 2.5;
   const SE3 T_ref_cur = T_map_before_->inverse() * T_map_cam;
   const double scale = std::max(1.0, static_cast<double>(frame.image.cols) / kWidth_px);

@@ -9,9 +9,13 @@
 namespace placegraph {
 namespace {
 
+// Grey levels that an image spans at least, and share of white pixels (docs/datasets.md). Chosen by
+// the faults of group "fixed" (tests/faults/README.md).
 constexpr double kBlankRange = 30, kOverexposedShare = 0.4;
 // Sharp recordings have a detail of 0.13 to 0.4, slight motion blur reaches 0.1.
 constexpr double kBlurredDetail = 0.09, kNoisyDetail = 0.6;
+// Relative step of the mean grey level between two images. Chosen by the faults of group "fixed"
+// (tests/faults/README.md).
 constexpr double kBrightnessStep = 0.2;
 
 }  // namespace
@@ -35,6 +39,8 @@ void ImageQuality::count(Defect defect, FrameId frame) {
 
 /// Images of which far more has one grey level than is usual in the recording.
 ImageQuality::Count ImageQuality::covered() const {
+  // Share of pixels with one grey level: half, and well above the median of the run. Chosen by the
+  // faults of group "fixed" (tests/faults/README.md).
   constexpr double kShare = 0.5, kMoreThanUsual = 0.3;
   std::vector<double> shares;
   for (const auto& [frame, share] : uniform_) shares.push_back(share);
@@ -47,6 +53,8 @@ ImageQuality::Count ImageQuality::covered() const {
 }
 
 bool ImageQuality::frequent(const Count& count) const {
+  // Odd images that are reported: more than two and 3 %. Chosen by the faults of group "fixed"
+  // (tests/faults/README.md).
   constexpr int kFew = 2;
   constexpr double kShare = 0.03;
   return count.images > kFew && count.images > kShare * frames_;

@@ -7,6 +7,7 @@
 namespace placegraph {
 namespace {
 
+// Every fifth row; detail compares differences over 2 and 8 pixels. Chosen.
 constexpr int kRowStep = 5, kNear = 2, kFar = 8, kSmallest = 16;
 
 using Histogram = std::array<std::int64_t, 256>;
@@ -45,6 +46,7 @@ double ratio(std::int64_t near, std::int64_t far) {
 }  // namespace
 
 ImageStatistics image_statistics(const Image& image) {
+  // Share of the darkest and of the brightest pixels outside of the range. Chosen.
   constexpr double kTail = 0.02;
   constexpr int kLongest = 1 << 14;
   ImageStatistics statistics;

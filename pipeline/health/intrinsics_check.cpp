@@ -126,6 +126,8 @@ IntrinsicsCheck::Estimate IntrinsicsCheck::estimate() const {
 }
 
 std::vector<DataNote> IntrinsicsCheck::notes() const {
+  // Deviations that are reported (docs/datasets.md); windows that contradict each other by twice
+  // theirs, whose squares are 4. Chosen by the faults of group "fixed" (tests/faults/README.md).
   constexpr double kSigmas = 2.8, kMostDispersion = 4;
   constexpr std::size_t kFewest = 3;  // windows that can contradict each other
   std::vector<DataNote> notes;

@@ -35,6 +35,8 @@ Rotations rotations_of(const Trajectory& trajectory) {
 }
 
 std::optional<DataNote> odd_posture(const Camera& camera, const Rotations& rotations) {
+  // Rotation that is clearly about another axis: three times as large, and no trembling. Chosen by
+  // the faults of group "fixed" (tests/faults/README.md).
   constexpr double kClear = 3, kLeast_deg = 15;
   const auto clearly = [](double more, double less) {
     return more > kLeast_deg && more > kClear * less;
@@ -78,6 +80,7 @@ std::set<KeyframeId> keyframes_that_go_ahead(const Map& map) {
 }
 /// The lowest fifth; -1 of fewer than thirty.
 double lowest_fifth(std::vector<double> values) {
+  // Landmarks with a quantile. Chosen.
   constexpr std::size_t kFewest = 30;
   if (values.size() < kFewest) return -1;
   const auto fifth = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 5);
@@ -88,6 +91,7 @@ double lowest_fifth(std::vector<double> values) {
 }  // namespace
 
 NearestSides nearest_sides(const Map& map, double camera_height_m) {
+  // Observations of a landmark with a known position. Chosen.
   constexpr int kViews = 4;
   enum { kBelow, kAbove, kLeft, kRight };
   std::array<std::vector<double>, 4> distances;
@@ -118,6 +122,8 @@ NearestSides nearest_sides(const Map& map, double camera_height_m) {
 }
 
 std::optional<DataNote> odd_sides(const NearestSides& sides) {
+  // Shares of the camera height and of the landmarks below (docs/datasets.md). Chosen by the faults
+  // of group "fixed" (tests/faults/README.md).
   constexpr double kOtherTooNear = 0.6, kBelowTooNear = 0.8, kGround = 1.0 / 3;
   if (sides.below < 0 || sides.nearest_other < 0 || sides.below > kBelowTooNear ||
       sides.nearest_other > kOtherTooNear || sides.on_ground > kGround)
@@ -132,6 +138,8 @@ std::optional<DataNote> odd_sides(const NearestSides& sides) {
 
 std::optional<DataNote> odd_height(const NearestSides& sides, Sensor sensor,
                                    double camera_height_m) {
+  // Shares of the camera height (docs/datasets.md). Chosen by the faults of group "fixed"
+  // (tests/faults/README.md).
   constexpr double kTooNear = 0.55, kTooFar = 1.4;
   if (sides.below < 0 || (sides.below > kTooNear && sides.below < kTooFar)) return std::nullopt;
   const bool stereo = sensor == Sensor::kStereo;
@@ -201,6 +209,7 @@ std::vector<Step> steps_of(const Trajectory& trajectory) {
 /// Distance covered in ten steps, as a share of their length: 1 on a straight path, about 0.1 for a
 /// camera that trembles at one place.
 double progress_of(const std::vector<Step>& steps) {
+  // The ten steps above. Chosen.
   constexpr std::size_t kSteps = 10;
   double length = 0, covered = 0;
   for (std::size_t begin = 0; begin + kSteps <= steps.size(); begin += kSteps) {
@@ -220,6 +229,7 @@ double length_quantile(const std::vector<Step>& steps, double share) {
   return quantile_of(std::move(lengths), share);
 }
 
+// Steps of a motion that is judged. Chosen.
 constexpr std::size_t kFewestSteps = 20;
 
 }  // namespace
@@ -235,6 +245,8 @@ double landmark_depth(const Map& map, int component) {
 }
 
 std::optional<DataNote> odd_steps(const Trajectory& trajectory, double landmark_depth) {
+  // A jump exceeds five times the two steps on either side, three times the 90 % quantile of all,
+  // and 1 % of the depth. Chosen by the faults of group "fixed" (tests/faults/README.md).
   constexpr std::size_t kBeside = 2;
   constexpr double kOfNeighbours = 5, kOfUsual = 3, kUsual = 0.9, kOfDepth = 0.01;
   const std::vector<Step> steps = steps_of(trajectory);
@@ -270,6 +282,9 @@ bool rotates_on(const Step& before, const Step& after) {
 }  // namespace
 
 std::optional<DataNote> odd_order(const Trajectory& trajectory) {
+  // Steps of half the median length or more; one in ten against the one before (120 degrees or
+  // more), on a path that progresses. Chosen by the faults of group "fixed"
+  // (tests/faults/README.md).
   constexpr double kOfMedian = 0.5, kOpposite = -0.5, kShare = 0.1, kProgress = 0.3;
   const std::vector<Step> steps = steps_of(trajectory);
   if (steps.size() < kFewestSteps || progress_of(steps) < kProgress) return std::nullopt;

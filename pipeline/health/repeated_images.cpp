@@ -26,6 +26,8 @@ void RepeatedImages::add(const Frame& frame) {
 }
 
 std::optional<DataNote> RepeatedImages::note() const {
+  // Repeated images that are not reported. Chosen by the faults of group "fixed"
+  // (tests/faults/README.md).
   constexpr int kFew = 2;
   if (repeated_ <= kFew) return std::nullopt;
   return DataNote{

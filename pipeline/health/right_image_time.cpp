@@ -47,7 +47,10 @@ std::vector<StereoMatch> matches_of(const Frame& frame) {
 
 std::optional<RightCameraOffset> right_camera_offset(const Camera& camera,
                                                      const std::vector<StereoMatch>& matches) {
+  // Matches, for seven unknowns. Chosen.
   constexpr std::size_t kFewest = 30;
+  // Noise of a match, widest kernel of the graduated fit, prior deviations of rotation [rad] and
+  // share. Chosen.
   constexpr double kSigmaPx = 0.5, kWidestPx = 8, kPriorRotation = 0.02, kPriorShare = 10;
   std::vector<Equation> equations;
   for (const StereoMatch& match : matches)
@@ -116,7 +119,10 @@ RightImageTime::Lateness RightImageTime::lateness() const {
 }
 
 std::optional<DataNote> RightImageTime::note() const {
+  // Pairs that are judged. Chosen.
   constexpr std::size_t kFewest = 3;
+  // Lateness in frames that is reported, and its deviations. Chosen by the faults of group "fixed"
+  // (tests/faults/README.md).
   constexpr double kLeast = 0.1, kSigmas = 5;
   const Lateness late = lateness();
   if (pairs_.size() < kFewest || !(std::abs(late.frames) > std::max(kLeast, kSigmas * late.sigma)))

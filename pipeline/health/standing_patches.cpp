@@ -9,6 +9,14 @@
 namespace placegraph {
 namespace {
 
+/// Minimum distance from a patch that stands still to the nearest pixel at which the motion allows
+/// it. Chosen.
+constexpr double kMinContradiction_px = 0.5;
+/// Number of episodes that prove a patch to move with the camera. Chosen.
+constexpr int kMinEpisodes = 2;
+/// Minimum number of proven patches in a region that is masked. Chosen.
+constexpr int kMinPatches = 6;
+
 /// Patches are taken in one of so many cells at a comparison.
 constexpr int kInterleaved = 4;
 
@@ -29,9 +37,8 @@ double speaks_against(const ImageMotion::Displacement& must, double least_px) {
 
 }  // namespace
 
-StandingPatches::StandingPatches(const StaticOverlayOptions& options, const Camera& camera)
-    : options_(options),
-      width_(camera.width),
+StandingPatches::StandingPatches(const Camera& camera)
+    : width_(camera.width),
       height_(camera.height),
       half_(std::clamp(camera.width / 160, 3, 8)),
       cells_(static_cast<std::size_t>(kColumns) * kRows) {}
@@ -48,6 +55,8 @@ cv::Rect StandingPatches::centres() const {
 }
 
 void StandingPatches::compare(const Image& image, const Image& mask) {
+  // Patches that must move, and their share, for the camera to move; comparisons for which a patch
+  // is excused at most. Chosen.
   constexpr int kFewest = 8, kMostExcused = 50;
   constexpr double kMovingShare = 0.25;
   ++comparisons_;
@@ -79,6 +88,7 @@ void StandingPatches::compare(const Image& image, const Image& mask) {
 /// The patch with most texture of nine that cover a cell.
 std::optional<StandingPatches::Patch> StandingPatches::take(const Image& image, const Image& mask,
                                                             int cell) const {
+  // Chosen: nine patches.
   constexpr int kSide = 3;
   const cv::Rect inside = centres();
   const cv::Rect within = rect(cell);
@@ -119,7 +129,7 @@ std::optional<StandingPatches::Patch> StandingPatches::patch_at(const Image& ima
   const int side = 2 * half_ + 3;
   patch.pixels = image(cv::Rect(px.x - half_ - 1, px.y - half_ - 1, side, side));
   const Eigen::Matrix2f information = describe(patch);
-  const double sigma_px = kFraction * options_.standing_px;
+  const double sigma_px = kFraction * kStanding_px;
   if (smaller_eigenvalue(information(0, 0), information(0, 1), information(1, 1)) <
       std::pow(kNoise_grey / sigma_px, 2))
     return std::nullopt;
@@ -155,8 +165,7 @@ void StandingPatches::take_up_patches() {
   const int side = 2 * half_ + 3;
   for (Cell& cell : cells_) {
     if (!cell.patch) continue;
-    require(cell.patch->pixels.size() == cv::Size(side, side) &&
-                centres().contains(cell.patch->px),
+    require(cell.patch->pixels.size() == cv::Size(side, side) && centres().contains(cell.patch->px),
             "the saved patches are those of another camera");
     describe(*cell.patch);
   }
@@ -165,6 +174,7 @@ void StandingPatches::take_up_patches() {
 /// Whether the image shows the patch where it was taken, up to gain and offset: its displacement by
 /// a step of Lucas and Kanade is that of a patch at rest.
 bool StandingPatches::stands(const Image& image, const Patch& patch) const {
+  // Correlation of a patch that is recognized. Chosen, as for anchors of tracks.
   constexpr float kLeastCorrelation = 0.8F;
   float sum = 0, squares = 0, product = 0;
   Eigen::Vector2f of_patch = Eigen::Vector2f::Zero(), of_image = of_patch, of_one = of_patch;
@@ -183,18 +193,19 @@ bool StandingPatches::stands(const Image& image, const Patch& patch) const {
   if (norm2 <= 0 || product < kLeastCorrelation * std::sqrt(norm2 * patch.norm2)) return false;
   const float gain = product / norm2;
   const Eigen::Vector2f shift = patch.inverse * (gain * (of_image - mean * of_one) - of_patch);
-  return shift.norm() < options_.standing_px;
+  return shift.norm() < kStanding_px;
 }
 
 /// Where patches used to move, one must stand still for long.
 bool StandingPatches::is_suspect(const Cell& cell) const {
+  // Comparisons in a row. Chosen.
   constexpr int kComparisons = 4;
   return cell.patch && cell.patch->stood >= kComparisons + cell.excused;
 }
 
 bool StandingPatches::suspects() const {
   return std::ranges::count_if(cells_, [this](const Cell& c) { return is_suspect(c); }) >=
-         options_.min_patches;
+         kMinPatches;
 }
 
 bool StandingPatches::judge(const ImageMotion& motion, int since) {
@@ -203,7 +214,7 @@ bool StandingPatches::judge(const ImageMotion& motion, int since) {
     if (!is_suspect(cell) || cell.patch->taken > since) continue;
     const auto must = motion.least_displacement({cell.patch->px.x, cell.patch->px.y});
     if (!must) continue;
-    const double spoken = speaks_against(*must, options_.min_contradiction_px);
+    const double spoken = speaks_against(*must, kMinContradiction_px);
     cell.patch->against = std::max(0.0, cell.patch->against + spoken);
     found = found || spoken > 0;
   }
@@ -211,6 +222,7 @@ bool StandingPatches::judge(const ImageMotion& motion, int since) {
 }
 
 Image StandingPatches::elsewhere() const {
+  // Comparisons in a row. Chosen.
   constexpr int kComparisons = 2;
   Image mask(height_, width_, CV_8UC1, cv::Scalar(255));
   for (int c = 0; c < static_cast<int>(cells_.size()); ++c)
@@ -219,6 +231,7 @@ Image StandingPatches::elsewhere() const {
 }
 
 Image StandingPatches::proven_cells() const {
+  // Chosen: episodes that speak against a patch by less than all count in part.
   constexpr double kTolerance = 0.5;
   Image cells = Image::zeros(kRows, kColumns, CV_8UC1), labels;
   for (int c = 0; c < kRows * kColumns; ++c)
@@ -226,10 +239,10 @@ Image StandingPatches::proven_cells() const {
   cv::morphologyEx(cells, cells, cv::MORPH_CLOSE, Image::ones(3, 3, CV_8UC1));
   std::vector<int> proven(cv::connectedComponents(cells, labels), 0);
   for (int c = 0; c < kRows * kColumns; ++c)
-    if (is_suspect(cells_[c]) && cells_[c].patch->against >= options_.min_episodes - kTolerance)
+    if (is_suspect(cells_[c]) && cells_[c].patch->against >= kMinEpisodes - kTolerance)
       ++proven[labels.at<int>(c / kColumns, c % kColumns)];
   for (int c = 0; c < kRows * kColumns; ++c)
-    if (proven[labels.at<int>(c / kColumns, c % kColumns)] < options_.min_patches)
+    if (proven[labels.at<int>(c / kColumns, c % kColumns)] < kMinPatches)
       cells.at<std::uint8_t>(c / kColumns, c % kColumns) = 0;
   return cells;
 }

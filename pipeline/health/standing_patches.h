@@ -2,13 +2,15 @@
 #include <placegraph/frontend/relative_pose/image_motion.h>
 #include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/image/image.h>
-#include <placegraph/pipeline/health/static_overlay_options.h>
 
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 namespace placegraph {
+
+/// Maximum displacement of a patch that stands still. Chosen.
+inline constexpr double kStanding_px = 0.3;
 
 /// An image of one byte a pixel.
 void visit_state(auto& archive, Image& image) {
@@ -30,7 +32,7 @@ class StandingPatches {
  public:
   static constexpr int kColumns = 24, kRows = 16;  ///< cells of the grid
 
-  StandingPatches(const StaticOverlayOptions& options, const Camera& camera);
+  explicit StandingPatches(const Camera& camera);
 
   /// Compares the patches with an image (CV_8UC1), and takes new ones. Where `mask` is 0 there are
   /// none (may be empty).
@@ -82,7 +84,6 @@ class StandingPatches {
   bool stands(const Image& image, const Patch& patch) const;
   bool is_suspect(const Cell& cell) const;
 
-  StaticOverlayOptions options_;
   int width_, height_, half_;  // [px]; half the side of a patch
   std::vector<Cell> cells_;
   int comparisons_ = 0;

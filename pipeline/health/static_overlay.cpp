@@ -8,11 +8,15 @@
 namespace placegraph {
 namespace {
 
+/// Displacement of most moving points that completes an episode. Chosen.
+constexpr double kMinMotion_px = 8;
+
 /// A region that is larger could be the world, seen by a camera at rest in front of a moving
 /// object.
 constexpr double kLargestShare = 0.6;
 
 int reduction_of(const Camera& camera) {
+  // Larger images are reduced: the cost. Chosen.
   constexpr int kWidth_px = 1280;
   return std::max(1, (camera.width + kWidth_px - 1) / kWidth_px);
 }
@@ -44,7 +48,7 @@ StaticOverlay::StaticOverlay(const StaticOverlayOptions& options, const Camera& 
     : options_(options),
       camera_(camera),
       seed_(seed),
-      patches_(options, camera),
+      patches_(camera),
       reduction_(reduction_of(camera)),
       tracker_(tracker_options(camera)) {}
 
@@ -63,12 +67,14 @@ bool StaticOverlay::add(const Frame& frame) {
 
 /// Goes on with an episode after a comparison; returns whether the mask has grown.
 bool StaticOverlay::go_on(const Frame& frame, const Image& used) {
+  // Comparisons of an episode, points that must move, episodes without a result, and comparisons
+  // until the next search. Chosen.
   constexpr int kLongest = 15, kFewest = 20, kMostWithoutResult = 3, kPause = 20;
   const auto& tracks = tracker_.tracks();
   const auto moving = std::ranges::count_if(
-      tracks, [&](const PointTrack& t) { return moved_px(t) >= options_.min_motion_px; });
+      tracks, [&](const PointTrack& t) { return moved_px(t) >= kMinMotion_px; });
   const auto others = std::ranges::count_if(
-      tracks, [&](const PointTrack& t) { return moved_px(t) >= options_.standing_px; });
+      tracks, [&](const PointTrack& t) { return moved_px(t) >= kStanding_px; });
   const bool complete = moving >= std::max<std::ptrdiff_t>(kFewest, others / 2);
   if (!complete && patches_.comparisons() - begun_ < kLongest && std::ssize(tracks) >= kFewest)
     return false;
@@ -101,7 +107,7 @@ void StaticOverlay::begin(const Image& mask) {
 bool StaticOverlay::judge(FrameId frame) {
   std::vector<Eigen::Vector2d> px_ref, px_cur;
   for (const PointTrack& track : tracker_.tracks()) {
-    if (moved_px(track) < options_.standing_px) continue;
+    if (moved_px(track) < kStanding_px) continue;
     px_ref.push_back(px_ref_.at(track.id));
     px_cur.push_back(full(track.px));
   }
@@ -113,6 +119,7 @@ bool StaticOverlay::judge(FrameId frame) {
 /// The region is taken once it grows no more: a mask of a part of an overlay would leave the rest
 /// to the map.
 bool StaticOverlay::take_region() {
+  // Growth of a region that is settled, and growth of the mask that is worth a restart. Chosen.
   constexpr double kSettled = 1.1, kGrown = 1.2;
   Image region = patches_.proven_cells();
   const int cells = area_px(region), before = last_cells_;

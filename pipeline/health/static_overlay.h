@@ -4,6 +4,7 @@
 #include <placegraph/graph/measurements/data_note.h>
 #include <placegraph/pipeline/cues/frame_view.h>
 #include <placegraph/pipeline/health/standing_patches.h>
+#include <placegraph/pipeline/health/static_overlay_options.h>
 
 #include <map>
 #include <optional>

@@ -80,6 +80,8 @@ RowOffsets check_rows(const Dataset& dataset) {
 }
 
 std::optional<DataNote> odd_rows(const RowOffsets& offsets, const Camera& camera) {
+  // Three quarters of a pixel off the rows (docs/datasets.md); the bend is over the whole image.
+  // Chosen by the faults of group "fixed" (tests/faults/README.md).
   constexpr double kMostRmsPx = 0.75, kMostBendPx = 1.5;
   const std::string advice =
       "; rectify the pair first, or provide both raw cameras with their distortion and poses "

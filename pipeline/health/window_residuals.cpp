@@ -8,6 +8,7 @@
 namespace placegraph {
 namespace {
 
+// A residual beyond is odd: 0.3 % of normal ones. Chosen.
 constexpr double kSigmas = 3;
 
 /// Share of `count` in `of`, which is taken to be at least a hundred.
@@ -42,6 +43,8 @@ std::vector<DataNote> ResidualCheck::notes() const {
 }
 
 std::optional<DataNote> ResidualCheck::note_of_pixels() const {
+  // Share of odd pixels (docs/datasets.md). Chosen by the faults of group "fixed"
+  // (tests/faults/README.md).
   constexpr double kMost = 0.05;
   const auto odd = [](const WindowResiduals& window) {
     return share(window.odd_pixels, window.pixels) > kMost;
@@ -57,6 +60,8 @@ std::optional<DataNote> ResidualCheck::note_of_pixels() const {
 }
 
 std::optional<DataNote> ResidualCheck::note_of_depths() const {
+  // Shares of odd depths and of odd disparities (docs/datasets.md). Chosen by the faults of group
+  // "fixed" (tests/faults/README.md).
   constexpr double kMostOfDepthCamera = 0.03, kMostOfSecondCamera = 0.06;
   int odd = 0, depths = 0;
   for (const WindowResiduals& window : windows_) {

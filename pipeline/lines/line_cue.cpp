@@ -38,6 +38,7 @@ void LineCue::reset() {
 /// With its uncertainty taken into account, a line whose plane hardly rotated is useful if few
 /// better ones exist.
 LineTriangulationOptions LineCue::triangulation(const SlidingWindow& window) const {
+  // Lines that are followed. Chosen.
   constexpr int kFew = 15;
   constexpr std::size_t kFewestSteered = 7;  // number of keyframes; not used during initialization
   LineTriangulationOptions options = options_.triangulation;
@@ -54,6 +55,7 @@ void LineCue::use_vanishing_directions() {
 /// Adds the rotation of a keyframe according to shared directions to the window.
 void LineCue::steer(KeyframeId keyframe, const LineView& seen, SlidingWindow& window) {
   if (!vanishing_tracker_) return;
+  // Uncertainty of the predicted rotation. Chosen.
   constexpr double kSigmaRad = 0.02;
   const SE3 T_odom_cam = window.pose(keyframe);
   SO3 R_odom_cam = T_odom_cam.rotation();
@@ -104,6 +106,7 @@ std::optional<PoseGuess> LineCue::with_line_rotation(const PoseGuess& guess) con
   const double sigma_rad = weakest > 0 ? std::min(0.1, 1 / std::sqrt(weakest)) : 0.1;
   const auto measured =
       vanishing_tracker_->read(calibration_.camera, seen(), guess.T_ref_cam.rotation(), sigma_rad);
+  // Standard deviation about the axis known worst with which directions are used. Chosen.
   constexpr double kKnownRad = 0.01;
   if (!measured.outcome ||
       !(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(measured.information).eigenvalues()[0] >
@@ -307,6 +310,7 @@ void LineCue::prune(SlidingWindow& window) {
 
 std::vector<DisparitySample> LineCue::disparity_samples(const SlidingWindow& window,
                                                         const RectificationError& rectification) {
+  // Views of a line with a known depth. Chosen, as for points.
   constexpr std::size_t kViews = 4;
   std::vector<DisparitySample> samples;
   std::set<LineId> used;

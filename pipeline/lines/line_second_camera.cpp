@@ -20,6 +20,7 @@ double column_at(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double row)
 /// Standard deviation of the depth of the line at a pixel, from the covariance of the line.
 double depth_sigma(const Camera& camera, const SE3& T_ref_cam, const TriangulatedLine& line,
                    const Eigen::Vector2d& px, double depth) {
+  // Step of the difference quotient: chosen, well above rounding.
   constexpr double kStep = 1e-6;
   Eigen::Vector4d J;
   for (int k = 0; k < 4; ++k) {
@@ -50,8 +51,8 @@ std::vector<std::optional<SecondCamera>> second_cameras(const Frame& frame,
                                                         const LineCueOptions& options) {
   std::vector<std::optional<SecondCamera>> result(segments.size());
   if (calibration.baseline_m > 0 && !frame.right.empty()) {
-    const auto right = match_stereo_segments(frame.image, frame.right, segments, stereo,
-                                             options.tracker.detector.refinement, options.stereo);
+    const auto right =
+        match_stereo_segments(frame.image, frame.right, segments, stereo, options.stereo);
     for (std::size_t i = 0; i < right.size(); ++i) {
       if (!right[i]) continue;
       const auto seen = right[i]->line.carriers(options.sigma_floor_px);

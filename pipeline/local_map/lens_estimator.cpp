@@ -56,6 +56,8 @@ DistortionEvidence evidence_at(double k1, WindowState points) {
 /// outliers: it is computed again at the estimate.
 LensStretches with_window(const LensStretches& before, const WindowState& points,
                           const WindowMotion& motion) {
+  // Iterations at most, and the change of k1 that ends them: below kCommonSigma of
+  // lens_stretches.cpp. Chosen.
   constexpr int kIterations = 4;
   constexpr double kAccuracy = 1e-3;
   LensStretches after;

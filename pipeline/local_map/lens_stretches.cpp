@@ -20,6 +20,7 @@ constexpr double kCommonSigma = 0.003;
 double information_of_prior() { return 1 / (kPriorSigma * kPriorSigma); }
 
 bool similar(const WindowMotion& a, const WindowMotion& b) {
+  // Rotations within which two windows see the same with the same errors. Chosen.
   constexpr double kView_deg = 30, kMotion_deg = 45, kRotation_deg = 20;
   const auto within = [](const SO3& R_a, const SO3& R_b, double limit_deg) {
     return (R_a.inverse() * R_b).log().norm() < deg_to_rad(limit_deg);

@@ -52,6 +52,7 @@ Outcome LocalMap::optimize() {
 }
 
 void LocalMap::update_poses(const std::vector<double>& depths, bool rotations_corrected) {
+  // Avoids a division by zero; no scene is so near. Chosen.
   constexpr double kLeastDepth = 1e-3;
   if (!depths.empty()) median_depth_ = std::max(kLeastDepth, median_of(depths));
   if (rotations_corrected) widen_link_to_oldest();
@@ -143,6 +144,7 @@ LocalMap::Link LocalMap::link(KeyframeId id) const {
 /// over its links. The landmarks observed in both halves constrain it.
 double LocalMap::scale_drift() const {
   if (metric()) return 0;
+  // Drift where it is not determined, and bound elsewhere: 10 % a keyframe. Chosen.
   constexpr double kMost = 0.1;
   const auto ids = window_.keyframes();
   if (ids.size() < 3) return kMost;

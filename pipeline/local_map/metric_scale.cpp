@@ -152,6 +152,7 @@ std::optional<DistanceObservation> MetricScale::measured_distance(KeyframeId fro
 /// The first scale is the median over the window, which a burst of wheel slip does not affect;
 /// afterwards each keyframe's motion from the last one is a distance constraint.
 std::optional<Rescale> MetricScale::measure_motion(LocalMap& map) {
+  // Distances for the median. Chosen.
   constexpr std::size_t kDistances = 5;
   SlidingWindow& window = map.window();
   const auto ids = window.keyframes();

@@ -52,6 +52,7 @@ NuisanceEvidence RgbdCalibrator::evidence(const SlidingWindow& window) const {
 
 RgbdCalibrator::Estimate RgbdCalibrator::estimate(
     const std::optional<NuisanceEvidence>& newest) const {
+  // Windows contradict each other beyond, and their own errors are doubled, up to 16 times. Chosen.
   constexpr double kMostDispersion = 1.5, kLargestOwn = 16;
   Estimate result;
   for (double own = 1; own <= kLargestOwn; own *= 2) {
@@ -129,6 +130,7 @@ std::map<KeyframeId, Vector6d> RgbdCalibrator::corrections() const {
 /// An error of the intrinsics or a displacement of the depths beyond what a calibration errs by is
 /// left to who calibrates: it may be the effect of something else.
 RgbdErrors RgbdCalibrator::plausible(RgbdErrors::Vector errors) const {
+  // Deviations of the prior: 95 % of calibrations. Chosen.
   constexpr double kMostSigmas = 2;
   constexpr Eigen::Index kIntrinsics = RgbdErrors::kReadout;
   const RgbdErrors::Vector doubt = errors.cwiseQuotient(rgbd_prior());

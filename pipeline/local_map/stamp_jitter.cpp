@@ -8,6 +8,7 @@
 namespace placegraph {
 namespace {
 
+// Four frames for a cubic, and the one in their middle that it predicts.
 constexpr std::size_t kFrames = 5;
 
 /// Weights of the cubic through four samples, at 0.
@@ -25,6 +26,7 @@ std::array<double, kFrames - 1> cubic_at_zero(const std::array<double, kFrames -
 
 void StampJitter::add(std::int64_t stamp_ns, const SE3& T_odom_cam) {
   constexpr double kLongest_s = 1;  // motion over longer times is not smooth
+  // Largest jitter that is assumed, and samples for a median. Chosen.
   constexpr double kMost_s = 0.005;
   constexpr std::size_t kFewest = 10;
   const double stamp_s = 1e-9 * static_cast<double>(stamp_ns);

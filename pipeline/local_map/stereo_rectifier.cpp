@@ -68,6 +68,7 @@ std::optional<DisparitySample> StereoRectifier::sample(const SlidingWindow& wind
 }
 
 void StereoRectifier::calibrate(SlidingWindow& window, LineCue* lines) {
+  // Views of a point with a known depth. Chosen.
   constexpr std::size_t kViews = 4;
   std::vector<DisparitySample> samples;
   std::set<LandmarkId> used;

@@ -114,6 +114,7 @@ DescribedKeyframe KeyframeDescriber::describe(KeyframeId keyframe, const Frame& 
 void KeyframeDescriber::triangulate(DescribedKeyframe& previous, DescribedKeyframe& current,
                                     const SE3& T_previous_current) const {
   if (calibration_.depth) return;
+  // Distance from the epipolar line, and angle between the rays of a point. Chosen.
   constexpr double kBandPx = 2.0, kMinParallaxRad = deg_to_rad(0.7);
   const SE3 T_current_previous = T_previous_current.inverse();
   for (const FeatureMatch& m :

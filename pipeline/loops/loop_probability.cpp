@@ -10,6 +10,7 @@ namespace {
 // One per LoopStage, as printed by tests/bench/loop_probability_study.
 constexpr std::array<double, kLoopStageCount> kConstants = {0,    -6.85, -1.25, 1.16,
                                                             1.23, 0.11,  2.03};
+// Printed by the same study.
 constexpr double kPerLogSimilarity = 6.53, kPerLogAgreeing = 0.54;
 
 }  // namespace

@@ -64,6 +64,7 @@ std::size_t keep_within(const MapGeometry& geometry, const Camera& camera, doubl
 
 /// Adds the relative poses of consecutive keyframes, with the standard deviations of adjust_map.
 void add_chain(const MapGeometry& geometry, FactorGraph& graph) {
+  // 5 % of a step and half a degree, as in adjust_map. Chosen.
   constexpr double kOfStep = 0.05;
   const double sigma_rad = deg_to_rad(0.5);
   std::vector<SE3> steps;
@@ -102,6 +103,7 @@ void optimize_kept(const Camera& camera, const MapBundleOptions& options, double
               {observation.view, variable}, kernel);
   }
   add_chain(geometry, graph);
+  // Relative decrease of the cost that ends the optimization. Chosen.
   constexpr double kDecrease = 1e-5;
   const FactorGraphReport solved =
       optimize_factor_graph(graph, {options.max_iterations, kDecrease});

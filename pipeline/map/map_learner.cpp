@@ -9,6 +9,7 @@ namespace {
 
 /// Similarity of any two views: the median over pairs that are far from each other.
 double common_similarity(const std::vector<PlaceView>& views, const PlaceCueOptions& cues) {
+  // Pairs: the cost. Chosen.
   constexpr std::size_t kSamples = 100;
   const std::size_t half = views.size() / 2;
   const std::size_t stride = std::max<std::size_t>(1, half / kSamples);
@@ -23,6 +24,7 @@ double common_similarity(const std::vector<PlaceView>& views, const PlaceCueOpti
 StoredMap learn_map(std::size_t count, const std::function<Image(std::size_t)>& image,
                     std::int64_t first, const MapLearnerOptions& options) {
   options.check();
+  // As for the localization in a map. Chosen.
   constexpr std::size_t kFewest = 10;
   require(count >= kFewest, "a map requires at least ten images: " + std::to_string(count));
   std::vector<PlaceView> views;

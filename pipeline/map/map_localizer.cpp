@@ -66,6 +66,7 @@ MapLocalizer::Impl::Impl(const LocalizerOptions& options, StoredMap stored)
     keyframes_.push_back(static_cast<int>(i));
     all[i].view = PlaceView();
   }
+  // Views for a distribution of similarities. Chosen.
   constexpr int kFewest = 10;
   require(recognizer_.size() >= kFewest, "map: " + std::to_string(recognizer_.size()) + " views; " +
                                              std::to_string(kFewest) +
@@ -117,7 +118,9 @@ void MapLocalizer::Impl::learn_near() {
 /// Number of views between two whose similarity is that of any two: the distance at which three
 /// quarters of the additional similarity of neighbours are lost.
 int MapLocalizer::Impl::lag_of_similarity() const {
+  // Pairs a distance and longest distance: the cost. Chosen.
   constexpr int kSamples = 40, kLongest = 50;
+  // Three quarters are lost, as above.
   constexpr double kRest = 0.25;
   const int views = recognizer_.size();
   const auto mean_at = [&](int lag) {
@@ -246,6 +249,7 @@ std::vector<Localization> MapLocalizer::Impl::localize(std::size_t count, const 
 
 std::optional<LocatedFrame> MapLocalizer::Impl::verify(
     const Frame& frame, const std::vector<PlaceSimilarity>& list) const {
+  // Candidates that are verified: the cost. Chosen.
   constexpr std::size_t kTries = 3;
   std::vector<KeyframeId> tries;
   for (std::size_t i = 0; i < std::min(kTries, list.size()); ++i)
@@ -256,6 +260,7 @@ std::optional<LocatedFrame> MapLocalizer::Impl::verify(
 /// Features agree with a pose by chance at most once in a thousand images; the probability from
 /// whole views is combined with that, for the same place or against another.
 void MapLocalizer::Impl::take_geometry(const LocatedFrame& located, Localization& result) const {
+  // The thousand of the line above; the bound keeps the quotient finite. Chosen.
   constexpr double kOddsOfVerified = 1000, kSurest = 1 - 1e-9;
   const Keyframe& match = *stored_.map.find_keyframe(located.match);
   const bool agree = result.place && (*result.place == match.place ||

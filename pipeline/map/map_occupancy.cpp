@@ -56,6 +56,7 @@ class EvidenceGrid {
  public:
   EvidenceGrid(const Eigen::Vector2d& low, const Eigen::Vector2d& high, double cell_m)
       : cell_m_(cell_m) {
+    // 400 MB of log odds. Chosen.
     constexpr double kMostCells = 1e8;
     const Eigen::Array2d first = (low.array() / cell_m).floor();
     const Eigen::Array2d size = (high.array() / cell_m).floor() - first + 1;
@@ -99,6 +100,7 @@ class EvidenceGrid {
   }
 
   OccupancyGrid grid() const {
+    // Log odds of a probability of 0.57. Chosen.
     constexpr float kCertain = 0.3F;
     OccupancyGrid grid;
     grid.cell_m = cell_m_;

@@ -57,6 +57,7 @@ Initialization LineViewInitializer::begin(const Frame& frame) {
 
 Initialization LineViewInitializer::add(const Frame& frame, const std::optional<SE3>& T_known,
                                         LocalMap& map, LocalMapping& mapping) {
+  // Keyframes of the first map, and views among which they are searched. Chosen.
   constexpr std::size_t kKeyframes = 6, kLeastViews = 8, kMostViews = 60;
   if (!started()) return begin(frame);
   LineCue& lines = *tracker_.lines();
@@ -158,6 +159,7 @@ bool LineViewInitializer::add_keyframes(const std::vector<std::size_t>& chosen,
 bool LineViewInitializer::motion_is_known(const std::vector<std::size_t>& chosen,
                                           const LineInitialization& start,
                                           const LocalMap& map) const {
+  // Rotation by the bundle adjustment against the directions, half a degree. Chosen.
   constexpr double kMostRotatedRad = 0.01;
   // Maximum standard deviation of the ratio of two lengths (logarithm).
   constexpr double kLeastKnown = 0.02;

@@ -106,6 +106,7 @@ Initialization TwoViewInitializer::try_second_view(const Frame& frame,
 /// Some views between the first and the newest one, used to test the motion, with tracks of the
 /// newest; a few are sufficient for any time until then.
 std::vector<PartialView> TwoViewInitializer::views_between() const {
+  // Views that are tested: the cost. Chosen.
   constexpr std::size_t kJudges = 16;
   std::map<LandmarkId, int> index;
   const auto& tracks = tracker_.points().tracks();

@@ -13,6 +13,7 @@ namespace {
 /// With fewer innovations the missing ones count as zero, so that less than three have no effect.
 constexpr std::size_t kFewest = 6;
 constexpr std::size_t kNewest = 200;  // innovations that are used
+// Bound of the search: deviations a hundred times as large. Chosen.
 constexpr double kMostFactor = 1e4;
 
 /// The least factor on `of_loop` with which the squared errors are consistent; `squares(f)` is

@@ -120,6 +120,7 @@ RelativePoseConstraint constraint_between_places(const PlacePartition& partition
   constraint.from = node_of_place(from.place);
   constraint.to = node_of_place(to.place);
   constraint.source = edge.source;
+  // Keeps the inverse finite: deviations of 1e-9, near the rounding of poses. Chosen.
   constexpr double kLeastVariance = 1e-18;
   if (all_scales_known) {
     constraint.T_from_to = rigid_part(S_from_to);

@@ -27,6 +27,7 @@ bool agrees(const Loop& loop, const KeyframeChain& chain, const PlacePartition& 
 /// Places at the two ends of loops that agree with the map: of all loops, or of the newest.
 std::vector<PlacePair> pairs_of_loops(const KeyframeChain& chain, const PlacePartition& partition,
                                       const std::vector<Loop>& loops, bool all) {
+  // Loops that are looked at after each place: the cost. Chosen.
   constexpr std::size_t kNewest = 100;
   std::vector<PlacePair> pairs;
   for (std::size_t i = all || loops.size() < kNewest ? 0 : loops.size() - kNewest; i < loops.size();
@@ -40,6 +41,7 @@ std::vector<PlacePair> pairs_of_loops(const KeyframeChain& chain, const PlacePar
 /// Places whose positions in the map are within earlier places: all places, or the newest.
 std::vector<PlacePair> pairs_in_reach(const KeyframeChain& chain, const PlacePartition& partition,
                                       const PlaceOptions& options, bool all) {
+  // Places that are looked at after each place: the cost. Chosen.
   constexpr std::ptrdiff_t kNewest = 8;
   const auto& places = partition.places();
   const auto count = static_cast<std::ptrdiff_t>(places.size());
@@ -156,6 +158,7 @@ std::vector<PlaceMerger> find_mergers(const KeyframeChain& chain, const PlacePar
 
 std::vector<std::size_t> contradicted_mergers(const KeyframeChain& chain,
                                               const PlacePartition& partition) {
+  // Chosen: three times the usual ratio of errors, which is ten at most, and 99.9 % of chi squared.
   constexpr double kTimesUsual = 3, kProbability = 0.999, kMostUsual = 10;
   std::vector<std::size_t> result;
   if (partition.merged().empty()) return result;

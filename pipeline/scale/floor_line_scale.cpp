@@ -6,6 +6,13 @@
 #include <cmath>
 
 namespace placegraph {
+namespace {
+
+/// Maximum distance of a used scale from the median of the last five (logarithm). Chosen; as for
+/// the ground plane.
+constexpr double kMaxFloorLogJump = 0.12;
+
+}  // namespace
 
 FloorLineScale::FloorLineScale(const FloorLineScaleOptions& options, const Camera& camera,
                                double camera_height_m)
@@ -23,6 +30,7 @@ void FloorLineScale::reset() {
 /// The scale once the last views agree on it: their median over three views.
 std::optional<GroundPlaneScale::ScaleMeasurement> FloorLineScale::agreed(double log_factor,
                                                                          double sigma) {
+  // Chosen: the median survives one outlier.
   constexpr std::size_t kViews = 3;
   first_log_factors_.push_back(log_factor);
   if (first_log_factors_.size() > kViews) first_log_factors_.pop_front();
@@ -52,7 +60,7 @@ std::optional<GroundPlaneScale::ScaleMeasurement> FloorLineScale::measure(
     expected = median_of({recent_log_factors_.begin(), recent_log_factors_.end()});
   recent_log_factors_.push_back(log_factor);
   if (recent_log_factors_.size() > kMemory) recent_log_factors_.pop_front();
-  if (std::abs(log_factor - expected) > options_.max_log_jump) return std::nullopt;
+  if (std::abs(log_factor - expected) > kMaxFloorLogJump) return std::nullopt;
   int fresh = 0;
   for (const LineId id : floor.on_floor) fresh += used_.insert(id).second;
   if (fresh == 0) return std::nullopt;

@@ -8,6 +8,12 @@
 #include <vector>
 
 namespace placegraph {
+namespace {
+
+/// Random walk of mean pitch and roll per measurement. Chosen.
+constexpr double kMountingDrift_deg = 0.03;
+
+}  // namespace
 
 GroundPlaneScale::GroundPlaneScale(const GroundPlaneScaleOptions& options, const Camera& camera,
                                    double camera_height_m)
@@ -59,7 +65,7 @@ void GroundPlaneScale::learn(const GroundPlaneResult& found) {
   const double gain = normal_variance_rad2_ / before;
   const double after = found.sigma_normal_rad * found.sigma_normal_rad;
   normal_cam_ = (normal_cam_ + gain * (found.plane_ref.normal - normal_cam_)).normalized();
-  const double drift = deg_to_rad(options_.mounting_drift_deg);
+  const double drift = deg_to_rad(kMountingDrift_deg);
   normal_variance_rad2_ += drift * drift - gain * gain * std::max(0.0, before - after);
 }
 

@@ -13,6 +13,7 @@ std::optional<DataNote> ScaleCheck::note() const {
   // On streets, real and rendered, one comparison in a thousand exceeds 13 %, and the median is at
   // most 2.3 %.
   constexpr double kFar = 0.2, kShare = 0.03, kMedian = 0.06;
+  // Comparisons that contradict, and comparisons with a median. Chosen.
   constexpr std::size_t kFewestFar = 2, kFewest = 5;
   const auto far = [](const Compared& c) { return std::abs(c.log_factor) > kFar; };
   const auto count = static_cast<std::size_t>(std::ranges::count_if(compared_, far));

@@ -68,6 +68,7 @@ VoxelEvidence evidence_of(const PlacedObservations& observations, double cell_m,
     low = low.cwiseMin(p.point.cast<double>());
     high = high.cwiseMax(p.point.cast<double>());
   }
+  // Points above are no part of a storey. Chosen.
   constexpr double kHighest_m = 12;
   low[2] = 0, high[2] = std::min(high[2], kHighest_m);
   const Eigen::Vector3d rim(0.3, 0.3, 0);
@@ -96,10 +97,11 @@ IndoorMap fuse_observations(const std::vector<KeyframeSurfacePoints>& all, const
 
   const PlacedObservations observations = to_walls(in_map, axes.T_walls_map);
   const VoxelEvidence voxels = evidence_of(observations, options.cell_m, options.layer_m);
+  // No wall is nearer to the path of the camera. Chosen.
   constexpr double kShoulder_m = 0.45;
   const std::vector<WallPiece> walls =
       cut_at_path(find_walls(observations.points, voxels, options.walls), observations.path,
-                  kShoulder_m, options.walls.min_length_m);
+                  kShoulder_m, kMinWallLength_m);
   if (walls.empty()) {
     plan.outcome = Outcome::failure(Outcome::Code::kDegenerate, "no wall is seen");
     return plan;

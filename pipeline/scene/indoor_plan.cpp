@@ -105,6 +105,7 @@ std::vector<IndoorDoor> plan_doors(const std::vector<DoorPiece>& doors, const Ro
 }
 
 IndoorMap::Cells plan_cells(const VoxelEvidence& voxels) {
+  // Log odds of a surface and of a ray are those of OctoMap (Hornung 2013); the bound is chosen.
   constexpr double kHit = 0.85, kPass = 0.4, kMost = 5;
   IndoorMap::Cells cells;
   cells.size_m = 2 * voxels.cell_m();

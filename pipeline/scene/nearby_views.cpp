@@ -10,6 +10,7 @@ namespace placegraph {
 namespace {
 
 constexpr std::ptrdiff_t kFarthest = 10;  // keyframes before or after
+// Frames that are kept: those of a keyframe's views, with a margin of four. Chosen.
 constexpr std::size_t kMostRead = 2 * kFarthest + 4;
 
 }  // namespace

@@ -46,12 +46,11 @@ void visit(OptionVisitor& field, UrbanMapperOptions& o) {
                                            "labelled points of a keyframe");
   field.internal()("residuals", o.residuals,
                    "drop points that the previous or next keyframe sees through");
-  field.internal().group("seen_through", o.seen_through,
-                         "conditions for a point to count as seen through");
   field("min_step_m", o.min_step_m, "minimum distance from the last keyframe used [m]", {0, 100});
   field.formerly("min_turn_deg")("min_rotation_deg", o.min_rotation_deg,
                                  "rotation that admits a nearer keyframe [deg]", {0, 180});
   field.group("grid", o.grid, "grid in which the points are accumulated");
+  field.retired({{"min_disparity_px", 2}, {"radius_px", 2}}, "seen_through");
 }
 
 }  // namespace placegraph

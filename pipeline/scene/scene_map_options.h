@@ -49,7 +49,6 @@ struct UrbanMapperOptions {
   StreetLabellingOptions labelling;   ///< labelled points of a keyframe
   /// Drop points that the previous or the next keyframe sees through: these points have moved.
   bool residuals = true;
-  SeenThroughOptions seen_through;  ///< conditions for a point to count as seen through
   /// Minimum distance [m] from the last keyframe used; a nearer keyframe is used only if it is
   /// rotated by min_rotation_deg.
   double min_step_m = 1;

@@ -82,8 +82,8 @@ void UrbanMapper::drop_seen_through(KeyframeSemantics& observation, const Image&
   const SE3 T_last_cam = last_->T_map_cam.inverse() * T_map_cam;
   const auto drop = [&](std::vector<SemanticPoint>& points, const Image& other,
                         const SE3& T_other_cam) {
-    const std::vector<bool> gone = seen_through(points, T_other_cam, other, calibration_.camera,
-                                                calibration_.baseline_m, options_.seen_through);
+    const std::vector<bool> gone =
+        seen_through(points, T_other_cam, other, calibration_.camera, calibration_.baseline_m);
     std::size_t kept = 0;
     for (std::size_t i = 0; i < points.size(); ++i)
       if (!gone[i]) points[kept++] = points[i];

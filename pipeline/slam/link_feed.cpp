@@ -43,6 +43,7 @@ void LinkFeed::add_loops(const std::vector<Loop>& loops, const LocalMap& map, Pl
 }
 
 Loop LinkFeed::with_errors(const Loop& loop, const LocalMap& map) const {
+  // Motions with a median: the cost. Chosen.
   constexpr std::size_t kNewest = 100;
   std::vector<double> of_position, of_rotation;
   for (auto at = links_.rbegin(); at != links_.rend() && of_position.size() < kNewest; ++at) {

@@ -112,6 +112,7 @@ Map MapFeed::snapshot(const MapSources& sources) const {
 }
 
 MapChanges MapFeed::take_changes(const MapSources& sources) {
+  // Landmarks that are saved as one block. Chosen.
   constexpr std::size_t kLandmarksSavedTogether = 1000;
   const LoopCloser& closer = sources.closer;
   TrajectoryRecorder& recorder = sources.recorder;

@@ -161,6 +161,7 @@ std::optional<LocatedFrame> TrackRecovery::pose_without_tracking(const Frame& fr
 }
 
 void TrackRecovery::take_up(KeyframeId newest, double median_depth, const KnownMap& known) {
+  // Chosen: far below any measurement, as the pose is that of the keyframe itself.
   constexpr double kSigmaDepths = 1e-5, kSigmaRad = 1e-5;
   const double sigma = kSigmaDepths * median_depth;
   anchor_ = LocatedFrame{newest, SE3()};

@@ -26,6 +26,7 @@ class BestAlignment {
       : best_(std::move(failure)), explain_(explain) {}
 
   void consider(const DirectMotion& motion) {
+    // Correlation and share of inliers of a motion that is accepted. Chosen.
     constexpr double kLeastAgreement = 0.75, kLeastInliers = 0.6;
     const double score = motion.agreement * motion.inlier_share * std::sqrt(motion.visible_share);
     if (!motion.outcome || motion.agreement < kLeastAgreement ||
@@ -138,6 +139,8 @@ std::optional<Frame> DirectTracker::keyframe_to_retry_from() const {
 bool DirectTracker::keyframe_due(const DirectMotion& motion, double median_depth) const {
   const double length = motion.T_ref_cur.translation().norm() / median_depth;
   const double angle_rad = motion.T_ref_cur.rotation().log().norm();
+  // Shares of the median depth and angles from which a keyframe is due, and below which the camera
+  // stands still. Chosen.
   constexpr double kFar = 0.3, kFarRad = 0.15, kStands = 0.02, kStandsRad = 0.01;
   if (length < kStands && angle_rad < kStandsRad) return false;
   return length > kFar || angle_rad > kFarRad || motion.visible_share < options_.keyframe_share ||

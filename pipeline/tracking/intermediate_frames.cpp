@@ -15,6 +15,7 @@ void IntermediateFrames::correct_drift(const std::map<LandmarkId, Eigen::Vector2
 std::vector<std::pair<FrameId, SE3>> IntermediateFrames::repose(const LocalMap& map,
                                                                 KeyframeId keyframe, double scale,
                                                                 const RgbdErrors& errors) {
+  // Iterations at most; they end at convergence. Chosen.
   constexpr int kIterations = 10;
   constexpr double kSigmaPx = 1;  // standard deviation of a track
   const SlidingWindow& window = map.window();

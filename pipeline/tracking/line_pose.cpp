@@ -26,6 +26,7 @@ struct LineSearch {
 /// Search without a pose from points.
 void search_by_motion(LineSearch& search, const MotionModel& motion) {
   constexpr MotionModel::Uncertainty kMoving{0.03, 0.5, 0.05}, kUnknown{0.08, 0, 0.05};
+  // Share of the lines followed before below which the search is repeated. Chosen.
   constexpr double kFewFound = 0.7;
   PoseGuess guess{
       motion.predicted(),

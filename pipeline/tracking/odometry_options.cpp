@@ -30,11 +30,6 @@ void visit(OptionVisitor& field, OdometryOptions& o) {
   field.group("window", o.window, "bundle adjustment over the last keyframes");
   field("outlier_px", o.points.outlier_px,
         "reprojection error above which a landmark is removed [px]", {0.5, 100});
-  field.internal()("misfit_px", o.points.misfit_px,
-                   "RMS error that removes a landmark and its track, with misfit_sigmas [px]",
-                   {0, 100});
-  field.internal()("misfit_sigmas", o.points.misfit_sigmas,
-                   "the same limit in standard deviations; both must be exceeded", {0.1, 100});
   field("min_unmasked_tracks", o.points.min_unmasked_tracks,
         "minimum number of points that masks from labels must leave", {0, 1e5});
   field("min_parallax_deg", o.points.min_parallax_deg,
@@ -46,6 +41,7 @@ void visit(OptionVisitor& field, OdometryOptions& o) {
   field.internal()("scale_drift", o.scale_drift,
                    "monocular scale drift per keyframe (logarithm) where the scale is measured",
                    {0, 1});
+  field.retired({{"misfit_px", 0.4}, {"misfit_sigmas", 1.5}});
 }
 
 void KeyframeOptions::check() const { check_ranges(*this); }

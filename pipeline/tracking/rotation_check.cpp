@@ -32,6 +32,7 @@ struct Step {
 
   /// Share of the tracks within a pixel of the epipolar lines of a motion.
   double explained(const SE3& T_previous_this) const {
+    // A pixel, the deviation of a good track. Chosen.
     constexpr double kNear_px = 1;
     const EpipolarError error(camera, T_previous_this);
     int near = 0;

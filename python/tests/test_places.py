@@ -52,7 +52,7 @@ def test_options_choose_the_cues() -> None:
         setattr(options.cues, cue, 0.0)
     recognizer = pg.PlaceRecognizer(options)
     view = recognizer.describe(IMAGES[0])
-    assert view.tiny is not None and view.tiny.shape[1] == options.cues.tiny_columns
+    assert view.tiny is not None and view.tiny.shape[1] == 24
     assert view.gradients is None and view.gabor is None and view.corners == 0
     # The weight of the one cue that is left.
     assert recognizer.similarity(IMAGES[0], IMAGES[0]) == pytest.approx(options.cues.tiny, rel=1e-3)

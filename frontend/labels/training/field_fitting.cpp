@@ -47,6 +47,7 @@ class FieldTrial {
 
   /// Exponent with the least mean -log of the correct class's probability.
   float sharpness(double smoothness, double relation) const {
+    // Candidates. Chosen.
     constexpr std::array<float, 9> kPowers = {0.5f, 0.6f, 0.7f, 0.85f, 1.0f,
                                               1.2f, 1.4f, 1.7f, 2.0f};
     std::array<double, kPowers.size()> cost{};

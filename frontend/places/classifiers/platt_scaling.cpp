@@ -40,6 +40,8 @@ PlattScaling fit_platt_scaling(const Eigen::VectorXd& outputs,
                       Eigen::ArrayXd::Constant(positive.size(), 1 / (zeros + 2)));
   Eigen::Vector2d parameters(0, std::log((zeros + 1) / (ones + 1)));
   double cost = cost_of(outputs, targets, parameters);
+  // Those of the algorithm (Lin, Lin & Weng 2007): 100 rounds, ridge 1e-12, gradient 1e-5, step
+  // 1e-10, descent 1e-4.
   constexpr int kRounds = 100;
   constexpr double kRidge = 1e-12, kEnough = 1e-5, kShortest = 1e-10, kDescent = 1e-4;
   for (int round = 0; round < kRounds; ++round) {

@@ -49,6 +49,7 @@ Decision train_one(const Eigen::MatrixXd& kernel, const std::vector<Eigen::Index
   machine->setType(cv::ml::SVM::C_SVC);
   machine->setCustomKernel(cv::makePtr<KernelTable>(kernel));
   machine->setC(cost);
+  // Iterations at most, and the accuracy of the dual. Chosen.
   constexpr int kIterations = 100000;
   constexpr double kAccuracy = 1e-6;
   machine->setTermCriteria(

@@ -12,6 +12,14 @@
 namespace placegraph {
 namespace {
 
+/// Maximum Hamming distance of a match [bits of 256]. Chosen.
+constexpr int kMaxCornerDistance = 70;
+/// Maximum ratio of best to second best distance (Lowe 2004).
+constexpr double kMaxCornerRatio = 0.8;
+/// Maximum position error of an agreeing corner, as a share of the width. Chosen.
+constexpr double kCornerTolerance = 0.06;
+
+// Ratio of pyramid levels: ORB's (Rublee 2011).
 constexpr float kOctave = 1.2f;
 
 /// Matched points of two views, stored by coordinate so that several are tested at once.
@@ -70,8 +78,8 @@ std::vector<Feature> corners_of_view(const Image& grey, const CornerAgreementOpt
 int corner_agreement(const std::vector<Feature>& a, const std::vector<Feature>& b,
                      const CornerAgreementOptions& options) {
   const std::vector<FeatureMatch> matches =
-      match_features(a, b, {.max_distance = options.max_distance, .max_ratio = options.max_ratio});
-  const auto limit = static_cast<float>(options.tolerance * options.width_px);
+      match_features(a, b, {.max_distance = kMaxCornerDistance, .max_ratio = kMaxCornerRatio});
+  const auto limit = static_cast<float>(kCornerTolerance * options.width_px);
   MatchedPoints points;
   for (const FeatureMatch& match : matches) {
     const Eigen::Vector2f& in_a = a[static_cast<std::size_t>(match.a)].px;

@@ -69,6 +69,7 @@ CueGrid make_cue_grid(int columns, int rows, int channels, const std::vector<flo
   require(columns > 0 && rows > 0 && channels > 0 &&
               values.size() == static_cast<std::size_t>(columns) * rows * channels,
           "make_cue_grid: columns * rows * channels values needed");
+  // 2^10 - 1. Chosen.
   constexpr float kLargest = 1023;
   float largest = 0;
   for (const float value : values) {

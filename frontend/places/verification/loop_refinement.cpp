@@ -122,6 +122,7 @@ LoopRefinement refine_loop(const Camera& camera, const LoopEvidence& evidence, c
 
 std::optional<double> median_log_ratio(const std::vector<LoopPoint>& points,
                                        const SE3& T_query_match) {
+  // Ratios with a median, as kMinDepths. Chosen.
   constexpr std::size_t kFewest = 8;
   std::vector<double> log_ratios;
   for (const LoopPoint& point : points) {

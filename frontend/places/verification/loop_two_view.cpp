@@ -9,6 +9,11 @@
 namespace placegraph {
 namespace {
 
+/// Minimum median displacement beyond that of the rotation. Chosen.
+constexpr double kMinLoopParallax_px = 4;
+/// Maximum |log ratio| between an agreeing depth and the median. Chosen.
+constexpr double kMaxDepthSpread = 0.2;
+
 using Code = Outcome::Code;
 using Eigen::Vector3d;
 
@@ -30,9 +35,9 @@ struct LengthEvidence {
           return std::abs(value - median) < max_spread;
         }));
   }
-  bool enough(const LoopTwoViewOptions& options) const {
-    return agreeing >= options.min_depths &&
-           agreeing >= options.min_depth_share * static_cast<double>(log_ratios.size());
+  bool enough() const {
+    return agreeing >= kMinDepths &&
+           agreeing >= kMinDepthShare * static_cast<double>(log_ratios.size());
   }
 };
 
@@ -47,8 +52,7 @@ struct Candidate {
 };
 
 Candidate judged(const Camera& camera, const SE3& T_match_query, const Rays& rays,
-                 const std::vector<LoopPoint>& points, const std::vector<int>& inliers,
-                 const LoopTwoViewOptions& options) {
+                 const std::vector<LoopPoint>& points, const std::vector<int>& inliers) {
   Candidate candidate{T_match_query};
   const TwoViewParallax parallax =
       two_view_parallax(camera, T_match_query, rays.match, rays.query, inliers);
@@ -63,7 +67,7 @@ Candidate judged(const Camera& camera, const SE3& T_match_query, const Rays& ray
     Eigen::Matrix2d M;
     M << a.dot(a), -a.dot(b), -a.dot(b), b.dot(b);
     const double sine2 = M.determinant() / (a.squaredNorm() * b.squaredNorm());
-    const double least_rad = options.min_parallax_px / camera.fx;
+    const double least_rad = kMinLoopParallax_px / camera.fx;
     if (sine2 < least_rad * least_rad) continue;
     const Eigen::Vector2d depths = M.inverse() * Eigen::Vector2d(a.dot(t), -b.dot(t));
     if (depths.minCoeff() <= 0) continue;
@@ -72,8 +76,8 @@ Candidate judged(const Camera& camera, const SE3& T_match_query, const Rays& ray
     if (points[at].point_query && points[at].point_query->z() > 0)
       candidate.query.log_ratios.push_back(std::log(points[at].point_query->z() / depths[1]));
   }
-  candidate.match.settle(options.max_depth_spread);
-  candidate.query.settle(options.max_depth_spread);
+  candidate.match.settle(kMaxDepthSpread);
+  candidate.query.settle(kMaxDepthSpread);
   return candidate;
 }
 
@@ -84,19 +88,19 @@ bool better(const Candidate& a, const Candidate& b) {
 
 /// Whether b has nearly as much support as a.
 bool rivals(const Candidate& a, const Candidate& b) {
+  // As the ambiguity of the monocular initialization. Chosen.
   constexpr double kShare = 0.8;
   return b.agreeing() >= kShare * a.agreeing() && b.ahead >= kShare * a.ahead;
 }
 
 /// Motion with its baseline in the match's scale, and the ratio of both scales.
-std::optional<Sim3> with_length(const Candidate& candidate, const LoopTwoViewOptions& options,
-                                bool free_scale) {
+std::optional<Sim3> with_length(const Candidate& candidate, bool free_scale) {
   const LengthEvidence &match = candidate.match, &query = candidate.query;
-  const bool by_match = match.enough(options), by_query = query.enough(options);
+  const bool by_match = match.enough(), by_query = query.enough();
   if (free_scale ? !(by_match && by_query) : !(by_match || by_query)) return std::nullopt;
   double log_length = by_match ? match.median : query.median;
   if (!free_scale && by_match && by_query) {
-    if (std::abs(match.median - query.median) > options.max_depth_spread) return std::nullopt;
+    if (std::abs(match.median - query.median) > kMaxDepthSpread) return std::nullopt;
     log_length = (match.agreeing * match.median + query.agreeing * query.median) /
                  (match.agreeing + query.agreeing);
   }
@@ -130,20 +134,20 @@ LoopOfTwoViews loop_of_two_views(const Camera& camera, const std::vector<LoopPoi
   const Rays rays{rays_of(camera, px_match), rays_of(camera, px_query)};
   std::vector<Candidate> candidates;
   for (const SE3& T_match_query : pose.T_ref_cur)
-    candidates.push_back(judged(camera, T_match_query, rays, points, pose.inliers, options));
+    candidates.push_back(judged(camera, T_match_query, rays, points, pose.inliers));
   std::stable_sort(candidates.begin(), candidates.end(), better);
   const Candidate& best = candidates.front();
-  if (best.parallax_px < options.min_parallax_px) {
+  if (best.parallax_px < kMinLoopParallax_px) {
     result.outcome = Outcome::failure(Code::kDegenerate, "too little parallax");
   } else if (candidates.size() > 1 && rivals(best, candidates[1])) {
     result.outcome =
         Outcome::failure(Code::kDegenerate, "two motions explain the views equally well");
-  } else if (const auto S_match_query = with_length(best, options, free_scale)) {
+  } else if (const auto S_match_query = with_length(best, free_scale)) {
     result.S_match_query = *S_match_query;
     result.outcome = Outcome::ok();
   } else {
     result.outcome =
-        best.agreeing() < options.min_depths
+        best.agreeing() < kMinDepths
             ? Outcome::failure(Code::kTooFewData, "too few depths for the baseline")
             : Outcome::failure(Code::kInconsistent, "the depths disagree on the baseline");
   }

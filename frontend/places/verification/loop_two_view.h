@@ -6,6 +6,11 @@
 
 namespace placegraph {
 
+/// Minimum number of known depths that agree on the baseline. Chosen.
+inline constexpr int kMinDepths = 8;
+/// Minimum share of the known depths that agree. Chosen.
+inline constexpr double kMinDepthShare = 0.6;
+
 struct LoopOfTwoViews {
   Outcome outcome;
   TwoViewModel model = TwoViewModel::kEssential;

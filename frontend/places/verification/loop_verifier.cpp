@@ -9,6 +9,9 @@
 namespace placegraph {
 namespace {
 
+/// Minimum share of the image that the inliers cover. Chosen.
+constexpr double kMinSpread = 0.03;
+
 /// Matches the query's features near the projections of the match's points.
 std::vector<FeatureMatch> match_guided(const Camera& camera, const std::vector<Feature>& query,
                                        const std::vector<Feature>& match, const SE3& T_query_match,
@@ -153,8 +156,7 @@ std::vector<LoopLine> agreeing_lines(const Camera& camera, const LoopView& query
   std::vector<LoopLine> lines;
   const std::vector<LineFeature> seen(query.lines.begin(), query.lines.end()),
       known(match.lines.begin(), match.lines.end());
-  for (const LineFeatureMatch& m :
-       match_lines_guided(camera, seen, known, T_match_query, options.lines)) {
+  for (const LineFeatureMatch& m : match_lines_guided(camera, seen, known, T_match_query)) {
     const LoopLine line{*known[static_cast<std::size_t>(m.b)].line_cam,
                         seen[static_cast<std::size_t>(m.a)].segment};
     const auto r = line_residual_px(camera, T_match_query, line.line_match,
@@ -180,8 +182,7 @@ bool depths_fit(const Camera& camera, const PointsAgree& agree, const LoopVerifi
     if (point.point_match) ask(S_query_match * *point.point_match, point.px_query);
     if (point.point_query) ask(S_match_query * *point.point_query, point.px_match);
   }
-  return fitting >= options.two_view.min_depths &&
-         fitting >= options.two_view.min_depth_share * known;
+  return fitting >= kMinDepths && fitting >= kMinDepthShare * known;
 }
 
 /// Reason why views with an agreeing pose are not accepted as a loop; ok if they are.
@@ -191,7 +192,7 @@ Outcome judged(const Camera& camera, const PointsAgree& agree, const LoopVerific
   using Code = Outcome::Code;
   if (verified.inliers < options.min_inlier_ratio * verified.matches)
     return Outcome::failure(Code::kNoConsensus, "too small a share of inliers");
-  if (spread_of(camera, agree.points) < options.min_spread)
+  if (spread_of(camera, agree.points) < kMinSpread)
     return Outcome::failure(Code::kDegenerate, "inliers crowd in one part of the image");
   std::vector<double> depths;
   const SE3 T_match_query = verified.T_match_query;

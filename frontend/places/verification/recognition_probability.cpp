@@ -81,6 +81,7 @@ RecognitionProbability::RecognitionProbability(const std::vector<ViewEstimate>& 
                                                const std::vector<ViewEstimate>& right) {
   require(!wrong.empty() && !right.empty(),
           "RecognitionProbability: no predictions to calibrate with");
+  // Keeps the quotient finite. Chosen.
   constexpr double kLeast = 1e-6;
   for (const ViewEstimate& estimate : wrong)
     mean_wrong_ += estimate.margin / static_cast<double>(wrong.size());

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/io/config/yaml_config.h>
 #include <placegraph/pipeline/run.h>
 
 #include <set>
@@ -58,6 +59,29 @@ TEST(RunOptions, NameTheFieldThatIsWrong) {
   options = {};
   options.slam.odometry.ground.plane.near_heights = 50;
   EXPECT_NE(refusal(options).find("near_heights"), std::string::npos);
+}
+
+TEST(RunOptions, ReadEveryRetiredKeyWithOneLineEach) {
+  const auto retired = list_retired_options(RunOptions{});
+  EXPECT_GE(retired.size(), 100u);
+  std::set<std::string> present;
+  for (const OptionEntry& entry : list_options(RunOptions{})) present.insert(entry.path);
+  for (const OptionEntry& entry : retired) {
+    SCOPED_TRACE(entry.path);
+    EXPECT_FALSE(present.contains(entry.path));
+    // A file of one key: its path as nested maps.
+    std::string text = entry.path, braces;
+    for (std::size_t dot; (dot = text.find('.')) != std::string::npos; braces += '}')
+      text.replace(dot, 1, ": {");
+    std::vector<std::string> notes;
+    RunOptions options;
+    read_options_text("old.yaml", text + ": " + entry.value + braces, options,
+                      [&](LogLevel, const std::string& note) { notes.push_back(note); });
+    EXPECT_EQ(dump_options(options), dump_options(RunOptions{}));
+    ASSERT_EQ(notes.size(), 1u);
+    EXPECT_EQ(notes[0], "old.yaml:1: '" + entry.path + "' is a constant now, " + entry.value +
+                            "; the value here is not used");
+  }
 }
 
 TEST(RunOptions, NamesItsSensors) {

@@ -59,7 +59,7 @@ struct Street {
   DirectMotion align(const SE3& start, const DirectMotionOptions& options = {}) const {
     const DirectReference reference(grey_pyramid(image_ref, options.levels), camera, patches,
                                     options);
-    return align_motion(reference, grey_pyramid(image_cur, options.levels), start, {}, options);
+    return align_motion(reference, grey_pyramid(image_cur, options.levels), start, {});
   }
   Vector6d error(const DirectMotion& motion) const {
     return (T_ref_cur.inverse() * motion.T_ref_cur).log();
@@ -140,7 +140,7 @@ TEST(DirectMotion, ASearchFindsAStepFarOff) {
   sigmas << 0.1, 0.05, 0.6, 0.005, 0.02, 0.005;
   const SE3 start =
       search_motion(reference, pyramid, pose({0, 0, 0}, {0, 0, 0.6}), sigmas, options);
-  const DirectMotion motion = align_motion(reference, pyramid, start, {}, options);
+  const DirectMotion motion = align_motion(reference, pyramid, start, {});
   ASSERT_TRUE(motion.outcome) << motion.outcome.reason;
   EXPECT_LT(street.error(motion).head<3>().norm(), 0.01);
 }

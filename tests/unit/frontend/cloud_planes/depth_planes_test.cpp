@@ -178,7 +178,7 @@ TEST(DepthPlanes, RefuseAnImageOfAnotherKind) {
                ArgumentError);
   EXPECT_THROW((void)find_depth_planes(Image(60, 80, CV_32FC1, cv::Scalar(0)), c), ArgumentError);
   DepthPlanesOptions options;
-  options.step_px = 8;
+  options.cell_px = 3;
   EXPECT_THROW((void)find_depth_planes(render_view(kCorner, {}), c, options), ArgumentError);
 }
 

@@ -94,7 +94,7 @@ TwoViews two_views(int count, Random& random) {
 TEST(LineFeature, MatchesLinesWhereThePoseExpectsThem) {
   Random random = seeded_random(313);
   TwoViews views = two_views(40, random);
-  const auto matches = match_lines_guided(kCamera, views.a, views.b, kTruth, {});
+  const auto matches = match_lines_guided(kCamera, views.a, views.b, kTruth);
   EXPECT_EQ(matches.size(), 40u);
   for (const LineFeatureMatch& match : matches) EXPECT_EQ(match.a, match.b);
   // An edge of other polarity, another descriptor, or another place is another edge.
@@ -103,9 +103,9 @@ TEST(LineFeature, MatchesLinesWhereThePoseExpectsThem) {
   const Eigen::Vector2d aside = 30 * views.a[2].segment.normal();
   views.a[2].segment.start += aside, views.a[2].segment.end += aside;
   views.b[3].line_cam.reset();
-  EXPECT_EQ(match_lines_guided(kCamera, views.a, views.b, kTruth, {}).size(), 36u);
+  EXPECT_EQ(match_lines_guided(kCamera, views.a, views.b, kTruth).size(), 36u);
   const SE3 elsewhere = kTruth * pose({0, 0.3, 0}, {0, 0, 0});
-  EXPECT_LT(match_lines_guided(kCamera, views.a, views.b, elsewhere, {}).size(), 5u);
+  EXPECT_LT(match_lines_guided(kCamera, views.a, views.b, elsewhere).size(), 5u);
 }
 
 }  // namespace line_feature_test

@@ -22,7 +22,7 @@ TEST(LineStereo, FindsTheInfiniteLinesOfATiltedWall) {
   const Image left = wall.seen(190, 130, Eigen::Matrix3d::Identity());
   const Image right = wall.seen(190, 130, right_of_left());
   const auto segments = segments_of(detect_segments(left, {}));
-  const auto matches = match_stereo_segments(left, right, segments, {}, {}, {});
+  const auto matches = match_stereo_segments(left, right, segments, {}, {});
   int found = 0, steep = 0;
   for (std::size_t i = 0; i < segments.size(); ++i) {
     const bool flat = std::abs(segments[i].direction().y()) < 0.17;
@@ -45,9 +45,9 @@ TEST(LineStereo, FindsNothingInAnotherPicture) {
   const Image left = wall.seen(190, 130, Eigen::Matrix3d::Identity());
   const Image blank(130, 190, CV_8UC1, cv::Scalar(120));
   const auto segments = segments_of(detect_segments(left, {}));
-  for (const auto& match : match_stereo_segments(left, blank, segments, {}, {}, {}))
+  for (const auto& match : match_stereo_segments(left, blank, segments, {}, {}))
     EXPECT_FALSE(match);
-  EXPECT_THROW(match_stereo_segments(left, Image(), segments, {}, {}, {}), ArgumentError);
+  EXPECT_THROW(match_stereo_segments(left, Image(), segments, {}, {}), ArgumentError);
 }
 
 }  // namespace line_stereo_test

@@ -57,8 +57,7 @@ SceneModel model_of(const std::vector<std::pair<std::string, Surface>>& classes)
 }
 
 TEST(GroundProfile, FindsThePlaneUnderTheCamera) {
-  const GroundProfile ground =
-      fit_ground(samples_of(street_depths()), lower_half_is_ground(), 0, {});
+  const GroundProfile ground = fit_ground(samples_of(street_depths()), lower_half_is_ground(), 0);
   ASSERT_TRUE(ground.outcome) << ground.outcome.reason;
   EXPECT_NEAR(ground.camera_height_m, 1.5, 0.01);
   EXPECT_NEAR(ground.down[1], 1, 1e-4);
@@ -66,16 +65,15 @@ TEST(GroundProfile, FindsThePlaneUnderTheCamera) {
 }
 
 TEST(GroundProfile, IsTheCamerasWhereNoneIsSeen) {
-  const GroundProfile ground = fit_ground({}, {}, 1.65, {});
+  const GroundProfile ground = fit_ground({}, {}, 1.65);
   EXPECT_EQ(ground.outcome.code, Outcome::Code::kTooFewData);
   EXPECT_NEAR(ground.height_of({0, 0.65, 10}), 1, 1e-9);
 }
 
 TEST(UrbanGeometry, GroundLiesAndWallsStand) {
   const std::vector<DepthSample> samples = samples_of(street_depths());
-  const GroundProfile ground = fit_ground(samples, lower_half_is_ground(), 0, {});
-  const auto places =
-      place_regions(samples, kRegions, kCamera, kCamera.fx * kBaseline_m, ground, {});
+  const GroundProfile ground = fit_ground(samples, lower_half_is_ground(), 0);
+  const auto places = place_regions(samples, kRegions, kCamera, kCamera.fx * kBaseline_m, ground);
   const SceneModel model = model_of({{"Sky", Surface::kSky},
                                      {"Road", Surface::kGround},
                                      {"Building", Surface::kVertical},
@@ -98,8 +96,8 @@ TEST(UrbanGeometry, GroundLiesAndWallsStand) {
 }
 
 TEST(UrbanGeometry, SaysNothingOfRegionsWithoutDepth) {
-  const GroundProfile ground = fit_ground({}, {}, 1.65, {});
-  const auto places = place_regions({}, 3, kCamera, 100, ground, {});
+  const GroundProfile ground = fit_ground({}, {}, 1.65);
+  const auto places = place_regions({}, 3, kCamera, 100, ground);
   for (const float l : geometry_log_likelihoods(
            places, model_of({{"Sky", Surface::kSky}, {"Road", Surface::kGround}}), {}))
     EXPECT_EQ(l, 0);

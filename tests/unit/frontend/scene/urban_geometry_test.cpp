@@ -53,7 +53,7 @@ TEST(FitGround, FindsTheRoadUnderThingsThatStandOnIt) {
   std::vector<DepthSample> samples = road(0.02, random);
   for (std::size_t i = 0; i < samples.size(); i += 3)  // a third is up to 1.2 m above it
     samples[i].point.y() -= static_cast<float>(random.uniform(0.2, 1.2));
-  const GroundProfile ground = fit_ground(samples, {0.9f, 0.6f}, 0, {});
+  const GroundProfile ground = fit_ground(samples, {0.9f, 0.6f}, 0);
   ASSERT_TRUE(ground.outcome);
   // 270 points with 2 cm of noise over 18 m; what stands near the road takes some of the weight.
   EXPECT_NEAR(ground.camera_height_m, kHeight, 0.03);
@@ -73,7 +73,7 @@ TEST(FitGround, FollowsAHillBeyondThePlane) {
     const double y = (kHeight - 0.3 - kDown.x() * x - kDown.z() * z) / kDown.y();
     samples.push_back({0, 0, Eigen::Vector3d(x, y, z).cast<float>(), 0});
   }
-  const GroundProfile ground = fit_ground(samples, {1, 1}, 0, {});
+  const GroundProfile ground = fit_ground(samples, {1, 1}, 0);
   ASSERT_EQ(ground.rise_m.size(), 8u);
   // The plane is known to 1 mm in its middle, and to a few over the distance.
   EXPECT_NEAR(ground.rise_m[3], 0, 0.01);
@@ -84,13 +84,13 @@ TEST(FitGround, IsALevelPlaneWhereNoGroundIsSeen) {
   Random random(3);
   const std::vector<DepthSample> samples = road(0.01, random);
   for (const auto& shares : {std::vector<float>{0.4f, 0.3f}, {0.49f, 0.0f}}) {
-    const GroundProfile ground = fit_ground(samples, shares, 1.2, {});
+    const GroundProfile ground = fit_ground(samples, shares, 1.2);
     EXPECT_EQ(ground.outcome.code, Outcome::Code::kTooFewData);
     EXPECT_NEAR(ground.height_of({3, 1.2, 9}), 0, 1e-12);
     EXPECT_NEAR(ground.height_of({3, 0.2, 30}), 1, 1e-12);
   }
   const std::vector<DepthSample> few(samples.begin(), samples.begin() + 59);
-  EXPECT_FALSE(fit_ground(few, {1, 1}, 1.2, {}).outcome);
+  EXPECT_FALSE(fit_ground(few, {1, 1}, 1.2).outcome);
 }
 
 TEST(PlaceRegions, RecoversPlanesAndTheirInclination) {
@@ -107,7 +107,7 @@ TEST(PlaceRegions, RecoversPlanesAndTheirInclination) {
   for (std::size_t i = 0; i < samples.size(); i += 25)
     if (samples[i].superpixel == 2) samples[i].point *= 1.5f;
   const std::vector<RegionPlace> places =
-      place_regions(samples, 4, kCamera, kFocalTimesBaseline, level, {});
+      place_regions(samples, 4, kCamera, kFocalTimesBaseline, level);
   ASSERT_EQ(places.size(), 4u);
   EXPECT_EQ(places[0].samples, 100);
   EXPECT_NEAR((places[0].plane - ground / 1.6).norm(), 0, 1e-3);

@@ -74,7 +74,7 @@ TEST(MergeSegments, DoesNotCareForOrderPlaceOrDirection) {
     for (std::size_t i = moved.size() - 1; i > 0; --i)
       std::swap(moved[i], moved[random.index(static_cast<int>(i) + 1)]);
     std::vector<LineSegment> back;
-    for (const LineSegment& whole : merge_segments(moved, {}))
+    for (const LineSegment& whole : merge_segments(moved))
       back.push_back({R.transpose() * (whole.start - shift), R.transpose() * (whole.end - shift)});
     std::sort(back.begin(), back.end(),
               [](const LineSegment& a, const LineSegment& b) { return a.length() < b.length(); });
@@ -94,7 +94,7 @@ TEST(MergeSegments, DoesNotCareForOrderPlaceOrDirection) {
       EXPECT_LT((again[i].end - once[i].end).norm(), 1e-6);
     }
   }
-  EXPECT_TRUE(merge_segments({}, {}).empty());
+  EXPECT_TRUE(merge_segments({}).empty());
 }
 
 }  // namespace local_motion_test

@@ -17,7 +17,7 @@ using Eigen::Vector2d;
 
 TEST(SegmentMerging, JoinsPiecesOfOneEdge) {
   const auto merged =
-      merge_segments({{{0, 0}, {20, 0}}, {{50, 30}, {50, 60}}, {{26, 0.4}, {50, 0.4}}}, {});
+      merge_segments({{{0, 0}, {20, 0}}, {{50, 30}, {50, 60}}, {{26, 0.4}, {50, 0.4}}});
   ASSERT_EQ(merged.size(), 2u);
   EXPECT_NEAR((merged[0].start - Vector2d(0, 0)).norm(), 0, 0.5);
   EXPECT_NEAR((merged[0].end - Vector2d(50, 0.4)).norm(), 0, 0.5);
@@ -26,10 +26,10 @@ TEST(SegmentMerging, JoinsPiecesOfOneEdge) {
 
 TEST(SegmentMerging, LeavesApartWhatIsNotOneEdge) {
   const LineSegment base{{0, 0}, {20, 0}};
-  EXPECT_EQ(merge_segments({base, {{35, 0}, {60, 0}}}, {}).size(), 2u) << "gap";
-  EXPECT_EQ(merge_segments({base, {{22, 2}, {60, 2}}}, {}).size(), 2u) << "distance";
-  EXPECT_EQ(merge_segments({base, {{40, 0}, {22, 0}}}, {}).size(), 2u) << "polarity";
-  EXPECT_EQ(merge_segments({base, {{21, 0}, {40, 1.1}}}, {}).size(), 2u) << "angle";
+  EXPECT_EQ(merge_segments({base, {{35, 0}, {60, 0}}}).size(), 2u) << "gap";
+  EXPECT_EQ(merge_segments({base, {{22, 2}, {60, 2}}}).size(), 2u) << "distance";
+  EXPECT_EQ(merge_segments({base, {{40, 0}, {22, 0}}}).size(), 2u) << "polarity";
+  EXPECT_EQ(merge_segments({base, {{21, 0}, {40, 1.1}}}).size(), 2u) << "angle";
 }
 
 TEST(SegmentMerging, ChainThatBendsStaysInPieces) {
@@ -40,7 +40,7 @@ TEST(SegmentMerging, ChainThatBendsStaysInPieces) {
     };
     arc.push_back({at(i), at(i + 0.9)});
   }
-  EXPECT_EQ(merge_segments(arc, {}).size(), 12u);
+  EXPECT_EQ(merge_segments(arc).size(), 12u);
 }
 
 TEST(EdgeRefiner, FindsAnEdgeWithinAFewHundredthsOfAPixel) {
@@ -49,7 +49,7 @@ TEST(EdgeRefiner, FindsAnEdgeWithinAFewHundredthsOfAPixel) {
     const Vector2d n(std::cos(angle), std::sin(angle)), along(-n.y(), n.x()), middle(60.3, 49.6);
     const Image image = test::half_planes(120, 100, angle, n.dot(middle));
     const LineSegment rough{middle - 30 * along + 1.2 * n, middle + 30 * along - 0.8 * n};
-    const auto edge = EdgeRefiner(image, {}).refine(rough);
+    const auto edge = EdgeRefiner(image).refine(rough);
     ASSERT_TRUE(edge);
     for (const Vector2d& end : {edge->segment.start, edge->segment.end})
       EXPECT_NEAR(n.dot(end - middle), 0, 0.05);
@@ -68,7 +68,7 @@ TEST(EdgeRefiner, CovarianceIsHonestUnderNoise) {
     const Vector2d middle(40 + random.uniform(0, 1), 40 + random.uniform(0, 1));
     const Image image =
         test::disturbed(test::half_planes(80, 80, angle, n.dot(middle), 90, 130), 6, random);
-    const auto edge = EdgeRefiner(image, {}).refine({middle - 25 * along, middle + 25 * along});
+    const auto edge = EdgeRefiner(image).refine({middle - 25 * along, middle + 25 * along});
     ASSERT_TRUE(edge);
     const Vector2d m = edge->line.normal().dot(n) > 0 ? edge->line.normal() : -edge->line.normal();
     const double rotation = std::atan2(n.x() * m.y() - n.y() * m.x(), n.dot(m));
@@ -84,11 +84,11 @@ TEST(EdgeRefiner, CovarianceIsHonestUnderNoise) {
 
 TEST(EdgeRefiner, SeesNoEdgeWhereNoneIs) {
   const Image flat(60, 60, CV_8UC1, cv::Scalar(90));
-  EXPECT_FALSE(EdgeRefiner(flat, {}).refine({{10, 30}, {50, 30}}));
+  EXPECT_FALSE(EdgeRefiner(flat).refine({{10, 30}, {50, 30}}));
   const Image edge = test::half_planes(60, 60, 0, 30);
-  EXPECT_FALSE(EdgeRefiner(edge, {}).refine({{10, 30}, {50, 30}})) << "across the edge";
-  EXPECT_FALSE(EdgeRefiner(edge, {}).refine({{30, 10}, {30, 12}})) << "too short";
-  EXPECT_THROW(EdgeRefiner(Image(), {}), Error);
+  EXPECT_FALSE(EdgeRefiner(edge).refine({{10, 30}, {50, 30}})) << "across the edge";
+  EXPECT_FALSE(EdgeRefiner(edge).refine({{30, 10}, {30, 12}})) << "too short";
+  EXPECT_THROW(EdgeRefiner(Image()), Error);
 }
 
 TEST(SegmentDetector, FindsTheEdgesOfTiles) {

@@ -85,7 +85,7 @@ TEST(FollowSegment, FindsShiftAndRotationOfAnEdgeInOtherLight) {
     for (const double turn : {-0.06, 0.0, 0.04}) {
       const Vector2d n(std::cos(angle + turn), std::sin(angle + turn));
       const LineProfileImage to(edge_image(middle + shift * n, angle + turn, 1.3));
-      const auto flow = follow_segment(from, segment, to, segment, 2, {});
+      const auto flow = follow_segment(from, segment, to, segment, 2);
       ASSERT_TRUE(flow) << shift << ' ' << turn;
       // Grey values are rounded: thousandths of a pixel for a hundred samples. The ends of the
       // step are at 0.02 px.
@@ -99,9 +99,9 @@ TEST(FollowSegment, IsNothingWithoutAnImageOrLength) {
   const Vector2d middle(60, 50);
   const LineProfileImage image(edge_image(middle, 1.4, 1));
   const LineSegment inside{{40, 50}, {80, 50}}, outside{{300, 50}, {340, 50}};
-  EXPECT_FALSE(follow_segment(image, inside, image, outside, 1, {}));
-  EXPECT_FALSE(follow_segment(image, {{40, 50}, {43, 50}}, image, inside, 1, {}));
-  EXPECT_FALSE(follow_segment(image, inside, image, {{40, 50}, {43, 50}}, 1, {}));
+  EXPECT_FALSE(follow_segment(image, inside, image, outside, 1));
+  EXPECT_FALSE(follow_segment(image, {{40, 50}, {43, 50}}, image, inside, 1));
+  EXPECT_FALSE(follow_segment(image, inside, image, {{40, 50}, {43, 50}}, 1));
 }
 
 }  // namespace segment_profile_test

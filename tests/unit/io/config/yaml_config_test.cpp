@@ -276,5 +276,58 @@ TEST_F(FormerKeys, AreNotSuggestedForUnknownOnes) {
               HasSubstr("direct.levles: unknown key; did you mean levels?"));
 }
 
+struct RetiredOptions {
+  double sigma_px = 1;
+};
+void visit(OptionVisitor& field, RetiredOptions& o) {
+  field("sigma_px", o.sigma_px, "noise [px]", {0, 10});
+  field.retired({{"blur_px", 1.5}});
+  field.retired({{"levels", 3}, {"step_px", 2}}, "direct");
+}
+
+class RetiredKeys : public testing::Test {
+ protected:
+  RetiredOptions options;
+  std::vector<std::string> notes;
+  LogSink log = [this](LogLevel, const std::string& note) { notes.push_back(note); };
+};
+
+TEST_F(RetiredKeys, AreReadFromFilesWithANoteEach) {
+  const TemporaryFolder folder;
+  const std::string path =
+      folder.write("old.yaml", "blur_px: 7\nsigma_px: 2\ndirect: {levels: 3, step_px: 4}\n");
+  read_options(path, options, log);
+  EXPECT_EQ(options.sigma_px, 2);
+  const std::string unused = "; the value here is not used";
+  EXPECT_THAT(notes, ElementsAre(path + ":1: 'blur_px' is a constant now, 1.5" + unused,
+                                 path + ":3: 'direct.levels' is a constant now, 3" + unused,
+                                 path + ":3: 'direct.step_px' is a constant now, 2" + unused));
+}
+
+TEST_F(RetiredKeys, DoNotHideUnknownOnes) {
+  const TemporaryFolder folder;
+  const std::string inside = folder.write("inside.yaml", "direct: {levles: 3}\n");
+  EXPECT_THAT(message_of<FileError>([&] { read_options(inside, options); }),
+              HasSubstr("inside.yaml:1: direct.levles: unknown key"));
+  EXPECT_THAT(message_of<ArgumentError>([&] { set_option(options, "direct.levles=3"); }),
+              HasSubstr("unknown key"));
+}
+
+TEST_F(RetiredKeys, MayBeSetWithANote) {
+  set_option(options, "direct.levels=5", log);
+  set_option(options, "blur_px=1.5", log);
+  EXPECT_THAT(notes,
+              ElementsAre("--set 'direct.levels' is a constant now, 3; the value here is not used",
+                          "--set 'blur_px' is a constant now, 1.5; the value here is not used"));
+}
+
+TEST_F(RetiredKeys, AreListedApart) {
+  EXPECT_EQ(list_options(options).size(), 1u);
+  std::vector<std::string> found;
+  for (const OptionEntry& entry : list_retired_options(options))
+    found.push_back(entry.path + ' ' + entry.value);
+  EXPECT_THAT(found, ElementsAre("blur_px 1.5", "direct.levels 3", "direct.step_px 2"));
+}
+
 }  // namespace yaml_config_test
 }  // namespace placegraph

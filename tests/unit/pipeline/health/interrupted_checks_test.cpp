@@ -116,7 +116,7 @@ TEST(InterruptedChecks, SayWhatTheyWouldHaveSaidWithoutTheInterruption) {
 TEST(InterruptedChecks, PatchesThatStandAreRemembered) {
   Random random = test::seeded_random(4);
   const Camera camera = stereo().camera;
-  StandingPatches whole({}, camera), interrupted({}, camera);
+  StandingPatches whole(camera), interrupted(camera);
   for (int i = 0; i < kSteps; ++i) {
     Image image(camera.height, camera.width, CV_8UC1);
     for (int v = 0; v < image.rows; ++v)
@@ -127,8 +127,7 @@ TEST(InterruptedChecks, PatchesThatStandAreRemembered) {
       }
     whole.compare(image, {});
     interrupted.compare(image, {});
-    if (random.uniform() < 0.3)
-      interrupted = test::resumed(interrupted, StandingPatches({}, camera));
+    if (random.uniform() < 0.3) interrupted = test::resumed(interrupted, StandingPatches(camera));
     EXPECT_EQ(whole.suspects(), interrupted.suspects()) << i;
     EXPECT_EQ(cv::norm(whole.elsewhere(), interrupted.elsewhere(), cv::NORM_INF), 0) << i;
   }

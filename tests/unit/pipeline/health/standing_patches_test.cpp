@@ -48,7 +48,7 @@ ImageMotion rotation(double angle) {
 }
 
 TEST(StandingPatches, AreSuspectWhereTheRestOfTheImageMoves) {
-  StandingPatches patches({}, kCamera);
+  StandingPatches patches(kCamera);
   for (int i = 0; i < kComparisons; ++i) patches.compare(moving_image(i, 5), {});
   EXPECT_TRUE(patches.suspects());
   const Image elsewhere = patches.elsewhere();
@@ -57,7 +57,7 @@ TEST(StandingPatches, AreSuspectWhereTheRestOfTheImageMoves) {
 }
 
 TEST(StandingPatches, AreNotSuspectWhenTheCameraRestsOrNothingIsFixed) {
-  StandingPatches at_rest({}, kCamera), clean({}, kCamera);
+  StandingPatches at_rest(kCamera), clean(kCamera);
   const Image world = texture(2000, kCamera.height, 1);
   for (int i = 0; i < kComparisons; ++i) {
     at_rest.compare(moving_image(0, 5), {});
@@ -68,7 +68,7 @@ TEST(StandingPatches, AreNotSuspectWhenTheCameraRestsOrNothingIsFixed) {
 }
 
 TEST(StandingPatches, StandStillWhateverTheExposure) {
-  StandingPatches patches({}, kCamera);
+  StandingPatches patches(kCamera);
   for (int i = 0; i < kComparisons; ++i) {
     Image image;
     moving_image(i, 5).convertTo(image, CV_8U, 0.5 + 0.02 * i, 10 + i);
@@ -78,7 +78,7 @@ TEST(StandingPatches, StandStillWhateverTheExposure) {
 }
 
 TEST(StandingPatches, AreNotTakenWhereTheMaskForbidsThem) {
-  StandingPatches patches({}, kCamera);
+  StandingPatches patches(kCamera);
   Image mask(kCamera.height, kCamera.width, CV_8UC1, cv::Scalar(255));
   mask(kFixed).setTo(0);
   for (int i = 0; i < kComparisons; ++i) patches.compare(moving_image(i, 5), mask);
@@ -86,7 +86,7 @@ TEST(StandingPatches, AreNotTakenWhereTheMaskForbidsThem) {
 }
 
 TEST(StandingPatches, MustStandForLongWhereOthersMoved) {
-  StandingPatches patches({}, kCamera);
+  StandingPatches patches(kCamera);
   const Image world = texture(2000, kCamera.height, 1);
   for (int i = 0; i < 2 * kComparisons; ++i)
     patches.compare(world(cv::Rect(5 * i, 0, kCamera.width, kCamera.height)), {});
@@ -98,7 +98,7 @@ TEST(StandingPatches, MustStandForLongWhereOthersMoved) {
 }
 
 TEST(StandingPatches, AreProvenByRotationsSinceTheyWereTaken) {
-  StandingPatches patches({}, kCamera);
+  StandingPatches patches(kCamera);
   for (int i = 0; i < kComparisons; ++i) patches.compare(moving_image(i, 5), {});
   EXPECT_FALSE(patches.judge(rotation(0.02), 0));               // before they were taken
   EXPECT_FALSE(patches.judge(rotation(0.0005), kComparisons));  // a fourth of a pixel
