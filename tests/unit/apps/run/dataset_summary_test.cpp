@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/io/datasets/open_dataset.h>
 
-#include "tiny_images.h"
+#include "tests/unit/io/datasets/tiny_images.h"
 
 namespace placegraph::apps {
 namespace dataset_summary_test {
