@@ -88,7 +88,7 @@ TEST(EdgeRefiner, SeesNoEdgeWhereNoneIs) {
   const Image edge = test::half_planes(60, 60, 0, 30);
   EXPECT_FALSE(EdgeRefiner(edge).refine({{10, 30}, {50, 30}})) << "across the edge";
   EXPECT_FALSE(EdgeRefiner(edge).refine({{30, 10}, {30, 12}})) << "too short";
-  EXPECT_THROW(EdgeRefiner(Image()), Error);
+  EXPECT_THROW(EdgeRefiner{Image()}, Error);
 }
 
 TEST(SegmentDetector, FindsTheEdgesOfTiles) {
