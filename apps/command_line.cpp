@@ -118,7 +118,7 @@ std::unique_ptr<CLI::App> make_command_line() {
   app->require_subcommand(1);
   RunPresentation presentation;
   presentation.write_page = [](const std::string& folder, const std::string& file) {
-    write_run_page(folder, file, kProgram);
+    write_folder_page(folder, file);
   };
   presentation.show = [](const ViewerOptions& options, const std::string& title) {
     return std::make_unique<RunView>(options, title, kProgram);
