@@ -15,7 +15,7 @@
 #include "apps/image/scene/cmd_scene.h"
 #include "apps/map/cmd_map_label.h"
 #include "apps/map/cmd_map_plan.h"
-#include "apps/map/cmd_map_semantic.h"
+#include "apps/map/cmd_map_street.h"
 #include "apps/places/cmd_match.h"
 #include "apps/places/cmd_places.h"
 #include "apps/places/cmd_vocabulary.h"

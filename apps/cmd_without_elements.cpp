@@ -65,15 +65,15 @@ FloorPlanner floor_planner() { return {}; }
 
 json image_content(const StoredMap&, const Explanation&) { return {{"unknown", kWithout}}; }
 
-json map_rooms(const RunArguments&, const RunOptions&, const Dataset&, RunResult&) {
+json add_floor_plan(const RunArguments&, const RunOptions&, const Dataset&, RunResult&) {
   warn(std::string("no floor plan: ") + kWithout);
   return {{"outcome", to_string(Outcome::Code::kNotAttempted)}, {"reason", kWithout}};
 }
 
 void check_street_models(const RunOptions&) {}
 
-json map_street(const RunArguments&, const RunOptions&, const Dataset&, const RunResult&) {
-  warn(std::string("no semantic map: ") + kWithout);
+json add_street_map(const RunArguments&, const RunOptions&, const Dataset&, const RunResult&) {
+  warn(std::string("no street map: ") + kWithout);
   return {{"outcome", to_string(Outcome::Code::kNotAttempted)}, {"reason", kWithout}};
 }
 

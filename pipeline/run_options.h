@@ -44,12 +44,12 @@ void visit(OptionVisitor& field, MotionOptions& options);
 
 /// Scene models that are built from the finished map.
 struct SceneOptions {
-  bool geometry = false;   ///< build a floor plan with walls, doors and rooms (docs/indoor.md)
-  bool semantics = false;  ///< build a semantic map of a street (docs/urban_map.md)
+  bool geometry = false;   ///< build a floor plan with walls, doors and rooms (docs/floor_plan.md)
+  bool semantics = false;  ///< build a street map of a street (docs/street_map.md)
   /// Files of the models that label streets and surfaces; empty: the built-in models.
   std::string urban_model, surfaces_model;
-  IndoorMapperOptions indoor;  ///< options of the floor plan
-  UrbanMapperOptions urban;    ///< options of the semantic street map
+  FloorPlanMapperOptions indoor;  ///< options of the floor plan
+  StreetMapperOptions urban;      ///< options of the semantic street map
 };
 void visit(OptionVisitor& field, SceneOptions& options);
 

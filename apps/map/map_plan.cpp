@@ -14,7 +14,7 @@
 namespace placegraph::apps {
 
 MapPlanResult map_plan(const MapPlanArguments& arguments) {
-  IndoorMapperOptions options;
+  FloorPlanMapperOptions options;
   for (const std::string& setting : arguments.settings)
     set_option(options, setting, option_notes());
   options.check();
@@ -23,7 +23,7 @@ MapPlanResult map_plan(const MapPlanArguments& arguments) {
   if (!stored.origin.calibration || stored.map.keyframes.empty())
     throw NoResult(arguments.map + ": nothing in it has a pose");
   const auto dataset = open_dataset(stored.origin.sequence);
-  const IndoorMap plan = plan_of_map(stored, options);
+  const FloorPlan plan = plan_of_map(stored, options);
   if (!plan.outcome) throw NoResult(arguments.map + ": no floor plan: " + plan.outcome.reason);
   const OutputFolder folder(arguments.out);
   write_floor_plan(arguments.out, plan, stored.map, dataset->name(), messages());

@@ -10,28 +10,31 @@
 namespace placegraph::apps {
 namespace {
 
-UrbanModels load_urban_models(const UrbanModelPaths& models) {
+StreetMapModels load_street_map_models(const StreetMapModelPaths& models) {
   SceneModel urban = load_scene_model(SceneModel::Kind::kUrban, models.urban);
   return {std::move(urban), load_scene_model(SceneModel::Kind::kSurfaces, models.surfaces)};
 }
 
 }  // namespace
 
-void check_urban_models(const UrbanMapperOptions& options, const UrbanModelPaths& models) {
-  UrbanMapper::check(options, load_urban_models(models).urban);
+void check_street_map_models(const StreetMapperOptions& options,
+                             const StreetMapModelPaths& models) {
+  StreetMapper::check(options, load_street_map_models(models).urban);
 }
 
-UrbanMapper street_mapper_of(const Map& map, const Calibration& calibration, const Dataset& dataset,
-                             Sensor sensor, double lens_k1, const UrbanMapperOptions& options,
-                             const UrbanModelPaths& models) {
+StreetMapper street_mapper_of(const Map& map, const Calibration& calibration,
+                              const Dataset& dataset, Sensor sensor, double lens_k1,
+                              const StreetMapperOptions& options,
+                              const StreetMapModelPaths& models) {
   std::optional<Progress> progress;
-  return urban_mapper_of(map, calibration, dataset, sensor, lens_k1, options,
-                         load_urban_models(models), [&](std::size_t done, std::size_t total) {
-                           if (!progress)
-                             progress.emplace("labelling " + dataset.name(),
-                                              static_cast<std::int64_t>(total), "keyframes");
-                           progress->update(static_cast<std::int64_t>(done));
-                         });
+  return make_street_mapper(map, calibration, dataset, sensor, lens_k1, options,
+                            load_street_map_models(models),
+                            [&](std::size_t done, std::size_t total) {
+                              if (!progress)
+                                progress.emplace("labelling " + dataset.name(),
+                                                 static_cast<std::int64_t>(total), "keyframes");
+                              progress->update(static_cast<std::int64_t>(done));
+                            });
 }
 
 }  // namespace placegraph::apps

@@ -229,9 +229,9 @@ RunReport run(const RunArguments& asked) {
   const Judgement judgement = judge_prepared(prepared, run, optimized);
   json floor_plan, semantic_map;
   if (options.scene.geometry && !run.stopped)
-    floor_plan = map_rooms(arguments, options, dataset, run);
+    floor_plan = add_floor_plan(arguments, options, dataset, run);
   if (options.scene.semantics && !run.stopped)
-    semantic_map = map_street(arguments, options, dataset, run);
+    semantic_map = add_street_map(arguments, options, dataset, run);
   clock.stop();
 
   RunReport report{arguments.out, summarize(prepared, run, optimized), {}, {}, {}};

@@ -68,7 +68,7 @@ std::string scene_text(const json& summary) {
                              plan["doors"].get<int>(), plan["rooms"].get<int>()));
   }
   if (summary.contains("semantic_map") && summary["semantic_map"].contains("cells"))
-    text += line("", fmt::format("semantic map: {} cells of {} keyframes",
+    text += line("", fmt::format("street map: {} cells of {} keyframes",
                                  summary["semantic_map"]["cells"].get<long long>(),
                                  summary["semantic_map"]["keyframes"].get<int>()));
   return text;

@@ -2,7 +2,7 @@
 
 #include <placegraph/pipeline/map/map_floor_plan.h>
 #include <placegraph/pipeline/results/floor_plan_files.h>
-#include <placegraph/pipeline/results/semantic_map_files.h>
+#include <placegraph/pipeline/results/street_map_files.h>
 
 #include <nlohmann/json.hpp>
 
@@ -13,9 +13,9 @@ namespace placegraph::apps {
 
 using nlohmann::json;
 
-json map_rooms(const RunArguments& arguments, const RunOptions& options, const Dataset& dataset,
-               RunResult& run) {
-  const IndoorMap plan =
+json add_floor_plan(const RunArguments& arguments, const RunOptions& options,
+                    const Dataset& dataset, RunResult& run) {
+  const FloorPlan plan =
       plan_of_map(run.map, run.calibration, dataset, run.sensor, run.lens_k1, options.scene.indoor);
   if (plan.outcome) {
     label_places(plan, run.map.place_graph);
@@ -29,22 +29,22 @@ json map_rooms(const RunArguments& arguments, const RunOptions& options, const D
 }
 
 void check_street_models(const RunOptions& options) {
-  check_urban_models(options.scene.urban,
-                     {options.scene.urban_model, options.scene.surfaces_model});
+  check_street_map_models(options.scene.urban,
+                          {options.scene.urban_model, options.scene.surfaces_model});
 }
 
-json map_street(const RunArguments& arguments, const RunOptions& options, const Dataset& dataset,
-                const RunResult& run) {
-  const UrbanMapper mapper = street_mapper_of(
+json add_street_map(const RunArguments& arguments, const RunOptions& options,
+                    const Dataset& dataset, const RunResult& run) {
+  const StreetMapper mapper = street_mapper_of(
       run.map, run.calibration, dataset, run.sensor, run.lens_k1, options.scene.urban,
       {options.scene.urban_model, options.scene.surfaces_model});
-  const SemanticMap semantic = mapper.fuse(run.map);
+  const StreetMap semantic = mapper.fuse(run.map);
   if (semantic.outcome)
-    write_semantic_map(arguments.out, semantic, mapper, run.map, poses_of(run.map), dataset.name(),
-                       {}, messages());
+    write_street_map(arguments.out, semantic, mapper, run.map, poses_of(run.map), dataset.name(),
+                     {}, messages());
   else
-    warn("no semantic map: " + semantic.outcome.reason);
-  return json::parse(semantic_map_json(semantic, mapper, run.map, dataset, arguments.sequence));
+    warn("no street map: " + semantic.outcome.reason);
+  return json::parse(street_map_json(semantic, mapper, run.map, dataset, arguments.sequence));
 }
 
 }  // namespace placegraph::apps

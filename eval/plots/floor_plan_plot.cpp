@@ -23,19 +23,19 @@ FigureLine line_through(const std::vector<Vector2d>& points, const Stroke& strok
   return {{points.begin(), points.end()}, stroke, {}};
 }
 
-void add_truth(const BuildingPlan& truth, std::vector<FigureShape>& shapes) {
-  for (const BuildingPlan::Wall& wall : truth.walls) {
+void add_truth(const TrueFloorPlan& truth, std::vector<FigureShape>& shapes) {
+  for (const TrueFloorPlan::Wall& wall : truth.walls) {
     const Vector2d axis = (wall.b - wall.a).normalized(),
                    off = 0.5 * wall.thickness_m * Vector2d(-axis[1], axis[0]);
     for (const double side : {-1.0, 1.0})
       shapes.emplace_back(line_through({wall.a + side * off, wall.b + side * off}, {kTruth}));
   }
-  for (const BuildingPlan::Door& door : truth.doors)
+  for (const TrueFloorPlan::Door& door : truth.doors)
     shapes.emplace_back(line_through({door.a, door.b}, {kTruth, 5}));
 }
 
 /// The fill of a room, widened by a stroke to the walls that bound it.
-void add_room(const IndoorRoom& room, Colour colour, std::vector<FigureShape>& shapes) {
+void add_room(const PlanRoom& room, Colour colour, std::vector<FigureShape>& shapes) {
   if (room.outline.empty()) return;
   FigureArea area{{room.outline}, colour, 1};
   area.rings.insert(area.rings.end(), room.holes.begin(), room.holes.end());
@@ -58,8 +58,8 @@ bool is_within(const std::vector<Vector2d>& ring, const Vector2d& p) {
 }
 
 /// Area of the room at a point; 0 if there is none.
-double area_at(const IndoorMap& plan, const Vector2d& p) {
-  for (const IndoorRoom& room : plan.rooms)
+double area_at(const FloorPlan& plan, const Vector2d& p) {
+  for (const PlanRoom& room : plan.rooms)
     if (is_within(room.outline, p) &&
         std::ranges::none_of(room.holes, [&](const auto& hole) { return is_within(hole, p); }))
       return room.area_m2;
@@ -67,7 +67,7 @@ double area_at(const IndoorMap& plan, const Vector2d& p) {
 }
 
 /// The unit normal of a door towards the larger of its rooms, where a leaf has room.
-Vector2d swing_side(const IndoorMap& plan, const IndoorDoor& door) {
+Vector2d swing_side(const FloorPlan& plan, const PlanDoor& door) {
   const Vector2d axis = (door.b - door.a).normalized(), normal(-axis[1], axis[0]),
                  middle = 0.5 * (door.a + door.b);
   constexpr double kBeside_m = 0.4;
@@ -76,7 +76,7 @@ Vector2d swing_side(const IndoorMap& plan, const IndoorDoor& door) {
              : Vector2d(-normal);
 }
 
-void add_door(const IndoorMap& plan, const IndoorDoor& door, std::vector<FigureShape>& shapes) {
+void add_door(const FloorPlan& plan, const PlanDoor& door, std::vector<FigureShape>& shapes) {
   const Vector2d across = door.b - door.a;
   if (!(across.norm() > 0)) return;
   const Vector2d leaf = across.norm() * swing_side(plan, door);
@@ -99,7 +99,7 @@ double distance_to(const Vector2d& p, const Vector2d& a, const Vector2d& b) {
 }
 
 /// Distance from a point of a room to its outline, its holes and the doors, with their leaves.
-double room_around(const IndoorMap& plan, const IndoorRoom& room, const Vector2d& p) {
+double room_around(const FloorPlan& plan, const PlanRoom& room, const Vector2d& p) {
   double distance = std::numeric_limits<double>::infinity();
   const auto keep_off = [&](const std::vector<Vector2d>& ring) {
     for (std::size_t i = 0; i < ring.size(); ++i)
@@ -107,13 +107,13 @@ double room_around(const IndoorMap& plan, const IndoorRoom& room, const Vector2d
   };
   keep_off(room.outline);
   std::ranges::for_each(room.holes, keep_off);
-  for (const IndoorDoor& door : plan.doors)
+  for (const PlanDoor& door : plan.doors)
     distance = std::min(distance, distance_to(p, door.a, door.b) - 0.5 * (door.b - door.a).norm());
   return distance;
 }
 
 /// The point of a room with the most room around it, for its name.
-Vector2d name_at(const IndoorMap& plan, const IndoorRoom& room) {
+Vector2d name_at(const FloorPlan& plan, const PlanRoom& room) {
   Vector2d low = room.outline.front(), high = low;
   for (const Vector2d& p : room.outline) low = low.cwiseMin(p), high = high.cwiseMax(p);
   constexpr int kSteps = 41;
@@ -131,14 +131,14 @@ Vector2d name_at(const IndoorMap& plan, const IndoorRoom& room) {
   return best;
 }
 
-void set_ranges(const IndoorMap& plan, const FloorPlanPicture& picture, FigurePanel& panel) {
+void set_ranges(const FloorPlan& plan, const FloorPlanPicture& picture, FigurePanel& panel) {
   Interval x, z;
   const auto take = [&](const Vector2d& p) { x.add(p[0]), z.add(p[1]); };
-  for (const IndoorWall& wall : plan.walls) take(wall.a), take(wall.b);
-  for (const IndoorRoom& room : plan.rooms) std::ranges::for_each(room.outline, take);
+  for (const PlanWall& wall : plan.walls) take(wall.a), take(wall.b);
+  for (const PlanRoom& room : plan.rooms) std::ranges::for_each(room.outline, take);
   std::ranges::for_each(picture.path, take);
   if (picture.truth)
-    for (const BuildingPlan::Wall& wall : picture.truth->walls) take(wall.a), take(wall.b);
+    for (const TrueFloorPlan::Wall& wall : picture.truth->walls) take(wall.a), take(wall.b);
   panel.x = {"x [m]", with_margin(x, 0.03, 1), false, {}};
   panel.y = {"z [m]", with_margin(z, 0.03, 1), false, {}};
   const Vector2d content(panel.x.range.size(), panel.y.range.size()), most(1000, 800);
@@ -146,10 +146,10 @@ void set_ranges(const IndoorMap& plan, const FloorPlanPicture& picture, FigurePa
   make_equal(panel);
 }
 
-std::vector<LegendEntry> legend_of(const IndoorMap& plan, const FloorPlanPicture& picture) {
+std::vector<LegendEntry> legend_of(const FloorPlan& plan, const FloorPlanPicture& picture) {
   std::vector<LegendEntry> legend = {{"wall", {kWall, 4}}};
   if (!plan.rooms.empty()) legend.push_back({"room", {kRooms[0]}, LegendMark::kArea});
-  const auto closed = [](const IndoorDoor& door) { return door.closed; };
+  const auto closed = [](const PlanDoor& door) { return door.closed; };
   if (!std::ranges::all_of(plan.doors, closed))
     legend.push_back({"doorway (its hinges are not observed)", {kDoor, 1.3}});
   if (std::ranges::any_of(plan.doors, closed)) legend.push_back({"closed door", {kDoor, 4}});
@@ -160,7 +160,7 @@ std::vector<LegendEntry> legend_of(const IndoorMap& plan, const FloorPlanPicture
 
 }  // namespace
 
-std::string floor_plan_svg(const IndoorMap& plan, const FloorPlanPicture& picture) {
+std::string floor_plan_svg(const FloorPlan& plan, const FloorPlanPicture& picture) {
   FigurePanel panel;
   set_ranges(plan, picture, panel);
   panel.corner = {kLeftMargin, 14};
@@ -171,15 +171,15 @@ std::string floor_plan_svg(const IndoorMap& plan, const FloorPlanPicture& pictur
     area_m2 += plan.rooms[i].area_m2;
   }
   if (picture.truth) add_truth(*picture.truth, shapes);
-  for (const IndoorWall& wall : plan.walls)
+  for (const PlanWall& wall : plan.walls)
     shapes.emplace_back(line_through({wall.a, wall.b}, {kWall, 4}));
   if (picture.path.size() > 1)
     shapes.emplace_back(line_through(picture.path, {kPlanPath, 1.3, 0.8}));
-  for (const IndoorRoom& room : plan.rooms)
+  for (const PlanRoom& room : plan.rooms)
     if (!room.outline.empty())
       shapes.emplace_back(
           FigureText{name_at(plan, room), fmt::format("{}\n{:.1f} m²", room.label, room.area_m2)});
-  for (const IndoorDoor& door : plan.doors) add_door(plan, door, shapes);
+  for (const PlanDoor& door : plan.doors) add_door(plan, door, shapes);
   Figure figure;
   figure.title = picture.title;
   figure.notes = {fmt::format("floor plan: {} room{}, {:.1f} m²", plan.rooms.size(),

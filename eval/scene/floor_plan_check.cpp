@@ -31,11 +31,11 @@ bool crosses(const Vector2d& p, const Vector2d& q, const Segment& s) {
 }
 
 /// The pieces of a wall between its doors; `closed_too`: closed doors are pieces as well.
-std::vector<Segment> solid_pieces(const BuildingPlan& truth, std::size_t wall, bool closed_too) {
-  const BuildingPlan::Wall& w = truth.walls[wall];
+std::vector<Segment> solid_pieces(const TrueFloorPlan& truth, std::size_t wall, bool closed_too) {
+  const TrueFloorPlan::Wall& w = truth.walls[wall];
   const Vector2d axis = (w.b - w.a).normalized();
   std::vector<std::pair<double, double>> gaps;
-  for (const BuildingPlan::Door& door : truth.doors) {
+  for (const TrueFloorPlan::Door& door : truth.doors) {
     if (door.wall != static_cast<int>(wall) || (closed_too && door.closed)) continue;
     const double s = axis.dot(door.a - w.a), t = axis.dot(door.b - w.a);
     gaps.emplace_back(std::min(s, t), std::max(s, t));
@@ -55,7 +55,7 @@ std::vector<Segment> solid_pieces(const BuildingPlan& truth, std::size_t wall, b
 /// The surfaces that are visible from the poses, in the plane.
 class Visibility {
  public:
-  Visibility(const BuildingPlan& truth, const std::vector<SE3>& poses,
+  Visibility(const TrueFloorPlan& truth, const std::vector<SE3>& poses,
              const FloorPlanCheckOptions& options)
       : options_(options) {
     for (std::size_t i = 0; i < truth.walls.size(); ++i)
@@ -124,10 +124,10 @@ double nearest(const Sample& sample, const std::vector<Surface>& surfaces) {
   return best;
 }
 
-std::vector<Surface> true_surfaces(const BuildingPlan& truth) {
+std::vector<Surface> true_surfaces(const TrueFloorPlan& truth) {
   std::vector<Surface> surfaces;
   for (std::size_t i = 0; i < truth.walls.size(); ++i) {
-    const BuildingPlan::Wall& wall = truth.walls[i];
+    const TrueFloorPlan::Wall& wall = truth.walls[i];
     const Vector2d axis = (wall.b - wall.a).normalized(), across(-axis[1], axis[0]);
     for (const Segment& piece : solid_pieces(truth, i, false))
       for (const double side : {-1.0, 1.0}) {
@@ -154,17 +154,17 @@ double share_below(const std::vector<double>& values, double limit) {
 /// Rooms on a raster of the truth's plan.
 class RoomRaster {
  public:
-  explicit RoomRaster(const BuildingPlan& truth) {
+  explicit RoomRaster(const TrueFloorPlan& truth) {
     low_ = Vector2d::Constant(1e9);
     Vector2d high = -low_;
-    for (const BuildingPlan::Room& room : truth.rooms)
+    for (const TrueFloorPlan::Room& room : truth.rooms)
       low_ = low_.cwiseMin(room.low), high = high.cwiseMax(room.high);
     low_ -= Vector2d::Constant(1);
     size_ = {static_cast<int>((high[0] + 1 - low_[0]) / kStep_m),
              static_cast<int>((high[1] + 1 - low_[1]) / kStep_m)};
     cv::Mat1b space(size_, static_cast<uchar>(0));
-    for (const BuildingPlan::Room& room : truth.rooms) fill_box(space, room.low, room.high, 255);
-    for (const BuildingPlan::Wall& wall : truth.walls) {
+    for (const TrueFloorPlan::Room& room : truth.rooms) fill_box(space, room.low, room.high, 255);
+    for (const TrueFloorPlan::Wall& wall : truth.walls) {
       const Vector2d half = Vector2d::Constant(0.5 * wall.thickness_m);
       fill_box(space, wall.a.cwiseMin(wall.b) - half, wall.a.cwiseMax(wall.b) + half, 0);
     }
@@ -211,7 +211,7 @@ class RoomRaster {
 
 class Checker {
  public:
-  Checker(const IndoorMap& plan, const BuildingPlan& truth, const SE3& T_truth_plan,
+  Checker(const FloorPlan& plan, const TrueFloorPlan& truth, const SE3& T_truth_plan,
           const std::vector<SE3>& poses, const FloorPlanCheckOptions& options)
       : plan_(plan),
         truth_(truth),
@@ -236,7 +236,7 @@ class Checker {
   void walls() {
     const std::vector<Surface> surfaces = true_surfaces(truth_);
     std::vector<Surface> estimated;
-    for (const IndoorWall& wall : plan_.walls)
+    for (const PlanWall& wall : plan_.walls)
       estimated.push_back({{into_truth(wall.a), into_truth(wall.b)},
                            (into_truth(wall.a + wall.normal) - into_truth(wall.a)).normalized()});
     std::vector<double> from_truth, from_plan;
@@ -262,14 +262,14 @@ class Checker {
       const Vector2d p(pose.translation()[0], pose.translation()[2]);
       const int space = raster.space_at(p);
       if (space == 0 || entered.count(space)) continue;
-      for (const BuildingPlan::Room& room : truth_.rooms)
+      for (const TrueFloorPlan::Room& room : truth_.rooms)
         if ((p - room.low).minCoeff() >= 0 && (room.high - p).minCoeff() >= 0) {
           entered[space] = room.name;
           break;
         }
     }
     std::vector<cv::Mat1b> masks;
-    for (const IndoorRoom& room : plan_.rooms) {
+    for (const PlanRoom& room : plan_.rooms) {
       std::vector<Vector2d> outline;
       std::vector<std::vector<Vector2d>> holes(room.holes.size());
       for (const Vector2d& p : room.outline) outline.push_back(into_truth(p));
@@ -291,8 +291,8 @@ class Checker {
 
   void doors() {
     std::vector<char> used(plan_.doors.size(), 0);
-    for (const BuildingPlan::Door& door : truth_.doors) {
-      const BuildingPlan::Wall& wall = truth_.walls[door.wall];
+    for (const TrueFloorPlan::Door& door : truth_.doors) {
+      const TrueFloorPlan::Wall& wall = truth_.walls[door.wall];
       const Vector2d axis = (wall.b - wall.a).normalized(), across(-axis[1], axis[0]);
       const Vector2d middle = 0.5 * (door.a + door.b);
       // A closed door is in the middle line itself, so that a point a little before it is tested.
@@ -310,8 +310,8 @@ class Checker {
     result_.doors_false = static_cast<int>(std::count(used.begin(), used.end(), 0));
   }
 
-  const IndoorMap& plan_;
-  const BuildingPlan& truth_;
+  const FloorPlan& plan_;
+  const TrueFloorPlan& truth_;
   const SE3& T_;
   const std::vector<SE3>& poses_;
   const FloorPlanCheckOptions& options_;
@@ -321,7 +321,7 @@ class Checker {
 
 }  // namespace
 
-FloorPlanCheck check_floor_plan(const IndoorMap& plan, const BuildingPlan& truth,
+FloorPlanCheck check_floor_plan(const FloorPlan& plan, const TrueFloorPlan& truth,
                                 const SE3& T_truth_plan, const std::vector<SE3>& poses,
                                 const FloorPlanCheckOptions& options) {
   return Checker(plan, truth, T_truth_plan, poses, options).check();

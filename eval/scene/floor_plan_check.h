@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/graph/geometry/se3.h>
-#include <placegraph/graph/scene/building_plan.h>
-#include <placegraph/graph/scene/indoor_map.h>
+#include <placegraph/graph/scene/floor_plan.h>
+#include <placegraph/graph/scene/true_floor_plan.h>
 
 #include <vector>
 
@@ -43,7 +43,7 @@ struct FloorPlanCheck {
 /// `T_truth_plan` maps the plan's (x, y, z) to the truth's; `poses` are the true poses. Rooms
 /// without a wall between them are one room; rooms end at the surfaces of the walls. A true door is
 /// visible if its middle is visible from a pose, with only walls and closed doors as obstacles.
-FloorPlanCheck check_floor_plan(const IndoorMap& plan, const BuildingPlan& truth,
+FloorPlanCheck check_floor_plan(const FloorPlan& plan, const TrueFloorPlan& truth,
                                 const SE3& T_truth_plan, const std::vector<SE3>& poses,
                                 const FloorPlanCheckOptions& options = {});
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/geometry/se3.h>
-#include <placegraph/graph/scene/indoor_map.h>
+#include <placegraph/graph/scene/floor_plan.h>
 
 #include <vector>
 

@@ -8,9 +8,9 @@
 namespace placegraph {
 namespace {
 
-/// Minimum depth of a leaf behind its wall's surface (docs/indoor.md). Chosen.
+/// Minimum depth of a leaf behind its wall's surface (docs/floor_plan.md). Chosen.
 constexpr double kMinRecess_m = 0.025;
-/// Maximum depth of a leaf behind its wall's surface (docs/indoor.md). Chosen.
+/// Maximum depth of a leaf behind its wall's surface (docs/floor_plan.md). Chosen.
 constexpr double kMaxRecess_m = 0.16;
 
 /// Length without evidence of a door, or without rays where no wall is visible, at which a door

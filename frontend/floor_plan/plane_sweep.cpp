@@ -14,7 +14,8 @@ namespace {
 /// a pixel is at most kMostCost.
 constexpr PathCosts kPathCosts = {.step = 8, .jump = 32};
 
-/// Displacement between two planes in the image that moves most. About a pixel (docs/indoor.md).
+/// Displacement between two planes in the image that moves most. About a pixel
+/// (docs/floor_plan.md).
 constexpr double kLevelStep_px = 1;
 /// Maximum number of planes; their spacing grows if more would be needed. Chosen.
 constexpr int kMaxSweptPlanes = 192;

@@ -11,9 +11,11 @@ namespace {
 
 /// Maximum distance from free cells at which unseen cells count as free. Chosen; three cells.
 constexpr double kClosing_m = 0.15;
-/// Share of a box between walls above which all of it is added to the room: most (docs/indoor.md).
+/// Share of a box between walls above which all of it is added to the room: most
+/// (docs/floor_plan.md).
 constexpr double kCompletedShare = 0.5;
-/// Maximum share of walls in the border of an unseen part that is filled: a fifth (docs/indoor.md).
+/// Maximum share of walls in the border of an unseen part that is filled: a fifth
+/// (docs/floor_plan.md).
 constexpr double kWalledShare = 0.2;
 /// Maximum error of the polygon that outlines a room. Chosen.
 constexpr double kOutline_m = 0.08;

@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/frontend/floor_plan/floor_plan_options.h>
 #include <placegraph/frontend/scene/orientation_map.h>
-#include <placegraph/graph/scene/indoor_map.h>
+#include <placegraph/graph/scene/floor_plan.h>
 
 namespace placegraph {
 

@@ -20,7 +20,7 @@ constexpr double kMinWallHeight_m = 0.8;
 constexpr double kMinWallShare = 0.6;
 /// Longest gap within a wall. Chosen; less than the width of a door.
 constexpr double kMaxWallGap_m = 0.3;
-/// Maximum offset between pieces of one wall, caused by drift of the poses (docs/indoor.md).
+/// Maximum offset between pieces of one wall, caused by drift of the poses (docs/floor_plan.md).
 constexpr double kMaxWallStep_m = 0.07;
 /// Minimum height of the upper end of short pieces: door leaves and furniture end below it. Chosen.
 constexpr double kMinShortTop_m = 2.3;

@@ -3,7 +3,7 @@
 #include <placegraph/frontend/floor_plan/voxel_evidence.h>
 #include <placegraph/frontend/floor_plan/wall_fit.h>
 #include <placegraph/graph/core/options.h>
-#include <placegraph/graph/scene/indoor_map.h>
+#include <placegraph/graph/scene/floor_plan.h>
 
 #include <vector>
 

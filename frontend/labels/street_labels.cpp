@@ -1,5 +1,5 @@
+#include <placegraph/frontend/labels/joint_labels.h>
 #include <placegraph/frontend/labels/street_labels.h>
-#include <placegraph/frontend/labels/urban_labels.h>
 
 namespace placegraph {
 
@@ -7,7 +7,7 @@ StreetLabels label_street_scene(const SceneModel& urban, const SceneModel& surfa
                                 const Image& picture, double street, double unknown_below,
                                 const LabellerOptions& options) {
   const SceneView view = view_scene(picture);
-  const UrbanLabels found = label_urban(urban, surfaces, view, options);
+  const JointLabels found = label_jointly(urban, surfaces, view, options);
   return {street_labels(found.classes, urban.class_count(), view, street, unknown_below),
           most_probable(found.surfaces, surfaces.class_count(), view, unknown_below)};
 }

@@ -131,7 +131,7 @@ int axes_with_edges(const std::vector<int>& axis) {
 
 }  // namespace
 
-const char* to_string(IndoorSurface surface) {
+const char* to_string(PlanSurface surface) {
   static constexpr const char* kNames[] = {"none", "floor", "ceiling", "wall"};
   return kNames[static_cast<int>(surface)];
 }
@@ -190,10 +190,10 @@ Image indoor_surfaces(const OrientationMap& map, const Camera& camera, const SO3
   for (int v = 0; v < surfaces.rows; ++v)
     for (int u = 0; u < surfaces.cols; ++u) {
       const int axis = map.labels.at<std::uint8_t>(v, u) - 1;
-      IndoorSurface surface = axis < 0 ? IndoorSurface::kNone : IndoorSurface::kWall;
+      PlanSurface surface = axis < 0 ? PlanSurface::kNone : PlanSurface::kWall;
       if (axis == map.vertical_axis)
-        surface = horizon.dot(Eigen::Vector3d(u, v, 1)) > 0 ? IndoorSurface::kFloor
-                                                            : IndoorSurface::kCeiling;
+        surface =
+            horizon.dot(Eigen::Vector3d(u, v, 1)) > 0 ? PlanSurface::kFloor : PlanSurface::kCeiling;
       surfaces.at<std::uint8_t>(v, u) = static_cast<std::uint8_t>(surface);
     }
   return surfaces;

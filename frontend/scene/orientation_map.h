@@ -42,14 +42,14 @@ struct OrientationMap {
                                                      const OrientationMapOptions& options = {});
 
 /// Kind of an indoor surface.
-enum class IndoorSurface : std::uint8_t { kNone, kFloor, kCeiling, kWall };
+enum class PlanSurface : std::uint8_t { kNone, kFloor, kCeiling, kWall };
 /// Name of a surface.
-const char* to_string(IndoorSurface surface);
+const char* to_string(PlanSurface surface);
 
 /// Classifies the surfaces of an orientation map.
 ///
 /// Floor is below the horizon of the vertical axis, ceiling above it, the others are walls. The
-/// result is CV_8UC1 of IndoorSurface.
+/// result is CV_8UC1 of PlanSurface.
 Image indoor_surfaces(const OrientationMap& map, const Camera& camera, const SO3& R_cam_manhattan);
 
 }  // namespace placegraph

@@ -53,7 +53,7 @@ StreetLabelling see_street(const Image& picture, const Image& depth_m, const Cam
   const auto regions = static_cast<std::size_t>(seen.view.superpixels.count);
   LabellerOptions alone = options.labeller;
   alone.field = false;
-  seen.labels = label_urban(urban, surfaces, seen.view, alone);
+  seen.labels = label_jointly(urban, surfaces, seen.view, alone);
   const std::vector<DepthSample> samples =
       sample_depth(depth_m, camera, seen.view.superpixels, options.step_px, options.max_range_m);
   std::vector<float> ground(regions);
@@ -65,10 +65,10 @@ StreetLabelling see_street(const Image& picture, const Image& depth_m, const Cam
       place_regions(samples, seen.view.superpixels.count, camera, disparity_m_px, seen.ground);
   const std::size_t n = urban.classes.size();
   const bool known = seen.ground.outcome || camera_height_m > 0;
-  seen.labels = join_urban(urban, seen.labels, seen.view,
-                           known ? geometry_log_likelihoods(places, urban, options.geometry)
-                                 : std::vector<float>(regions * n, 0.0F),
-                           options.labeller);
+  seen.labels = join_evidence(urban, seen.labels, seen.view,
+                              known ? geometry_log_likelihoods(places, urban, options.geometry)
+                                    : std::vector<float>(regions * n, 0.0F),
+                              options.labeller);
 
   seen.observation.shares = seen.labels.classes;
   seen.observation.down = seen.ground.down.cast<float>();
@@ -86,7 +86,7 @@ StreetLabelling see_street(const Image& picture, const Image& depth_m, const Cam
     if (place.plane.isZero()) continue;  // too few depths around it for a reliable one
     const double off = disparity_m_px / p[2] * std::abs(1 - place.plane.dot(p));
     if (off > kMaxPlaneResidual * place.disparity_sigma_px) continue;
-    SemanticPoint point;
+    StreetPoint point;
     point.point = sample.point;
     point.sigma = static_cast<float>(p[2] * p[2] * place.disparity_sigma_px / disparity_m_px);
     point.height_m = static_cast<float>(seen.ground.height_of(p));
@@ -96,7 +96,7 @@ StreetLabelling see_street(const Image& picture, const Image& depth_m, const Cam
   return seen;
 }
 
-std::vector<bool> seen_through(const std::vector<SemanticPoint>& points, const SE3& T_other_cam,
+std::vector<bool> seen_through(const std::vector<StreetPoint>& points, const SE3& T_other_cam,
                                const Image& depth_m, const Camera& camera, double baseline_m) {
   require(depth_m.type() == CV_32FC1 && depth_m.cols == camera.width &&
               depth_m.rows == camera.height && baseline_m > 0,

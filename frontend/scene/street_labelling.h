@@ -1,8 +1,8 @@
 #pragma once
-#include <placegraph/frontend/labels/urban_labels.h>
+#include <placegraph/frontend/labels/joint_labels.h>
+#include <placegraph/frontend/scene/street_geometry.h>
 #include <placegraph/frontend/scene/street_labelling_options.h>
-#include <placegraph/frontend/scene/urban_geometry.h>
-#include <placegraph/graph/scene/semantic_map.h>
+#include <placegraph/graph/scene/street_map.h>
 
 #include <string>
 #include <vector>
@@ -11,10 +11,10 @@ namespace placegraph {
 
 /// Labels of a street image, and the static points in it.
 struct StreetLabelling {
-  UrbanLabels labels;
+  JointLabels labels;
   SceneView view;
   GroundProfile ground;
-  KeyframeSemantics observation;  ///< its regions are the superpixels
+  KeyframeStreetPoints observation;  ///< its regions are the superpixels
 };
 
 /// Labels the image (BGR or grey) by both models and by the stereo depths of its superpixels.
@@ -34,7 +34,7 @@ StreetLabelling see_street(const Image& picture, const Image& depth_m, const Cam
 /// If all depths around a point's pixel in that image are farther than the point, it was not on a
 /// surface when the image was taken. `depth_m` as above, of that image; `T_other_cam` maps the
 /// points into its camera.
-std::vector<bool> seen_through(const std::vector<SemanticPoint>& points, const SE3& T_other_cam,
+std::vector<bool> seen_through(const std::vector<StreetPoint>& points, const SE3& T_other_cam,
                                const Image& depth_m, const Camera& camera, double baseline_m);
 
 }  // namespace placegraph

@@ -2,7 +2,7 @@
 
 namespace placegraph {
 
-void visit(OptionVisitor& field, UrbanGeometryOptions& o) {
+void visit(OptionVisitor& field, StreetGeometryOptions& o) {
   field("outliers", o.outliers,
         "share of superpixels whose geometry does not depend on their class", {1e-6, 1});
   field("weight", o.weight, "weight of height and normal in the random field; 0: not used",

@@ -15,6 +15,7 @@ class CsvText {
  public:
   /// Adds a field to the present row.
   CsvText& add(std::string_view field);
+  CsvText& add(const char* field) { return add(std::string_view(field)); }
   /// The same for a number: with as many digits as it takes to read it back.
   CsvText& add(double field);
   /// The same for a number of 32 bits, which takes fewer digits.
@@ -25,6 +26,8 @@ class CsvText {
   CsvText& add(Integer field) {
     return add(std::string_view(std::to_string(field)));
   }
+  /// The same for a truth value: true or false.
+  CsvText& add(bool field) { return add(std::string_view(field ? "true" : "false")); }
   /// The same for the number of an id.
   template <class Tag>
   CsvText& add(Id<Tag> field) {

@@ -33,8 +33,8 @@ Image below_walls(const Image& surfaces) {
   Image below(surfaces.size(), CV_8UC1, cv::Scalar(0));
   for (int u = 0; u < surfaces.cols; ++u)
     for (int v = surfaces.rows - 1; v >= 0; --v) {
-      const auto surface = static_cast<IndoorSurface>(surfaces.at<std::uint8_t>(v, u));
-      if (surface == IndoorSurface::kWall || surface == IndoorSurface::kCeiling) break;
+      const auto surface = static_cast<PlanSurface>(surfaces.at<std::uint8_t>(v, u));
+      if (surface == PlanSurface::kWall || surface == PlanSurface::kCeiling) break;
       below.at<std::uint8_t>(v, u) = 255;
     }
   return below;
@@ -158,8 +158,8 @@ GroundMask ManhattanCue::ground(const std::vector<Eigen::Vector2d>& outline_px) 
                                                      camera_, observation_->R_cam_manhattan);
   if (!map.outcome) return {};
   const Image surfaces = indoor_surfaces(map, camera_, observation_->R_cam_manhattan);
-  const Image walls = surfaces == static_cast<int>(IndoorSurface::kWall),
-              floor = surfaces == static_cast<int>(IndoorSurface::kFloor);
+  const Image walls = surfaces == static_cast<int>(PlanSurface::kWall),
+              floor = surfaces == static_cast<int>(PlanSurface::kFloor);
   const Image outline = filled(outline_px, surfaces.size());
   const auto in_outline = [&](const Image& part) { return cv::countNonZero(outline & part); };
   constexpr double kStanding = 0.2, kShown = 0.2;  // shares of the assumed ground

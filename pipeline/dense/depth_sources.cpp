@@ -1,4 +1,4 @@
-#include <placegraph/frontend/floor_plan/indoor_surfaces.h>
+#include <placegraph/frontend/floor_plan/plan_surfaces.h>
 #include <placegraph/frontend/floor_plan/plane_sweep.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>

@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/graph/core/log.h>
-#include <placegraph/graph/scene/indoor_map.h>
+#include <placegraph/graph/scene/floor_plan.h>
 #include <placegraph/io/map/stored_map.h>
 #include <placegraph/pipeline/exports/export_summary.h>
 
@@ -29,7 +29,7 @@ struct MapExportForm {
 std::vector<MapExportForm> map_export_forms();
 
 /// Makes the floor plan of a saved map from the images of its sequence.
-using FloorPlanner = std::function<IndoorMap(const StoredMap& stored)>;
+using FloorPlanner = std::function<FloorPlan(const StoredMap& stored)>;
 
 /// What is written of a map, and where.
 struct MapExportArguments {

@@ -10,9 +10,9 @@ namespace placegraph {
 namespace {
 
 /// The floor plan of a map; nothing, with a warning, if it has none.
-std::optional<IndoorMap> floor_plan_of(const std::string& base, const StoredMap& stored,
+std::optional<FloorPlan> floor_plan_of(const std::string& base, const StoredMap& stored,
                                        const FloorPlanner& floor_plan, const LogSink& log_sink) {
-  IndoorMap plan = floor_plan(stored);
+  FloorPlan plan = floor_plan(stored);
   if (plan.outcome) return plan;
   log(log_sink, LogLevel::kWarning, "{}: without walls, there is no floor plan: {}", base,
       plan.outcome.reason);
@@ -25,7 +25,7 @@ void write_occupancy(const std::string& base, const StoredMap& stored, int compo
                      const FloorPlanner& floor_plan, const LogSink& log_sink) {
   require(!floor_plan || component == stored.map.main_component(),
           "--walls: the floor plan is that of the main component");
-  std::optional<IndoorMap> plan;
+  std::optional<FloorPlan> plan;
   if (floor_plan && stored.map.metric) plan = floor_plan_of(base, stored, floor_plan, log_sink);
   MapOccupancyOptions options;
   options.cell_m = cell_m;

@@ -8,11 +8,11 @@
 
 namespace placegraph {
 
-IndoorMap plan_of_map(const Map& map, const Calibration& calibration, const Dataset& dataset,
-                      Sensor sensor, double lens_k1, const IndoorMapperOptions& options) {
+FloorPlan plan_of_map(const Map& map, const Calibration& calibration, const Dataset& dataset,
+                      Sensor sensor, double lens_k1, const FloorPlanMapperOptions& options) {
   LensCorrection lens(dataset.calibration(sensor));
   if (lens_k1 != 0) lens.add(lens_k1);
-  return map_indoors(
+  return map_floor_plan(
       map, calibration,
       [&](const Keyframe& keyframe) {
         Frame frame = dataset.frame(static_cast<std::size_t>(keyframe.frame.value()), sensor);
@@ -22,16 +22,16 @@ IndoorMap plan_of_map(const Map& map, const Calibration& calibration, const Data
       options);
 }
 
-IndoorMap plan_of_map(const StoredMap& stored, const IndoorMapperOptions& options) {
+FloorPlan plan_of_map(const StoredMap& stored, const FloorPlanMapperOptions& options) {
   if (!stored.origin.calibration) throw NoResult("no floor plan: nothing in the map has a pose");
   const auto dataset = open_dataset(stored.origin.sequence);
   return plan_of_map(stored.map, *stored.origin.calibration, *dataset, stored.origin.sensor,
                      stored.origin.lens_k1, options);
 }
 
-void label_places(const IndoorMap& plan, PlaceGraph& places) {
+void label_places(const FloorPlan& plan, PlaceGraph& places) {
   for (Place& place : places.places)
-    for (const IndoorRoom& room : plan.rooms)
+    for (const PlanRoom& room : plan.rooms)
       if (std::count(room.places.begin(), room.places.end(), place.id) &&
           !std::count(place.labels.begin(), place.labels.end(), room.label))
         place.labels.push_back(room.label);

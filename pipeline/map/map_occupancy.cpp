@@ -141,14 +141,14 @@ double share_in_band(const LevelRay& ray, const MapOccupancyOptions& options) {
 using LevelWall = std::array<Eigen::Vector2d, 2>;
 
 /// The walls of a floor plan; none without one.
-std::vector<LevelWall> level_walls(const IndoorMap* plan, const SO3& R_grid_map) {
+std::vector<LevelWall> level_walls(const FloorPlan* plan, const SO3& R_grid_map) {
   std::vector<LevelWall> walls;
   if (!plan) return walls;
   const SO3 R_grid_plan = R_grid_map * plan->R_plan_map.inverse();
   const auto on_floor = [&](const Eigen::Vector2d& p) {
     return Eigen::Vector2d((R_grid_plan * Eigen::Vector3d(p[0], 0, p[1])).head<2>());
   };
-  for (const IndoorWall& wall : plan->walls) walls.push_back({on_floor(wall.a), on_floor(wall.b)});
+  for (const PlanWall& wall : plan->walls) walls.push_back({on_floor(wall.a), on_floor(wall.b)});
   return walls;
 }
 
@@ -183,7 +183,7 @@ void add_path(const std::vector<std::optional<Eigen::Vector2d>>& path, double ra
 }  // namespace
 
 MapOccupancy occupancy_of(const Map& map, int component, const MapOccupancyOptions& options,
-                          const IndoorMap* plan) {
+                          const FloorPlan* plan) {
   require(std::isfinite(options.cell_m) && options.cell_m > 0,
           "occupancy grid: the side of a cell is not positive");
   MapOccupancy result;

@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/graph/core/outcome.h>
-#include <placegraph/graph/scene/indoor_map.h>
+#include <placegraph/graph/scene/floor_plan.h>
 #include <placegraph/io/exports/occupancy_file.h>
 #include <placegraph/pipeline/map/map_geometry.h>
 
@@ -32,6 +32,6 @@ struct MapOccupancy {
 /// cells. kTooFewData: the map is not metric, or the component has no pose.
 [[nodiscard]] MapOccupancy occupancy_of(const Map& map, int component,
                                         const MapOccupancyOptions& options = {},
-                                        const IndoorMap* plan = nullptr);
+                                        const FloorPlan* plan = nullptr);
 
 }  // namespace placegraph

@@ -1,6 +1,6 @@
 #include <placegraph/pipeline/report/planes_part.h>
 
-#include <placegraph/io/scene/indoor_map_file.h>
+#include <placegraph/io/scene/floor_plan_file.h>
 
 #include <array>
 #include <filesystem>
@@ -25,12 +25,12 @@ json polyline(const std::string& label, bool closed, const Polygon& points) {
   return {{"label", label}, {"closed", closed}, {"points", column(coordinates, 2)}};
 }
 
-std::string name_of(const IndoorRoom& room) { return room.label.empty() ? "room" : room.label; }
+std::string name_of(const PlanRoom& room) { return room.label.empty() ? "room" : room.label; }
 
 /// A column of points of the plan at heights above its floor, in the map.
 class InMap {
  public:
-  explicit InMap(const IndoorMap& plan) : plan_(plan) {}
+  explicit InMap(const FloorPlan& plan) : plan_(plan) {}
   void put(const Eigen::Vector2d& at, double height_m) {
     const Eigen::Vector3d p = plan_.R_plan_map.inverse().matrix() *
                               Eigen::Vector3d(at.x(), plan_.floor_y - height_m, at.y());
@@ -39,7 +39,7 @@ class InMap {
   json take() { return column(std::exchange(values_, {}), 3); }
 
  private:
-  const IndoorMap& plan_;
+  const FloorPlan& plan_;
   std::vector<float> values_;
 };
 
@@ -48,7 +48,7 @@ json plane(const std::string& name, const Rgb& rgb, json outline, json holes = j
       {"name", name}, {"rgb", rgb}, {"outline", std::move(outline)}, {"holes", std::move(holes)}};
 }
 
-json upright(const IndoorMap& plan, const Eigen::Vector2d& a, const Eigen::Vector2d& b,
+json upright(const FloorPlan& plan, const Eigen::Vector2d& a, const Eigen::Vector2d& b,
              double low_m, double high_m) {
   InMap points(plan);
   points.put(a, low_m);
@@ -58,7 +58,7 @@ json upright(const IndoorMap& plan, const Eigen::Vector2d& a, const Eigen::Vecto
   return points.take();
 }
 
-json on_floor(const IndoorMap& plan, const Polygon& polygon) {
+json on_floor(const FloorPlan& plan, const Polygon& polygon) {
   InMap points(plan);
   for (const Eigen::Vector2d& point : polygon) points.put(point, 0);
   return points.take();
@@ -66,10 +66,10 @@ json on_floor(const IndoorMap& plan, const Polygon& polygon) {
 
 }  // namespace
 
-std::optional<IndoorMap> read_floor_plan(const std::string& folder) {
+std::optional<FloorPlan> floor_plan_in(const std::string& folder) {
   const std::filesystem::path path = std::filesystem::path(folder) / "floor_plan.json";
   if (!std::filesystem::is_regular_file(path)) return std::nullopt;
-  return read_indoor_map(path.string());
+  return read_floor_plan(path.string());
 }
 
 json up_of_plan(const SO3& R_plan_map) {
@@ -77,31 +77,31 @@ json up_of_plan(const SO3& R_plan_map) {
   return {up.x(), up.y(), up.z()};
 }
 
-json describe_floor_plan(const IndoorMap& plan) {
+json describe_floor_plan(const FloorPlan& plan) {
   json lines = json::array();
-  for (const IndoorRoom& room : plan.rooms) {
+  for (const PlanRoom& room : plan.rooms) {
     lines.push_back(polyline(name_of(room), true, room.outline));
     for (const Polygon& hole : room.holes) lines.push_back(polyline("hole", true, hole));
   }
-  for (const IndoorWall& wall : plan.walls)
+  for (const PlanWall& wall : plan.walls)
     lines.push_back(polyline("wall", false, {wall.a, wall.b}));
-  for (const IndoorDoor& door : plan.doors)
+  for (const PlanDoor& door : plan.doors)
     lines.push_back(polyline("door", false, {door.a, door.b}));
   return lines;
 }
 
-json describe_planes(const IndoorMap& plan) {
+json describe_planes(const FloorPlan& plan) {
   json planes = json::array();
-  for (const IndoorRoom& room : plan.rooms) {
+  for (const PlanRoom& room : plan.rooms) {
     json holes = json::array();
     for (const Polygon& hole : room.holes) holes.push_back(on_floor(plan, hole));
     planes.push_back(
         plane("floor of " + name_of(room), kFloor, on_floor(plan, room.outline), holes));
   }
-  for (const IndoorWall& wall : plan.walls)
+  for (const PlanWall& wall : plan.walls)
     planes.push_back(plane("wall" + (wall.place ? " of place " + to_string(*wall.place) : ""),
                            kWall, upright(plan, wall.a, wall.b, wall.low_m, wall.high_m)));
-  for (const IndoorDoor& door : plan.doors)
+  for (const PlanDoor& door : plan.doors)
     if (door.height_m > 0)
       planes.push_back(plane(door.closed ? "closed door" : "open door", kDoor,
                              upright(plan, door.a, door.b, 0, door.height_m)));

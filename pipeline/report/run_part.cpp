@@ -177,14 +177,14 @@ void put_part(const LogSink& log, const std::function<void()>& put) {
 /// What other files in the folder of the run hold.
 void put_results_beside(const std::string& folder, const Map& map, const LogSink& log, json& run) {
   put_part(log, [&] {
-    if (const std::optional<IndoorMap> plan = read_floor_plan(folder)) {
+    if (const std::optional<FloorPlan> plan = floor_plan_in(folder)) {
       run["floor_plan"] = describe_floor_plan(*plan);
       run["planes"] = describe_planes(*plan);
       run["up"] = up_of_plan(plan->R_plan_map);
     }
   });
   put_part(log, [&] {
-    if (const std::optional<SemanticMap> street = read_street_map(folder)) {
+    if (const std::optional<StreetMap> street = street_map_in(folder)) {
       run["street_map"] = describe_street_map(*street);
       run["up"] = up_of_plan(street->R_plan_map);
     }

@@ -3,7 +3,7 @@
 #include <placegraph/graph/core/median.h>
 #include <placegraph/graph/image/png_codec.h>
 #include <placegraph/io/exports/base64.h>
-#include <placegraph/io/scene/semantic_map_file.h>
+#include <placegraph/io/scene/street_map_file.h>
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -28,19 +28,19 @@ struct Lattice {
   }
 };
 
-const SemanticCell* cell_at(const SemanticMap& map, const TopView& view, int column, int row) {
+const StreetCell* cell_at(const StreetMap& map, const TopView& view, int column, int row) {
   const int cell = view.at(column, row);
   return cell < 0 ? nullptr : &map.cells[static_cast<std::size_t>(cell)];
 }
 
-Lattice lattice_of(const SemanticMap& map, const TopView& view) {
+Lattice lattice_of(const StreetMap& map, const TopView& view) {
   Lattice lattice;
   lattice.columns = (view.columns + kStreetTile - 1) / kStreetTile;
   lattice.rows = (view.rows + kStreetTile - 1) / kStreetTile;
   lattice.ground_y.resize(static_cast<std::size_t>(lattice.columns * lattice.rows));
   for (int row = 0; row < view.rows; ++row)
     for (int column = 0; column < view.columns; ++column)
-      if (const SemanticCell* cell = cell_at(map, view, column, row)) {
+      if (const StreetCell* cell = cell_at(map, view, column, row)) {
         const int tile = (row / kStreetTile) * lattice.columns + column / kStreetTile;
         lattice.ground_y[static_cast<std::size_t>(tile)].push_back(
             static_cast<double>(cell->mean.y() + cell->height_m));
@@ -49,7 +49,7 @@ Lattice lattice_of(const SemanticMap& map, const TopView& view) {
 }
 
 /// Corners of the squares in the map; not a number where no square beside one has a cell.
-json corners(const SemanticMap& map, const TopView& view, const Lattice& lattice) {
+json corners(const StreetMap& map, const TopView& view, const Lattice& lattice) {
   std::vector<double> ground_y;
   for (const std::vector<double>& heights : lattice.ground_y)
     ground_y.push_back(heights.empty() ? double{kUnknown} : median_of(heights));
@@ -75,12 +75,12 @@ json corners(const SemanticMap& map, const TopView& view, const Lattice& lattice
 }
 
 /// Blue, green, red and opacity of every column of cells, x to the right and z down.
-Image picture_of(const SemanticMap& map, const TopView& view, const Lattice& lattice) {
+Image picture_of(const StreetMap& map, const TopView& view, const Lattice& lattice) {
   Image image(lattice.rows * kStreetTile, lattice.columns * kStreetTile, CV_8UC4,
               cv::Scalar(0, 0, 0, 0));
   for (int row = 0; row < view.rows; ++row)
     for (int column = 0; column < view.columns; ++column)
-      if (const SemanticCell* cell = cell_at(map, view, column, row)) {
+      if (const StreetCell* cell = cell_at(map, view, column, row)) {
         const auto rgb =
             class_colour(map.classes[static_cast<std::size_t>(*cell->label)], *cell->label);
         image.at<cv::Vec4b>(row, column) = {rgb[2], rgb[1], rgb[0], 255};
@@ -89,7 +89,7 @@ Image picture_of(const SemanticMap& map, const TopView& view, const Lattice& lat
 }
 
 /// The classes that the view shows, with the area that each has in it.
-json classes_of(const SemanticMap& map, const TopView& view) {
+json classes_of(const StreetMap& map, const TopView& view) {
   std::vector<int> columns(map.classes.size());
   for (const int cell : view.cell)
     if (cell >= 0)
@@ -105,7 +105,7 @@ json classes_of(const SemanticMap& map, const TopView& view) {
 
 }  // namespace
 
-json describe_street_map(const SemanticMap& map) {
+json describe_street_map(const StreetMap& map) {
   const TopView view = top_view(map);
   if (view.columns == 0 || view.rows == 0) return {};
   const Lattice lattice = lattice_of(map, view);
@@ -126,11 +126,11 @@ json describe_street_map(const SemanticMap& map) {
           {"classes", classes_of(map, view)}};
 }
 
-std::optional<SemanticMap> read_street_map(const std::string& folder) {
+std::optional<StreetMap> street_map_in(const std::string& folder) {
   const fs::path path = fs::path(folder) / "semantic_map.ply";
   if (!fs::is_regular_file(path) || fs::exists(fs::path(folder) / "semantic_map.geojson"))
     return std::nullopt;
-  return read_semantic_map(path.string());
+  return read_street_map(path.string());
 }
 
 }  // namespace placegraph::report

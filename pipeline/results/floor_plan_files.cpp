@@ -4,7 +4,7 @@
 #include <placegraph/io/datasets/dataset.h>
 #include <placegraph/io/files/output_file.h>
 #include <placegraph/io/map/map_database.h>
-#include <placegraph/io/scene/indoor_map_file.h>
+#include <placegraph/io/scene/floor_plan_file.h>
 #include <placegraph/pipeline/results/floor_plan_files.h>
 #include <placegraph/pipeline/results/plot_beside.h>
 #include <placegraph/pipeline/results/run_judgement.h>
@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-std::vector<Eigen::Vector2d> path_of(const IndoorMap& plan, const Trajectory& trajectory) {
+std::vector<Eigen::Vector2d> path_of(const FloorPlan& plan, const Trajectory& trajectory) {
   std::vector<Eigen::Vector2d> path;
   for (const StampedPose& pose : trajectory.poses)
     if (pose.T_world_body) {
@@ -59,7 +59,7 @@ void save_labels(const std::string& map_file, const PlaceGraph& places) {
   write_map(map_file, stored);
 }
 
-void write_floor_plan(const std::string& folder, const IndoorMap& plan, const Map& map,
+void write_floor_plan(const std::string& folder, const FloorPlan& plan, const Map& map,
                       const std::string& title, const LogSink& log) {
   const auto path = [&](const char* name) { return (fs::path(folder) / name).string(); };
   FloorPlanPicture picture;
@@ -71,7 +71,7 @@ void write_floor_plan(const std::string& folder, const IndoorMap& plan, const Ma
   write_plot_beside(path("floor_plan.png"), svg, log);
 }
 
-double walled_share(const IndoorMap& plan) {
+double walled_share(const FloorPlan& plan) {
   const auto length_of = [](const std::vector<Eigen::Vector2d>& polygon) {
     double length = 0;
     for (std::size_t i = 0; i < polygon.size(); ++i)
@@ -79,15 +79,15 @@ double walled_share(const IndoorMap& plan) {
     return length;
   };
   double walls = 0, outlines = 0;
-  for (const IndoorWall& wall : plan.walls) walls += wall.length();
-  for (const IndoorRoom& room : plan.rooms) {
+  for (const PlanWall& wall : plan.walls) walls += wall.length();
+  for (const PlanRoom& room : plan.rooms) {
     outlines += length_of(room.outline);
     for (const auto& hole : room.holes) outlines += length_of(hole);
   }
   return outlines > 0 ? std::min(1.0, walls / outlines) : 0;
 }
 
-std::optional<std::string> doubt_of(const IndoorMap& plan) {
+std::optional<std::string> doubt_of(const FloorPlan& plan) {
   constexpr double kLeast = 0.5;
   const double share = walled_share(plan);
   if (share >= kLeast) return std::nullopt;
@@ -99,7 +99,7 @@ std::optional<std::string> doubt_of(const IndoorMap& plan) {
 
 namespace {
 
-json describe_floor_plan(const IndoorMap& plan, const Map& map, const Dataset& dataset,
+json describe_floor_plan(const FloorPlan& plan, const Map& map, const Dataset& dataset,
                          const std::string& sequence) {
   json summary = {{"outcome", to_string(plan.outcome.code)}};
   if (!plan.outcome) {
@@ -107,7 +107,7 @@ json describe_floor_plan(const IndoorMap& plan, const Map& map, const Dataset& d
     return summary;
   }
   double length = 0;
-  for (const IndoorWall& wall : plan.walls) length += wall.length();
+  for (const PlanWall& wall : plan.walls) length += wall.length();
   summary["walls"] = plan.walls.size();
   summary["walls_m"] = length;
   summary["doors"] = plan.doors.size();
@@ -116,7 +116,7 @@ json describe_floor_plan(const IndoorMap& plan, const Map& map, const Dataset& d
   const fs::path truth_path = fs::path(sequence) / "floorplan.json";
   const auto& truth = dataset.ground_truth();
   if (!fs::exists(truth_path) || !truth || truth->size() != dataset.size()) return summary;
-  const BuildingPlan building = read_building_plan(truth_path.string());
+  const TrueFloorPlan building = read_true_floor_plan(truth_path.string());
   std::vector<SE3> poses;
   for (const FrameRecord& record : map.frames)
     if (const auto frame = static_cast<std::size_t>(record.frame.value());
@@ -133,7 +133,7 @@ json describe_floor_plan(const IndoorMap& plan, const Map& map, const Dataset& d
 
 }  // namespace
 
-std::string floor_plan_json(const IndoorMap& plan, const Map& map, const Dataset& dataset,
+std::string floor_plan_json(const FloorPlan& plan, const Map& map, const Dataset& dataset,
                             const std::string& sequence) {
   return describe_floor_plan(plan, map, dataset, sequence)
       .dump(-1, ' ', false, json::error_handler_t::replace);

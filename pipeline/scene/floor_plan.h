@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/graph/image/frame.h>
 #include <placegraph/graph/map.h>
-#include <placegraph/graph/scene/indoor_map.h>
+#include <placegraph/graph/scene/floor_plan.h>
 #include <placegraph/pipeline/scene/scene_map_options.h>
 
 #include <functional>
@@ -12,8 +12,8 @@ namespace [[gnu::visibility("default")]] placegraph {
 ///
 /// Reads the frames of its keyframes (those that are far enough from each other) with `frame_of`,
 /// and fuses them.
-[[nodiscard]] IndoorMap map_indoors(const Map& map, const Calibration& calibration,
-                                    const std::function<Frame(const Keyframe&)>& frame_of,
-                                    const IndoorMapperOptions& options = {});
+[[nodiscard]] FloorPlan map_floor_plan(const Map& map, const Calibration& calibration,
+                                       const std::function<Frame(const Keyframe&)>& frame_of,
+                                       const FloorPlanMapperOptions& options = {});
 
 }  // namespace placegraph

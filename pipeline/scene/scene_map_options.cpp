@@ -15,9 +15,9 @@ void visit(OptionVisitor& field, NearbyViewOptions& o) {
                              "maximum rotation between the keyframes [deg]", {0, 90});
 }
 
-void IndoorMapperOptions::check() const { check_ranges(*this); }
+void FloorPlanMapperOptions::check() const { check_ranges(*this); }
 
-void visit(OptionVisitor& field, IndoorMapperOptions& o) {
+void visit(OptionVisitor& field, FloorPlanMapperOptions& o) {
   field.internal().group("points", o.points, "surface points of a depth image");
   field.internal().group("sweep", o.sweep, "depth from images with known poses");
   field.internal().group("views", o.views, "selection of the images for the sweep");
@@ -38,9 +38,9 @@ void visit(OptionVisitor& field, IndoorMapperOptions& o) {
   field.internal().group("rooms", o.rooms, "partition of the free space into rooms");
 }
 
-void UrbanMapperOptions::check() const { check_ranges(*this); }
+void StreetMapperOptions::check() const { check_ranges(*this); }
 
-void visit(OptionVisitor& field, UrbanMapperOptions& o) {
+void visit(OptionVisitor& field, StreetMapperOptions& o) {
   field.internal().group("stereo", o.stereo, "depth of the stereo pair");
   field.internal().formerly("sight").group("labelling", o.labelling,
                                            "labelled points of a keyframe");

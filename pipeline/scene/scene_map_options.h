@@ -3,7 +3,7 @@
 #include <placegraph/frontend/scene/scene_options.h>
 #include <placegraph/frontend/scene/street_labelling_options.h>
 #include <placegraph/graph/core/options.h>
-#include <placegraph/graph/scene/semantic_map.h>
+#include <placegraph/graph/scene/street_map.h>
 
 namespace [[gnu::visibility("default")]] placegraph {
 
@@ -21,7 +21,7 @@ struct NearbyViewOptions {
 void visit(OptionVisitor& field, NearbyViewOptions& options);
 
 /// Options for making a floor plan with walls, doors and rooms from a finished metric map.
-struct IndoorMapperOptions {
+struct FloorPlanMapperOptions {
   SurfacePointOptions points;  ///< surface points of a depth image
   PlaneSweepOptions sweep;     ///< depth from images with known poses
   /// Images used for the sweep, in addition to the right one of a stereo pair.
@@ -41,10 +41,10 @@ struct IndoorMapperOptions {
   RoomPartitionOptions rooms;   ///< partition of the free space into rooms
   void check() const;
 };
-void visit(OptionVisitor& field, IndoorMapperOptions& options);
+void visit(OptionVisitor& field, FloorPlanMapperOptions& options);
 
 /// Options for making a semantic street map from the stereo keyframes of a metric map.
-struct UrbanMapperOptions {
+struct StreetMapperOptions {
   DenseStereoOptions stereo{128, 9};  ///< depth of the stereo pair
   StreetLabellingOptions labelling;   ///< labelled points of a keyframe
   /// Drop points that the previous or the next keyframe sees through: these points have moved.
@@ -53,9 +53,9 @@ struct UrbanMapperOptions {
   /// rotated by min_rotation_deg.
   double min_step_m = 1;
   double min_rotation_deg = 5;  ///< see min_step_m
-  SemanticGridOptions grid;     ///< grid in which the points are accumulated
+  StreetGridOptions grid;       ///< grid in which the points are accumulated
   void check() const;
 };
-void visit(OptionVisitor& field, UrbanMapperOptions& options);
+void visit(OptionVisitor& field, StreetMapperOptions& options);
 
 }  // namespace placegraph

@@ -207,7 +207,7 @@ def test_surfaces_of_an_image() -> None:
     assert found.confidence.min() > 0 and found.confidence.max() <= 1
     certain = vision.classify_surfaces(model, image, unknown_below=1.0)
     assert (certain.labels[found.confidence < 1] == len(model.classes)).all()
-    street = vision.label_urban(urban, model, image)
+    street = vision.label_jointly(urban, model, image)
     assert (street.labels[:60] == street.classes.index("Sky")).all()
     assert np.mean(street.labels[180:] == street.classes.index("Road")) > 0.9
 

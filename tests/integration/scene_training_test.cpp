@@ -1,7 +1,8 @@
 // Models of scenes, learned from drawn streets.
 #include <gtest/gtest.h>
+#include <placegraph/frontend/labels/joint_labels.h>
+#include <placegraph/frontend/labels/street_labels.h>
 #include <placegraph/frontend/labels/training/scene_training.h>
-#include <placegraph/frontend/labels/urban_labels.h>
 #include <placegraph/graph/core/error.h>
 
 #include <opencv2/core.hpp>
@@ -65,10 +66,10 @@ TEST(SceneTraining, AModelOfDrawnStreetsLabelsOneItHasNotSeen) {
 
   SceneModel urban = model;
   urban.kind = SceneModel::Kind::kUrban;
-  const UrbanLabels joint = label_urban(urban, model, view);
+  const JointLabels joint = label_jointly(urban, model, view);
   const SceneLabels classes = most_probable(joint.classes, 4, view);
   EXPECT_GT(share_right(classes.labels, street.labels), 0.93);
-  EXPECT_THROW((void)label_urban(model, urban, view), ArgumentError);
+  EXPECT_THROW((void)label_jointly(model, urban, view), ArgumentError);
   const StreetLabels scene = label_street_scene(urban, model, street.bgr);
   EXPECT_EQ(cv::countNonZero(scene.classes.labels != classes.labels), 0);
   EXPECT_THROW((void)label_street_scene(model, urban, street.bgr), ArgumentError);

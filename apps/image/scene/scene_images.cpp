@@ -5,7 +5,7 @@
 #include <placegraph/eval/drawing/picture_legend.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/parallel.h>
-#include <placegraph/graph/scene/semantic_map.h>
+#include <placegraph/graph/scene/street_map.h>
 #include <placegraph/graph/text/json_text.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/files/image_list.h>

@@ -124,13 +124,13 @@ SceneOrientationResult orientation_of_image(const SceneOrientationArguments& arg
   const Image surfaces = indoor_surfaces(seen.map, camera, seen.R_cam_manhattan);
   if (!arguments.out.empty()) write_map(arguments.out, seen.map, arguments.ids);
   if (!arguments.drawing.empty()) write_image(arguments.drawing, draw(seen, arguments.drawing));
-  const auto share = [&](IndoorSurface surface) {
+  const auto share = [&](PlanSurface surface) {
     return cv::countNonZero(surfaces == static_cast<int>(surface)) /
            static_cast<double>(surfaces.total());
   };
   const ImageOrientation found{
-      seen.map.coverage,           share(IndoorSurface::kFloor), share(IndoorSurface::kCeiling),
-      share(IndoorSurface::kWall), seen.map.vertical_axis,       seen.R_cam_manhattan.matrix()};
+      seen.map.coverage,         share(PlanSurface::kFloor), share(PlanSurface::kCeiling),
+      share(PlanSurface::kWall), seen.map.vertical_axis,     seen.R_cam_manhattan.matrix()};
   return {arguments.in, found, cpu_ms, {}};
 }
 
@@ -203,9 +203,9 @@ SceneOrientationResult orientation_of_sequence(const SceneOrientationArguments& 
 
 ordered_json described(const ImageOrientation& found) {
   ordered_json report = {{"coverage", found.coverage},
-                         {to_string(IndoorSurface::kFloor), found.floor},
-                         {to_string(IndoorSurface::kCeiling), found.ceiling},
-                         {to_string(IndoorSurface::kWall), found.wall},
+                         {to_string(PlanSurface::kFloor), found.floor},
+                         {to_string(PlanSurface::kCeiling), found.ceiling},
+                         {to_string(PlanSurface::kWall), found.wall},
                          {"vertical_axis", found.vertical_axis},
                          {"R_cam_manhattan", ordered_json::array()}};
   const Eigen::Matrix3d& R = found.R_cam_manhattan;

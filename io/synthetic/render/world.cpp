@@ -12,7 +12,7 @@ const char* to_string(SurfaceClass label) {
   return kNames[static_cast<int>(label)];
 }
 
-const char* urban_class_name(SurfaceClass label) {
+const char* street_class_name(SurfaceClass label) {
   switch (label) {
     case SurfaceClass::kSky:
       return "Sky";

@@ -37,7 +37,7 @@ const char* to_string(SurfaceClass label);
 /// The class of a surface in datasets of labelled street images: kerbs are pavement, roofs
 /// building, walls and fences fence, hedges and trees tree. Null for a surface without such a
 /// class.
-const char* urban_class_name(SurfaceClass label);
+const char* street_class_name(SurfaceClass label);
 
 /// How a surface is shaded from its metric surface coordinates; see materials.h.
 enum class Material : std::uint8_t {

@@ -40,8 +40,8 @@ void furnish(const PlanRoom& room, Scene& scene, Random& random) {
   }
 }
 
-FloorPlan make_plan(Random& random) {
-  FloorPlan plan;
+BuildingLayout make_plan(Random& random) {
+  BuildingLayout plan;
   plan.add_ring({0, 0}, {kLong, kWide}, kHeight, 0.3);
   const std::size_t outer = plan.walls.size();
   plan.add_ring({kOuter, kOuter}, {kLong - kOuter, kWide - kOuter}, kHeight);
@@ -104,7 +104,7 @@ Tour make_corridor_loop(const TourRequest& request) {
   tour.name = "corridor-loop";
   tour.scene.outdoor = false;
   tour.scene.seed = mix_bits(static_cast<std::uint32_t>(request.seed) * 2654435761U + 77U);
-  const FloorPlan plan = make_plan(random);
+  const BuildingLayout plan = make_plan(random);
   build_rooms(plan, tour.scene);
   for (std::size_t i = 4; i < plan.rooms.size(); ++i) furnish(plan.rooms[i], tour.scene, random);
   // Furniture along the corridor's walls, clear of the walker's path.

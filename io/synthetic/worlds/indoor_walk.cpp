@@ -15,7 +15,8 @@ Camera indoor_camera() {
   return camera;
 }
 
-void walk_through(const FloorPlan& plan, const IndoorWalk& walk, std::uint32_t seed, Tour& tour) {
+void walk_through(const BuildingLayout& plan, const IndoorWalk& walk, std::uint32_t seed,
+                  Tour& tour) {
   constexpr double kStep_m = 0.05;
   const std::vector<Eigen::Vector2d> path =
       smooth_path(walk.corners, kStep_m, walk.rotation_window_m);

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/io/synthetic/worlds/floor_plan.h>
+#include <placegraph/io/synthetic/worlds/building_layout.h>
 #include <placegraph/io/synthetic/worlds/tours.h>
 
 namespace placegraph::synthetic {
@@ -18,6 +18,7 @@ constexpr double kIndoorBaseline_m = 0.1;
 
 /// Fills time, poses, camera and floor plan of `tour`: 10 Hz, 640 x 480, swaying like a walker. The
 /// first pose has the scene's axes, so that the plan and poses.txt differ by a shift only.
-void walk_through(const FloorPlan& plan, const IndoorWalk& walk, std::uint32_t seed, Tour& tour);
+void walk_through(const BuildingLayout& plan, const IndoorWalk& walk, std::uint32_t seed,
+                  Tour& tour);
 
 }  // namespace placegraph::synthetic

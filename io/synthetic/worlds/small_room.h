@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/io/synthetic/worlds/floor_plan.h>
+#include <placegraph/io/synthetic/worlds/building_layout.h>
 
 namespace placegraph::synthetic {
 
@@ -9,7 +9,7 @@ struct SmallRoom {
   static constexpr double kFurnitureDepth_m = 0.75;
   Eigen::Vector2d size{5, 4};
   double height_m = 2.6;
-  FloorPlan plan{};
+  BuildingLayout plan{};
 };
 
 /// Adds the room and its furniture to an indoor scene.

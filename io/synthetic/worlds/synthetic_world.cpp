@@ -281,7 +281,7 @@ std::vector<SceneClass> SyntheticWorld::scene_classes() {
   std::vector<SceneClass> classes;
   for (int i = 0; i < static_cast<int>(synthetic::SurfaceClass::kCount); ++i) {
     const auto label = static_cast<synthetic::SurfaceClass>(i);
-    if (const char* urban = synthetic::urban_class_name(label))
+    if (const char* urban = synthetic::street_class_name(label))
       classes.push_back({i, urban, surface(urban)});
     else
       classes.push_back({i, to_string(label), std::nullopt});
@@ -294,7 +294,7 @@ LabelledMesh SyntheticWorld::static_mesh() const {
   std::vector<int> number;
   for (int i = 0; i < static_cast<int>(synthetic::SurfaceClass::kCount); ++i) {
     const auto label = static_cast<synthetic::SurfaceClass>(i);
-    const char* urban = synthetic::urban_class_name(label);
+    const char* urban = synthetic::street_class_name(label);
     const std::string name = urban ? urban : to_string(label);
     const auto found = std::find(mesh.classes.begin(), mesh.classes.end(), name);
     number.push_back(static_cast<int>(found - mesh.classes.begin()));

@@ -13,9 +13,9 @@ constexpr double kRacks_z0 = 5, kRacks_z1 = 25;
 constexpr double kRack_x[] = {10, 14.5, 19, 23.5, 28};  ///< middles of the racks
 constexpr double kRackDepth = 1.2, kBay = 2.5;
 
-FloorPlan make_plan() {
+BuildingLayout make_plan() {
   using Leaf = Opening::Leaf;
-  FloorPlan plan;
+  BuildingLayout plan;
   plan.rooms = {{"hall", {kHall_x0, 0}, {kHall_x1, kDepth}, kHallHeight, 1},
                 {"office", {0, 0}, {kHall_x0, 10}, kOfficeHeight, 0.5F},
                 {"meeting room", {0, 10}, {kHall_x0, 20}, kOfficeHeight, 0.5F},
@@ -82,7 +82,7 @@ Tour make_warehouse(const TourRequest& request) {
   tour.name = "warehouse";
   tour.scene.outdoor = false;
   tour.scene.seed = mix_bits(static_cast<std::uint32_t>(request.seed) * 2654435761U + 177U);
-  const FloorPlan plan = make_plan();
+  const BuildingLayout plan = make_plan();
   build_rooms(plan, tour.scene);
   for (const double x : kRack_x) add_rack(tour.scene, x, random);
   for (std::size_t i = 1; i < plan.rooms.size(); ++i) furnish(tour.scene, plan.rooms[i], random);

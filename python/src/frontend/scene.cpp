@@ -79,8 +79,8 @@ Horizon horizon_of(const ArrayArgument<double>& segments, const Camera& camera,
   return estimate_horizon(lines, camera, chosen, random);
 }
 
-ImageResult<std::uint8_t> indoor_surfaces_of(const OrientationMap& map, const Camera& camera,
-                                             const ArrayArgument<double>& R_cam_manhattan) {
+ImageResult<std::uint8_t> plan_surfaces_of(const OrientationMap& map, const Camera& camera,
+                                           const ArrayArgument<double>& R_cam_manhattan) {
   require(map.outcome.code == Outcome::Code::kOk, "map: it has no surfaces");
   require(map.labels.cols == camera.width && map.labels.rows == camera.height,
           "camera: its images have another size than the map");
@@ -212,7 +212,7 @@ void bind_horizon(nb::module_& m) {
         "Estimates the horizon by reweighted least squares, initialized with a level camera.\n\n"
         "Upright vanishing points are parallel to `down`, level ones at right angles to it. "
         "Deterministic for a given `seed`. Errors are those of find_scene_directions.");
-  m.def("indoor_surfaces", &indoor_surfaces_of, "map"_a, "camera"_a, "R_cam_manhattan"_a,
+  m.def("indoor_surfaces", &plan_surfaces_of, "map"_a, "camera"_a, "R_cam_manhattan"_a,
         "Classifies the surfaces of an orientation map, H x W uint8: 0 none, 1 floor (below the "
         "horizon of the vertical axis), 2 ceiling, 3 wall.");
 }
@@ -287,7 +287,7 @@ void bind_scene(nb::module_& m) {
         "Classifies the surfaces of an image (H x W, or H x W x 3 BGR, uint8): sky, ground, "
         "verticals, objects.\n\n`model`: of kind 'surfaces'. A pixel whose most probable class has "
         "a probability less than `unknown_below` is unknown.");
-  m.def("label_urban", &labelled, "urban"_a, "surfaces"_a, "image"_a, "unknown_below"_a = 0.0,
+  m.def("label_jointly", &labelled, "urban"_a, "surfaces"_a, "image"_a, "unknown_below"_a = 0.0,
         "Labels an image of a street (H x W, or H x W x 3 BGR, uint8) by two models together, one "
         "of kind 'urban' and one of kind 'surfaces'.\n\nA pixel whose most probable class has a "
         "probability less than `unknown_below` is unknown.");

@@ -43,7 +43,7 @@ TEST(RunReportText, SaysWhyFramesHaveNoPoseAndHowFarTheyAreOff) {
       "             motion by other sensors: 3 constraints, deviation 0.75 times the stated one\n"
       "             ATE 0.1250 m (se3), path 12.5 m\n"
       "             floor plan: 4 walls, 1 doors, 2 rooms\n"
-      "             semantic map: 100 cells of 2 keyframes\n"
+      "             street map: 100 cells of 2 keyframes\n"
       "             1.2 s, 125.0 ms CPU a frame, results in out\n");
 }
 

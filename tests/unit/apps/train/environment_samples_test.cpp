@@ -5,6 +5,7 @@
 #include <placegraph/io/models/scene_model_file.h>
 
 #include <cmath>
+#include <memory>
 
 #include "tests/support/message_of.h"
 #include "tests/unit/apps/image/scene/drawn_set.h"
@@ -23,10 +24,9 @@ class EnvironmentSamples : public testing::Test {
     test::write_drawn_set(folder);
     const TrainSceneArguments training = test::drawn_set_training(folder, "surfaces.pgscene");
     train_scene(training, SceneModel::Kind::kSurfaces);
-    labeller =
-        new SurfaceLabeller(std::make_shared<const SceneModel>(read_scene_model(training.out)), {});
+    surfaces = std::make_shared<const SceneModel>(read_scene_model(training.out));
   }
-  static void TearDownTestSuite() { delete labeller; }
+  static void TearDownTestSuite() { surfaces = nullptr; }
   /// A picture of a set of which such a share is buildings.
   void write_picture(int number, double share) const {
     const std::string name = "/p_" + std::to_string(number) + ".png";
@@ -35,17 +35,17 @@ class EnvironmentSamples : public testing::Test {
     labels.rowRange(0, static_cast<int>(std::lround(180 * share))).setTo(1);
     test::write_image(folder, "set/labels" + name, labels);
   }
-  static SurfaceLabeller* labeller;
+  static std::shared_ptr<const SceneModel> surfaces;
   test::TemporaryFolder folder;
 };
-SurfaceLabeller* EnvironmentSamples::labeller = nullptr;
+std::shared_ptr<const SceneModel> EnvironmentSamples::surfaces;
 
 TEST_F(EnvironmentSamples, APictureIsAStreetOrARoadByItsBuildings) {
   folder.write("set/CLASSES.txt", "0 Road ground\n1 Building vertical\n");
   // Every third picture counts: 0, 3, 6, 9. What is neither is left out.
   const double shares[] = {0.5, 0, 0, 0, 0.5, 0.5, 0.07, 0, 0, 0.2};
   for (int i = 0; i < 10; ++i) write_picture(i, shares[i]);
-  const auto samples = samples_of_images(folder / "set", *labeller);
+  const auto samples = samples_of_images(folder / "set", surfaces);
   ASSERT_EQ(samples.size(), 3u);
   EXPECT_EQ(samples[0].kind, Environment::kStreet);
   EXPECT_EQ(samples[1].kind, Environment::kRoad);
@@ -55,7 +55,7 @@ TEST_F(EnvironmentSamples, APictureIsAStreetOrARoadByItsBuildings) {
 TEST_F(EnvironmentSamples, NothingIsKnownOfTheDepthOfPictures) {
   folder.write("set/CLASSES.txt", "0 Road ground\n1 Building vertical\n");
   write_picture(0, 0.5);
-  const auto samples = samples_of_images(folder / "set", *labeller);
+  const auto samples = samples_of_images(folder / "set", surfaces);
   ASSERT_EQ(samples.size(), 1u);
   const auto& values = samples[0].evidence.values;
   for (std::size_t i = 0; i < values.size(); ++i) {  // the last five are of points
@@ -68,12 +68,12 @@ TEST_F(EnvironmentSamples, NothingIsKnownOfTheDepthOfPictures) {
 TEST_F(EnvironmentSamples, ASetWithoutBuildingsIsRefused) {
   folder.write("set/CLASSES.txt", "0 Road ground\n1 House vertical\n");
   write_picture(0, 0.5);
-  EXPECT_THAT(message_of<ArgumentError>([&] { samples_of_images(folder / "set", *labeller); }),
+  EXPECT_THAT(message_of<ArgumentError>([&] { samples_of_images(folder / "set", surfaces); }),
               HasSubstr("set: has no class Building"));
 }
 
 TEST_F(EnvironmentSamples, AViewOfARoomIsOfTheRoomsKind) {
-  const auto samples = samples_of_world("corridor-loop", 1, 2, *labeller);
+  const auto samples = samples_of_world("corridor-loop", 1, 2, surfaces);
   ASSERT_GE(samples.size(), 2u);
   EXPECT_EQ(samples[0].kind, Environment::kCorridor);  // where the walk begins
   for (const EnvironmentSample& sample : samples)
@@ -82,7 +82,7 @@ TEST_F(EnvironmentSamples, AViewOfARoomIsOfTheRoomsKind) {
 }
 
 TEST_F(EnvironmentSamples, ATownIsAStreetSeenAsOftenAsAskedFor) {
-  const auto samples = samples_of_world("town-loop", 1, 2, *labeller);
+  const auto samples = samples_of_world("town-loop", 1, 2, surfaces);
   ASSERT_EQ(samples.size(), 2u);
   for (const EnvironmentSample& sample : samples) EXPECT_EQ(sample.kind, Environment::kStreet);
 }

@@ -11,8 +11,8 @@ using Eigen::Vector2d;
 using testing::Contains;
 using testing::Not;
 
-IndoorRoom room_of(const std::string& label, const std::vector<Vector2d>& outline, double area_m2) {
-  IndoorRoom room;
+PlanRoom room_of(const std::string& label, const std::vector<Vector2d>& outline, double area_m2) {
+  PlanRoom room;
   room.label = label;
   room.outline = outline;
   room.area_m2 = area_m2;
@@ -20,14 +20,14 @@ IndoorRoom room_of(const std::string& label, const std::vector<Vector2d>& outlin
 }
 
 /// A small room at the left of a large one, with a door of 1 m between them.
-IndoorMap two_rooms(bool closed) {
-  IndoorMap plan;
+FloorPlan two_rooms(bool closed) {
+  FloorPlan plan;
   plan.rooms = {room_of("room 1", {{0, 0}, {2, 0}, {2, 4}, {0, 4}}, 8),
                 room_of("room 2", {{2, 0}, {8, 0}, {8, 4}, {2, 4}}, 24)};
-  IndoorWall wall;
+  PlanWall wall;
   wall.a = {2, 0}, wall.b = {2, 4};
   plan.walls.push_back(wall);
-  IndoorDoor door;
+  PlanDoor door;
   door.a = {2, 1}, door.b = {2, 2};
   door.closed = closed;
   plan.doors.push_back(door);
@@ -47,13 +47,13 @@ std::vector<std::vector<double>> lines_of(const std::string& svg, const std::str
 TEST(FloorPlanSvg, NamesRoomsWithTheirAreasAndTheirSum) {
   const std::string svg = floor_plan_svg(two_rooms(false), {"a plan", {}});
   test::expect_good_svg(svg);
-  for (const char* text : {"a plan", "room 1", "8.0 m²", "room 2", "24.0 m²",
-                           "floor plan: 2 rooms, 32.0 m²"})
+  for (const char* text :
+       {"a plan", "room 1", "8.0 m²", "room 2", "24.0 m²", "floor plan: 2 rooms, 32.0 m²"})
     EXPECT_THAT(test::texts_of(svg), Contains(text));
 }
 
 TEST(FloorPlanSvg, ADoorOpensIntoTheLargerRoom) {
-  IndoorMap plan = two_rooms(false);
+  FloorPlan plan = two_rooms(false);
   for (const bool mirrored : {false, true}) {
     if (mirrored) std::swap(plan.rooms[0].area_m2, plan.rooms[1].area_m2);
     const auto arcs = lines_of(floor_plan_svg(plan, {}), "#d55e00", "1.3");
@@ -78,7 +78,7 @@ TEST(FloorPlanSvg, TheLegendHasWhatIsDrawn) {
   EXPECT_THAT(closed, Not(Contains("doorway (its hinges are not observed)")));
   EXPECT_THAT(open, Not(Contains("path of the camera")));
   EXPECT_THAT(open, Not(Contains("ground truth")));
-  BuildingPlan truth;
+  TrueFloorPlan truth;
   truth.walls.push_back({{0, 0}, {8, 0}, 0.2, 2.5});
   const FloorPlanPicture picture{"", {{1, 1}, {2, 3}}, &truth};
   EXPECT_THAT(test::texts_of(floor_plan_svg(two_rooms(false), picture)),
@@ -87,7 +87,7 @@ TEST(FloorPlanSvg, TheLegendHasWhatIsDrawn) {
 
 TEST(FloorPlanSvg, TheNameOfARoomLiesInItAndInNoHole) {
   // A ring of 1 m around a block, wider at the left: the middle of the outline is not free.
-  IndoorMap plan;
+  FloorPlan plan;
   plan.rooms = {room_of("r", {{0, 0}, {12, 0}, {12, 10}, {0, 10}}, 60)};
   plan.rooms[0].holes = {{{3, 1}, {11, 1}, {11, 9}, {3, 9}}};
   const std::string svg = floor_plan_svg(plan, {});

@@ -5,7 +5,7 @@
 #include <placegraph/eval/plots/floor_plan_plot.h>
 #include <placegraph/eval/scene/floor_plan_check.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/scene/indoor_map_file.h>
+#include <placegraph/io/scene/floor_plan_file.h>
 
 #include "../drawing/svg_check.h"
 #include "tests/support/ids.h"
@@ -18,8 +18,8 @@ namespace floor_plan_check_test {
 using Eigen::Vector2d;
 
 /// A room of 4 x 6 m with a closed door in the wall at x = 4.
-BuildingPlan one_room() {
-  BuildingPlan truth;
+TrueFloorPlan one_room() {
+  TrueFloorPlan truth;
   truth.rooms = {{"room", {0, 0}, {4, 6}, 2.5}};
   truth.walls = {{{0, 0}, {4, 0}, 0.2, 2.5},
                  {{4, 0}, {4, 6}, 0.2, 2.5},
@@ -29,20 +29,20 @@ BuildingPlan one_room() {
   return truth;
 }
 
-IndoorWall wall(const Vector2d& a, const Vector2d& b, const Vector2d& normal) {
-  IndoorWall w;
+PlanWall wall(const Vector2d& a, const Vector2d& b, const Vector2d& normal) {
+  PlanWall w;
   w.a = a, w.b = b, w.normal = normal;
   return w;
 }
 
 /// Seen right but for the wall at x = 0, which is 10 cm off.
-IndoorMap estimated_plan() {
-  IndoorMap plan;
+FloorPlan estimated_plan() {
+  FloorPlan plan;
   plan.outcome = Outcome::ok();
   plan.walls = {wall({0.2, 0.1}, {3.9, 0.1}, {0, 1}), wall({3.9, 0.1}, {3.9, 5.9}, {-1, 0}),
                 wall({0.2, 5.9}, {3.9, 5.9}, {0, -1}), wall({0.2, 0.1}, {0.2, 5.9}, {1, 0})};
   plan.doors.push_back({{3.9, 2.05}, {3.9, 3.0}, 2.0, true, {0, -1}});
-  IndoorRoom room;
+  PlanRoom room;
   room.label = "room 1";
   room.outline = {{0.2, 0.1}, {3.9, 0.1}, {3.9, 5.9}, {0.2, 5.9}};
   room.area_m2 = 3.7 * 5.8, room.entered = true, room.places = test::ids<PlaceId>({3});
@@ -73,7 +73,7 @@ TEST(FloorPlanCheck, TellsErrorsOfWallsRoomsAndDoors) {
 }
 
 TEST(FloorPlanCheck, CountsPixelsWithoutOrientation) {
-  IndoorMap empty;
+  FloorPlan empty;
   const FloorPlanCheck check = check_floor_plan(empty, one_room(), SE3(), rotating());
   EXPECT_EQ(check.truth_to_plan_median_m, 1);
   EXPECT_EQ(check.doors_found, 0);
@@ -83,24 +83,24 @@ TEST(FloorPlanCheck, CountsPixelsWithoutOrientation) {
 TEST(FloorPlanFile, ReadsWhatItWrites) {
   test::TemporaryFolder dir;
   dir.write("plan.json", to_json(estimated_plan()));
-  const IndoorMap plan = read_indoor_map(dir / "plan.json");
+  const FloorPlan plan = read_floor_plan(dir / "plan.json");
   ASSERT_EQ(plan.walls.size(), 4U);
   EXPECT_EQ(plan.doors.at(0).rooms, (std::array<std::optional<int>, 2>{0, std::nullopt}));
   EXPECT_EQ(plan.rooms.at(0).places, test::ids<PlaceId>({3}));
   EXPECT_EQ(to_json(plan), to_json(estimated_plan()));
   dir.write("cut.json", to_json(estimated_plan()).substr(0, 100));
-  EXPECT_THROW((void)read_indoor_map(dir / "cut.json"), FileError);
+  EXPECT_THROW((void)read_floor_plan(dir / "cut.json"), FileError);
   dir.write("other.json", "{}");
-  EXPECT_THROW((void)read_indoor_map(dir / "other.json"), FileError);
-  EXPECT_THROW((void)read_building_plan(dir / "other.json"), FileError);
-  EXPECT_THROW((void)read_building_plan(dir / "none.json"), FileError);
+  EXPECT_THROW((void)read_floor_plan(dir / "other.json"), FileError);
+  EXPECT_THROW((void)read_true_floor_plan(dir / "other.json"), FileError);
+  EXPECT_THROW((void)read_true_floor_plan(dir / "none.json"), FileError);
 }
 
 TEST(FloorPlanPlot, HasALegendForAllThatItShows) {
   FloorPlanPicture picture;
   picture.title = "a room";
   picture.path = {{0, 0}, {1, 1}};
-  const BuildingPlan truth = one_room();
+  const TrueFloorPlan truth = one_room();
   picture.truth = &truth;
   const std::string svg = floor_plan_svg(estimated_plan(), picture);
   test::expect_good_svg(svg);

@@ -53,11 +53,11 @@ TEST(OrientationMap, TellsTheWallsOfABoxRoom) {
   const Eigen::Vector2d floor = *room.camera.project({0, 1.2, 3.5}),
                         ceiling = *room.camera.project({0, -1.2, 3.5});
   const auto at = [&](const Eigen::Vector2d& p) {
-    return static_cast<IndoorSurface>(
+    return static_cast<PlanSurface>(
         surfaces.at<std::uint8_t>(static_cast<int>(p[1]), static_cast<int>(p[0])));
   };
-  EXPECT_EQ(at(floor), IndoorSurface::kFloor);
-  EXPECT_EQ(at(ceiling), IndoorSurface::kCeiling);
+  EXPECT_EQ(at(floor), PlanSurface::kFloor);
+  EXPECT_EQ(at(ceiling), PlanSurface::kCeiling);
 }
 
 TEST(OrientationMap, SaysNothingOfEdgesOfOneAxis) {

@@ -70,7 +70,7 @@ TEST(GroundProfile, IsTheCamerasWhereNoneIsSeen) {
   EXPECT_NEAR(ground.height_of({0, 0.65, 10}), 1, 1e-9);
 }
 
-TEST(UrbanGeometry, GroundLiesAndWallsStand) {
+TEST(StreetGeometry, GroundLiesAndWallsStand) {
   const std::vector<DepthSample> samples = samples_of(street_depths());
   const GroundProfile ground = fit_ground(samples, lower_half_is_ground(), 0);
   const auto places = place_regions(samples, kRegions, kCamera, kCamera.fx * kBaseline_m, ground);
@@ -89,13 +89,13 @@ TEST(UrbanGeometry, GroundLiesAndWallsStand) {
   EXPECT_NEAR(places[3 * 20 + 10].upness, 0, 0.05);
   EXPECT_GT(wall[2], wall[1] + 2);
   EXPECT_GT(wall[2], wall[3] + 0.5);
-  UrbanGeometryOptions none;
+  StreetGeometryOptions none;
   none.weight = 0;
   EXPECT_EQ(geometry_log_likelihoods(places, model, none),
             std::vector<float>(likelihood.size(), 0.0F));
 }
 
-TEST(UrbanGeometry, SaysNothingOfRegionsWithoutDepth) {
+TEST(StreetGeometry, SaysNothingOfRegionsWithoutDepth) {
   const GroundProfile ground = fit_ground({}, {}, 1.65);
   const auto places = place_regions({}, 3, kCamera, 100, ground);
   for (const float l : geometry_log_likelihoods(
@@ -106,7 +106,7 @@ TEST(UrbanGeometry, SaysNothingOfRegionsWithoutDepth) {
 TEST(SeenThrough, TellsWhatWasNotThereBefore) {
   // A car's back at 8 m, that the image before saw the wall behind of; a point of the wall itself,
   // one that is hidden behind it, and one out of view.
-  std::vector<SemanticPoint> points(4);
+  std::vector<StreetPoint> points(4);
   points[0].point = {0.3F, 0.3F, 8};
   points[1].point = {0.3F, -0.5F, 20};
   points[2].point = {0.3F, -0.5F, 30};
@@ -120,7 +120,7 @@ TEST(SeenThrough, TellsWhatWasNotThereBefore) {
 }
 
 TEST(SeenThrough, FollowsTheMotionOfTheCamera) {
-  std::vector<SemanticPoint> points(1);
+  std::vector<StreetPoint> points(1);
   points[0].point = {0.3F, -0.5F, 18};
   // The other camera stood 2 m farther back: there the wall's point is 20 m away.
   EXPECT_FALSE(seen_through(points, SE3(SO3(), Eigen::Vector3d(0, 0, 2)), street_depths(), kCamera,

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/labels/urban_labels.h>
+#include <placegraph/frontend/labels/joint_labels.h>
 #include <placegraph/frontend/scene/environment.h>
 #include <placegraph/graph/core/error.h>
 

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <placegraph/frontend/places/place_recognizer.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/pipeline/loops/keyframe_describer.h>
 #include <placegraph/pipeline/map/map_learner.h>

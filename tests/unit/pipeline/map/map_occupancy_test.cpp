@@ -74,10 +74,10 @@ TEST_F(MapOccupancyTest, UsesNoLandmarkOfUnknownOrLargeDeviation) {
 }
 
 TEST_F(MapOccupancyTest, HasTheWallsOfAFloorPlanAndItsVertical) {
-  IndoorMap plan;
+  FloorPlan plan;
   plan.outcome = Outcome::ok();
   plan.R_plan_map = SO3::exp(Eigen::Vector3d(0.1, 0, 0));
-  IndoorWall& wall = plan.walls.emplace_back();
+  PlanWall& wall = plan.walls.emplace_back();
   wall.a = {-0.52, 1.98};
   wall.b = {-0.52, 3.03};
   const MapOccupancy result = occupancy_of(map, 0, {}, &plan);

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/exports/base64.h>
-#include <placegraph/io/scene/indoor_map_file.h>
+#include <placegraph/io/scene/floor_plan_file.h>
 
 #include <cmath>
 #include <filesystem>
@@ -81,17 +81,17 @@ TEST_F(ReportCommand, HasWhatTheMapHas) {
 }
 
 /// A room with a column in it, a wall and a door, on a floor 1.2 m below the origin.
-IndoorMap small_plan() {
-  IndoorMap plan;
+FloorPlan small_plan() {
+  FloorPlan plan;
   plan.floor_y = 1.2;
-  IndoorWall wall;
+  PlanWall wall;
   wall.a = {0, 1}, wall.b = {2, 1}, wall.normal = {0, 1};
   wall.low_m = 0.1, wall.high_m = 2.2;
   wall.place = PlaceId(3);
   plan.walls.push_back(wall);
   plan.doors.push_back({{2, 1}, {3, 1}, 2, true, {}});
   plan.doors.push_back({{3, 1}, {4, 1}, 0, false, {}});
-  IndoorRoom room;
+  PlanRoom room;
   room.outline = {{0, 0}, {4, 0}, {4, 3}};
   room.holes = {{{2, 0.5}, {3, 0.5}, {3, 1}}};
   plan.rooms.push_back(room);

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <placegraph/graph/image/png_codec.h>
-#include <placegraph/io/scene/semantic_map_file.h>
+#include <placegraph/io/scene/street_map_file.h>
 
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -16,13 +16,13 @@ namespace street_map_part_test {
 using nlohmann::json;
 
 /// A road of 20 x 1 cells of half a metre, 1.5 m below the origin, with a building at its end.
-SemanticMap street() {
-  SemanticMap map;
+StreetMap street() {
+  StreetMap map;
   map.outcome = Outcome::ok();
   map.classes = {"Road", "Building"};
   map.cell_m = 0.5;
   for (int x = 0; x < 20; ++x) {
-    SemanticCell cell;
+    StreetCell cell;
     const bool building = x == 19;
     cell.height_m = building ? 2 : 0;
     cell.mean = {0.5f * static_cast<float>(x) + 0.25f, 1.5f - cell.height_m, 0.25f};
@@ -55,18 +55,18 @@ TEST(ReportStreetMap, IsAnImageOnTheGround) {
 }
 
 TEST(ReportStreetMap, IsNothingWhereNothingIsKnown) {
-  SemanticMap empty = street();
+  StreetMap empty = street();
   empty.cells.clear();
   EXPECT_EQ(describe_street_map(empty), nullptr);
 }
 
 TEST(ReportStreetMap, IsNotReadInTheAxesOfTheEarth) {
   const test::TemporaryFolder folder;
-  EXPECT_FALSE(read_street_map(folder / ""));
+  EXPECT_FALSE(street_map_in(folder / ""));
   std::ofstream(folder / "semantic_map.ply", std::ios::binary) << to_ply(street());
-  EXPECT_TRUE(read_street_map(folder / ""));
+  EXPECT_TRUE(street_map_in(folder / ""));
   std::ofstream(folder / "semantic_map.geojson") << "{}";
-  EXPECT_FALSE(read_street_map(folder / ""));
+  EXPECT_FALSE(street_map_in(folder / ""));
 }
 
 }  // namespace street_map_part_test

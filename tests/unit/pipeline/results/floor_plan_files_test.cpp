@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <placegraph/io/map/map_database.h>
-#include <placegraph/io/scene/indoor_map_file.h>
+#include <placegraph/io/scene/floor_plan_file.h>
 
 #include "tests/support/map_bits.h"
 #include "tests/support/random_map.h"
@@ -20,15 +20,15 @@ std::vector<Eigen::Vector2d> rectangle(double width, double height) {
 }
 
 /// A room of 4 m by 3 m of which walls of this length were observed.
-IndoorMap room_with_walls(double length_m) {
-  IndoorMap plan;
+FloorPlan room_with_walls(double length_m) {
+  FloorPlan plan;
   plan.outcome = Outcome::ok();
   plan.floor_y = 1.5;
-  IndoorRoom& room = plan.rooms.emplace_back();
+  PlanRoom& room = plan.rooms.emplace_back();
   room.label = "room 1";
   room.outline = rectangle(4, 3);
   for (const double share : {0.25, 0.75}) {
-    IndoorWall& wall = plan.walls.emplace_back();
+    PlanWall& wall = plan.walls.emplace_back();
     wall.a = {0, 0}, wall.b = {0, share * length_m}, wall.normal = {1, 0};
   }
   return plan;
@@ -38,7 +38,7 @@ TEST(WalledShare, IsTheLengthOfWallsOverThatOfOutlines) {
   EXPECT_DOUBLE_EQ(walled_share(room_with_walls(7)), 0.5);
   EXPECT_DOUBLE_EQ(walled_share(room_with_walls(0)), 0);
   EXPECT_DOUBLE_EQ(walled_share(room_with_walls(99)), 1);
-  IndoorMap plan = room_with_walls(7);
+  FloorPlan plan = room_with_walls(7);
   plan.rooms[0].holes.push_back(rectangle(1, 2));  // 6 m more
   EXPECT_DOUBLE_EQ(walled_share(plan), 7.0 / 20);
   plan.rooms.push_back(plan.rooms[0]);
@@ -51,7 +51,7 @@ TEST(WalledShare, IsDoubtedBelowAHalf) {
   EXPECT_FALSE(doubt_of(room_with_walls(7)));
   EXPECT_FALSE(doubt_of(room_with_walls(14)));
   EXPECT_THAT(*doubt_of(room_with_walls(3.5)), HasSubstr("along 25 % of the outlines"));
-  EXPECT_TRUE(doubt_of(IndoorMap()));
+  EXPECT_TRUE(doubt_of(FloorPlan()));
 }
 
 class FloorPlanFiles : public ::testing::Test {
@@ -67,7 +67,7 @@ class FloorPlanFiles : public ::testing::Test {
 
 TEST_F(FloorPlanFiles, AreWrittenInThreeForms) {
   write_floor_plan(dir.path(), room_with_walls(7), stored.map, "a & b");
-  const IndoorMap read = read_indoor_map(dir / "floor_plan.json");
+  const FloorPlan read = read_floor_plan(dir / "floor_plan.json");
   EXPECT_EQ(read.walls.size(), 2U);
   EXPECT_EQ(read.floor_y, 1.5);
   EXPECT_THAT(test::read_file(dir / "floor_plan.svg"), HasSubstr("a &amp; b"));

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/pipeline/scene/map_keyframes.h>
-#include <placegraph/pipeline/scene/urban_mapper.h>
+#include <placegraph/pipeline/scene/street_mapper.h>
 
 #include "tests/support/ids.h"
 #include "tests/support/scenes/scene.h"

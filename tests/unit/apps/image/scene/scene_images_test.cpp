@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/scene/semantic_map.h>
+#include <placegraph/graph/scene/street_map.h>
 #include <placegraph/io/files/image_file.h>
 
 #include <nlohmann/json.hpp>

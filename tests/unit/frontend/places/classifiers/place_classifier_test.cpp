@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/frontend/places/classifiers/place_classifier.h>
+#include <placegraph/frontend/places/classifiers/platt_scaling.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>
 

@@ -12,8 +12,8 @@ namespace indoor_walk_test {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-FloorPlan hall() {
-  FloorPlan plan;
+BuildingLayout hall() {
+  BuildingLayout plan;
   plan.rooms.push_back({"hall", {0, 0}, {20, 30}, 3, 0});
   plan.add_ring({0, 0}, {20, 30}, 3);
   return plan;
@@ -83,8 +83,7 @@ TEST(IndoorWalk, AnotherSeedIsAnotherSwayOnTheSameWay) {
   double most = 0;
   for (std::size_t i = 0; i < a.time_s.size(); ++i) {
     EXPECT_EQ(a.T_scene_cam[i].translation(), same.T_scene_cam[i].translation());
-    most = std::max(most,
-                    (a.T_scene_cam[i].translation() - b.T_scene_cam[i].translation()).norm());
+    most = std::max(most, (a.T_scene_cam[i].translation() - b.T_scene_cam[i].translation()).norm());
   }
   EXPECT_GT(most, 0.005);
   EXPECT_LT(most, 0.0401);

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/scene/labelled_mesh.h>
 #include <placegraph/io/synthetic/worlds/synthetic_world.h>
 #include <placegraph/io/synthetic/worlds/tours.h>
 
