@@ -16,16 +16,17 @@ std::vector<SceneTrainingImage> training_images(const LabelledSet& set,
                                                 const SceneModel& model,
                                                 const TrainingImageOptions& a) {
   const bool surfaces = model.kind == SceneModel::Kind::kSurfaces;
-  const auto& names = model.classes;
+  // By value below: a training takes the model before it reads the images.
+  const std::vector<std::string> names = model.classes;
   std::vector<SceneTrainingImage> training_set;
   for (const LabelledImage& image : images)
-    training_set.push_back({image.sequence, [&set, &names, image, surfaces] {
+    training_set.push_back({image.sequence, [&set, names, image, surfaces] {
                               return std::pair(
                                   colour_of(image.image),
                                   read_class_image(image.labels, set.classes, names, surfaces));
                             }});
   for (const RenderedImage& image : render_streets(a.rendered, a.rendered_frames, a.threads))
-    training_set.push_back({image.sequence, [&names, image, surfaces] {
+    training_set.push_back({image.sequence, [names, image, surfaces] {
                               return std::pair(
                                   image.image,
                                   class_image(image.labels, image.sequence,

@@ -19,8 +19,9 @@ using test::message_of;
 using testing::HasSubstr;
 
 /// The left half is of the first class, of the right half a quarter unknown and the rest of the
-/// second; all a fifth certain.
+/// second; all a fifth certain. As label_scene(), it takes no picture below 32 x 32 pixels.
 SceneLabels by_columns(std::size_t, const Image& picture) {
+  require(picture.rows >= 32 && picture.cols >= 32, "too few pixels");
   SceneLabels found{Image(picture.rows, picture.cols, CV_8UC1, cv::Scalar(0)),
                     Image(picture.rows, picture.cols, CV_32FC1, cv::Scalar(0.2))};
   found.labels.colRange(picture.cols / 2, picture.cols).setTo(1);
