@@ -1,6 +1,5 @@
 #include "apps/run/stamp_spacing.h"
 
-#include <placegraph/graph/core/median.h>
 #include <placegraph/graph/core/time.h>
 
 #include <algorithm>
@@ -15,10 +14,11 @@ StampSpacing stamp_spacing(const std::vector<std::int64_t>& stamps_ns) {
   std::vector<double> distances_s;
   for (std::size_t i = 1; i < stamps_ns.size(); ++i)
     distances_s.push_back(seconds(stamps_ns[i - 1], stamps_ns[i]));
-  const auto [least, greatest] = std::ranges::minmax_element(distances_s);
-  spacing.least_s = *least;
-  spacing.greatest_s = *greatest;
-  spacing.median_s = median_of(distances_s);
+  std::vector<double> sorted_s = distances_s;
+  std::ranges::sort(sorted_s);
+  spacing.least_s = sorted_s.front();
+  spacing.greatest_s = sorted_s.back();
+  spacing.median_s = sorted_s[sorted_s.size() / 2];
   for (std::size_t i = 0; i < distances_s.size(); ++i) {
     if (!(distances_s[i] > kGap * spacing.median_s)) continue;
     spacing.gaps.push_back({i, distances_s[i]});

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace [[gnu::visibility("default")]] placegraph {
+namespace placegraph {
 
 /// The upper median; needs at least one value.
 inline double median_of(std::vector<double> values) {

@@ -2,6 +2,7 @@
 // of it, in containers and by value, and prints what comes back: the same numbers from every
 // compilation.
 #include <placegraph/backend/factors/pose_prior.h>
+#include <placegraph/backend/factor_graph/factor_graph.h>
 #include <placegraph/placegraph.h>
 
 #include <cstdio>
