@@ -39,12 +39,6 @@ std::string shortened(const std::string& line) {
   return line.substr(0, begin) + " ... " + line.substr(end);
 }
 
-/// Empty: stderr takes the messages.
-LogSink& message_sink() {
-  static LogSink sink;
-  return sink;
-}
-
 /// Whether an exception is of this kind.
 template <class Kind>
 bool is_kind(const std::exception& error) {
@@ -73,10 +67,7 @@ void finish_printing() {
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) fail_to_print();
 }
 
-void set_message_sink(LogSink sink) { message_sink() = std::move(sink); }
-
 void note(const std::string& message) {
-  if (const LogSink& sink = message_sink()) return sink(LogLevel::kInfo, one_line(message));
   std::fprintf(stderr, "%s\n", one_line(message).c_str());
 }
 
@@ -92,7 +83,6 @@ LogSink messages() {
 }
 
 void warn(const std::string& message) {
-  if (const LogSink& sink = message_sink()) return sink(LogLevel::kWarning, one_line(message));
   std::fprintf(stderr, "warning: %s\n", one_line(message).c_str());
 }
 

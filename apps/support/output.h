@@ -46,10 +46,6 @@ void print(const std::string& text);
 /// Writes what is buffered on stdout; Error as print().
 void finish_printing();
 
-/// Who takes notes (kInfo) and warnings (kWarning) in place of stderr; an empty one: stderr again.
-/// For programs of which the commands are a part. Not while another thread writes messages.
-void set_message_sink(LogSink sink);
-
 /// Prints a note as one line on stderr.
 void note(const std::string& message);
 

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "python/src/bindings.h"
+#include "python/src/warnings.h"
 
 namespace placegraph::python {
 
@@ -49,7 +50,9 @@ class OptionSetOf : public OptionSet {
   }
   std::string to_yaml() const override { return dump_options(options_); }
   void read_yaml(const std::string& text, const std::string& name) override {
-    read_options_text(name, text, options_);
+    Options changed = options_;
+    read_options_text(name, text, changed, python_notes());
+    options_ = std::move(changed);
   }
   void check() const override { check_ranges(options_); }
   std::unique_ptr<OptionSet> copy() const override {

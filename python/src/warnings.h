@@ -14,4 +14,11 @@ inline LogSink python_warnings() {
   };
 }
 
+/// Makes what a reader notes of its input a warning of Python, whatever its level.
+inline LogSink python_notes() {
+  return [](LogLevel, const std::string& message) {
+    python_warnings()(LogLevel::kWarning, message);
+  };
+}
+
 }  // namespace placegraph::python

@@ -43,6 +43,13 @@ def test_an_unknown_key_of_yaml_is_named_with_its_line() -> None:
         pg.RunOptions.from_yaml("threads: 1\nno_such_key: 3\n", "mine.yaml")
 
 
+def test_a_key_that_is_a_constant_now_is_named_and_changes_nothing() -> None:
+    text = "odometry:\n  tracker:\n    min_sigma_px: 2\n"
+    with pytest.warns(RuntimeWarning, match=r"mine\.yaml:3: .*min_sigma_px' is a constant now, 0\.25"):
+        options = pg.RunOptions.from_yaml(text, "mine.yaml")
+    assert options == pg.RunOptions()
+
+
 def test_a_copy_is_independent() -> None:
     options = pg.RunOptions()
     other = copy.deepcopy(options)

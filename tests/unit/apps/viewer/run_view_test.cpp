@@ -26,10 +26,9 @@ using ::testing::StartsWith;
 class RunViewTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    std::string told;
-    set_message_sink([&](LogLevel, const std::string& message) { told += message; });
+    testing::internal::CaptureStderr();
     run_view = std::make_unique<RunView>(ViewerOptions{}, "a </title> run", "placegraph 7");
-    set_message_sink({});
+    const std::string told = testing::internal::GetCapturedStderr();
     std::smatch match;
     ASSERT_TRUE(std::regex_search(told, match,
                                   std::regex("http://127.0.0.1:([0-9]+)(/[0-9a-f]{32}/)")));
