@@ -5,8 +5,7 @@
 
 #include <filesystem>
 
-#include "tests/support/scenes/observed_map.h"
-#include "tests/support/scenes/poses.h"
+#include "tests/support/scenes/colmap_scene.h"
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph {
@@ -18,21 +17,7 @@ ColmapModel disturbed_model() {
   constexpr int kViews = 4, kPoints = 50;
   const Camera camera = test::pinhole(640, 480, 500);
   const test::PointScene scene = test::make_scene(camera, test::sideways(kViews), kPoints, random);
-  ColmapModel model;
-  model.camera = camera;
-  for (std::size_t k = 0; k < kPoints; ++k)
-    model.points.push_back({k + 1, scene.points_ref[k], {}, -1});
-  for (std::size_t i = 0; i < kViews; ++i) {
-    ColmapModel::Image& image = model.images.emplace_back();
-    image.id = static_cast<std::uint32_t>(i + 1);
-    image.name = std::to_string(i) + ".png";
-    image.T_world_cam = scene.T_ref_cam[i];
-    for (std::size_t k = 0; k < kPoints; ++k)
-      if (const auto px = camera.project(scene.T_ref_cam[i].inverse() * scene.points_ref[k]))
-        image.observations.push_back({*px, static_cast<int>(k)});
-    image.T_world_cam = image.T_world_cam * test::random_motion(random, 0.01, 0.004);
-  }
-  return model;
+  return test::disturbed_colmap_model(scene, camera, random);
 }
 
 TEST(ColmapAdjustment, ReadsAdjustsAndWritesAModel) {

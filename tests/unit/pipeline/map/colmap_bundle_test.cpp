@@ -1,7 +1,6 @@
 #include <placegraph/pipeline/map/colmap_bundle.h>
 
-#include "tests/support/scenes/observed_map.h"
-#include "tests/support/scenes/poses.h"
+#include "tests/support/scenes/colmap_scene.h"
 
 namespace placegraph {
 namespace colmap_bundle_test {
@@ -13,28 +12,15 @@ class ColmapBundleTest : public testing::Test {
  protected:
   ColmapModel disturbed(const Camera& camera) {
     scene = test::make_scene(test::pinhole(640, 480, 500), test::sideways(kViews), kPoints, random);
-    ColmapModel model;
-    model.camera = camera;
-    for (std::size_t k = 0; k < kPoints; ++k)
-      model.points.push_back({k + 1, scene.points_ref[k], {}, -1});
-    for (std::size_t i = 0; i < kViews; ++i) {
-      ColmapModel::Image& image = model.images.emplace_back();
-      image.id = static_cast<std::uint32_t>(i + 1);
-      image.name = std::to_string(i) + ".png";
-      image.T_world_cam = scene.T_ref_cam[i];
-      for (std::size_t k = 0; k < kPoints; ++k)
-        if (const auto px = camera.project(scene.T_ref_cam[i].inverse() * scene.points_ref[k]))
-          image.observations.push_back({*px, static_cast<int>(k)});
-      image.T_world_cam = image.T_world_cam * test::random_motion(random, 0.01, 0.004);
-    }
+    ColmapModel model = test::disturbed_colmap_model(scene, camera, random);
     for (ColmapModel::Point& point : model.points) point.p_world *= 1 + random.normal(0, 0.01);
     return model;
   }
   /// The largest distance between a point of a model, as its first camera sees it, and the true
   /// one, as a share of its depth; the model has a scale of its own.
   double error_of_shape(const ColmapModel& model) const {
-    const SE3 T_first_last = model.images.front().T_world_cam.inverse() *
-                             model.images.back().T_world_cam,
+    const SE3 T_first_last =
+                  model.images.front().T_world_cam.inverse() * model.images.back().T_world_cam,
               true_motion = scene.T_ref_cam.front().inverse() * scene.T_ref_cam.back();
     const double scale = T_first_last.translation().norm() / true_motion.translation().norm();
     double most = 0;
