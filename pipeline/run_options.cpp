@@ -37,7 +37,7 @@ void visit(OptionVisitor& field, MotionOptions& o) {
 void visit(OptionVisitor& field, SceneOptions& o) {
   field.basic()("geometry", o.geometry,
                 "build a floor plan with walls, doors and rooms at the end");
-  field.basic()("semantics", o.semantics, "build a street map of the street at the end");
+  field.basic()("semantics", o.semantics, "make a street map at the end");
   field("urban_model", o.urban_model, "path of the street class model; empty: the built-in model");
   field("surfaces_model", o.surfaces_model, "path of the surface model; empty: the built-in model");
   field.group("indoor", o.indoor, "floor plan");

@@ -45,7 +45,7 @@ void visit(OptionVisitor& field, MotionOptions& options);
 /// Scene models that are built from the finished map.
 struct SceneOptions {
   bool geometry = false;   ///< build a floor plan with walls, doors and rooms (docs/floor_plan.md)
-  bool semantics = false;  ///< build a street map of a street (docs/street_map.md)
+  bool semantics = false;  ///< make a street map (docs/street_map.md)
   /// Files of the models that label streets and surfaces; empty: the built-in models.
   std::string urban_model, surfaces_model;
   FloorPlanMapperOptions indoor;  ///< options of the floor plan

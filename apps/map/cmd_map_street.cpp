@@ -13,7 +13,7 @@ void add_map_street_command(CLI::App& map) {
   auto arguments = std::make_shared<MapStreetArguments>();
   auto json = std::make_shared<bool>(false);
   MapStreetArguments& a = *arguments;
-  CLI::App* command = map.add_subcommand("street", "Make the street map of the streets of a map");
+  CLI::App* command = map.add_subcommand("street", "Make the street map of a map");
   command->footer("placegraph map street out/town-run --out out/town-street");
   command->add_option("MAP", a.map, kMapText)->type_name(kInput)->required();
   command->add_option("-o,--out", a.out, "folder for semantic_map.ply, .json and .png")

@@ -6,7 +6,7 @@ class App;
 
 namespace placegraph::apps {
 
-/// Adds `placegraph map street MAP --out DIR`, which makes the street map of the streets.
+/// Adds `placegraph map street MAP --out DIR`, which makes the street map.
 void add_map_street_command(CLI::App& map);
 
 }  // namespace placegraph::apps

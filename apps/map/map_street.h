@@ -20,7 +20,7 @@ struct MapStreetResult {
   nlohmann::json summary;  ///< as in result.json of a run with a street map
 };
 
-/// Makes the street map of the streets of a saved map: `placegraph map street`.
+/// Makes the street map of a saved map: `placegraph map street`.
 /// Throws ArgumentError, FileError, and NoResult if there is none; then nothing is written.
 MapStreetResult map_street(const MapStreetArguments& arguments);
 

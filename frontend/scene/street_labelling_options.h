@@ -14,7 +14,7 @@ struct StreetGeometryOptions {
 };
 void visit(OptionVisitor& field, StreetGeometryOptions& options);
 
-/// Contribution of a stereo keyframe to the street map of a street.
+/// Contribution of a stereo keyframe to a street map.
 struct StreetLabellingOptions {
   int step_px = 6;          ///< distance of neighbouring points in the image
   double max_range_m = 40;  ///< farther points are not used

@@ -41,7 +41,7 @@ struct StreetCell {
   float confidence = 0;      ///< probability of its most probable class
 };
 
-/// A street map of a street: cells of space, each with a class.
+/// A map of a street: cells of space, each with a class.
 /// The plan frame is the map's, rotated so that y points straight down.
 struct StreetMap {
   Outcome outcome;  ///< kTooFewData: nothing was observed, or lengths or depths are not known
