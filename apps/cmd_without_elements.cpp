@@ -52,7 +52,7 @@ void add_train_group(CLI::App& app) {
 void add_map_scene_commands(CLI::App& map) {
   add_missing(map, "label", "Labels of places");
   add_missing(map, "plan", "Floor plan of a map");
-  add_missing(map, "street", "Semantic map of the streets of a map");
+  add_missing(map, "street", "Street map of a map");
 }
 
 void add_eval_scene_commands(CLI::App& eval) { add_missing(eval, "labels", "Labels of images"); }

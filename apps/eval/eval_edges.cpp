@@ -80,10 +80,10 @@ std::string mount_text(const TruthMount& mount) {
 }
 
 json json_of(const TruthMount& mount) {
-  return {{"position_m", numbers_of(mount.T_truth_cam.translation())},
-          {"rotation_deg", numbers_of(degrees(mount.T_truth_cam.rotation().log()))},
-          {"sigma_m", numbers_of(mount.sigma.head<3>())},
-          {"sigma_deg", numbers_of(degrees(mount.sigma.tail<3>()))}};
+  return {{"position_m", numbers(mount.T_truth_cam.translation())},
+          {"rotation_deg", numbers(degrees(mount.T_truth_cam.rotation().log()))},
+          {"sigma_m", numbers(mount.sigma.head<3>())},
+          {"sigma_deg", numbers(degrees(mount.sigma.tail<3>()))}};
 }
 
 json json_of(const Nees& nees, int degrees_of_freedom) {

@@ -104,8 +104,8 @@ std::string to_json(const EvalNoiseResult& result) {
   const TruthNoise& noise = result.noise;
   json report = {{"frames", result.frames},
                  {"posed", result.posed},
-                 {"position_m", numbers_of(noise.sigma.head<3>())},
-                 {"rotation_deg", numbers_of(noise.sigma.tail<3>().unaryExpr(&rad_to_deg))},
+                 {"position_m", numbers(noise.sigma.head<3>())},
+                 {"rotation_deg", numbers(noise.sigma.tail<3>().unaryExpr(&rad_to_deg))},
                  {"direction", json::array()},
                  {"interpolated", json::array()}};
   for (const DirectionNoise& d : noise.direction)

@@ -5,6 +5,7 @@
 #include <placegraph/frontend/flow/optical_flow.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/text/json_text.h>
+#include <placegraph/io/calibration/read_calibration.h>
 #include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/files/picture_file.h>
@@ -15,7 +16,6 @@
 #include "apps/image/draw_flow.h"
 #include "apps/image/flow_cues_report.h"
 #include "apps/support/output.h"
-#include "apps/support/read_calib.h"
 #include "apps/support/usage.h"
 
 namespace placegraph::apps {
@@ -36,7 +36,7 @@ CueSetting cue_setting(const FlowArguments& arguments) {
           "--dt: between 1e-6 and 1e4 s");
   require(std::isfinite(arguments.rotation_sigma), "--rotation-sigma: is not finite");
   CueSetting setting;
-  setting.camera = read_calib(arguments.calib);
+  setting.camera = read_calibration(arguments.calib);
   if (arguments.dt_s > 0) setting.dt_s = arguments.dt_s;
   if (!arguments.normal.empty()) {
     const Eigen::Vector3d normal = vector_of("--normal", arguments.normal);

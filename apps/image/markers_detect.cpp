@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/text/json_text.h>
+#include <placegraph/io/calibration/read_calibration.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/files/picture_file.h>
 #include <placegraph/io/measurements/marker_layout_file.h>
@@ -15,7 +16,6 @@
 #include "apps/support/choice.h"
 #include "apps/support/numbers_json.h"
 #include "apps/support/output.h"
-#include "apps/support/read_calib.h"
 #include "apps/support/usage.h"
 
 namespace placegraph::apps {
@@ -28,7 +28,7 @@ enum class PixelOrigin { kCentre, kCorner };
 /// The camera with its principal point relative to the first pixel's centre.
 Camera camera_of(const MarkersDetectArguments& arguments) {
   const auto origin = choice<PixelOrigin>("--pixel-origin", pixel_origin_names(), arguments.origin);
-  Camera camera = read_calib(arguments.calib);
+  Camera camera = read_calibration(arguments.calib);
   const double shift_px = origin == PixelOrigin::kCorner ? 0.5 : 0;
   camera.cx -= shift_px;
   camera.cy -= shift_px;

@@ -19,9 +19,6 @@ nlohmann::ordered_json rows_json(const Eigen::MatrixBase<Matrix>& matrix) {
   return rows;
 }
 
-/// A vector as a list of its numbers.
-inline nlohmann::json numbers_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-
 /// Elements of a matrix row by row, or of a vector.
 template <class Matrix>
 std::vector<double> numbers(const Eigen::MatrixBase<Matrix>& matrix) {

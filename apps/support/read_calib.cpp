@@ -5,10 +5,8 @@
 
 namespace placegraph::apps {
 
-Camera read_calib(const std::string& path) { return read_calibration(path); }
-
 Camera read_calib_without_distortion(const std::string& path, const std::string& what) {
-  const Camera camera = read_calib(path);
+  const Camera camera = read_calibration(path);
   if (camera.distortion != Distortion::kNone)
     throw FileError(path, what + " a camera without distortion");
   return camera;

@@ -1,13 +1,13 @@
-#include "apps/support/image_range.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/io/calibration/read_calibration.h>
 
 #include <filesystem>
 
 #include "apps/support/choice.h"
 #include "apps/support/frame_source.h"
+#include "apps/support/image_range.h"
 #include "apps/support/labelled_set.h"
 #include "apps/support/read_calib.h"
 #include "tests/support/message_of.h"
@@ -96,10 +96,10 @@ TEST_F(Images, ACameraIsALineOfNumbersOrACalibration) {
   const std::string bent = dir.write(
       "b.yaml", test::read_file(yaml) +
                     "distortion:\n  model: radial_tangential\n  coefficients: [0.1, 0, 0, 0]\n");
-  EXPECT_EQ(read_calib(bent).coefficients[0], 0.1);
+  EXPECT_EQ(read_calibration(bent).coefficients[0], 0.1);
   EXPECT_THAT(test::message_of([&] { (void)read_calib_without_distortion(bent, "a cube needs"); }),
               EndsWith("b.yaml: a cube needs a camera without distortion"));
-  EXPECT_THROW((void)read_calib(dir / "none.yaml"), FileError);
+  EXPECT_THROW((void)read_calibration(dir / "none.yaml"), FileError);
 }
 
 const std::vector<SceneClass> kClasses = {
