@@ -13,6 +13,9 @@ namespace {
 
 using Eigen::VectorXd;
 
+// Maximum change of a coordinate in one generation [standard deviations of the start]. Chosen.
+constexpr double kMaxSpeed = 0.8;
+
 struct Particle {
   Random random;
   VectorXd x, velocity;
@@ -46,7 +49,7 @@ void move(Particle& particle, const VectorXd& own, const VectorXd& lead, double 
     const double to_own = particle.random.uniform(), to_lead = particle.random.uniform();
     double& v = particle.velocity[k];
     v = keep * v + pull * (to_own * (own[k] - particle.x[k]) + to_lead * (lead[k] - particle.x[k]));
-    v = std::clamp(v, -o.max_speed, o.max_speed);
+    v = std::clamp(v, -kMaxSpeed, kMaxSpeed);
   }
   particle.x += particle.velocity;
   reflect(particle.x, particle.velocity, o.bound);

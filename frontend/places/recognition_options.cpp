@@ -38,14 +38,10 @@ void visit(OptionVisitor& field, LoopVerifierOptions& o) {
   field.group("two_view", o.two_view, "relative pose where too few points have a depth");
   field("min_inlier_ratio", o.min_inlier_ratio,
         "minimum share of the matches that agree with the pose", {0, 1});
-  field("max_scale_error", o.max_scale_error,
-        "maximum |log| of the median ratio of the two keyframes' depths", {0, 10});
-  field("max_baseline_depths", o.max_baseline_depths,
-        "maximum translation between the views over the inliers' median depth", {0.01, 100});
   field("max_angle_deg", o.max_angle_deg, "maximum rotation between the views", {1, 180});
   field.retired({{"max_distance", 60}, {"gate_px", 9}, {"max_angle_deg", 8}, {"min_overlap", 0.3}},
                 "lines");
-  field.retired({{"min_spread", 0.03}});
+  field.retired({{"min_spread", 0.03}, {"max_scale_error", 0.15}, {"max_baseline_depths", 0.15}});
 }
 
 void PlaceRecognizerOptions::check() const { check_ranges(*this); }

@@ -69,12 +69,7 @@ struct LoopVerifierOptions {
                        .prior_inlier_ratio = 1.01};
   LoopTwoViewOptions two_view;     ///< pose if too few points have a depth for `pose`
   double min_inlier_ratio = 0.35;  ///< minimum share of the matches that agree with the pose
-  /// Maximum |log| of the median ratio of the depths that are known in both keyframes.
-  double max_scale_error = 0.15;
-  /// Maximum translation between the keyframes over the median depth of the inliers; errors of
-  /// calibration and depth grow with this ratio.
-  double max_baseline_depths = 0.15;
-  double max_angle_deg = 40;  ///< maximum rotation between the keyframes
+  double max_angle_deg = 40;       ///< maximum rotation between the keyframes
   void check() const;
 };
 void visit(OptionVisitor& field, LoopVerifierOptions& options);

@@ -66,7 +66,7 @@ DominantSurface::DominantSurface(const DominantSurfaceOptions& options, const Ca
       g_cam_(mounting_cam.normal.normalized() / mounting_cam.distance_m) {
   options_.check();
   require(mounting_cam.distance_m > 0, "DominantSurface: the distance must be positive");
-  widen(deg_to_rad(options_.mounting_sigma_deg), kMountingSigmaDistance);
+  widen(deg_to_rad(kMountingSigma_deg), kMountingSigmaDistance);
 }
 
 Plane DominantSurface::plane_cam() const { return {g_cam_.normalized(), 1 / g_cam_.norm()}; }

@@ -7,6 +7,9 @@
 
 namespace placegraph {
 
+/// Initial standard deviation of the camera's pitch and roll above the surface. Chosen.
+constexpr double kMountingSigma_deg = 5;
+
 /// Measures the depths of pixels, given the predicted inverse depths [1/m].
 ///
 /// Returns one value per pixel, empty where there is no measurement.

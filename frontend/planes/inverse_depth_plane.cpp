@@ -7,6 +7,11 @@
 namespace placegraph {
 namespace {
 
+// Maximum residual of an inlier, in standard deviations.
+constexpr double kInlierSigmas = 3;
+// Maximum relative standard deviation of the distance of a plane that is used. Chosen.
+constexpr double kMaxSigmaDistance = 0.1;
+
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Pixels = std::vector<MeasuredInverseDepth>;
@@ -61,8 +66,7 @@ InverseDepthPlane fit_inverse_depth_plane(const Pixels& pixels,
                                           const InverseDepthPlaneOptions& options, Random& random) {
   options.check();
   const auto consensus = ransac<Vector3d>(
-      static_cast<int>(pixels.size()), 3, options.threshold_sigmas * options.threshold_sigmas,
-      options.ransac, random,
+      static_cast<int>(pixels.size()), 3, kInlierSigmas * kInlierSigmas, options.ransac, random,
       [&](const std::vector<int>& sample) { return through_three(pixels, sample); },
       [&](const Vector3d& g, int i) { return squared_sigmas(pixels[i], g); },
       [&](const Vector3d&, const std::vector<int>& inliers) {
@@ -83,7 +87,7 @@ InverseDepthPlane fit_inverse_depth_plane(const Pixels& pixels,
   const double length = result.g_cam.norm();
   if (!(length > 0) || !result.covariance.allFinite() ||
       !(sigma_normal_rad(result.g_cam, result.covariance) < deg_to_rad(options.max_sigma_deg)) ||
-      !(sigma_log_distance(result.g_cam, result.covariance) < options.max_sigma_distance)) {
+      !(sigma_log_distance(result.g_cam, result.covariance) < kMaxSigmaDistance)) {
     result.outcome =
         Outcome::failure(Outcome::Code::kDegenerate, "the pixels do not determine the plane");
     return result;

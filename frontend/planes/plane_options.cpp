@@ -13,12 +13,11 @@ void visit(OptionVisitor& field, SwarmOptions& o) {
   field("generations", o.generations, "maximum number of moves of each particle", {1, 10000});
   field("stagnation", o.stagnation, "generations without a better best point that end the search",
         {1, 10000});
-  field("max_speed", o.max_speed,
-        "maximum change of a coordinate in one generation [sigma of the start]", {0.001, 100});
   field("bound", o.bound, "maximum absolute value of a coordinate [sigma of the start]",
         {0.1, 100});
   field("seed", o.seed, "seed of the random streams");
   field("threads", o.threads, "number of threads; the result does not depend on it", {1, 256});
+  field.retired({{"max_speed", 0.8}});
 }
 
 void DirectMotionOptions::check() const { check_ranges(*this); }
@@ -73,11 +72,8 @@ void InverseDepthPlaneOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, InverseDepthPlaneOptions& o) {
   field.internal().group("ransac", o.ransac, "three-pixel hypotheses");
-  field("threshold_sigmas", o.threshold_sigmas,
-        "maximum residual of an inlier, in standard deviations", {0.5, 20});
   field("max_sigma_deg", o.max_sigma_deg, "maximum standard deviation of the normal", {0.01, 45});
-  field("max_sigma_distance", o.max_sigma_distance,
-        "maximum relative standard deviation of the distance", {1e-3, 1});
+  field.retired({{"threshold_sigmas", 3}, {"max_sigma_distance", 0.1}});
 }
 
 void DominantSurfaceOptions::check() const {
@@ -93,9 +89,8 @@ void visit(OptionVisitor& field, DominantSurfaceOptions& o) {
         "far end of the region tried first [distances of the surface]", {1, 200});
   field("half_width_heights", o.half_width_heights,
         "half the width of the region tried first [distances of the surface]", {0.2, 50});
-  field("mounting_sigma_deg", o.mounting_sigma_deg, "initial standard deviation of pitch and roll",
-        {0.01, 45});
   field.retired({{"pixels", 400},
+                 {"mounting_sigma_deg", 5},
                  {"min_share", 0.4},
                  {"mounting_sigma_distance", 0.3},
                  {"pitching_sigma_deg", 0.3},

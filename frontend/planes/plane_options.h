@@ -29,8 +29,7 @@ struct SwarmOptions {
   int particles = 40;    ///< size of the swarm
   int generations = 40;  ///< maximum number of moves of each particle
   int stagnation = 12;   ///< number of generations without a better best point that ends the search
-  double max_speed = 0.8;  ///< maximum change of a coordinate in one generation
-  double bound = 3;  ///< maximum absolute value of a coordinate; particles are reflected there
+  double bound = 3;      ///< maximum absolute value of a coordinate; particles are reflected there
   std::uint64_t seed = 1;  ///< seed of the random streams, one per particle
   int threads = 1;         ///< number of threads; the result does not depend on it
   void check() const;
@@ -74,9 +73,7 @@ void visit(OptionVisitor& field, GroundPlaneOptions& options);
 struct InverseDepthPlaneOptions {
   /// Three-pixel hypotheses.
   RansacOptions ransac{.max_iterations = 200, .confidence = 0.999, .min_inliers = 25};
-  double threshold_sigmas = 3;      ///< maximum residual of an inlier, in standard deviations
-  double max_sigma_deg = 3;         ///< maximum standard deviation of the normal
-  double max_sigma_distance = 0.1;  ///< maximum relative standard deviation of the distance
+  double max_sigma_deg = 3;  ///< maximum standard deviation of the normal
   void check() const;
 };
 void visit(OptionVisitor& field, InverseDepthPlaneOptions& options);
@@ -87,7 +84,6 @@ struct DominantSurfaceOptions {
   /// Region ahead of the camera that is tried first, in distances of the surface; other regions are
   /// in it or beside it.
   double near_heights = 2, far_heights = 12, half_width_heights = 1.5;
-  double mounting_sigma_deg = 5;  ///< initial standard deviation of pitch and roll
   void check() const;
 };
 void visit(OptionVisitor& field, DominantSurfaceOptions& options);

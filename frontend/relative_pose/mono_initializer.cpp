@@ -10,6 +10,12 @@
 namespace placegraph {
 namespace {
 
+// Maximum reprojection error of a triangulated point. Chosen.
+constexpr double kMaxError_px = 1.5;
+// A second motion that triangulates this share of the best one's points makes the result ambiguous,
+// unless the images between the two resolve it. Chosen.
+constexpr double kAmbiguity = 0.8;
+
 struct Hypothesis {
   SE3 T_ref_cur;
   std::vector<std::optional<Eigen::Vector3d>> points_ref;
@@ -86,13 +92,13 @@ MonoInitialization initialize_mono(const Camera& camera, const std::vector<Eigen
   std::vector<Hypothesis> hypotheses;
   for (const SE3& T_ref_cur : motion.T_ref_cur)
     hypotheses.push_back(
-        triangulate_all(camera, px_ref, px_cur, motion.inliers, T_ref_cur, options.max_error_px));
+        triangulate_all(camera, px_ref, px_cur, motion.inliers, T_ref_cur, kMaxError_px));
   std::stable_sort(hypotheses.begin(), hypotheses.end(), [](const auto& a, const auto& b) {
     return a.parallaxes_rad.size() > b.parallaxes_rad.size();
   });
   Hypothesis* best = &hypotheses[0];
-  if (hypotheses.size() > 1 && hypotheses[1].parallaxes_rad.size() >
-                                   options.ambiguity * hypotheses[0].parallaxes_rad.size()) {
+  if (hypotheses.size() > 1 &&
+      hypotheses[1].parallaxes_rad.size() > kAmbiguity * hypotheses[0].parallaxes_rad.size()) {
     const auto first = judge_between(camera, hypotheses[0], between);
     const auto second = judge_between(camera, hypotheses[1], between);
     // Ratio of the errors of two motions in views between that decides. Chosen.

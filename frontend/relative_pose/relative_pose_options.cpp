@@ -40,10 +40,7 @@ void visit(OptionVisitor& field, MonoInitializerOptions& o) {
         "minimum angle between the two rays of a point [deg]", {0.01, 45});
   field("min_points", o.min_points, "minimum number of triangulated points with that angle",
         {8, 100000});
-  field("max_error_px", o.max_error_px, "maximum reprojection error of a triangulated point [px]",
-        {0.1, 20});
-  field("ambiguity", o.ambiguity,
-        "share of the best motion's points that makes a second motion ambiguous", {0, 1});
+  field.retired({{"max_error_px", 1.5}, {"ambiguity", 0.8}});
 }
 
 const std::vector<std::string>& relative_pose_model_names() {

@@ -45,10 +45,6 @@ struct MonoInitializerOptions {
   Pose2d2dOptions two_view;       ///< the relative pose
   double min_parallax_deg = 0.6;  ///< minimum angle between the two rays of a point
   int min_points = 50;            ///< minimum number of triangulated points with that angle
-  double max_error_px = 1.5;      ///< maximum reprojection error of a triangulated point
-  /// A second motion that triangulates this share of the best one's points makes the result
-  /// ambiguous, unless the images between the two resolve it.
-  double ambiguity = 0.8;
   void check() const;
 };
 void visit(OptionVisitor& field, MonoInitializerOptions& options);

@@ -15,6 +15,8 @@ namespace {
 constexpr double kEvidenceExponent = 0.5;
 /// Number of keyframes before a kind is accepted. Chosen.
 constexpr int kMinEnvironmentViews = 3;
+/// Probability that the next keyframe is in the same kind of environment. Chosen.
+constexpr double kStay = 0.97;
 
 void normalize(std::array<double, kEnvironmentCount>& shares) {
   const double sum = std::accumulate(shares.begin(), shares.end(), 0.0);
@@ -193,9 +195,9 @@ EnvironmentFilter::EnvironmentFilter(const EnvironmentFilterOptions& options) : 
 
 std::optional<Environment> EnvironmentFilter::add(
     const std::array<double, kEnvironmentCount>& probabilities) {
-  const double change = (1 - options_.stay) / (kEnvironmentCount - 1);
+  const double change = (1 - kStay) / (kEnvironmentCount - 1);
   for (std::size_t k = 0; k < kEnvironmentCount; ++k)
-    state_[k] = (change + (options_.stay - change) * state_[k]) *
+    state_[k] = (change + (kStay - change) * state_[k]) *
                 std::pow(std::max(1e-3, probabilities[k]), kEvidenceExponent);
   normalize(state_);
   if (++views_ < kMinEnvironmentViews) return kind_;
@@ -219,15 +221,14 @@ std::vector<EnvironmentProbabilities> smoothed_kinds(
   for (std::size_t i = views.size(); i-- > 0; after.add(views[i]))
     ahead.push_back(after.probabilities());
   std::reverse(ahead.begin(), ahead.end());
-  const double change = (1 - options.stay) / (kEnvironmentCount - 1);
+  const double change = (1 - kStay) / (kEnvironmentCount - 1);
   std::vector<EnvironmentProbabilities> smoothed;
   for (std::size_t i = 0; i < views.size(); ++i) {
     before.add(views[i]);
     EnvironmentProbabilities& kinds = smoothed.emplace_back();
     double sum = 0;
     for (std::size_t k = 0; k < kEnvironmentCount; ++k)
-      sum += kinds[k] =
-          before.probabilities()[k] * (change + (options.stay - change) * ahead[i][k]);
+      sum += kinds[k] = before.probabilities()[k] * (change + (kStay - change) * ahead[i][k]);
     for (double& kind : kinds) kind /= sum;
   }
   return smoothed;

@@ -24,10 +24,9 @@ void EnvironmentFilterOptions::check() const {
 }
 
 void visit(OptionVisitor& field, EnvironmentFilterOptions& o) {
-  field("stay", o.stay, "probability that the next keyframe is in the same kind", {0.2, 1});
   field("enter", o.enter, "probability from which a kind is accepted", {0, 1});
   field("leave", o.leave, "probability below which the accepted kind is dropped", {0, 1});
-  field.retired({{"evidence", 0.5}, {"min_views", 3}});
+  field.retired({{"stay", 0.97}, {"evidence", 0.5}, {"min_views", 3}});
 }
 
 void visit(OptionVisitor& field, OrientationMapOptions& o) {

@@ -31,7 +31,6 @@ void visit(OptionVisitor& field, SceneMaskOptions& options);
 
 /// Filter of the kind of environment over consecutive keyframes (hidden Markov model).
 struct EnvironmentFilterOptions {
-  double stay = 0.97;  ///< probability that the next keyframe is in the same kind
   double enter = 0.8;  ///< probability from which a kind is accepted
   double leave = 0.4;  ///< probability below which the accepted kind is dropped
   void check() const;

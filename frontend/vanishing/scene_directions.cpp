@@ -122,7 +122,7 @@ SceneDirections find_scene_directions(const std::vector<LineSegment>& segments,
   const auto axes = axes_of(evidence, scene.frames, options.manhattan);
   std::vector<FittedDirection> directions;
   for (const auto& axis : axes) directions.push_back(axis.second);
-  VanishingModel model(evidence, options.points.point_cost, options.points.min_segments);
+  VanishingModel model(evidence, kPointCost_nats, options.points.min_segments);
   const auto [prior, roles_across] = prior_of(scene.frames);
   model = model.with_all(directions);
   model.expect(prior);

@@ -8,6 +8,9 @@
 
 namespace placegraph {
 
+/// Description length of a vanishing point beside its precision. Chosen.
+constexpr double kPointCost_nats = 8;
+
 using TangentBasis = Eigen::Matrix<double, 3, 2>;
 /// Two unit vectors orthogonal to `v` and to each other, in columns.
 TangentBasis tangent_basis(const Eigen::Vector3d& v);

@@ -22,8 +22,7 @@ void visit(OptionVisitor& field, VanishingPointOptions& options) {
   field("max_points", options.max_points, "maximum number of vanishing points", {1, 1000});
   field("min_segments", options.min_segments, "minimum number of segments of a vanishing point",
         {3, 1e6});
-  field("point_cost", options.point_cost,
-        "description length of a point beside its precision [nats]", {0, 1e6});
+  field.retired({{"point_cost", 8}});
 }
 
 void visit(OptionVisitor& field, ManhattanOptions& options) {

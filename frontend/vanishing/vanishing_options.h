@@ -16,11 +16,10 @@ void visit(OptionVisitor& field, VanishingNoise& noise);
 
 /// Vanishing points of an image, their number unknown (minimum description length).
 struct VanishingPointOptions {
-  VanishingNoise noise;   ///< noise of the segments
-  int samples = 1000;     ///< initial hypotheses of two segments; later searches use half as many
-  int max_points = 10;    ///< maximum number of vanishing points
-  int min_segments = 4;   ///< minimum number of segments of a vanishing point
-  double point_cost = 8;  ///< description length of a point beside its precision [nats]
+  VanishingNoise noise;  ///< noise of the segments
+  int samples = 1000;    ///< initial hypotheses of two segments; later searches use half as many
+  int max_points = 10;   ///< maximum number of vanishing points
+  int min_segments = 4;  ///< minimum number of segments of a vanishing point
   void check() const;
 };
 void visit(OptionVisitor& field, VanishingPointOptions& options);

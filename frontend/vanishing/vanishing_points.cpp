@@ -59,7 +59,7 @@ VanishingPoints find_vanishing_points(VanishingEvidence& evidence,
                                           std::to_string(options.min_segments) + " needed");
     return result;
   }
-  VanishingModel model(evidence, options.point_cost, options.min_segments);
+  VanishingModel model(evidence, kPointCost_nats, options.min_segments);
   VanishingSearch search(evidence, options.samples, random);
   search.grow(model, options.max_points);
   for (int round = 0; round < 2 && model.size() > 0; ++round) {

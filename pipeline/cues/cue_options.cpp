@@ -16,12 +16,9 @@ void visit(OptionVisitor& field, GroundPlaneScaleOptions& o) {
         "initial standard deviation of the camera's pitch and roll [deg]", {0.01, 45});
   field("pitching_sigma_deg", o.pitching_sigma_deg,
         "standard deviation of one frame's pitch and roll about their mean [deg]", {0.01, 45});
-  field.internal()("level_sigma_deg", o.level_sigma_deg,
-                   "standard deviation of a level floor's normal, beyond that of the edges [deg]",
-                   {0.001, 45});
   field("min_baseline_heights", o.min_baseline_heights,
         "minimum translation between the two frames, in camera heights", {0.01, 10});
-  field.retired({{"mounting_drift_deg", 0.03}});
+  field.retired({{"mounting_drift_deg", 0.03}, {"level_sigma_deg", 0.03}});
 }
 
 void FloorLineScaleOptions::check() const { check_ranges(*this); }
@@ -47,18 +44,14 @@ void visit(OptionVisitor& field, LineCueOptions& o) {
   field.internal().formerly("start").group("initialization", o.initializer,
                                            "first keyframes of a monocular camera without points");
   field.group("floor", o.floor, "metric scale from lines on the floor, without points");
-  field.internal()("sigma_floor_px", o.sigma_floor_px,
-                   "minimum standard deviation across a line [px]", {0.01, 10});
   field.internal().formerly("alike_sightings")(
       "similar_observations", o.similar_observations,
       "observations of an edge in the window that count as one independent one", {1, 1000});
-  field.internal().formerly("min_turn_steered_deg")(
-      "min_rotation_steered_deg", o.min_rotation_steered_deg,
-      "triangulation.min_rotation_deg where directions provide the rotation [deg]", {0.01, 45});
-  field.internal()("stay_frames", o.stay_frames,
-                   "prediction horizon in which a preferred new edge stays in the image [frames]",
-                   {0, 100});
   field("outlier_px", o.outlier_px, "residual above which a line is removed [px]", {0.5, 100});
+  field.retired({{"sigma_floor_px", 0.15},
+                 {"min_rotation_steered_deg", 0.4},
+                 {"min_turn_steered_deg", 0.4},
+                 {"stay_frames", 10}});
 }
 
 void visit(OptionVisitor& field, ManhattanFrameOptions& o) {

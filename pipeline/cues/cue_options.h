@@ -21,9 +21,6 @@ struct GroundPlaneScaleOptions {
   double mounting_sigma_deg = 3;  ///< initial standard deviation of the camera's pitch and roll
   /// Standard deviation of pitch and roll in one frame about their mean (vehicle pitching).
   double pitching_sigma_deg = 0.5;
-  /// Standard deviation of the normal of a floor that is level according to edges, added to that of
-  /// the edges.
-  double level_sigma_deg = 0.03;
   /// Minimum translation between the two keyframes, in camera heights; a shorter one carries little
   /// information.
   double min_baseline_heights = 0.6;
@@ -50,17 +47,9 @@ struct LineCueOptions {
   PoseFromLinesOptions pose;               ///< pose of a frame from known lines
   LineInitializerOptions initializer;      ///< first keyframes of a monocular camera without points
   FloorLineScaleOptions floor;             ///< metric scale where points are not among the cues
-  /// Minimum standard deviation across a line: lens, rolling shutter, blur.
-  double sigma_floor_px = 0.15;
   /// Number of observations in the window that count as one independent observation, because the
   /// error of an edge persists while it is tracked (their variances are multiplied by this number).
   double similar_observations = 16;
-  /// Replaces triangulation.min_rotation_deg if vanishing directions provide the rotation and fewer
-  /// than 15 lines are known: a line then becomes useful much sooner.
-  double min_rotation_steered_deg = 0.4;
-  /// Prediction horizon [frames]: an edge that will leave the image sooner at the present motion is
-  /// tracked only if there are few others.
-  int stay_frames = 10;
   double outlier_px = 4;  ///< residual [px] at a carrier above which a line landmark is removed
   void check() const;
 };

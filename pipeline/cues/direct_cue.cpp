@@ -67,7 +67,7 @@ void DirectCue::reset() {
   if (calibration_.camera_height_m)
     ground_.emplace(options_.surface, calibration_.camera,
                     Plane{mounting_, *calibration_.camera_height_m});
-  mounting_variance_rad2_ = std::pow(options_.surface.mounting_sigma_deg * kRadPerDeg, 2);
+  mounting_variance_rad2_ = std::pow(kMountingSigma_deg * kRadPerDeg, 2);
   dominant_g_.setZero();
   reference_ = last_reference_ = DirectReference();
 }

@@ -10,6 +10,8 @@ namespace {
 
 /// Displacement of most moving points that completes an episode. Chosen.
 constexpr double kMinMotion_px = 8;
+// Number of frames from one comparison of the patches to the next. Chosen.
+constexpr int kInterval = 2;
 
 /// A region that is larger could be the world, seen by a camera at rest in front of a moving
 /// object.
@@ -53,7 +55,7 @@ StaticOverlay::StaticOverlay(const StaticOverlayOptions& options, const Camera& 
       tracker_(tracker_options(camera)) {}
 
 bool StaticOverlay::add(const Frame& frame) {
-  const bool compares = frames_++ % options_.interval == 0;
+  const bool compares = frames_++ % kInterval == 0;
   if (!px_ref_.empty()) track(frame);
   if (!compares) return false;
   const Image used = both_masks(frame.mask, mask_);

@@ -7,9 +7,8 @@ void StaticOverlayOptions::check() const { check_ranges(*this); }
 void visit(OptionVisitor& field, StaticOverlayOptions& o) {
   field.basic()("enabled", o.enabled,
                 "find and mask regions fixed to the camera: dirt, time stamps, the bonnet");
-  field.internal()("interval", o.interval,
-                   "number of frames from one comparison of the patches to the next", {1, 100});
-  field.retired({{"min_motion_px", 8},
+  field.retired({{"interval", 2},
+                 {"min_motion_px", 8},
                  {"min_contradiction_px", 0.5},
                  {"min_episodes", 2},
                  {"min_patches", 6},

@@ -10,7 +10,6 @@ namespace [[gnu::visibility("default")]] placegraph {
 /// motion of other points moves every point of the world there, however far away.
 struct StaticOverlayOptions {
   bool enabled = true;  ///< search for static overlays and mask them
-  int interval = 2;     ///< number of frames from one comparison of the patches to the next
   void check() const;
 };
 void visit(OptionVisitor& field, StaticOverlayOptions& options);

@@ -40,11 +40,13 @@ void LineCue::reset() {
 LineTriangulationOptions LineCue::triangulation(const SlidingWindow& window) const {
   // Lines that are followed. Chosen.
   constexpr int kFew = 15;
+  // Minimum rotation of a line's plane if vanishing directions provide the camera's rotation: a
+  // line then becomes useful much sooner. Chosen.
+  constexpr double kMinRotationSteered_deg = 0.4;
   constexpr std::size_t kFewestSteered = 7;  // number of keyframes; not used during initialization
   LineTriangulationOptions options = options_.triangulation;
   if (vanishing_tracker_ && window.keyframes().size() > kFewestSteered && followed(window) < kFew)
-    options.min_rotation_deg =
-        std::min(options.min_rotation_deg, options_.min_rotation_steered_deg);
+    options.min_rotation_deg = std::min(options.min_rotation_deg, kMinRotationSteered_deg);
   return options;
 }
 
@@ -127,7 +129,7 @@ PoseFromLines LineCue::pose(const SlidingWindow& window, const PoseGuess& guess,
   for (const LineTrack& track : tracker_.tracks()) {
     const auto line = window.line(track.id);
     if (!line) continue;
-    SeenLine seen{*line, track.edge.line.carriers(options_.sigma_floor_px)};
+    SeenLine seen{*line, track.edge.line.carriers(kSigmaFloor_px)};
     // The uncertainty of the line's position is added to that of the image.
     Eigen::Matrix<double, 2, 4> J;
     const auto covariance = covariances_.find(track.id);
@@ -186,8 +188,10 @@ void LineCue::observe(KeyframeId keyframe, const Frame& frame,
     T_odom_before_ = T_odom_last_;
   }
   // Prefer edges that will remain visible for longer, because they provide more information.
+  // The prediction is for this number of frames. Chosen.
+  constexpr int kStayFrames = 10;
   SE3 T_later_now;
-  for (int k = 0; k < options_.stay_frames; ++k)
+  for (int k = 0; k < kStayFrames; ++k)
     T_later_now = T_odom_last_.inverse() * T_odom_before_ * T_later_now;
   const std::vector<KnownDepth> known =
       known_depths(calibration_.camera, tracker_.tracks(), window, T_odom_last_);
@@ -203,7 +207,7 @@ void LineCue::observe(KeyframeId keyframe, const Frame& frame,
   std::map<LineId, LineInKeyframe> now;
   for (std::size_t i = 0; i < tracker_.tracks().size(); ++i) {
     const LineTrack& track = tracker_.tracks()[i];
-    now[track.id] = {keyframe, track.edge.line.carriers(options_.sigma_floor_px), seconds[i]};
+    now[track.id] = {keyframe, track.edge.line.carriers(kSigmaFloor_px), seconds[i]};
   }
   steer(keyframe, this->seen(), window);
   add_observations(keyframe, now, window);

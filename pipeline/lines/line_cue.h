@@ -45,7 +45,7 @@ class LineCue {
   /// and the motion is unknown. New edges are tracked from here on.
   void track_uninitialized(const Frame& frame, const SE3& T_odom_start);
   /// Tracks in the newest image.
-  LineView seen() const { return line_view(tracker_.tracks(), options_.sigma_floor_px); }
+  LineView seen() const { return line_view(tracker_.tracks()); }
   /// Adds observations of an earlier keyframe to the window, for the initialization, in order of
   /// time.
   void observe_earlier(KeyframeId keyframe, const LineView& seen, SlidingWindow& window);

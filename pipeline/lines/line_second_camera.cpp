@@ -2,6 +2,7 @@
 #include <placegraph/frontend/lines/line_stereo.h>
 #include <placegraph/frontend/lines/line_triangulation.h>
 #include <placegraph/pipeline/lines/line_second_camera.h>
+#include <placegraph/pipeline/lines/line_tracks.h>
 
 #include <algorithm>
 #include <cmath>
@@ -55,7 +56,7 @@ std::vector<std::optional<SecondCamera>> second_cameras(const Frame& frame,
         match_stereo_segments(frame.image, frame.right, segments, stereo, options.stereo);
     for (std::size_t i = 0; i < right.size(); ++i) {
       if (!right[i]) continue;
-      const auto seen = right[i]->line.carriers(options.sigma_floor_px);
+      const auto seen = right[i]->line.carriers(kSigmaFloor_px);
       result[i] = corrected(
           {Eigen::Vector3d(calibration.baseline_m, 0, 0), seen.first, seen.second, seen.sigma_px},
           calibration.camera, segments[i].start, segments[i].end, rectification);
@@ -69,7 +70,7 @@ std::vector<std::optional<SecondCamera>> second_cameras(const Frame& frame,
           virtual_camera_from_depth(calibration.camera, segments[i], *depths[i]);
       result[i] = {virtual_camera.second_in_cam, virtual_camera.seen.first,
                    virtual_camera.seen.second,
-                   std::hypot(virtual_camera.seen.sigma_px, options.sigma_floor_px)};
+                   std::hypot(virtual_camera.seen.sigma_px, kSigmaFloor_px)};
     }
   }
   return result;

@@ -11,9 +11,12 @@
 // those that it contains under the id of the track.
 namespace placegraph {
 
+/// Minimum standard deviation across a line: lens, rolling shutter, blur. Chosen.
+constexpr double kSigmaFloor_px = 0.15;
+
 /// Segments and carriers of the tracks; the standard deviation of a carrier across the line is at
 /// least `sigma_floor_px`.
-LineView line_view(const std::vector<LineTrack>& tracks, double sigma_floor_px);
+LineView line_view(const std::vector<LineTrack>& tracks, double sigma_floor_px = kSigmaFloor_px);
 
 /// Depths [m] at the middles of the tracks that are lines of the window, if these are in front of
 /// the camera.

@@ -10,6 +10,15 @@
 #include <algorithm>
 
 namespace placegraph {
+namespace {
+
+// Factor on the information of a loop: feature noise is correlated, so that the number of inliers
+// overestimates the information. Chosen.
+constexpr double kLoopInformationScale = 0.1;
+// Number of keyframes within which a second loop must agree. Chosen.
+constexpr std::size_t kSupportWindow = 4;
+
+}  // namespace
 
 LoopCloser::LoopCloser(const LoopOptions& options, const Calibration& calibration,
                        std::uint64_t seed, std::shared_ptr<PlaceRetrieval> recognizer)
@@ -112,7 +121,7 @@ std::optional<Loop> LoopCloser::verify(const View& query, const View& match, boo
   if (!verified.outcome) return std::nullopt;
   record.T_match_query = verified.T_match_query;
   return Loop{query.keyframe, match.keyframe, verified.T_match_query,
-              options_.information_scale * verified.information, verified.scale_match_query};
+              kLoopInformationScale * verified.information, verified.scale_match_query};
 }
 
 std::optional<Loop> LoopCloser::measure(KeyframeId query, KeyframeId match, bool free_scale,
@@ -179,8 +188,7 @@ std::vector<Loop> LoopCloser::support(const MotionBetween& odometry, double medi
     if (other.loop.query == found.loop.query || !odometry) continue;
     const auto queries = odometry(other.loop.query, found.loop.query);
     const auto matches = odometry(other.loop.match, found.loop.match);
-    if (!queries || !matches ||
-        !agree(other.loop, found.loop, *queries, *matches, median_depth_m, options_))
+    if (!queries || !matches || !agree(other.loop, found.loop, *queries, *matches, median_depth_m))
       continue;
     accept(other, accepted);
     accept(found, accepted);
@@ -205,8 +213,7 @@ std::vector<Loop> LoopCloser::find_loops(const KnownMotions& known, double media
     accepted = support(known.odometry, median_depth_m);
     break;
   }
-  while (!pending_.empty() &&
-         views_.size() - pending_.front().view >= static_cast<std::size_t>(options_.support_window))
+  while (!pending_.empty() && views_.size() - pending_.front().view >= kSupportWindow)
     pending_.pop_front();
   return accepted;
 }
@@ -232,8 +239,7 @@ std::optional<LocatedFrame> LoopCloser::relocalize(const Frame& frame,
         describer_.camera(), features, view(id).for_verification(), options_.verifier, random);
     // No second loop supports this one: two views and a few depths are insufficient.
     if (verified.outcome && verified.model == LoopModel::kPoints3d2d)
-      return LocatedFrame{id, verified.T_match_query,
-                          options_.information_scale * verified.information};
+      return LocatedFrame{id, verified.T_match_query, kLoopInformationScale * verified.information};
   }
   return std::nullopt;
 }

@@ -8,23 +8,30 @@
 #include <numbers>
 
 namespace placegraph {
+namespace {
+
+// Maximum disagreement of two loops that support each other: in translation, over (median depth +
+// path length between them), and in rotation. Chosen.
+constexpr double kSupportTranslation = 0.03, kSupportAngle_deg = 2;
+
+}  // namespace
 
 Drift drift_over(double path_length, double distance, double median_depth_m,
                  const LoopOptions& options) {
   const double depths = path_length / median_depth_m;
   Drift drift;
-  drift.angle_rad = std::min(
-      std::numbers::pi, deg_to_rad((options.support_angle_deg + options.drift_angle_deg * depths)));
+  drift.angle_rad =
+      std::min(std::numbers::pi, deg_to_rad(kSupportAngle_deg + options.drift_angle_deg * depths));
   drift.length =
       options.drift_translation * (median_depth_m + path_length) + drift.angle_rad * 0.5 * distance;
-  drift.log_scale = options.verifier.max_scale_error + options.drift_scale * depths;
+  drift.log_scale = kMaxLoopScaleError + options.drift_scale * depths;
   return drift;
 }
 
 bool within_reach(const TrackedMotion& odometry, double farthest, double median_depth_m,
                   const LoopOptions& options) {
   const double distance = odometry.T_a_b.translation().norm();
-  return distance <= options.verifier.max_baseline_depths * farthest +
+  return distance <= kMaxLoopBaseline_depths * farthest +
                          drift_over(odometry.path_length, distance, median_depth_m, options).length;
 }
 
@@ -66,15 +73,14 @@ bool within_covariance(const Loop& loop, const PredictedMotion& predicted, doubl
 }
 
 bool agree(const Loop& a, const Loop& b, const TrackedMotion& queries, const TrackedMotion& matches,
-           double median_depth_m, const LoopOptions& options) {
+           double median_depth_m) {
   const Sim3 predicted = Sim3(matches.T_a_b.inverse()) * a.S_match_query() * Sim3(queries.T_a_b);
   // In the query's scale, as the median depth.
   const Sim3 difference = predicted.inverse() * b.S_match_query();
   const double path_length = queries.path_length + matches.path_length / predicted.scale();
-  return difference.translation().norm() <
-             options.support_translation * (median_depth_m + path_length) &&
-         difference.rotation().log().norm() < deg_to_rad(options.support_angle_deg) &&
-         std::abs(std::log(difference.scale())) < options.verifier.max_scale_error;
+  return difference.translation().norm() < kSupportTranslation * (median_depth_m + path_length) &&
+         difference.rotation().log().norm() < deg_to_rad(kSupportAngle_deg) &&
+         std::abs(std::log(difference.scale())) < kMaxLoopScaleError;
 }
 
 }  // namespace placegraph

@@ -42,6 +42,6 @@ bool within_covariance(const Loop& loop, const PredictedMotion& predicted, doubl
 /// Whether two loops agree on the relative pose of two stretches of the trajectory. `queries` is
 /// the odometry from the query of `a` to that of `b`, `matches` the same for the matches.
 bool agree(const Loop& a, const Loop& b, const TrackedMotion& queries, const TrackedMotion& matches,
-           double median_depth_m, const LoopOptions& options);
+           double median_depth_m);
 
 }  // namespace placegraph

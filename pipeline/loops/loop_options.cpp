@@ -16,22 +16,16 @@ void visit(OptionVisitor& field, LoopOptions& o) {
   field.basic()("min_similarity", o.min_similarity,
                 "minimum similarity of a candidate, as a share of that of the previous keyframe",
                 {0, 10});
-  field.internal()("support_window", o.support_window,
-                   "keyframes within which a second loop must agree", {1, 1000});
-  field.internal()("support_translation", o.support_translation,
-                   "maximum disagreement of two loops over (median depth + path length)",
-                   {0.001, 10});
-  field.internal()("support_angle_deg", o.support_angle_deg,
-                   "maximum disagreement of two loops in rotation [deg]", {0.01, 180});
   field("drift_translation", o.drift_translation,
         "assumed odometry drift over (median depth + path length)", {0.001, 10});
   field("drift_angle_deg", o.drift_angle_deg,
         "assumed rotation drift per median depth of path length [deg]", {0.001, 180});
   field("drift_scale", o.drift_scale,
         "assumed monocular scale drift (logarithm) per median depth of path length", {0, 10});
-  field.internal()("information_scale", o.information_scale,
-                   "factor on a loop's information, because feature noise is correlated",
-                   {1e-6, 1});
+  field.retired({{"support_window", 4},
+                 {"support_translation", 0.03},
+                 {"support_angle_deg", 2},
+                 {"information_scale", 0.1}});
 }
 
 }  // namespace placegraph

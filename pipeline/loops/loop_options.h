@@ -17,27 +17,19 @@ struct LoopOptions {
   /// Minimum number of frames between two keyframes of a loop, unless they are in different
   /// components of the map.
   int min_frame_gap = 40;
-  int candidates = 5;             ///< maximum number of keyframes retrieved for one query
+  int candidates = 5;  ///< maximum number of keyframes retrieved for one query
   /// Minimum similarity of a candidate, as a share of the similarity of the keyframe before the
   /// query.
   double min_similarity = 0.3;
-  int support_window = 4;  ///< number of keyframes within which a second loop must agree
-  /// Maximum disagreement of two loops in translation over (median depth + path length between
-  /// them).
-  double support_translation = 0.03;
-  double support_angle_deg = 2;  ///< maximum disagreement of two loops in rotation
   /// Assumed drift of the odometry in translation over (median depth + path length since the
   /// match). A loop that contradicts the odometry by more is refused.
   double drift_translation = 0.015;
-  /// Assumed drift of the odometry in rotation per median depth of path length, in addition to
-  /// support_angle_deg.
+  /// Assumed drift of the odometry in rotation per median depth of path length, in addition to two
+  /// degrees.
   double drift_angle_deg = 1;
   /// Assumed drift of a monocular camera's scale (logarithm) per median depth of path length, in
-  /// addition to verifier.max_scale_error.
+  /// addition to kMaxLoopScaleError.
   double drift_scale = 0.03;
-  /// Factor on the information of a loop: feature noise is correlated, so that the number of
-  /// inliers overestimates the information.
-  double information_scale = 0.1;
   void check() const;
 };
 void visit(OptionVisitor& field, LoopOptions& options);

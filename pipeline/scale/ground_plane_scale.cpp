@@ -12,6 +12,9 @@ namespace {
 
 /// Random walk of mean pitch and roll per measurement. Chosen.
 constexpr double kMountingDrift_deg = 0.03;
+// Standard deviation of the normal of a floor that is level according to edges, beyond that of the
+// edges. Chosen.
+constexpr double kLevelSigma_deg = 0.03;
 
 }  // namespace
 
@@ -53,7 +56,7 @@ bool GroundPlaneScale::may_be_ground(const Eigen::Vector3d& level) const {
 GroundPlanePrior GroundPlaneScale::prior(const GroundMask& observation) const {
   if (observation.level)
     return {{*observation.level, camera_height_m_},
-            std::hypot(deg_to_rad(options_.level_sigma_deg), observation.level_sigma_rad)};
+            std::hypot(deg_to_rad(kLevelSigma_deg), observation.level_sigma_rad)};
   return {plane_cam(), sigma_of_view_rad()};
 }
 

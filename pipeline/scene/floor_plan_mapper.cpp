@@ -15,6 +15,11 @@
 namespace placegraph {
 namespace {
 
+// Depth from images is less certain than that of a depth camera: replace points.radius_px and
+// walls.band_m for it. Chosen.
+constexpr int kSweptRadius_px = 16;
+constexpr double kSweptBand_m = 0.1;
+
 /// Observations in the map's frame, with the poses of the map.
 struct ObservationsInMap {
   std::vector<KeyframeId> keyframes;     // keyframe of each observation
@@ -146,7 +151,7 @@ std::vector<SurfacePoint> FloorPlanMapper::swept_points(const Image& image,
   const int shrunk = calibration_.camera.width / camera.width;
   SurfacePointOptions points = options_.points;
   points.step_px = std::max(1, points.step_px / shrunk);
-  points.radius_px = std::max(2, options_.swept_radius_px / shrunk);
+  points.radius_px = std::max(2, kSweptRadius_px / shrunk);
   std::vector<SurfacePoint> seen =
       surface_points(swept.depth_m, swept.sigma_inverse, camera, SE3(), points);
   // Points outside planes may be false matches, whose rays would seem to pass through walls.
@@ -198,7 +203,7 @@ FloorPlan FloorPlanMapper::fuse(const Map& map) const {
     return none;
   }
   FloorPlanMapperOptions options = options_;
-  if (!calibration_.depth) options.walls.band_m = options.swept_band_m;
+  if (!calibration_.depth) options.walls.band_m = kSweptBand_m;
   return fuse_observations(observations_, map, options);
 }
 

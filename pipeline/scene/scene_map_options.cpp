@@ -24,10 +24,6 @@ void visit(OptionVisitor& field, FloorPlanMapperOptions& o) {
   field.internal().group("floor", o.floor,
                          "surfaces from a single image of a camera of known height");
   field.internal().group("orientation", o.orientation, "orientation maps of a monocular camera");
-  field.internal()("swept_radius_px", o.swept_radius_px,
-                   "points.radius_px for depth from images [px]", {2, 50});
-  field.internal()("swept_band_m", o.swept_band_m, "walls.band_m for depth from images [m]",
-                   {0.02, 1});
   field("min_step_m", o.min_step_m, "minimum distance from the last keyframe used [m]", {0, 10});
   field.formerly("min_turn_deg")("min_rotation_deg", o.min_rotation_deg,
                                  "rotation that admits a nearer keyframe [deg]", {0, 180});
@@ -36,6 +32,7 @@ void visit(OptionVisitor& field, FloorPlanMapperOptions& o) {
   field.internal().group("walls", o.walls, "vertical surfaces up to the ceiling");
   field.internal().group("doors", o.doors, "openings and door leaves");
   field.internal().group("rooms", o.rooms, "partition of the free space into rooms");
+  field.retired({{"swept_radius_px", 16}, {"swept_band_m", 0.1}});
 }
 
 void StreetMapperOptions::check() const { check_ranges(*this); }

@@ -28,8 +28,6 @@ struct FloorPlanMapperOptions {
   NearbyViewOptions views;
   SkirtingLineOptions floor;          ///< surfaces from a single image of a camera of known height
   OrientationMapOptions orientation;  ///< orientations of surfaces from a single image
-  int swept_radius_px = 16;           ///< replaces points.radius_px for depth from images
-  double swept_band_m = 0.1;          ///< replaces walls.band_m for depth from images
   /// Minimum distance [m] from the last keyframe used; a nearer keyframe is used only if it is
   /// rotated by min_rotation_deg.
   double min_step_m = 0.15;

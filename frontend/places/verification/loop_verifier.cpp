@@ -203,12 +203,12 @@ Outcome judged(const Camera& camera, const PointsAgree& agree, const LoopVerific
       depths.push_back((T_match_query * (verified.scale_match_query * *point.point_query)).z());
   }
   if (depths.empty() ||
-      T_match_query.translation().norm() > options.max_baseline_depths * median_of(depths) ||
+      T_match_query.translation().norm() > kMaxLoopBaseline_depths * median_of(depths) ||
       T_match_query.rotation().log().norm() > deg_to_rad(options.max_angle_deg))
     return Outcome::failure(Code::kInconsistent, "the views differ too much");
   if (agree.model != LoopModel::kPoints3d2d && !depths_fit(camera, agree, verified, options))
     return Outcome::failure(Code::kInconsistent, "the depths do not agree with the pose");
-  if (!free_scale && log_ratio && std::abs(*log_ratio) > options.max_scale_error)
+  if (!free_scale && log_ratio && std::abs(*log_ratio) > kMaxLoopScaleError)
     return Outcome::failure(Code::kInconsistent, "the depths of both views disagree");
   return Outcome::ok();
 }

@@ -11,6 +11,12 @@
 
 namespace placegraph {
 
+/// Maximum |log| of the median ratio of the depths that are known in both keyframes. Chosen.
+constexpr double kMaxLoopScaleError = 0.15;
+/// Maximum translation between the keyframes over the median depth of the inliers; errors of
+/// calibration and depth grow with this ratio. Chosen.
+constexpr double kMaxLoopBaseline_depths = 0.15;
+
 /// Features by which a view is verified. Refers to lists of its owner.
 struct LoopView {
   // NOLINTNEXTLINE(google-explicit-constructor): points alone are a view

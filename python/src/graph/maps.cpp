@@ -7,9 +7,9 @@
 #include <placegraph/io/map/map_database.h>
 #include <placegraph/pipeline/exports/colmap_import.h>
 #include <placegraph/pipeline/exports/map_export.h>
-#include <placegraph/pipeline/map/map_floor_plan.h>
 #include <placegraph/pipeline/map/explanation.h>
 #include <placegraph/pipeline/map/map_file.h>
+#include <placegraph/pipeline/map/map_floor_plan.h>
 
 #include <algorithm>
 #include <memory>
@@ -74,7 +74,7 @@ std::string export_files(const StoredMap& stored, const std::map<std::string, st
   arguments.ascii = ascii;
   arguments.resolution_m = resolution_m;
   arguments.walls = walls;
-  arguments.floor_plan = [](const StoredMap& stored) { return plan_of_map(stored); };
+  arguments.floor_plan = [](const StoredMap& planned) { return plan_of_map(planned); };
   arguments.voxel = voxel;
   arguments.force = force;
   std::size_t known = 0;

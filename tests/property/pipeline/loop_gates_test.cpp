@@ -74,7 +74,7 @@ TEST(LoopGateLaws, TheUnitOfLengthChangesNoDecision) {
           within_drift(rescaled(a, unit), rescaled(odometry, unit), depth, false, {}),
           within_covariance(rescaled(a, unit), predicted, depth, {}),
           agree(rescaled(a, unit), rescaled(b, unit), rescaled(queries, unit),
-                rescaled(matches, unit), depth, {})};
+                rescaled(matches, unit), depth)};
     };
     const auto before = decisions(1);
     EXPECT_EQ(before, decisions(factor)) << trial << " by " << factor;

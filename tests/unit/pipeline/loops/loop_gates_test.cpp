@@ -124,8 +124,7 @@ TEST(LoopGates, TwoLoopsAgreeIfOdometryLeadsFromOneToTheOther) {
   const SE3 T_match_query = pose({0.1, 0.3, 0}, {1, 0.2, 0.5});
   const SE3 T_next = matches.T_a_b.inverse() * T_match_query * queries.T_a_b;
   const auto passes = [&](const Sim3& off) {
-    return agree(loop_of(T_match_query), loop_of(Sim3(T_next) * off), queries, matches, kDepth_m,
-                 kOptions);
+    return agree(loop_of(T_match_query), loop_of(Sim3(T_next) * off), queries, matches, kDepth_m);
   };
   EXPECT_TRUE(passes(Sim3(aside(0.35))));  // 0.03 * (10 + 2)
   EXPECT_FALSE(passes(Sim3(aside(0.37))));
@@ -141,7 +140,7 @@ TEST(LoopGates, AgreementIsMeasuredInTheUnitOfTheQuery) {
   const Sim3 S_match_query(SO3(), {1, 0, 0}, 2);
   const auto passes = [&](double off) {
     return agree(loop_of(S_match_query), loop_of(S_match_query * Sim3(aside(off))), queries,
-                 matches, kDepth_m, kOptions);
+                 matches, kDepth_m);
   };
   EXPECT_TRUE(passes(0.62));  // 0.03 * (10 + 1 + 10)
   EXPECT_FALSE(passes(0.64));
