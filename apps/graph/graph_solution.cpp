@@ -5,6 +5,8 @@
 #include <placegraph/backend/solver/free_directions.h>
 #include <placegraph/backend/solver/graph_components.h>
 
+#include <numeric>
+
 #include "apps/support/output.h"
 #include "apps/support/usage.h"
 
@@ -28,7 +30,14 @@ PoseGraphReport solve_incrementally(const PoseGraph& graph, const GraphTask& tas
   report.outcome = replay.outcome;
   report.iterations = replay.iterations;
   report.graph = std::move(replay.graph);
-  if (report.outcome) report.free = find_free_directions(report.graph, options.rotation_error);
+  report.chi2_by_constraint = chi2_by_constraint(report.graph, options.rotation_error);
+  report.chi2_final =
+      std::accumulate(report.chi2_by_constraint.begin(), report.chi2_by_constraint.end(), 0.0);
+  report.degrees_of_freedom = find_components(report.graph).degrees_of_freedom;
+  if (report.outcome) {
+    report.free = find_free_directions(report.graph, options.rotation_error);
+    report.doubts = doubts_of(report, RobustMethod::kNone);
+  }
   report.initialization_used = PoseGraphInitialization::kOdometry;
   return report;
 }
@@ -50,13 +59,13 @@ GraphSolution solve(PoseGraph graph, const GraphTask& task, const LogSink& log) 
   solution.chi2_by_constraint = std::move(report.chi2_by_constraint);
   solution.loops_judged = report.loops_judged;
   solution.free = std::move(report.free);
+  solution.doubts = std::move(report.doubts);
+  solution.degrees_of_freedom = report.degrees_of_freedom;
   solution.cpu_ms = stopwatch.cpu_ms();
   solution.wall_ms = stopwatch.wall_ms();
   solution.peak_mb = peak_mb();
   const PoseGraph kept = without_rejected(solution.graph, solution.rejected);
-  const GraphComponents components = find_components(kept);
-  solution.components = components.count();
-  solution.degrees_of_freedom = components.degrees_of_freedom;
+  solution.components = find_components(kept).count();
   if (task.certify) {
     const Stopwatch certifying;
     solution.certificate = certify_chordal_isotropic(kept, task.options.rotation_error);

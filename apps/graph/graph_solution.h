@@ -30,6 +30,7 @@ struct GraphSolution {
   bool loops_judged =
       true;  ///< false if a component has too few loops to estimate the scale of the noise
   FreeDirections free;              ///< free directions of all components together
+  std::vector<Doubt> doubts;        ///< what speaks against the solution
   std::vector<double> step_cpu_ms;  ///< incremental only: time of every pose
   double cpu_ms = 0, wall_ms = 0, peak_mb = 0;
   std::optional<ChordalIsotropicCertificate>

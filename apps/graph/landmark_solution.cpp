@@ -49,6 +49,8 @@ LandmarkSolution solve_landmarks(LandmarkGraph graph, const PoseGraphOptions& op
     solution.free_vertices.push_back(id_of(solution.graph, node));
   for (const int node : held_for_want_of_a_tie(solution.graph))
     solution.held_vertices.push_back(id_of(solution.graph, node));
+  solution.doubts = std::move(solved.doubts);
+  solution.degrees_of_freedom = solved.degrees_of_freedom;
   return solution;
 }
 
@@ -68,6 +70,7 @@ Json describe(const LandmarkSolution& solution) {
   report["landmarks"] = graph.points.size();
   report["sights"] = graph.observations.size();
   report["components"] = solution.components;
+  report["degrees_of_freedom"] = solution.degrees_of_freedom;
   report["chi2_g2o_initial"] = or_null(solution.chi2_g2o_initial);
   report["chi2_log_initial"] = solution.chi2_log_initial;
   report["chi2_g2o"] = or_null(solution.chi2_g2o);
@@ -81,6 +84,8 @@ Json describe(const LandmarkSolution& solution) {
   report["rejected"] = 0;
   report["rejected_edges"] = Json::array();
   report["held_vertices"] = solution.held_vertices;
+  report["doubts"] = Json::array();
+  for (const Doubt& doubt : solution.doubts) report["doubts"].push_back(doubt.text);
   return report;
 }
 

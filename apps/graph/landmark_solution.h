@@ -24,6 +24,8 @@ struct LandmarkSolution {
   int free_directions = 0;
   std::vector<NodeId> free_vertices;  ///< ids of poses and points
   std::vector<NodeId> held_vertices;  ///< one vertex of each component without a tie to the world
+  int degrees_of_freedom = 0;
+  std::vector<Doubt> doubts;  ///< what speaks against the solution
 };
 
 /// Optimizes a graph with priors and point landmarks. Throws NoResult if it has no solution.

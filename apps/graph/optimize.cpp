@@ -13,11 +13,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numeric>
-#include <optional>
 #include <utility>
+#include <vector>
 
 #include "apps/graph/covariance_table.h"
-#include "apps/graph/optimize_warnings.h"
 #include "apps/support/choice.h"
 #include "apps/support/output.h"
 #include "apps/support/plot_file.h"
@@ -25,9 +24,24 @@
 namespace placegraph::apps {
 namespace {
 
-GraphCosts costs_of(const PoseGraph& graph) {
-  return {chi2(graph, RotationError::kQuaternion), chi2(graph, RotationError::kLog)};
-}
+/// e^T Omega e of every constraint in both conventions.
+struct ConstraintCosts {
+  std::vector<double> g2o, log;
+
+  explicit ConstraintCosts(const PoseGraph& graph)
+      : g2o(chi2_by_constraint(graph, RotationError::kQuaternion)),
+        log(chi2_by_constraint(graph, RotationError::kLog)) {}
+
+  /// The sums over the constraints that were not rejected.
+  GraphCosts without(const std::vector<RejectedEdge>& rejected) const {
+    std::vector<char> left_out(g2o.size());
+    for (const RejectedEdge& edge : rejected) left_out.at(edge.constraint) = true;
+    GraphCosts sums;
+    for (std::size_t i = 0; i < g2o.size(); ++i)
+      if (!left_out[i]) sums.g2o += g2o[i], sums.log += log[i];
+    return sums;
+  }
+};
 
 using Json = nlohmann::ordered_json;
 
@@ -57,26 +71,10 @@ int doubtful_edges(const GraphSolution& solution) {
   return static_cast<int>(beyond - rejected);
 }
 
-/// Ratio of the cost to its expectation from the information of the edges, if it looks like that of
-/// a wrong graph.
-std::optional<double> misfit_of(const OptimizeResult& result) {
-  constexpr double kMuch = 3;       // factor above the expected cost
-  constexpr double kChance = 1e-6;  // probability of such a cost, for small graphs
-  const int expected = std::max(degrees_of_freedom(result.solution.graph.kind()),
-                                result.solution.degrees_of_freedom);
-  const bool by_chance = chi_squared_tail(result.after.log, expected) > kChance;
-  if (result.after.log < kMuch * expected || by_chance) return std::nullopt;
-  return result.after.log / expected;
-}
-
-std::string misfit_text(const OptimizeResult& result, double misfit) {
-  const bool rejects = !result.solution.rejected.empty();
-  return fmt::format(
-      "chi2 is {} times what the information of the edges lets expect{}: it looks like false "
-      "loops{}, or information that promises too much",
-      fmt::format(fmt::runtime(misfit < 10 ? "{:.1f}" : "{:.0f}"), misfit),
-      rejects ? fmt::format(", without those that --robust {} rejected", result.robust) : "",
-      result.robust == "auto" ? "" : " (try --robust auto)");
+Json texts_of(const std::vector<Doubt>& doubts) {
+  Json texts = Json::array();
+  for (const Doubt& doubt : doubts) texts.push_back(doubt.text);
+  return texts;
 }
 
 std::vector<NodeId> free_vertices(const GraphSolution& solution) {
@@ -183,7 +181,7 @@ void require_for_landmarks(const OptimizeArguments& arguments, const GraphTask& 
 }
 
 void optimize_landmarks(const OptimizeArguments& arguments, const GraphTask& task,
-                        LandmarkGraph graph, OptimizeResult& result) {
+                        LandmarkGraph graph, const LogSink& sink, OptimizeResult& result) {
   require_for_landmarks(arguments, task, graph);
   try {
     result.landmarks = solve_landmarks(std::move(graph), task.options);
@@ -193,15 +191,16 @@ void optimize_landmarks(const OptimizeArguments& arguments, const GraphTask& tas
   const LandmarkSolution& solution = *result.landmarks;
   if (!std::isfinite(solution.chi2_log))
     throw NoResult(arguments.in + ": the cost of the solution is not finite");
-  warn_of_free_directions(arguments.in, solution.free_directions, solution.free_vertices);
-  warn_of_parts(arguments.in, solution);
+  for (const Doubt& doubt : solution.doubts)
+    if (sink) sink(LogLevel::kWarning, fmt::format("warning: {}: {}", arguments.in, doubt.text));
   write_g2o(arguments.out, solution.graph);
 }
 
 void optimize_poses(const OptimizeArguments& arguments, const GraphTask& task, PoseGraph start,
                     const LogSink& sink, OptimizeResult& result) {
-  result.before = costs_of(start);
-  if (!std::isfinite(result.before.g2o + result.before.log))
+  const ConstraintCosts before(start);
+  const GraphCosts given = before.without({});
+  if (!std::isfinite(given.g2o + given.log))
     throw FileError(arguments.in, "the cost at the given poses is not finite: numbers too large");
   const PoseGraph drawn = arguments.plot.empty() ? PoseGraph() : start;
   if (!arguments.report.empty()) result.start = start;
@@ -212,21 +211,15 @@ void optimize_poses(const OptimizeArguments& arguments, const GraphTask& task, P
     throw NoResult(arguments.in + ": " + reason.what());
   }
   const PoseGraph kept = without_rejected(solution.graph, solution.rejected);
-  result.after = costs_of(kept);
+  result.before = before.without(solution.rejected);
+  result.after = ConstraintCosts(kept).without({});
   if (!std::isfinite(result.after.g2o + result.after.log))
     throw NoResult(arguments.in + ": the cost of the solution is not finite");
   if (!arguments.covariances.empty())
     write_covariances(arguments.covariances, arguments.in, kept, task.options.rotation_error);
   if (!arguments.plot.empty()) draw(arguments.plot, drawn, solution, result.after);
-  if (const auto misfit = misfit_of(result); misfit && sink)
-    sink(LogLevel::kWarning,
-         fmt::format("warning: {}: {}", arguments.in, misfit_text(result, *misfit)));
-  warn_of_free_directions(arguments.in, solution.free.count, free_vertices(solution));
-  if (!solution.loops_judged)
-    warn(fmt::format(
-        "{}: too few loops {}agree to know the noise's scale: --robust {} judged none of them, and "
-        "left none out",
-        arguments.in, solution.components > 1 ? "of a component " : "", arguments.robust));
+  for (const Doubt& doubt : solution.doubts)
+    if (sink) sink(LogLevel::kWarning, fmt::format("warning: {}: {}", arguments.in, doubt.text));
   write_g2o(arguments.out, arguments.drop_rejected ? kept : solution.graph);
 }
 
@@ -261,6 +254,7 @@ Json describe(const OptimizeResult& result) {
   report["rejected"] = solution.rejected.size();
   report["rejected_edges"] = rejected_edges(solution);
   report["doubtful"] = doubtful_edges(solution);
+  report["doubts"] = texts_of(solution.doubts);
   return report;
 }
 
@@ -319,7 +313,7 @@ OptimizeResult optimize(const OptimizeArguments& arguments, const LogSink& sink)
   if (read.has_poses_alone())
     optimize_poses(arguments, task, std::move(read.poses), sink, result);
   else
-    optimize_landmarks(arguments, task, std::move(read), result);
+    optimize_landmarks(arguments, task, std::move(read), sink, result);
   return result;
 }
 

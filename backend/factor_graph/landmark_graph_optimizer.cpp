@@ -1,7 +1,9 @@
+#include <fmt/format.h>
 #include <placegraph/backend/factor_graph/landmark_graph_optimizer.h>
 #include <placegraph/backend/factors/point_in_node.h>
 #include <placegraph/backend/factors/pose_prior.h>
 #include <placegraph/backend/linear/whitening.h>
+#include <placegraph/backend/pose_graph/pose_graph_doubts.h>
 #include <placegraph/backend/solver/free_directions.h>
 #include <placegraph/backend/solver/local_solver.h>
 #include <placegraph/graph/core/disjoint_sets.h>
@@ -145,6 +147,38 @@ LandmarkGraphReport solve_factors(LandmarkGraph graph, const LandmarkGraphOption
 
 }  // namespace
 
+namespace {
+
+NodeId id_of(const LandmarkGraph& graph, int variable) {
+  const auto i = static_cast<std::size_t>(variable), nodes = graph.poses.nodes.size();
+  return i < nodes ? graph.poses.nodes[i].id : graph.points[i - nodes].id;
+}
+
+std::vector<NodeId> ids_of(const LandmarkGraph& graph, const std::vector<int>& variables) {
+  std::vector<NodeId> ids;
+  for (const int variable : variables) ids.push_back(id_of(graph, variable));
+  return ids;
+}
+
+void add_doubts(LandmarkGraphReport& report) {
+  Chi2Fit fit{report.chi2_final, report.degrees_of_freedom, 0};
+  if (doubt_of_chi2(fit) == DoubtKind::kChi2Below) fit.rounding = chi2_of_rounding(report.graph);
+  if (const auto kind = doubt_of_chi2(fit))
+    report.doubts.push_back(doubt_about_chi2(*kind, fit, "", ""));
+  if (report.free.count > 0)
+    report.doubts.push_back(not_unique(report.free.count, ids_of(report.graph, report.free.nodes)));
+  const std::vector<int> held = held_for_want_of_a_tie(report.graph);
+  const int components = count_components(report.graph);
+  if (components > 1 && !held.empty())
+    report.doubts.push_back(
+        {DoubtKind::kHeldComponents,
+         fmt::format("the graph falls into {} components, of which {} are constrained to the world "
+                     "by no prior and no FIX: each keeps a vertex where it is ({})",
+                     components, held.size(), some_ids(ids_of(report.graph, held)))});
+}
+
+}  // namespace
+
 LandmarkGraphReport optimize_landmark_graph(LandmarkGraph graph,
                                             const LandmarkGraphOptions& options) {
   graph.check();
@@ -154,7 +188,10 @@ LandmarkGraphReport optimize_landmark_graph(LandmarkGraph graph,
   else
     report = graph.poses.kind() == PoseKind::kSE2 ? solve_packed<SE2>(std::move(graph), options)
                                                   : solve_packed<SE3>(std::move(graph), options);
-  if (report.outcome) report.free = find_free_directions(report.graph, options.rotation_error);
+  report.degrees_of_freedom = find_components(report.graph).degrees_of_freedom;
+  if (!report.outcome) return report;
+  report.free = find_free_directions(report.graph, options.rotation_error);
+  add_doubts(report);
   return report;
 }
 

@@ -19,6 +19,10 @@ struct LandmarkGraphReport {
   /// Undetermined directions at the solution; in `nodes`, point i has the number (number of nodes)
   /// + i.
   FreeDirections free;
+  int degrees_of_freedom = 0;  ///< expectation of chi2_final
+  /// What speaks against the result: a chi2 far from its expectation, directions that are free,
+  /// components without a reference.
+  std::vector<Doubt> doubts;
 };
 
 /// Minimizes the sum of e^T Omega e over poses and points, from their current values.

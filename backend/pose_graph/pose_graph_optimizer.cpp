@@ -1,6 +1,7 @@
 #include <placegraph/backend/pose_graph/initialization_selection.h>
 #include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
 #include <placegraph/backend/pose_graph/robust_optimizer.h>
+#include <placegraph/backend/solver/graph_components.h>
 #include <placegraph/backend/solver/packed_free_directions.h>
 #include <placegraph/graph/pose_graph/graph_parts.h>
 #include <placegraph/graph/text/log_message.h>
@@ -13,8 +14,7 @@ namespace {
 
 /// e^T Omega e of every constraint, in the order of PoseGraph::constraints.
 template <class Group>
-std::vector<double> chi2_by_constraint(const PackedGraph<Group>& graph,
-                                       RotationError rotation_error) {
+std::vector<double> packed_chi2(const PackedGraph<Group>& graph, RotationError rotation_error) {
   std::vector<double> chi2(graph.edges.size() + graph.positions.size());
   const std::vector<double> edges = chi2_by_edge(graph, rotation_error);
   for (std::size_t i = 0; i < edges.size(); ++i) chi2[graph.edges[i].constraint] = edges[i];
@@ -74,9 +74,9 @@ void minimize(PackedGraph<Group>& graph, const LocalSolverOptions& local,
 /// Adds the result for a component.
 void add_component(const GraphPart& part, PoseGraphReport&& of_part, PoseGraphReport& report) {
   if (report.outcome && !of_part.outcome)
-    report.outcome = Outcome::failure(of_part.outcome.code,
-                                      "component of node " + to_string(part.graph.nodes[0].id) +
-                                          ": " + of_part.outcome.reason);
+    report.outcome = Outcome::failure(
+        of_part.outcome.code,
+        "component of node " + to_string(part.graph.nodes[0].id) + ": " + of_part.outcome.reason);
   report.iterations += of_part.iterations;
   report.initialization_used = std::max(report.initialization_used, of_part.initialization_used);
   report.refined_from_certified |= of_part.refined_from_certified;
@@ -114,8 +114,7 @@ PoseGraphReport optimize(PoseGraph graph, const PoseGraphOptions& options,
                          const LogSink& log_sink) {
   PackedGraph<Group> packed = pack<Group>(graph);
   PoseGraphReport report;
-  const std::vector<double> initial = chi2_by_constraint(packed, options.rotation_error);
-  report.chi2_initial = sum(initial);
+  const std::vector<double> initial = packed_chi2(packed, options.rotation_error);
   minimize_components(graph, packed,
                       {.engine = options.engine,
                        .rotation_error = options.rotation_error,
@@ -126,19 +125,18 @@ PoseGraphReport optimize(PoseGraph graph, const PoseGraphOptions& options,
                       options, report);
   unpack(packed, graph);
   report.graph = std::move(graph);
-  report.chi2_by_constraint = chi2_by_constraint(packed, options.rotation_error);
-  report.chi2_final = sum(report.chi2_by_constraint);
+  report.chi2_by_constraint = packed_chi2(packed, options.rotation_error);
+  report.chi2_initial = sum_of_kept(initial, report.rejected);
+  report.chi2_final = sum_of_kept(report.chi2_by_constraint, report.rejected);
+  report.degrees_of_freedom =
+      report.rejected.empty()
+          ? packed.components.degrees_of_freedom
+          : find_components(without_rejected(report.graph, report.rejected)).degrees_of_freedom;
+  if (report.outcome) report.doubts = doubts_of(report, options.robust.method);
   log(log_sink, LogLevel::kInfo,
-      "pose graph: chi2 {:f} -> {:f} in {} iterations, initialization {}",
-      sum_of_kept(initial, report.rejected),
-      sum_of_kept(report.chi2_by_constraint, report.rejected), report.iterations,
-      to_string(report.initialization_used));
+      "pose graph: chi2 {:f} -> {:f} in {} iterations, initialization {}", report.chi2_initial,
+      report.chi2_final, report.iterations, to_string(report.initialization_used));
   return report;
-}
-
-template <class Group>
-double chi2_of(const PoseGraph& graph, RotationError rotation_error) {
-  return sum(chi2_by_constraint(pack<Group>(graph), rotation_error));
 }
 
 }  // namespace
@@ -166,17 +164,21 @@ PoseGraph without_rejected(PoseGraph graph, const std::vector<RejectedEdge>& rej
   return graph;
 }
 
-double chi2(const PoseGraph& graph, RotationError rotation_error) {
+std::vector<double> chi2_by_constraint(const PoseGraph& graph, RotationError rotation_error) {
   graph.check();
   switch (graph.kind()) {
     case PoseKind::kSE2:
-      return chi2_of<SE2>(graph, rotation_error);
+      return packed_chi2(pack<SE2>(graph), rotation_error);
     case PoseKind::kSE3:
-      return chi2_of<SE3>(graph, rotation_error);
+      return packed_chi2(pack<SE3>(graph), rotation_error);
     case PoseKind::kSim3:
       break;
   }
-  return chi2_of<Sim3>(graph, rotation_error);
+  return packed_chi2(pack<Sim3>(graph), rotation_error);
+}
+
+double chi2(const PoseGraph& graph, RotationError rotation_error) {
+  return sum(chi2_by_constraint(graph, rotation_error));
 }
 
 }  // namespace placegraph

@@ -5,6 +5,8 @@
 #include <placegraph/graph/pose_graph/constraint.h>
 #include <placegraph/graph/pose_graph/pose_graph.h>
 
+#include <vector>
+
 namespace [[gnu::visibility("default")]] placegraph {
 
 /// Optimizes a pose graph over SE(2), SE(3) or Sim(3): minimizes sum rho(e^T Omega e).
@@ -16,6 +18,8 @@ namespace [[gnu::visibility("default")]] placegraph {
 [[nodiscard]] PoseGraphReport optimize_pose_graph(PoseGraph graph, const PoseGraphOptions& options,
                                                   const LogSink& log = {});
 
+/// e^T Omega e of every constraint, without kernels, in their order; throws as PoseGraph::check.
+std::vector<double> chi2_by_constraint(const PoseGraph& graph, RotationError rotation_error);
 /// Sum of e^T Omega e over all constraints, without kernels; throws as PoseGraph::check.
 double chi2(const PoseGraph& graph, RotationError rotation_error);
 

@@ -23,17 +23,18 @@ struct RejectedEdge {
 struct PoseGraphReport {
   Outcome outcome;  ///< outcome, see optimize_pose_graph
   PoseGraph graph;  ///< graph with the optimized poses
-  /// Sum of e^T Omega e at the input poses, without kernels, with PoseGraphOptions::rotation_error.
+  /// Sum of e^T Omega e at the input poses over the constraints that were not rejected, without
+  /// kernels, with PoseGraphOptions::rotation_error.
   double chi2_initial = 0;
-  double chi2_final = 0;  ///< the same at the optimized poses
-  int iterations = 0;     ///< total number of steps of all descents
+  double chi2_final = 0;       ///< the same at the optimized poses
+  int degrees_of_freedom = 0;  ///< expectation of chi2_final, of the same constraints
+  int iterations = 0;          ///< total number of steps of all descents
   /// Initialization of the selected descent, of several components the most expensive one; never
   /// kAuto.
   PoseGraphInitialization initialization_used = PoseGraphInitialization::kFile;
   bool refined_from_certified = false;     ///< whether initialization_used is kCertified
   std::vector<double> chi2_by_constraint;  ///< at the optimized poses, as graph.constraints
-  /// Constraints classified as false, in the order of graph.constraints. The sums above include
-  /// them.
+  /// Constraints classified as false, in the order of graph.constraints.
   std::vector<RejectedEdge> rejected;
   /// False if a component has loops, but too few of them agreed to estimate the scale of their
   /// noise, so that none of them was tested.
@@ -41,7 +42,15 @@ struct PoseGraphReport {
   /// Directions that the constraints leave undetermined at the solution: another initialization may
   /// lead to other poses of the same cost.
   FreeDirections free;
+  std::vector<Doubt> doubts;  ///< what speaks against the result, see doubts_of
 };
+
+/// What speaks against a result with an estimate: a chi2 far from its expectation, directions that
+/// are free, loops that were not judged. optimize_pose_graph fills `doubts` with it.
+///
+/// `method` is the robust method that was used. A chi2 that rounding of the measurements explains,
+/// by the digits that they have, is not doubted.
+std::vector<Doubt> doubts_of(const PoseGraphReport& report, RobustMethod method);
 
 /// The graph without the constraints that were rejected, in the same order.
 PoseGraph without_rejected(PoseGraph graph, const std::vector<RejectedEdge>& rejected);

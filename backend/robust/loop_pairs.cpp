@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <tuple>
 
@@ -46,12 +47,71 @@ std::vector<LoopOnChain<Group>> loops_on_chain(const PackedGraph<Group>& graph,
   return loops;
 }
 
+namespace {
+
+/// The covariance of the misclosure of the ring of two loops.
 template <class Group>
-RingMisclosure ring_misclosure(const LoopOnChain<Group>& a, const LoopOnChain<Group>& b,
-                               const OdometryChain<Group>& chain) {
+typename Group::Jacobian ring_covariance(const LoopOnChain<Group>& a, const LoopOnChain<Group>& b,
+                                         const OdometryChain<Group>& chain) {
   typename Group::Jacobian covariance =
       a.covariance + b.covariance + chain.covariance(a.from, b.from);
   covariance.noalias() += a.adjoint * chain.covariance(a.to, b.to) * a.adjoint.transpose();
+  return covariance;
+}
+
+template <class Group>
+typename Group::Tangent log_of(const Group& T) {
+  return T.log();
+}
+
+/// The logarithm by the tangent of half the angle, to rounding: atan2, sin and cos would take most
+/// of the time of a pair of loops in the plane.
+SE2::Tangent log_of(const SE2& T) {
+  const Eigen::Vector2d x_axis = T.rotation() * Eigen::Vector2d::UnitX();
+  if (x_axis[0] < 0) return T.log();
+  const double tan_h = x_axis[1] / (1 + x_axis[0]), x = tan_h * tan_h;
+  double h_cot_h = 0;  // atan(tan_h) / tan_h
+  if (x < 0.01)
+    for (const double term :
+         {1. / 17, 1. / 15, 1. / 13, 1. / 11, 1. / 9, 1. / 7, 1. / 5, 1. / 3, 1.})
+      h_cot_h = term - x * h_cot_h;
+  else
+    h_cot_h = std::atan(tan_h) / tan_h;
+  const double h = h_cot_h * tan_h;
+  const Eigen::Vector2d& t = T.translation();
+  return {h_cot_h * t[0] + h * t[1], h_cot_h * t[1] - h * t[0], 2 * h};
+}
+
+}  // namespace
+
+template <class Group>
+bool ring_closes(const LoopOnChain<Group>& a, const LoopOnChain<Group>& b,
+                 const OdometryChain<Group>& chain, double gate) {
+  constexpr int kDof = Group::kDof;
+  typename Group::Jacobian L = ring_covariance(a, b, chain);
+  typename Group::Tangent e = log_of(a.W * b.W.inverse());
+  // L D L^T row by row, 1 / D on the diagonal, with forward substitution: the sum only grows.
+  double chi2 = 0;
+  for (int i = 0; i < kDof; ++i) {
+    for (int k = 0; k < i; ++k) {
+      double value = L(i, k);
+      for (int j = 0; j < k; ++j) value -= L(i, j) * L(j, k);
+      L(k, i) = value;  // L D
+      L(i, k) = value * L(k, k);
+      L(i, i) -= L(i, k) * value;
+      e[i] -= L(i, k) * e[k];
+    }
+    L(i, i) = 1 / L(i, i);
+    chi2 += e[i] * e[i] * L(i, i);
+    if (!(chi2 <= gate)) return false;
+  }
+  return true;
+}
+
+template <class Group>
+RingMisclosure ring_misclosure(const LoopOnChain<Group>& a, const LoopOnChain<Group>& b,
+                               const OdometryChain<Group>& chain) {
+  const typename Group::Jacobian covariance = ring_covariance(a, b, chain);
   const Eigen::LLT<typename Group::Jacobian> factor(covariance);
   const typename Group::Tangent e = factor.matrixL().solve((a.W * b.W.inverse()).log());
   return {e.squaredNorm(), 2 * factor.matrixLLT().diagonal().array().log().sum()};
@@ -127,6 +187,8 @@ std::vector<LoopPair> neighbouring_pairs(const std::vector<LoopOnChain<Group>>& 
                                                           const OdometryChain<Group>&);         \
   template RingMisclosure ring_misclosure(const LoopOnChain<Group>&, const LoopOnChain<Group>&, \
                                           const OdometryChain<Group>&);                         \
+  template bool ring_closes(const LoopOnChain<Group>&, const LoopOnChain<Group>&,               \
+                            const OdometryChain<Group>&, double);                               \
   template RingMisclosure drift_misclosure(const LoopOnChain<Group>&,                           \
                                            const OdometryChain<Group>&);                        \
   template std::vector<LoopPair> neighbouring_pairs(const std::vector<LoopOnChain<Group>>&,     \

@@ -34,6 +34,13 @@ template <class Group>
 RingMisclosure ring_misclosure(const LoopOnChain<Group>& a, const LoopOnChain<Group>& b,
                                const OdometryChain<Group>& chain);
 
+/// Whether the squared misclosure of the ring of two loops is at most `gate`.
+///
+/// It is that of ring_misclosure, without its determinant: for many pairs.
+template <class Group>
+bool ring_closes(const LoopOnChain<Group>& a, const LoopOnChain<Group>& b,
+                 const OdometryChain<Group>& chain, double gate);
+
 /// The misclosure of one loop with the odometry between its ends, which must be in one run.
 /// For a true loop it is caused by drift.
 template <class Group>

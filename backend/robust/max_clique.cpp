@@ -31,78 +31,121 @@ std::vector<int> by_degree(const BitGraph& graph) {
   return order;
 }
 
+/// Branch and bound from the clique `best`, which it replaces by heavier ones alone.
 class Search {
  public:
-  Search(const BitGraph& graph, std::vector<int> weights, std::int64_t max_steps)
-      : graph_(graph), weights_(std::move(weights)), steps_left_(max_steps) {}
+  Search(const BitGraph& graph, const std::vector<int>& weights, std::int64_t max_steps,
+         std::vector<int> best)
+      : graph_(graph), weights_(weights), steps_left_(max_steps), best_(std::move(best)) {
+    for (const int v : best_) best_weight_ += weights_[static_cast<std::size_t>(v)];
+  }
 
   void run() {
-    Bits all(graph_.words(), 0);
-    for (int v = 0; v < graph_.vertices(); ++v) all[v / 64] |= std::uint64_t{1} << (v % 64);
-    expand(all);
+    candidates_.assign(graph_.words(), 0);
+    for (int v = 0; v < graph_.vertices(); ++v) candidates_[v / 64] |= std::uint64_t{1} << (v % 64);
+    expand(0);
   }
   const std::vector<int>& best() const { return best_; }
   bool complete() const { return steps_left_ > 0; }
 
  private:
-  /// Vertices of `candidates` by colour classes (no two of a class are adjacent), and for each the
-  /// sum of the largest weights of the classes so far, an upper bound of a clique of it and the
-  /// vertices before it.
-  void colour(Bits candidates, std::vector<int>& vertices, std::vector<std::int64_t>& bound) const {
+  struct Branch {
+    int vertex;
+    /// Sum of the largest weights of the colour classes up to that of the vertex: no clique of it
+    /// and the vertices before it is heavier.
+    std::int64_t bound;
+  };
+
+  std::uint64_t* candidates(std::size_t level) { return &candidates_[level * graph_.words()]; }
+
+  /// Appends the candidates of a level that a clique heavier than the best one may begin with, by
+  /// colour classes (no two vertices of a class are adjacent).
+  void colour(std::size_t level) {
     std::int64_t before = 0;  // sum over the classes before this one
-    while (std::any_of(candidates.begin(), candidates.end(),
-                       [](std::uint64_t word) { return word != 0; })) {
-      Bits free = candidates;
+    left_.assign(candidates(level), candidates(level) + graph_.words());
+    for (std::size_t first = 0; first < left_.size();) {
+      if (left_[first] == 0) {
+        ++first;
+        continue;
+      }
+      free_ = left_;
       std::int64_t heaviest = 0;
-      for (std::size_t w = 0; w < free.size(); ++w)
-        while (free[w] != 0) {
-          const int v = static_cast<int>(64 * w) + std::countr_zero(free[w]);
+      for (std::size_t w = first; w < free_.size(); ++w)
+        while (free_[w] != 0) {
+          const int v = static_cast<int>(64 * w) + std::countr_zero(free_[w]);
           const std::uint64_t* row = graph_.row(v);
-          for (std::size_t k = w; k < free.size(); ++k) free[k] &= ~row[k];
+          for (std::size_t k = w; k < free_.size(); ++k) free_[k] &= ~row[k];
           const std::uint64_t bit = std::uint64_t{1} << (v % 64);
-          free[w] &= ~bit;
-          candidates[w] &= ~bit;
-          vertices.push_back(v);
+          free_[w] &= ~bit;
+          left_[w] &= ~bit;
+          --steps_left_;
           heaviest = std::max<std::int64_t>(heaviest, weights_[static_cast<std::size_t>(v)]);
-          bound.push_back(before + heaviest);
+          if (weight_ + before + heaviest > best_weight_)
+            branches_.push_back({v, before + heaviest});
         }
       before += heaviest;
     }
   }
 
-  void expand(Bits candidates) {
-    std::vector<int> vertices;
-    std::vector<std::int64_t> bound;
-    colour(candidates, vertices, bound);
-    steps_left_ -= static_cast<std::int64_t>(vertices.size());
-    for (std::size_t i = vertices.size(); i-- > 0;) {
-      if (weight_ + bound[i] <= best_weight_) return;
-      if (!complete() && !best_.empty()) return;  // the first branch is searched completely
-      const int v = vertices[i];
+  void expand(std::size_t level) {
+    const std::size_t begin = branches_.size(), words = graph_.words();
+    colour(level);
+    candidates_.resize((level + 2) * words);
+    while (branches_.size() > begin) {
+      const auto [v, bound] = branches_.back();
+      if (weight_ + bound <= best_weight_ || !complete()) break;
+      branches_.pop_back();
       current_.push_back(v);
       weight_ += weights_[static_cast<std::size_t>(v)];
-      Bits next(candidates.size());
       bool any = false;
-      for (std::size_t w = 0; w < next.size(); ++w) {
-        next[w] = candidates[w] & graph_.row(v)[w];
-        any |= next[w] != 0;
+      for (std::size_t w = 0; w < words; ++w) {
+        const std::uint64_t next = candidates(level)[w] & graph_.row(v)[w];
+        candidates(level + 1)[w] = next;
+        any |= next != 0;
       }
       if (any)
-        expand(std::move(next));
+        expand(level + 1);
       else if (weight_ > best_weight_)
         best_ = current_, best_weight_ = weight_;
       current_.pop_back();
       weight_ -= weights_[static_cast<std::size_t>(v)];
-      candidates[v / 64] &= ~(std::uint64_t{1} << (v % 64));
+      candidates(level)[v / 64] &= ~(std::uint64_t{1} << (v % 64));
     }
+    branches_.resize(begin);
   }
 
   const BitGraph& graph_;
-  std::vector<int> weights_;
+  const std::vector<int>& weights_;
   std::int64_t steps_left_;
   std::vector<int> current_, best_;
   std::int64_t weight_ = 0, best_weight_ = 0;  // those of current_ and best_
+  Bits candidates_;                            // of all levels, one after the other
+  Bits left_, free_;                           // of the level that is being coloured
+  std::vector<Branch> branches_;               // of all levels, one after the other
 };
+
+/// A maximal clique: from each of the first vertices in turn, the vertices of the graph's order
+/// that are adjacent to all taken ones; the heaviest of these.
+std::vector<int> greedy_clique(const BitGraph& graph, const std::vector<int>& weights) {
+  // Beginnings. Chosen: vertices of false loops among those of highest degree are few.
+  constexpr int kBeginnings = 8;
+  std::vector<int> best;
+  std::int64_t best_weight = 0;
+  for (int first = 0; first < std::min(kBeginnings, graph.vertices()); ++first) {
+    Bits left(graph.row(first), graph.row(first) + graph.words());
+    std::vector<int> clique = {first};
+    std::int64_t weight = weights[static_cast<std::size_t>(first)];
+    for (std::size_t w = 0; w < left.size(); ++w)
+      while (left[w] != 0) {
+        const int v = static_cast<int>(64 * w) + std::countr_zero(left[w]);
+        clique.push_back(v);
+        weight += weights[static_cast<std::size_t>(v)];
+        for (std::size_t k = w; k < left.size(); ++k) left[k] &= graph.row(v)[k];
+      }
+    if (weight > best_weight) best = std::move(clique), best_weight = weight;
+  }
+  return best;
+}
 
 }  // namespace
 
@@ -113,7 +156,7 @@ Clique max_clique(const BitGraph& graph, std::int64_t max_steps, const std::vect
   if (!weights.empty())
     for (std::size_t i = 0; i < order.size(); ++i)
       sorted_weights[i] = weights[static_cast<std::size_t>(order[i])];
-  Search search(sorted, std::move(sorted_weights), max_steps);
+  Search search(sorted, sorted_weights, max_steps, greedy_clique(sorted, sorted_weights));
   search.run();
   Clique clique;
   for (const int v : search.best()) clique.vertices.push_back(order[v]);

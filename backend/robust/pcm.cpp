@@ -1,8 +1,10 @@
 #include <placegraph/backend/robust/max_clique.h>
 #include <placegraph/backend/robust/pcm.h>
+#include <placegraph/graph/core/parallel.h>
 
 #include <algorithm>
 #include <map>
+#include <thread>
 
 namespace placegraph {
 namespace {
@@ -25,6 +27,12 @@ std::vector<std::vector<int>> groups_of_copies(const std::vector<LoopOnChain<Gro
   return groups;
 }
 
+/// Number of threads for comparing every pair of `loops`; the result does not depend on it.
+int threads_for(int loops) {
+  constexpr int kMany = 500;  // loops whose comparison takes longer than starting threads. Chosen.
+  return loops < kMany ? 1 : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
+
 }  // namespace
 
 template <class Group>
@@ -41,10 +49,12 @@ std::vector<std::vector<int>> consistent_loops(const PackedGraph<Group>& graph,
     std::vector<int> weights;
     for (const auto& group : groups) weights.push_back(static_cast<int>(group.size()));
     BitGraph consistency(n);
-    for (int a = 0; a < n; ++a)
+    parallel_for(n, threads_for(n), [&](int a) {
       for (int b = a + 1; b < n; ++b)
-        if (ring_misclosure(loops[groups[a].front()], loops[groups[b].front()], chain).chi2 <= gate)
-          consistency.join(a, b);
+        if (ring_closes(loops[groups[a].front()], loops[groups[b].front()], chain, gate))
+          consistency.point(a, b);
+    });
+    consistency.mirror();
     sets.emplace_back();
     for (const int group : max_clique(consistency, max_steps, weights).vertices)
       for (const int i : groups[group]) sets.back().push_back(loops[i].edge);

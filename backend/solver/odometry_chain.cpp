@@ -83,12 +83,6 @@ OdometryChain<Group>::OdometryChain(const PackedGraph<Group>& graph)
     if (run_[node] < 0) walk(node);
 }
 
-template <class Group>
-typename Group::Jacobian OdometryChain<Group>::covariance(int a, int b) const {
-  if (position_[a] > position_[b]) std::swap(a, b);
-  return sum_[b] - sum_[a];
-}
-
 template class OdometryChain<SE2>;
 template class OdometryChain<SE3>;
 template class OdometryChain<Sim3>;

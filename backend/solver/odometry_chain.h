@@ -34,7 +34,9 @@ class OdometryChain {
   /// Covariance of all odometry between two nodes of one run as a left perturbation in the
   /// coordinates of the run's first node: T_first_b = Exp(xi) T_first_a T_a_b, to first order
   /// (Barfoot & Furgale 2014, eq. 37 without the second-order terms).
-  Jacobian covariance(int a, int b) const;
+  Jacobian covariance(int a, int b) const {
+    return position_[a] > position_[b] ? sum_[a] - sum_[b] : sum_[b] - sum_[a];
+  }
 
  private:
   int runs_ = 0;

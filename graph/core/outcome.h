@@ -32,6 +32,21 @@ struct [[nodiscard]] Outcome {
   static Outcome failure(Code code, std::string reason) { return {code, std::move(reason)}; }
 };
 
+/// What speaks against a result although there is one.
+enum class DoubtKind {
+  kChi2Above,       ///< chi2 of a graph is far above what its information lets expect
+  kChi2Below,       ///< chi2 of a graph is far below what its information lets expect
+  kNotUnique,       ///< constraints leave directions of a graph free
+  kLoopsNotJudged,  ///< too few loops of a graph agree for a robust method to judge them
+  kHeldComponents,  ///< components of a graph have no reference but a node that is held
+};
+
+/// A doubt about a result: commands print it as a warning, the Python package warns with it.
+struct Doubt {
+  DoubtKind kind;    ///< the subject
+  std::string text;  ///< one readable line: the value found, and what it may mean
+};
+
 /// The name of a code: "ok", "too few data", "no consensus", "degenerate" and so on.
 const char* to_string(Outcome::Code code);
 

@@ -3,8 +3,6 @@
 #include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
 #include <placegraph/backend/pose_graph/pose_marginals.h>
 
-#include <numeric>
-
 #include "python/src/backend/graphs.h"
 #include "python/src/options.h"
 
@@ -37,22 +35,13 @@ std::vector<std::int64_t> free_nodes(const OptimizedGraph& o) {
   return ids;
 }
 
-double chi2_kept(const OptimizedGraph& o) {
-  std::vector<double> chi2 = o.report.chi2_by_constraint;
-  for (const RejectedEdge& edge : o.report.rejected)
-    chi2[static_cast<std::size_t>(edge.constraint)] = 0;
-  return std::accumulate(chi2.begin(), chi2.end(), 0.0);
-}
-
 std::string text_of(const OptimizedGraph& o) {
   const PoseGraphReport& r = o.report;
   std::string text = fmt::format(
       "<OptimizedGraph: {} nodes, chi2 {:.6g} -> {:.6g}, {} iterations, initialization {}",
       r.graph.nodes.size(), r.chi2_initial, r.chi2_final, r.iterations,
       to_string(r.initialization_used));
-  if (!r.rejected.empty())
-    text += fmt::format(", {} constraints rejected, chi2 {:.6g} without them", r.rejected.size(),
-                        chi2_kept(o));
+  if (!r.rejected.empty()) text += fmt::format(", {} constraints rejected", r.rejected.size());
   if (o.certificate) text += o.certificate->certified ? ", certified" : ", not certified";
   if (!r.outcome) text += ", " + r.outcome.reason;
   return text + ">";
@@ -105,8 +94,19 @@ void bind_report(nb::module_& m) {
       .def_prop_ro(
           "chi2_final", [](const O& o) { return o.report.chi2_final; },
           doc("PoseGraphReport::chi2_final"))
-      .def_prop_ro("chi2_kept", &chi2_kept,
-                   "chi2_final without the constraints that were rejected.")
+      .def_prop_ro(
+          "chi2_kept", [](const O& o) { return o.report.chi2_final; }, "The same as chi2_final.")
+      .def_prop_ro(
+          "degrees_of_freedom", [](const O& o) { return o.report.degrees_of_freedom; },
+          doc("PoseGraphReport::degrees_of_freedom"))
+      .def_prop_ro(
+          "doubts",
+          [](const O& o) {
+            std::vector<std::string> texts;
+            for (const Doubt& doubt : o.report.doubts) texts.push_back(doubt.text);
+            return texts;
+          },
+          "What speaks against the result, one line each, as the command warns of it.")
       .def_prop_ro(
           "iterations", [](const O& o) { return o.report.iterations; },
           doc("PoseGraphReport::iterations"))

@@ -1,0 +1,40 @@
+#pragma once
+#include <placegraph/graph/core/outcome.h>
+#include <placegraph/graph/pose_graph/landmark_graph.h>
+
+#include <optional>
+#include <vector>
+
+namespace placegraph {
+
+/// The chi2 of a graph beside its expectation.
+struct Chi2Fit {
+  double chi2 = 0;             ///< of the constraints that were kept
+  int degrees_of_freedom = 0;  ///< its expectation
+  /// Most that rounding the measurements to the digits that they have contributes to chi2.
+  double rounding = 0;
+};
+
+/// The bound of chi2 that measurements which are exact but for their last digit have.
+///
+/// At the minimum chi2 is not larger than at the true poses, where every component of an error is
+/// at most half a unit of the last digit. That unit is known from the translations; no measurement
+/// is taken for better than a millionth.
+double chi2_of_rounding(const std::vector<Constraint>& constraints);
+/// The same of a graph with priors and observations of points.
+double chi2_of_rounding(const LandmarkGraph& graph);
+
+/// Whether chi2 is far above or below its expectation, by a factor of ten and beyond chance.
+std::optional<DoubtKind> doubt_of_chi2(const Chi2Fit& fit);
+
+/// The line on directions that constraints leave free, `count` of them at the given vertices.
+Doubt not_unique(int count, const std::vector<NodeId>& vertices);
+
+/// "3, 5, 7 and 12 more"
+std::string some_ids(const std::vector<NodeId>& ids);
+
+/// The line on a chi2 far from its expectation; `advice` follows where it is too large.
+Doubt doubt_about_chi2(DoubtKind kind, const Chi2Fit& fit, const std::string& rejected,
+                       const std::string& advice);
+
+}  // namespace placegraph
