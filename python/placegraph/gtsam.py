@@ -78,7 +78,12 @@ def from_gtsam(factors: Any, values: Any) -> PoseGraph:
     terms = _terms(gtsam, factors, values)
     fixed = _fixed(gtsam, terms)
     for key in sorted(values.keys()):
-        graph.add_node(key, _row(gtsam, values, key), key in fixed)
+        row = _row(gtsam, values, key)
+        try:
+            graph.add_node(key, row, key in fixed)
+        except _core.ArgumentError as error:  # of another kind than the others
+            name = gtsam.DefaultKeyFormatter(key)
+            raise _core.ArgumentError(f"values: the value of {name}: {error}") from None
     for i, term in enumerate(terms):
         if isinstance(term, _holding(gtsam)):
             continue
@@ -249,10 +254,12 @@ def _name(gtsam: Any, i: int, term: Any) -> str:
 
 
 def _terms(gtsam: Any, factors: Any, values: Any) -> list[Any]:
-    """The factors; ArgumentError for a key without a value and an equality of another value."""
+    """The factors; ArgumentError for wrong keys and for an equality of another value."""
     known = set(values.keys())
     terms = [factors.at(i) for i in range(factors.size())]
     for i, term in enumerate(terms):
+        if len(set(term.keys())) < len(term.keys()):
+            raise _core.ArgumentError(f"{_name(gtsam, i, term)}, has a key twice")
         for key in term.keys():
             if key not in known:
                 raise _core.ArgumentError(f"{_name(gtsam, i, term)}: there is no value of "

@@ -185,9 +185,9 @@ Table reliability_table(const LoopBenchmark& benchmark) {
 }
 
 void bind_truth(nb::module_& m) {
-  nb::class_<LoopTruth> truth(m, "LoopTruth", doc("LoopTruth"));
-  bind_value(truth, Hash::kByValue);
-  truth
+  nb::class_<LoopTruth> bound(m, "LoopTruth", doc("LoopTruth"));
+  bind_value(bound, Hash::kByValue);
+  bound
       .def(
           "__init__",
           [](LoopTruth* self, const std::map<std::int64_t, std::vector<std::int64_t>>& matches,

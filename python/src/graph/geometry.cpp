@@ -227,9 +227,9 @@ void bind_camera(nb::module_& m) {
 }
 
 void bind_calibration(nb::module_& m) {
-  nb::class_<DepthCamera> depth(m, "DepthCamera", doc("DepthCamera"));
-  bind_value(depth, Hash::kNone);
-  depth.def(nb::init<>())
+  nb::class_<DepthCamera> depth_camera(m, "DepthCamera", doc("DepthCamera"));
+  bind_value(depth_camera, Hash::kNone);
+  depth_camera.def(nb::init<>())
       .def_rw("camera", &DepthCamera::camera, doc("DepthCamera::camera"))
       .def_rw("T_cam_depth", &DepthCamera::T_cam_depth, doc("DepthCamera::T_cam_depth"))
       .def_rw("sigma_at_1m", &DepthCamera::sigma_at_1m, doc("DepthCamera::sigma_at_1m"))

@@ -238,10 +238,18 @@ def test_factors_and_keys_are_named_as_gtsam_prints_them() -> None:
         said = refused(lambda unit: gtsam.BetweenFactorPose2(x(1), x(7), gtsam.Pose2(), unit),
                        convert)
         assert said == "factors: factor 1, a BetweenFactorPose2 of x1, x7: there is no value of x7"
+        said = refused(lambda unit: gtsam.BetweenFactorPose2(x(1), x(1), gtsam.Pose2(), unit),
+                       convert)
+        assert said == "factors: factor 1, a BetweenFactorPose2 of x1, x1, has a key twice"
         said = refused(lambda _: gtsam.NonlinearEqualityPose2(x(1), gtsam.Pose2(5, 0, 0)), convert)
         assert said.startswith("factors: factor 1, a NonlinearEqualityPose2 of x1, differs from")
     said = refused(lambda unit: gtsam.PriorFactorPose2(x(0), gtsam.Pose2(), unit), from_gtsam)
     assert "a PriorFactorPose2 of x0, has standard deviations above 0.001: it is a measurement" in said
+    values = gtsam.Values()
+    values.insert(x(2), gtsam.Pose2())
+    values.insert(x(3), gtsam.Pose3())
+    with pytest.raises(pg.ArgumentError, match="the value of x3: pose: its kind"):
+        from_gtsam(gtsam.NonlinearFactorGraph(), values)
     values = gtsam.Values()
     values.insert(x(3), 1.0)
     for convert in (from_gtsam, factor_graph_from_gtsam):
