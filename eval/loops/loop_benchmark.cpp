@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
+#include <utility>
 
 namespace placegraph {
 namespace {
@@ -51,6 +53,15 @@ struct Gathered {
   bool too_young = false, out_of_range = false;
 };
 
+/// Throws ArgumentError, which names query and candidate, if a query has a candidate twice.
+void require_distinct(const std::vector<LoopPrediction>& predictions) {
+  std::set<std::pair<FrameId, FrameId>> seen;
+  for (const LoopPrediction& prediction : predictions)
+    if (!seen.emplace(prediction.query, prediction.candidate).second)
+      throw ArgumentError("judge_loops: query " + to_string(prediction.query) + " has candidate " +
+                          to_string(prediction.candidate) + " twice");
+}
+
 JudgedQuery judge(FrameId id, Gathered& gathered) {
   JudgedQuery judged;
   judged.query = id;
@@ -91,6 +102,7 @@ std::string to_string(LoopVerdict verdict) {
 LoopBenchmark judge_loops(const LoopTruth& truth, const std::vector<LoopPrediction>& predictions,
                           int tolerance) {
   require(tolerance >= 0, "judge_loops: tolerance is negative");
+  require_distinct(predictions);
   LoopBenchmark result;
   std::map<FrameId, Gathered> gathered;
   for (const auto& [id, query] : truth.queries) gathered[id].query = query_of(truth, id);

@@ -52,7 +52,8 @@ struct LoopBenchmark {
 /// range) are left out, right or wrong. Of candidates with equal scores the false ones come first,
 /// so that the order of the predictions has no influence. Precision = hits / (hits + misses) and
 /// recall = hits / positives over the threshold on the score. Throws ArgumentError for a negative
-/// tolerance or a score that is not finite.
+/// tolerance, a score that is not finite, or a candidate that a query has twice: the ranks count
+/// images.
 LoopBenchmark judge_loops(const LoopTruth& truth, const std::vector<LoopPrediction>& predictions,
                           int tolerance = 0);
 

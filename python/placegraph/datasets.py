@@ -50,9 +50,9 @@ class Dataset:
         return len(self._core)
 
     @property
-    def sensors(self) -> list[_core.Sensor]:
+    def sensors(self) -> tuple[_core.Sensor, ...]:
         """The sensors that the recording supports, best first."""
-        return list(self._core.sensors)
+        return self._core.sensors
 
     def calibration(self, sensor: _core.Sensor | SensorName | None = None) -> _core.Calibration:
         """Calibration of the images of a sensor; ArgumentError if the recording lacks it."""

@@ -39,7 +39,10 @@ if TYPE_CHECKING:
 
 
 class Evaluation:
-    """One estimated trajectory evaluated against one ground truth."""
+    """One estimated trajectory evaluated against one ground truth.
+
+    Evaluations are equal if all their figures are, NaN included.
+    """
 
     def __init__(self, core: _core.EvaluationResult) -> None:
         self._core = core
@@ -60,7 +63,7 @@ class Evaluation:
         return self._core.reason
 
     @property
-    def warnings(self) -> list[str]:
+    def warnings(self) -> tuple[str, ...]:
         """Suspicious properties of the data, one line each."""
         return self._core.warnings
 
@@ -91,6 +94,12 @@ class Evaluation:
 
     def __bool__(self) -> bool:
         return self._core.ok
+
+    def __eq__(self, other: object) -> bool:
+        return self._core == other._core if isinstance(other, Evaluation) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(self._core)
 
     def __getitem__(self, key: str) -> float | None:
         """A figure by its key, as "ate_rmse_m"; None if the data allow none."""
@@ -171,6 +180,14 @@ class Comparison(Sequence[Evaluation]):
     def own_truths(self) -> bool:
         """Whether each result is of a sequence of its own."""
         return self._own
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Comparison):
+            return NotImplemented
+        return self._own == other._own and self._results == other._results
+
+    def __hash__(self) -> int:
+        return hash((self._own, tuple(self._results)))
 
     def __len__(self) -> int:
         return len(self._results)

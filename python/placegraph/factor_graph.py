@@ -101,7 +101,7 @@ class FixedLagSmoother:
         return self._core.update()
 
     @property
-    def variables(self) -> list[int]:
+    def variables(self) -> tuple[int, ...]:
         """Numbers of the variables in the window, ascending."""
         return self._core.variables
 

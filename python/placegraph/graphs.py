@@ -60,7 +60,9 @@ def marginal_covariances(
     marginals = PoseMarginals(graph, rotation_error)
     if nodes is None:
         return np.asarray(marginals.covariances())
-    return np.array([marginals.covariance(node) for node in nodes])
+    result = np.array([marginals.covariance(node) for node in nodes])
+    result.setflags(write=False)
+    return result
 
 
 class IncrementalOptimizer:

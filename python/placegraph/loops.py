@@ -44,11 +44,27 @@ class RevisitOptions(Options):
 
 
 class LoopScore:
-    """The figures of a place recognizer over a set of images; `result["ap"]` is one of them."""
+    """The figures of a place recognizer over a set of images; `result["ap"]` is one of them.
+
+    Scores are equal if their names and all their figures are.
+    """
 
     def __init__(self, core: _core.LoopBenchmark, name: str) -> None:
         self._core = core
-        self.name = name
+        self._name = name
+
+    @property
+    def name(self) -> str:
+        """Name of the predictions."""
+        return self._name
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, LoopScore):
+            return NotImplemented
+        return self._name == other._name and self._core == other._core
+
+    def __hash__(self) -> int:
+        return hash((self._name, self._core))
 
     @property
     def curve(self) -> dict[str, NDArray[Any]]:

@@ -160,6 +160,7 @@ class Map(MapFile):
         table = self._core.landmark_table()
         positions: NDArray[np.float64] = table["position"]
         main: NDArray[np.float64] = positions[table["component"] == self._core.main_component]
+        main.setflags(write=False)
         return main
 
     @property

@@ -29,9 +29,10 @@ def _tree(kind: type[_core.OptionSet]) -> dict[str, dict[str, _core.OptionEntry]
     return tree
 
 
-def _restored(group: type[OptionGroup], kind: type[_core.OptionSet], yaml: str,
-              path: str) -> OptionGroup:
-    """Options that were pickled."""
+def _restored(group: type[OptionGroup], kind: type[_core.OptionSet], yaml: str, path: str,
+              version: str = "(older)") -> OptionGroup:
+    """Options that a version of the package pickled."""
+    _core.require_own_version(version, group.__name__)
     options = kind()
     options.read_yaml(yaml, "pickle")
     return group._of(options, path)
@@ -120,7 +121,8 @@ class OptionGroup:
         return self._of(self._set.copy(), self._path)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _restored, (type(self), type(self._set), self._set.to_yaml(), self._path)
+        return _restored, (type(self), type(self._set), self._set.to_yaml(), self._path,
+                           _core.version)
 
 
 class Options(OptionGroup):

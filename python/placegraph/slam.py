@@ -99,12 +99,12 @@ class RunResult(Map):
         return self._run.stages
 
     @property
-    def unposed(self) -> list[tuple[str, int]]:
+    def unposed(self) -> tuple[tuple[str, int], ...]:
         """Reasons why frames have no pose, with numbers of frames, the most frequent first."""
         return self._run.unposed
 
     @property
-    def notes(self) -> list[_core.DataNote]:
+    def notes(self) -> tuple[_core.DataNote, ...]:
         """Doubts about the images, the calibration and the motion that the frames show."""
         return self._run.notes
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 
+#include <limits>
 #include <string>
 
 namespace placegraph::python {
@@ -20,13 +21,24 @@ std::string text_of_shape(const std::vector<int>& shape) {
 /// Whether Python takes a value, also one of numpy, for true.
 bool is_true(const nb::object& value) { return PyObject_IsTrue(value.ptr()) == 1; }
 
+/// Whether values of uint64, as the keys of other programs, are wanted as int64. Throws
+/// ArgumentError if one is too large.
+bool are_keys(const nb::object& array, const std::string& dtype, const char* argument) {
+  if (dtype != "int64" || nb::cast<std::string>(array.attr("dtype").attr("kind")) != "u")
+    return false;
+  const nb::int_ largest(std::numeric_limits<std::int64_t>::max());
+  if (!is_true(array.attr("__le__")(largest).attr("all")()))
+    throw ArgumentError(fmt::format("{}: a value is not below 2^63", argument));
+  return true;
+}
+
 }  // namespace
 
 nb::object checked_array(nb::handle value, const char* argument, const char* dtype,
-                         const std::vector<int>& shape, bool finite) {
+                         const std::vector<int>& shape, bool finite, const std::string& form) {
   const nb::module_ numpy = nb::module_::import_("numpy");
-  const std::string wanted =
-      fmt::format("{}: an array of {}, {}, is needed", argument, dtype, text_of_shape(shape));
+  const std::string wanted = fmt::format("{}: an array of {}, {}, is needed", argument, dtype,
+                                         form.empty() ? text_of_shape(shape) : form);
   nb::object array;
   try {
     array = numpy.attr("asarray")(value);
@@ -36,7 +48,8 @@ nb::object checked_array(nb::handle value, const char* argument, const char* dty
   const auto text = [](nb::handle object) { return std::string(nb::str(object).c_str()); };
   // An empty list has the type of a float.
   const bool safe = nb::cast<std::size_t>(array.attr("size")) == 0 ||
-                    is_true(numpy.attr("can_cast")(array.attr("dtype"), dtype, "safe"));
+                    is_true(numpy.attr("can_cast")(array.attr("dtype"), dtype, "safe")) ||
+                    are_keys(array, dtype, argument);
   if (!safe) throw ArgumentError(fmt::format("{}, not of {}", wanted, text(array.attr("dtype"))));
   const auto sizes = nb::cast<std::vector<std::size_t>>(array.attr("shape"));
   bool fits = sizes.size() == shape.size();
@@ -48,6 +61,14 @@ nb::object checked_array(nb::handle value, const char* argument, const char* dty
   if (finite && !is_true(numpy.attr("isfinite")(array).attr("all")()))
     throw ArgumentError(fmt::format("{}: a value is not finite", argument));
   return array;
+}
+
+std::vector<std::size_t> shape_of(nb::handle value) {
+  try {
+    return nb::cast<std::vector<std::size_t>>(nb::module_::import_("numpy").attr("shape")(value));
+  } catch (const nb::python_error&) {  // checked_array says what is wrong
+    return {};
+  }
 }
 
 nb::module_ module_for(const char* name, const char* extra) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "python/src/bindings.h"
+#include "python/src/tuples.h"
 
 namespace placegraph::python {
 
@@ -18,11 +19,15 @@ using TableList = nb::typed<nb::list, Table>;
 
 /// The value of an argument as an array of a type and shape (kAny: any size), row by row.
 ///
-/// What numpy converts without loss is converted (integers to float64, lists); an array that fits
-/// is not copied. Throws ArgumentError, which names the argument, for anything else, and for values
-/// that are not finite if `finite`.
+/// What numpy converts without loss is converted (integers to float64, lists, uint64 below 2^63 to
+/// int64); an array that fits is not copied. Throws ArgumentError, which names the argument, for
+/// anything else, and for values that are not finite if `finite`. `form` is the wanted shape in
+/// messages, where `shape` does not tell it.
 nb::object checked_array(nb::handle value, const char* argument, const char* dtype,
-                         const std::vector<int>& shape, bool finite);
+                         const std::vector<int>& shape, bool finite, const std::string& form = "");
+
+/// The shape of a value as an array; empty for rows of different lengths.
+std::vector<std::size_t> shape_of(nb::handle value);
 
 template <class Number>
 constexpr const char* dtype_name() {
@@ -48,15 +53,23 @@ struct ArrayArgument {
 
   /// The array, see checked_array; `argument` is the name of the parameter.
   ArrayView<Number> get(const char* argument, const std::vector<int>& shape,
-                        Values values = Values::kFinite) const {
-    return nb::cast<ArrayView<Number>>(
-        checked_array(value, argument, dtype_name<Number>(), shape, values == Values::kFinite));
+                        Values values = Values::kFinite, const std::string& form = "") const {
+    return nb::cast<ArrayView<Number>>(checked_array(value, argument, dtype_name<Number>(), shape,
+                                                     values == Values::kFinite, form));
   }
 };
 
+/// An array that cannot be written to, as all that the package gives: what a program writes into a
+/// copy would be lost without a word.
+template <class T>
+using ReadOnlyArray = nb::ndarray<nb::numpy, const T>;
+
+/// For properties whose arrays are made by the call: they are no parts of the object.
+inline constexpr auto kNew = nb::rv_policy::automatic;
+
 /// An array that owns its values, which are moved there.
 template <class T>
-nb::ndarray<nb::numpy, T> owned_array(std::vector<T> values, std::vector<std::size_t> shape) {
+ReadOnlyArray<T> owned_array(std::vector<T> values, std::vector<std::size_t> shape) {
   std::size_t size = 1;
   for (const std::size_t each : shape) size *= each;
   if (size != values.size()) throw std::logic_error("an array has other values than its shape");
@@ -64,7 +77,7 @@ nb::ndarray<nb::numpy, T> owned_array(std::vector<T> values, std::vector<std::si
   T* first = data->data();
   const nb::capsule keep(data.release(),
                          [](void* p) noexcept { delete static_cast<std::vector<T>*>(p); });
-  return nb::ndarray<nb::numpy, T>(first, shape.size(), shape.data(), keep);
+  return ReadOnlyArray<T>(first, shape.size(), shape.data(), keep);
 }
 
 /// An optional package of Python. Raises ImportError that names the extra that installs it.

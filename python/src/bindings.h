@@ -1,5 +1,4 @@
 #pragma once
-#include <nanobind/eigen/dense.h>
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/filesystem.h>
@@ -10,6 +9,7 @@
 #include <nanobind/stl/vector.h>
 
 #include "docstrings.h"
+#include "python/src/eigen_arrays.h"
 
 namespace nb = nanobind;
 

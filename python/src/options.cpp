@@ -10,6 +10,8 @@
 
 #include <functional>
 
+#include "python/src/values/value_class.h"
+
 namespace placegraph::python {
 namespace {
 
@@ -169,12 +171,14 @@ void assign_option(const std::string& path, nb::handle value,
 }
 
 void bind_options(nb::module_& m) {
+  m.def("require_own_version", &require_own_version, "version"_a, "type"_a,
+        "Raises ArgumentError unless a pickle of a type was written by this version.");
   nb::class_<OptionEntry>(m, "OptionEntry", "One option, or the head of a group.")
       .def_ro("path", &OptionEntry::path, "Keys from the outermost group on, joined by dots.")
       .def_ro("value", &OptionEntry::value, "The present value, as YAML writes it.")
       .def_ro("doc", &OptionEntry::doc, "Meaning.")
       .def_ro("type", &OptionEntry::type, "bool, int, uint, double, string, list, choice or group.")
-      .def_ro("choices", &OptionEntry::choices, "Allowed names of a choice.")
+      .def_prop_ro("choices", as_tuple(&OptionEntry::choices), "Allowed names of a choice.")
       .def_prop_ro(
           "range", [](const OptionEntry& e) { return std::pair(e.range.min, e.range.max); },
           "Smallest and largest allowed value.");

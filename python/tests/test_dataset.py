@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from checks import some
+from checks import assert_read_only, some
 from numpy.typing import NDArray
 
 import placegraph as pg
@@ -50,8 +50,9 @@ def test_sensors_have_names(drive: pg.Dataset) -> None:
 
 def test_a_sequence_tells_what_it_holds(drive: pg.Dataset) -> None:
     folder = pathlib.Path(drive.path)
+    assert_read_only(drive)
     assert drive.name == "town" and drive.format == "kitti" and len(drive) == 6
-    assert drive.sensors == [pg.Sensor.STEREO, pg.Sensor.MONO]
+    assert drive.sensors == (pg.Sensor.STEREO, pg.Sensor.MONO)
     assert "6 frames, kitti, stereo, mono" in repr(drive)
     times = np.loadtxt(folder / "times.txt")
     assert np.allclose(drive.stamps_ns / 1e9, times, atol=1e-9)
@@ -105,8 +106,9 @@ def test_images_and_truth_outlive_the_sequence(drive: pg.Dataset) -> None:
 
 def test_inertial_measurements_of_a_flight(tmp_path: pathlib.Path) -> None:
     flight = pg.synthetic.render("flight", tmp_path / "flight", duration_s=1, size=(160, 120))
-    assert flight.format == "euroc" and flight.sensors == [pg.Sensor.MONO]
+    assert flight.format == "euroc" and flight.sensors == (pg.Sensor.MONO,)
     imu = some(flight.imu)
+    assert_read_only(imu)
     rows = np.loadtxt(tmp_path / "flight" / "mav0" / "imu0" / "data.csv", delimiter=",")
     assert np.array_equal(imu.stamps_ns, rows[:, 0].astype(np.int64)) and len(imu) == len(rows)
     assert np.allclose(imu.gyro_rad_s, rows[:, 1:4]) and np.allclose(imu.accel_m_s2, rows[:, 4:7])

@@ -259,7 +259,7 @@ def test_noise_of_the_truth_is_found_and_taken_into_account() -> None:
     matrices = [(pose * pg.SE3.exp(random.normal(0, sigma))).matrix() for pose in poses]
     trajectory = pg.Trajectory.from_arrays(np.arange(frames), np.array(matrices))
     noise = pg.estimate_truth_noise(trajectory)
-    assert noise.ok and noise.interpolated == []
+    assert noise.ok and noise.interpolated == ()
     assert noise.sigma == pytest.approx(sigma, rel=0.3)
     assert noise.direction[0].frames == 1
     truth = {frame: pg.SE3(matrix) for frame, matrix in enumerate(matrices)}

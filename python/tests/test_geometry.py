@@ -63,7 +63,7 @@ def test_a_camera_projects_points_to_pixels_and_back() -> None:
 def test_a_distorted_camera_follows_its_model() -> None:
     k1 = -0.2
     camera = pg.Camera(640, 480, 500, 500, 320, 240, pg.Distortion.RADIAL_TANGENTIAL, [k1])
-    assert camera.coefficients[:2] == [k1, 0]
+    assert camera.coefficients[:2] == (k1, 0)
     px = camera.project([[0.3, 0, 1]])
     assert px[0, 0] == pytest.approx(320 + 500 * 0.3 * (1 + k1 * 0.09))
     np.testing.assert_allclose(camera.unproject(px), [[0.3, 0, 1]], atol=1e-9)

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 import placegraph as pg
+from checks import assert_read_only
 
 
 @pytest.fixture(scope="module")
@@ -33,6 +34,13 @@ def test_online_trajectory_outlives_its_map(run_folder: pathlib.Path) -> None:
     poses = trajectory.poses.copy()
     gc.collect()
     assert np.array_equal(trajectory.poses, poses, equal_nan=True)
+
+
+def test_arrays_of_a_map_cannot_be_written_to(opened: pg.Map) -> None:
+    assert_read_only(opened)
+    assert len(opened.landmarks) > 0
+    for key, column in opened.tables.landmarks.items():
+        assert not isinstance(column, np.ndarray) or not column.flags.writeable, key
 
 
 def test_places_are_those_of_the_program(opened: pg.Map, run_folder: pathlib.Path) -> None:
@@ -100,6 +108,7 @@ def test_loops_are_those_of_the_program(opened: pg.Map, run_folder: pathlib.Path
 
 def test_explanation(opened: pg.Map) -> None:
     explanation = opened.explain(35)
+    assert_read_only(explanation)
     assert explanation.frame == 35 and explanation.posed
     assert explanation.T_map_cam is not None
     np.testing.assert_allclose(explanation.T_map_cam.matrix(), opened.trajectory().poses[35],

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from checks import some, wrong
+from checks import assert_read_only, some, wrong
 from numpy.typing import NDArray
 
 import placegraph as pg
@@ -253,6 +253,7 @@ def test_the_view_shows_the_tracks_of_the_last_frame(world: World, frames: Frame
     for frame in frames[:10]:
         slam.add_frame(frame)
     view = slam.view()
+    assert_read_only(view)
     assert len(view) > 50 and view.px.shape == (len(view), 2)
     assert len(set(view.track_ids.tolist())) == len(view)
     assert (view.px >= -0.5).all() and (view.px < [319.5, 239.5]).all()
@@ -371,9 +372,10 @@ def test_ctrl_c_ends_run(drive: pg.Dataset) -> None:
 
 def test_run_result_tells_of_the_run(drive: pg.Dataset) -> None:
     result = pg.run(drive.path)
+    assert_read_only(result)
     assert result.sensor == pg.Sensor.RGBD and result.lens_k1 == 0
     assert result.broken_off is None and not result.stopped and result.resumed_at is None
-    assert result.unposed == [] and "reading" in result.stages
+    assert result.unposed == () and "reading" in result.stages
     assert isinstance(result, pg.Map) and result.trajectory().posed == FRAMES
 
 

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from checks import some
+from checks import assert_read_only, some
 
 import placegraph as pg
 
@@ -60,6 +60,7 @@ def test_frames_in_memory_are_those_of_the_files(tmp_path: pathlib.Path) -> None
     assert len(dataset) == len(world) == 3
     assert np.allclose(some(dataset.ground_truth).poses, world.ground_truth.poses, atol=1e-8)
     for frame, written in zip(world.frames(), dataset):
+        assert_read_only(frame)
         assert np.array_equal(frame.image, written.image)
         assert np.allclose(some(frame.depth), some(written.depth), atol=0.0006)  # millimetres in the file
         assert frame.stamp_ns == written.stamp_ns and frame.id == written.id

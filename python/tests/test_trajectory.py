@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import placegraph as pg
+from checks import wrong
 
 STAMPS = np.array([1_000_000_000, 1_100_000_000, 1_250_000_000])
 
@@ -64,3 +65,32 @@ def test_the_table_has_a_row_a_frame() -> None:
     assert list(table.columns) == ["stamp_ns", "x", "y", "z", "qx", "qy", "qz", "qw"]
     assert table.x.isna().tolist() == [False, True, False]
     assert table.iloc[2][["x", "y", "qw"]].tolist() == [3.0, 4.0, 1.0]
+
+
+def test_a_trajectory_is_a_sequence_of_its_frames() -> None:
+    given = np.tile(np.eye(4), (6, 1, 1))
+    given[:, 0, 3] = range(6)
+    given[4] = np.nan
+    stamps = 10**9 * np.arange(6)
+    trajectory = pg.Trajectory.from_arrays(stamps, given)
+    for i in (0, -1, 5, -6, np.int64(2), np.uint8(3)):
+        frame = trajectory[i]
+        assert frame.stamp_ns == stamps[i]
+        assert frame.T_world_body == pg.SE3(given[i])
+    assert trajectory[4].T_world_body is None and "lost" in repr(trajectory[4])
+    assert [frame.stamp_ns for frame in trajectory] == stamps.tolist()
+    assert list(trajectory) == [trajectory[i] for i in range(6)]
+    assert list(reversed(trajectory))[0] == trajectory[-1] and trajectory[2] in trajectory
+    for which in (slice(None), slice(1, 4), slice(None, None, 2), slice(-2, 100), slice(4, 2)):
+        part = trajectory[which]
+        np.testing.assert_array_equal(part.stamps_ns, stamps[which])
+        np.testing.assert_array_equal(part.poses, given[which])
+        assert isinstance(part, pg.Trajectory) and part.has_times
+    assert trajectory[:] == trajectory
+    for beyond in (6, -7, 10**30):
+        with pytest.raises(IndexError):
+            trajectory[beyond]
+    with pytest.raises(TypeError):
+        trajectory[wrong("1")]
+    with pytest.raises(pg.ArgumentError, match="slice: its step must be positive"):
+        trajectory[::-1]

@@ -202,7 +202,7 @@ def test_surfaces_of_an_image() -> None:
     urban = vision.SceneModel.read(str(MODELS / "urban.pgscene"))
     assert (model.kind, urban.kind) == ("surfaces", "urban")
     found = vision.classify_surfaces(model, image)
-    assert found.classes == model.classes == ["sky", "ground", "vertical", "object"]
+    assert found.classes == model.classes == ("sky", "ground", "vertical", "object")
     assert (found.labels[:60] == 0).all() and (found.labels[180:] == 1).all()
     assert found.confidence.min() > 0 and found.confidence.max() <= 1
     certain = vision.classify_surfaces(model, image, unknown_below=1.0)

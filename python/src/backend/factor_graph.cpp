@@ -235,7 +235,8 @@ void bind_smoother(nb::module_& m) {
       .def_ro("cost_initial", &Step::cost_initial, "Half the sum of rho(|r|^2) before.")
       .def_ro("cost_final", &Step::cost_final, "The same at the estimate.")
       .def_ro("iterations", &Step::iterations, doc("FixedLagStep::iterations"))
-      .def_ro("marginalized", &Step::marginalized, doc("FixedLagStep::marginalized"));
+      .def_prop_ro("marginalized", as_tuple(&Step::marginalized),
+                   doc("FixedLagStep::marginalized"));
   nb::class_<Smoother>(m, "FixedLagSmootherCore", nb::type_slots(garbage_slots<Smoother>),
                        doc("FixedLagSmoother"))
       .def(
@@ -269,7 +270,7 @@ void bind_smoother(nb::module_& m) {
           },
           doc("FixedLagSmoother::update"))
       .def_prop_ro(
-          "variables", [](Smoother& s) { return s.get().variables(); },
+          "variables", [](Smoother& s) { return TupleOf{s.get().variables()}; },
           doc("FixedLagSmoother::variables"))
       .def(
           "value", [](Smoother& s, int i) { return as_any(object_of(s.get().value(i))); },

@@ -20,6 +20,25 @@ Eigen::MatrixXd information_of(nb::handle value, int rows) {
   return matrix;
 }
 
+/// The pose of a matrix of 3 x 3 or 4 x 4 numbers; throws ArgumentError, which names it.
+Pose pose_of_matrix(const double* first, std::size_t size, const std::string& name) {
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const auto n = static_cast<Eigen::Index>(size);
+  const Eigen::Map<const RowMajor> matrix(first, n, n);
+  Eigen::VectorXd last = matrix.row(n - 1).transpose();
+  last[n - 1] -= 1;
+  require(last.cwiseAbs().maxCoeff() < 1e-9, name + ": the last row of the matrix is not 0 .. 0 1");
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  R.topLeftCorner(n - 1, n - 1) = matrix.topLeftCorner(n - 1, n - 1);
+  try {
+    const SO3 rotation = SO3::from_matrix(R);
+    if (n == 4) return SE3(rotation, Eigen::Vector3d(matrix.topRightCorner<3, 1>()));
+    return SE2(matrix(0, 2), matrix(1, 2), rotation.log()[2]);
+  } catch (const ArgumentError& error) {
+    throw ArgumentError(name + ": " + error.what());
+  }
+}
+
 }  // namespace
 
 std::size_t row_width(PoseKind kind) {
@@ -53,14 +72,46 @@ void append_row(const Pose& pose, std::vector<double>& values) {
   if (similar) values.push_back(similar->scale());
 }
 
+std::vector<Pose> poses_of(const ArrayArgument<double>& array, const char* argument, int count) {
+  const std::vector<std::size_t> shape = shape_of(array.value);
+  const std::string n = count == kAny ? "N" : std::to_string(count);
+  const std::string form = fmt::format(
+      "{0} x 3 (SE(2)), {0} x 7 (SE(3)) or {0} x 8 (Sim(3)), or matrices, {0} x 3 x 3 or "
+      "{0} x 4 x 4",
+      n);
+  std::vector<int> wanted = {count, 7};
+  if (shape.size() == 3)
+    wanted = {count, shape[1] == 3 ? 3 : 4, shape[1] == 3 ? 3 : 4};
+  else if (shape.size() == 2 && (shape[0] == 0 || shape[1] == 3 || shape[1] == 8))
+    wanted[1] = static_cast<int>(shape[1]);
+  const auto rows = array.get(argument, wanted, Values::kFinite, form);
+  std::vector<Pose> poses;
+  for (std::size_t i = 0; i < rows.shape(0); ++i) {
+    const std::string name = fmt::format("{}: row {}", argument, i);
+    const auto width = static_cast<std::size_t>(wanted[1]);
+    poses.push_back(shape.size() == 3 ? pose_of_matrix(rows.data() + i * width * width, width, name)
+                                      : pose_of_row(rows.data() + i * width, width, name));
+  }
+  return poses;
+}
+
 Pose pose_of(nb::handle value, const char* argument) {
   if (nb::isinstance<SE2>(value)) return nb::cast<SE2>(value);
   if (nb::isinstance<SE3>(value)) return nb::cast<SE3>(value);
   if (nb::isinstance<Sim3>(value)) return nb::cast<Sim3>(value);
-  const auto row = ArrayArgument<double>{nb::borrow(value)}.get(argument, {kAny});
-  require(
-      row.shape(0) == 3 || row.shape(0) == 7 || row.shape(0) == 8,
-      fmt::format("{}: an SE2, SE3 or Sim3, or a row of 3, 7 or 8 numbers is needed", argument));
+  const ArrayArgument<double> array{nb::borrow(value)};
+  const std::vector<std::size_t> shape = shape_of(value);
+  constexpr const char* kForm = "a row of 3, 7 or 8 numbers or a matrix, 3 x 3 or 4 x 4";
+  if (shape.size() == 2) {
+    const int size = shape[0] == 3 ? 3 : 4;
+    const auto matrix = array.get(argument, {size, size}, Values::kFinite, kForm);
+    return pose_of_matrix(matrix.data(), matrix.shape(0), argument);
+  }
+  const auto row = array.get(argument, {kAny}, Values::kFinite, kForm);
+  require(row.shape(0) == 3 || row.shape(0) == 7 || row.shape(0) == 8,
+          fmt::format("{}: an SE2, SE3 or Sim3, a row of 3, 7 or 8 numbers or a matrix, 3 x 3 or "
+                      "4 x 4, is needed",
+                      argument));
   return pose_of_row(row.data(), row.shape(0), argument);
 }
 

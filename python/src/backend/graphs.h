@@ -23,8 +23,11 @@ Pose pose_of_row(const double* row, std::size_t width, const std::string& name);
 void append_row(const Pose& pose, std::vector<double>& values);
 /// Ids of nodes of an array, N of int64; ArgumentError names `ids`.
 std::vector<NodeId> node_ids(const ArrayArgument<std::int64_t>& ids);
-/// The pose of an SE2, SE3 or Sim3, or of a row.
+/// The pose of an SE2, SE3 or Sim3, of a row, or of a matrix (3 x 3 in the plane, 4 x 4 in space).
 Pose pose_of(nb::handle value, const char* argument);
+/// Poses of rows (N x 3, N x 7 or N x 8) or matrices (N x 3 x 3 in the plane, N x 4 x 4 in space),
+/// all of one kind; `count` may be kAny. Throws ArgumentError, which names the argument and row.
+std::vector<Pose> poses_of(const ArrayArgument<double>& array, const char* argument, int count);
 
 /// An object whose class only the caller knows: typing.Any for the type checkers.
 inline nb::any as_any(nb::object object) { return nb::steal<nb::any>(object.release()); }

@@ -5,6 +5,7 @@
 
 #include "python/src/backend/graphs.h"
 #include "python/src/options.h"
+#include "python/src/values/value_class.h"
 
 namespace placegraph::python {
 namespace {
@@ -48,8 +49,9 @@ std::string text_of(const OptimizedGraph& o) {
 }
 
 void bind_parts(nb::module_& m) {
-  nb::class_<RejectedEdge>(m, "RejectedEdge", doc("RejectedEdge"))
-      .def_ro("constraint", &RejectedEdge::constraint, doc("RejectedEdge::constraint"))
+  nb::class_<RejectedEdge> rejected(m, "RejectedEdge", doc("RejectedEdge"));
+  bind_value(rejected, Hash::kByValue);
+  rejected.def_ro("constraint", &RejectedEdge::constraint, doc("RejectedEdge::constraint"))
       .def_ro("chi2", &RejectedEdge::chi2, doc("RejectedEdge::chi2"))
       .def_ro("reason", &RejectedEdge::reason, doc("RejectedEdge::reason"))
       .def("__repr__", [](const RejectedEdge& e) {
@@ -57,7 +59,9 @@ void bind_parts(nb::module_& m) {
                            e.chi2, e.reason);
       });
   using Certificate = ChordalIsotropicCertificate;
-  nb::class_<Certificate>(m, "Certificate", doc("ChordalIsotropicCertificate"))
+  nb::class_<Certificate> certificate(m, "Certificate", doc("ChordalIsotropicCertificate"));
+  bind_value(certificate, Hash::kByValue);
+  certificate
       .def_ro("certified", &Certificate::certified,
               "Whether `relative_gap` is at most 1e-5 and no pose is rotated by more than 0.3 rad "
               "from the minimum that was found, which is therefore that of the estimate.")
@@ -73,12 +77,18 @@ void bind_parts(nb::module_& m) {
       .def_ro("smallest_eigenvalue", &Certificate::smallest_eigenvalue,
               doc("ChordalIsotropicCertificate::smallest_eigenvalue"))
       .def_ro("eigenvalue_scale", &Certificate::eigenvalue_scale,
-              doc("ChordalIsotropicCertificate::eigenvalue_scale"));
+              doc("ChordalIsotropicCertificate::eigenvalue_scale"))
+      .def("__repr__", [](const Certificate& c) {
+        return fmt::format("<placegraph.Certificate: {}, relative gap {:.3g}>",
+                           c.certified ? "certified" : "not certified", c.relative_gap);
+      });
 }
 
 void bind_report(nb::module_& m) {
   using O = OptimizedGraph;
-  nb::class_<O>(m, "OptimizedGraph", doc("PoseGraphReport"))
+  nb::class_<O> optimized(m, "OptimizedGraph", doc("PoseGraphReport"));
+  bind_value(optimized, Hash::kNone);
+  optimized
       .def_prop_ro(
           "ok", [](const O& o) { return static_cast<bool>(o.report.outcome); },
           "Whether a minimum was reached.")
@@ -120,25 +130,26 @@ void bind_report(nb::module_& m) {
           "chi2_by_constraint",
           [](nb::handle self) {
             const std::vector<double>& chi2 = nb::cast<const O&>(self).report.chi2_by_constraint;
-            return nb::ndarray<nb::numpy, const double>(chi2.data(), {chi2.size()}, self);
+            return ReadOnlyArray<double>(chi2.data(), {chi2.size()}, self);
           },
           "Squared error of each constraint at the optimized poses (a view).")
       .def_prop_ro(
-          "rejected", [](const O& o) { return o.report.rejected; },
+          "rejected", [](const O& o) { return TupleOf{o.report.rejected}; },
           doc("PoseGraphReport::rejected"))
       .def_prop_ro(
           "loops_judged", [](const O& o) { return o.report.loops_judged; },
           doc("PoseGraphReport::loops_judged"))
       .def_prop_ro(
           "free_directions", [](const O& o) { return o.report.free.count; }, doc("FreeDirections"))
-      .def_prop_ro("free_nodes", &free_nodes, "Ids of the nodes that the free directions move.")
+      .def_prop_ro("free_nodes", as_tuple(&free_nodes),
+                   "Ids of the nodes that the free directions move.")
       .def_prop_ro(
           "certificate", [](const O& o) { return o.certificate; },
           "How far the solution is from the global minimum, if that was asked for.")
       .def("__repr__", &text_of);
 }
 
-nb::ndarray<nb::numpy, double> stacked(const std::vector<Information>& matrices, PoseKind kind) {
+ReadOnlyArray<double> stacked(const std::vector<Information>& matrices, PoseKind kind) {
   const auto dof = static_cast<std::size_t>(degrees_of_freedom(kind));
   std::vector<double> values;
   std::size_t count = 0;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "python/src/backend/graphs.h"
+#include "python/src/values/value_class.h"
 
 namespace placegraph::python {
 namespace {
@@ -15,9 +16,14 @@ Vector numbers(const ArrayArgument<double>& value, const char* argument, int siz
   return Eigen::Map<const Vector>(value.get(argument, {size}).data(), size);
 }
 
-/// What all variables have: plus and minus.
+std::string text_of(const Vector& v) {
+  return fmt::format("[{:.6g}]", fmt::join(v.data(), v.data() + v.size(), ", "));
+}
+
+/// What all variables have: plus and minus, and that they are values.
 template <class T>
 void bind_manifold(nb::class_<T>& c) {
+  bind_value(c, Hash::kByValue);
   constexpr int dof = VariableBlock<T>::kDof;
   c.def(
        "plus",
@@ -91,10 +97,8 @@ void bind_groups(nb::module_& m) {
          [](SO3* self, const ArrayArgument<double>& q) { new (self) SO3(rotation_of(q)); },
          "quaternion_xyzw"_a)
       .def_prop_ro("quaternion_xyzw", &quaternion_of, "The unit quaternion x y z w.")
-      .def("__repr__", [](const SO3& R) {
-        const Vector q = quaternion_of(R);
-        return fmt::format("SO3([{:.6g}, {:.6g}, {:.6g}, {:.6g}])", q[0], q[1], q[2], q[3]);
-      });
+      .def("__repr__",
+           [](const SO3& R) { return fmt::format("SO3({})", text_of(quaternion_of(R))); });
   nb::class_<Sim3> sim3(
       m, "Sim3", "A similarity p -> s R p + t; tangents are [translation, rotation, log scale].");
   bind_group(sim3);
@@ -112,8 +116,10 @@ void bind_groups(nb::module_& m) {
       .def_prop_ro(
           "translation", [](const Sim3& S) { return Vector(S.translation()); }, "The translation.")
       .def_prop_ro("scale", &Sim3::scale, "The scale.")
-      .def("__repr__",
-           [](const Sim3& S) { return fmt::format("<Sim3 of scale {:.6g}>", S.scale()); });
+      .def("__repr__", [](const Sim3& S) {
+        return fmt::format("Sim3({}, {}, {:.6g})", text_of(quaternion_of(S.rotation())),
+                           text_of(S.translation()), S.scale());
+      });
 }
 
 void bind_line(nb::module_& m) {
@@ -140,7 +146,11 @@ void bind_line(nb::module_& m) {
           [](const Line3& l, const ArrayArgument<double>& p) {
             return l.distance_to(numbers(p, "point", 3));
           },
-          "point"_a, doc("Line3::distance_to"));
+          "point"_a, doc("Line3::distance_to"))
+      .def("__repr__", [](const Line3& l) {
+        return fmt::format("<placegraph.Line3 through {} along {}>", text_of(l.nearest_point()),
+                           text_of(l.direction()));
+      });
 }
 
 void bind_plane_and_marker(nb::module_& m) {
@@ -163,7 +173,10 @@ void bind_plane_and_marker(nb::module_& m) {
           [](const Plane3& p, const ArrayArgument<double>& point) {
             return p.distance_to(numbers(point, "point", 3));
           },
-          "point"_a, "Signed distance n^T p - d of a point [m].");
+          "point"_a, "Signed distance n^T p - d of a point [m].")
+      .def("__repr__", [](const Plane3& p) {
+        return fmt::format("Plane3({}, {:.6g})", text_of(p.normal()), p.distance());
+      });
   nb::class_<Marker> marker(m, "Marker", doc("Marker"));
   bind_manifold(marker);
   marker
@@ -175,7 +188,11 @@ void bind_plane_and_marker(nb::module_& m) {
           },
           "T_world_marker"_a, "size_m"_a)
       .def_ro("T_world_marker", &Marker::T_world_marker, doc("Marker::T_world_marker"))
-      .def_ro("size_m", &Marker::size_m, doc("Marker::size_m"));
+      .def_ro("size_m", &Marker::size_m, doc("Marker::size_m"))
+      .def("__repr__", [](const Marker& each) {
+        return fmt::format("<placegraph.Marker of {:.6g} m at {}>", each.size_m,
+                           text_of(each.T_world_marker.translation()));
+      });
 }
 
 /// Takes the object if it is of class T.

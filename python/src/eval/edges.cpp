@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <placegraph/eval/edges/edge_consistency.h>
 #include <placegraph/eval/edges/edge_mount.h>
 #include <placegraph/graph/core/error.h>
@@ -6,7 +7,8 @@
 
 #include <nanobind/stl/map.h>
 
-#include "python/src/bindings.h"
+#include "python/src/arrays.h"
+#include "python/src/values/value_class.h"
 
 namespace placegraph::python {
 namespace {
@@ -62,11 +64,18 @@ std::string sentence_on(const EdgeConsistency& consistency, const std::string& n
 }
 
 void bind_noise(nb::module_& m) {
-  nb::class_<DirectionNoise>(m, "DirectionNoise", doc("DirectionNoise"))
-      .def_ro("frames", &DirectionNoise::frames, doc("DirectionNoise::frames"))
+  nb::class_<DirectionNoise> direction(m, "DirectionNoise", doc("DirectionNoise"));
+  bind_value(direction, Hash::kByValue);
+  direction.def_ro("frames", &DirectionNoise::frames, doc("DirectionNoise::frames"))
       .def_ro("lateral_rad", &DirectionNoise::lateral_rad, "Standard deviation, sideways [rad].")
-      .def_ro("vertical_rad", &DirectionNoise::vertical_rad, "Standard deviation, upright [rad].");
-  nb::class_<TruthNoise>(m, "TruthNoise", doc("TruthNoise"))
+      .def_ro("vertical_rad", &DirectionNoise::vertical_rad, "Standard deviation, upright [rad].")
+      .def("__repr__", [](const DirectionNoise& n) {
+        return fmt::format("<placegraph.DirectionNoise: {:.3g}, {:.3g} rad over {} frames>",
+                           n.lateral_rad, n.vertical_rad, n.frames);
+      });
+  nb::class_<TruthNoise> noise(m, "TruthNoise", doc("TruthNoise"));
+  bind_value(noise, Hash::kByValue);
+  noise
       .def_static("white", &TruthNoise::white, "position_m"_a, "rotation_rad"_a,
                   doc("TruthNoise::white"))
       .def_prop_ro(
@@ -76,34 +85,50 @@ void bind_noise(nb::module_& m) {
           "reason", [](const TruthNoise& n) { return n.outcome.reason; },
           "Why there is no estimate; empty otherwise.")
       .def_ro("sigma", &TruthNoise::sigma, doc("TruthNoise::sigma"))
-      .def_ro("direction", &TruthNoise::direction, doc("TruthNoise::direction"))
+      .def_prop_ro("direction", as_tuple(&TruthNoise::direction), doc("TruthNoise::direction"))
       .def_prop_ro(
           "interpolated",
           [](const TruthNoise& n) {
             std::vector<std::pair<int, int>> stretches;
             for (const FrameStretch& s : n.interpolated) stretches.emplace_back(s.first, s.last);
-            return stretches;
+            return TupleOf{stretches};
           },
           "First and last frame of each stretch whose poses were interpolated, not measured.")
       .def("covariance", &TruthNoise::covariance, "T_from_to"_a, "frames"_a,
-           doc("TruthNoise::covariance"));
+           doc("TruthNoise::covariance"))
+      .def("__repr__", [](const TruthNoise& n) {
+        if (!n.outcome) return "<placegraph.TruthNoise: " + n.outcome.reason + ">";
+        return fmt::format("<placegraph.TruthNoise: sigma [{:.3g}]>",
+                           fmt::join(n.sigma.data(), n.sigma.data() + n.sigma.size(), ", "));
+      });
   m.def("estimate_truth_noise", &estimate_truth_noise, "trajectory"_a,
         nb::call_guard<nb::gil_scoped_release>(), doc("estimate_truth_noise"));
 }
 
 void bind_consistency(nb::module_& m) {
-  nb::class_<Nees>(m, "Nees", doc("Nees"))
-      .def_ro("mean", &Nees::mean, doc("Nees::mean"))
+  nb::class_<Nees> nees(m, "Nees", doc("Nees"));
+  bind_value(nees, Hash::kByValue);
+  nees.def_ro("mean", &Nees::mean, doc("Nees::mean"))
       .def_ro("median", &Nees::median, "The median of the same.")
-      .def_ro("share_beyond_99", &Nees::share_beyond_99, doc("Nees::share_beyond_99"));
-  nb::class_<AxisConsistency>(m, "AxisConsistency", doc("AxisConsistency"))
-      .def_ro("name", &AxisConsistency::name, "What is tested, as 'rotation about y'.")
+      .def_ro("share_beyond_99", &Nees::share_beyond_99, doc("Nees::share_beyond_99"))
+      .def("__repr__", [](const Nees& n) {
+        return fmt::format("<placegraph.Nees: mean {:.4g}, median {:.4g}, {:.3g} beyond 99 %>",
+                           n.mean, n.median, n.share_beyond_99);
+      });
+  nb::class_<AxisConsistency> axis(m, "AxisConsistency", doc("AxisConsistency"));
+  bind_value(axis, Hash::kByValue);
+  axis.def_ro("name", &AxisConsistency::name, "What is tested, as 'rotation about y'.")
       .def_ro("error", &AxisConsistency::error, doc("AxisConsistency::error"))
       .def_ro("stated", &AxisConsistency::stated, doc("AxisConsistency::stated"))
       .def_ro("of_truth", &AxisConsistency::of_truth, doc("AxisConsistency::of_truth"))
-      .def_ro("normalized", &AxisConsistency::normalized, doc("AxisConsistency::normalized"));
-  nb::class_<EdgeConsistency>(m, "EdgeConsistency", doc("EdgeConsistency"))
-      .def_ro("edges", &EdgeConsistency::edges, doc("EdgeConsistency::edges"))
+      .def_ro("normalized", &AxisConsistency::normalized, doc("AxisConsistency::normalized"))
+      .def("__repr__", [](const AxisConsistency& a) {
+        return fmt::format("<placegraph.AxisConsistency of {}: error {:.3g}, stated {:.3g}>",
+                           a.name, a.error, a.stated);
+      });
+  nb::class_<EdgeConsistency> edges(m, "EdgeConsistency", doc("EdgeConsistency"));
+  bind_value(edges, Hash::kByValue);
+  edges.def_ro("edges", &EdgeConsistency::edges, doc("EdgeConsistency::edges"))
       .def_ro("unknown", &EdgeConsistency::unknown, doc("EdgeConsistency::unknown"))
       .def_ro("interpolated", &EdgeConsistency::interpolated, doc("EdgeConsistency::interpolated"))
       .def_ro("degrees_of_freedom", &EdgeConsistency::degrees_of_freedom,
@@ -111,7 +136,7 @@ void bind_consistency(nb::module_& m) {
       .def_ro("by_stated", &EdgeConsistency::by_stated, doc("EdgeConsistency::by_stated"))
       .def_ro("with_truth", &EdgeConsistency::with_truth, doc("EdgeConsistency::with_truth"))
       .def_ro("truth_share", &EdgeConsistency::truth_share, doc("EdgeConsistency::truth_share"))
-      .def_ro("axes", &EdgeConsistency::axes, doc("EdgeConsistency::axes"))
+      .def_prop_ro("axes", as_tuple(&EdgeConsistency::axes), doc("EdgeConsistency::axes"))
       .def_prop_ro(
           "mean_nees", [](const EdgeConsistency& c) { return c.by_stated.mean; },
           "The mean of `by_stated`.")
@@ -131,7 +156,11 @@ void bind_consistency(nb::module_& m) {
           "verdict", [](const EdgeConsistency& c) { return std::string(to_string(verdict_on(c))); },
           "'hold', 'too small', 'too large', 'not testable', 'too few edges' or 'no edges'.")
       .def("sentence", &sentence_on, "source"_a = "odometry",
-           "The verdict as a sentence about the edges of a source.");
+           "The verdict as a sentence about the edges of a source.")
+      .def("__repr__", [](const EdgeConsistency& c) {
+        return fmt::format("<placegraph.EdgeConsistency of {} edges: {}, mean NEES {:.4g}>",
+                           c.edges, to_string(verdict_on(c)), c.by_stated.mean);
+      });
 }
 
 }  // namespace
@@ -139,10 +168,15 @@ void bind_consistency(nb::module_& m) {
 void bind_edges(nb::module_& m) {
   bind_noise(m);
   bind_consistency(m);
-  nb::class_<TruthMount>(m, "TruthMount", doc("TruthMount"))
-      .def_ro("T_truth_cam", &TruthMount::T_truth_cam, doc("TruthMount::T_truth_cam"))
+  nb::class_<TruthMount> mount(m, "TruthMount", doc("TruthMount"));
+  bind_value(mount, Hash::kByValue);
+  mount.def_ro("T_truth_cam", &TruthMount::T_truth_cam, doc("TruthMount::T_truth_cam"))
       .def_ro("sigma", &TruthMount::sigma, doc("TruthMount::sigma"))
-      .def_ro("parameters", &TruthMount::parameters, doc("TruthMount::parameters"));
+      .def_ro("parameters", &TruthMount::parameters, doc("TruthMount::parameters"))
+      .def("__repr__", [](const TruthMount& each) {
+        return fmt::format("<placegraph.TruthMount: {:.3g} of 6 parameters fitted>",
+                           each.parameters);
+      });
   m.def("fit_mount", &mount_of, "graph"_a, "truth"_a, "noise"_a = nb::none(),
         "frames"_a = FrameByNode(), nb::call_guard<nb::gil_scoped_release>(), doc("fit_mount"));
   m.def(

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <nanobind/stl/array.h>
 #include <placegraph/eval/plots/evaluation_plot.h>
 #include <placegraph/eval/trajectory/evaluate.h>
@@ -9,6 +10,7 @@
 
 #include "python/src/arrays.h"
 #include "python/src/frontend/functions.h"
+#include "python/src/values/value_class.h"
 
 namespace placegraph::python {
 namespace {
@@ -148,23 +150,33 @@ Table average_of(const std::vector<EvaluationResult>& results) {
 }
 
 void bind_statistics(nb::module_& m) {
-  nb::class_<Statistics>(m, "Statistics", doc("Statistics"))
-      .def_ro("rmse", &Statistics::rmse, doc("Statistics::rmse"))
+  nb::class_<Statistics> statistics(m, "Statistics", doc("Statistics"));
+  bind_value(statistics, Hash::kByValue);
+  statistics.def_ro("rmse", &Statistics::rmse, doc("Statistics::rmse"))
       .def_ro("mean", &Statistics::mean, doc("Statistics::mean"))
       .def_ro("median", &Statistics::median, doc("Statistics::median"))
       .def_ro("max", &Statistics::max, doc("Statistics::max"))
-      .def_ro("count", &Statistics::count, doc("Statistics::count"));
+      .def_ro("count", &Statistics::count, doc("Statistics::count"))
+      .def("__repr__", [](const Statistics& s) {
+        return fmt::format(
+            "<placegraph.Statistics: rmse {:.6g}, mean {:.6g}, median {:.6g}, max "
+            "{:.6g} of {}>",
+            s.rmse, s.mean, s.median, s.max, s.count);
+      });
 }
 
 void bind_result(nb::module_& m) {
   nb::class_<EvaluationResult> result(m, "EvaluationResult", doc("EvaluationResult"));
   bind_outcome(result);
+  bind_value(result, Hash::kByValue);
   result.def_ro("name", &EvaluationResult::name, doc("EvaluationResult::name"))
-      .def_ro("warnings", &EvaluationResult::warnings, doc("EvaluationResult::warnings"))
+      .def_prop_ro("warnings", as_tuple(&EvaluationResult::warnings),
+                   doc("EvaluationResult::warnings"))
       .def_ro("frames", &EvaluationResult::frames, doc("EvaluationResult::frames"))
       .def_ro("posed", &EvaluationResult::posed, doc("EvaluationResult::posed"))
       .def_ro("coverage", &EvaluationResult::coverage, doc("EvaluationResult::coverage"))
-      .def_ro("lost_frames", &EvaluationResult::lost_frames, doc("EvaluationResult::lost_frames"))
+      .def_prop_ro("lost_frames", as_tuple(&EvaluationResult::lost_frames),
+                   doc("EvaluationResult::lost_frames"))
       .def_ro("path_m", &EvaluationResult::path_m, doc("EvaluationResult::path_m"))
       .def_ro("alignment", &EvaluationResult::alignment, doc("EvaluationResult::alignment"))
       .def_prop_ro("protocol", &protocol_of, doc("Protocol"))

@@ -142,7 +142,7 @@ void bind_figures(nb::module_& m) {
       "count"_a, "The colours of a scale from its least value to its greatest, N x 3 uint8 (RGB).");
   nb::class_<Figure>(m, "Figure", doc("Figure"))
       .def_ro("title", &Figure::title, "The title.")
-      .def_ro("notes", &Figure::notes, doc("Figure::notes"))
+      .def_prop_ro("notes", as_tuple(&Figure::notes), doc("Figure::notes"))
       .def_prop_ro(
           "size_px", [](const Figure& f) { return std::pair(f.width_px, f.height_px); },
           "Width and height of the area of the panels [px].")

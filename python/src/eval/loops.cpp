@@ -4,12 +4,14 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/measurements/loop_file.h>
 
+#include <fmt/format.h>
 #include <nanobind/stl/map.h>
 #include <cmath>
 #include <limits>
 #include <map>
 
 #include "python/src/frontend/functions.h"
+#include "python/src/values/value_class.h"
 
 namespace placegraph::python {
 namespace {
@@ -155,7 +157,7 @@ Table query_table(const LoopBenchmark& benchmark) {
   const std::size_t n = query.size();
   Table table;
   table["query"] = owned_array(std::move(query), {n});
-  table["has_match"] = nb::cast(owned_array(std::move(has_match), {n})).attr("astype")("bool");
+  table["has_match"] = nb::cast(owned_array(std::move(has_match), {n})).attr("view")("bool");
   table["verdict"] = verdict;
   table["candidate"] = owned_array(std::move(candidate), {n});
   table["score"] = owned_array(std::move(score), {n});
@@ -183,7 +185,9 @@ Table reliability_table(const LoopBenchmark& benchmark) {
 }
 
 void bind_truth(nb::module_& m) {
-  nb::class_<LoopTruth>(m, "LoopTruth", doc("LoopTruth"))
+  nb::class_<LoopTruth> bound(m, "LoopTruth", doc("LoopTruth"));
+  bind_value(bound, Hash::kByValue);
+  bound
       .def(
           "__init__",
           [](LoopTruth* self, const std::map<std::int64_t, std::vector<std::int64_t>>& matches,
@@ -213,7 +217,13 @@ void bind_truth(nb::module_& m) {
       .def_ro("min_age", &LoopTruth::min_age, doc("LoopTruth::min_age"))
       .def_ro("unlisted_have_none", &LoopTruth::unlisted_have_none,
               doc("LoopTruth::unlisted_have_none"))
-      .def("__len__", [](const LoopTruth& truth) { return truth.queries.size(); });
+      .def("__len__", [](const LoopTruth& truth) { return truth.queries.size(); })
+      .def("__repr__", [](const LoopTruth& truth) {
+        std::size_t matches = 0;
+        for (const auto& [query, entry] : truth.queries) matches += entry.matches.size();
+        return fmt::format("<placegraph.loops.LoopTruth: {} queries, {} matches>",
+                           truth.queries.size(), matches);
+      });
 }
 
 }  // namespace
@@ -221,8 +231,9 @@ void bind_truth(nb::module_& m) {
 void bind_loops(nb::module_& m) {
   bind_option_set<RevisitOptions>(m, "RevisitOptionSet", doc("RevisitOptions"));
   bind_truth(m);
-  nb::class_<LoopBenchmark>(m, "LoopBenchmark", doc("LoopBenchmark"))
-      .def_ro("positives", &LoopBenchmark::positives, doc("LoopBenchmark::positives"))
+  nb::class_<LoopBenchmark> benchmark(m, "LoopBenchmark", doc("LoopBenchmark"));
+  bind_value(benchmark, Hash::kByValue);
+  benchmark.def_ro("positives", &LoopBenchmark::positives, doc("LoopBenchmark::positives"))
       .def_ro("predicted_queries", &LoopBenchmark::predicted_queries,
               doc("LoopBenchmark::predicted_queries"))
       .def_ro("dropped", &LoopBenchmark::dropped, doc("LoopBenchmark::dropped"))
@@ -230,7 +241,7 @@ void bind_loops(nb::module_& m) {
       .def_prop_ro(
           "recall_at",
           [](const LoopBenchmark& b) {
-            return std::vector<std::optional<double>>(b.recall_at.begin(), b.recall_at.end());
+            return TupleOf<std::optional<double>>{{b.recall_at.begin(), b.recall_at.end()}};
           },
           "Shares of the positives with a true candidate among the 1, 5 and 10 best; each is None "
           "without positives.")

@@ -114,7 +114,8 @@ void bind_planes(nb::module_& m) {
       .def_ro("chi2_per_dof", &CloudPlane::chi2_per_dof, doc("CloudPlane::chi2_per_dof"));
   nb::class_<CloudPlanesResult> result(m, "CloudPlanesResult", "The planes of a point cloud.");
   bind_outcome(result);
-  result.def_ro("planes", &CloudPlanesResult::planes, doc("CloudPlanesResult::planes"))
+  result
+      .def_prop_ro("planes", as_tuple(&CloudPlanesResult::planes), doc("CloudPlanesResult::planes"))
       .def_prop_ro(
           "labels", [](const CloudPlanesResult& r) { return view_of(r.labels, r); },
           doc("CloudPlanesResult::labels"))
@@ -127,7 +128,10 @@ void bind_planes(nb::module_& m) {
       .def_ro("T_sensor_cuboid", &Cuboid::T_sensor_cuboid, doc("Cuboid::T_sensor_cuboid"))
       .def_ro("half", &Cuboid::half, doc("Cuboid::half"))
       .def_prop_ro(
-          "faces", [](const Cuboid& c) { return std::vector<int>(c.faces.begin(), c.faces.end()); },
+          "faces",
+          [](const Cuboid& c) {
+            return TupleOf<int>{{c.faces.begin(), c.faces.end()}};
+          },
           doc("Cuboid::faces"))
       .def_ro("points", &Cuboid::points, doc("Cuboid::points"));
   nb::class_<DepthPlane>(m, "DepthPlane", doc("DepthPlane"))

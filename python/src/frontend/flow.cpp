@@ -52,7 +52,7 @@ FlowVectors flow_at_key_pixels(const GreyArgument& image_from, const GreyArgumen
   return {key_pixel_flow(from, to, chosen)};
 }
 
-using Array = nb::ndarray<nb::numpy, double>;
+using Array = ReadOnlyArray<double>;
 
 /// Pixels and strengths of corners.
 std::pair<Array, Array> corners_of(const GreyArgument& image, double min_strength, int border,
@@ -90,7 +90,7 @@ FlowVectors sampled(const GreyArgument& image_from, const FlowArgument& flow, in
   return {sampled_flow(from, dense, cell_px)};
 }
 
-nb::ndarray<nb::numpy, const std::int32_t> kinds_of(const FlowVectors& flow) {
+ReadOnlyArray<std::int32_t> kinds_of(const FlowVectors& flow) {
   static_assert(sizeof(FlowVector::Kind) == sizeof(std::int32_t));
   const std::size_t shape[1] = {flow.vectors.size()};
   const std::int64_t strides[1] = {sizeof(FlowVector) / sizeof(std::int32_t)};

@@ -13,8 +13,8 @@ struct FlowVectors {
 /// A view of a member of each item, N x 2 (a vector) or N x 2 x 2 (a symmetric matrix); it keeps
 /// the owner of the items alive.
 template <class Item, class Member, class Owner>
-nb::ndarray<nb::numpy, const double> column_of(const std::vector<Item>& items, Member Item::*member,
-                                               const Owner& owner) {
+ReadOnlyArray<double> column_of(const std::vector<Item>& items, Member Item::*member,
+                                const Owner& owner) {
   static_assert(sizeof(Item) % sizeof(double) == 0);
   constexpr std::size_t kDimensions = Member::ColsAtCompileTime == 1 ? 2 : 3;
   const std::size_t shape[3] = {items.size(), 2, 2};

@@ -97,20 +97,19 @@ Enum choice_of(const std::string& name, const std::vector<std::string>& names,
 
 /// A view of numbers that an object of Python holds, which it keeps alive; read only.
 template <class Number, class Owner>
-nb::ndarray<nb::numpy, const Number> view_of(const std::vector<Number>& values,
-                                             const Owner& owner) {
+ReadOnlyArray<Number> view_of(const std::vector<Number>& values, const Owner& owner) {
   const std::size_t shape[1] = {values.size()};
-  return nb::ndarray<nb::numpy, const Number>(values.data(), 1, shape, nb::find(owner));
+  return ReadOnlyArray<Number>(values.data(), 1, shape, nb::find(owner));
 }
 
 /// The same of points, N x 2 or N x 3.
 template <int kSize, class Owner>
-nb::ndarray<nb::numpy, const double> view_of(
-    const std::vector<Eigen::Matrix<double, kSize, 1>>& points, const Owner& owner) {
+ReadOnlyArray<double> view_of(const std::vector<Eigen::Matrix<double, kSize, 1>>& points,
+                              const Owner& owner) {
   static_assert(sizeof(points[0]) == kSize * sizeof(double));
   const std::size_t shape[2] = {points.size(), kSize};
   const double* first = points.empty() ? nullptr : points[0].data();
-  return nb::ndarray<nb::numpy, const double>(first, 2, shape, nb::find(owner));
+  return ReadOnlyArray<double>(first, 2, shape, nb::find(owner));
 }
 
 /// The properties of a result that tell whether it may be used.
@@ -156,7 +155,8 @@ struct type_caster<placegraph::python::ImageResult<Number>> {
   NB_TYPE_CASTER(Result, const_name("numpy.typing.NDArray[numpy.") + kDtype + const_name("]"))
 
   static handle from_cpp(const Result& result, rv_policy, cleanup_list*) noexcept {
-    return placegraph::python::array_of(result.image).release();
+    return placegraph::python::array_of(result.image, placegraph::python::Access::kReadWrite)
+        .release();
   }
 };
 

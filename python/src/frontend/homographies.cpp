@@ -124,7 +124,8 @@ void bind_results(nb::module_& m) {
       .def_prop_ro(
           "labels", [](const PlanarRegionsResult& r) { return view_of(r.labels, r); },
           doc("PlanarRegionsResult::labels"))
-      .def_ro("regions", &PlanarRegionsResult::regions, doc("PlanarRegionsResult::regions"))
+      .def_prop_ro("regions", as_tuple(&PlanarRegionsResult::regions),
+                   doc("PlanarRegionsResult::regions"))
       .def_prop_ro(
           "noise_px", [](const PlanarRegionsResult& r) { return r.noise.sigma_px; },
           doc("PlanarRegionsResult::noise"))
@@ -133,14 +134,15 @@ void bind_results(nb::module_& m) {
   nb::class_<PlanesReading>(m, "PlanesReading", doc("PlanesReading"))
       .def_ro("T_cur_ref", &PlanesReading::T_cur_ref, "The motion; its translation is one long.")
       .def_ro("covariance", &PlanesReading::covariance, doc("PlanesReading::covariance"))
-      .def_ro("planes_ref", &PlanesReading::planes_ref, doc("PlanesReading::planes_ref"))
+      .def_prop_ro("planes_ref", as_tuple(&PlanesReading::planes_ref),
+                   doc("PlanesReading::planes_ref"))
       .def_ro("cost", &PlanesReading::cost, doc("PlanesReading::cost"));
   nb::class_<MotionFromPlanesResult> motion(m, "MotionFromPlanesResult",
                                             "The motions that explain the planes of two views.");
   bind_outcome(motion);
   motion
-      .def_ro("readings", &MotionFromPlanesResult::readings,
-              doc("MotionFromPlanesResult::readings"))
+      .def_prop_ro("readings", as_tuple(&MotionFromPlanesResult::readings),
+                   doc("MotionFromPlanesResult::readings"))
       .def_prop_ro(
           "R_cur_ref",
           [](const MotionFromPlanesResult& r) {

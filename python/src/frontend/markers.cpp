@@ -63,7 +63,7 @@ void bind_results(nb::module_& m) {
       .def_ro("rms_px", &MarkerPose::rms_px, doc("MarkerPose::rms_px"));
   nb::class_<MarkerPoses> poses(m, "MarkerPoses", doc("MarkerPoses"));
   bind_outcome(poses);
-  poses.def_ro("poses", &MarkerPoses::poses, doc("MarkerPoses::poses"))
+  poses.def_prop_ro("poses", as_tuple(&MarkerPoses::poses), doc("MarkerPoses::poses"))
       .def_prop_ro(
           "margin", [](const MarkerPoses& p) { return p.margin(); }, doc("MarkerPoses::margin"));
 }

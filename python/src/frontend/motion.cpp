@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <placegraph/eval/trajectory/umeyama.h>
 #include <placegraph/frontend/relative_pose/pose_3d2d.h>
 #include <placegraph/frontend/relative_pose/relative_pose.h>
@@ -7,6 +8,7 @@
 #include <Eigen/Dense>
 
 #include "python/src/frontend/functions.h"
+#include "python/src/values/value_class.h"
 
 namespace placegraph::python {
 namespace {
@@ -167,7 +169,7 @@ void bind_results(nb::module_& m) {
           "translation; if `model` is 'rotation', only the block of the rotation is set.")
       .def_ro("homography_share", &RelativePose::homography_share,
               "Share of the homography's score of those of both models.")
-      .def_ro("rivals", &RelativePose::rivals, doc("RelativePose::rivals"));
+      .def_prop_ro("rivals", as_tuple(&RelativePose::rivals), doc("RelativePose::rivals"));
   bind_views<Pose3d2dResult>(m, "Pose3d2dResult", doc("Pose3d2dResult"))
       .def_ro("T_ref_cam", &Pose3d2dResult::T_ref_cam, doc("Pose3d2dResult::T_ref_cam"));
   bind_views<Pose3d3dResult>(m, "Pose3d3dResult", doc("Pose3d3dResult"))
@@ -182,12 +184,17 @@ void bind_results(nb::module_& m) {
               doc("CircularMotionResult::sigma_yaw_rad"));
   nb::class_<AlignmentResult> alignment(m, "AlignmentResult", doc("AlignmentResult"));
   bind_outcome(alignment);
+  bind_value(alignment, Hash::kByValue);
   alignment.def_ro("scale", &AlignmentResult::scale, doc("AlignmentResult::scale"))
       .def_ro("R_truth_estimate", &AlignmentResult::R_truth_estimate, "The rotation, 3 x 3.")
       .def_ro("t_truth_estimate", &AlignmentResult::t_truth_estimate, "The translation [m].")
       .def_ro("rmse_m", &AlignmentResult::rmse_m, doc("AlignmentResult::rmse_m"))
       .def_ro("pairs", &AlignmentResult::pairs, doc("AlignmentResult::pairs"))
-      .def_ro("rank", &AlignmentResult::rank, doc("AlignmentResult::rank"));
+      .def_ro("rank", &AlignmentResult::rank, doc("AlignmentResult::rank"))
+      .def("__repr__", [](const AlignmentResult& a) {
+        return fmt::format("<placegraph.AlignmentResult: scale {:.6g}, rmse {:.6g} m of {} pairs>",
+                           a.scale, a.rmse_m, a.pairs);
+      });
 }
 
 void bind_options_of_motion(nb::module_& m) {

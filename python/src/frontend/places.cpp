@@ -93,7 +93,7 @@ class SharedRecognizer {
   std::mutex mutex_;
 };
 
-using Grid = std::optional<nb::ndarray<nb::numpy, const std::int16_t>>;
+using Grid = std::optional<ReadOnlyArray<std::int16_t>>;
 
 /// Vectors of the cells of a cue, rows x columns x channels; None if it was not computed.
 Grid array_of_grid(const CueGrid& grid, const PlaceView& owner) {

@@ -27,8 +27,8 @@ std::vector<LineSegment> segments_in(const ArrayArgument<double>& array) {
   return segments;
 }
 
-nb::ndarray<nb::numpy, double> detected_segments(
-    const GreyArgument& image, const OptionsArgument<SegmentDetectorOptions>& options) {
+ReadOnlyArray<double> detected_segments(const GreyArgument& image,
+                                        const OptionsArgument<SegmentDetectorOptions>& options) {
   const Image grey = image.get("image");
   const SegmentDetectorOptions chosen = options.get();
   chosen.check();
@@ -187,7 +187,7 @@ void bind_directions(nb::module_& m) {
       .def_prop_ro(
           "labels", [](const SceneDirections& d) { return view_of(d.vanishing.labels, d); },
           doc("VanishingPoints::labels"))
-      .def_ro("frames", &SceneDirections::frames, doc("SceneDirections::frames"));
+      .def_prop_ro("frames", as_tuple(&SceneDirections::frames), doc("SceneDirections::frames"));
   nb::class_<OrientationMap> map(m, "OrientationMap", doc("OrientationMap"));
   bind_outcome(map);
   map.def_prop_ro(
@@ -228,7 +228,7 @@ void bind_labels(nb::module_& m) {
             return s.kind == SceneModel::Kind::kUrban ? "urban" : "surfaces";
           },
           "'surfaces' or 'urban'.")
-      .def_ro("classes", &SceneModel::classes, doc("SceneModel::classes"))
+      .def_prop_ro("classes", as_tuple(&SceneModel::classes), doc("SceneModel::classes"))
       .def_ro("origin", &SceneModel::origin, doc("SceneModel::origin"));
   nb::class_<LabelledImage>(m, "LabelledImage", "Labels of every pixel of an image.")
       .def_prop_ro(
@@ -240,7 +240,7 @@ void bind_labels(nb::module_& m) {
           "confidence",
           [](const LabelledImage& l) { return ImageResult<float>{l.labels.confidence}; },
           "Probability that each label is correct, H x W float32.")
-      .def_ro("classes", &LabelledImage::classes, "Names of the classes.");
+      .def_prop_ro("classes", as_tuple(&LabelledImage::classes), "Names of the classes.");
   nb::class_<MatchedPoints> matches(m, "MatchedPoints", doc("WideMatches"));
   bind_outcome(matches);
   matches.def("__len__", [](const MatchedPoints& p) { return p.px_a.size(); })

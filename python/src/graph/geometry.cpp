@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "python/src/arrays.h"
+#include "python/src/values/value_class.h"
 
 namespace placegraph::python {
 namespace {
@@ -61,8 +62,9 @@ std::string text_of(const SE3& T) {
 }
 
 void bind_se3(nb::module_& m) {
-  nb::class_<SE3>(m, "SE3", doc("SE3"))
-      .def(nb::init<>(), doc("SE3::SE3"))
+  nb::class_<SE3> se3(m, "SE3", doc("SE3"));
+  bind_value(se3, Hash::kByValue);
+  se3.def(nb::init<>(), doc("SE3::SE3"))
       .def(
           "__init__",
           [](SE3* self, const ArrayArgument<double>& matrix) {
@@ -120,7 +122,7 @@ void bind_se3(nb::module_& m) {
       .def(
           "__matmul__", [](const SE3& a, const SE3& b) { return a * b; }, nb::is_operator())
       .def("transform", &apply, "points"_a, "Points in frame a of points in frame b, N x 3.")
-      .def("__repr__", &text_of);
+      .def("__repr__", [](const SE3& T) { return text_of(T); });
 }
 
 /// A camera whose fields check() has accepted.
@@ -136,9 +138,32 @@ Camera checked_camera(int width, int height, double fx, double fy, double cx, do
   return camera;
 }
 
+std::string text_of(const Camera& c) {
+  std::string text = fmt::format("Camera({}, {}, {:.6g}, {:.6g}, {:.6g}, {:.6g}", c.width, c.height,
+                                 c.fx, c.fy, c.cx, c.cy);
+  constexpr const char* kNames[] = {"NONE", "RADIAL_TANGENTIAL", "EQUIDISTANT"};
+  if (c.distortion != Distortion::kNone)
+    text += fmt::format(", Distortion.{}, [{:.6g}]", kNames[static_cast<int>(c.distortion)],
+                        fmt::join(c.coefficients, ", "));
+  return text + ")";
+}
+
+std::string text_of(const DepthCamera& d) {
+  return fmt::format("<placegraph.DepthCamera: {}, {:.4g} m at 1 m>", text_of(d.camera),
+                     d.sigma_at_1m);
+}
+
+std::string text_of(const Calibration& c) {
+  std::string text = "<placegraph.Calibration: " + text_of(c.camera);
+  if (c.baseline_m > 0) text += fmt::format(", baseline {:.6g} m", c.baseline_m);
+  if (c.depth) text += ", depth " + text_of(c.depth->camera);
+  if (c.camera_height_m) text += fmt::format(", {:.6g} m above the ground", *c.camera_height_m);
+  return text + ">";
+}
+
 /// Rows of `width` numbers, those of one call of `each` a row; NaN where it has none.
 template <int width, class Each>
-nb::ndarray<nb::numpy, double> rows_of(std::size_t count, const Each& each) {
+ReadOnlyArray<double> rows_of(std::size_t count, const Each& each) {
   std::vector<double> values(count * width, std::numeric_limits<double>::quiet_NaN());
   for (std::size_t i = 0; i < count; ++i)
     if (const auto row = each(i)) std::copy_n(row->data(), width, values.begin() + i * width);
@@ -164,7 +189,9 @@ void bind_camera(nb::module_& m) {
       .value("NONE", Distortion::kNone)
       .value("RADIAL_TANGENTIAL", Distortion::kRadialTangential)
       .value("EQUIDISTANT", Distortion::kEquidistant);
-  nb::class_<Camera>(m, "Camera", doc("Camera"))
+  nb::class_<Camera> camera(m, "Camera", doc("Camera"));
+  bind_value(camera, Hash::kByValue);
+  camera
       .def(
           "__init__",
           [](Camera* self, int width, int height, double fx, double fy, double cx, double cy,
@@ -185,7 +212,7 @@ void bind_camera(nb::module_& m) {
       .def_prop_ro(
           "coefficients",
           [](const Camera& c) {
-            return std::vector<double>(c.coefficients.begin(), c.coefficients.end());
+            return TupleOf<double>{{c.coefficients.begin(), c.coefficients.end()}};
           },
           doc("Camera::coefficients"))
       .def(
@@ -195,20 +222,25 @@ void bind_camera(nb::module_& m) {
            "the image; NaN behind the camera and where the lens model has no pixel.")
       .def("unproject", &unproject, "px"_a,
            "The viewing rays (N x 3) of pixels (N x 2) in the camera frame, scaled to z = 1.\n\n"
-           "NaN where the lens model has no ray.");
+           "NaN where the lens model has no ray.")
+      .def("__repr__", [](const Camera& c) { return text_of(c); });
 }
 
 void bind_calibration(nb::module_& m) {
-  nb::class_<DepthCamera>(m, "DepthCamera", doc("DepthCamera"))
-      .def(nb::init<>())
+  nb::class_<DepthCamera> depth_camera(m, "DepthCamera", doc("DepthCamera"));
+  bind_value(depth_camera, Hash::kNone);
+  depth_camera.def(nb::init<>())
       .def_rw("camera", &DepthCamera::camera, doc("DepthCamera::camera"))
       .def_rw("T_cam_depth", &DepthCamera::T_cam_depth, doc("DepthCamera::T_cam_depth"))
-      .def_rw("sigma_at_1m", &DepthCamera::sigma_at_1m, doc("DepthCamera::sigma_at_1m"));
+      .def_rw("sigma_at_1m", &DepthCamera::sigma_at_1m, doc("DepthCamera::sigma_at_1m"))
+      .def("__repr__", [](const DepthCamera& d) { return text_of(d); });
   nb::enum_<Sensor>(m, "Sensor", doc("Sensor"))
       .value("MONO", Sensor::kMono)
       .value("STEREO", Sensor::kStereo)
       .value("RGBD", Sensor::kRgbd);
-  nb::class_<Calibration>(m, "Calibration", doc("Calibration"))
+  nb::class_<Calibration> calibration(m, "Calibration", doc("Calibration"));
+  bind_value(calibration, Hash::kNone);
+  calibration
       .def(
           "__init__",
           [](Calibration* self, const Camera& camera, double baseline_m,
@@ -221,8 +253,8 @@ void bind_calibration(nb::module_& m) {
       .def_rw("camera", &Calibration::camera, doc("Calibration::camera"))
       .def_rw("baseline_m", &Calibration::baseline_m, doc("Calibration::baseline_m"))
       .def_rw("depth", &Calibration::depth, doc("Calibration::depth"))
-      .def_rw("camera_height_m", &Calibration::camera_height_m,
-              doc("Calibration::camera_height_m"));
+      .def_rw("camera_height_m", &Calibration::camera_height_m, doc("Calibration::camera_height_m"))
+      .def("__repr__", [](const Calibration& c) { return text_of(c); });
 }
 
 }  // namespace

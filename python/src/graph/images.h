@@ -10,7 +10,7 @@ enum class Access { kReadWrite, kReadOnly };
 
 /// A view of the pixels as an array (H x W, or H x W x channels), which keeps the image alive; None
 /// for an empty image. Nothing is copied.
-nb::object array_of(const Image& image, Access access = Access::kReadWrite);
+nb::object array_of(const Image& image, Access access = Access::kReadOnly);
 
 /// The pixels of an array as an image that shares and keeps them.
 ///

@@ -29,43 +29,40 @@ Information information_of(const double* first, int dof) {
 void append_nodes(const ArrayArgument<std::int64_t>& ids, const ArrayArgument<double>& poses,
                   PoseGraph& graph) {
   const auto numbers = ids.get("ids", {kAny});
-  const auto rows = poses.get("poses", {kAny, kAny});
-  const std::size_t width = rows.shape(1);
-  require(width == 3 || width == 7 || width == 8,
-          fmt::format("poses: rows of 3 (SE(2)), 7 (SE(3)) or 8 (Sim(3)) numbers, not {}", width));
-  require(numbers.shape(0) == rows.shape(0),
-          fmt::format("poses: {} ids and {} poses", numbers.shape(0), rows.shape(0)));
-  for (std::size_t i = 0; i < rows.shape(0); ++i)
-    graph.nodes.push_back(
-        {NodeId(numbers.data()[i]),
-         pose_of_row(rows.data() + i * width, width, fmt::format("poses: row {}", i)), false});
+  const std::vector<Pose> given = poses_of(poses, "poses", kAny);
+  require(numbers.shape(0) == given.size(),
+          fmt::format("poses: {} ids and {} poses", numbers.shape(0), given.size()));
+  for (std::size_t i = 0; i < given.size(); ++i)
+    graph.nodes.push_back({NodeId(numbers.data()[i]), given[i], false});
 }
 
 void append_edges(const ArrayArgument<std::int64_t>& edges, const ArrayArgument<double>& measured,
                   const ArrayArgument<double>& information, const Strings& sources,
                   PoseGraph& graph) {
   const auto pairs = edges.get("edges", {kAny, 2});
-  const auto rows = measured.get("measurements", {static_cast<int>(pairs.shape(0)), kAny});
-  const std::size_t width = rows.shape(1);
-  require(graph.nodes.empty() || width == row_width(graph.kind()) || pairs.shape(0) == 0,
-          fmt::format("measurements: rows of {} numbers, as the poses, are needed, not of {}",
-                      row_width(graph.kind()), width));
-  require(width == 3 || width == 7 || width == 8 || pairs.shape(0) == 0,
-          fmt::format("measurements: rows of 3, 7 or 8 numbers are needed, not of {}", width));
-  const int dof = width == 8 ? 7 : width == 7 ? 6 : 3;
-  const auto matrices =
-      pairs.shape(0) == 0
-          ? information.get("information", {0, kAny, kAny})
-          : information.get("information", {static_cast<int>(pairs.shape(0)), dof, dof});
+  const auto count = static_cast<int>(pairs.shape(0));
+  const std::vector<Pose> measurements = poses_of(measured, "measurements", count);
   require(!sources || sources->size() == pairs.shape(0), "sources: one for each edge is needed");
-  for (std::size_t i = 0; i < pairs.shape(0); ++i) {
+  if (count == 0) {
+    information.get("information", {0, kAny, kAny});
+    return;
+  }
+  const PoseKind kind = kind_of(measurements.front());
+  require(graph.nodes.empty() || kind == graph.kind(),
+          fmt::format("measurements: rows of {} numbers, as the poses, are needed, not of {}",
+                      row_width(graph.kind()), row_width(kind)));
+  const int dof = degrees_of_freedom(kind);
+  const bool one_for_all = shape_of(information.value).size() == 2;
+  const auto matrices = information.get(
+      "information", one_for_all ? std::vector<int>{dof, dof} : std::vector<int>{count, dof, dof},
+      Values::kFinite, fmt::format("{0} x {1} x {1}, or one for all, {1} x {1}", count, dof));
+  const std::size_t step = one_for_all ? 0 : static_cast<std::size_t>(dof * dof);
+  for (std::size_t i = 0; i < measurements.size(); ++i) {
     RelativePoseConstraint edge;
     edge.from = NodeId(pairs.data()[2 * i]);
     edge.to = NodeId(pairs.data()[2 * i + 1]);
-    edge.T_from_to =
-        pose_of_row(rows.data() + i * width, width, fmt::format("measurements: row {}", i));
-    edge.information =
-        information_of(matrices.data() + i * static_cast<std::size_t>(dof * dof), dof);
+    edge.T_from_to = measurements[i];
+    edge.information = information_of(matrices.data() + i * step, dof);
     edge.source = sources                                    ? source_of((*sources)[i])
                   : edge.to.value() == edge.from.value() + 1 ? ConstraintSource::kOdometry
                                                              : ConstraintSource::kLoop;
@@ -145,12 +142,10 @@ void add_position(PoseGraph& graph, std::int64_t node, const ArrayArgument<doubl
 }
 
 void set_poses(PoseGraph& graph, const ArrayArgument<double>& poses) {
-  const std::size_t width = row_width(graph.kind());
-  const auto rows =
-      poses.get("poses", {static_cast<int>(graph.nodes.size()), static_cast<int>(width)});
-  std::vector<Pose> checked;
-  for (std::size_t i = 0; i < graph.nodes.size(); ++i)
-    checked.push_back(pose_of_row(rows.data() + i * width, width, fmt::format("poses: row {}", i)));
+  const std::vector<Pose> checked = poses_of(poses, "poses", static_cast<int>(graph.nodes.size()));
+  require(checked.empty() || kind_of(checked.front()) == graph.kind(),
+          fmt::format("poses: rows of {} numbers, as those of the graph, are needed, not of {}",
+                      row_width(graph.kind()), row_width(kind_of(checked.front()))));
   for (std::size_t i = 0; i < checked.size(); ++i) graph.nodes[i].T_world_node = checked[i];
 }
 
@@ -189,10 +184,14 @@ void bind_pose_graph_building(nb::class_<PoseGraph>& graph) {
       .def_static(
           "from_arrays", &from_arrays, "ids"_a, "poses"_a, "edges"_a, "measurements"_a,
           "information"_a, "sources"_a = nb::none(), "fixed"_a = nb::none(),
-          "A graph of N ids and poses, and M edges (from, to) with measured poses T_from_to "
-          "and information (M x D x D, in the right tangent: translation, rotation, log "
-          "scale). Without sources, edges between consecutive ids are odometry, others "
-          "loops; the nodes `fixed` keep their poses.")
+          "A graph of N nodes and M edges with measured poses T_from_to.\n\n"
+          "`ids`: N integers. `poses`: N rows (x y angle, x y z qx qy qz qw, or these and the "
+          "scale) or N matrices (3 x 3 in the plane, 4 x 4 in space). `edges`: M x 2, from and to. "
+          "`measurements`: M rows or matrices, as the poses. `information`: M x D x D, or D x D "
+          "for "
+          "all edges, in the right tangent: translation, rotation, log scale. Without `sources`, "
+          "edges between consecutive ids are odometry, others loops. The nodes `fixed` keep their "
+          "poses. Raises ArgumentError as check(), and for values that are not finite.")
       .def_static("read", &read, "path"_a, doc("read_pose_graph"))
       .def(
           "write_g2o",
@@ -208,18 +207,20 @@ void bind_pose_graph_building(nb::class_<PoseGraph>& graph) {
             g.nodes.push_back({NodeId(id), fitting_pose(g, pose, "pose"), fixed});
           },
           "id"_a, "pose"_a, "fixed"_a = false,
-          "Adds a node; `pose` is an SE2, SE3 or Sim3, or a row. See check().")
+          "Adds a node; `pose` is an SE2, SE3 or Sim3, a row, or a matrix (3 x 3 or 4 x 4).\n\n"
+          "See check().")
       .def("add_edge", &add_edge, "from_"_a, "to"_a, "measurement"_a, "information"_a,
            "source"_a = "odometry", "kernel"_a = RobustKernel(),
            "Adds a measured pose T_from_to of node `to` relative to node `from_`, with its "
-           "information (D x D). See check().")
+           "information (D x D).\n\n`measurement` is what add_node takes. See check().")
       .def("add_position", &add_position, "node"_a, "position"_a, "information"_a,
            "lever_arm"_a = nb::none(), "kernel"_a = RobustKernel(),
            "Adds the measured position [m] of a point that a node carries, such as an antenna.\n\n"
            "error = T_world_node * lever_arm - position, with its information (3 x 3). Without a "
            "lever arm the point is the node's origin. In the plane the third components are "
            "ignored. See check().")
-      .def("set_poses", &set_poses, "poses"_a, "Replaces all poses by rows as those of `poses`.")
+      .def("set_poses", &set_poses, "poses"_a,
+           "Replaces all poses by rows as those of `poses`, or by matrices.")
       .def(
           "integrate_odometry",
           [](PoseGraph& g) {
@@ -231,9 +232,7 @@ void bind_pose_graph_building(nb::class_<PoseGraph>& graph) {
       .def("without", &without, "constraints"_a,
            "A copy without constraints, given by their positions among all constraints.")
       .def(
-          "copy", [](const PoseGraph& g) { return g; }, "A graph with the same content.")
-      .def("__copy__", [](const PoseGraph& g) { return g; })
-      .def("__deepcopy__", [](const PoseGraph& g, nb::handle) { return g; });
+          "copy", [](const PoseGraph& g) { return g; }, "A graph with the same content.");
 }
 
 }  // namespace placegraph::python

@@ -6,14 +6,12 @@
 #include <algorithm>
 
 #include "python/src/backend/graphs.h"
+#include "python/src/values/value_class.h"
 
 namespace placegraph::python {
 namespace {
 
 using namespace nb::literals;
-
-/// For properties whose arrays are made by the call: they are no parts of the graph.
-constexpr auto kNew = nb::rv_policy::automatic;
 
 /// The constraints of one kind with their positions among all.
 template <class Kind>
@@ -27,8 +25,8 @@ std::vector<std::pair<int, const Kind*>> constraints_of(const PoseGraph& graph) 
 
 /// An array with one row of values for each constraint of a kind, which `append` appends.
 template <class Kind, class T, class Append>
-nb::ndarray<nb::numpy, T> table_of(const PoseGraph& graph, std::vector<std::size_t> shape,
-                                   const Append& append) {
+ReadOnlyArray<T> table_of(const PoseGraph& graph, std::vector<std::size_t> shape,
+                          const Append& append) {
   std::vector<T> values;
   std::size_t count = 0;
   for (const auto& [number, constraint] : constraints_of<Kind>(graph)) {
@@ -40,8 +38,8 @@ nb::ndarray<nb::numpy, T> table_of(const PoseGraph& graph, std::vector<std::size
 }
 
 using Edge = RelativePoseConstraint;
-using Numbers = nb::ndarray<nb::numpy, double>;
-using Integers = nb::ndarray<nb::numpy, std::int64_t>;
+using Numbers = ReadOnlyArray<double>;
+using Integers = ReadOnlyArray<std::int64_t>;
 
 Integers ids_of(const PoseGraph& graph) {
   std::vector<std::int64_t> ids;
@@ -99,7 +97,8 @@ void bind_nodes_and_edges(nb::class_<PoseGraph>& graph) {
   graph.def_prop_ro("kind", &kind_name, "The group of the poses: 'SE2', 'SE3' or 'Sim3'.")
       .def_prop_ro("ids", &ids_of, kNew,
                    "Ids of the nodes, N of int64 (a copy, as all arrays here).")
-      .def_prop_ro("poses", &poses_of, kNew, "Poses T_world_node, one row each.")
+      .def_prop_ro("poses", &poses_of, kNew,
+                   "Poses T_world_node, one row each; `set_poses` replaces them.")
       .def("pose", &pose_of_id, "id"_a, "The pose of a node as an SE2, SE3 or Sim3.")
       .def_prop_ro("fixed", &fixed_of, kNew,
                    "Ids of the nodes that optimization leaves as they are.")
@@ -125,7 +124,7 @@ void bind_nodes_and_edges(nb::class_<PoseGraph>& graph) {
                 g, {row_width(g.kind())},
                 [](int, const Edge& e, auto& values) { append_row(e.T_from_to, values); });
           },
-          kNew, "Measured poses T_from_to, one row each.")
+          kNew, "Measured poses T_from_to, one row each; `from_arrays` makes a graph with others.")
       .def_prop_ro(
           "information",
           [](const PoseGraph& g) {
@@ -134,8 +133,9 @@ void bind_nodes_and_edges(nb::class_<PoseGraph>& graph) {
               append_rows(e.information, values);
             });
           },
-          kNew, "Information of each measured pose, M x D x D.")
-      .def_prop_ro("sources", &sources_of,
+          kNew,
+          "Information of each measured pose, M x D x D; `from_arrays` makes a graph with others.")
+      .def_prop_ro("sources", as_tuple(&sources_of),
                    "Source of each measured pose: 'odometry', 'loop' or 'other'.");
 }
 
@@ -174,7 +174,9 @@ void bind_positions(nb::class_<PoseGraph>& graph) {
 }  // namespace
 
 void bind_pose_graphs(nb::module_& m) {
-  nb::class_<RobustKernel>(m, "RobustKernel", doc("RobustKernel"))
+  nb::class_<RobustKernel> kernel(m, "RobustKernel", doc("RobustKernel"));
+  bind_value(kernel, Hash::kByValue);
+  kernel
       .def(
           "__init__",
           [](RobustKernel* self, const std::string& kind, double width) {
@@ -204,10 +206,13 @@ void bind_pose_graphs(nb::module_& m) {
       m, "PoseGraph",
       "Poses and constraints on them, over SE(2), SE(3) or Sim(3).\n\n"
       "Rows of poses: x y angle, x y z qx qy qz qw, or these and the scale.");
+  bind_value(graph, Hash::kNone);
   bind_pose_graph_building(graph);
   bind_nodes_and_edges(graph);
   bind_positions(graph);
-  graph.def_prop_ro("kernels", &kernels_of, "Robust kernel of each constraint.")
+  graph
+      .def_prop_ro("kernels", as_tuple(&kernels_of),
+                   "Robust kernel of each constraint; `add_edge` takes one.")
       .def_prop_ro(
           "constraints", [](const PoseGraph& g) { return g.constraints.size(); },
           "Number of constraints of all kinds.")

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "python/src/arrays.h"
+#include "python/src/values/value_class.h"
 
 namespace placegraph::python {
 namespace {
@@ -17,7 +18,7 @@ namespace {
 using namespace nb::literals;
 
 /// N x 4 x 4; frames without a pose have NaN.
-nb::ndarray<nb::numpy, double> poses_of(const Trajectory& trajectory) {
+ReadOnlyArray<double> poses_of(const Trajectory& trajectory) {
   std::vector<double> values;
   values.reserve(16 * trajectory.size());
   for (const StampedPose& pose : trajectory.poses)
@@ -28,7 +29,7 @@ nb::ndarray<nb::numpy, double> poses_of(const Trajectory& trajectory) {
   return owned_array(std::move(values), {trajectory.size(), 4, 4});
 }
 
-nb::ndarray<nb::numpy, std::int64_t> stamps_of(const Trajectory& trajectory) {
+ReadOnlyArray<std::int64_t> stamps_of(const Trajectory& trajectory) {
   std::vector<std::int64_t> stamps;
   for (const StampedPose& pose : trajectory.poses) stamps.push_back(pose.stamp_ns);
   return owned_array(std::move(stamps), {trajectory.size()});
@@ -84,15 +85,76 @@ nb::object table_of(const Trajectory& trajectory) {
   return module_for("pandas", "pandas").attr("DataFrame")(table);
 }
 
+/// The frames of a slice of Python. Throws ArgumentError for one against the order of time.
+Trajectory sliced(const Trajectory& trajectory, const nb::slice& slice) {
+  Py_ssize_t begin = 0, end = 0, step = 0;
+  if (PySlice_Unpack(slice.ptr(), &begin, &end, &step) != 0) throw nb::python_error();
+  require(step > 0, "slice: its step must be positive, because a trajectory is in time order");
+  const Py_ssize_t count =
+      PySlice_AdjustIndices(static_cast<Py_ssize_t>(trajectory.size()), &begin, &end, step);
+  Trajectory part;
+  part.has_times = trajectory.has_times;
+  part.numbered = trajectory.numbered || !trajectory.has_times;
+  part.has_orientation = trajectory.has_orientation;
+  for (Py_ssize_t i = 0; i < count; ++i)
+    part.poses.push_back(trajectory.poses[static_cast<std::size_t>(begin + i * step)]);
+  return part;
+}
+
+/// A frame by its number, from the end if it is negative.
+StampedPose frame_of(const Trajectory& trajectory, nb::handle which) {
+  Py_ssize_t i = PyNumber_AsSsize_t(which.ptr(), PyExc_IndexError);
+  if (i == -1 && PyErr_Occurred()) throw nb::python_error();
+  const auto size = static_cast<Py_ssize_t>(trajectory.size());
+  if (i < 0) i += size;
+  if (i < 0 || i >= size)
+    throw nb::index_error(fmt::format("the trajectory has {} frames", size).c_str());
+  return trajectory.poses[static_cast<std::size_t>(i)];
+}
+
+void bind_elements(nb::class_<Trajectory>& trajectory) {
+  trajectory.def("__len__", &Trajectory::size)
+      .def("__getitem__", &sliced, "which"_a, "The frames of a slice, whose step is positive.")
+      .def("__getitem__", &frame_of, "which"_a,
+           nb::sig("def __getitem__(self, which: typing.SupportsIndex) -> StampedPose"),
+           "A frame by its number, from the end if it is negative.")
+      .def(
+          "__iter__", [](nb::handle self) { return nb::steal(PySeqIter_New(self.ptr())); },
+          nb::sig("def __iter__(self) -> collections.abc.Iterator[StampedPose]"),
+          "The frames in time order.");
+}
+
+void bind_stamped_pose(nb::module_& m) {
+  nb::class_<StampedPose> pose(m, "StampedPose", "One frame of a trajectory: its time and pose.");
+  bind_value(pose, Hash::kByValue);
+  pose.def_ro("stamp_ns", &StampedPose::stamp_ns, doc("StampedPose::stamp_ns"))
+      .def_prop_ro(
+          "T_world_body",
+          [](const StampedPose& p) {
+            return p.T_world_body ? std::optional(SE3(*p.T_world_body)) : std::nullopt;
+          },
+          "The pose, of the nearest rotation to that of the matrix; None where the frame is lost.")
+      .def("__repr__", [](const StampedPose& p) {
+        if (!p.T_world_body)
+          return fmt::format("<placegraph.StampedPose: {} ns, lost>", p.stamp_ns);
+        const Eigen::Vector3d t = p.T_world_body->translation();
+        return fmt::format("<placegraph.StampedPose: {} ns at [{:.6g}, {:.6g}, {:.6g}]>",
+                           p.stamp_ns, t.x(), t.y(), t.z());
+      });
+}
+
 }  // namespace
 
 void bind_trajectories(nb::module_& m) {
+  bind_stamped_pose(m);
   nb::enum_<TrajectoryFormat>(m, "TrajectoryFormat", "Formats in which trajectories are written.")
       .value("KITTI", TrajectoryFormat::kKitti)
       .value("TUM", TrajectoryFormat::kTum)
       .value("EUROC", TrajectoryFormat::kEuroc);
-  nb::class_<Trajectory>(m, "Trajectory", doc("Trajectory"))
-      .def(nb::init<>(), "No poses.")
+  nb::class_<Trajectory> trajectory(m, "Trajectory", doc("Trajectory"));
+  bind_value(trajectory, Hash::kByValue);
+  bind_elements(trajectory);
+  trajectory.def(nb::init<>(), "No poses.")
       .def_static(
           "from_arrays", &from_arrays, "stamps_ns"_a, "poses"_a,
           "A trajectory of stamps (N, int64) [ns] and matrices T_world_body (N x 4 x 4).\n\n"
@@ -118,15 +180,16 @@ void bind_trajectories(nb::module_& m) {
           },
           "path"_a, "format"_a = TrajectoryFormat::kTum, nb::call_guard<nb::gil_scoped_release>(),
           doc("write_trajectory"))
-      .def("__len__", &Trajectory::size)
-      .def("__repr__", &text_of)
+      .def("__repr__", [](const Trajectory& each) { return text_of(each); })
       .def_prop_ro("posed", &Trajectory::posed, doc("Trajectory::posed"))
       .def_prop_ro("path_length", &Trajectory::path_length, doc("Trajectory::path_length"))
       .def_ro("has_times", &Trajectory::has_times, doc("Trajectory::has_times"))
-      .def_prop_ro("stamps_ns", &stamps_of, nb::rv_policy::move,
-                   "Stamps, N of int64 [ns]; numbers of frames where has_times is false.")
-      .def_prop_ro("poses", &poses_of, nb::rv_policy::move,
-                   "Matrices T_world_body, N x 4 x 4; NaN where there is none.")
+      .def_prop_ro("stamps_ns", &stamps_of, kNew,
+                   "Stamps, N of int64 [ns]; numbers of frames where has_times is false.\n\n"
+                   "`from_arrays` makes a trajectory with others.")
+      .def_prop_ro("poses", &poses_of, kNew,
+                   "Matrices T_world_body, N x 4 x 4; NaN where there is none.\n\n"
+                   "`from_arrays` makes a trajectory with others.")
       .def(
           "resample",
           [](const Trajectory& t, const ArrayArgument<std::int64_t>& stamps_ns, double max_gap_s) {

@@ -9,21 +9,20 @@ namespace {
 
 using namespace nb::literals;
 
-nb::ndarray<nb::numpy, std::int64_t> stamps_of(const Dataset& dataset) {
+ReadOnlyArray<std::int64_t> stamps_of(const Dataset& dataset) {
   std::vector<std::int64_t> stamps;
   for (std::size_t i = 0; i < dataset.size(); ++i) stamps.push_back(dataset.stamp_ns(i));
   return owned_array(std::move(stamps), {dataset.size()});
 }
 
-nb::ndarray<nb::numpy, std::int64_t> imu_stamps(const ImuRecording& imu) {
+ReadOnlyArray<std::int64_t> imu_stamps(const ImuRecording& imu) {
   std::vector<std::int64_t> stamps;
   for (const ImuSample& sample : imu.samples) stamps.push_back(sample.stamp_ns);
   return owned_array(std::move(stamps), {imu.samples.size()});
 }
 
 /// One of the vectors of every sample, N x 3.
-nb::ndarray<nb::numpy, double> imu_rows(const ImuRecording& imu,
-                                        Eigen::Vector3d ImuSample::*member) {
+ReadOnlyArray<double> imu_rows(const ImuRecording& imu, Eigen::Vector3d ImuSample::*member) {
   std::vector<double> values;
   for (const ImuSample& sample : imu.samples)
     values.insert(values.end(), (sample.*member).data(), (sample.*member).data() + 3);
@@ -31,7 +30,6 @@ nb::ndarray<nb::numpy, double> imu_rows(const ImuRecording& imu,
 }
 
 void bind_imu(nb::module_& m) {
-  const auto move = nb::rv_policy::move;
   nb::class_<ImuNoise>(m, "ImuNoise", doc("ImuNoise"))
       .def_ro("gyro", &ImuNoise::gyro, doc("ImuNoise::gyro"))
       .def_ro("accel", &ImuNoise::accel, doc("ImuNoise::accel"))
@@ -41,13 +39,13 @@ void bind_imu(nb::module_& m) {
       .def("__len__", [](const ImuRecording& r) { return r.samples.size(); })
       .def_ro("rate_hz", &ImuRecording::rate_hz, doc("ImuRecording::rate_hz"))
       .def_ro("noise", &ImuRecording::noise, doc("ImuRecording::noise"))
-      .def_prop_ro("stamps_ns", &imu_stamps, move, "Times of the readings [ns], N of int64.")
+      .def_prop_ro("stamps_ns", &imu_stamps, kNew, "Times of the readings [ns], N of int64.")
       .def_prop_ro(
           "gyro_rad_s", [](const ImuRecording& r) { return imu_rows(r, &ImuSample::gyro_rad_s); },
-          move, "Angular velocity in the body frame, bias included [rad/s], N x 3.")
+          kNew, "Angular velocity in the body frame, bias included [rad/s], N x 3.")
       .def_prop_ro(
           "accel_m_s2", [](const ImuRecording& r) { return imu_rows(r, &ImuSample::accel_m_s2); },
-          move, "Specific force in the body frame: -gravity at rest [m/s^2], N x 3.");
+          kNew, "Specific force in the body frame: -gravity at rest [m/s^2], N x 3.");
   m.def("read_imu", &read_imu, "folder"_a, nb::call_guard<nb::gil_scoped_release>(),
         doc("read_imu"));
 }
@@ -59,11 +57,11 @@ void bind_datasets(nb::module_& m) {
       .def_prop_ro("name", &Dataset::name, doc("Dataset::name"))
       .def_prop_ro("format", &Dataset::format, doc("Dataset::format"))
       .def("__len__", &Dataset::size)
-      .def_prop_ro("sensors", &Dataset::sensors, doc("Dataset::sensors"))
+      .def_prop_ro(
+          "sensors", [](const Dataset& d) { return TupleOf{d.sensors()}; }, doc("Dataset::sensors"))
       .def("calibration", &Dataset::calibration, "sensor"_a, doc("Dataset::calibration"))
       .def("stamp_ns", &Dataset::stamp_ns, "index"_a, doc("Dataset::stamp_ns"))
-      .def_prop_ro("stamps_ns", &stamps_of, nb::rv_policy::move,
-                   "Times of all frames [ns], N of int64.")
+      .def_prop_ro("stamps_ns", &stamps_of, kNew, "Times of all frames [ns], N of int64.")
       .def("image_path", &Dataset::image_path, "index"_a, doc("Dataset::image_path"))
       .def("frame", &Dataset::frame, "index"_a, "sensor"_a,
            nb::call_guard<nb::gil_scoped_release>(), doc("Dataset::frame"))

@@ -44,7 +44,8 @@ nb::tuple read(const std::string& path) {
     const nb::gil_scoped_release release;
     return read_image(path);
   }();
-  return nb::make_tuple(array_of(image.grey), array_of(image.colour));
+  return nb::make_tuple(array_of(image.grey, Access::kReadWrite),
+                        array_of(image.colour, Access::kReadWrite));
 }
 
 /// OpenCV names a pattern by the second row's second and third pixel.
@@ -62,7 +63,7 @@ nb::object demosaic(nb::handle array, const std::string& pattern) {
       const nb::gil_scoped_release release;
       cv::demosaicing(grey, colour, code);
     }
-    return array_of(colour);
+    return array_of(colour, Access::kReadWrite);
   }
   throw ArgumentError("pattern: one of rggb, bggr, gbrg, grbg is needed, not '" + pattern + "'");
 }

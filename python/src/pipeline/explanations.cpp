@@ -28,7 +28,7 @@ void bind_judgement(nb::module_& m) {
           "'good', 'doubtful' or 'failed'.")
       .def_ro("metric", &Judgement::metric, doc("Judgement::metric"))
       .def_ro("why_metric", &Judgement::why_metric, doc("Judgement::why_metric"))
-      .def_ro("findings", &Judgement::findings, doc("Judgement::findings"))
+      .def_prop_ro("findings", as_tuple(&Judgement::findings), doc("Judgement::findings"))
       .def_ro("expected_drift_m", &Judgement::expected_drift_m, doc("Judgement::expected_drift_m"))
       .def("__repr__", [](const Judgement& j) {
         return fmt::format("<placegraph.Judgement: {}, {} findings>", to_string(j.verdict),
@@ -46,7 +46,7 @@ void bind_explanation(nb::module_& m) {
       .def_ro("posed", &Explanation::posed, "Whether the frame has a pose.")
       .def_ro("keyframe", &Explanation::keyframe, doc("Explanation::keyframe"))
       .def_ro("place", &Explanation::place, doc("Explanation::place"))
-      .def_ro("labels", &Explanation::labels, doc("Explanation::labels"))
+      .def_prop_ro("labels", as_tuple(&Explanation::labels), doc("Explanation::labels"))
       .def_ro("component", &Explanation::component, doc("Explanation::component"))
       .def_prop_ro(
           "T_map_cam",
@@ -59,8 +59,8 @@ void bind_explanation(nb::module_& m) {
       .def_ro("features", &Explanation::features, doc("Explanation::features"))
       .def_ro("features_placed", &Explanation::features_placed, doc("Explanation::features_placed"))
       .def_ro("constraints", &Explanation::constraints, doc("Explanation::constraints"))
-      .def_ro("loops", &Explanation::loops, doc("Explanation::loops"))
-      .def_ro("refused", &Explanation::refused, doc("Explanation::refused"))
+      .def_prop_ro("loops", as_tuple(&Explanation::loops), doc("Explanation::loops"))
+      .def_prop_ro("refused", as_tuple(&Explanation::refused), doc("Explanation::refused"))
       .def("__repr__", [](const Explanation& e) { return text_of(e); });
 }
 

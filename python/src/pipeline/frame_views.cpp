@@ -13,7 +13,7 @@ using namespace nb::literals;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 template <class Number>
-using Array = nb::ndarray<nb::numpy, Number>;
+using Array = ReadOnlyArray<Number>;
 
 /// A member of every element of a list as an array that shares the values and keeps their owner.
 template <class Number, class Element>
@@ -24,8 +24,8 @@ nb::object shared_rows(const std::vector<Element>& list, const void* first, std:
   const std::size_t shape[2] = {list.size(), columns};
   const std::int64_t strides[2] = {kStride, 1};
   const void* data = list.empty() ? nullptr : first;
-  return nb::cast(nb::ndarray<nb::numpy, const Number>(static_cast<const Number*>(data),
-                                                       columns > 1 ? 2 : 1, shape, owner, strides),
+  return nb::cast(ReadOnlyArray<Number>(static_cast<const Number*>(data), columns > 1 ? 2 : 1,
+                                        shape, owner, strides),
                   nb::rv_policy::reference);
 }
 
@@ -81,7 +81,6 @@ using Track = FrameView::Track;
 /// The tracked points: an array for each member of FrameView::Track.
 template <class Class>
 void bind_tracks(Class& view) {
-  const auto move = nb::rv_policy::move;
   view.def("__len__", [](const FrameView& v) { return v.tracks.size(); })
       .def_prop_ro(
           "track_ids",
@@ -111,11 +110,11 @@ void bind_tracks(Class& view) {
           "Pixel of each tracked point in the previous frame, N x 2.")
       .def_prop_ro(
           "px_projected",
-          [](const FrameView& v) { return optional_rows(v.tracks, &Track::px_projected); }, move,
+          [](const FrameView& v) { return optional_rows(v.tracks, &Track::px_projected); }, kNew,
           "Projection of each track's landmark [px], N x 2; NaN without one.")
       .def_prop_ro(
           "points_cam",
-          [](const FrameView& v) { return optional_rows(v.tracks, &Track::point_cam); }, move,
+          [](const FrameView& v) { return optional_rows(v.tracks, &Track::point_cam); }, kNew,
           "Each track's landmark in the frame of the camera, in the scale of the track segment, "
           "N x 3; NaN without one.");
 }
@@ -135,19 +134,18 @@ void bind_data_note(nb::module_& m) {
 
 void bind_frame_views(nb::module_& m) {
   bind_data_note(m);
-  const auto move = nb::rv_policy::move;
   nb::class_<FrameView> view(m, "FrameView", doc("FrameView"));
   bind_tracks(view);
-  view.def_prop_ro("line_ids", &line_ids, move, "Ids of the tracked lines, N.")
+  view.def_prop_ro("line_ids", &line_ids, kNew, "Ids of the tracked lines, N.")
       .def_prop_ro(
-          "lines", [](const FrameView& v) { return segment_rows(v.lines); }, move,
+          "lines", [](const FrameView& v) { return segment_rows(v.lines); }, kNew,
           "Visible parts of the tracked lines [px], N x 4: start and end.")
       .def_prop_ro(
-          "edges", [](const FrameView& v) { return segment_rows(v.directed); }, move,
+          "edges", [](const FrameView& v) { return segment_rows(v.directed); }, kNew,
           "Edges that were examined for Manhattan frames [px], N x 4: start and end.")
-      .def_prop_ro("edge_directions", &directions, move,
+      .def_prop_ro("edge_directions", &directions, kNew,
                    "Manhattan frame and axis (0, 1, 2) of each edge, N x 2; -1: none.")
-      .def_prop_ro("surfaces", &surface_rows, move,
+      .def_prop_ro("surfaces", &surface_rows, kNew,
                    "Pixels of planes that were aligned, N x 3: pixel and residual of the intensity "
                    "in standard deviations.")
       .def_prop_ro(

@@ -98,11 +98,11 @@ PythonRun run(const Dataset& dataset, const OptionSet& options, const std::strin
   return result;
 }
 
-nb::list unposed_of(const PythonRun& run) {
+nb::tuple unposed_of(const PythonRun& run) {
   nb::list rows;
   for (const UnposedFrames& each : run.result.unposed)
     rows.append(nb::make_tuple(each.reason, each.count));
-  return rows;
+  return nb::tuple(rows);
 }
 
 }  // namespace
@@ -144,12 +144,14 @@ void bind_runs(nb::module_& m) {
           "resumed_at", [](const PythonRun& r) { return r.result.resumed_at; },
           doc("RunResult::resumed_at"))
       .def_prop_ro(
-          "notes", [](const PythonRun& r) { return r.result.notes; }, doc("RunResult::notes"))
+          "notes", [](const PythonRun& r) { return TupleOf{r.result.notes}; },
+          doc("RunResult::notes"))
       .def_prop_ro(
           "stages", [](const PythonRun& r) { return stage_table(r.result.stages); },
           nb::sig("def stages(self) -> dict[str, tuple[float, int]]"),
           "CPU time [s] and calls of reading images and of each stage of Slam.")
-      .def_prop_ro("unposed", &unposed_of, nb::sig("def unposed(self) -> list[tuple[str, int]]"),
+      .def_prop_ro("unposed", &unposed_of,
+                   nb::sig("def unposed(self) -> tuple[tuple[str, int], ...]"),
                    doc("RunResult::unposed"));
   m.def("run", &run, "dataset"_a, "options"_a, "sequence"_a, nb::kw_only(),
         "map_file"_a = nb::none(), "resume"_a = false, "surfaces"_a = nb::none(),

@@ -9,7 +9,7 @@ gtsam = pytest.importorskip("gtsam")
 
 import placegraph as pg  # noqa: E402
 from graph_samples import one_sign, plane, ring  # noqa: E402
-from placegraph.gtsam import from_gtsam, to_gtsam  # noqa: E402
+from placegraph.gtsam import factor_graph_from_gtsam, from_gtsam, to_gtsam  # noqa: E402
 
 ORDER = [3, 4, 5, 0, 1, 2]  # of our coordinates in those of a Pose3
 
@@ -145,6 +145,124 @@ def test_kernels_and_positions_are_equal(kind: str) -> None:
     graph.add_position(2, [1, 2, 3], np.eye(3), [0.5, 0, 0.1])
     factors, values = to_gtsam(graph)
     assert 2 * factors.error(values) == pytest.approx(robust_cost(graph), rel=1e-9)
+
+
+def x(i: int) -> int:
+    return int(gtsam.symbol("x", i))
+
+
+def measured_in_space() -> tuple[Any, Any]:
+    """Factors of every kind that a factor graph takes, beside poses x and points l."""
+    random = np.random.default_rng(3)
+    factors, values = gtsam.NonlinearFactorGraph(), gtsam.Values()
+    poses = [gtsam.Pose3.Expmap(0.1 * random.normal(size=6)) for _ in range(4)]
+    for i, pose in enumerate(poses):
+        values.insert(x(i), pose)
+    model = gtsam.noiseModel.Diagonal.Sigmas(10.0 ** random.uniform(-2, 0, 6))
+    robust = gtsam.noiseModel.Robust.Create(gtsam.noiseModel.mEstimator.Huber.Create(0.5), model)
+    for i in range(4):
+        moved = poses[i].retract(0.05 * random.normal(size=6))
+        factors.add(gtsam.PriorFactorPose3(x(i), moved, model))
+        factors.add(gtsam.GPSFactor(x(i), random.normal(size=3),
+                                    gtsam.noiseModel.Diagonal.Sigmas([0.1, 0.2, 0.3])))
+        factors.add(gtsam.GPSFactorArm(x(i), random.normal(size=3), [0.5, -0.2, 0.1],
+                                       gtsam.noiseModel.Isotropic.Sigma(3, 0.5)))
+    for i in range(3):
+        moved = poses[i].between(poses[i + 1]).retract(0.05 * random.normal(size=6))
+        factors.add(gtsam.BetweenFactorPose3(x(i), x(i + 1), moved, robust))
+        factors.add(gtsam.RangeFactorPose3(x(i), x(3), 0.7, gtsam.noiseModel.Isotropic.Sigma(1, 0.2)))
+    K = gtsam.Cal3_S2(500, 510, 0, 320, 240)
+    for j in range(5):
+        key, point = int(gtsam.symbol("l", j)), np.array([*random.uniform(-1, 1, 2), 4.0])
+        values.insert(key, point)
+        for i in range(4):
+            px = gtsam.PinholeCameraCal3_S2(poses[i], K).project(point) + random.normal(size=2)
+            factors.add(gtsam.GenericProjectionFactorCal3_S2(
+                px, gtsam.noiseModel.Diagonal.Sigmas([1.0, 2.0]), x(i), key, K))
+    return factors, values
+
+
+def measured_in_the_plane() -> tuple[Any, Any]:
+    factors, values = to_gtsam(anisotropic(plane()), hold=False)
+    model = gtsam.noiseModel.Diagonal.Sigmas([0.1, 0.2, 0.3])
+    factors.add(gtsam.PriorFactorPose2(3, gtsam.Pose2(3, 1, 0.3), model))
+    factors.add(gtsam.NonlinearEqualityPose2(0, values.atPose2(0)))
+    return factors, values
+
+
+@pytest.mark.parametrize("made", [measured_in_space, measured_in_the_plane], ids=["space", "plane"])
+def test_factor_graphs_have_the_costs_and_minima_of_gtsam(made: Any) -> None:
+    factors, values = made()
+    graph, variables = factor_graph_from_gtsam(factors, values)
+    assert sorted(variables) == sorted(values.keys()) and len(graph) == len(variables)
+    report = pg.optimize_factors(graph)
+    assert report.cost_initial == pytest.approx(factors.error(values), rel=1e-9)
+    params = gtsam.LevenbergMarquardtParams()
+    params.setMaxIterations(1000)
+    params.setRelativeErrorTol(1e-12)
+    theirs = gtsam.LevenbergMarquardtOptimizer(factors, values, params).optimize()
+    assert report.cost_final == pytest.approx(factors.error(theirs), rel=1e-4)
+
+
+def test_an_equality_holds_a_variable() -> None:
+    factors, values = measured_in_the_plane()
+    graph, variables = factor_graph_from_gtsam(factors, values)
+    assert [key for key, i in variables.items() if graph.is_held(i)] == [0]
+    exact = gtsam.noiseModel.Constrained.All(3)
+    factors.add(gtsam.PriorFactorPose2(2, values.atPose2(2), exact))
+    graph, variables = factor_graph_from_gtsam(factors, values)
+    assert [key for key, i in variables.items() if graph.is_held(i)] == [0, 2]
+    factors, values = to_gtsam(plane())
+    factors.add(gtsam.PriorFactorPose2(2, values.atPose2(2), exact))
+    assert from_gtsam(factors, values).fixed.tolist() == [0, 2]
+
+
+def refused(add: Any, convert: Any) -> str:
+    """What is said of the factors of two poses, x0 and x1, to which `add` adds one."""
+    factors, values = gtsam.NonlinearFactorGraph(), gtsam.Values()
+    for i in range(2):
+        values.insert(x(i), gtsam.Pose2(i, 0, 0))
+    unit = gtsam.noiseModel.Unit.Create(3)
+    factors.add(gtsam.BetweenFactorPose2(x(0), x(1), gtsam.Pose2(1, 0, 0), unit))
+    factors.add(add(unit))
+    with pytest.raises(pg.ArgumentError) as raised:
+        convert(factors, values)
+    return str(raised.value)
+
+
+def test_factors_and_keys_are_named_as_gtsam_prints_them() -> None:
+    range_model = gtsam.noiseModel.Unit.Create(1)
+    for convert in (from_gtsam, factor_graph_from_gtsam):
+        said = refused(lambda _: gtsam.RangeFactorPose2(x(0), x(1), 1.0, range_model), convert)
+        assert said == "factors: factor 1, a RangeFactorPose2 of x0, x1, is not converted"
+        said = refused(lambda unit: gtsam.BetweenFactorPose2(x(1), x(7), gtsam.Pose2(), unit),
+                       convert)
+        assert said == "factors: factor 1, a BetweenFactorPose2 of x1, x7: there is no value of x7"
+        said = refused(lambda unit: gtsam.BetweenFactorPose2(x(1), x(1), gtsam.Pose2(), unit),
+                       convert)
+        assert said == "factors: factor 1, a BetweenFactorPose2 of x1, x1, has a key twice"
+        said = refused(lambda _: gtsam.NonlinearEqualityPose2(x(1), gtsam.Pose2(5, 0, 0)), convert)
+        assert said.startswith("factors: factor 1, a NonlinearEqualityPose2 of x1, differs from")
+    said = refused(lambda unit: gtsam.PriorFactorPose2(x(0), gtsam.Pose2(), unit), from_gtsam)
+    assert "a PriorFactorPose2 of x0, has standard deviations above 0.001: it is a measurement" in said
+    values = gtsam.Values()
+    values.insert(x(2), gtsam.Pose2())
+    values.insert(x(3), gtsam.Pose3())
+    with pytest.raises(pg.ArgumentError, match="the value of x3: pose: its kind"):
+        from_gtsam(gtsam.NonlinearFactorGraph(), values)
+    values = gtsam.Values()
+    values.insert(x(3), 1.0)
+    for convert in (from_gtsam, factor_graph_from_gtsam):
+        with pytest.raises(pg.ArgumentError, match="the value of x3 is not a"):
+            convert(gtsam.NonlinearFactorGraph(), values)
+
+
+def test_an_older_gtsam_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("importlib.metadata.version", lambda name: "4.2.2")
+    with pytest.raises(ImportError, match=r"gtsam 4\.2\.2 is installed.* 4\.3 or later"):
+        to_gtsam(plane())
+    monkeypatch.setattr("importlib.metadata.version", lambda name: "4.10a1")
+    to_gtsam(plane())
 
 
 def test_what_has_no_counterpart_is_refused() -> None:

@@ -49,6 +49,18 @@ TEST(LoopBenchmark, JudgesTheBestCandidateOfEachQuery) {
   EXPECT_FALSE(b.queries[2].has_match);
 }
 
+// A recognizer that answers for descriptors names an image several times: a rank would count it as
+// often.
+TEST(LoopBenchmark, RefusesACandidateThatAQueryHasTwice) {
+  try {
+    (void)judge_loops(three_queries(),
+                      {message(10, 0, 0.9), message(11, 0, 0.9), message(10, 0, 0.8)});
+    FAIL() << "it was judged";
+  } catch (const ArgumentError& error) {
+    EXPECT_STREQ(error.what(), "judge_loops: query 10 has candidate 0 twice");
+  }
+}
+
 TEST(LoopBenchmark, LeavesOutWhatIsNoCandidateWhetherRightOrWrong) {
   LoopTruth truth = three_queries();
   truth.min_age = 9;  // 11 may match 2 at most: its match is none, nor is 2 one of 10's
