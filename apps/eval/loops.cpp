@@ -192,11 +192,9 @@ LoopsResult loops(const LoopsArguments& arguments) {
   result.truth = std::move(protocol.truth);
   result.poses = std::move(protocol.poses);
   for (const LoopJudgement& judgement : result.systems) {
-    if (judgement.benchmark.positives == 0)
-      warn(judgement.name + ": no query has a true match; recall is not defined");
-    if (judgement.benchmark.unjudged > 0)
-      warn(fmt::format("{}: {} predictions for images without ground truth are not judged",
-                       judgement.name, judgement.benchmark.unjudged));
+    for (const Doubt& doubt : judgement.benchmark.doubts) warn(judgement.name + ": " + doubt.text);
+    if (!judgement.benchmark.outcome)
+      throw NoResult(judgement.name + ": " + judgement.benchmark.outcome.reason);
   }
   write_outputs(arguments, result.systems, result.protocol);
   return result;

@@ -27,23 +27,42 @@ void add_header(PoseKind kind, CsvText& csv) {
   csv.end_row();
 }
 
+/// The upper triangle of a matrix in the columns of one with `width` rows; the others stay empty.
+void add_row(NodeId id, const Information& covariance, Eigen::Index width, CsvText& csv) {
+  csv.add(id);
+  for (Eigen::Index i = 0; i < width; ++i)
+    for (Eigen::Index j = i; j < width; ++j)
+      csv.add(j < covariance.cols() ? fmt::format("{:.12g}", covariance(i, j)) : "");
+  csv.end_row();
+}
+
+void write_table(const std::string& path, const std::string& in, const PoseGraph& graph,
+                 const std::vector<GraphPoint>& points, const PoseMarginals& marginals) {
+  if (!marginals.outcome()) throw NoResult(in + ": no covariances: " + marginals.outcome().reason);
+  const Eigen::Index width = degrees_of_freedom(graph.kind());
+  CsvText csv;
+  add_header(graph.kind(), csv);
+  const std::vector<Information> of_nodes = marginals.covariances();
+  for (std::size_t k = 0; k < of_nodes.size(); ++k)
+    add_row(graph.nodes[k].id, of_nodes[k], width, csv);
+  if (!points.empty()) {
+    const std::vector<Information> of_points = marginals.point_covariances();
+    for (std::size_t k = 0; k < of_points.size(); ++k)
+      add_row(points[k].id, of_points[k], width, csv);
+  }
+  write_file(path, csv.text());
+}
+
 }  // namespace
 
 void write_covariances(const std::string& path, const std::string& in, const PoseGraph& graph,
                        RotationError rotation_error) {
-  const PoseMarginals marginals(graph, rotation_error);
-  if (!marginals.outcome()) throw NoResult(in + ": no covariances: " + marginals.outcome().reason);
-  const std::vector<Information> covariances = marginals.covariances();
-  CsvText csv;
-  add_header(graph.kind(), csv);
-  for (std::size_t k = 0; k < covariances.size(); ++k) {
-    csv.add(graph.nodes[k].id);
-    for (Eigen::Index i = 0; i < covariances[k].rows(); ++i)
-      for (Eigen::Index j = i; j < covariances[k].cols(); ++j)
-        csv.add(fmt::format("{:.12g}", covariances[k](i, j)));
-    csv.end_row();
-  }
-  write_file(path, csv.text());
+  write_table(path, in, graph, {}, PoseMarginals(graph, rotation_error));
+}
+
+void write_covariances(const std::string& path, const std::string& in, const LandmarkGraph& graph,
+                       RotationError rotation_error) {
+  write_table(path, in, graph.poses, graph.points, PoseMarginals(graph, rotation_error));
 }
 
 }  // namespace placegraph::apps

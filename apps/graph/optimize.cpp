@@ -158,20 +158,22 @@ PoseGraphOptions checked_options(const OptimizeArguments& arguments) {
   return options;
 }
 
-/// Rejects options that do not apply to a graph with priors and point landmarks.
+/// Rejects options that do not apply to a graph with priors and point landmarks, by name.
 void require_for_landmarks(const OptimizeArguments& arguments, const GraphTask& task,
                            const LandmarkGraph& graph) {
   const PoseGraphOptions& options = task.options;
-  require(
-      options.robust.method == RobustMethod::kNone && !task.incremental && !task.split &&
-          !task.certify &&
-          (options.initialization == PoseGraphInitialization::kAuto ||
-           options.initialization == PoseGraphInitialization::kFile) &&
-          arguments.plot.empty() && arguments.report.empty() && arguments.covariances.empty(),
-      arguments.in +
-          ": has priors or point landmarks, which --robust, --incremental, "
-          "--components, --certify, --covariances, --plot, --report and --initialization odometry, "
-          "chordal and certified do not take");
+  const bool other_start = options.initialization != PoseGraphInitialization::kAuto &&
+                           options.initialization != PoseGraphInitialization::kFile;
+  const std::vector<std::pair<bool, std::string>> refused = {
+      {options.robust.method != RobustMethod::kNone, "--robust " + arguments.robust},
+      {task.incremental, "--incremental"},
+      {task.certify, "--certify"},
+      {other_start, "--initialization " + arguments.initialization},
+      {!arguments.plot.empty(), "--plot"},
+      {!arguments.report.empty(), "--report"}};
+  for (const auto& [given, option] : refused)
+    require(!given, fmt::format("{}: has {}, which {} does not take", arguments.in,
+                                graph.points.empty() ? "priors" : "point landmarks", option));
   require(
       options.rotation_error == RotationError::kLog ||
           std::ranges::none_of(graph.priors, &PosePriorConstraint::beside_node),
@@ -191,6 +193,9 @@ void optimize_landmarks(const OptimizeArguments& arguments, const GraphTask& tas
   const LandmarkSolution& solution = *result.landmarks;
   if (!std::isfinite(solution.chi2_log))
     throw NoResult(arguments.in + ": the cost of the solution is not finite");
+  if (!arguments.covariances.empty())
+    write_covariances(arguments.covariances, arguments.in, solution.graph,
+                      task.options.rotation_error);
   for (const Doubt& doubt : solution.doubts)
     if (sink) sink(LogLevel::kWarning, fmt::format("warning: {}: {}", arguments.in, doubt.text));
   write_g2o(arguments.out, solution.graph);

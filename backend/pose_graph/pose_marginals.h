@@ -1,14 +1,14 @@
 #pragma once
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/core/outcome.h>
-#include <placegraph/graph/pose_graph/pose_graph.h>
+#include <placegraph/graph/pose_graph/landmark_graph.h>
 
 #include <memory>
 #include <vector>
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// Covariances of the poses of an optimized pose graph.
+/// Covariances of the poses of an optimized pose graph, and of the points of a landmark graph.
 /// They are those of the Gaussian of the normal equations at the graph's poses (which should be the
 /// optimum), in the right tangents T_world_node exp(xi). Held nodes (as in the optimizer: fixed
 /// ones, else the first of a component) have no uncertainty. Robust kernels enter by their weights
@@ -18,24 +18,32 @@ class PoseMarginals {
   /// Throws as PoseGraph::check.
   explicit PoseMarginals(const PoseGraph& graph,
                          RotationError rotation_error = RotationError::kLog);
+  /// The same of a graph with priors and points, whose covariances are in the axes of the world.
+  ///
+  /// Throws as LandmarkGraph::check.
+  explicit PoseMarginals(const LandmarkGraph& graph,
+                         RotationError rotation_error = RotationError::kLog);
   ~PoseMarginals();
   PoseMarginals(PoseMarginals&&) noexcept;
   PoseMarginals& operator=(PoseMarginals&&) noexcept;
 
   /// Says whether there are covariances.
   ///
-  /// kDegenerate: the constraints leave directions undetermined; no covariance may be requested
-  /// then.
+  /// kDegenerate: the constraints leave directions of the nodes and points that the reason names
+  /// undetermined; no covariance may be requested then.
   const Outcome& outcome() const;
 
-  /// Covariance of one pose, dof x dof.
+  /// Covariance of one pose, dof x dof, or of a point: 3 x 3, in the plane 2 x 2.
   Information covariance(NodeId id) const;
   /// Covariances of all poses, in the order of the graph's nodes.
   ///
   /// They are computed together from the sparse inverse subset, at the cost of a second
   /// factorization.
   std::vector<Information> covariances() const;
-  /// Joint covariance of several poses, in the order of `ids`; one solve for every column.
+  /// The same of all points, in the order of LandmarkGraph::points.
+  std::vector<Information> point_covariances() const;
+  /// Joint covariance of several poses and points, in the order of `ids`; one solve for every
+  /// column.
   Eigen::MatrixXd joint_covariance(const std::vector<NodeId>& ids) const;
   /// Covariance of the relative pose T_from_to in its own right tangent.
   ///

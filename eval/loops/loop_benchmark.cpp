@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <placegraph/eval/loops/loop_benchmark.h>
 #include <placegraph/graph/core/error.h>
 
@@ -139,6 +140,15 @@ LoopBenchmark judge_loops(const LoopTruth& truth, const std::vector<LoopPredicti
   for (std::size_t i = 0; i < found.size() && result.positives > 0; ++i)
     result.recall_at[i] = static_cast<double>(found[i]) / result.positives;
   result.curve = precision_recall(std::move(scored), result.positives);
+  result.outcome = result.positives > 0
+                       ? Outcome::ok()
+                       : Outcome::failure(Outcome::Code::kTooFewData,
+                                          "no query has a true match; recall is not defined");
+  if (result.unjudged > 0)
+    result.doubts.push_back(
+        {DoubtKind::kNotJudged,
+         fmt::format("{} predictions for images without ground truth are not judged",
+                     result.unjudged)});
   return result;
 }
 

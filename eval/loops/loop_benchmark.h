@@ -1,6 +1,7 @@
 #pragma once
 #include <placegraph/eval/loops/precision_recall.h>
 #include <placegraph/graph/core/ids.h>
+#include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/recognition/loop_prediction.h>
 #include <placegraph/graph/recognition/loop_truth.h>
 
@@ -32,6 +33,7 @@ struct JudgedQuery {
 
 /// Figures of a place recognizer over a set of images.
 struct LoopBenchmark {
+  Outcome outcome;            ///< too few data: no query has a true match
   int positives = 0;          ///< queries that have a true match
   int predicted_queries = 0;  ///< queries with a valid candidate
   int dropped = 0;   ///< predictions that are neither hit nor miss: too young or out of range
@@ -43,6 +45,8 @@ struct LoopBenchmark {
   /// All valid candidates, not only the best; in the order of the queries.
   std::vector<ScoredPrediction> candidates;
   std::vector<JudgedQuery> queries;  ///< ascending; all that the truth lists, and all answered ones
+  /// What speaks against the figures: predictions that are not judged.
+  std::vector<Doubt> doubts;
 };
 
 /// Judges the loop closures that a place recognizer proposed for a set of images.

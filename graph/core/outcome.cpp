@@ -22,4 +22,32 @@ const char* to_string(Outcome::Code code) {
   return "unknown";
 }
 
+const char* to_string(DoubtKind kind) {
+  switch (kind) {
+    case DoubtKind::kChi2Above:
+      return "chi2_above";
+    case DoubtKind::kChi2Below:
+      return "chi2_below";
+    case DoubtKind::kNotUnique:
+      return "not_unique";
+    case DoubtKind::kLoopsNotJudged:
+      return "loops_not_judged";
+    case DoubtKind::kHeldComponents:
+      return "held_components";
+    case DoubtKind::kGraphFile:
+      return "graph_file";
+    case DoubtKind::kTrajectories:
+      return "trajectories";
+    case DoubtKind::kNotJudged:
+      return "not_judged";
+    case DoubtKind::kQueryRefused:
+      return "query_refused";
+    case DoubtKind::kRecording:
+      return "recording";
+    case DoubtKind::kRetiredOption:
+      return "retired_option";
+  }
+  return "unknown";
+}
+
 }  // namespace placegraph

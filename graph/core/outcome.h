@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <string>
 #include <utility>
 
@@ -39,7 +40,21 @@ enum class DoubtKind {
   kNotUnique,       ///< constraints leave directions of a graph free
   kLoopsNotJudged,  ///< too few loops of a graph agree for a robust method to judge them
   kHeldComponents,  ///< components of a graph have no reference but a node that is held
+  kGraphFile,       ///< a graph's file has lines or words that are passed over
+  kTrajectories,    ///< times or axes of an estimate look like another convention
+  kNotJudged,       ///< predictions of loops for images without ground truth are not judged
+  kQueryRefused,    ///< an image that should be localized is refused unread
+  kRecording,       ///< images, calibration or motion of a recording are not as they should be
+  kRetiredOption,   ///< an option of a file is a constant now
 };
+/// All kinds, in their order.
+inline constexpr std::array kDoubtKinds = {
+    DoubtKind::kChi2Above,      DoubtKind::kChi2Below,    DoubtKind::kNotUnique,
+    DoubtKind::kLoopsNotJudged, DoubtKind::kHeldComponents, DoubtKind::kGraphFile,
+    DoubtKind::kTrajectories,   DoubtKind::kNotJudged,    DoubtKind::kQueryRefused,
+    DoubtKind::kRecording,      DoubtKind::kRetiredOption};
+/// The name of a kind: "chi2_above", "chi2_below" and so on.
+const char* to_string(DoubtKind kind);
 
 /// A doubt about a result: commands print it as a warning, the Python package warns with it.
 struct Doubt {

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import html
 import os
+import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -102,7 +103,12 @@ class Evaluation:
         return hash(self._core)
 
     def __getitem__(self, key: str) -> float | None:
-        """A figure by its key, as "ate_rmse_m"; None if the data allow none."""
+        """A figure by its key, as "ate_rmse_m"; None if the data allow none.
+
+        NoResult: the evaluation has no figures at all.
+        """
+        if not self.ok:
+            raise _core.NoResult(f"{self.name}: {self.reason}")
         figures = self.values
         if key not in figures:
             raise KeyError(f"{key}: no such figure; there are {', '.join(figures)}")
@@ -158,14 +164,15 @@ class Evaluation:
         return self._core.to_json()
 
     def __repr__(self) -> str:
-        return str(self._core)
+        return "\n".join([str(self._core).rstrip("\n"), *_warned([self])])
 
     def _repr_html_(self) -> str:
         core = self._core
+        doubts = [("warning", text) for text in core.warnings]
         if not core.ok:
-            return table_html([(core.name, core.reason)])
+            return table_html([(core.name, core.reason), *doubts])
         rows = [(row["name"], f"{row['value']:.6g} {row['unit']}") for row in core.metric_rows()
-                if row["value"] is not None]
+                if row["value"] is not None] + doubts
         return figure_html(rows, self.picture().to_svg())
 
 
@@ -209,7 +216,7 @@ class Comparison(Sequence[Evaluation]):
         """The figures, a row for each result and a column for each key."""
         columns: dict[str, list[Any]] = {"name": [each.name for each in self]}
         for key in self._results[0].values:
-            columns[key] = [each[key] for each in self]
+            columns[key] = [each.values[key] for each in self]
         table: pandas.DataFrame = table_of(columns).set_index("name")
         return table
 
@@ -249,11 +256,23 @@ class Comparison(Sequence[Evaluation]):
         return _core.results_to_latex([each._core for each in self])
 
     def __repr__(self) -> str:
-        return _core.results_to_table([each._core for each in self], self._own)
+        table = _core.results_to_table([each._core for each in self], self._own)
+        return "\n".join([table.rstrip("\n"), *_warned(self._results)])
 
     def _repr_html_(self) -> str:
         text = f"<pre>{html.escape(repr(self))}</pre>"
         return self.picture().to_svg() + text if any(each.ok for each in self) else text
+
+
+def _warned(results: Sequence[Evaluation]) -> list[str]:
+    """The lines on what is suspicious in the data of evaluations."""
+    return [f"warning: {each.name}: {text}" for each in results for text in each.warnings]
+
+
+def _warn(result: Evaluation) -> None:
+    """Warns at the line of the user's that called `evaluate` or `compare`."""
+    for text in result.warnings:
+        warnings.warn(f"{result.name}: {text}", _core.Doubt, stacklevel=3)
 
 
 def _options(options: EvaluationOptions | None, align: str | None) -> _core.OptionSet:
@@ -277,8 +296,25 @@ def evaluate(
     `truth`: a Trajectory, the file of one, a Dataset, or the folder of a sequence; `estimate`: a
     Trajectory, the file of one, a Map, or the output folder of a run. `align`: 'none', 'origin',
     'se3' (the default), 'sim3' or 'scale'; it takes precedence over that of `options`. `times`:
-    file of times for trajectories without, or two, for truth and estimate.
+    file of times for trajectories without, or two, for truth and estimate. Warns with Doubt of what
+    is suspicious in the data. NoResult: the data allow no figures.
     """
+    result = _evaluated(truth, estimate, align, name, times, options)
+    _warn(result)
+    if not result.ok:
+        raise _core.NoResult(f"{result.name}: {result.reason}")
+    return result
+
+
+def _evaluated(
+    truth: TruthLike,
+    estimate: EstimateLike,
+    align: str | None,
+    name: str | None,
+    times: Path | Sequence[Path] | None,
+    options: EvaluationOptions | None,
+) -> Evaluation:
+    """The evaluation, also without figures."""
     chosen = _options(options, align)
     truth_times, estimate_times = files_of_times(times)
     truth, estimate = true_of(truth), estimated_of(estimate)
@@ -306,17 +342,28 @@ def compare(
 
     `estimates`: what `evaluate` takes, by names, or a list of it, where "estimate 1", ... are the
     names of trajectories and maps; or one folder, whose files are paired by name with those of the
-    folder `truth`.
+    folder `truth`. Warns with Doubt of what is suspicious in the data, and of an estimate without
+    figures, which means over the others leave out; NoResult: none has figures.
     """
-    shared = {"align": align, "times": times, "options": options}
     if isinstance(estimates, (str, os.PathLike)):
         folder = existing(estimates, "estimates")
         if os.path.isdir(folder) and not _core.is_run_folder(folder):
             if isinstance(truth, (_core.Trajectory, Dataset)) or not os.path.isdir(
                     truths := existing(truth, "truth")):
                 raise _core.ArgumentError("truth: a folder is needed, as estimates is one")
-            return Comparison([evaluate(true, estimate, name=name, **shared)  # type: ignore[arg-type]
-                               for name, true, estimate in _core.pair_files(truths, folder)], True)
-    named = named_estimates(estimates)
-    return Comparison([evaluate(truth, each, name=name, **shared)  # type: ignore[arg-type]
-                       for name, each in named], False)
+            return _compared([_evaluated(true, estimate, align, name, times, options)
+                              for name, true, estimate in _core.pair_files(truths, folder)], True)
+    return _compared([_evaluated(truth, each, align, name, times, options)
+                      for name, each in named_estimates(estimates)], False)
+
+
+def _compared(results: Sequence[Evaluation], own_truths: bool) -> Comparison:
+    failed = [each for each in results if not each.ok]
+    if results and len(failed) == len(results):
+        raise _core.NoResult("; ".join(f"{each.name}: {each.reason}" for each in failed))
+    for each in results:
+        _warn(each)
+    for each in failed:
+        warnings.warn(f"{each.name} has no figures, and means leave it out: {each.reason}",
+                      _core.Doubt, stacklevel=3)
+    return Comparison(results, own_truths)

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import operator
+import warnings
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, overload
 
 from . import _core
 from ._notebook import figure_html
@@ -17,25 +18,39 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
 PoseGraph = _core.PoseGraph
+LandmarkGraph = _core.LandmarkGraph
 PoseMarginals = _core.PoseMarginals
 OptimizedGraph = _core.OptimizedGraph
+OptimizedLandmarkGraph = _core.OptimizedLandmarkGraph
 RobustKernel = _core.RobustKernel
 
 _ROBUST = ("none", "huber", "dcs", "gnc", "pcm", "auto")
 
 
+@overload
+def optimize(graph: PoseGraph, *, robust: str | None = None, certify: bool = False,
+             options: PoseGraphOptions | None = None) -> OptimizedGraph: ...
+
+
+@overload
+def optimize(graph: LandmarkGraph, *, robust: str | None = None, certify: bool = False,
+             options: PoseGraphOptions | None = None) -> OptimizedLandmarkGraph: ...
+
+
 def optimize(
-    graph: PoseGraph,
+    graph: PoseGraph | LandmarkGraph,
     *,
     robust: str | None = None,
     certify: bool = False,
     options: PoseGraphOptions | None = None,
-) -> OptimizedGraph:
+) -> OptimizedGraph | OptimizedLandmarkGraph:
     """Minimizes the sum of squared, whitened errors of a pose graph, which stays as it is.
 
     `robust`: the method against false loops ('auto' is recommended where there may be some), in
     place of `options.robust.method`; `certify`: also bounds how far the solution is from the global
-    minimum of the isotropic chordal problem. Ctrl-C ends it between two steps.
+    minimum of the isotropic chordal problem. Ctrl-C ends it between two steps. Warns with Doubt of
+    what speaks against the result (`OptimizedGraph.doubts`); NoResult: there is no minimum. A
+    LandmarkGraph takes no robust method and no certificate.
     """
     chosen = given_or_default(options, PoseGraphOptions)._set.copy()
     if robust is not None:
@@ -43,16 +58,28 @@ def optimize(
             names = ", ".join(_ROBUST)
             raise _core.ArgumentError(f"robust: one of {names} is needed, not {robust!r}")
         chosen.set("robust.method", robust)
-    return _core.optimize_pose_graph(graph, chosen, certify)
+    result: OptimizedGraph | OptimizedLandmarkGraph
+    if isinstance(graph, LandmarkGraph):
+        if certify:
+            raise _core.ArgumentError("certify: a graph with priors and points has no certificate")
+        result = _core.optimize_landmark_graph(graph, chosen)
+    else:
+        result = _core.optimize_pose_graph(graph, chosen, certify)
+    for doubt in result.doubts:
+        warnings.warn(f"graph: {doubt}", _core.Doubt, stacklevel=2)
+    return result
 
 
 def marginal_covariances(
-    graph: PoseGraph, nodes: Sequence[int] | None = None, *, rotation_error: str = "log"
+    graph: PoseGraph | LandmarkGraph,
+    nodes: Sequence[int] | None = None,
+    *,
+    rotation_error: str = "log",
 ) -> NDArray[np.float64]:
     """Covariances of the poses of an optimized graph, N x D x D, in their right tangents.
 
     `nodes`: their ids, else all nodes in the order of the graph. Held nodes have none (zeros). Use
-    `PoseMarginals` for joint covariances and those of relative poses. Raises Error if the
+    `PoseMarginals` for joint covariances, and those of relative poses and of points. NoResult: the
     constraints leave directions undetermined.
     """
     import numpy as np
@@ -218,11 +245,10 @@ def _graph_html(graph: PoseGraph) -> str:
 def _optimized_html(report: OptimizedGraph) -> str:
     rejected = [edge.constraint for edge in report.rejected]
     rows = [("nodes", str(len(report.graph))),
-            ("cost", f"{report.chi2_initial:.6g} -> {report.chi2_final:.6g}"),
+            ("chi2", f"{report.chi2_initial:.6g} -> {report.chi2_final:.6g}"),
             ("iterations", str(report.iterations)),
             ("rejected constraints", str(len(rejected)))]
-    if not report.ok:
-        rows.append(("no minimum", report.reason))
+    rows += [("doubt", doubt) for doubt in report.doubts]
     svg = _core.pose_graph_picture(report.graph, None, rejected) if len(report.graph) else ""
     return figure_html(rows, svg)
 

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import copy
 import os
+import warnings
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -192,8 +193,13 @@ def score(
     hit if it is within `tolerance` images of a true match. `truth`: a LoopTruth, the file of one,
     or true poses, of which `options` say what is a revisit. `min_age`: candidates less than this
     many images before the query are neither hits nor misses; by default 300, and 0 for a file that
-    lists the candidates of each query.
+    lists the candidates of each query. Warns with Doubt of predictions that are not judged;
+    NoResult: no query has a true match.
     """
     query, candidate, scores = _columns(predictions, format)
     judged = _core.judge_loops(_truth(truth, options, min_age), query, candidate, scores, tolerance)
+    if not judged.ok:
+        raise _core.NoResult(f"{name}: {judged.reason}")
+    for doubt in judged.doubts:
+        warnings.warn(f"{name}: {doubt}", _core.Doubt, stacklevel=2)
     return LoopScore(judged, name)

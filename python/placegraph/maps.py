@@ -5,7 +5,8 @@ from __future__ import annotations
 import itertools
 import os
 import re
-from collections.abc import Iterable
+import warnings
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from . import _core
@@ -340,9 +341,11 @@ class Localizer:
     def localize(self, image: Image) -> Localization:
         """Localizes one image: H x W uint8, H x W x 3 uint8 (BGR), or a frame."""
         try:
-            return self._core.localize([image], False)[0]
+            at = self._core.localize([image], False)[0]
         except _core.ArgumentError as error:
             raise _core.ArgumentError(str(error).replace("images[0]", "image")) from None
+        _warn_of_refusals([at])
+        return at
 
     def localize_all(
         self, images: Iterable[Image], *, sequence: bool = False
@@ -362,4 +365,14 @@ class Localizer:
                 raise _core.ArgumentError(re.sub(
                     r"^images\[(\d+)\]", lambda at: f"images[{first + int(at[1])}]", str(error)
                 )) from None
+        _warn_of_refusals(results)
         return results
+
+
+def _warn_of_refusals(results: Sequence[Localization]) -> None:
+    """Warns of images that could not be compared, at the line of the user's."""
+    refused = [i for i, at in enumerate(results) if at.stage in ("grey", "unreadable")]
+    if refused:
+        warnings.warn(f"{len(refused)} of {len(results)} images are refused before the comparison, "
+                      f"the first is number {refused[0]}: they are grey, and the map's images have "
+                      "colour", _core.Doubt, stacklevel=3)

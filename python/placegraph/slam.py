@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import warnings
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Protocol, Union
 
@@ -130,7 +131,8 @@ def run(
     `on_event(event)` is called for every Event, `on_frame(done, total, result)` after every frame,
     `on_log(level, text)` for every message, `stop()` before every frame: True ends the run. An
     exception in any of them ends the run and is raised here, as KeyboardInterrupt is for Ctrl-C.
-    An unreadable frame other than the first one ends the run, too: see RunResult.broken_off.
+    An unreadable frame other than the first one ends the run, too: see RunResult.broken_off. Warns
+    with Doubt of each of RunResult.notes.
     """
     opened = dataset if isinstance(dataset, Dataset) else open_dataset(dataset)
     chosen = given_or_default(options, RunOptions)
@@ -148,6 +150,8 @@ def run(
         on_log=on_log,
         stop=stop,
     )
+    for note in done.notes:
+        warnings.warn(f"{opened.name}: {note.text}", _core.Doubt, stacklevel=2)
     return RunResult(done, path or "")
 
 

@@ -25,6 +25,7 @@ void bind_datasets(nb::module_& m);
 void bind_measured_motion(nb::module_& m);
 void bind_trajectories(nb::module_& m);
 void bind_pose_graphs(nb::module_& m);
+void bind_landmark_graphs(nb::module_& m);
 void bind_pose_graph_optimization(nb::module_& m);
 void bind_incremental(nb::module_& m);
 void bind_variables(nb::module_& m);

@@ -1,8 +1,17 @@
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/outcome.h>
 
 #include "python/src/bindings.h"
+#include "python/src/warnings.h"
 
 namespace placegraph::python {
+
+PyObject* doubt_class() {
+  static PyObject* const kClass = PyErr_NewExceptionWithDoc(
+      "placegraph.Doubt", "What speaks against a result, or against the input that it is of.",
+      PyExc_RuntimeWarning, nullptr);
+  return kClass;
+}
 
 void bind_errors(nb::module_& m) {
   // The first type that fits is taken: the derived ones come last. Each is also what Python's own
@@ -12,6 +21,10 @@ void bind_errors(nb::module_& m) {
   nb::exception<ArgumentError>(m, "ArgumentError", both(PyExc_ValueError));
   nb::exception<FileError>(m, "FileError", both(PyExc_OSError));
   nb::exception<NoResult>(m, "NoResult", m.attr("Error"));
+  m.attr("Doubt") = nb::borrow(doubt_class());
+  std::vector<std::string> kinds;
+  for (const DoubtKind kind : kDoubtKinds) kinds.emplace_back(to_string(kind));
+  m.attr("doubt_kinds") = nb::tuple(nb::cast(kinds));
 }
 
 }  // namespace placegraph::python
@@ -33,6 +46,7 @@ NB_MODULE(_core, m) {
   bind_datasets(m);
   bind_variables(m);
   bind_pose_graphs(m);
+  bind_landmark_graphs(m);
   bind_pose_graph_optimization(m);
   bind_incremental(m);
   bind_factors(m);

@@ -2,10 +2,12 @@
 #include <placegraph/backend/initialization/certificate.h>
 #include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
 #include <placegraph/backend/pose_graph/pose_marginals.h>
+#include <placegraph/graph/core/error.h>
 
 #include "python/src/backend/graphs.h"
 #include "python/src/options.h"
 #include "python/src/values/value_class.h"
+#include "python/src/warnings.h"
 
 namespace placegraph::python {
 namespace {
@@ -23,6 +25,7 @@ OptimizedGraph optimize(PoseGraph graph, const OptionSet& options, bool with_cer
   const nb::gil_scoped_release release;
   OptimizedGraph result;
   result.report = optimize_pose_graph(std::move(graph), typed, interruptible());
+  if (!result.report.outcome) throw NoResult("graph: " + result.report.outcome.reason);
   if (with_certificate && !result.report.graph.nodes.empty())
     result.certificate = certify_chordal_isotropic(
         without_rejected(result.report.graph, result.report.rejected), typed.rotation_error);
@@ -44,7 +47,7 @@ std::string text_of(const OptimizedGraph& o) {
       to_string(r.initialization_used));
   if (!r.rejected.empty()) text += fmt::format(", {} constraints rejected", r.rejected.size());
   if (o.certificate) text += o.certificate->certified ? ", certified" : ", not certified";
-  if (!r.outcome) text += ", " + r.outcome.reason;
+  for (const Doubt& doubt : r.doubts) text += "; " + doubt.text;
   return text + ">";
 }
 
@@ -111,11 +114,7 @@ void bind_report(nb::module_& m) {
           doc("PoseGraphReport::degrees_of_freedom"))
       .def_prop_ro(
           "doubts",
-          [](const O& o) {
-            std::vector<std::string> texts;
-            for (const Doubt& doubt : o.report.doubts) texts.push_back(doubt.text);
-            return texts;
-          },
+          [](const O& o) { return TupleOf<std::string>{texts_of(o.report.doubts)}; },
           "What speaks against the result, one line each, as the command warns of it.")
       .def_prop_ro(
           "iterations", [](const O& o) { return o.report.iterations; },
@@ -149,8 +148,8 @@ void bind_report(nb::module_& m) {
       .def("__repr__", &text_of);
 }
 
-ReadOnlyArray<double> stacked(const std::vector<Information>& matrices, PoseKind kind) {
-  const auto dof = static_cast<std::size_t>(degrees_of_freedom(kind));
+ReadOnlyArray<double> stacked(const std::vector<Information>& matrices, int size) {
+  const auto dof = static_cast<std::size_t>(size);
   std::vector<double> values;
   std::size_t count = 0;
   for (const Information& matrix : matrices) {
@@ -167,13 +166,17 @@ struct Marginals {
   PoseKind kind;
 };
 
+PoseKind kind_of(const PoseGraph& graph) { return graph.kind(); }
+PoseKind kind_of(const LandmarkGraph& graph) { return graph.poses.kind(); }
+
 /// Throws if the constraints leave directions undetermined: nothing can be asked for then.
-Marginals marginals_of(PoseGraph graph, const std::string& rotation_error) {
+template <class Graph>
+Marginals marginals_of(const Graph& graph, const std::string& rotation_error) {
   const RotationError error = rotation_error_of(rotation_error);
   const nb::gil_scoped_release release;
-  Marginals result{PoseMarginals(graph, error), graph.kind()};
+  Marginals result{PoseMarginals(graph, error), kind_of(graph)};
   if (!result.marginals.outcome())
-    throw Error("graph: no covariances: " + result.marginals.outcome().reason);
+    throw NoResult("graph: no covariances: " + result.marginals.outcome().reason);
   return result;
 }
 
@@ -186,7 +189,15 @@ void bind_marginals(nb::module_& m) {
             new (self) Marginals(marginals_of(graph, rotation_error));
           },
           "graph"_a, "rotation_error"_a = "log",
-          "Makes the factorization. Raises Error if the constraints leave directions undetermined.")
+          "Makes the factorization. Raises NoResult if the constraints leave directions "
+          "undetermined.")
+      .def(
+          "__init__",
+          [](Marginals* self, const LandmarkGraph& graph, const std::string& rotation_error) {
+            new (self) Marginals(marginals_of(graph, rotation_error));
+          },
+          "graph"_a, "rotation_error"_a = "log",
+          "The same of a graph with priors and points.")
       .def(
           "covariance",
           [](const Marginals& p, std::int64_t id) {
@@ -201,9 +212,21 @@ void bind_marginals(nb::module_& m) {
               const nb::gil_scoped_release release;
               all = p.marginals.covariances();
             }
-            return stacked(all, p.kind);
+            return stacked(all, degrees_of_freedom(p.kind));
           },
           doc("PoseMarginals::covariances"))
+      .def(
+          "point_covariances",
+          [](const Marginals& p) {
+            std::vector<Information> all;
+            {
+              const nb::gil_scoped_release release;
+              all = p.marginals.point_covariances();
+            }
+            return stacked(all, p.kind == PoseKind::kSE2 ? 2 : 3);
+          },
+          "Covariances of all points of a LandmarkGraph in the axes of the world [m^2], N x 3 x 3, "
+          "in the plane N x 2 x 2.")
       .def(
           "joint_covariance",
           [](const Marginals& p, const ArrayArgument<std::int64_t>& ids) {
@@ -226,7 +249,7 @@ void bind_marginals(nb::module_& m) {
               const nb::gil_scoped_release release;
               all = p.marginals.constraint_covariances();
             }
-            return stacked(all, p.kind);
+            return stacked(all, degrees_of_freedom(p.kind));
           },
           "Covariances in the graph of the measured relative poses, M x D x D, as `edges`.");
 }

@@ -12,6 +12,7 @@
 
 #include "python/src/frontend/functions.h"
 #include "python/src/values/value_class.h"
+#include "python/src/warnings.h"
 
 namespace placegraph::python {
 namespace {
@@ -232,12 +233,16 @@ void bind_loops(nb::module_& m) {
   bind_option_set<RevisitOptions>(m, "RevisitOptionSet", doc("RevisitOptions"));
   bind_truth(m);
   nb::class_<LoopBenchmark> benchmark(m, "LoopBenchmark", doc("LoopBenchmark"));
+  bind_outcome(benchmark);
   bind_value(benchmark, Hash::kByValue);
   benchmark.def_ro("positives", &LoopBenchmark::positives, doc("LoopBenchmark::positives"))
       .def_ro("predicted_queries", &LoopBenchmark::predicted_queries,
               doc("LoopBenchmark::predicted_queries"))
       .def_ro("dropped", &LoopBenchmark::dropped, doc("LoopBenchmark::dropped"))
       .def_ro("unjudged", &LoopBenchmark::unjudged, doc("LoopBenchmark::unjudged"))
+      .def_prop_ro(
+          "doubts", [](const LoopBenchmark& b) { return TupleOf<std::string>{texts_of(b.doubts)}; },
+          doc("LoopBenchmark::doubts"))
       .def_prop_ro(
           "recall_at",
           [](const LoopBenchmark& b) {

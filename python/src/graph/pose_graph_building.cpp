@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "python/src/backend/graphs.h"
+#include "python/src/warnings.h"
 
 namespace placegraph::python {
 namespace {
@@ -171,9 +172,7 @@ PoseGraph read(const std::filesystem::path& file) {
     const nb::gil_scoped_release release;
     graph = read_pose_graph(path, {.connected = false, .remarks = &remarks});
   }
-  for (const std::string& remark : remarks)
-    if (PyErr_WarnEx(PyExc_UserWarning, (path + ": " + remark).c_str(), 1) != 0)
-      throw nb::python_error();
+  for (const std::string& remark : remarks) warn(path + ": " + remark);
   return graph;
 }
 

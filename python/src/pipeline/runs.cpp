@@ -25,6 +25,7 @@ using namespace nb::literals;
 struct PythonRun {
   std::shared_ptr<StoredMap> map;
   RunResult result;
+  std::vector<DataNote> notes;  ///< of the data, the options and the motion
 };
 
 /// The functions of Python that a run calls.
@@ -66,7 +67,7 @@ PythonRun finished(RunResult result, const Dataset& dataset, const RunOptions& o
   kept.threads = RunOptions().threads;  // the map does not depend on it
   stored->origin.options = dump_options(kept);
   if (kept.slam.views.enabled) stored->origin.view_options = dump_options(kept.slam.views.cues);
-  return {std::move(stored), std::move(result)};
+  return {std::move(stored), std::move(result), std::move(notes)};
 }
 
 PythonRun run(const Dataset& dataset, const OptionSet& options, const std::string& sequence,
@@ -144,8 +145,8 @@ void bind_runs(nb::module_& m) {
           "resumed_at", [](const PythonRun& r) { return r.result.resumed_at; },
           doc("RunResult::resumed_at"))
       .def_prop_ro(
-          "notes", [](const PythonRun& r) { return TupleOf{r.result.notes}; },
-          doc("RunResult::notes"))
+          "notes", [](const PythonRun& r) { return TupleOf{r.notes}; },
+          "Doubts about the images, the calibration and the motion.")
       .def_prop_ro(
           "stages", [](const PythonRun& r) { return stage_table(r.result.stages); },
           nb::sig("def stages(self) -> dict[str, tuple[float, int]]"),
