@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from . import _core
 from ._core import LoopTruth
+from ._notebook import figure_html
 from ._tables import table_of
 from ._types import Path
 from .options import Options, given_or_default
@@ -46,9 +47,10 @@ class RevisitOptions(Options):
 class LoopScore:
     """The figures of a place recognizer over a set of images; `result["ap"]` is one of them."""
 
-    def __init__(self, core: _core.LoopBenchmark, name: str) -> None:
+    def __init__(self, core: _core.LoopBenchmark, name: str, protocol: str = "") -> None:
         self._core = core
         self.name = name
+        self.protocol = protocol
 
     @property
     def curve(self) -> dict[str, NDArray[Any]]:
@@ -117,6 +119,11 @@ class LoopScore:
         figures = ", ".join(f"{key} {text(value)}" for key, value in self.metrics.items())
         return f"<placegraph.loops.LoopScore {self.name}: {figures}>"
 
+    def _repr_html_(self) -> str:
+        rows = [(key, f"{value:.6g}") for key, value in self.metrics.items() if value is not None]
+        return figure_html(rows, _core.precision_recall_picture(self._core, self.name,
+                                                                self.protocol))
+
 
 def read_predictions(path: Path, format: str = "scores") -> pandas.DataFrame:
     """Predictions of a file: query, candidate, score.
@@ -179,5 +186,7 @@ def score(
     lists the candidates of each query.
     """
     query, candidate, scores = _columns(predictions, format)
-    judged = _core.judge_loops(_truth(truth, options, min_age), query, candidate, scores, tolerance)
-    return LoopScore(judged, name)
+    true = _truth(truth, options, min_age)
+    judged = _core.judge_loops(true, query, candidate, scores, tolerance)
+    kind = "true poses" if isinstance(truth, _core.Trajectory) else "listed matches"
+    return LoopScore(judged, name, f"{kind}, candidates at least {true.min_age} images older")
