@@ -1,4 +1,6 @@
+#include <fmt/format.h>
 #include <placegraph/eval/drawing/figure.h>
+#include <placegraph/eval/drawing/figure_detail.h>
 #include <placegraph/eval/drawing/legend.h>
 #include <placegraph/eval/drawing/panel_drawing.h>
 #include <placegraph/eval/drawing/plot_axis.h>
@@ -13,6 +15,14 @@ namespace placegraph {
 namespace {
 
 constexpr double kSide = 24, kTitleLine = 28, kNoteLine = 21;
+constexpr double kSeen_px = 1;  ///< a smaller tolerance is not seen
+
+double largest(const std::vector<ShapeTolerances>& tolerances_px) {
+  double most_px = 0;
+  for (const ShapeTolerances& panel : tolerances_px)
+    for (const double each : panel) most_px = std::max(most_px, each);
+  return most_px;
+}
 
 }  // namespace
 
@@ -32,8 +42,12 @@ void make_equal(FigurePanel& panel) {
 std::string to_svg(const Figure& figure) {
   const double room = figure.width_px - 2 * kSide;
   const std::vector<std::string> title = wrapped(figure.title, kTitlePx, room);
-  std::vector<std::string> notes;
-  for (const std::string& note : figure.notes)
+  const std::vector<ShapeTolerances> tolerances_px = shape_tolerances(figure);
+  std::vector<std::string> written = figure.notes, notes;
+  if (const double most_px = largest(tolerances_px); most_px > kSeen_px)
+    written.push_back(fmt::format(
+        "thinned: what is left out lies within {:.0f} px of what is drawn", std::ceil(most_px)));
+  for (const std::string& note : written)
     for (std::string& line : wrapped(note, kTextPx, room)) notes.push_back(std::move(line));
   const Legend legend(figure.legend, room);
   const double above = 12 + kTitleLine * static_cast<double>(title.size()) +
@@ -50,7 +64,8 @@ std::string to_svg(const Figure& figure) {
     y += kNoteLine;
   }
   legend.draw(canvas, {kSide, above + 6});
-  for (const FigurePanel& panel : figure.panels) draw_panel(canvas, panel, {0, above + legend_px});
+  for (std::size_t i = 0; i < figure.panels.size(); ++i)
+    draw_panel(canvas, figure.panels[i], {0, above + legend_px}, tolerances_px[i]);
   return canvas.finish();
 }
 

@@ -133,6 +133,9 @@ struct Figure {
 void make_equal(FigurePanel& panel);
 
 /// The picture as SVG text. It is as wide as the area, and higher by title, notes and legend.
+/// The text does not grow with the numbers of points: where its lines would take more than 170 kB,
+/// or its dots more than 60 kB, they are thinned, to within half a pixel if that is enough. Gaps
+/// and single points that lie off their neighbours stay. A note names a tolerance that is seen.
 std::string to_svg(const Figure& figure);
 
 }  // namespace placegraph

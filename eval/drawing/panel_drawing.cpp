@@ -1,6 +1,8 @@
 #include <placegraph/eval/drawing/figure.h>
+#include <placegraph/eval/drawing/figure_detail.h>
 #include <placegraph/eval/drawing/label_room.h>
 #include <placegraph/eval/drawing/panel_drawing.h>
+#include <placegraph/eval/drawing/panel_view.h>
 #include <placegraph/eval/drawing/plot_axis.h>
 #include <placegraph/eval/drawing/plot_style.h>
 #include <placegraph/eval/drawing/svg_canvas.h>
@@ -14,27 +16,6 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// The panel in the picture.
-struct View {
-  Vector2d corner, size;
-  Interval x, y;
-  bool downwards;  ///< categories are counted from the top
-
-  View(const FigurePanel& panel, const Vector2d& origin)
-      : corner(origin + panel.corner),
-        size(panel.size),
-        x(panel.x.range),
-        y(panel.y.range),
-        downwards(!panel.y.categories.empty()) {}
-  Vector2d operator()(const Vector2d& p) const {
-    const double up = (p[1] - y.min) / y.size();
-    return {corner[0] + (p[0] - x.min) / x.size() * size[0],
-            corner[1] + (downwards ? up : 1 - up) * size[1]};
-  }
-  double right() const { return corner[0] + size[0]; }
-  double bottom() const { return corner[1] + size[1]; }
-};
-
 AxisTicks ticks_of(const FigureAxis& axis, double size_px, double room_px) {
   if (!axis.categories.empty()) return {};
   if (axis.logarithmic) return log_ticks(axis.range, size_px / axis.range.size(), room_px);
@@ -42,7 +23,7 @@ AxisTicks ticks_of(const FigureAxis& axis, double size_px, double room_px) {
   return linear_ticks(axis.range, std::clamp(static_cast<int>(size_px / room_px), 3, kMost));
 }
 
-void draw_x_axis(SvgCanvas& canvas, const FigureAxis& axis, const View& view) {
+void draw_x_axis(SvgCanvas& canvas, const FigureAxis& axis, const PanelView& view) {
   const AxisTicks ticks = ticks_of(axis, view.size[0], 64);
   for (const AxisTick& tick : ticks.ticks) {
     const double at = view({tick.at, view.y.min})[0];
@@ -55,14 +36,14 @@ void draw_x_axis(SvgCanvas& canvas, const FigureAxis& axis, const View& view) {
               TextAnchor::kMiddle);
 }
 
-void draw_categories(SvgCanvas& canvas, const FigureAxis& axis, const View& view) {
+void draw_categories(SvgCanvas& canvas, const FigureAxis& axis, const PanelView& view) {
   for (std::size_t i = 0; i < axis.categories.size(); ++i)
     canvas.text(view({view.x.min, static_cast<double>(i)}) + Vector2d(-10, 5),
                 fitted(axis.categories[i], kTickPx, view.corner[0] - 20), kTickPx, kInk,
                 TextAnchor::kRight);
 }
 
-void draw_y_axis(SvgCanvas& canvas, const FigureAxis& axis, const View& view) {
+void draw_y_axis(SvgCanvas& canvas, const FigureAxis& axis, const PanelView& view) {
   const AxisTicks ticks = ticks_of(axis, view.size[1], 46);
   double width = 0;
   for (const AxisTick& tick : ticks.ticks) {
@@ -78,51 +59,28 @@ void draw_y_axis(SvgCanvas& canvas, const FigureAxis& axis, const View& view) {
               TextAnchor::kMiddle, true);
 }
 
-/// Calls `emit` with every stretch of points of one colour; stretches of a line meet in a point.
-template <typename Emit>
-void for_stretches(const FigureLine& line, const View& view, const Emit& emit) {
-  constexpr double kLevels = 24, kNear_px = 0.3;
-  const auto level_at = [&](std::size_t i) {
-    return line.shares.empty() ? 0 : std::lround(std::clamp(line.shares[i], 0.0, 1.0) * kLevels);
-  };
-  std::vector<Vector2d> stretch;
-  long level = 0;
-  const auto end = [&] {
-    if (stretch.size() == 1) stretch.push_back(stretch.front() + Vector2d(0.5, 0));
-    if (!stretch.empty()) emit(stretch, level / kLevels);
-    stretch.clear();
-  };
-  for (std::size_t i = 0; i < line.points.size(); ++i) {
-    if (!line.points[i] || !line.points[i]->allFinite()) {
-      end();
-      continue;
-    }
-    const Vector2d px = view(*line.points[i]);
-    if (!stretch.empty() && level_at(i) != level) {
-      stretch.push_back(px);
-      end();
-    }
-    const bool last = i + 1 == line.points.size() || !line.points[i + 1];
-    if (stretch.empty()) level = level_at(i);
-    if (stretch.empty() || last || (stretch.back() - px).norm() > kNear_px) stretch.push_back(px);
+void draw(SvgCanvas& canvas, const FigureLine& line, const PanelView& view, double tolerance_px) {
+  const auto lines = drawn_lines(line, view, tolerance_px);
+  for (const DrawnLine& drawn : lines.value()) {
+    if (tolerance_px > 0)
+      canvas.lines(drawn.stretches, drawn.stroke);
+    else
+      canvas.line(drawn.stretches.front(), drawn.stroke);
   }
-  end();
 }
 
-void draw(SvgCanvas& canvas, const FigureLine& line, const View& view) {
-  for_stretches(line, view, [&](const std::vector<Vector2d>& points, double share) {
-    Stroke stroke = line.stroke;
-    if (!line.shares.empty()) stroke.colour = scale_colour(share);
-    canvas.line(points, stroke);
-  });
+void draw(SvgCanvas& canvas, const FigureDots& dots, const PanelView& view, double tolerance_px) {
+  const double edge_px = dots.radius_px < 4 ? 1.5 : 2;
+  const std::vector<Vector2d> centres = drawn_dots(dots, view, tolerance_px);
+  if (tolerance_px > 0 && centres.size() > 1) {
+    canvas.discs(centres, dots.radius_px, dots.fill, dots.edge, edge_px);
+    return;
+  }
+  for (const Vector2d& centre : centres)
+    canvas.disc(centre, dots.radius_px, dots.fill, dots.edge, edge_px);
 }
 
-void draw(SvgCanvas& canvas, const FigureDots& dots, const View& view) {
-  for (const Vector2d& point : dots.points)
-    canvas.disc(view(point), dots.radius_px, dots.fill, dots.edge, dots.radius_px < 4 ? 1.5 : 2);
-}
-
-void draw(SvgCanvas& canvas, const FigureArea& area, const View& view) {
+void draw(SvgCanvas& canvas, const FigureArea& area, const PanelView& view, double) {
   std::vector<std::vector<Vector2d>> rings = area.rings;
   for (std::vector<Vector2d>& ring : rings)
     for (Vector2d& p : ring) p = view(p);
@@ -130,7 +88,7 @@ void draw(SvgCanvas& canvas, const FigureArea& area, const View& view) {
 }
 
 /// In several lines if it contains line breaks.
-void draw(SvgCanvas& canvas, const FigureText& text, const View& view) {
+void draw(SvgCanvas& canvas, const FigureText& text, const PanelView& view, double) {
   constexpr double kLine = 1.25 * kTickPx;
   std::vector<std::string> lines = {""};
   for (const char c : text.text) {
@@ -154,7 +112,7 @@ void draw(SvgCanvas& canvas, const FigureText& text, const View& view) {
                 kTickPx, kInk, TextAnchor::kMiddle);
 }
 
-void draw_labels(SvgCanvas& canvas, const FigurePanel& panel, const View& view) {
+void draw_labels(SvgCanvas& canvas, const FigurePanel& panel, const PanelView& view) {
   if (panel.labels.empty()) return;
   constexpr double kLabelPx = 12.5, kDisc_px = 3.5;
   LabelRoom room(view.corner, view.size);
@@ -174,7 +132,7 @@ void draw_labels(SvgCanvas& canvas, const FigurePanel& panel, const View& view) 
   }
 }
 
-void draw_scale(SvgCanvas& canvas, const FigureScale& scale, const View& view) {
+void draw_scale(SvgCanvas& canvas, const FigureScale& scale, const PanelView& view) {
   constexpr double kWidth = 14;
   constexpr int kParts = 48;
   const Vector2d corner(view.right() + 16, view.corner[1]);
@@ -205,8 +163,9 @@ void draw_scale(SvgCanvas& canvas, const FigureScale& scale, const View& view) {
 
 }  // namespace
 
-void draw_panel(SvgCanvas& canvas, const FigurePanel& panel, const Vector2d& origin) {
-  const View view(panel, origin);
+void draw_panel(SvgCanvas& canvas, const FigurePanel& panel, const Vector2d& origin,
+                const ShapeTolerances& tolerances_px) {
+  const PanelView view(panel, origin);
   canvas.text(view.corner + Vector2d(0, -11),
               fitted(panel.heading, kHeadingPx, view.size[0] + kRightMargin - 6), kHeadingPx, kInk,
               TextAnchor::kLeft);
@@ -216,8 +175,12 @@ void draw_panel(SvgCanvas& canvas, const FigurePanel& panel, const Vector2d& ori
   else
     draw_categories(canvas, panel.y, view);
   canvas.begin_clip(view.corner, view.size);
-  for (const FigureShape& shape : panel.shapes)
-    std::visit([&](const auto& s) { draw(canvas, s, view); }, shape);
+  for (std::size_t i = 0; i < panel.shapes.size(); ++i)
+    std::visit(
+        [&](const auto& shape) {
+          draw(canvas, shape, view, tolerances_px.empty() ? 0 : tolerances_px[i]);
+        },
+        panel.shapes[i]);
   canvas.end_clip();
   draw_labels(canvas, panel, view);
   const Vector2d a = view.corner, b = view.corner + view.size;

@@ -2,6 +2,7 @@
 #include <placegraph/eval/drawing/svg_canvas.h>
 #include <placegraph/eval/drawing/text_width.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace placegraph {
@@ -16,6 +17,16 @@ std::string points_of(const std::vector<Vector2d>& points) {
   for (const Vector2d& p : points)
     if (p.allFinite()) text += fmt::format("{:.1f},{:.1f} ", p[0] + 0.0, p[1] + 0.0);
   return text;
+}
+
+std::string style_of(const Stroke& stroke) {
+  std::string style = fmt::format(
+      "fill=\"none\" stroke=\"{}\" stroke-width=\"{:.4g}\" stroke-linejoin=\"round\" "
+      "stroke-linecap=\"{}\"",
+      css(stroke.colour), stroke.width_px, stroke.dash.empty() ? "round" : "butt");
+  if (stroke.opacity < 1) style += fmt::format(" stroke-opacity=\"{:.3g}\"", stroke.opacity);
+  if (!stroke.dash.empty()) style += fmt::format(" stroke-dasharray=\"{}\"", stroke.dash);
+  return style;
 }
 
 /// The text without what XML does not allow in one.
@@ -36,6 +47,26 @@ std::string xml_text(const std::string& text) {
 
 }  // namespace
 
+std::string path_in_tenths(const std::vector<std::vector<Vector2d>>& lines) {
+  const auto tenths = [](double px) { return std::lround(10 * std::clamp(px, -1e8, 1e8)); };
+  std::string path;
+  for (const std::vector<Vector2d>& line : lines) {
+    long x = 0, y = 0;
+    bool begun = false;
+    for (const Vector2d& p : line) {
+      if (!p.allFinite()) continue;
+      const long next_x = tenths(p[0]), next_y = tenths(p[1]);
+      // A minus sign parts numbers too.
+      path +=
+          fmt::format("{}{}{}{}", begun ? "l" : "M", next_x - x, next_y < y ? "" : " ", next_y - y);
+      x = next_x;
+      y = next_y;
+      begun = true;
+    }
+  }
+  return path;
+}
+
 SvgCanvas::SvgCanvas(double width_px, double height_px)
     : out_(fmt::format(
           "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" "
@@ -44,15 +75,16 @@ SvgCanvas::SvgCanvas(double width_px, double height_px)
           width_px, height_px)) {}
 
 void SvgCanvas::line(const std::vector<Vector2d>& points, const Stroke& stroke) {
-  const std::string path = points_of(points);
+  if (const std::string path = points_of(points); !path.empty())
+    out_ += fmt::format("<polyline {} points=\"{}\"/>\n", style_of(stroke), path);
+}
+
+void SvgCanvas::lines(const std::vector<std::vector<Vector2d>>& lines, const Stroke& stroke) {
+  const std::string path = path_in_tenths(lines);
   if (path.empty()) return;
-  out_ += fmt::format(
-      "<polyline fill=\"none\" stroke=\"{}\" stroke-width=\"{:.4g}\" stroke-linejoin=\"round\" "
-      "stroke-linecap=\"{}\"",
-      css(stroke.colour), stroke.width_px, stroke.dash.empty() ? "round" : "butt");
-  if (stroke.opacity < 1) out_ += fmt::format(" stroke-opacity=\"{:.3g}\"", stroke.opacity);
-  if (!stroke.dash.empty()) out_ += fmt::format(" stroke-dasharray=\"{}\"", stroke.dash);
-  out_ += fmt::format(" points=\"{}\"/>\n", path);
+  Stroke tenths = stroke;
+  tenths.width_px *= 10;
+  out_ += fmt::format("<path transform=\"scale(.1)\" {} d=\"{}\"/>\n", style_of(tenths), path);
 }
 
 void SvgCanvas::area(const std::vector<std::vector<Vector2d>>& rings, Colour fill, double opacity) {
@@ -79,6 +111,17 @@ void SvgCanvas::disc(const Vector2d& centre, double radius_px, Colour fill, Colo
       "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.3g}\" fill=\"{}\" stroke=\"{}\" "
       "stroke-width=\"{:.3g}\"/>\n",
       centre[0], centre[1], radius_px, css(fill), css(edge), edge_px);
+}
+
+void SvgCanvas::discs(const std::vector<Vector2d>& centres, double radius_px, Colour fill,
+                      Colour edge, double edge_px) {
+  out_ += fmt::format("<g fill=\"{}\" stroke=\"{}\" stroke-width=\"{:.3g}\">\n", css(fill),
+                      css(edge), edge_px);
+  for (const Vector2d& centre : centres)
+    if (centre.allFinite())
+      out_ += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.3g}\"/>\n", centre[0],
+                          centre[1], radius_px);
+  out_ += "</g>\n";
 }
 
 void SvgCanvas::text(const Vector2d& at, const std::string& text, double size_px, Colour colour,

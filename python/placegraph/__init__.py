@@ -72,7 +72,9 @@ from .factor_graph import (
 )
 from .graphs import (
     IncrementalOptimizer,
+    LandmarkGraph,
     OptimizedGraph,
+    OptimizedLandmarkGraph,
     PoseGraph,
     PoseMarginals,
     RobustKernel,
@@ -150,6 +152,7 @@ __all__ = [
     "IncrementalOptions",
     "Judgement",
     "KeyframeAdded",
+    "LandmarkGraph",
     "LensDistortion",
     "LensFound",
     "Line3",
@@ -164,6 +167,7 @@ __all__ = [
     "MeasuredMotion",
     "MotionNoise",
     "OptimizedGraph",
+    "OptimizedLandmarkGraph",
     "PlaceAdded",
     "PlaceRecognizer",
     "PlaceRecognizerOptions",

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from . import _core
 from ._core import LoopTruth
+from ._notebook import figure_html
 from ._tables import table_of
 from ._types import Path
 from .options import Options, given_or_default
@@ -50,7 +51,7 @@ class LoopScore:
     Scores are equal if their names and all their figures are.
     """
 
-    def __init__(self, core: _core.LoopBenchmark, name: str) -> None:
+    def __init__(self, core: _core.LoopBenchmark, name: str, protocol: str = "") -> None:
         self._core = core
         self._name = name
 
@@ -66,6 +67,8 @@ class LoopScore:
 
     def __hash__(self) -> int:
         return hash((self._name, self._core))
+        self.name = name
+        self.protocol = protocol
 
     @property
     def curve(self) -> dict[str, NDArray[Any]]:
@@ -133,6 +136,11 @@ class LoopScore:
 
         figures = ", ".join(f"{key} {text(value)}" for key, value in self.metrics.items())
         return f"<placegraph.loops.LoopScore {self.name}: {figures}>"
+
+    def _repr_html_(self) -> str:
+        rows = [(key, f"{value:.6g}") for key, value in self.metrics.items() if value is not None]
+        return figure_html(rows, _core.precision_recall_picture(self._core, self.name,
+                                                                self.protocol))
 
 
 def read_predictions(path: Path, format: str = "scores") -> pandas.DataFrame:
@@ -203,3 +211,7 @@ def score(
     for doubt in judged.doubts:
         warnings.warn(f"{name}: {doubt}", _core.Doubt, stacklevel=2)
     return LoopScore(judged, name)
+    true = _truth(truth, options, min_age)
+    judged = _core.judge_loops(true, query, candidate, scores, tolerance)
+    kind = "true poses" if isinstance(truth, _core.Trajectory) else "listed matches"
+    return LoopScore(judged, name, f"{kind}, candidates at least {true.min_age} images older")

@@ -3,6 +3,7 @@
 #include <placegraph/io/datasets/open_dataset.h>
 #include <placegraph/pipeline/report/evaluation_page.h>
 #include <placegraph/pipeline/report/graph_page.h>
+#include <placegraph/pipeline/report/loops_page.h>
 #include <placegraph/pipeline/report/run_page.h>
 #include <placegraph/pipeline/results/run_results.h>
 
@@ -78,6 +79,13 @@ void bind_reports(nb::module_& m) {
   m.def("pose_graph_picture", &pose_graph_picture, "graph"_a, "before"_a = nb::none(),
         "rejected"_a = std::vector<int>(), "title"_a = "", released,
         "A pose graph, over what it was before its optimization if that is given, SVG.");
+  m.def(
+      "precision_recall_picture",
+      [](const LoopBenchmark& judged, const std::string& name, const std::string& protocol) {
+        return precision_recall_picture(protocol, {{name, judged.curve}});
+      },
+      "judged"_a, "name"_a, "protocol"_a, released,
+      "Precision over recall of judged loops, SVG; `protocol`: what a true match is.");
   m.def("pose_graph_page", &pose_graph_page, "graph"_a, "before"_a,
         "chi2"_a = std::vector<double>(), "rejected"_a = std::vector<int>(), "title"_a = "",
         released, "The page of `placegraph graph optimize --report`, HTML.");

@@ -83,6 +83,7 @@ export function ticks(low: number, high: number): number[] {
   return result;
 }
 
+/** The curve with gaps; of the points in each half pixel of its width, the least and the greatest value. */
 function path(
   xs: ArrayLike<number>,
   values: ArrayLike<number>,
@@ -92,10 +93,32 @@ function path(
 ): string {
   let result = "";
   let drawing = false;
+  let column: number[] = []; // indices of its points
+  const add = (): void => {
+    for (const i of extremes(column, values)) {
+      result += `${drawing ? "L" : "M"}${x(xs[i]).toFixed(1)} ${y(values[i]).toFixed(1)}`;
+      drawing = true;
+    }
+    column = [];
+  };
+  const half = (i: number): number => Math.floor(2 * x(xs[i]));
   for (let i = 0; i < values.length; i++) {
     const there = Number.isFinite(values[i]) && xs[i] >= range[0] && xs[i] <= range[1];
-    if (there) result += `${drawing ? "L" : "M"}${x(xs[i]).toFixed(1)} ${y(values[i]).toFixed(1)}`;
-    drawing = there;
+    if (column.length > 0 && (!there || half(i) !== half(column[0]))) add();
+    if (there) column.push(i);
+    else drawing = false;
   }
+  add();
   return result;
+}
+
+/** The indices of the least and of the greatest value, in their order; all of no more than two. */
+function extremes(indices: number[], values: ArrayLike<number>): number[] {
+  if (indices.length <= 2) return indices;
+  let [least, greatest] = [indices[0], indices[0]];
+  for (const i of indices) {
+    if (values[i] < values[least]) least = i;
+    if (values[i] > values[greatest]) greatest = i;
+  }
+  return least === greatest ? [least] : [Math.min(least, greatest), Math.max(least, greatest)];
 }

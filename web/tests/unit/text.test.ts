@@ -84,3 +84,27 @@ describe("the axis of a saved graph", () => {
     expect(ticks(3, 47)).toEqual([10, 20, 30, 40]);
   });
 });
+
+describe("a saved graph", () => {
+  const pathOf = (values: number[]): string[][] => {
+    const xs = values.map((_, i) => i);
+    const svg = graphSvg("", "x", "y", xs, [{ name: "", colour: "red", values }], [0, values.length]);
+    const path = /<path d="([^"]*)" fill="none"/.exec(svg)?.[1] ?? "";
+    return path.split("M").slice(1).map((line) => line.split("L"));
+  };
+
+  it("has every point of a short curve, with its gaps", () => {
+    expect(pathOf([1, 2, NaN, 3, 4, 5]).map((line) => line.length)).toEqual([2, 3]);
+  });
+
+  it("does not grow with a curve, and keeps single values and gaps", () => {
+    const values = Array.from({ length: 200_000 }, (_, i) => Math.sin(i));
+    values[60_001] = 40;
+    values.fill(NaN, 120_000, 130_000);
+    const lines = pathOf(values);
+    expect(lines.length).toBe(2);
+    expect(lines.flat().length).toBeLessThan(2 * 1700);
+    const heights = lines.flat().map((point) => Number(point.split(" ")[1]));
+    expect(heights.filter((y) => y === Math.min(...heights)).length).toBe(1);
+  });
+});
