@@ -54,11 +54,17 @@ class LoopScore:
     def __init__(self, core: _core.LoopBenchmark, name: str, protocol: str = "") -> None:
         self._core = core
         self._name = name
+        self._protocol = protocol
 
     @property
     def name(self) -> str:
         """Name of the predictions."""
         return self._name
+
+    @property
+    def protocol(self) -> str:
+        """How the predictions were judged."""
+        return self._protocol
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, LoopScore):
@@ -67,8 +73,6 @@ class LoopScore:
 
     def __hash__(self) -> int:
         return hash((self._name, self._core))
-        self.name = name
-        self.protocol = protocol
 
     @property
     def curve(self) -> dict[str, NDArray[Any]]:
@@ -205,13 +209,11 @@ def score(
     NoResult: no query has a true match.
     """
     query, candidate, scores = _columns(predictions, format)
-    judged = _core.judge_loops(_truth(truth, options, min_age), query, candidate, scores, tolerance)
+    true = _truth(truth, options, min_age)
+    judged = _core.judge_loops(true, query, candidate, scores, tolerance)
     if not judged.ok:
         raise _core.NoResult(f"{name}: {judged.reason}")
     for doubt in judged.doubts:
         warnings.warn(f"{name}: {doubt}", _core.Doubt, stacklevel=2)
-    return LoopScore(judged, name)
-    true = _truth(truth, options, min_age)
-    judged = _core.judge_loops(true, query, candidate, scores, tolerance)
     kind = "true poses" if isinstance(truth, _core.Trajectory) else "listed matches"
     return LoopScore(judged, name, f"{kind}, candidates at least {true.min_age} images older")
