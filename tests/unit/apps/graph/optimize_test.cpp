@@ -242,7 +242,21 @@ TEST_F(OptimizeCommand, PlacesPointLandmarks) {
 TEST_F(OptimizeCommand, RefusesOfLandmarksWhatBelongsToPosesAlone) {
   write_g2o(arguments.in, pose_with_a_point());
   arguments.task.certify = true;
-  expect_refused("has priors or point landmarks, which --robust");
+  expect_refused("has point landmarks, which --certify does not take");
+  arguments.task.certify = false;
+  arguments.robust = "gnc";
+  expect_refused("has point landmarks, which --robust gnc does not take");
+}
+
+TEST_F(OptimizeCommand, GivesTheCostOfTheSameConstraintsBeforeAndAfter) {
+  write_g2o(arguments.in, walk_with_a_false_loop());
+  arguments.robust = "auto";
+  const OptimizeResult result = optimize(arguments);
+  ASSERT_EQ(result.solution.rejected.size(), 1u);
+  const PoseGraph kept = without_rejected(read_g2o(arguments.in), result.solution.rejected);
+  EXPECT_NEAR(result.before.log, chi2(kept, RotationError::kLog), 1e-9 * result.before.log);
+  EXPECT_NEAR(result.before.g2o, chi2(kept, RotationError::kQuaternion), 1e-9 * result.before.g2o);
+  EXPECT_LE(result.after.log, result.before.log);
 }
 
 }  // namespace optimize_test
