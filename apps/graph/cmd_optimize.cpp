@@ -1,5 +1,7 @@
 #include "apps/graph/cmd_optimize.h"
 
+#include <placegraph/io/graphs/pose_graph_file.h>
+
 #include <CLI/CLI.hpp>
 #include <memory>
 
@@ -39,8 +41,7 @@ void add_optimize_command(
   command->add_option("IN", a.in, "graph to read: 2D, 3D or similarities")
       ->required()
       ->check(CLI::ExistingFile);
-  command
-      ->add_option("-o,--out", a.out, "file for the optimized graph, in g2o format")
+  command->add_option("-o,--out", a.out, "file for the optimized graph, in g2o format")
       ->type_name(kOutput)
       ->required();
   command
@@ -58,6 +59,12 @@ void add_optimize_command(
       ->capture_default_str();
   command->add_option("--robust", a.robust, "method against false loops")
       ->check(CLI::IsMember(pose_graph_option("robust.method").choices))
+      ->capture_default_str();
+  command
+      ->add_option("--indefinite", a.indefinite,
+                   "edges of indefinite information: refuse them, or take the nearest matrix, or "
+                   "isotropic weights")
+      ->check(CLI::IsMember(indefinite_information_names()))
       ->capture_default_str();
   command->add_option("--iterations", a.task.options.max_iterations, "largest number of iterations")
       ->check(CLI::Range(1, 100000))

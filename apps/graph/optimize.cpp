@@ -306,10 +306,14 @@ OptimizeResult optimize(const OptimizeArguments& arguments, const LogSink& sink)
   GraphTask task = arguments.task;
   task.options = checked_options(arguments);
   std::vector<std::string> remarks;
-  LandmarkGraph read =
-      read_landmark_graph(arguments.in, {.connected = !task.split, .remarks = &remarks});
-  for (const std::string& remark : remarks) warn(arguments.in + ": " + remark);
   OptimizeResult result;
+  LandmarkGraph read = read_landmark_graph(
+      arguments.in, {.connected = !task.split,
+                     .remarks = &remarks,
+                     .indefinite = choice<IndefiniteInformation>(
+                         "--indefinite", indefinite_information_names(), arguments.indefinite),
+                     .replaced = &result.replaced});
+  for (const std::string& remark : remarks) warn(arguments.in + ": " + remark);
   result.in = arguments.in;
   result.out = arguments.out;
   result.cost = arguments.cost;
@@ -330,11 +334,18 @@ std::string to_json(const OptimizeResult& result) {
   } else {
     report = describe(result);
   }
+  report["replaced_information"] = result.replaced;
   return json_text(report, 2);
 }
 
 std::string to_text(const OptimizeResult& result) {
-  if (result.landmarks) return to_text(*result.landmarks, result.in, result.cost, result.out);
+  const std::string replaced =
+      result.replaced == 0
+          ? ""
+          : fmt::format("  {} edges of indefinite information, which was replaced\n",
+                        result.replaced);
+  if (result.landmarks)
+    return to_text(*result.landmarks, result.in, result.cost, result.out) + replaced;
   const GraphSolution& solution = result.solution;
   const char* const kinds[] = {"SE2", "SE3", "Sim3"};
   std::string text =
@@ -349,7 +360,7 @@ std::string to_text(const OptimizeResult& result) {
                       result.after.log);
   if (!solution.rejected.empty())
     text += fmt::format("  {} constraints rejected\n", solution.rejected.size());
-  text += doubtful_text(result) + details_text(solution);
+  text += replaced + doubtful_text(result) + details_text(solution);
   return text +
          fmt::format(
              "  {} iterations, {:.1f} ms CPU, {:.1f} ms wall, {:.0f} MB at most; written to {}\n",

@@ -28,9 +28,10 @@ struct OptimizeArguments {
   std::string engine = pose_graph_option("engine").value;
   std::string initialization = pose_graph_option("initialization").value;
   std::string robust = pose_graph_option("robust.method").value;
-  GraphTask task;              ///< its options with a name above are set by that name
-  bool drop_rejected = false;  ///< leave rejected constraints out of `out`
-  bool force = false;          ///< overwrite the files above
+  std::string indefinite = "refuse";  ///< of indefinite_information_names()
+  GraphTask task;                     ///< its options with a name above are set by that name
+  bool drop_rejected = false;         ///< leave rejected constraints out of `out`
+  bool force = false;                 ///< overwrite the files above
 };
 
 /// chi2 of a graph in both conventions, over the constraints that were not rejected.
@@ -42,7 +43,8 @@ struct OptimizeResult {
   std::string in, out, cost, engine, robust;  ///< as in the arguments
   GraphCosts before, after;
   GraphSolution solution;
-  PoseGraph start;  ///< the graph as it was read, if a report is asked for
+  int replaced = 0;  ///< edges whose information was indefinite and was replaced
+  PoseGraph start;   ///< the graph as it was read, if a report is asked for
   std::optional<LandmarkSolution>
       landmarks;  ///< replaces `before`, `after` and `solution` for a graph with landmarks
 };

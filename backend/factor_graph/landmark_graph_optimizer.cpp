@@ -161,7 +161,7 @@ std::vector<NodeId> ids_of(const LandmarkGraph& graph, const std::vector<int>& v
 }
 
 void add_doubts(LandmarkGraphReport& report) {
-  Chi2Fit fit{report.chi2_final, report.degrees_of_freedom, 0};
+  Chi2Fit fit{.chi2 = report.chi2_final, .degrees_of_freedom = report.degrees_of_freedom};
   if (doubt_of_chi2(fit) == DoubtKind::kChi2Below) fit.rounding = chi2_of_rounding(report.graph);
   if (const auto kind = doubt_of_chi2(fit))
     report.doubts.push_back(doubt_about_chi2(*kind, fit, "", ""));

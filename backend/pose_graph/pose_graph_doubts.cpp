@@ -5,19 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace placegraph {
 namespace {
 
-/// Number of significant digits of a value in decimal notation, at most `most`.
-int significant_digits(double value, int most) {
-  const std::string text = fmt::format("{:.{}e}", std::abs(value), most - 1);
-  const std::size_t last = text.find_last_not_of('0', text.find('e') - 1);
-  return last == 1 ? 1 : static_cast<int>(last);  // "1.25e+00": one digit, a point, two digits
-}
-
 Eigen::Vector3d translation_of(const Pose& pose) {
-  if (const SE2* T = std::get_if<SE2>(&pose)) return {T->translation().x(), T->translation().y(), 0};
+  if (const SE2* T = std::get_if<SE2>(&pose))
+    return {T->translation().x(), T->translation().y(), 0};
   if (const SE3* T = std::get_if<SE3>(&pose)) return T->translation();
   return std::get<Sim3>(pose).translation();
 }
@@ -29,22 +24,41 @@ struct Measured {
   double weight, rest_weight;   ///< traces of their information
 };
 
-Measured measured(const Eigen::Vector3d& translation, const Eigen::MatrixXd& information, int dim) {
+Measured measured(const Eigen::Vector3d& translation,
+                  const Eigen::Ref<const Eigen::MatrixXd>& information, int dim) {
   const double all = information.trace(), own = information.topLeftCorner(dim, dim).trace();
   return {translation, dim, static_cast<int>(information.rows()) - dim, own, all - own};
 }
 
 int dimension(PoseKind kind) { return kind == PoseKind::kSE2 ? 2 : 3; }
 
-std::vector<Measured> measured_of(const std::vector<Constraint>& constraints) {
+std::vector<Measured> measured_of(const std::vector<Constraint>& constraints,
+                                  const std::vector<char>& left_out) {
   std::vector<Measured> all;
-  for (const Constraint& constraint : constraints)
+  for (std::size_t i = 0; i < constraints.size(); ++i) {
+    const Constraint& constraint = constraints[i];
+    if (!left_out.empty() && left_out[i]) continue;
     if (const auto* edge = std::get_if<RelativePoseConstraint>(&constraint))
       all.push_back(measured(translation_of(edge->T_from_to), edge->information,
                              dimension(kind_of(edge->T_from_to))));
     else if (const auto* position = std::get_if<PositionConstraint>(&constraint))
       all.push_back(measured(position->position_world, position->information, 3));
+  }
   return all;
+}
+
+/// The power of ten of a number's first digit.
+double unit_of(double x) { return std::pow(10, std::floor(std::log10(std::abs(x)))); }
+
+constexpr int kMostDigits = 7;  // a measurement is not better than a millionth
+
+/// Number of significant digits of a value in decimal notation, at most kMostDigits; `unit` is that
+/// of its first digit.
+int significant_digits(double value, double unit) {
+  auto mantissa = static_cast<std::int64_t>(std::llround(std::abs(value) / unit * 1e6));
+  int digits = kMostDigits;
+  for (; digits > 1 && mantissa % 10 == 0; mantissa /= 10) --digits;
+  return digits;
 }
 
 /// Half a unit of the last digit of translations [m], and of angles and scales.
@@ -53,26 +67,29 @@ struct LastDigit {
 };
 
 LastDigit last_digit(const std::vector<Measured>& all) {
-  constexpr int kMost = 7;  // digits: a measurement is not better than a millionth
+  constexpr std::size_t kRead = 200;  // measurements whose digits show how the file is written
   int digits = 1;
   double largest = 0, finest = 1;
   for (const Measured& each : all)
-    for (const double x : each.translation) {
+    largest = std::max(largest, each.translation.cwiseAbs().maxCoeff());
+  for (std::size_t i = 0; i < all.size() && digits < kMostDigits; i += 1 + all.size() / kRead)
+    for (const double x : all[i].translation) {
       if (x == 0) continue;
-      const int of_x = significant_digits(x, kMost);
-      const double unit = std::pow(10, std::floor(std::log10(std::abs(x))));
+      const double unit = unit_of(x);
+      const int of_x = significant_digits(x, unit);
       digits = std::max(digits, of_x);
-      largest = std::max(largest, unit);
       finest = std::min(finest, unit * std::pow(10, 1 - of_x));
     }
   const double relative = std::pow(10, 1 - digits);
-  return {0.5 * relative * largest, 0.5 * std::max(relative, finest)};
+  const double of_rotation = digits == kMostDigits ? relative : std::max(relative, finest);
+  return {largest > 0 ? 0.5 * relative * unit_of(largest) : 0, 0.5 * of_rotation};
 }
 
 double rounding_of(const std::vector<Measured>& all) {
   const LastDigit half = last_digit(all);
   double bound = 0;
-  // e^T Omega e <= trace(Omega) |e|^2 for the translation and for the rest, and twice that for both.
+  // e^T Omega e <= trace(Omega) |e|^2 for the translation and for the rest, and twice that for
+  // both.
   for (const Measured& each : all)
     bound += 2 * each.dim * std::pow(half.translation, 2) * each.weight +
              2 * each.rest * std::pow(half.rotation, 2) * each.rest_weight;
@@ -85,36 +102,37 @@ std::vector<NodeId> ids_of(const PoseGraph& graph, const std::vector<int>& nodes
   return ids;
 }
 
-/// The constraints that were not rejected.
-std::vector<Constraint> kept_constraints(const PoseGraphReport& report) {
-  return without_rejected({{}, report.graph.constraints}, report.rejected).constraints;
-}
-
 }  // namespace
 
-double chi2_of_rounding(const std::vector<Constraint>& constraints) {
-  return rounding_of(measured_of(constraints));
+double chi2_of_rounding(const std::vector<Constraint>& constraints,
+                        const std::vector<char>& left_out) {
+  return rounding_of(measured_of(constraints, left_out));
 }
 
 double chi2_of_rounding(const LandmarkGraph& graph) {
-  std::vector<Measured> all = measured_of(graph.poses.constraints);
+  std::vector<Measured> all = measured_of(graph.poses.constraints, {});
   const int dim = dimension(graph.poses.kind());
   for (const PosePriorConstraint& prior : graph.priors)
     all.push_back(measured(translation_of(prior.T_world_node), prior.information, dim));
   for (const PointObservation& observation : graph.observations)
-    all.push_back(measured(observation.position_node,
-                           observation.information.topLeftCorner(dim, dim), dim));
+    all.push_back(
+        measured(observation.position_node, observation.information.topLeftCorner(dim, dim), dim));
   return rounding_of(all);
 }
 
 std::optional<DoubtKind> doubt_of_chi2(const Chi2Fit& fit) {
   constexpr double kFar = 10;       // factor of chi2 over its expectation, or of that over chi2
+  constexpr double kMuch = 3;       // the same if one constraint stands out
   constexpr double kChance = 1e-6;  // probability of a chi2 that is as far by chance
   constexpr double kChance_sigmas = 4.753;  // the same, in standard deviations
   constexpr int kManyDof = 100;             // chi-squared is computed exactly for fewer
   const int dof = fit.degrees_of_freedom;
   if (dof <= 0) return std::nullopt;
-  if (fit.chi2 > kFar * dof && chi_squared_tail(fit.chi2, dof) < kChance)
+  const double ratio = fit.chi2 / dof;
+  const bool one_stands_out =
+      ratio > kMuch && fit.largest > 0 &&
+      fit.constraints * chi_squared_tail(fit.largest / ratio, fit.dimension) < kChance;
+  if ((ratio > kFar || one_stands_out) && chi_squared_tail(fit.chi2, dof) < kChance)
     return DoubtKind::kChi2Above;
   if (!(fit.chi2 > 0) || fit.chi2 <= fit.rounding || kFar * fit.chi2 > dof) return std::nullopt;
   const bool by_chance = dof < kManyDof
@@ -146,32 +164,40 @@ Doubt doubt_about_chi2(DoubtKind kind, const Chi2Fit& fit, const std::string& re
                        const std::string& advice) {
   const double ratio = fit.chi2 / std::max(1, fit.degrees_of_freedom);
   if (kind == DoubtKind::kChi2Above)
-    return {kind, fmt::format("chi2 is {:.0f} times what the information of the edges lets "
+    return {kind, fmt::format("chi2 is {:.{}f} times what the information of the edges lets "
                               "expect{}: it looks like false loops, or information that promises "
                               "too much{}",
-                              ratio, rejected, advice)};
-  return {kind, fmt::format("chi2 is far below what the information of the edges lets expect, {:.2g} "
-                            "of it{}: it looks like covariances written for information, or other "
-                            "units; covariances of the solution are too large by that factor",
-                            ratio, rejected)};
+                              ratio, ratio < 10 ? 1 : 0, rejected, advice)};
+  return {kind,
+          fmt::format("chi2 is far below what the information of the edges lets expect, {:.2g} "
+                      "of it{}: it looks like covariances written for information, or other "
+                      "units; covariances of the solution are too large by that factor",
+                      ratio, rejected)};
 }
 
 std::vector<Doubt> doubts_of(const PoseGraphReport& report, RobustMethod method) {
   std::vector<Doubt> doubts;
-  Chi2Fit fit{report.chi2_final, report.degrees_of_freedom, 0};
+  std::vector<char> left_out(report.graph.constraints.size());
+  for (const RejectedEdge& edge : report.rejected) left_out.at(edge.constraint) = true;
+  Chi2Fit fit{.chi2 = report.chi2_final,
+              .degrees_of_freedom = report.degrees_of_freedom,
+              .constraints = static_cast<int>(left_out.size() - report.rejected.size()),
+              .dimension = degrees_of_freedom(report.graph.kind())};
+  for (std::size_t i = 0; i < report.chi2_by_constraint.size(); ++i)
+    if (!left_out[i]) fit.largest = std::max(fit.largest, report.chi2_by_constraint[i]);
   if (doubt_of_chi2(fit) == DoubtKind::kChi2Below)
-    fit.rounding = chi2_of_rounding(kept_constraints(report));
+    fit.rounding = chi2_of_rounding(report.graph.constraints, left_out);
   if (const auto kind = doubt_of_chi2(fit))
     doubts.push_back(doubt_about_chi2(
-        *kind, fit,
-        report.rejected.empty() ? "" : " without the constraints that were rejected",
+        *kind, fit, report.rejected.empty() ? "" : " without the constraints that were rejected",
         method == RobustMethod::kAuto ? "" : " (try the robust method auto)"));
   if (report.free.count > 0)
     doubts.push_back(not_unique(report.free.count, ids_of(report.graph, report.free.nodes)));
   if (!report.loops_judged)
-    doubts.push_back({DoubtKind::kLoopsNotJudged,
-                      "too few loops agree to know the noise's scale: the robust method judged none "
-                      "of them, and left none out"});
+    doubts.push_back(
+        {DoubtKind::kLoopsNotJudged,
+         "too few loops agree to know the noise's scale: the robust method judged none "
+         "of them, and left none out"});
   return doubts;
 }
 

@@ -13,6 +13,9 @@ struct Chi2Fit {
   int degrees_of_freedom = 0;  ///< its expectation
   /// Most that rounding the measurements to the digits that they have contributes to chi2.
   double rounding = 0;
+  double largest = 0;   ///< the largest chi2 of one constraint; 0: unknown
+  int constraints = 0;  ///< their number
+  int dimension = 0;    ///< components of the error of one
 };
 
 /// The bound of chi2 that measurements which are exact but for their last digit have.
@@ -20,11 +23,15 @@ struct Chi2Fit {
 /// At the minimum chi2 is not larger than at the true poses, where every component of an error is
 /// at most half a unit of the last digit. That unit is known from the translations; no measurement
 /// is taken for better than a millionth.
-double chi2_of_rounding(const std::vector<Constraint>& constraints);
+///
+/// Constraints whose place in `left_out` is not zero are left out; it may be empty.
+double chi2_of_rounding(const std::vector<Constraint>& constraints,
+                        const std::vector<char>& left_out = {});
 /// The same of a graph with priors and observations of points.
 double chi2_of_rounding(const LandmarkGraph& graph);
 
-/// Whether chi2 is far above or below its expectation, by a factor of ten and beyond chance.
+/// Whether chi2 is far above or below its expectation, by a factor of ten and beyond chance; above
+/// it also by a factor of three, if one constraint's error is too large for noise of that scale.
 std::optional<DoubtKind> doubt_of_chi2(const Chi2Fit& fit);
 
 /// The line on directions that constraints leave free, `count` of them at the given vertices.

@@ -7,6 +7,7 @@
 #include <placegraph/graph/text/log_message.h>
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 namespace placegraph {
@@ -45,13 +46,42 @@ PoseGraphInitialization robust_initialization(const PoseGraphOptions& options) {
                                                      : PoseGraphInitialization::kFile;
 }
 
+/// Passes messages on; with the message after some seconds of a plain descent whose cost is far
+/// above its expectation it says, once, what to do about edges that contradict each other.
+template <class Group>
+LogSink with_advice(const LogSink& sink, const PackedGraph<Group>& graph,
+                    const PoseGraphOptions& options) {
+  using Clock = std::chrono::steady_clock;
+  static constexpr std::chrono::seconds kPatience(5);
+  static constexpr double kMuch = 3;  // cost over its expectation, as of DoubtKind::kChi2Above
+  if (!sink || options.robust.method != RobustMethod::kNone) return sink;
+  return [&sink, &graph, &options, next = Clock::now() + kPatience](
+             LogLevel level, const std::string& message) mutable {
+    sink(level, message);
+    if (Clock::now() < next) return;
+    next += kPatience;
+    const double cost = robust_cost(graph, options.rotation_error);
+    const int expected = graph.components.degrees_of_freedom;
+    if (!(cost > kMuch * std::max(1, expected))) return;
+    next = Clock::time_point::max();
+    log(sink, LogLevel::kWarning,
+        "pose graph: after {} s chi2 is {:.1f} times what the information of the edges lets "
+        "expect: "
+        "edges contradict each other, and every start takes long; the robust method auto (--robust "
+        "auto) leaves false loops out",
+        kPatience.count(), cost / std::max(1, expected));
+  };
+}
+
 /// Optimizes from the selected initialization, and fills the report's fields about it.
 template <class Group>
 void minimize(PackedGraph<Group>& graph, const LocalSolverOptions& local,
               const PoseGraphOptions& options, PoseGraphReport& report) {
   InitializedSolution found;
   if (options.robust.method == RobustMethod::kNone) {
-    LocalSolver<Group> solver(local);
+    LocalSolverOptions advising = local;
+    advising.log = with_advice(local.log, graph, options);
+    LocalSolver<Group> solver(advising);
     found =
         solve_from_initialization(graph, options.initialization, options.rotation_error, solver);
   } else {

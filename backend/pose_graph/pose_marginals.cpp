@@ -110,8 +110,8 @@ void complete(const Graph& graph, RotationError rotation_error, Impl& impl) {
 PoseMarginals::PoseMarginals(const PoseGraph& graph, RotationError rotation_error) {
   graph.check();
   const auto make = [&]<class Group>(const Group&) {
-    impl_ = std::make_unique<Implementation<Impl, Group>>(graph, pack<Group>(graph),
-                                                          rotation_error);
+    impl_ =
+        std::make_unique<Implementation<Impl, Group>>(graph, pack<Group>(graph), rotation_error);
   };
   switch (graph.kind()) {
     case PoseKind::kSE2:
@@ -129,11 +129,11 @@ PoseMarginals::PoseMarginals(const PoseGraph& graph, RotationError rotation_erro
 PoseMarginals::PoseMarginals(const LandmarkGraph& graph, RotationError rotation_error) {
   graph.check();
   if (graph.poses.kind() == PoseKind::kSE2)
-    impl_ = std::make_unique<Implementation<Impl, SE2>>(graph.poses, pack<SE2>(graph),
-                                                        rotation_error);
+    impl_ =
+        std::make_unique<Implementation<Impl, SE2>>(graph.poses, pack<SE2>(graph), rotation_error);
   else
-    impl_ = std::make_unique<Implementation<Impl, SE3>>(graph.poses, pack<SE3>(graph),
-                                                        rotation_error);
+    impl_ =
+        std::make_unique<Implementation<Impl, SE3>>(graph.poses, pack<SE3>(graph), rotation_error);
   for (const GraphPoint& point : graph.points) impl_->ids.push_back(point.id);
   complete(graph, rotation_error, *impl_);
 }
@@ -185,8 +185,8 @@ Information PoseMarginals::relative_covariance(NodeId from, NodeId to) const {
                                             to_string(from) + " and " + to_string(to));
   const Eigen::MatrixXd joint = joint_covariance({from, to});
   const int dof = impl_->dof;
-  return impl_->relative(a, b, joint.topLeftCorner(dof, dof),
-                         joint.bottomRightCorner(dof, dof), joint.topRightCorner(dof, dof));
+  return impl_->relative(a, b, joint.topLeftCorner(dof, dof), joint.bottomRightCorner(dof, dof),
+                         joint.topRightCorner(dof, dof));
 }
 
 std::vector<Information> PoseMarginals::constraint_covariances() const {

@@ -103,7 +103,7 @@ bool NativeSolver<Group>::negligible(const Step& step) const {
 
 /// Moves by the step if the cost falls by a sufficient share of the predicted decrease.
 template <class Group>
-bool NativeSolver<Group>::take(PackedGraph<Group>& graph, const Step& step) {
+bool NativeSolver<Group>::take(PackedGraph<Group>& graph, const Step& step, double least_gain) {
   const std::vector<Group> before = graph.poses;
   equations_->move(graph, step.dx);
   // Steps are nearly always accepted, so the equations are directly computed at the new poses.
@@ -111,7 +111,7 @@ bool NativeSolver<Group>::take(PackedGraph<Group>& graph, const Step& step) {
   gain_ = (cost_ - cost) / step.promised;
   const bool taken = options_.step_rule == StepRule::kGaussNewton && lambda_ == 0
                          ? std::isfinite(cost)
-                         : cost_ - cost >= kLeastGain * step.promised;
+                         : cost_ - cost >= least_gain * step.promised;
   if (taken) {
     relative_decrease_ = std::abs(cost_ - cost) / cost_;
     cost_ = cost;
@@ -122,6 +122,30 @@ bool NativeSolver<Group>::take(PackedGraph<Group>& graph, const Step& step) {
   return false;
 }
 
+/// Where large residuals let successive Newton steps shrink by a constant factor in one direction,
+/// their sum is known in advance: tries it, if the cost falls by more than by the step itself.
+template <class Group>
+bool NativeSolver<Group>::take_series(PackedGraph<Group>& graph, const Step& newton) {
+  constexpr double kAligned = 0.95;   // cosine of successive steps
+  constexpr double kLeast = 0.5;      // ratio of their lengths: below, the series is short
+  constexpr double kConstant = 0.05;  // change of the ratio
+  constexpr double kGain = 2;         // that of a step of the series itself is below
+  const double before = last_.size() == newton.dx.size() ? last_.norm() : 0;
+  const double length = newton.dx.norm();
+  const double shrinkage = before > 0 ? length / before : 0;
+  const bool constant = shrinkage > kLeast && shrinkage < 1 &&
+                        std::abs(shrinkage - shrinkage_) < kConstant &&
+                        newton.dx.dot(last_) > kAligned * length * before;
+  shrinkage_ = shrinkage;
+  last_ = newton.dx;
+  if (!constant) return false;
+  shrinkage_ = 0;
+  const Step sum{newton.dx / (1 - shrinkage), newton.promised};
+  if (!take(graph, sum, kGain)) return false;
+  last_.resize(0);
+  return true;
+}
+
 /// Powell's dogleg (Nocedal & Wright 2006, section 4.1) in the norm of sqrt(diag(H)): the Newton
 /// step if it is in the trust region, else the combination of it and the Cauchy point.
 template <class Group>
@@ -130,7 +154,7 @@ bool NativeSolver<Group>::take_dogleg(PackedGraph<Group>& graph, const Step& new
   const Eigen::VectorXd scale = H.diagonal().cwiseMax(1e-300).cwiseSqrt();
   const double newton_length = newton.dx.cwiseProduct(scale).norm();
   if (newton_length <= radius_) {
-    if (take(graph, newton)) {
+    if (take_series(graph, newton) || take(graph, newton, kLeastGain)) {
       shortened_ = 0;
       radius_ = std::max(radius_, 3 * newton_length);
       return true;
@@ -161,7 +185,7 @@ bool NativeSolver<Group>::take_dogleg(PackedGraph<Group>& graph, const Step& new
     H.multiply(step.dx, product);
     step.promised = -2 * equations_->gradient().dot(step.dx) - step.dx.dot(product);
     if (negligible(step)) return false;
-    if (take(graph, step)) return true;
+    if (take(graph, step, kLeastGain)) return true;
   }
   return false;
 }
@@ -169,7 +193,7 @@ bool NativeSolver<Group>::take_dogleg(PackedGraph<Group>& graph, const Step& new
 /// The damping follows the gain (Nielsen 1999).
 template <class Group>
 bool NativeSolver<Group>::take_damped(PackedGraph<Group>& graph, const Step& step) {
-  if (!take(graph, step)) {
+  if (!take(graph, step, kLeastGain)) {
     lambda_ *= raise_;
     raise_ *= 2;
     return false;
@@ -188,6 +212,8 @@ LocalSolution NativeSolver<Group>::solve(PackedGraph<Group>& graph) {
   lambda_ = options_.step_rule == StepRule::kLevenbergMarquardt ? 1e-5 : 0;
   raise_ = 2;
   shortened_ = 0;
+  last_.resize(0);
+  shrinkage_ = 0;
   LocalSolution solution;
   cost_ = solution.cost_initial = equations_->linearize(graph, options_.rotation_error);
   solution.outcome = Outcome::failure(Outcome::Code::kNotConverged,
@@ -213,9 +239,10 @@ LocalSolution NativeSolver<Group>::solve(PackedGraph<Group>& graph) {
     }
     if (solution.iterations == options_.max_iterations) break;
     ++solution.iterations;
-    const bool taken = lambda_ > 0                                    ? take_damped(graph, *step)
-                       : options_.step_rule == StepRule::kGaussNewton ? take(graph, *step)
-                                                                      : take_dogleg(graph, *step);
+    const bool taken = lambda_ > 0 ? take_damped(graph, *step)
+                       : options_.step_rule == StepRule::kGaussNewton
+                           ? take(graph, *step, kLeastGain)
+                           : take_dogleg(graph, *step);
     rejections = taken ? 0 : rejections + 1;
     log(options_.log, LogLevel::kDebug, "iteration {}: cost {:f}", solution.iterations, cost_);
     // No step of any length lowers the cost: the minimum, up to rounding.

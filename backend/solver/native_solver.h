@@ -7,9 +7,10 @@ namespace placegraph {
 /// The engine `native`: Gauss-Newton or Levenberg-Marquardt on block-sparse normal equations.
 /// If the cost would rise, Gauss-Newton steps are limited to a trust region by Powell's dogleg. A
 /// factor is reused: later steps are by conjugate gradients preconditioned with it while that is
-/// cheaper than a new factorization. If the constraints leave directions undetermined (singular
-/// normal equations), or if the dogleg was shortened repeatedly, the steps are damped regardless of
-/// the step rule.
+/// cheaper than a new factorization. Steps that shrink by a constant factor, as where residuals are
+/// large, are replaced by the sum of their geometric series (Aitken). If the constraints leave
+/// directions undetermined (singular normal equations), or if the dogleg was shortened repeatedly,
+/// the steps are damped regardless of the step rule.
 template <class Group>
 class NativeSolver {
  public:
@@ -26,7 +27,8 @@ class NativeSolver {
   std::optional<Step> damped_step();
   bool negligible(const Step& step) const;
 
-  bool take(PackedGraph<Group>& graph, const Step& step);
+  bool take(PackedGraph<Group>& graph, const Step& step, double least_gain);
+  bool take_series(PackedGraph<Group>& graph, const Step& newton);
   bool take_dogleg(PackedGraph<Group>& graph, const Step& newton);
   bool take_damped(PackedGraph<Group>& graph, const Step& step);
 
@@ -37,8 +39,10 @@ class NativeSolver {
   double radius_ = 0;             ///< radius of the trust region, in the norm of sqrt(diag(H))
   double lambda_ = 0;             ///< damping in units of diag(H); 0: not damped
   double raise_ = 2;              ///< factor of the damping at the next rejection
-  double gain_ = 0;    ///< decrease by the last step, accepted or not, as a share of the prediction
-  int shortened_ = 0;  ///< number of successive dogleg steps that were no Newton steps
+  double gain_ = 0;  ///< decrease by the last step, accepted or not, as a share of the prediction
+  Eigen::VectorXd last_;  ///< the Newton step before, as far as it was taken as it is
+  double shrinkage_ = 0;  ///< ratio of its length to that of the one before; 0: unknown
+  int shortened_ = 0;     ///< number of successive dogleg steps that were no Newton steps
   std::vector<Group> before_shortening_;
 };
 

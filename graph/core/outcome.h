@@ -49,9 +49,9 @@ enum class DoubtKind {
 };
 /// All kinds, in their order.
 inline constexpr std::array kDoubtKinds = {
-    DoubtKind::kChi2Above,      DoubtKind::kChi2Below,    DoubtKind::kNotUnique,
+    DoubtKind::kChi2Above,      DoubtKind::kChi2Below,      DoubtKind::kNotUnique,
     DoubtKind::kLoopsNotJudged, DoubtKind::kHeldComponents, DoubtKind::kGraphFile,
-    DoubtKind::kTrajectories,   DoubtKind::kNotJudged,    DoubtKind::kQueryRefused,
+    DoubtKind::kTrajectories,   DoubtKind::kNotJudged,      DoubtKind::kQueryRefused,
     DoubtKind::kRecording,      DoubtKind::kRetiredOption};
 /// The name of a kind: "chi2_above", "chi2_below" and so on.
 const char* to_string(DoubtKind kind);

@@ -6,6 +6,7 @@
 #include <placegraph/io/graphs/pose_graph_builder.h>
 #include <placegraph/io/graphs/printed_rounding.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -102,6 +103,12 @@ void PoseGraphBuilder::require_near(const Eigen::Vector3d& position) const {
 }
 
 Information PoseGraphBuilder::plausible(const Information& information) const {
+  const std::optional<Information> found = definite(information);
+  if (!found) file_->fail("the information is indefinite");
+  return *found;
+}
+
+std::optional<Information> PoseGraphBuilder::definite(const Information& information) const {
   const auto fields = std::exchange(information_fields_, {});
   const char* fault = fault_of(information);
   if (!fault) {
@@ -113,7 +120,9 @@ Information PoseGraphBuilder::plausible(const Information& information) const {
   for (const std::string_view field : fields)
     rounding = std::max(rounding, printed_rounding(field));
   const Information nearest = without_rounding(information, rounding);
-  if (fault_of(nearest)) file_->fail(std::string("the ") + fault);
+  const char* remaining = fault_of(nearest);
+  if (remaining == std::string_view("information is indefinite")) return std::nullopt;
+  if (remaining) file_->fail(std::string("the ") + remaining);
   return nearest;
 }
 
@@ -128,14 +137,15 @@ void PoseGraphBuilder::add_edge(std::string_view from, std::string_view to, cons
                                 const Information& given, std::optional<ConstraintSource> source) {
   require_kind(kind_of(T_from_to));
   require_near(position_of(T_from_to));
-  const Information information = plausible(given);
+  const std::optional<Information> information = definite(given);
+  if (!information) indefinite_.push_back(graph_.constraints.size());
   RelativePoseConstraint& edge =
       graph_.constraints.emplace_back().emplace<RelativePoseConstraint>();
   edge.from = NodeId(file_->integer(from, "id"));
   edge.to = NodeId(file_->integer(to, "id"));
   if (edge.from == edge.to) file_->fail(fmt::format("an edge from {} to itself", edge.from));
   edge.T_from_to = T_from_to;
-  edge.information = information;
+  edge.information = information.value_or(given);
   const bool consecutive = ++NodeId(std::min(edge.from, edge.to)) == std::max(edge.from, edge.to);
   edge.source =
       source.value_or(consecutive ? ConstraintSource::kOdometry : ConstraintSource::kLoop);
@@ -219,6 +229,7 @@ PoseGraph PoseGraphBuilder::finish(const PoseGraphReading& reading) {
         file_->path(), landmarks_.first_line(),
         "the graph has priors or point landmarks, which only optimize and convert accept");
   report_stamps(reading);
+  replace_indefinite(reading);
   PoseGraph graph = finish_poses();
   if (reading.connected) require_connected(graph);
   return graph;
@@ -227,10 +238,70 @@ PoseGraph PoseGraphBuilder::finish(const PoseGraphReading& reading) {
 LandmarkGraph PoseGraphBuilder::finish_landmarks(const PoseGraphReading& reading) {
   if (landmarks_.empty()) return {finish(reading), {}, {}, {}};
   report_stamps(reading);
+  replace_indefinite(reading);
   LandmarkGraph graph;
   graph.poses = finish_poses();
   landmarks_.add_to(graph);
   return graph;
+}
+
+namespace {
+
+/// The nearest matrix without negative eigenvalues, in Frobenius' norm.
+Information without_negative(const Information& information) {
+  const Eigen::SelfAdjointEigenSolver<Information> eigen(information);
+  const Information nearest = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() *
+                              eigen.eigenvectors().transpose();
+  return 0.5 * (nearest + nearest.transpose());
+}
+
+/// The weight of an isotropic block: the harmonic mean of its eigenvalues where all are positive,
+/// as in SE-Sync, else the mean of those that are not negative.
+double isotropic_weight(const Information& block) {
+  const Eigen::SelfAdjointEigenSolver<Information> eigen(block, Eigen::EigenvaluesOnly);
+  const auto& values = eigen.eigenvalues();
+  const auto count = static_cast<double>(values.size());
+  return values.minCoeff() > 0 ? count / values.cwiseInverse().sum()
+                               : values.cwiseMax(0).sum() / count;
+}
+
+Information isotropic(const Information& information) {
+  const Eigen::Index size = information.rows(), dim = size == 3 ? 2 : 3;
+  Eigen::VectorXd weights(size);
+  weights.head(dim).setConstant(isotropic_weight(information.topLeftCorner(dim, dim)));
+  const Eigen::Index rotation = size == 3 ? 1 : 3;
+  weights.segment(dim, rotation)
+      .setConstant(isotropic_weight(information.block(dim, dim, rotation, rotation)));
+  if (size == 7) weights[6] = std::max(0.0, information(6, 6));
+  return Information(weights.asDiagonal());
+}
+
+}  // namespace
+
+void PoseGraphBuilder::replace_indefinite(const PoseGraphReading& reading) {
+  if (indefinite_.empty()) return;
+  const std::size_t count = indefinite_.size(), all = graph_.constraints.size();
+  const int first = edge_lines_[indefinite_.front()];
+  if (reading.indefinite == IndefiniteInformation::kRefuse)
+    throw FileError(file_->path(), first,
+                    fmt::format("the information is indefinite, as that of {} of {} edges; "
+                                "--indefinite nearest, or isotropic, replaces it",
+                                count, all));
+  const bool nearest = reading.indefinite == IndefiniteInformation::kNearest;
+  for (const std::size_t i : indefinite_) {
+    Information& information = std::get<RelativePoseConstraint>(graph_.constraints[i]).information;
+    information = nearest ? without_negative(information) : isotropic(information);
+    if (const char* fault = fault_of(information))
+      throw FileError(file_->path(), edge_lines_[i], fmt::format("replaced, the {}", fault));
+  }
+  if (reading.replaced) *reading.replaced = static_cast<int>(count);
+  if (reading.remarks)
+    reading.remarks->push_back(
+        fmt::format("the information of {} of {} edges is indefinite, the first in line {}, and "
+                    "replaced by {}",
+                    count, all, first,
+                    nearest ? "the nearest semi-definite matrix"
+                            : "one weight for translation and one for rotation"));
 }
 
 PoseGraph PoseGraphBuilder::finish_poses() {

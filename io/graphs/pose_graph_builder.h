@@ -35,14 +35,17 @@ class PoseGraphBuilder {
   /// The matrix, or the semi-definite one that its printed digits represent. Rejects a matrix that
   /// is indefinite by more than that, all zero or above 1e100.
   Information plausible(const Information& information) const;
+  /// The same; empty for a matrix that is indefinite.
+  std::optional<Information> definite(const Information& information) const;
   /// Rejects positions beyond 1e50 m.
   void require_near(const Eigen::Vector3d& position) const;
 
   /// Rejects SE2, SE3 and Sim3 mixed, and positions beyond 1e50 m.
   void add_node(std::string_view id, const Pose& T_world_node);
-  /// Rejects mixed kinds, an edge from a node to itself, information that is indefinite (by more
-  /// than its printed digits allow), all zero or above 1e100, and positions beyond 1e50 m. Edges of
-  /// consecutive ids are odometry, others loops, unless `source` is given; see finish().
+  /// Rejects mixed kinds, an edge from a node to itself, information that is all zero or above
+  /// 1e100, and positions beyond 1e50 m; finish() rejects or replaces information that is
+  /// indefinite by more than its printed digits allow. Edges of consecutive ids are odometry,
+  /// others loops, unless `source` is given; see finish().
   void add_edge(std::string_view from, std::string_view to, const Pose& T_from_to,
                 const Information& information, std::optional<ConstraintSource> source = {});
   /// Adds a measured position of a node in the plane [m].
@@ -70,6 +73,7 @@ class PoseGraphBuilder {
   void require_connected(const PoseGraph& graph) const;
   void add_nodes_of_edges();
   void find_odometry_by_order();
+  void replace_indefinite(const PoseGraphReading& reading);
 
   const TextFile* file_;
   /// Fields of the last matrix in the present line.
@@ -77,6 +81,7 @@ class PoseGraphBuilder {
   PoseGraph graph_;
   std::optional<PoseKind> kind_;
   std::vector<int> node_lines_, edge_lines_;
+  std::vector<std::size_t> indefinite_;                        ///< edges of indefinite information
   std::vector<std::pair<PositionConstraint, int>> positions_;  ///< with their lines
   LandmarkLines landmarks_;
   /// Numbers of vertices with and without a time stamp, the line of the first stamp.

@@ -73,6 +73,11 @@ LandmarkGraph read_landmark_graph(const std::string& path, const PoseGraphReadin
   return {parse(file, format, reading), {}, {}, {}};
 }
 
+const std::vector<std::string>& indefinite_information_names() {
+  static const std::vector<std::string> names = {"refuse", "nearest", "isotropic"};
+  return names;
+}
+
 PoseGraph read_pose_graph(const std::string& path, const PoseGraphReading& reading) {
   TextFile file(path);
   const PoseGraphFormat format = pose_graph_format(file);

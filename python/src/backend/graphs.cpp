@@ -1,4 +1,5 @@
 #include "python/src/backend/graphs.h"
+#include "python/src/warnings.h"
 
 #include <fmt/format.h>
 
@@ -122,8 +123,9 @@ RotationError rotation_error_of(const std::string& name) {
 }
 
 LogSink interruptible() {
-  return [](LogLevel, const std::string&) {
+  return [](LogLevel level, const std::string& message) {
     const nb::gil_scoped_acquire gil;
+    if (level == LogLevel::kWarning) warn(message);
     if (PyErr_CheckSignals() != 0) throw nb::python_error();
   };
 }

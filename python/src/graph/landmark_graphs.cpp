@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "python/src/backend/graphs.h"
+#include "python/src/frontend/functions.h"
 #include "python/src/options.h"
 #include "python/src/values/value_class.h"
 #include "python/src/warnings.h"
@@ -24,7 +25,7 @@ std::size_t dimension(const LandmarkGraph& graph) {
 
 /// A column of ids of the entries of a list.
 template <class Entry>
-Integers ids_of(const std::vector<Entry>& entries, NodeId Entry::* id) {
+Integers ids_of(const std::vector<Entry>& entries, NodeId Entry::*id) {
   std::vector<std::int64_t> ids;
   for (const Entry& entry : entries) ids.push_back((entry.*id).value());
   const std::size_t count = ids.size();
@@ -34,7 +35,7 @@ Integers ids_of(const std::vector<Entry>& entries, NodeId Entry::* id) {
 /// Rows of vectors of the entries of a list, N x 3, or N x 2 in the plane.
 template <class Entry>
 Numbers rows_of(const LandmarkGraph& graph, const std::vector<Entry>& entries,
-                Eigen::Vector3d Entry::* vector) {
+                Eigen::Vector3d Entry::*vector) {
   const std::size_t width = dimension(graph);
   std::vector<double> values;
   for (const Entry& entry : entries)
@@ -57,7 +58,7 @@ Eigen::MatrixXd matrix_of(const ArrayArgument<double>& value, const char* argume
 
 /// Adds an entry, or leaves the graph as it was and throws.
 template <class Entry>
-void add(LandmarkGraph& graph, std::vector<Entry> LandmarkGraph::* list, Entry entry) {
+void add(LandmarkGraph& graph, std::vector<Entry> LandmarkGraph::*list, Entry entry) {
   (graph.*list).push_back(std::move(entry));
   try {
     graph.check();
@@ -67,13 +68,15 @@ void add(LandmarkGraph& graph, std::vector<Entry> LandmarkGraph::* list, Entry e
   }
 }
 
-LandmarkGraph read(const std::filesystem::path& file) {
+LandmarkGraph read(const std::filesystem::path& file, const std::string& indefinite) {
+  const auto how =
+      choice_of<IndefiniteInformation>(indefinite, indefinite_information_names(), "indefinite");
   const std::string path = file.string();
   std::vector<std::string> remarks;
   LandmarkGraph graph;
   {
     const nb::gil_scoped_release release;
-    graph = read_landmark_graph(path, {.connected = false, .remarks = &remarks});
+    graph = read_landmark_graph(path, {.connected = false, .remarks = &remarks, .indefinite = how});
   }
   for (const std::string& remark : remarks) warn(path + ": " + remark);
   return graph;
@@ -85,9 +88,14 @@ void bind_graph(nb::module_& m) {
   bind_value(graph, Hash::kNone);
   graph
       .def(
-          "__init__", [](G* self, PoseGraph poses) { new (self) G{std::move(poses), {}, {}, {}}; },
+          "__init__",
+          [](G* self, PoseGraph poses) {
+            new (self) G{std::move(poses), {}, {}, {}};
+          },
           "poses"_a, "The graph of these poses, without priors and points.")
-      .def_static("read", &read, "path"_a, doc("read_landmark_graph"))
+      .def_static(
+          "read", &read, "path"_a, "indefinite"_a = "refuse",
+          "Reads a pose graph with its priors and points.\n\n`indefinite`: as of PoseGraph.read.")
       .def(
           "write",
           [](const G& g, const std::filesystem::path& file) {
@@ -144,9 +152,7 @@ void bind_graph(nb::module_& m) {
           "Points of the observations, M.")
       .def_prop_ro(
           "observed_positions",
-          [](const G& g) {
-            return rows_of(g, g.observations, &PointObservation::position_node);
-          },
+          [](const G& g) { return rows_of(g, g.observations, &PointObservation::position_node); },
           "Measured positions in the axes of their nodes [m], M x 3, in the plane M x 2.")
       .def_prop_ro(
           "prior_nodes", [](const G& g) { return ids_of(g.priors, &PosePriorConstraint::node); },
@@ -155,7 +161,8 @@ void bind_graph(nb::module_& m) {
           "prior_poses",
           [](const G& g) {
             std::vector<double> values;
-            for (const PosePriorConstraint& prior : g.priors) append_row(prior.T_world_node, values);
+            for (const PosePriorConstraint& prior : g.priors)
+              append_row(prior.T_world_node, values);
             return owned_array(std::move(values), {g.priors.size(), row_width(g.poses.kind())});
           },
           "The measured poses, K rows as of PoseGraph.poses.")
@@ -169,10 +176,11 @@ void bind_graph(nb::module_& m) {
           "rotation_error"_a = "log",
           "Sum of e^T Omega e over edges, measured positions, priors and observations.")
       .def("__repr__", [](const G& g) {
-        return fmt::format("<placegraph.LandmarkGraph: {} nodes, {} constraints, {} priors, {} "
-                           "points, {} observations>",
-                           g.poses.nodes.size(), g.poses.constraints.size(), g.priors.size(),
-                           g.points.size(), g.observations.size());
+        return fmt::format(
+            "<placegraph.LandmarkGraph: {} nodes, {} constraints, {} priors, {} "
+            "points, {} observations>",
+            g.poses.nodes.size(), g.poses.constraints.size(), g.priors.size(), g.points.size(),
+            g.observations.size());
       });
 }
 

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "python/src/backend/graphs.h"
+#include "python/src/frontend/functions.h"
 #include "python/src/warnings.h"
 
 namespace placegraph::python {
@@ -164,13 +165,15 @@ PoseGraph without(const PoseGraph& graph, const std::vector<int>& constraints) {
 }
 
 /// Reads a file without the GIL; what was passed over becomes a warning of Python.
-PoseGraph read(const std::filesystem::path& file) {
+PoseGraph read(const std::filesystem::path& file, const std::string& indefinite) {
+  const auto how =
+      choice_of<IndefiniteInformation>(indefinite, indefinite_information_names(), "indefinite");
   const std::string path = file.string();
   std::vector<std::string> remarks;
   PoseGraph graph;
   {
     const nb::gil_scoped_release release;
-    graph = read_pose_graph(path, {.connected = false, .remarks = &remarks});
+    graph = read_pose_graph(path, {.connected = false, .remarks = &remarks, .indefinite = how});
   }
   for (const std::string& remark : remarks) warn(path + ": " + remark);
   return graph;
@@ -191,7 +194,12 @@ void bind_pose_graph_building(nb::class_<PoseGraph>& graph) {
           "all edges, in the right tangent: translation, rotation, log scale. Without `sources`, "
           "edges between consecutive ids are odometry, others loops. The nodes `fixed` keep their "
           "poses. Raises ArgumentError as check(), and for values that are not finite.")
-      .def_static("read", &read, "path"_a, doc("read_pose_graph"))
+      .def_static(
+          "read", &read, "path"_a, "indefinite"_a = "refuse",
+          "Reads a pose graph in the g2o, TORO or iSAM format.\n\n`indefinite`: what becomes of "
+          "edges of indefinite information: 'refuse' (FileError says how many they are), "
+          "'nearest' (the nearest semi-definite matrix) or 'isotropic' (one weight for "
+          "translation and one for rotation).")
       .def(
           "write_g2o",
           [](const PoseGraph& g, const std::filesystem::path& path) {
