@@ -172,8 +172,8 @@ void require_for_landmarks(const OptimizeArguments& arguments, const GraphTask& 
       {!arguments.plot.empty(), "--plot"},
       {!arguments.report.empty(), "--report"}};
   for (const auto& [given, option] : refused)
-    require(!given, fmt::format("{}: has {}, which {} does not take", arguments.in,
-                                graph.points.empty() ? "priors" : "point landmarks", option));
+    require(!given, fmt::format("{}: has priors or point landmarks, which {} does not take",
+                                arguments.in, option));
   require(
       options.rotation_error == RotationError::kLog ||
           std::ranges::none_of(graph.priors, &PosePriorConstraint::beside_node),

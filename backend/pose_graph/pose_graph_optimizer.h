@@ -18,7 +18,8 @@ namespace [[gnu::visibility("default")]] placegraph {
 [[nodiscard]] PoseGraphReport optimize_pose_graph(PoseGraph graph, const PoseGraphOptions& options,
                                                   const LogSink& log = {});
 
-/// e^T Omega e of every constraint, without kernels, in their order; throws as PoseGraph::check.
+/// e^T Omega e of every constraint, without kernels, in their order.
+/// Throws as PoseGraph::check.
 std::vector<double> chi2_by_constraint(const PoseGraph& graph, RotationError rotation_error);
 /// Sum of e^T Omega e over all constraints, without kernels; throws as PoseGraph::check.
 double chi2(const PoseGraph& graph, RotationError rotation_error);

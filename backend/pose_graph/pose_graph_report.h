@@ -45,9 +45,10 @@ struct PoseGraphReport {
   std::vector<Doubt> doubts;  ///< what speaks against the result, see doubts_of
 };
 
-/// What speaks against a result with an estimate: a chi2 far from its expectation, directions that
-/// are free, loops that were not judged. optimize_pose_graph fills `doubts` with it.
+/// What speaks against a result that has an estimate.
 ///
+/// A chi2 far from its expectation, directions that are free, and loops that were not judged do.
+/// optimize_pose_graph fills `doubts` with it.
 /// `method` is the robust method that was used. A chi2 that rounding of the measurements explains,
 /// by the digits that they have, is not doubted.
 std::vector<Doubt> doubts_of(const PoseGraphReport& report, RobustMethod method);

@@ -8,7 +8,7 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// Covariances of the poses of an optimized pose graph, and of the points of a landmark graph.
+/// Covariances of the poses of an optimized pose graph, and of a landmark graph's points.
 /// They are those of the Gaussian of the normal equations at the graph's poses (which should be the
 /// optimum), in the right tangents T_world_node exp(xi). Held nodes (as in the optimizer: fixed
 /// ones, else the first of a component) have no uncertainty. Robust kernels enter by their weights

@@ -121,7 +121,7 @@ std::optional<Information> PoseGraphBuilder::definite(const Information& informa
     rounding = std::max(rounding, printed_rounding(field));
   const Information nearest = without_rounding(information, rounding);
   const char* remaining = fault_of(nearest);
-  if (remaining == std::string_view("information is indefinite")) return std::nullopt;
+  if (remaining && remaining == std::string_view("information is indefinite")) return std::nullopt;
   if (remaining) file_->fail(std::string("the ") + remaining);
   return nearest;
 }
