@@ -5,6 +5,7 @@ import subprocess
 import warnings
 from collections.abc import Callable, Sequence
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -46,7 +47,8 @@ GRAPHS = {
     "not_unique": (chain(5, DANGLING), []),
     "loops_not_judged": (chain(20, LOOPS_OF_NO_SCALE), ["--robust", "auto"]),
     "held_components": (chain(3) + TWO_PARTS, []),
-    "graph_file": (chain(3).replace(" 400\n", " 400 17.5\n"), []),
+    "graph_file": ("".join(f"{line} {17.5 + i}\n" if line.startswith("VERTEX") else line + "\n"
+                           for i, line in enumerate(chain(3).splitlines())), []),
 }
 
 
@@ -63,11 +65,11 @@ def of_graph(kind: str, folder: pathlib.Path) -> tuple[list[str], Callable[[], o
 def of_trajectories(folder: pathlib.Path) -> tuple[list[str], Callable[[], object]]:
     """An estimate whose axes are turned by 180 degrees."""
     for name, sign in (("truth.tum", 1), ("estimate.tum", -1)):
-        rows = [f"{i} {i} {sign * np.sin(0.1 * i):.6f} 0 0 0 {sign * np.sin(a / 2):.9f} "
-                f"{np.cos(a / 2):.9f}" for i in range(60) for a in [np.arctan(0.1 * np.cos(0.1 * i))]]
+        rows = [f"{i} {4 * i} {40 * sign * np.sin(0.1 * i):.6f} 0 0 0 {sign * np.sin(a / 2):.9f} "
+                f"{np.cos(a / 2):.9f}" for i in range(60) for a in [np.arctan(np.cos(0.1 * i))]]
         (folder / name).write_text("\n".join(rows) + "\n")
     truth, estimate = folder / "truth.tum", folder / "estimate.tum"
-    return ["eval", str(truth), str(estimate), "--lengths", "10"], lambda: pg.evaluate(truth, estimate)
+    return ["eval", str(truth), str(estimate)], lambda: pg.evaluate(truth, estimate)
 
 
 def of_loops(folder: pathlib.Path) -> tuple[list[str], Callable[[], object]]:
@@ -87,8 +89,8 @@ def of_options(folder: pathlib.Path, drive: pathlib.Path) -> tuple[list[str], Ca
 
 def of_recording(folder: pathlib.Path, drive: pathlib.Path) -> tuple[list[str], Callable[[], object]]:
     options = pg.RunOptions()
-    options.camera_height_m = 1.2
-    return (["run", str(drive), "--out", str(folder / "out"), "--range", "0", "9",
+    options.camera_height_m, options.max_frames = 1.2, 10
+    return (["run", str(drive), "--out", str(folder / "out"), "--set", "max_frames=10",
              "--set", "camera_height_m=1.2"], lambda: pg.run(drive, options))
 
 
@@ -99,7 +101,8 @@ def test_both_doors_say_the_same(
 ) -> None:
     if kind == "query_refused":  # the program's line: tests/unit/apps/map/queries/localize_test.cpp
         with pytest.warns(pg.Doubt, match="1 of 2 images are refused before the comparison"):
-            maps._warn_of_refusals([SimpleNamespace(stage=stage) for stage in ("pose", "grey")])
+            seen: list[Any] = [SimpleNamespace(stage=stage) for stage in ("pose", "grey")]
+            maps._warn_of_refusals(seen)
         return
     if kind in GRAPHS:
         arguments, call = of_graph(kind, tmp_path)
@@ -146,8 +149,9 @@ def test_chi2_within_a_tenth_and_ten_times_its_expectation_is_silent(
 
 
 def test_without_a_result_there_is_an_exception() -> None:
-    drive = pg.Trajectory.from_arrays(np.arange(5) * 10**9, np.tile(np.eye(4), (5, 1, 1)))
-    late = pg.Trajectory.from_arrays(np.arange(5) * 10**9 + 10**15, np.tile(np.eye(4), (5, 1, 1)))
+    poses = np.stack([pg.SE3.exp([i, 0, 0, 0, 0, 0.1 * i]).matrix() for i in range(5)])
+    drive = pg.Trajectory.from_arrays(np.arange(5) * 10**9, poses)
+    late = pg.Trajectory.from_arrays(np.arange(5) * 10**9 + 10**15, poses)
     with pytest.raises(pg.NoResult):
         pg.evaluate(drive, late)
     with pytest.warns(pg.Doubt, match="b has no figures, and means leave it out"):

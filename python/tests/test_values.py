@@ -25,6 +25,24 @@ def drive(shift: float = 0.0, *, lost: int = -1) -> pg.Trajectory:
     return pg.Trajectory.from_arrays(np.arange(8) * 10**8, poses)
 
 
+def failed_evaluation() -> pg.Evaluation:
+    evaluation: pg.Evaluation = pg.compare(
+        drive(), {"good": drive(), "none": pg.Trajectory()})["none"]
+    return evaluation
+
+
+def landmarks(seen: float = 1.0) -> pg.LandmarkGraph:
+    """Poses in the plane, one of them measured, that see two points, the second one twice."""
+    graph = pg.LandmarkGraph(plane())
+    ids = graph.poses.ids
+    graph.add_prior(ids[1], graph.poses.poses[1], 100 * np.eye(3))
+    for point in (70, 71):
+        graph.add_point(point, [1, 2])
+        graph.add_observation(ids[0], point, [seen, 2], 4 * np.eye(2))
+    graph.add_observation(ids[2], 71, [0.1, 0.2], np.eye(2))
+    return graph
+
+
 def mixed_graph(width: float = 1.3) -> pg.PoseGraph:
     graph = ring(8, noise=0.05)
     graph.add_edge(0, 5, graph.pose(3), np.eye(6), "other", pg.RobustKernel("huber", width))
@@ -75,13 +93,16 @@ VALUES: dict[str, tuple[Callable[[], Any], Callable[[], Any]]] = {
     "RobustKernel": (lambda: pg.RobustKernel("huber", 1.3), lambda: pg.RobustKernel("huber", 1.4)),
     "PoseGraph": (mixed_graph, lambda: mixed_graph(1.2)),
     "PoseGraph in the plane": (plane, lambda: plane(4)),
+    "LandmarkGraph": (landmarks, lambda: landmarks(1.5)),
+    "OptimizedLandmarkGraph": (lambda: pg.optimize(landmarks()),
+                               lambda: pg.optimize(landmarks(1.5))),
     "OptimizedGraph": (lambda: pg.optimize(plane(), certify=True), lambda: pg.optimize(plane())),
     "RejectedEdge": (lambda: rejected()[0], lambda: rejected()[1]),
     "Certificate": (lambda: pg.optimize(plane(), certify=True).certificate,
                     lambda: pg.optimize(plane(4), certify=True).certificate),
     "Evaluation": (lambda: pg.evaluate(drive(), drive(0.01)),
                    lambda: pg.evaluate(drive(), drive(0.02))),
-    "Evaluation that failed": (lambda: pg.evaluate(drive(), pg.Trajectory()),
+    "Evaluation that failed": (lambda: failed_evaluation(),
                                lambda: pg.evaluate(drive(), drive())),
     "Comparison": (lambda: pg.compare(drive(), {"a": drive(0.01, lost=1)}),
                    lambda: pg.compare(drive(), {"b": drive(0.01, lost=1)})),
@@ -100,6 +121,7 @@ VALUES: dict[str, tuple[Callable[[], Any], Callable[[], Any]]] = {
                            lambda: pg.RunOptions.from_yaml("loops: {enabled: false}\n").loops),
 }
 MUTABLE = {"DepthCamera", "Calibration", "PoseGraph", "PoseGraph in the plane", "OptimizedGraph",
+           "LandmarkGraph", "OptimizedLandmarkGraph",
            "RunOptions", "a group of options"}
 # Classes of these values are made by functions on data that no short test has.
 ELSEWHERE = {"DirectionNoise", "TruthMount"}
@@ -186,8 +208,8 @@ def test_zeros_of_both_signs_are_equal_and_nan_is_equal_to_nan() -> None:
     plus, minus = pg.SE3(), pg.SE3.from_quaternion_xyzw([0, 0, 0, 1], [-0.0, 0, 0])
     assert plus == minus and hash(plus) == hash(minus) and len({plus, minus}) == 1
     assert drive(lost=2) == drive(lost=2) and drive(lost=2) != drive(lost=3)
-    failed = pg.evaluate(drive(), pg.Trajectory())
-    assert not failed and failed == pg.evaluate(drive(), pg.Trajectory())
+    failed = failed_evaluation()
+    assert not failed and failed == failed_evaluation()
 
 
 @pytest.mark.parametrize("method", multiprocessing.get_all_start_methods())

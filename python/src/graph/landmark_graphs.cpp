@@ -137,26 +137,26 @@ void bind_graph(nb::module_& m) {
       .def_prop_ro(
           "poses", [](const G& g) { return g.poses; }, "A copy of the nodes and their constraints.")
       .def_prop_ro(
-          "point_ids", [](const G& g) { return ids_of(g.points, &GraphPoint::id); },
+          "point_ids", [](const G& g) { return ids_of(g.points, &GraphPoint::id); }, kNew,
           "Ids of the points, N.")
       .def_prop_ro(
           "points", [](const G& g) { return rows_of(g, g.points, &GraphPoint::position_world); },
-          "Positions of the points in the world [m], N x 3, in the plane N x 2.")
+          kNew, "Positions of the points in the world [m], N x 3, in the plane N x 2.")
       .def_prop_ro(
           "observing_nodes",
-          [](const G& g) { return ids_of(g.observations, &PointObservation::node); },
+          [](const G& g) { return ids_of(g.observations, &PointObservation::node); }, kNew,
           "Nodes of the observations, M.")
       .def_prop_ro(
           "observed_points",
-          [](const G& g) { return ids_of(g.observations, &PointObservation::point); },
+          [](const G& g) { return ids_of(g.observations, &PointObservation::point); }, kNew,
           "Points of the observations, M.")
       .def_prop_ro(
           "observed_positions",
           [](const G& g) { return rows_of(g, g.observations, &PointObservation::position_node); },
-          "Measured positions in the axes of their nodes [m], M x 3, in the plane M x 2.")
+          kNew, "Measured positions in the axes of their nodes [m], M x 3, in the plane M x 2.")
       .def_prop_ro(
           "prior_nodes", [](const G& g) { return ids_of(g.priors, &PosePriorConstraint::node); },
-          "Nodes of the measured poses, K.")
+          kNew, "Nodes of the measured poses, K.")
       .def_prop_ro(
           "prior_poses",
           [](const G& g) {
@@ -165,7 +165,8 @@ void bind_graph(nb::module_& m) {
               append_row(prior.T_world_node, values);
             return owned_array(std::move(values), {g.priors.size(), row_width(g.poses.kind())});
           },
-          "The measured poses, K rows as of PoseGraph.poses.")
+          kNew, "The measured poses, K rows as of PoseGraph.poses.")
+      .def("check", &G::check, doc("LandmarkGraph::check"))
       .def(
           "chi2",
           [](const G& g, const std::string& rotation_error) {

@@ -22,6 +22,8 @@ SEGMENTS = np.c_[PX, PX + 20]
 QUAD = [[20, 20], [100, 20], [100, 80], [20, 80]]
 TRUTH = loops.LoopTruth({10: [1], 11: [2]})
 POSES = pg.Trajectory.from_arrays(np.arange(5), np.tile(np.eye(4), (5, 1, 1)))
+DRIVE = pg.Trajectory.from_arrays(np.arange(5), np.stack(
+    [pg.SE3.exp([i, 0, 0, 0, 0, 0.1 * i]).matrix() for i in range(5)]))
 VECTORS = vision.lucas_kanade(GREY, GREY, PX)
 DEROTATED = vision.derotate(CAMERA, VECTORS)
 CLOUD = vision.PointCloud(XYZ)
@@ -206,8 +208,8 @@ CASES: list[tuple[str, Callable[[], Any], type[Exception], str]] = [
     ("three files of times", lambda: pg.evaluate(POSES, POSES, times=["a", "b", "c"]), ValueError,
      "times"),
     ("nothing to compare", lambda: pg.compare(POSES, {}), ValueError, "estimates"),
-    ("no such plot", lambda: pg.evaluate(POSES, POSES).plot("pie"), ValueError, "kind"),
-    ("no such figure", lambda: pg.evaluate(POSES, POSES)["ate"], KeyError, "ate_rmse_m"),
+    ("no such plot", lambda: pg.evaluate(DRIVE, DRIVE).plot("pie"), ValueError, "kind"),
+    ("no such figure", lambda: pg.evaluate(DRIVE, DRIVE)["ate"], KeyError, "ate_rmse_m"),
 ]
 
 

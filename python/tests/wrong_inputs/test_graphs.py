@@ -179,9 +179,9 @@ CASES: list[tuple[str, Callable[[], Any], type[Exception], str]] = [
      "pose"),
     # optimizing one
     ("an unknown method", lambda: pg.optimize(ring(), robust="magic"), ValueError, "robust"),
-    ("options of another kind", lambda: pg.optimize(ring(), options=pg.RunOptions()),  # type: ignore[arg-type]
+    ("options of another kind", lambda: pg.optimize(ring(), options=pg.RunOptions()),  # type: ignore[call-overload]
      ValueError, "options"),
-    ("an array in place of a graph", lambda: pg.optimize(np.eye(3)), TypeError, ""),  # type: ignore[arg-type]
+    ("an array in place of a graph", lambda: pg.optimize(np.eye(3)), TypeError, ""),  # type: ignore[call-overload]
     ("covariance of no node", lambda: pg.marginal_covariances(ring(), [99]), ValueError, "99"),
     ("covariance of half a node", lambda: pg.PoseMarginals(ring()).joint_covariance([0.5]),
      ValueError, "ids"),
