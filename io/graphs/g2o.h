@@ -28,7 +28,8 @@ PoseGraph read_g2o(const std::string& path, const PoseGraphReading& reading = {}
 
 /// Writes a pose graph in the g2o format with 17 significant digits.
 ///
-/// FIX lines come last, because readers of other programs end at them (gtsam 4.3). The file is replaced as a whole or not at all. Robust kernels are left out, because the format
+/// FIX lines come last, because readers of other programs end at them (gtsam 4.3). The file is
+/// replaced as a whole or not at all. Robust kernels are left out, because the format
 /// has none. Throws ArgumentError for a graph that check() rejects or constraints that the format
 /// cannot represent, FileError if the file cannot be written.
 void write_g2o(const std::string& path, const PoseGraph& graph);
