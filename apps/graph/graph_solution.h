@@ -26,7 +26,7 @@ struct GraphSolution {
                                ///< expensive one
   bool refined_from_certified = false;     ///< whether `initialization` is certified
   std::vector<RejectedEdge> rejected;      ///< in the order of graph.constraints
-  std::vector<double> chi2_by_constraint;  ///< in the order of graph.constraints; incremental: none
+  std::vector<double> chi2_by_constraint;  ///< in the order of graph.constraints
   bool loops_judged =
       true;  ///< false if a component has too few loops to estimate the scale of the noise
   FreeDirections free;              ///< free directions of all components together

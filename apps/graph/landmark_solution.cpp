@@ -13,15 +13,6 @@ namespace placegraph::apps {
 
 using Json = nlohmann::ordered_json;
 
-namespace {
-
-NodeId id_of(const LandmarkGraph& graph, int variable) {
-  const auto i = static_cast<std::size_t>(variable), nodes = graph.poses.nodes.size();
-  return i < nodes ? graph.poses.nodes[i].id : graph.points[i - nodes].id;
-}
-
-}  // namespace
-
 LandmarkSolution solve_landmarks(LandmarkGraph graph, const PoseGraphOptions& options) {
   const Stopwatch stopwatch;
   LandmarkSolution solution;
@@ -84,8 +75,6 @@ Json describe(const LandmarkSolution& solution) {
   report["rejected"] = 0;
   report["rejected_edges"] = Json::array();
   report["held_vertices"] = solution.held_vertices;
-  report["doubts"] = Json::array();
-  for (const Doubt& doubt : solution.doubts) report["doubts"].push_back(doubt.text);
   return report;
 }
 

@@ -71,10 +71,10 @@ int doubtful_edges(const GraphSolution& solution) {
   return static_cast<int>(beyond - rejected);
 }
 
-Json texts_of(const std::vector<Doubt>& doubts) {
-  Json texts = Json::array();
-  for (const Doubt& doubt : doubts) texts.push_back(doubt.text);
-  return texts;
+void tell(const std::vector<Doubt>& doubts, const std::string& in, const LogSink& sink) {
+  if (!sink) return;
+  for (const Doubt& doubt : doubts)
+    sink(LogLevel::kWarning, fmt::format("warning: {}: {}", in, doubt.text));
 }
 
 std::vector<NodeId> free_vertices(const GraphSolution& solution) {
@@ -196,8 +196,7 @@ void optimize_landmarks(const OptimizeArguments& arguments, const GraphTask& tas
   if (!arguments.covariances.empty())
     write_covariances(arguments.covariances, arguments.in, solution.graph,
                       task.options.rotation_error);
-  for (const Doubt& doubt : solution.doubts)
-    if (sink) sink(LogLevel::kWarning, fmt::format("warning: {}: {}", arguments.in, doubt.text));
+  tell(solution.doubts, arguments.in, sink);
   write_g2o(arguments.out, solution.graph);
 }
 
@@ -223,8 +222,7 @@ void optimize_poses(const OptimizeArguments& arguments, const GraphTask& task, P
   if (!arguments.covariances.empty())
     write_covariances(arguments.covariances, arguments.in, kept, task.options.rotation_error);
   if (!arguments.plot.empty()) draw(arguments.plot, drawn, solution, result.after);
-  for (const Doubt& doubt : solution.doubts)
-    if (sink) sink(LogLevel::kWarning, fmt::format("warning: {}: {}", arguments.in, doubt.text));
+  tell(solution.doubts, arguments.in, sink);
   write_g2o(arguments.out, arguments.drop_rejected ? kept : solution.graph);
 }
 
@@ -259,7 +257,6 @@ Json describe(const OptimizeResult& result) {
   report["rejected"] = solution.rejected.size();
   report["rejected_edges"] = rejected_edges(solution);
   report["doubtful"] = doubtful_edges(solution);
-  report["doubts"] = texts_of(solution.doubts);
   return report;
 }
 
@@ -334,6 +331,9 @@ std::string to_json(const OptimizeResult& result) {
   } else {
     report = describe(result);
   }
+  report["doubts"] = Json::array();
+  for (const Doubt& doubt : result.landmarks ? result.landmarks->doubts : result.solution.doubts)
+    report["doubts"].push_back(doubt.text);
   report["replaced_information"] = result.replaced;
   return json_text(report, 2);
 }

@@ -147,12 +147,12 @@ LandmarkGraphReport solve_factors(LandmarkGraph graph, const LandmarkGraphOption
 
 }  // namespace
 
-namespace {
-
 NodeId id_of(const LandmarkGraph& graph, int variable) {
   const auto i = static_cast<std::size_t>(variable), nodes = graph.poses.nodes.size();
   return i < nodes ? graph.poses.nodes[i].id : graph.points[i - nodes].id;
 }
+
+namespace {
 
 std::vector<NodeId> ids_of(const LandmarkGraph& graph, const std::vector<int>& variables) {
   std::vector<NodeId> ids;

@@ -42,6 +42,9 @@ double chi2(const LandmarkGraph& graph, RotationError rotation_error);
 /// held. Throws as LandmarkGraph::check.
 FactorGraph to_factor_graph(const LandmarkGraph& graph, RotationError rotation_error);
 
+/// Id of a variable of `to_factor_graph`: of a node, or behind the nodes of a point.
+NodeId id_of(const LandmarkGraph& graph, int variable);
+
 /// Number of connected components; a point that no node observes is not counted.
 int count_components(const LandmarkGraph& graph);
 /// Positions of the nodes that are held because their component has no other reference.

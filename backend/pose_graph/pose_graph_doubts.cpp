@@ -47,52 +47,60 @@ std::vector<Measured> measured_of(const std::vector<Constraint>& constraints,
   return all;
 }
 
-/// The power of ten of a number's first digit.
-double unit_of(double x) { return std::pow(10, std::floor(std::log10(std::abs(x)))); }
-
 constexpr int kMostDigits = 7;  // a measurement is not better than a millionth
 
-/// Number of significant digits of a value in decimal notation, at most kMostDigits; `unit` is that
-/// of its first digit.
-int significant_digits(double value, double unit) {
-  auto mantissa = static_cast<std::int64_t>(std::llround(std::abs(value) / unit * 1e6));
+/// The power of ten of a number's first digit, for positive numbers.
+double unit_of(double x) {
+  double unit = 1;
+  while (unit > x) unit /= 10;
+  while (unit * 10 <= x) unit *= 10;
+  return unit;
+}
+
+/// Number of significant digits of a positive number in decimal notation, at most kMostDigits.
+int significant_digits(double x) {
+  auto mantissa = static_cast<std::int64_t>(std::llround(x / unit_of(x) * 1e6));
   int digits = kMostDigits;
   for (; digits > 1 && mantissa % 10 == 0; mantissa /= 10) --digits;
   return digits;
 }
 
-/// Half a unit of the last digit of translations [m], and of angles and scales.
-struct LastDigit {
-  double translation = 0, rotation = 0;
+/// How measurements are rounded, by their translations: to a number of decimals, or of digits.
+/// The rounding of a number is at most that of both.
+struct Rounding {
+  double decimal = 0;  ///< unit of the last decimal place
+  double digit = 0;    ///< unit of the last digit as a share of that of the first one
+
+  double unit(double largest) const {
+    return std::max(decimal, largest > 0 ? digit * unit_of(largest) : 0);
+  }
 };
 
-LastDigit last_digit(const std::vector<Measured>& all) {
+Rounding rounding_of(const std::vector<Measured>& all) {
   constexpr std::size_t kRead = 200;  // measurements whose digits show how the file is written
-  int digits = 1;
-  double largest = 0, finest = 1;
-  for (const Measured& each : all)
-    largest = std::max(largest, each.translation.cwiseAbs().maxCoeff());
-  for (std::size_t i = 0; i < all.size() && digits < kMostDigits; i += 1 + all.size() / kRead)
-    for (const double x : all[i].translation) {
-      if (x == 0) continue;
-      const double unit = unit_of(x);
-      const int of_x = significant_digits(x, unit);
-      digits = std::max(digits, of_x);
-      finest = std::min(finest, unit * std::pow(10, 1 - of_x));
+  int most = 1;
+  double finest = 1;
+  for (std::size_t i = 0; i < all.size(); i += 1 + all.size() / kRead)
+    for (const double x : all[i].translation.cwiseAbs()) {
+      if (!(x > 0) || !std::isfinite(x)) continue;
+      const int digits = significant_digits(x);
+      most = std::max(most, digits);
+      finest = std::min(finest, unit_of(x) * std::pow(10, 1 - digits));
     }
-  const double relative = std::pow(10, 1 - digits);
-  const double of_rotation = digits == kMostDigits ? relative : std::max(relative, finest);
-  return {largest > 0 ? 0.5 * relative * unit_of(largest) : 0, 0.5 * of_rotation};
+  return {finest, std::pow(10, 1 - most)};
 }
 
-double rounding_of(const std::vector<Measured>& all) {
-  const LastDigit half = last_digit(all);
+double chi2_of_rounding(const std::vector<Measured>& all) {
+  const Rounding rounding = rounding_of(all);
   double bound = 0;
   // e^T Omega e <= trace(Omega) |e|^2 for the translation and for the rest, and twice that for
-  // both.
-  for (const Measured& each : all)
-    bound += 2 * each.dim * std::pow(half.translation, 2) * each.weight +
-             2 * each.rest * std::pow(half.rotation, 2) * each.rest_weight;
+  // both. A component is off by half a unit; a quaternion's by half of what the rotation is.
+  const double rest = rounding.unit(1);
+  for (const Measured& each : all) {
+    const double translation = 0.5 * rounding.unit(each.translation.cwiseAbs().maxCoeff());
+    bound += 2 * each.dim * translation * translation * each.weight +
+             2 * each.rest * rest * rest * each.rest_weight;
+  }
   return bound;
 }
 
@@ -106,7 +114,7 @@ std::vector<NodeId> ids_of(const PoseGraph& graph, const std::vector<int>& nodes
 
 double chi2_of_rounding(const std::vector<Constraint>& constraints,
                         const std::vector<char>& left_out) {
-  return rounding_of(measured_of(constraints, left_out));
+  return chi2_of_rounding(measured_of(constraints, left_out));
 }
 
 double chi2_of_rounding(const LandmarkGraph& graph) {
@@ -117,7 +125,7 @@ double chi2_of_rounding(const LandmarkGraph& graph) {
   for (const PointObservation& observation : graph.observations)
     all.push_back(
         measured(observation.position_node, observation.information.topLeftCorner(dim, dim), dim));
-  return rounding_of(all);
+  return chi2_of_rounding(all);
 }
 
 std::optional<DoubtKind> doubt_of_chi2(const Chi2Fit& fit) {

@@ -21,8 +21,8 @@ struct Chi2Fit {
 /// The bound of chi2 that measurements which are exact but for their last digit have.
 ///
 /// At the minimum chi2 is not larger than at the true poses, where every component of an error is
-/// at most half a unit of the last digit. That unit is known from the translations; no measurement
-/// is taken for better than a millionth.
+/// at most half a unit of the last digit. That unit is known from the translations, which have a
+/// number of decimals or of digits; no measurement is taken for better than a millionth.
 ///
 /// Constraints whose place in `left_out` is not zero are left out; it may be empty.
 double chi2_of_rounding(const std::vector<Constraint>& constraints,

@@ -66,9 +66,8 @@ LogSink with_advice(const LogSink& sink, const PackedGraph<Group>& graph,
     next = Clock::time_point::max();
     log(sink, LogLevel::kWarning,
         "pose graph: after {} s chi2 is {:.1f} times what the information of the edges lets "
-        "expect: "
-        "edges contradict each other, and every start takes long; the robust method auto (--robust "
-        "auto) leaves false loops out",
+        "expect: edges contradict each other, and every start takes long; the robust method auto "
+        "(--robust auto) leaves false loops out",
         kPatience.count(), cost / std::max(1, expected));
   };
 }

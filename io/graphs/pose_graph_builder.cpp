@@ -247,14 +247,6 @@ LandmarkGraph PoseGraphBuilder::finish_landmarks(const PoseGraphReading& reading
 
 namespace {
 
-/// The nearest matrix without negative eigenvalues, in Frobenius' norm.
-Information without_negative(const Information& information) {
-  const Eigen::SelfAdjointEigenSolver<Information> eigen(information);
-  const Information nearest = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() *
-                              eigen.eigenvectors().transpose();
-  return 0.5 * (nearest + nearest.transpose());
-}
-
 /// The weight of an isotropic block: the harmonic mean of its eigenvalues where all are positive,
 /// as in SE-Sync, else the mean of those that are not negative.
 double isotropic_weight(const Information& block) {
@@ -290,7 +282,7 @@ void PoseGraphBuilder::replace_indefinite(const PoseGraphReading& reading) {
   const bool nearest = reading.indefinite == IndefiniteInformation::kNearest;
   for (const std::size_t i : indefinite_) {
     Information& information = std::get<RelativePoseConstraint>(graph_.constraints[i]).information;
-    information = nearest ? without_negative(information) : isotropic(information);
+    information = nearest ? nearest_semidefinite(information) : isotropic(information);
     if (const char* fault = fault_of(information))
       throw FileError(file_->path(), edge_lines_[i], fmt::format("replaced, the {}", fault));
   }

@@ -21,15 +21,20 @@ double printed_rounding(std::string_view number) {
   return 0.5 * std::pow(10.0, exponent - decimals);
 }
 
-Information without_rounding(const Information& information, double rounding) {
-  constexpr double kMostRounding = 1e-3;  // as a share of the largest eigenvalue
+Information nearest_semidefinite(const Information& information) {
   const Eigen::SelfAdjointEigenSolver<Information> eigen(information);
-  const double largest = eigen.eigenvalues()[information.rows() - 1];
-  const double least = static_cast<double>(information.rows()) * rounding;
-  if (!(least <= kMostRounding * largest) || eigen.eigenvalues()[0] < -least) return information;
   const Information nearest = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() *
                               eigen.eigenvectors().transpose();
   return 0.5 * (nearest + nearest.transpose());
+}
+
+Information without_rounding(const Information& information, double rounding) {
+  constexpr double kMostRounding = 1e-3;  // as a share of the largest eigenvalue
+  const Eigen::SelfAdjointEigenSolver<Information> eigen(information, Eigen::EigenvaluesOnly);
+  const double largest = eigen.eigenvalues()[information.rows() - 1];
+  const double least = static_cast<double>(information.rows()) * rounding;
+  if (!(least <= kMostRounding * largest) || eigen.eigenvalues()[0] < -least) return information;
+  return nearest_semidefinite(information);
 }
 
 }  // namespace placegraph

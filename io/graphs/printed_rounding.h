@@ -10,6 +10,9 @@ namespace placegraph {
 /// numbers without a point, which are considered exact.
 double printed_rounding(std::string_view number);
 
+/// The nearest positive semi-definite matrix in Frobenius' norm: negative eigenvalues become zero.
+Information nearest_semidefinite(const Information& information);
+
 /// The nearest positive semi-definite matrix, if rounding every entry by `rounding` can have made
 /// it indefinite and is small against its largest eigenvalue; else the unchanged matrix.
 Information without_rounding(const Information& information, double rounding);

@@ -371,7 +371,7 @@ class Localizer:
 
 def _warn_of_refusals(results: Sequence[Localization]) -> None:
     """Warns of images that could not be compared, at the line of the user's."""
-    refused = [i for i, at in enumerate(results) if at.stage in ("grey", "unreadable")]
+    refused = [i for i, at in enumerate(results) if at.stage == "grey"]
     if refused:
         warnings.warn(f"{len(refused)} of {len(results)} images are refused before the comparison, "
                       f"the first is number {refused[0]}: they are grey, and the map's images have "

@@ -36,6 +36,19 @@ class LoopPairsOf : public testing::Test {
 using Groups = testing::Types<SE2, SE3, Sim3>;
 TYPED_TEST_SUITE(LoopPairsOf, Groups);
 
+TYPED_TEST(LoopPairsOf, CloseUpToTheirMisclosure) {
+  const OdometryChain<TypeParam> chain(this->graph);
+  const auto loops = loops_on_chain(this->graph, chain);
+  for (const auto& a : loops)
+    for (const auto& b : loops) {
+      const double chi2 = ring_misclosure(a, b, chain).chi2;
+      EXPECT_TRUE(ring_closes(a, b, chain, chi2 * (1 + 1e-6) + 1e-9));
+      if (chi2 > 1e-6) {
+        EXPECT_FALSE(ring_closes(a, b, chain, chi2 * (1 - 1e-6)));
+      }
+    }
+}
+
 TYPED_TEST(LoopPairsOf, DependNeitherOnTheOrderNorOnTheDirectionOfTheLoops) {
   PackedGraph<TypeParam> other = this->graph;
   Random random(1);
