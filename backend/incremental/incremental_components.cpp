@@ -1,6 +1,7 @@
 #include <placegraph/backend/incremental/incremental_components.h>
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 namespace placegraph {
@@ -57,8 +58,7 @@ std::vector<int> IncrementalComponents::join(int a, int b) {
   return moved;
 }
 
-void IncrementalComponents::split(const std::vector<int>& part) {
-  const int old = nodes_[part.front()].component;
+int IncrementalComponents::add_component(const std::vector<int>& nodes) {
   int created = static_cast<int>(components_.size());
   if (free_components_.empty()) {
     components_.emplace_back();
@@ -66,21 +66,39 @@ void IncrementalComponents::split(const std::vector<int>& part) {
     created = free_components_.back();
     free_components_.pop_back();
   }
-  components_[created] = {part, part.front(), 0, -1};
-  for (const int node : part) nodes_[node].component = created;
-  std::erase_if(components_[old].nodes, [&](int n) { return nodes_[n].component != old; });
-  for (const int c : {old, created}) {
-    Component& component = components_[c];
-    component.first = *std::min_element(component.nodes.begin(), component.nodes.end());
-    component.anchors = 0;
-    for (const int node : component.nodes)
-      component.anchors += nodes_[node].positions + nodes_[node].fixed;
+  components_[created] = {nodes, nodes.front(), 0, -1};
+  for (const int node : nodes) nodes_[node].component = created;
+  return created;
+}
+
+/// Counts the anchors of its nodes, and finds the first node.
+void IncrementalComponents::count(Component& component) {
+  component.first = *std::min_element(component.nodes.begin(), component.nodes.end());
+  component.anchors = 0;
+  for (const int node : component.nodes)
+    component.anchors += nodes_[node].positions + nodes_[node].fixed;
+}
+
+void IncrementalComponents::split(const std::vector<std::vector<int>>& pieces) {
+  std::map<int, std::size_t> left;  // number of nodes of each component that falls apart
+  std::vector<int> parts;
+  for (const std::vector<int>& piece : pieces) {
+    const int old = nodes_[piece.front()].component;
+    auto& rest = left.try_emplace(old, components_[old].nodes.size()).first->second;
+    if (piece.size() == rest) continue;  // the last piece keeps the component
+    rest -= piece.size();
+    parts.push_back(add_component(piece));
   }
-  Component &rest = components_[old], &taken = components_[created];
-  if (rest.held >= 0 && nodes_[rest.held].component == created)
-    taken.held = std::exchange(rest.held, -1);
-  settle(rest);
-  settle(taken);
+  for (const auto& [old, rest] : left) {
+    Component& component = components_[old];
+    if (rest == component.nodes.size()) continue;
+    std::erase_if(component.nodes, [&](int node) { return nodes_[node].component != old; });
+    const int of_held = component.held >= 0 ? nodes_[component.held].component : old;
+    if (of_held != old) components_[of_held].held = std::exchange(component.held, -1);
+    parts.push_back(old);
+  }
+  for (const int part : parts) count(components_[part]);
+  for (const int part : parts) settle(components_[part]);
 }
 
 void IncrementalComponents::anchor(int node, int count) {

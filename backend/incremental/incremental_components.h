@@ -16,8 +16,8 @@ class IncrementalComponents {
   /// other: the one without anchors, else the one whose first node was added later; empty if both
   /// have anchors.
   std::vector<int> join(int a, int b);
-  /// Splits `part` of a component off.
-  void split(const std::vector<int>& part);
+  /// Makes components of pieces: of each component that falls apart all pieces, or all but one.
+  void split(const std::vector<std::vector<int>>& pieces);
   /// A measured position of the node was added (+1) or removed (-1).
   void anchor(int node, int count);
   /// Nodes whose held() has changed since the last call.
@@ -35,6 +35,8 @@ class IncrementalComponents {
     int anchors = 0;
     int held = -1;  ///< the node held in the absence of an anchor
   };
+  int add_component(const std::vector<int>& nodes);
+  void count(Component& component);
   void settle(Component& component);
   void set_held(int node, bool held);
 

@@ -18,7 +18,7 @@ class IncrementalEngine {
   /// `poses_hold`: constraints that connect components move neither component.
   virtual void add_constraints(const std::vector<Constraint>& constraints, bool poses_hold) = 0;
   virtual void revise(const ConstraintRevision& revision) = 0;
-  virtual void set_weight(const ConstraintWeight& weight) = 0;
+  virtual void set_weights(const std::vector<ConstraintWeight>& weights) = 0;
   /// Iterates until the predicted excess is less than `excess` of the cost; fills `step`.
   virtual void optimize(double excess, IncrementalStep& step) = 0;
 
@@ -45,7 +45,9 @@ class IncrementalEngineOf final : public IncrementalEngine {
     graph_.add_constraints(constraints, poses_hold);
   }
   void revise(const ConstraintRevision& revision) override { graph_.revise(revision); }
-  void set_weight(const ConstraintWeight& weight) override { graph_.set_weight(weight); }
+  void set_weights(const std::vector<ConstraintWeight>& weights) override {
+    graph_.set_weights(weights);
+  }
   void optimize(double excess, IncrementalStep& step) override;
   int constraints() const override { return graph_.constraints(); }
   const Constraint& constraint(int number) const override { return graph_.constraint(number); }

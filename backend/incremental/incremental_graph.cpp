@@ -98,7 +98,7 @@ void IncrementalGraph<Group>::detach(int number) {
     edge = Edge();
     edge_costs_[place] = 0;
     free_edges_.push_back(place);
-    split(from, to);
+    removed_.emplace_back(from, to);
   }
 }
 
@@ -169,10 +169,19 @@ void IncrementalGraph<Group>::revise(const ConstraintRevision& revision) {
 }
 
 template <class Group>
+void IncrementalGraph<Group>::set_weights(const std::vector<ConstraintWeight>& weights) {
+  for (const ConstraintWeight& weight : weights) set_weight(weight);
+  split_removed();
+  apply_held();
+}
+
+template <class Group>
 void IncrementalGraph<Group>::set_weight(const ConstraintWeight& weight) {
   const int place = place_[weight.constraint];
   if (place < 0) {
-    if (weight.weight > 0) attach(weight.constraint, weight.weight);
+    if (weight.weight == 0) return;
+    split_removed();  // what the constraint joins moves as a whole
+    attach(weight.constraint, weight.weight);
   } else if (weight.weight == 0) {
     detach(weight.constraint);
   } else if (std::holds_alternative<PositionConstraint>(constraints_[weight.constraint])) {
@@ -183,7 +192,6 @@ void IncrementalGraph<Group>::set_weight(const ConstraintWeight& weight) {
     evaluate(place);
     linearize(place);
   }
-  apply_held();
 }
 
 template <class Group>
@@ -201,22 +209,41 @@ void IncrementalGraph<Group>::join(const Edge& edge) {
   for (const int node : moved) nodes_[node].T_world_node = T_new_old * nodes_[node].T_world_node;
 }
 
-/// After the removal of an edge: splits its component unless another path connects the two nodes.
+/// The nodes that edges connect with `start`, which become seen; none if `other` is among them.
 template <class Group>
-void IncrementalGraph<Group>::split(int from, int to) {
-  std::vector<char> seen(nodes_.size(), false);
-  std::vector<int> reached = {to};
-  seen[to] = true;
+std::vector<int> IncrementalGraph<Group>::reached(int start, int other,
+                                                  std::vector<char>& seen) const {
+  std::vector<int> reached = {start};
+  seen[start] = true;
   for (std::size_t i = 0; i < reached.size(); ++i)
     for (const int e : nodes_[reached[i]].edges) {
-      const auto& other = edges_[e].edge;
-      const int next = other.from == reached[i] ? other.to : other.from;
-      if (next == from) return;
+      const auto& edge = edges_[e].edge;
+      const int next = edge.from == reached[i] ? edge.to : edge.from;
+      if (next == other) return {};
       if (seen[next]) continue;
       seen[next] = true;
       reached.push_back(next);
     }
-  components_.split(reached);
+  return reached;
+}
+
+/// Splits the components that removed edges leave in pieces. The search for one removed edge ends
+/// where another path connects its nodes; for several, every node of their components is visited
+/// once.
+template <class Group>
+void IncrementalGraph<Group>::split_removed() {
+  if (removed_.empty()) return;
+  std::vector<char> seen(nodes_.size(), false);
+  std::vector<std::vector<int>> pieces;
+  const bool one = removed_.size() == 1;
+  for (const auto& [from, to] : removed_)
+    for (const int node : {to, from}) {
+      if (seen[node]) continue;
+      pieces.push_back(reached(node, one ? from : -1, seen));
+      if (one) break;
+    }
+  removed_.clear();
+  if (!pieces.front().empty()) components_.split(pieces);
 }
 
 template <class Group>

@@ -6,6 +6,8 @@
 #include <placegraph/graph/core/ids.h>
 
 #include <unordered_map>
+#include <utility>
+#include <vector>
 
 namespace placegraph {
 
@@ -22,7 +24,8 @@ class IncrementalGraph {
   /// `poses_hold`: constraints that connect components move neither component.
   void add_constraints(const std::vector<Constraint>& constraints, bool poses_hold);
   void revise(const ConstraintRevision& revision);
-  void set_weight(const ConstraintWeight& weight);
+  /// Sets weights one after the other.
+  void set_weights(const std::vector<ConstraintWeight>& weights);
 
   int nodes() const { return static_cast<int>(nodes_.size()); }
   int constraints() const { return static_cast<int>(constraints_.size()); }
@@ -68,12 +71,14 @@ class IncrementalGraph {
     bool visited = false;
   };
 
+  void set_weight(const ConstraintWeight& weight);
   void attach(int constraint, double weight);
   void detach(int constraint);
   void add_edge(const RelativePoseConstraint& constraint, int number, double weight);
   void add_position(const PositionConstraint& constraint, int number, double weight);
   void join(const Edge& edge);
-  void split(int from, int to);
+  std::vector<int> reached(int start, int other, std::vector<char>& seen) const;
+  void split_removed();
   void apply_held();
   void evaluate(int edge);
   void linearize(int edge);
@@ -93,6 +98,7 @@ class IncrementalGraph {
   std::vector<Position> positions_;
   std::vector<int> free_edges_, free_positions_;  ///< unused places
   std::vector<int> visited_, gradient_stale_;     ///< edges of the iteration; nodes
+  std::vector<std::pair<int, int>> removed_;      ///< nodes of edges removed since the last split
   bool poses_hold_ = false;                       ///< connecting components moves neither
   Tree tree_;
 };

@@ -4,16 +4,10 @@
 #include <placegraph/graph/core/error.h>
 
 #include <cmath>
+#include <unordered_set>
 
 namespace placegraph {
 namespace {
-
-void add_once(PoseGraph& graph, std::vector<NodeId>& seen, const PoseNode& node) {
-  for (const NodeId id : seen)
-    if (id == node.id) return;
-  seen.push_back(node.id);
-  graph.nodes.push_back(node);
-}
 
 /// The new part of the graph, with the earlier nodes that it is connected to.
 PoseGraph neighbourhood(const IncrementalEngine* engine, const std::vector<PoseNode>& nodes,
@@ -22,10 +16,11 @@ PoseGraph neighbourhood(const IncrementalEngine* engine, const std::vector<PoseN
   graph.nodes = nodes;
   graph.constraints = constraints;
   if (!engine) return graph;
-  std::vector<NodeId> seen;
+  std::unordered_set<int> seen;
   const auto add_known = [&](NodeId id) {
     const int node = engine->find(id);
-    if (node >= 0) add_once(graph, seen, {id, engine->pose(node), false});
+    if (node >= 0 && seen.insert(node).second)
+      graph.nodes.push_back({id, engine->pose(node), false});
   };
   for (const PoseNode& node : nodes) add_known(node.id);  // a repeated node, which check() rejects
   for (const Constraint& constraint : constraints) {
@@ -107,7 +102,7 @@ IncrementalStep IncrementalOptimizer::apply(const GraphChange& change) {
   for (const PoseNode& node : change.nodes) engine_->add_node(node);
   engine_->add_constraints(change.constraints, false);
   for (const ConstraintRevision& revision : change.revised) engine_->revise(revision);
-  for (const ConstraintWeight& weight : change.weights) engine_->set_weight(weight);
+  engine_->set_weights(change.weights);
   engine_->optimize(options_.excess, step);
   return step;
 }

@@ -8,6 +8,7 @@
 #include <placegraph/pipeline/loops/own_recognizer.h>
 
 #include <algorithm>
+#include <unordered_set>
 
 namespace placegraph {
 namespace {
@@ -245,14 +246,16 @@ std::optional<LocatedFrame> LoopCloser::relocalize(const Frame& frame,
 }
 
 void LoopCloser::rescale(double factor, KeyframeId first_keyframe) {
-  for (View& view : views_)
-    if (view.keyframe >= first_keyframe) placegraph::rescale(view, factor);
+  std::unordered_set<FrameId> rescaled;
+  for (std::size_t i = number_of(first_keyframe); i < views_.size(); ++i) {
+    placegraph::rescale(views_[i], factor);
+    rescaled.insert(views_[i].frame);
+  }
   // Loops measured with the old scale must not be compared with those of the new one.
   pending_.clear();
   for (LoopRecord& record : records_)
-    for (const View& view : views_)
-      if (view.keyframe >= first_keyframe && view.frame == record.match_frame)
-        record.T_match_query = record.T_match_query.scaled(factor);
+    if (rescaled.contains(record.match_frame))
+      record.T_match_query = record.T_match_query.scaled(factor);
 }
 
 }  // namespace placegraph

@@ -39,6 +39,7 @@ struct PlainComponents {
   }
   void split(const std::vector<int>& part) {
     auto& whole = const_cast<std::set<int>&>(of(part.front()));
+    if (whole.size() == part.size()) return;
     for (const int node : part) whole.erase(node);
     components.emplace_back(part.begin(), part.end());
   }
@@ -67,12 +68,18 @@ TEST(IncrementalComponents, HoldJoinAndSplitAsASearchOverAllNodesDoes) {
         EXPECT_EQ(std::set<int>(moved.begin(), moved.end()), plain.join(a, b))
             << "seed " << seed << " step " << step;
       } else if (choice < 0.8) {
-        std::vector<int> part;
-        for (const int node : plain.of(a))
-          if (random.uniform() < 0.5) part.push_back(node);
-        if (part.empty() || part.size() == plain.of(a).size()) continue;
-        components.split(part);
-        plain.split(part);
+        // Pieces of the components of two nodes, with all of their pieces or without one.
+        std::vector<std::vector<int>> pieces;
+        for (const int whole : {a, b}) {
+          if (whole == b && components.together(a, b)) break;
+          std::vector<std::vector<int>> parts(1 + random.index(4));
+          for (const int node : plain.of(whole)) parts[random.index(parts.size())].push_back(node);
+          std::erase_if(parts, [](const auto& part) { return part.empty(); });
+          if (random.uniform() < 0.5) parts.pop_back();
+          pieces.insert(pieces.end(), parts.begin(), parts.end());
+        }
+        components.split(pieces);
+        for (const std::vector<int>& piece : pieces) plain.split(piece);
       } else {
         const int count = plain.positions[a] > 0 && random.uniform() < 0.6 ? -1 : 1;
         components.anchor(a, count);

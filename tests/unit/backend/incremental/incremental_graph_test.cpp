@@ -59,7 +59,7 @@ TYPED_TEST(IncrementalGraphOf, ForgetsConstraintsOfNoWeightAndRestoresThem) {
     if (random.uniform() < 0.6) removed.push_back(c);
   test::shuffle(removed, random);
   for (const int c : removed) {
-    this->graph.set_weight({c, 0});
+    this->graph.set_weights({{c, 0}});
     this->expect_the_cost_of_the_graph();
   }
   EXPECT_EQ(this->graph.graph().constraints.size(), count - removed.size());
@@ -73,11 +73,36 @@ TYPED_TEST(IncrementalGraphOf, ForgetsConstraintsOfNoWeightAndRestoresThem) {
   // They come back into components of their own, which then fit the first constraint.
   std::vector<TypeParam> poses;
   for (int node = 0; node < 14; ++node) poses.push_back(this->walk.pose(this->walk.graph, node));
-  for (const int c : removed) this->graph.set_weight({c, 1});
+  for (const int c : removed) this->graph.set_weights({{c, 1}});
   this->graph.set_poses(poses);
   EXPECT_NEAR(this->graph.cost(), cost, 1e-9 * cost);
   EXPECT_EQ(this->graph.packed().components.held,
             pack<TypeParam>(this->walk.graph).components.held);
+}
+
+TYPED_TEST(IncrementalGraphOf, TakesManyWeightsAsItTakesOneAfterTheOther) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    IncrementalGraph<TypeParam> together(RotationError::kLog), alone(RotationError::kLog);
+    for (auto* graph : {&together, &alone}) {
+      for (const PoseNode& node : this->walk.graph.nodes) graph->add_node(node);
+      graph->add_constraints(this->walk.graph.constraints, false);
+    }
+    Random random(seed);
+    for (int round = 0; round < 4; ++round) {
+      std::vector<ConstraintWeight> weights;
+      for (int i = 0; i < 3 * together.constraints(); ++i)
+        weights.push_back({random.index(together.constraints()), random.uniform() < 0.7 ? 0 : 2.});
+      together.set_weights(weights);
+      for (const ConstraintWeight& weight : weights) alone.set_weights({weight});
+      EXPECT_EQ(together.packed().components.held, alone.packed().components.held);
+      EXPECT_EQ(together.cost(), alone.cost());
+      for (int node = 0; node < together.nodes(); ++node) {
+        EXPECT_EQ(together.pose(node).matrix(), alone.pose(node).matrix());
+        EXPECT_EQ(together.together(0, node), alone.together(0, node)) << node;
+      }
+    }
+  }
 }
 
 TYPED_TEST(IncrementalGraphOf, WeighsAndRevisesConstraints) {
@@ -88,16 +113,16 @@ TYPED_TEST(IncrementalGraphOf, WeighsAndRevisesConstraints) {
     this->graph.revise({c, this->walk.graph.constraints[c]});
   this->expect_the_cost_of_the_graph();
   const double before = this->graph.cost();
-  for (int c = 0; c < this->graph.constraints(); ++c) this->graph.set_weight({c, 0.25});
+  for (int c = 0; c < this->graph.constraints(); ++c) this->graph.set_weights({{c, 0.25}});
   EXPECT_NEAR(this->graph.cost(), 0.25 * before, 1e-9 * before);
   this->expect_the_cost_of_the_graph();
   // A revision of a constraint without weight counts from when it has weight again.
-  this->graph.set_weight({0, 0});
+  this->graph.set_weights({{0, 0}});
   auto other = std::get<RelativePoseConstraint>(this->graph.constraint(0));
   other.information *= 100;
   this->graph.revise({0, other});
   this->expect_the_cost_of_the_graph();
-  this->graph.set_weight({0, 1});
+  this->graph.set_weights({{0, 1}});
   this->expect_the_cost_of_the_graph();
 }
 
