@@ -138,7 +138,24 @@ void split_comma(std::string_view line, std::vector<std::string_view>& fields) {
   split_at(',', line, fields);
 }
 
+namespace {
+
+/// The number of a few digits alone, which is exact; nothing for any other field.
+std::optional<double> few_digits(std::string_view field) {
+  constexpr std::size_t kFew = 9;
+  if (field.empty() || field.size() > kFew) return std::nullopt;
+  int value = 0;
+  for (const char c : field) {
+    if (!is_digit(c)) return std::nullopt;
+    value = 10 * value + (c - '0');
+  }
+  return value;
+}
+
+}  // namespace
+
 std::optional<double> parse_double(std::string_view field) {
+  if (const std::optional<double> digits = few_digits(field)) return digits;
   if (field.size() > 1 && field[0] == '+' && field[1] != '-') field.remove_prefix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);

@@ -1,13 +1,18 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/parallel.h>
 #include <placegraph/graph/text/id_format.h>
 #include <placegraph/io/files/atomic_file.h>
 #include <placegraph/io/graphs/g2o.h>
 #include <placegraph/io/graphs/parse_graph.h>
 #include <placegraph/io/graphs/pose_graph_builder.h>
 
+#include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <iterator>
+#include <thread>
 
 namespace placegraph {
 namespace {
@@ -137,9 +142,27 @@ void parse_g2o_line(const TextFile& file, const Fields& fields, PoseGraphBuilder
 constexpr const char* kNoCamera =
     " 1 1 0 0";  ///< focal lengths and principal point, as g2o has them by default
 
-using Buffer = std::back_insert_iterator<fmt::memory_buffer>;
+using Buffer = fmt::memory_buffer&;
 
-void format_number(Buffer out, double value) { fmt::format_to(out, " {:.17g}", value); }
+template <class... Values>
+void print(Buffer out, fmt::format_string<Values...> text, Values&&... values) {
+  fmt::vformat_to(std::back_inserter(out), text, fmt::make_format_args(values...));
+}
+
+/// The 17 digits that give the same number again; most entries of information are short integers.
+void format_number(Buffer out, double value) {
+  constexpr double kShort = 1e6;
+  std::array<char, 32> text;
+  text[0] = ' ';
+  char* const begin = text.data() + 1;
+  char* const end = text.data() + text.size();
+  const auto whole = static_cast<int>(std::abs(value) < kShort ? value : 0);
+  const bool is_whole = whole == value && !(whole == 0 && std::signbit(value));
+  const std::to_chars_result done =
+      is_whole ? std::to_chars(begin, end, whole)
+               : std::to_chars(begin, end, value, std::chars_format::general, 17);
+  out.append(text.data(), done.ptr);
+}
 
 const char* suffix_of(PoseKind kind) {
   if (kind == PoseKind::kSE2) return "SE2";
@@ -163,7 +186,7 @@ void format_pose(Buffer out, const Pose& pose) {
 
 void format_edge(Buffer out, const RelativePoseConstraint& edge) {
   const PoseKind kind = kind_of(edge.T_from_to);
-  fmt::format_to(out, "EDGE_{} {} {}", suffix_of(kind), edge.from, edge.to);
+  print(out, "EDGE_{} {} {}", suffix_of(kind), edge.from, edge.to);
   format_pose(out, edge.T_from_to);
   const auto place = [&](int i) { return kind == PoseKind::kSim3 ? kSim3Order[i] : i; };
   for (int row = 0; row < edge.information.rows(); ++row) {
@@ -171,7 +194,7 @@ void format_edge(Buffer out, const RelativePoseConstraint& edge) {
       format_number(out, edge.information(place(row), place(column)));
     }
   }
-  fmt::format_to(out, "\n");
+  out.push_back('\n');
 }
 
 /// The upper triangle of the first `size` rows and columns, and the end of the line.
@@ -179,7 +202,7 @@ template <class Matrix>
 void format_information(Buffer out, const Matrix& information, int size) {
   for (int row = 0; row < size; ++row)
     for (int column = row; column < size; ++column) format_number(out, information(row, column));
-  fmt::format_to(out, "\n");
+  out.push_back('\n');
 }
 
 void format_point(Buffer out, const Eigen::Vector3d& point, bool planar) {
@@ -189,7 +212,7 @@ void format_point(Buffer out, const Eigen::Vector3d& point, bool planar) {
 void format_position(Buffer out, const PositionConstraint& position, PoseKind kind) {
   require(kind == PoseKind::kSE2 && position.lever_arm.isZero(0),
           "g2o: the format cannot express positions in space or beside a node");
-  fmt::format_to(out, "EDGE_PRIOR_SE2_XY {}", position.node);
+  print(out, "EDGE_PRIOR_SE2_XY {}", position.node);
   format_point(out, position.position_world, true);
   format_information(out, position.information, 2);
 }
@@ -197,40 +220,56 @@ void format_position(Buffer out, const PositionConstraint& position, PoseKind ki
 /// Writes a prior of the node itself: parameters 0 are the identity.
 void format_prior(Buffer out, const PosePriorConstraint& prior) {
   const bool planar = kind_of(prior.T_world_node) == PoseKind::kSE2;
-  fmt::format_to(out, "{} {}{}", planar ? "EDGE_PRIOR_SE2" : "EDGE_SE3_PRIOR", prior.node,
-                 planar ? "" : " 0");
+  print(out, "{} {}{}", planar ? "EDGE_PRIOR_SE2" : "EDGE_SE3_PRIOR", prior.node,
+        planar ? "" : " 0");
   format_pose(out, prior.T_world_node);
   format_information(out, prior.information, planar ? 3 : 6);
 }
 
 void format_observation(Buffer out, const PointObservation& observation, bool planar) {
-  fmt::format_to(out, "{} {} {}{}", planar ? "EDGE_SE2_XY" : "EDGE_SE3_TRACKXYZ", observation.node,
-                 observation.point, planar ? "" : " 0");
+  print(out, "{} {} {}{}", planar ? "EDGE_SE2_XY" : "EDGE_SE3_TRACKXYZ", observation.node,
+        observation.point, planar ? "" : " 0");
   format_point(out, observation.position_node, planar);
   format_information(out, observation.information, planar ? 2 : 3);
 }
 
+/// Appends what `format` writes of every item, in the order of the items but from all threads.
+template <class Item, class Format>
+void format_all(Buffer out, const std::vector<Item>& items, const Format& format) {
+  constexpr std::size_t kBlock = 4096;
+  std::vector<fmt::memory_buffer> blocks((items.size() + kBlock - 1) / kBlock);
+  const unsigned threads =
+      blocks.size() < 2 ? 1 : std::max(1U, std::thread::hardware_concurrency());
+  parallel_for(static_cast<int>(blocks.size()), static_cast<int>(threads), [&](int number) {
+    const auto block = static_cast<std::size_t>(number);
+    const std::size_t end = std::min(items.size(), (block + 1) * kBlock);
+    for (std::size_t i = block * kBlock; i < end; ++i) format(blocks[block], items[i]);
+  });
+  for (const fmt::memory_buffer& block : blocks) out.append(block);
+}
+
 void format_poses(Buffer out, const PoseGraph& graph) {
-  for (const PoseNode& node : graph.nodes) {
-    fmt::format_to(out, "VERTEX_{} {}", suffix_of(graph.kind()), node.id);
-    format_pose(out, node.T_world_node);
-    if (graph.kind() == PoseKind::kSim3) fmt::format_to(out, kNoCamera);
-    fmt::format_to(out, "\n");
-  }
-  for (const Constraint& constraint : graph.constraints) {
+  const PoseKind kind = graph.kind();
+  format_all(out, graph.nodes, [kind](Buffer block, const PoseNode& node) {
+    print(block, "VERTEX_{} {}", suffix_of(kind), node.id);
+    format_pose(block, node.T_world_node);
+    if (kind == PoseKind::kSim3) print(block, kNoCamera);
+    block.push_back('\n');
+  });
+  format_all(out, graph.constraints, [kind](Buffer block, const Constraint& constraint) {
     if (const auto* edge = std::get_if<RelativePoseConstraint>(&constraint))
-      format_edge(out, *edge);
+      format_edge(block, *edge);
     else
-      format_position(out, std::get<PositionConstraint>(constraint), graph.kind());
-  }
+      format_position(block, std::get<PositionConstraint>(constraint), kind);
+  });
 }
 
 void format_beside_poses(Buffer out, const LandmarkGraph& graph) {
   const bool planar = graph.poses.kind() == PoseKind::kSE2;
   for (const GraphPoint& point : graph.points) {
-    fmt::format_to(out, "{} {}", planar ? "VERTEX_XY" : "VERTEX_TRACKXYZ", point.id);
+    print(out, "{} {}", planar ? "VERTEX_XY" : "VERTEX_TRACKXYZ", point.id);
     format_point(out, point.position_world, planar);
-    fmt::format_to(out, "\n");
+    out.push_back('\n');
   }
   for (const PosePriorConstraint& prior : graph.priors) format_prior(out, prior);
   for (const PointObservation& observation : graph.observations)
@@ -241,7 +280,7 @@ void format_beside_poses(Buffer out, const LandmarkGraph& graph) {
 template <class Vertices>
 void format_fixed(Buffer out, const Vertices& vertices) {
   for (const auto& vertex : vertices)
-    if (vertex.fixed) fmt::format_to(out, "FIX {}\n", vertex.id);
+    if (vertex.fixed) print(out, "FIX {}\n", vertex.id);
 }
 
 void write_text(const std::string& path, const fmt::memory_buffer& text) {
@@ -267,24 +306,22 @@ LandmarkGraph parse_g2o_landmarks(TextFile& file, const PoseGraphReading& readin
 
 void write_g2o(const std::string& path, const PoseGraph& graph) {
   graph.check();
-  fmt::memory_buffer text;
-  const Buffer out = std::back_inserter(text);
+  fmt::memory_buffer out;
   format_poses(out, graph);
   format_fixed(out, graph.nodes);
-  write_text(path, text);
+  write_text(path, out);
 }
 
 void write_g2o(const std::string& path, const LandmarkGraph& graph) {
   graph.check();
-  fmt::memory_buffer text;
-  const Buffer out = std::back_inserter(text);
+  fmt::memory_buffer out;
   if (!graph.has_poses_alone() && graph.poses.kind() == PoseKind::kSE3)
-    fmt::format_to(out, "PARAMS_SE3OFFSET 0 0 0 0 0 0 0 1\n");
+    print(out, "PARAMS_SE3OFFSET 0 0 0 0 0 0 0 1\n");
   format_poses(out, graph.poses);
   format_beside_poses(out, graph);
   format_fixed(out, graph.poses.nodes);
   format_fixed(out, graph.points);
-  write_text(path, text);
+  write_text(path, out);
 }
 
 }  // namespace placegraph

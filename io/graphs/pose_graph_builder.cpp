@@ -133,12 +133,26 @@ void PoseGraphBuilder::add_node(std::string_view id, const Pose& T_world_node) {
   node_lines_.push_back(file_->line());
 }
 
+/// Makes room for the next edge, and for those that the file still has if they are as long as the
+/// ones read: a graph that doubled its room would touch its memory two and three times.
+void PoseGraphBuilder::make_room() {
+  constexpr std::size_t kFewEdges = 1000;
+  std::vector<Constraint>& edges = graph_.constraints;
+  if (edges.empty()) edges_begin_ = file_->position();
+  if (edges.size() < kFewEdges || edges.size() < edges.capacity()) return;
+  const auto read = static_cast<double>(file_->position() - edges_begin_);
+  const auto all = static_cast<double>(file_->size() - edges_begin_);
+  const auto expected = static_cast<std::size_t>(all / read * static_cast<double>(edges.size()));
+  edges.reserve(expected + kFewEdges);
+}
+
 void PoseGraphBuilder::add_edge(std::string_view from, std::string_view to, const Pose& T_from_to,
                                 const Information& given, std::optional<ConstraintSource> source) {
   require_kind(kind_of(T_from_to));
   require_near(position_of(T_from_to));
   const std::optional<Information> information = definite(given);
   if (!information) indefinite_.push_back(graph_.constraints.size());
+  make_room();
   RelativePoseConstraint& edge =
       graph_.constraints.emplace_back().emplace<RelativePoseConstraint>();
   edge.from = NodeId(file_->integer(from, "id"));

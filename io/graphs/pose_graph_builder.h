@@ -66,6 +66,7 @@ class PoseGraphBuilder {
   [[nodiscard]] LandmarkGraph finish_landmarks(const PoseGraphReading& reading);
 
  private:
+  void make_room();
   PoseGraph finish_poses();
   void require_kind(PoseKind kind);
   void report_stamps(const PoseGraphReading& reading) const;
@@ -80,6 +81,7 @@ class PoseGraphBuilder {
   mutable std::span<const std::string_view> information_fields_;
   PoseGraph graph_;
   std::optional<PoseKind> kind_;
+  std::size_t edges_begin_ = 0;  ///< end of the first edge in the file [bytes]
   std::vector<int> node_lines_, edge_lines_;
   std::vector<std::size_t> indefinite_;                        ///< edges of indefinite information
   std::vector<std::pair<PositionConstraint, int>> positions_;  ///< with their lines

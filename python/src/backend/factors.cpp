@@ -119,11 +119,15 @@ void bind_pose_factors(nb::class_<NamedFactor>& f) {
                   doc("PositionFactor"))
       .def_static(
           "distance",
-          [](double distance_m, double sigma_m) {
-            return named("distance", DistanceFactor(finite(distance_m, "distance_m"),
-                                                    positive(sigma_m, "sigma_m")));
+          [](double distance_m, double sigma_m, const std::string& kind) {
+            require(kind == "SE2" || kind == "SE3",
+                    "kind: 'SE2' or 'SE3' is needed, not '" + kind + "'");
+            const double distance = finite(distance_m, "distance_m"),
+                         sigma = positive(sigma_m, "sigma_m");
+            return kind == "SE2" ? named("distance", DistanceFactorOf<SE2>(distance, sigma))
+                                 : named("distance", DistanceFactor(distance, sigma));
           },
-          "distance_m"_a, "sigma_m"_a, doc("DistanceFactor"))
+          "distance_m"_a, "sigma_m"_a, "kind"_a = "SE3", doc("DistanceFactorOf"))
       .def_static(
           "bearing",
           [](const Array& direction, nb::handle sigma, nb::handle information) {

@@ -120,6 +120,29 @@ TEST(DistanceFactor, HasTheJacobiansOfFiniteDifferences) {
   test::expect_jacobians_match(factor, blocks);
 }
 
+TEST(DistanceFactor, OfThePlaneIsThatOfSpaceWithoutHeightAndTilt) {
+  Random random(5);
+  const std::vector<int> planar = {0, 1, 5};
+  for (int trial = 0; trial < 50; ++trial) {
+    const SE2 T_map_a(random.normal(), random.normal(), random.uniform(-4, 4));
+    const SE2 T_map_b(random.normal(), random.normal(), random.uniform(-4, 4));
+    const auto in_space = [](const SE2& T) {
+      return SE3(SO3::exp({0, 0, T.rotation().angle()}),
+                 Eigen::Vector3d(T.translation().x(), T.translation().y(), 0.7));
+    };
+    DistanceFactorOf<SE2>::Residual r;
+    DistanceFactorOf<SE2>::Jacobians J;
+    DistanceFactor::Residual of_space;
+    DistanceFactor::Jacobians J_of_space;
+    EXPECT_TRUE(DistanceFactorOf<SE2>(1.5, 0.1).compute(T_map_a, T_map_b, r, &J));
+    EXPECT_TRUE(DistanceFactor(1.5, 0.1).compute(in_space(T_map_a), in_space(T_map_b), of_space,
+                                                 &J_of_space));
+    EXPECT_NEAR(r[0], of_space[0], 1e-12);
+    EXPECT_LT((std::get<0>(J) - std::get<0>(J_of_space)(Eigen::all, planar)).norm(), 1e-9);
+    EXPECT_LT((std::get<1>(J) - std::get<1>(J_of_space)(Eigen::all, planar)).norm(), 1e-9);
+  }
+}
+
 TEST(DistanceFactor, OfCoincidentCamerasIsFinite) {
   const SE3 T_map_a;
   DistanceFactor::Residual r;

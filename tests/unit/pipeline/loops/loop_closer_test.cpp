@@ -303,5 +303,29 @@ TEST_F(LoopCloserOnAStreet, GrowsDepthsWithTheUnit) {
   EXPECT_GT(seen, 20);
 }
 
+TEST_F(LoopCloserOnAStreet, GrowsTheMotionOfLoopsToViewsOfTheUnitThatGrows) {
+  Map map;
+  for (int k = 0; k < 8; ++k) {
+    Keyframe keyframe;
+    keyframe.id = KeyframeId(3 * k + 1);
+    keyframe.frame = FrameId(10 * k);
+    map.keyframes.push_back(keyframe);
+  }
+  for (const int match : {0, 20, 30, 70, 35}) {  // the last is no keyframe
+    LoopRecord record;
+    record.query_frame = FrameId(70);
+    record.match_frame = FrameId(match);
+    record.T_match_query = SE3(SO3(), Eigen::Vector3d(1, 2, 3));
+    map.loops.push_back(record);
+  }
+  LoopCloser closer(small_options(), monocular(), 1, map);
+  closer.rescale(2, KeyframeId(8));  // between the ids 7 (frame 20) and 10 (frame 30)
+  for (const LoopRecord& record : closer.records()) {
+    const int match = static_cast<int>(record.match_frame.value());
+    const double factor = match == 30 || match == 70 ? 2 : 1;
+    EXPECT_EQ(record.T_match_query.translation(), factor * Eigen::Vector3d(1, 2, 3)) << match;
+  }
+}
+
 }  // namespace loop_closer_test
 }  // namespace placegraph
