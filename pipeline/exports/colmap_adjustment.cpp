@@ -19,6 +19,10 @@ std::size_t ColmapAdjustment::images() const { return impl_->model.images.size()
 
 std::size_t ColmapAdjustment::points() const { return impl_->model.points.size(); }
 
+std::vector<std::uint32_t> ColmapAdjustment::unused_cameras() const {
+  return unused_camera_ids(impl_->model);
+}
+
 ColmapAdjustmentReport ColmapAdjustment::adjust(const BundleOptions& options) {
   ColmapBundleReport report = adjust_colmap(impl_->model, options);
   impl_->model = std::move(report.model);

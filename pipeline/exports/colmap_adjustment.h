@@ -3,8 +3,10 @@
 #include <placegraph/graph/core/outcome.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace [[gnu::visibility("default")]] placegraph {
 
@@ -22,7 +24,9 @@ struct ColmapAdjustmentReport {
 /// Bundle adjustment of a COLMAP model in a folder.
 class ColmapAdjustment {
  public:
-  /// Reads a model, in binary or text form, of one camera. Throws FileError.
+  /// Reads a model, in binary or text form, all images of which have one camera.
+  ///
+  /// Cameras that no image has are kept as they are. Throws FileError.
   explicit ColmapAdjustment(const std::string& folder);
   ~ColmapAdjustment();
 
@@ -30,6 +34,8 @@ class ColmapAdjustment {
   std::size_t images() const;
   /// Number of points of the model.
   std::size_t points() const;
+  /// Ids of the cameras that no image has, in the order of the file.
+  std::vector<std::uint32_t> unused_cameras() const;
   /// Adjusts the poses and points of the model; its camera is held.
   ///
   /// It minimizes the reprojection errors, each with a standard deviation of 1 px. They do not
@@ -39,7 +45,8 @@ class ColmapAdjustment {
   [[nodiscard]] ColmapAdjustmentReport adjust(const BundleOptions& options);
   /// Writes cameras, images and points3D in the form of the model that was read.
   ///
-  /// Files of the other form are removed from the folder. Throws FileError.
+  /// Files of the other form are removed from the folder, as are rigs and frames there, which have
+  /// poses of their own. Throws FileError.
   void write(const std::string& folder) const;
 
  private:

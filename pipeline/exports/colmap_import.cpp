@@ -75,8 +75,11 @@ void add_observed_points(const ColmapModel& model, const ColmapModel::Image& ima
 
 }  // namespace
 
-StoredMap import_colmap(const std::string& folder, const std::string& sequence, bool metric) {
+StoredMap import_colmap(const std::string& folder, const std::string& sequence, bool metric,
+                        const LogSink& log) {
   const ColmapModel model = read_colmap(folder);
+  if (log && !model.unused_cameras.empty())
+    log(LogLevel::kInfo, folder + ": without " + describe_unused_cameras(unused_camera_ids(model)));
   if (model.images.empty()) throw NoResult(folder + ": the model has no image");
   StoredMap stored;
   stored.origin.sequence = sequence;
