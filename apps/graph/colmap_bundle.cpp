@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/text/json_text.h>
-#include <placegraph/io/exports/colmap_model.h>
 #include <placegraph/pipeline/exports/colmap_adjustment.h>
 
 #include <nlohmann/json.hpp>

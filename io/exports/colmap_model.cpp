@@ -189,16 +189,6 @@ std::vector<std::uint32_t> unused_camera_ids(const ColmapModel& model) {
   return ids;
 }
 
-std::string describe_unused_cameras(const std::vector<std::uint32_t>& ids) {
-  constexpr std::size_t kNamed = 8;
-  const std::size_t named = std::min(ids.size(), kNamed);
-  std::string text =
-      fmt::format("{} camera{} that no image has: {}", ids.size(), ids.size() == 1 ? "" : "s",
-                  fmt::join(ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(named), ", "));
-  if (ids.size() > named) text += fmt::format(" and {} more", ids.size() - named);
-  return text;
-}
-
 ColmapFiles to_colmap(const ColmapModel& model, NumberForm form) {
   check_model(model, form);
   return form == NumberForm::kBinary ? binary_colmap(model) : text_colmap(model);

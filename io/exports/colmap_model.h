@@ -45,9 +45,6 @@ struct ColmapModel {
 /// Ids of the cameras that no image has.
 std::vector<std::uint32_t> unused_camera_ids(const ColmapModel& model);
 
-/// "2 cameras that no image has: 3, 5", with the first ids of many.
-std::string describe_unused_cameras(const std::vector<std::uint32_t>& ids);
-
 /// Contents of the files of a model.
 struct ColmapFiles {
   std::string cameras, images, points;  ///< cameras, images and points3D, .bin or .txt

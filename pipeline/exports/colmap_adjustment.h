@@ -21,6 +21,10 @@ struct ColmapAdjustmentReport {
   int iterations = 0;            ///< number of steps of Levenberg-Marquardt
 };
 
+/// The cameras that no image of a model has, as "2 cameras that no image has: 3, 5".
+/// Of many the first ids are named.
+std::string describe_unused_cameras(const std::vector<std::uint32_t>& ids);
+
 /// Bundle adjustment of a COLMAP model in a folder.
 class ColmapAdjustment {
  public:

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/exports/colmap_reader.h>
+#include <placegraph/pipeline/exports/colmap_adjustment.h>
 #include <placegraph/pipeline/exports/colmap_import.h>
 #include <placegraph/pipeline/exports/keyframe_image_paths.h>
 

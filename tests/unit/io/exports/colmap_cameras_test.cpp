@@ -150,11 +150,5 @@ TEST_F(ColmapCameras, OtherFilesOfTheFolderAreNotRead) {
   EXPECT_EQ(read_colmap(folder()).images.size(), 2u);
 }
 
-TEST(ColmapUnusedCameras, AreNamedUpToEight) {
-  EXPECT_EQ(describe_unused_cameras({7}), "1 camera that no image has: 7");
-  EXPECT_EQ(describe_unused_cameras({1, 2, 3, 4, 5, 6, 7, 8, 9, 10}),
-            "10 cameras that no image has: 1, 2, 3, 4, 5, 6, 7, 8 and 2 more");
-}
-
 }  // namespace colmap_cameras_test
 }  // namespace placegraph

@@ -69,5 +69,11 @@ TEST(ColmapAdjustment, NamesAFolderWithoutAModel) {
   EXPECT_THROW(ColmapAdjustment(std::string(folder / "none")), FileError);
 }
 
+TEST(ColmapUnusedCameras, AreNamedUpToEight) {
+  EXPECT_EQ(describe_unused_cameras({7}), "1 camera that no image has: 7");
+  EXPECT_EQ(describe_unused_cameras({1, 2, 3, 4, 5, 6, 7, 8, 9, 10}),
+            "10 cameras that no image has: 1, 2, 3, 4, 5, 6, 7, 8 and 2 more");
+}
+
 }  // namespace colmap_adjustment_test
 }  // namespace placegraph
