@@ -16,15 +16,17 @@ struct BundleArguments {
 struct BundleResult {
   std::string in, out;
   std::size_t cameras = 0, points = 0, observations = 0;
+  std::size_t unused_cameras = 0, unused_points = 0;  ///< without an observation
   BundleReport report;
   double cpu_ms = 0, wall_ms = 0;
 };
 
 /// Reads a problem, adjusts it and writes it: `placegraph graph bundle`.
+/// Cameras and points without an observation are written as they are.
 /// Throws ArgumentError, FileError, and NoResult if the problem has no solution.
 BundleResult bundle(const BundleArguments& arguments);
 
-/// Three lines of text.
+/// Three lines of text, and one on cameras and points without an observation.
 std::string to_text(const BundleResult& result);
 std::string to_json(const BundleResult& result);
 

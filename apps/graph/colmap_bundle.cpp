@@ -34,6 +34,7 @@ ColmapBundleResult colmap_bundle(const BundleArguments& arguments) {
           .error_before_px = report.error_before_px,
           .error_px = report.error_px,
           .iterations = report.iterations,
+          .unused_cameras = adjustment.unused_cameras(),
           .cpu_ms = stopwatch.cpu_ms(),
           .wall_ms = stopwatch.wall_ms()};
 }
@@ -49,14 +50,20 @@ std::string to_json(const ColmapBundleResult& result) {
   json["error_before_px"] = result.error_before_px;
   json["error_px"] = result.error_px;
   json["iterations"] = result.iterations;
+  json["unused_cameras"] = result.unused_cameras;
   json["cpu_ms"] = result.cpu_ms;
   json["wall_ms"] = result.wall_ms;
   return json_text(json, 2);
 }
 
 std::string to_text(const ColmapBundleResult& result) {
+  const std::string unused =
+      result.unused_cameras.empty()
+          ? ""
+          : "  kept as they are: " + describe_unused_cameras(result.unused_cameras) + "\n";
   return fmt::format("{}: {} images, {} points, {} observations\n", result.in, result.images,
                      result.points, result.observations) +
+         unused +
          fmt::format(
              "  half the sum of squares {:.6f} -> {:.6f}, mean reprojection error {:.4f} -> "
              "{:.4f} px\n",

@@ -1,5 +1,7 @@
 #pragma once
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "apps/graph/bundle.h"
 
@@ -11,6 +13,7 @@ struct ColmapBundleResult {
   double cost_initial = 0, cost = 0;         ///< half the sum of rho(squared error)
   double error_before_px = 0, error_px = 0;  ///< mean reprojection errors
   int iterations = 0;
+  std::vector<std::uint32_t> unused_cameras;  ///< ids of cameras that no image has
   double cpu_ms = 0, wall_ms = 0;
 };
 
@@ -19,7 +22,7 @@ struct ColmapBundleResult {
 /// Throws ArgumentError, FileError, and NoResult if the model has no solution.
 ColmapBundleResult colmap_bundle(const BundleArguments& arguments);
 
-/// Three lines of text.
+/// Three lines of text, and one on cameras that no image has.
 std::string to_text(const ColmapBundleResult& result);
 std::string to_json(const ColmapBundleResult& result);
 

@@ -23,7 +23,7 @@ void add_map_import_command(CLI::App& map) {
   command->add_option("-o,--out", a.out, "file for the map")->type_name(kOutput)->required();
   command->add_flag("--metric", a.metric, "lengths of the model are metres");
   command->add_flag("--force", a.force, kForceText);
-  command->callback([arguments] { print(to_text(map_import(*arguments))); });
+  command->callback([arguments] { print(to_text(map_import(*arguments, messages()))); });
 }
 
 }  // namespace placegraph::apps

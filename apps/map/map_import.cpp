@@ -8,9 +8,9 @@
 
 namespace placegraph::apps {
 
-MapImportResult map_import(const MapImportArguments& arguments) {
+MapImportResult map_import(const MapImportArguments& arguments, const LogSink& log) {
   require_free(arguments.out, arguments.force);
-  const StoredMap stored = import_colmap(arguments.colmap, arguments.images, arguments.metric);
+  const StoredMap stored = import_colmap(arguments.colmap, arguments.images, arguments.metric, log);
   write_map(arguments.out, stored);
   MapImportResult result{.out = arguments.out,
                          .keyframes = stored.map.keyframes.size(),

@@ -1,4 +1,6 @@
 #pragma once
+#include <placegraph/graph/core/log.h>
+
 #include <cstddef>
 #include <string>
 
@@ -18,8 +20,8 @@ struct MapImportResult {
 };
 
 /// Makes a map of the model of another program: `placegraph map import`.
-/// Throws as import_colmap.
-MapImportResult map_import(const MapImportArguments& arguments);
+/// `log` takes what import_colmap says. Throws as import_colmap.
+MapImportResult map_import(const MapImportArguments& arguments, const LogSink& log = {});
 
 /// One line.
 std::string to_text(const MapImportResult& result);

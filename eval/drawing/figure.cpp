@@ -39,10 +39,10 @@ void make_equal(FigurePanel& panel) {
   panel.y.range = resized(panel.y.range, unit_per_px * panel.size[1]);
 }
 
-std::string to_svg(const Figure& figure) {
+std::string to_svg(const Figure& figure, double detail) {
   const double room = figure.width_px - 2 * kSide;
   const std::vector<std::string> title = wrapped(figure.title, kTitlePx, room);
-  const std::vector<ShapeTolerances> tolerances_px = shape_tolerances(figure);
+  const std::vector<ShapeTolerances> tolerances_px = shape_tolerances(figure, detail);
   std::vector<std::string> written = figure.notes, notes;
   if (const double most_px = largest(tolerances_px); most_px > kSeen_px)
     written.push_back(fmt::format(

@@ -136,6 +136,7 @@ void make_equal(FigurePanel& panel);
 /// The text does not grow with the numbers of points: where its lines would take more than 170 kB,
 /// or its dots more than 60 kB, they are thinned, to within half a pixel if that is enough. Gaps
 /// and single points that lie off their neighbours stay. A note names a tolerance that is seen.
-std::string to_svg(const Figure& figure);
+/// `detail`: share of these bytes, above 0, for a picture that is one of several.
+std::string to_svg(const Figure& figure, double detail = 1);
 
 }  // namespace placegraph

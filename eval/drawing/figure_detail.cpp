@@ -169,7 +169,7 @@ std::vector<Vector2d> drawn_dots(const FigureDots& dots, const PanelView& view,
   return tolerance_px > 0 ? thin_points(centres, tolerance_px) : centres;
 }
 
-std::vector<ShapeTolerances> shape_tolerances(const Figure& figure) {
+std::vector<ShapeTolerances> shape_tolerances(const Figure& figure, double detail) {
   std::vector<ShapeTolerances> tolerances;
   std::vector<Limited> lines, dots;
   for (const FigurePanel& panel : figure.panels) tolerances.emplace_back(panel.shapes.size());
@@ -183,8 +183,11 @@ std::vector<ShapeTolerances> shape_tolerances(const Figure& figure) {
         dots.push_back({&tolerances[p][i], bytes_of(*each, view)});
     }
   }
-  limit(std::move(lines), kMostLineBytes);
-  limit(std::move(dots), kMostDotBytes);
+  const auto share = [&](std::size_t bytes) {
+    return static_cast<std::size_t>(detail * static_cast<double>(bytes));
+  };
+  limit(std::move(lines), share(kMostLineBytes));
+  limit(std::move(dots), share(kMostDotBytes));
   return tolerances;
 }
 

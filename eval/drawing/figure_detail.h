@@ -34,6 +34,7 @@ std::vector<Eigen::Vector2d> drawn_dots(const FigureDots& dots, const PanelView&
 /// The tolerances of the shapes of every panel with which a figure has a limited number of bytes.
 /// All are 0 where lines and dots are few. Elsewhere each shape has the same share of the bytes,
 /// what simple ones leave is for the others, and the smallest of a series of tolerances that fits.
-std::vector<ShapeTolerances> shape_tolerances(const Figure& figure);
+/// `detail`: share of that number.
+std::vector<ShapeTolerances> shape_tolerances(const Figure& figure, double detail = 1);
 
 }  // namespace placegraph

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/io/exports/colmap_cameras.h>
 #include <placegraph/io/exports/colmap_model.h>
 #include <placegraph/io/exports/little_endian.h>
 
@@ -10,8 +11,7 @@
 namespace placegraph {
 namespace {
 
-constexpr std::uint32_t kColmapCamera = 1;  ///< number of the only camera
-constexpr double kToCorner_px = 0.5;        ///< pixels count from the corner of the first one
+constexpr double kToCorner_px = 0.5;  ///< pixels count from the corner of the first one
 
 /// An entry of a track: an image and the position of the observation in it.
 struct ColmapTrackEntry {
@@ -23,7 +23,11 @@ void check_model(const ColmapModel& model, NumberForm form) {
   require(
       model.camera.distortion != Distortion::kRadialTangential || model.camera.coefficients[4] == 0,
       "COLMAP: the camera has a distortion that OPENCV has not, k3");
-  std::set<std::uint64_t> ids;
+  std::set<std::uint64_t> ids = {model.camera_id};
+  for (const ColmapModel::RawCamera& camera : model.unused_cameras)
+    require(ids.insert(camera.id).second,
+            fmt::format("COLMAP: the camera id {} is not unique", camera.id));
+  ids.clear();
   for (const ColmapModel::Image& image : model.images) {
     require(image.id > 0 && ids.insert(image.id).second,
             fmt::format("COLMAP: the image id {} is not positive or not unique", image.id));
@@ -62,39 +66,62 @@ std::array<double, 7> colmap_pose(const SE3& T_world_cam) {
   return pose;
 }
 
-/// The model of a camera: name, number and parameters.
-struct ColmapCamera {
-  std::string name;
-  std::int32_t id = 0;
-  std::vector<double> parameters;
-};
+/// The camera of the images as the files have it.
+ColmapModel::RawCamera raw_camera(const Camera& camera, std::uint32_t id) {
+  ColmapModel::RawCamera raw{
+      id,
+      "PINHOLE",
+      static_cast<std::uint64_t>(camera.width),
+      static_cast<std::uint64_t>(camera.height),
+      {camera.fx, camera.fy, camera.cx + kToCorner_px, camera.cy + kToCorner_px}};
+  if (camera.distortion == Distortion::kNone) return raw;
+  raw.model = camera.distortion == Distortion::kEquidistant ? "OPENCV_FISHEYE" : "OPENCV";
+  for (std::size_t i = 0; i < 4; ++i) raw.parameters.push_back(camera.coefficients[i]);
+  return raw;
+}
 
-ColmapCamera colmap_camera_of(const Camera& camera) {
-  ColmapCamera result{
-      "PINHOLE", 1, {camera.fx, camera.fy, camera.cx + kToCorner_px, camera.cy + kToCorner_px}};
-  if (camera.distortion == Distortion::kNone) return result;
-  const bool fisheye = camera.distortion == Distortion::kEquidistant;
-  result.name = fisheye ? "OPENCV_FISHEYE" : "OPENCV";
-  result.id = fisheye ? 5 : 4;
-  for (std::size_t i = 0; i < 4; ++i) result.parameters.push_back(camera.coefficients[i]);
-  return result;
+/// All cameras, by their ids.
+std::vector<ColmapModel::RawCamera> raw_cameras(const ColmapModel& model) {
+  std::vector<ColmapModel::RawCamera> cameras = model.unused_cameras;
+  cameras.push_back(raw_camera(model.camera, model.camera_id));
+  std::ranges::sort(cameras, {}, &ColmapModel::RawCamera::id);
+  return cameras;
+}
+
+std::string binary_cameras(const ColmapModel& model) {
+  const std::vector<ColmapModel::RawCamera> cameras = raw_cameras(model);
+  std::string bytes;
+  append_number(bytes, static_cast<std::uint64_t>(cameras.size()));
+  for (const ColmapModel::RawCamera& camera : cameras) {
+    const ColmapLens* lens = find_colmap_lens(camera.model);
+    require(lens != nullptr && lens->parameters == camera.parameters.size(),
+            fmt::format("COLMAP: camera {} has no model of the binary form: {} of {} parameters",
+                        camera.id, camera.model, camera.parameters.size()));
+    append_number(bytes, camera.id);
+    append_number(bytes, std::int32_t{lens->id});
+    append_number(bytes, camera.width);
+    append_number(bytes, camera.height);
+    for (const double value : camera.parameters) append_number(bytes, value);
+  }
+  return bytes;
+}
+
+std::string text_cameras(const ColmapModel& model) {
+  std::string text = "# CAMERA_ID, MODEL, WIDTH, HEIGHT, PARAMS[]\n";
+  for (const ColmapModel::RawCamera& camera : raw_cameras(model))
+    text += fmt::format("{} {} {} {} {}\n", camera.id, camera.model, camera.width, camera.height,
+                        fmt::join(camera.parameters, " "));
+  return text;
 }
 
 ColmapFiles binary_colmap(const ColmapModel& model) {
-  const ColmapCamera camera = colmap_camera_of(model.camera);
   ColmapFiles files;
-  append_number(files.cameras, std::uint64_t{1});
-  append_number(files.cameras, kColmapCamera);
-  append_number(files.cameras, camera.id);
-  append_number(files.cameras, static_cast<std::uint64_t>(model.camera.width));
-  append_number(files.cameras, static_cast<std::uint64_t>(model.camera.height));
-  for (const double value : camera.parameters) append_number(files.cameras, value);
-
+  files.cameras = binary_cameras(model);
   append_number(files.images, static_cast<std::uint64_t>(model.images.size()));
   for (const ColmapModel::Image& image : model.images) {
     append_number(files.images, image.id);
     for (const double value : colmap_pose(image.T_world_cam)) append_number(files.images, value);
-    append_number(files.images, kColmapCamera);
+    append_number(files.images, model.camera_id);
     files.images.append(image.name.c_str(), image.name.size() + 1);
     append_number(files.images, static_cast<std::uint64_t>(image.observations.size()));
     for (const ColmapModel::Observation& observation : image.observations) {
@@ -121,19 +148,15 @@ ColmapFiles binary_colmap(const ColmapModel& model) {
 }
 
 ColmapFiles text_colmap(const ColmapModel& model) {
-  const ColmapCamera camera = colmap_camera_of(model.camera);
   ColmapFiles files;
-  files.cameras = fmt::format("# CAMERA_ID, MODEL, WIDTH, HEIGHT, PARAMS[]\n{} {} {} {} {}\n",
-                              kColmapCamera, camera.name, model.camera.width, model.camera.height,
-                              fmt::join(camera.parameters, " "));
-
+  files.cameras = text_cameras(model);
   files.images =
       "# IMAGE_ID, QW, QX, QY, QZ, TX, TY, TZ, CAMERA_ID, NAME\n"
       "# POINTS2D[] as (X, Y, POINT3D_ID)\n";
   const auto images = std::back_inserter(files.images);
   for (const ColmapModel::Image& image : model.images) {
     fmt::format_to(images, "{} {} {} {}\n", image.id,
-                   fmt::join(colmap_pose(image.T_world_cam), " "), kColmapCamera, image.name);
+                   fmt::join(colmap_pose(image.T_world_cam), " "), model.camera_id, image.name);
     const char* separator = "";
     for (const ColmapModel::Observation& observation : image.observations) {
       fmt::format_to(images, "{}{} {} {}", separator, observation.px[0] + kToCorner_px,
@@ -159,6 +182,12 @@ ColmapFiles text_colmap(const ColmapModel& model) {
 }
 
 }  // namespace
+
+std::vector<std::uint32_t> unused_camera_ids(const ColmapModel& model) {
+  std::vector<std::uint32_t> ids;
+  for (const ColmapModel::RawCamera& camera : model.unused_cameras) ids.push_back(camera.id);
+  return ids;
+}
 
 ColmapFiles to_colmap(const ColmapModel& model, NumberForm form) {
   check_model(model, form);

@@ -28,10 +28,22 @@ struct ColmapModel {
     std::array<std::uint8_t, 3> rgb{};                  ///< red, green, blue
     double error_px = 0;                                ///< mean reprojection error
   };
-  Camera camera;              ///< camera of all images
-  std::vector<Image> images;  ///< images, in any order
-  std::vector<Point> points;  ///< points, in any order
+  /// A camera as the files describe it.
+  struct RawCamera {
+    std::uint32_t id = 0;                 ///< unique
+    std::string model;                    ///< name of its model, such as FULL_OPENCV
+    std::uint64_t width = 0, height = 0;  ///< size of its images [px]
+    std::vector<double> parameters;       ///< all parameters of the model
+  };
+  Camera camera;                          ///< camera of all images
+  std::uint32_t camera_id = 1;            ///< its id
+  std::vector<RawCamera> unused_cameras;  ///< further cameras, which no image has
+  std::vector<Image> images;              ///< images, in any order
+  std::vector<Point> points;              ///< points, in any order
 };
+
+/// Ids of the cameras that no image has.
+std::vector<std::uint32_t> unused_camera_ids(const ColmapModel& model);
 
 /// Contents of the files of a model.
 struct ColmapFiles {
@@ -39,9 +51,10 @@ struct ColmapFiles {
 };
 
 /// The files of a model, with poses T_cam_world and pixels from the corner of the first pixel.
-/// The camera is PINHOLE, OPENCV or OPENCV_FISHEYE.
+/// The camera of the images is PINHOLE, OPENCV or OPENCV_FISHEYE; unused ones remain as they are.
 /// Throws ArgumentError if the camera has a third radial coefficient, an observation refers to a
-/// missing point, ids are not unique or not positive, or a name is empty, or has a blank in a text.
+/// missing point, ids are not unique, those of images or points not positive, a name is empty, or
+/// has a blank in a text, or the model of an unused camera has no number for the binary form.
 ColmapFiles to_colmap(const ColmapModel& model, NumberForm form);
 
 }  // namespace placegraph

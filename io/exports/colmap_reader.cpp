@@ -1,13 +1,12 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/io/exports/colmap_bytes.h>
+#include <placegraph/io/exports/colmap_cameras.h>
 #include <placegraph/io/exports/colmap_reader.h>
-#include <placegraph/io/exports/little_endian.h>
 #include <placegraph/io/files/text_file.h>
 
-#include <cmath>
+#include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <unordered_map>
 
@@ -26,118 +25,14 @@ struct ColmapImagePoint {
 /// What the files have in common: points are found by their ids when all of them are read.
 struct ColmapParts {
   ColmapModel model;
+  std::vector<std::uint32_t> image_cameras;                 ///< id of the camera of each image
   std::vector<std::vector<ColmapImagePoint>> image_points;  ///< those of each image
 };
-
-/// The numbers of a binary file, one after the other.
-class ColmapBytes {
- public:
-  explicit ColmapBytes(std::string path) : path_(std::move(path)) {
-    require_input_file(path_);
-    std::ifstream stream(path_, std::ios::binary);
-    if (!stream) throw FileError(path_, "cannot be opened");
-    bytes_.assign(std::istreambuf_iterator<char>(stream), {});
-    if (stream.bad()) throw FileError(path_, "cannot be read");
-  }
-  template <class Number>
-  Number next() {
-    Number number{};
-    if (bytes_.size() - at_ < sizeof number) throw FileError(path_, "truncated");
-    std::memcpy(&number, bytes_.data() + at_, sizeof number);
-    at_ += sizeof number;
-    return number;
-  }
-  double next_finite() {
-    const auto number = next<double>();
-    if (!std::isfinite(number)) throw FileError(path_, "a number is not finite");
-    return number;
-  }
-  std::string next_name() {
-    const std::size_t end = bytes_.find('\0', at_);
-    if (end == std::string::npos) throw FileError(path_, "truncated");
-    std::string name = bytes_.substr(at_, end - at_);
-    at_ = end + 1;
-    return name;
-  }
-  void end() const {
-    if (at_ != bytes_.size()) throw FileError(path_, "bytes after the last entry");
-  }
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_, bytes_;
-  std::size_t at_ = 0;
-};
-
-/// A model of cameras: its parameters are one or two focal lengths, cx, cy, and coefficients.
-struct ColmapLens {
-  const char* name;
-  int id;                  ///< number in binary files
-  std::size_t focal;       ///< number of focal lengths
-  std::size_t parameters;  ///< number of all
-  Distortion distortion;
-};
-
-constexpr ColmapLens kColmapLenses[] = {{"SIMPLE_PINHOLE", 0, 1, 3, Distortion::kNone},
-                                        {"PINHOLE", 1, 2, 4, Distortion::kNone},
-                                        {"SIMPLE_RADIAL", 2, 1, 4, Distortion::kRadialTangential},
-                                        {"RADIAL", 3, 1, 5, Distortion::kRadialTangential},
-                                        {"OPENCV", 4, 2, 8, Distortion::kRadialTangential},
-                                        {"OPENCV_FISHEYE", 5, 2, 8, Distortion::kEquidistant}};
-
-/// The model of a name or number; `what` is how a message names it.
-template <class Matches>
-const ColmapLens& find_colmap_lens(const std::string& path, const std::string& what,
-                                   ColmapLenses lenses, Matches matches) {
-  for (const ColmapLens& lens : kColmapLenses)
-    if (matches(lens) && (lenses == ColmapLenses::kAny || lens.distortion == Distortion::kNone))
-      return lens;
-  throw FileError(path, "camera model " + what +
-                            (lenses == ColmapLenses::kAny
-                                 ? ": PINHOLE, SIMPLE_PINHOLE, SIMPLE_RADIAL, RADIAL, OPENCV and "
-                                   "OPENCV_FISHEYE are read"
-                                 : ": PINHOLE and SIMPLE_PINHOLE are read; undistort the images "
-                                   "before"));
-}
-
-Camera colmap_camera(const std::string& path, const ColmapLens& lens, std::uint64_t width,
-                     std::uint64_t height, const std::vector<double>& parameters) {
-  constexpr std::uint64_t kMost = 1 << 20;
-  if (width == 0 || height == 0 || width > kMost || height > kMost)
-    throw FileError(path, fmt::format("{} x {} is not the size of an image", width, height));
-  Camera camera;
-  camera.width = static_cast<int>(width);
-  camera.height = static_cast<int>(height);
-  camera.fx = parameters[0];
-  camera.fy = parameters[lens.focal - 1];
-  camera.cx = parameters[lens.focal] - kColmapCorner_px;
-  camera.cy = parameters[lens.focal + 1] - kColmapCorner_px;
-  camera.distortion = lens.distortion;
-  for (std::size_t i = lens.focal + 2; i < parameters.size(); ++i)
-    camera.coefficients[i - lens.focal - 2] = parameters[i];
-  if (!(camera.fx > 0) || !(camera.fy > 0)) throw FileError(path, "a focal length is not positive");
-  return camera;
-}
 
 SE3 pose_from_colmap(const std::string& path, const std::array<double, 7>& numbers) {
   const Eigen::Quaterniond q(numbers[0], numbers[1], numbers[2], numbers[3]);
   if (!(q.norm() > 1e-6)) throw FileError(path, "the quaternion of a pose is zero");
   return SE3(SO3(q.normalized()), {numbers[4], numbers[5], numbers[6]}).inverse();
-}
-
-Camera read_binary_camera(const std::string& path, ColmapLenses lenses) {
-  ColmapBytes bytes(path);
-  if (const auto count = bytes.next<std::uint64_t>(); count != 1)
-    throw FileError(path, fmt::format("{} cameras, one is read", count));
-  bytes.next<std::uint32_t>();
-  const auto id = bytes.next<std::int32_t>();
-  const ColmapLens& lens = find_colmap_lens(path, std::to_string(id), lenses,
-                                            [id](const ColmapLens& one) { return one.id == id; });
-  const auto width = bytes.next<std::uint64_t>(), height = bytes.next<std::uint64_t>();
-  std::vector<double> parameters;
-  for (std::size_t i = 0; i < lens.parameters; ++i) parameters.push_back(bytes.next_finite());
-  bytes.end();
-  return colmap_camera(path, lens, width, height, parameters);
 }
 
 void read_binary_images(const std::string& path, ColmapParts& parts) {
@@ -149,7 +44,7 @@ void read_binary_images(const std::string& path, ColmapParts& parts) {
     std::array<double, 7> pose{};
     for (double& number : pose) number = bytes.next_finite();
     image.T_world_cam = pose_from_colmap(path, pose);
-    bytes.next<std::uint32_t>();
+    parts.image_cameras.push_back(bytes.next<std::uint32_t>());
     image.name = bytes.next_name();
     std::vector<ColmapImagePoint>& points = parts.image_points.emplace_back();
     const auto observations = bytes.next<std::uint64_t>();
@@ -178,29 +73,6 @@ void read_binary_points(const std::string& path, ColmapParts& parts) {
   bytes.end();
 }
 
-Camera read_text_camera(const std::string& path, ColmapLenses lenses) {
-  TextFile file(path);
-  std::string_view line;
-  std::vector<std::string_view> fields;
-  if (!file.next_data(line)) throw FileError(path, "no camera in it");
-  split_blank(line, fields);
-  if (fields.size() < 4) file.fail("not a camera");
-  const std::string name(fields[1]);
-  const ColmapLens& lens = find_colmap_lens(
-      path, name, lenses, [&name](const ColmapLens& one) { return one.name == name; });
-  if (fields.size() != 4 + lens.parameters)
-    file.fail(fmt::format("{} has {} parameters", name, lens.parameters));
-  std::vector<double> values;
-  for (std::size_t i = 4; i < fields.size(); ++i)
-    values.push_back(file.number(fields[i], "camera"));
-  const std::int64_t width = file.integer(fields[2], "width");
-  const std::int64_t height = file.integer(fields[3], "height");
-  if (width < 1 || height < 1) file.fail("the size of the image is not positive");
-  if (file.next_data(line)) file.fail("a second camera, one is read");
-  return colmap_camera(path, lens, static_cast<std::uint64_t>(width),
-                       static_cast<std::uint64_t>(height), values);
-}
-
 void read_text_images(const std::string& path, ColmapParts& parts) {
   TextFile file(path);
   std::string_view line;
@@ -214,6 +86,7 @@ void read_text_images(const std::string& path, ColmapParts& parts) {
     std::array<double, 7> pose{};
     for (std::size_t i = 0; i < 7; ++i) pose[i] = file.number(fields[1 + i], "pose");
     image.T_world_cam = pose_from_colmap(path, pose);
+    parts.image_cameras.push_back(colmap_camera_id(file, fields[8]));
     image.name = fields[9];
     std::vector<ColmapImagePoint>& points = parts.image_points.emplace_back();
     if (!file.next(line)) break;  // an image without image points at the end of the file
@@ -248,6 +121,34 @@ void read_text_points(const std::string& path, ColmapParts& parts) {
   }
 }
 
+/// The id of the camera of all images; without images that of the first camera.
+std::uint32_t used_camera(const std::string& path, const ColmapParts& parts,
+                          const std::vector<ColmapModel::RawCamera>& cameras) {
+  const std::vector<ColmapModel::Image>& images = parts.model.images;
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    const std::uint32_t first = parts.image_cameras[0], camera = parts.image_cameras[i];
+    if (std::ranges::find(cameras, camera, &ColmapModel::RawCamera::id) == cameras.end())
+      throw FileError(path, fmt::format("image {} ({}) has camera {}, which is not there",
+                                        images[i].id, images[i].name, camera));
+    if (camera != first)
+      throw FileError(path, fmt::format("images {} ({}) and {} ({}) have cameras {} and {}, one "
+                                        "camera of all images is read",
+                                        images[0].id, images[0].name, images[i].id, images[i].name,
+                                        first, camera));
+  }
+  return images.empty() ? cameras.front().id : parts.image_cameras.front();
+}
+
+/// Puts the camera of the images and those that no image has into the model.
+void put_cameras(const std::string& path, std::uint32_t used, ColmapLenses lenses,
+                 std::vector<ColmapModel::RawCamera> cameras, ColmapModel& model) {
+  const auto found = std::ranges::find(cameras, used, &ColmapModel::RawCamera::id);
+  model.camera = camera_of_colmap(path, *found, lenses);
+  model.camera_id = used;
+  cameras.erase(found);
+  model.unused_cameras = std::move(cameras);
+}
+
 }  // namespace
 
 NumberForm colmap_form(const std::string& folder) {
@@ -262,8 +163,11 @@ ColmapModel read_colmap(const std::string& folder, ColmapLenses lenses) {
     return (fs::path(folder) / name).string() + (binary ? ".bin" : ".txt");
   };
   ColmapParts parts;
-  parts.model.camera = (binary ? read_binary_camera : read_text_camera)(path("cameras"), lenses);
+  std::vector<ColmapModel::RawCamera> cameras =
+      (binary ? read_binary_cameras : read_text_cameras)(path("cameras"));
   (binary ? read_binary_images : read_text_images)(path("images"), parts);
+  const std::uint32_t used = used_camera(path("images"), parts, cameras);
+  put_cameras(path("cameras"), used, lenses, std::move(cameras), parts.model);
   (binary ? read_binary_points : read_text_points)(path("points3D"), parts);
   std::unordered_map<std::uint64_t, int> points;
   for (std::size_t i = 0; i < parts.model.points.size(); ++i)

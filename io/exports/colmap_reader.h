@@ -14,10 +14,12 @@ enum class ColmapLenses {
 /// Whether the model in a folder has files .bin or .txt.
 NumberForm colmap_form(const std::string& folder);
 
-/// Reads a model of one camera from a folder with cameras, images and points3D, .bin or otherwise
-/// .txt. Image points without a point are left out.
-/// Throws FileError, with the line in text, if a file is missing, truncated or malformed, if there
-/// is another number or model of cameras, or an observation of a missing point.
+/// Reads a model from a folder with cameras, images and points3D, .bin or otherwise .txt.
+/// All images have one camera, the first one if there are no images; other cameras are kept as they
+/// are. Image points without a point are left out. Other files of the folder are not read.
+/// Throws FileError, with the line in text, if a file is missing, truncated or malformed, if images
+/// have several cameras, one of another model or one that is missing, if cameras share an id, or
+/// for an observation of a missing point.
 ColmapModel read_colmap(const std::string& folder, ColmapLenses lenses = ColmapLenses::kPinhole);
 
 }  // namespace placegraph

@@ -1,7 +1,10 @@
+#include <fmt/format.h>
 #include <placegraph/io/exports/colmap_reader.h>
 #include <placegraph/pipeline/exports/colmap_adjustment.h>
 #include <placegraph/pipeline/exports/colmap_folder.h>
 #include <placegraph/pipeline/map/colmap_bundle.h>
+
+#include <algorithm>
 
 namespace placegraph {
 
@@ -9,6 +12,16 @@ struct ColmapAdjustment::Impl {
   ColmapModel model;
   NumberForm form;
 };
+
+std::string describe_unused_cameras(const std::vector<std::uint32_t>& ids) {
+  constexpr std::size_t kNamed = 8;
+  const std::size_t named = std::min(ids.size(), kNamed);
+  std::string text =
+      fmt::format("{} camera{} that no image has: {}", ids.size(), ids.size() == 1 ? "" : "s",
+                  fmt::join(ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(named), ", "));
+  if (ids.size() > named) text += fmt::format(" and {} more", ids.size() - named);
+  return text;
+}
 
 ColmapAdjustment::ColmapAdjustment(const std::string& folder)
     : impl_(new Impl{read_colmap(folder, ColmapLenses::kAny), colmap_form(folder)}) {}
@@ -18,6 +31,10 @@ ColmapAdjustment::~ColmapAdjustment() = default;
 std::size_t ColmapAdjustment::images() const { return impl_->model.images.size(); }
 
 std::size_t ColmapAdjustment::points() const { return impl_->model.points.size(); }
+
+std::vector<std::uint32_t> ColmapAdjustment::unused_cameras() const {
+  return unused_camera_ids(impl_->model);
+}
 
 ColmapAdjustmentReport ColmapAdjustment::adjust(const BundleOptions& options) {
   ColmapBundleReport report = adjust_colmap(impl_->model, options);

@@ -3,8 +3,10 @@
 #include <placegraph/graph/core/outcome.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace [[gnu::visibility("default")]] placegraph {
 
@@ -19,10 +21,16 @@ struct ColmapAdjustmentReport {
   int iterations = 0;            ///< number of steps of Levenberg-Marquardt
 };
 
+/// The cameras that no image of a model has, as "2 cameras that no image has: 3, 5".
+/// Of many the first ids are named.
+std::string describe_unused_cameras(const std::vector<std::uint32_t>& ids);
+
 /// Bundle adjustment of a COLMAP model in a folder.
 class ColmapAdjustment {
  public:
-  /// Reads a model, in binary or text form, of one camera. Throws FileError.
+  /// Reads a model, in binary or text form, all images of which have one camera.
+  ///
+  /// Cameras that no image has are kept as they are. Throws FileError.
   explicit ColmapAdjustment(const std::string& folder);
   ~ColmapAdjustment();
 
@@ -30,6 +38,8 @@ class ColmapAdjustment {
   std::size_t images() const;
   /// Number of points of the model.
   std::size_t points() const;
+  /// Ids of the cameras that no image has, in the order of the file.
+  std::vector<std::uint32_t> unused_cameras() const;
   /// Adjusts the poses and points of the model; its camera is held.
   ///
   /// It minimizes the reprojection errors, each with a standard deviation of 1 px. They do not
@@ -39,7 +49,8 @@ class ColmapAdjustment {
   [[nodiscard]] ColmapAdjustmentReport adjust(const BundleOptions& options);
   /// Writes cameras, images and points3D in the form of the model that was read.
   ///
-  /// Files of the other form are removed from the folder. Throws FileError.
+  /// Files of the other form are removed from the folder, as are rigs and frames there, which have
+  /// poses of their own. Throws FileError.
   void write(const std::string& folder) const;
 
  private:

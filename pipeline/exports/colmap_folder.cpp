@@ -19,6 +19,10 @@ void write_colmap_folder(const std::string& folder, const ColmapModel& model, Nu
     std::error_code ignored;
     fs::remove(path.string() + (binary ? ".txt" : ".bin"), ignored);
   }
+  for (const char* name : {"rigs.bin", "rigs.txt", "frames.bin", "frames.txt"}) {
+    std::error_code ignored;
+    fs::remove(fs::path(folder) / name, ignored);
+  }
 }
 
 }  // namespace placegraph

@@ -5,8 +5,9 @@
 
 namespace placegraph {
 
-/// Writes cameras, images and points3D of a model into a folder; files of the other form there are
-/// removed. Throws as to_colmap, and FileError if the folder cannot be written to.
+/// Writes cameras, images and points3D of a model into a folder.
+/// Files of the other form there are removed, as are rigs and frames, in which COLMAP has poses of
+/// an older model. Throws as to_colmap, and FileError if the folder cannot be written to.
 void write_colmap_folder(const std::string& folder, const ColmapModel& model, NumberForm form);
 
 }  // namespace placegraph

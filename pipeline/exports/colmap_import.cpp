@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/exports/colmap_reader.h>
+#include <placegraph/pipeline/exports/colmap_adjustment.h>
 #include <placegraph/pipeline/exports/colmap_import.h>
 #include <placegraph/pipeline/exports/keyframe_image_paths.h>
 
@@ -75,8 +76,11 @@ void add_observed_points(const ColmapModel& model, const ColmapModel::Image& ima
 
 }  // namespace
 
-StoredMap import_colmap(const std::string& folder, const std::string& sequence, bool metric) {
+StoredMap import_colmap(const std::string& folder, const std::string& sequence, bool metric,
+                        const LogSink& log) {
   const ColmapModel model = read_colmap(folder);
+  if (log && !model.unused_cameras.empty())
+    log(LogLevel::kInfo, folder + ": without " + describe_unused_cameras(unused_camera_ids(model)));
   if (model.images.empty()) throw NoResult(folder + ": the model has no image");
   StoredMap stored;
   stored.origin.sequence = sequence;

@@ -11,9 +11,10 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include <placegraph/pipeline/report/column.h>
 #include <placegraph/pipeline/report/page.h>
 #include <placegraph/pipeline/report/parts.h>
+#include <placegraph/pipeline/report/tables/column.h>
+#include <placegraph/pipeline/report/tables/page_thinning.h>
 
 namespace placegraph {
 namespace {
@@ -130,7 +131,8 @@ json averages_of(const std::vector<EvaluationResult>& results) {
 }
 
 /// The figures of `eval --plot`; those that the results do not allow are left out.
-json figures_of(const EvaluationPage& page, const std::string& aligned) {
+/// `detail`: share of the bytes that a picture alone has.
+json figures_of(const EvaluationPage& page, const std::string& aligned, double detail) {
   const EvaluatedTruth truth = page.sequences ? EvaluatedTruth::kOwn : EvaluatedTruth::kShared;
   constexpr std::pair<EvaluationPlot, const char*> kTitles[] = {
       {EvaluationPlot::kOverview, "Evaluation"},
@@ -144,7 +146,7 @@ json figures_of(const EvaluationPage& page, const std::string& aligned) {
   for (const auto& [kind, title] : kTitles) {
     try {
       pictures.push_back(describe_picture(title, "against " + page.truth + ", align " + aligned,
-                                          to_svg(figure_of(page.results, truth, kind))));
+                                          to_svg(figure_of(page.results, truth, kind), detail)));
     } catch (const ArgumentError&) {
       continue;
     }
@@ -165,8 +167,13 @@ std::string evaluation_page(const EvaluationPage& page, const std::string& progr
   }
   json report = bare_report(program, names + " against " + page.truth);
   report["runs"] = std::move(runs);
-  report["pictures"] = figures_of(page, aligned);
+  report["pictures"] = figures_of(page, aligned, 1);
   if (page.sequences) report["tables"].push_back(averages_of(page.results));
+  if (page_bytes(report) > kMostPageBytes) {
+    constexpr double kDetailOfMany = 0.1;  // a third of the page
+    report["pictures"] = figures_of(page, aligned, kDetailOfMany);
+    thin_report(report);
+  }
   return page_with(report);
 }
 

@@ -7,8 +7,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include <placegraph/pipeline/report/column.h>
 #include <placegraph/pipeline/report/parts.h>
+#include <placegraph/pipeline/report/tables/column.h>
 
 namespace placegraph::report {
 namespace {

@@ -8,7 +8,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include <placegraph/pipeline/report/column.h>
+#include <placegraph/pipeline/report/tables/column.h>
 #include <placegraph/pipeline/results/georeference_reader.h>
 
 namespace placegraph::report {

@@ -9,9 +9,10 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include <placegraph/pipeline/report/column.h>
 #include <placegraph/pipeline/report/page.h>
 #include <placegraph/pipeline/report/parts.h>
+#include <placegraph/pipeline/report/tables/column.h>
+#include <placegraph/pipeline/report/tables/page_thinning.h>
 
 namespace placegraph {
 namespace {
@@ -81,6 +82,7 @@ std::string graph_picture(const PoseGraph& graph, const std::vector<int>& reject
 std::string graph_page(const GraphPage& graph, const std::string& program) {
   nlohmann::json report = bare_report(program, graph.name);
   report["graphs"].push_back(describe_graph(graph));
+  thin_report(report);
   return page_with(report);
 }
 

@@ -14,7 +14,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include <placegraph/pipeline/report/column.h>
+#include <placegraph/pipeline/report/tables/column.h>
 
 namespace placegraph::report {
 namespace {

@@ -9,10 +9,11 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include <placegraph/pipeline/report/column.h>
 #include <placegraph/pipeline/report/loop_images.h>
 #include <placegraph/pipeline/report/page.h>
 #include <placegraph/pipeline/report/parts.h>
+#include <placegraph/pipeline/report/tables/column.h>
+#include <placegraph/pipeline/report/tables/page_thinning.h>
 
 namespace placegraph {
 namespace {
@@ -177,6 +178,7 @@ void write_loops_page(const std::string& file, const LoopsPage& page, const std:
   report["runs"] = std::move(runs);
   report["pictures"].push_back(describe_picture("Precision and recall", page.protocol,
                                                 precision_recall_picture(page.protocol, curves)));
+  thin_report(report);
   write_file(file, page_with(report));
 }
 

@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 #include <unordered_map>
 
-#include <placegraph/pipeline/report/column.h>
 #include <placegraph/pipeline/report/parts.h>
+#include <placegraph/pipeline/report/tables/column.h>
 
 namespace placegraph::report {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include <placegraph/pipeline/report/column.h>
+#include <placegraph/pipeline/report/tables/column.h>
 
 namespace placegraph::report {
 
@@ -48,8 +48,8 @@ json bare_run(const std::string& name, json frames) {
       {"street_map", nullptr},
       {"georeference", nullptr}};
   run["summary"] = json::object();
-  for (const char* name :
-       {"frames", "posed", "keyframes", "places", "landmarks", "loops_accepted", "cpu_s", "wall_s"})
+  for (const char* name : {"frames", "posed", "keyframes", "places", "landmarks", "loops_accepted",
+                           "cpu_s", "wall_s", "path_length"})
     run["summary"][name] = nullptr;
   for (const char* list :
        {"notes", "figures", "tables", "components", "planes", "floor_plan", "pictures"})

@@ -4,6 +4,7 @@
 #include <placegraph/pipeline/report/page.h>
 #include <placegraph/pipeline/report/run_page.h>
 #include <placegraph/pipeline/report/run_part.h>
+#include <placegraph/pipeline/report/tables/page_thinning.h>
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -11,6 +12,16 @@
 namespace placegraph {
 
 using nlohmann::json;
+
+namespace {
+
+std::string thinned_page(const std::string& title, const std::string& program, json runs) {
+  json data = report::report_data(title, program, std::move(runs));
+  report::thin_report(data);
+  return report::page_with(data);
+}
+
+}  // namespace
 
 void require_page_name(const std::string& path) {
   const std::string extension = extension_of(path);
@@ -30,8 +41,8 @@ RunPageResult write_run_page(const RunPageArguments& arguments, const LogSink& l
         arguments.runs[i], arguments.georeferences.empty() ? "" : arguments.georeferences[i], log));
     names += (names.empty() ? "" : ", ") + runs.back()["name"].get<std::string>();
   }
-  const std::string page = report::page_with(report::report_data(
-      arguments.title.empty() ? names : arguments.title, arguments.program, std::move(runs)));
+  const std::string page = thinned_page(arguments.title.empty() ? names : arguments.title,
+                                        arguments.program, std::move(runs));
   write_file(arguments.out, page);
   return {arguments.out, arguments.runs.size(), page.size()};
 }
@@ -54,7 +65,7 @@ std::string run_page(const StoredMap& stored, const std::string& path, const std
   const std::string name = title.empty() ? run["name"].get<std::string>() : title;
   json runs = json::array();
   runs.push_back(std::move(run));
-  return report::page_with(report::report_data(name, program, std::move(runs)));
+  return thinned_page(name, program, std::move(runs));
 }
 
 }  // namespace placegraph

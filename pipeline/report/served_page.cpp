@@ -2,10 +2,10 @@
 #include <placegraph/graph/image/jpeg_codec.h>
 #include <placegraph/io/exports/base64.h>
 #include <placegraph/pipeline/map/map_geometry.h>
-#include <placegraph/pipeline/report/column.h>
 #include <placegraph/pipeline/report/map_part.h>
 #include <placegraph/pipeline/report/run_part.h>
 #include <placegraph/pipeline/report/served_page.h>
+#include <placegraph/pipeline/report/tables/column.h>
 
 #include <filesystem>
 #include <nlohmann/json.hpp>

@@ -72,6 +72,7 @@ export function sampleRun(options: Partial<SampleOptions> = {}): Run {
       loops_accepted: accepted,
       cpu_s: 0.061 * o.frames,
       wall_s: 0.034 * o.frames,
+      path_length: null,
     },
     judgement: {
       verdict: posed < o.frames ? "doubtful" : "good",

@@ -13,7 +13,7 @@ export function sampleEstimate(options: Partial<SampleOptions>): Run {
     sensor: null,
     aligned: "se3",
     up: [0, -1, 0],
-    summary: { ...run.summary, keyframes: null, places: null, landmarks: null, loops_accepted: null, cpu_s: null, wall_s: null },
+    summary: { ...run.summary, keyframes: null, places: null, landmarks: null, loops_accepted: null, cpu_s: null, wall_s: null, path_length: null },
     judgement: null,
     options: null,
     camera: null,

@@ -1,5 +1,5 @@
 import { decodeRun } from "./decode_run";
-import { asObject, asText, listOf, orNull } from "./fields";
+import { asNumber, asObject, asText, listOf, orNull } from "./fields";
 import { readFigure, readPicture, readTable } from "./figures";
 import type { GraphData, ReportData } from "./model";
 import { readColumn, TableReader } from "./table_reader";
@@ -32,13 +32,17 @@ function decodeGraph(value: unknown, where: string): GraphData {
       throw new Error(`${where}.edges names node ${edges[i]}, but there are ${before.rows} nodes.`);
     }
   }
+  const all = orNull(json["all"], `${where}.all`, asObject);
   return {
     name: asText(json["name"], `${where}.name`),
     nodes: before.rows,
+    allNodes: all === null ? before.rows : asNumber(all["nodes"], `${where}.all.nodes`),
+    allEdges: all === null ? table.rows : asNumber(all["edges"], `${where}.all.edges`),
     before: before.values,
     after: orNull(json["after"], `${where}.after`, (v, w) => readColumn(v, w, 3, before.rows).values),
     edgeCount: table.rows,
     edges,
+    ends: table.optional("ends", 2) ?? edges,
     kind: table.labels("edge_kind"),
     chi2: table.column("chi2"),
     weight: table.optional("weight"),

@@ -63,6 +63,7 @@ function readSummary(value: unknown, where: string): Summary {
     loops_accepted: count("loops_accepted"),
     cpu_s: count("cpu_s"),
     wall_s: count("wall_s"),
+    path_length: count("path_length"),
   };
 }
 

@@ -142,6 +142,11 @@ export interface GraphData {
   after: Values | null;
   edgeCount: number;
   edges: Values;
+  /** Numbers of nodes and edges of the whole graph, of which the page may have some. */
+  allNodes: number;
+  allEdges: number;
+  /** The indices of the ends of the edges in the whole graph. */
+  ends: Values;
   kind: Labels;
   chi2: Values;
   weight: Values | null;

@@ -73,6 +73,8 @@ export interface Summary {
   loops_accepted: number | null;
   cpu_s: number | null;
   wall_s: number | null;
+  /** Of all frames, where the page has some of them; null: it has all. */
+  path_length: number | null;
 }
 
 export interface Judgement {
@@ -276,6 +278,10 @@ export interface Graph {
   after: Column | null;
   /** Two indices of nodes a row. */
   edges: Column;
+  /** Numbers of nodes and edges of the graph of which the page has some; null: it has all. */
+  all?: { nodes: number; edges: number } | null;
+  /** The indices in that graph of the ends of the edges. */
+  ends?: Column | null;
   edge_kind: LabelColumn;
   /** One value an edge. */
   chi2: Column;

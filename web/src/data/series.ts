@@ -96,8 +96,9 @@ function pathLength(pose: ArrayLike<number>, from: number, to: number): number {
   return sum;
 }
 
-/** Path length over all frames with a pose, without the jumps between components. */
+/** Path length over all frames with a pose, also those that the page has not, without the jumps between components. */
 export function travelled(run: RunData): number {
+  if (run.summary.path_length !== null) return run.summary.path_length;
   let sum = 0;
   for (let i = 0; i + 1 < run.frames.count; i++) {
     if (joined(run, i, i + 1)) sum += pathLength(run.frames.pose, i, i + 1);

@@ -30,8 +30,8 @@ export function graphPanel({ report, store }: PanelContext): Panel {
           : el("p", { class: "soft" }, "The graph has not been optimized: its nodes are shown as they are."),
         graph.kind.table.length > 1 ? kindChoice(graph, store) : null,
         facts([
-          ["Nodes", formatCount(graph.nodes)],
-          ["Edges", formatCount(graph.edgeCount)],
+          ["Nodes", ofAll(graph.nodes, graph.allNodes)],
+          ["Edges", ofAll(graph.edgeCount, graph.allEdges)],
         ]),
         figuresSection(graph.figures),
         el("h3", {}, "Edges with the largest chi2"),
@@ -39,6 +39,11 @@ export function graphPanel({ report, store }: PanelContext): Panel {
       );
     },
   };
+}
+
+/** A number of which the page has some: nodes that are left out are joined with the one before. */
+function ofAll(count: number, all: number): string {
+  return count === all ? formatCount(all) : `${formatCount(all)}, ${formatCount(count)} of them in this page`;
 }
 
 function chooseGraph(store: Store, graphs: GraphData[], graph: number): void {
@@ -89,8 +94,8 @@ function worstTable(graph: GraphData, store: Store): HTMLElement {
   const body = el("tbody");
   for (const edge of worstEdges(graph, WORST, store.state.edgeKind)) {
     const cells = [
-      String(graph.edges[2 * edge]),
-      String(graph.edges[2 * edge + 1]),
+      String(graph.ends[2 * edge]),
+      String(graph.ends[2 * edge + 1]),
       label(graph.kind, edge) ?? "unknown",
       formatNumber(graph.chi2[edge]),
     ];

@@ -2,6 +2,7 @@ import { describe, expect, it } from "vitest";
 import { decodeColumn } from "../../src/data/column";
 import { decodeReport } from "../../src/data/decode";
 import { label } from "../../src/data/model";
+import { travelled } from "../../src/data/series";
 import { column, labels } from "../encode";
 import { sampleGraph, sampleReport, sampleRun } from "../sample";
 
@@ -43,6 +44,21 @@ describe("a report", () => {
     expect(run.components.map((component) => component.main)).toEqual([true, false]);
     expect(run.landmarks.count).toBe(40);
     expect(report.graphs[0].edges.length).toBe(2 * report.graphs[0].edgeCount);
+  });
+
+  it("of a thinned graph has the numbers of the whole one", () => {
+    const graph = { ...sampleGraph(), all: { nodes: 90000, edges: 95000 } };
+    const whole = decodeReport(sampleReport([], [sampleGraph(), graph])).graphs;
+    expect(whole[0].allNodes).toBe(whole[0].nodes);
+    expect(whole[0].ends).toBe(whole[0].edges);
+    expect(whole[1].allNodes).toBe(90000);
+    expect(whole[1].allEdges).toBe(95000);
+  });
+
+  it("of a thinned run has the path length of all frames", () => {
+    const run = sampleRun(small);
+    const thinned = { ...run, summary: { ...run.summary, path_length: 1234.5 } };
+    expect(travelled(decodeReport(sampleReport([thinned])).runs[0])).toBe(1234.5);
   });
 
   it("of another format is refused", () => {

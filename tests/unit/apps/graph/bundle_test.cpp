@@ -58,6 +58,36 @@ TEST_F(BundleCommand, FindsTheViewsWithoutNoiseAndWritesThem) {
     EXPECT_LT((written.points[k] - result.report.bundle.points[k]).norm(), 1e-12);
 }
 
+TEST_F(BundleCommand, KeepsCamerasAndPointsWithoutObservationsAsTheyWere) {
+  Bundle start = three_views(0.1);
+  const BundleCamera unused{SE3(SO3::exp({0.3, -2, 1}), Eigen::Vector3d(1e3, -2, 0.3)), 123.5, -0.1,
+                            2};
+  start.cameras.insert(start.cameras.begin() + 1, unused);
+  start.cameras.push_back(unused);
+  for (BundleObservation& seen : start.observations) {
+    if (seen.camera > 0) ++seen.camera;
+    ++seen.point;
+  }
+  const Eigen::Vector3d alone(1e-9, 0.1, -7e5);
+  start.points.insert(start.points.begin(), alone);
+  write_bal(arguments.in, start);
+  const BundleResult result = bundle(arguments);
+  EXPECT_LT(result.report.rms_px, 1e-3);
+  EXPECT_EQ(result.unused_cameras, 2u);
+  EXPECT_EQ(result.unused_points, 1u);
+  EXPECT_THAT(to_text(result),
+              HasSubstr("\n  kept as they are, without observations: 2 cameras, 1 points\n"));
+  const Bundle written = read_bal(arguments.out);
+  EXPECT_EQ(written.points[0], alone);
+  for (const std::size_t i : {1, 4}) {
+    const BundleCamera& camera = written.cameras[i];
+    EXPECT_LT((camera.T_world_cam.inverse() * unused.T_world_cam).log().norm(), 1e-12);
+    EXPECT_EQ(camera.focal_px, unused.focal_px);
+    EXPECT_EQ(camera.k1, unused.k1);
+    EXPECT_EQ(camera.k2, unused.k2);
+  }
+}
+
 TEST_F(BundleCommand, WritesNothingWhereNoFileIsNamed) {
   arguments.out.clear();
   bundle(arguments);

@@ -46,6 +46,16 @@ TEST_F(MapImport, WritesTheMapAndSaysWhatItHolds) {
   EXPECT_THROW(import(), ArgumentError);  // it is there
 }
 
+TEST_F(MapImport, PassesOverCamerasThatNoImageHas) {
+  dir.write("model/cameras.txt",
+            "4 FOV 640 480 50 50 32 24 1\n1 PINHOLE 64 48 50 50 32 24\n2 EUCM 9 9 1 1 4 4 1 1\n");
+  std::string said;
+  map_import({dir / "model", dir / "seq", dir / "imported.db", false, false},
+             [&](LogLevel, const std::string& text) { said += text; });
+  EXPECT_THAT(said, testing::EndsWith("model: without 2 cameras that no image has: 4, 2"));
+  EXPECT_EQ(read_map(dir / "imported.db").map.keyframes.size(), 2u);
+}
+
 TEST_F(MapImport, OfAModelWithoutImagesLeavesNothingBehind) {
   dir.write("model/images.txt", "");
   EXPECT_THAT(test::message_of<NoResult>([&] { import(); }), testing::HasSubstr("has no image"));

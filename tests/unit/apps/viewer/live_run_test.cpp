@@ -1,7 +1,7 @@
 #include "apps/viewer/live_run.h"
 
-#include <placegraph/pipeline/report/column.h>
 #include <placegraph/pipeline/report/served_page.h>
+#include <placegraph/pipeline/report/tables/column.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -6,8 +6,8 @@
 #include <placegraph/graph/image/jpeg_codec.h>
 #include <placegraph/io/exports/base64.h>
 #include <placegraph/io/map/map_database.h>
-#include <placegraph/pipeline/report/column.h>
 #include <placegraph/pipeline/report/served_page.h>
+#include <placegraph/pipeline/report/tables/column.h>
 
 #include <filesystem>
 #include <nlohmann/json.hpp>

@@ -104,14 +104,21 @@ TEST_F(ColmapReader, NamesWhatItCannotRead) {
   };
   EXPECT_THAT(message("cameras.txt", "1 OPENCV 64 48 50 50 32 24 0 0 0 0\n"),
               HasSubstr("camera model OPENCV: PINHOLE and SIMPLE_PINHOLE are read"));
-  EXPECT_THAT(message("cameras.txt", "1 PINHOLE 64 48 50 50 32 24\n2 PINHOLE 64 48 50 50 32 24\n"),
-              HasSubstr("cameras.txt:2: a second camera"));
+  EXPECT_THAT(message("cameras.txt", "1 PINHOLE 64 48 50 50 32 24\n1 PINHOLE 64 48 50 50 32 24\n"),
+              HasSubstr("cameras.txt:2: camera 1 is there twice"));
+  EXPECT_THAT(message("cameras.txt", "1 PINHOLE 64 48 50 50 32 24\n3 FULL_OPENCV 64 48 50 50\n"),
+              HasSubstr("cameras.txt:2: FULL_OPENCV has 12 parameters"));
+  EXPECT_THAT(message("cameras.txt", "# none\n"), HasSubstr("cameras.txt: no camera in it"));
+  EXPECT_THAT(message("cameras.txt", "-1 PINHOLE 64 48 50 50 32 24\n"),
+              HasSubstr("cameras.txt:1: camera: -1 is no id"));
+  EXPECT_THAT(message("images.txt", "1 1 0 0 0 0 0 0 3 a.png\n\n"),
+              HasSubstr("images.txt: image 1 (a.png) has camera 3, which is not there"));
   EXPECT_THAT(message("cameras.txt", "1 PINHOLE 64 48 0 50 32 24\n"),
               HasSubstr("a focal length is not positive"));
   EXPECT_THAT(message("images.txt", "1 1 0 0 0 0 0 3 a.png\n\n"),
               HasSubstr("images.txt:1: not an"));
   EXPECT_THAT(message("images.txt", "1 0 0 0 0 0 0 0 3 a.png\n\n"), HasSubstr("quaternion"));
-  EXPECT_THAT(message("images.txt", "1 1 0 0 0 0 0 0 3 a.png\n1 2 8\n"),
+  EXPECT_THAT(message("images.txt", "1 1 0 0 0 0 0 0 1 a.png\n1 2 8\n"),
               HasSubstr("image 1 has an observation of point 8, which is not there"));
   EXPECT_THAT(message("points3D.txt", "7 1 2 3 9 8 256 0.1\n"),
               HasSubstr("points3D.txt:1: colour"));

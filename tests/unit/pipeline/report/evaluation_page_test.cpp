@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/eval/trajectory/evaluate.h>
 
-#include <placegraph/pipeline/report/column.h>
+#include <placegraph/pipeline/report/tables/column.h>
 #include "tests/support/report_page.h"
 #include "tests/support/trajectories.h"
 

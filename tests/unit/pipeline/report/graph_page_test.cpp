@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <placegraph/pipeline/report/column.h>
+#include <placegraph/pipeline/report/tables/column.h>
 #include "tests/support/report_page.h"
 
 namespace placegraph::report {

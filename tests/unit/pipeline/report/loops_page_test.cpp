@@ -9,7 +9,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include <placegraph/pipeline/report/column.h>
+#include <placegraph/pipeline/report/tables/column.h>
 #include "tests/support/random_map.h"
 #include "tests/support/report_page.h"
 

@@ -11,8 +11,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include <placegraph/pipeline/report/column.h>
 #include <placegraph/pipeline/report/page.h>
+#include <placegraph/pipeline/report/tables/column.h>
 #include "tests/support/message_of.h"
 #include "tests/support/random_map.h"
 #include "tests/support/report_page.h"

@@ -1,4 +1,4 @@
-#include <placegraph/pipeline/report/column.h>
+#include <placegraph/pipeline/report/tables/column.h>
 
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -16,5 +17,14 @@ nlohmann::json column(const std::vector<std::uint8_t>& values, int width = 1);
 /// A column of texts: {"table": the different texts, "index": a column with a position in it for
 /// every row, -1 for an empty text}.
 nlohmann::json text_column(const std::vector<std::string>& texts);
+
+/// The values of a column of floats or of integers of 32 bits, as floats.
+std::vector<float> values_of(const nlohmann::json& column);
+
+/// Number of rows of a column.
+std::size_t rows_of(const nlohmann::json& column);
+
+/// Some rows of a column, or of a column of texts; null remains null.
+nlohmann::json rows_of_column(const nlohmann::json& column, const std::vector<std::size_t>& rows);
 
 }  // namespace placegraph::report
