@@ -75,16 +75,13 @@ void IncrementalGraph<Group>::attach(int number, double weight) {
 template <class Group>
 void IncrementalGraph<Group>::detach(int number) {
   const int place = std::exchange(place_[number], -1);
-  const auto mark = [&](int node) {
-    if (!std::exchange(nodes_[node].gradient_stale, true)) gradient_stale_.push_back(node);
-  };
   if (std::holds_alternative<PositionConstraint>(constraints_[number])) {
     Position& position = positions_[place];
     const int node = position.position.node;
     components_.anchor(node, -1);
     std::erase(nodes_[node].positions, place);
     tree_.remove_term(position.term);
-    mark(node);
+    mark_gradient(node);
     position = Position();
     free_positions_.push_back(place);
   } else {
@@ -92,7 +89,7 @@ void IncrementalGraph<Group>::detach(int number) {
     const int from = edge.edge.from, to = edge.edge.to;
     for (const int node : {from, to}) {
       std::erase(nodes_[node].edges, place);
-      mark(node);
+      mark_gradient(node);
     }
     tree_.remove_term(edge.term);
     edge = Edge();
@@ -227,9 +224,8 @@ std::vector<int> IncrementalGraph<Group>::reached(int start, int other,
   return reached;
 }
 
-/// Splits the components that removed edges leave in pieces. The search for one removed edge ends
-/// where another path connects its nodes; for several, every node of their components is visited
-/// once.
+/// Splits the components that removed edges leave in pieces. For one edge the search ends where
+/// another path connects its nodes; for several, it visits the nodes of their components once.
 template <class Group>
 void IncrementalGraph<Group>::split_removed() {
   if (removed_.empty()) return;
@@ -259,8 +255,7 @@ void IncrementalGraph<Group>::evaluate(int e) {
   const int from = edge.edge.from, to = edge.edge.to;
   edge.evaluate(nodes_[from].T_world_node, nodes_[to].T_world_node, rotation_error_);
   edge_costs_[e] = edge.cost;
-  for (const int node : {from, to})
-    if (!std::exchange(nodes_[node].gradient_stale, true)) gradient_stale_.push_back(node);
+  for (const int node : {from, to}) mark_gradient(node);
 }
 
 template <class Group>
@@ -277,7 +272,7 @@ void IncrementalGraph<Group>::evaluate_position(int p) {
   const int node = position.position.node;
   const auto H = position.evaluate(nodes_[node].T_world_node);
   tree_.set_information(position.term, H, H, H);
-  if (!std::exchange(nodes_[node].gradient_stale, true)) gradient_stale_.push_back(node);
+  mark_gradient(node);
 }
 
 /// Edges and positions of the moved nodes.
@@ -295,7 +290,6 @@ void IncrementalGraph<Group>::evaluate_around(const std::vector<int>& nodes) {
   }
 }
 
-/// Moves nodes by their steps in the tree.
 template <class Group>
 void IncrementalGraph<Group>::move(const std::vector<int>& nodes) {
   for (const int node : nodes) {

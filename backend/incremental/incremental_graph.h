@@ -80,6 +80,9 @@ class IncrementalGraph {
   std::vector<int> reached(int start, int other, std::vector<char>& seen) const;
   void split_removed();
   void apply_held();
+  void mark_gradient(int node) {
+    if (!std::exchange(nodes_[node].gradient_stale, true)) gradient_stale_.push_back(node);
+  }
   void evaluate(int edge);
   void linearize(int edge);
   void evaluate_position(int position);

@@ -142,15 +142,15 @@ void parse_g2o_line(const TextFile& file, const Fields& fields, PoseGraphBuilder
 constexpr const char* kNoCamera =
     " 1 1 0 0";  ///< focal lengths and principal point, as g2o has them by default
 
-using Buffer = fmt::memory_buffer&;
+using Text = fmt::memory_buffer&;
 
 template <class... Values>
-void print(Buffer out, fmt::format_string<Values...> text, Values&&... values) {
+void print(Text out, fmt::format_string<Values...> text, Values&&... values) {
   fmt::vformat_to(std::back_inserter(out), text, fmt::make_format_args(values...));
 }
 
 /// The 17 digits that give the same number again; most entries of information are short integers.
-void format_number(Buffer out, double value) {
+void format_number(Text out, double value) {
   constexpr double kShort = 1e6;
   std::array<char, 32> text;
   text[0] = ' ';
@@ -169,7 +169,7 @@ const char* suffix_of(PoseKind kind) {
   return kind == PoseKind::kSE3 ? "SE3:QUAT" : "SIM3:EXPMAP";
 }
 
-void format_pose(Buffer out, const Pose& pose) {
+void format_pose(Text out, const Pose& pose) {
   if (const SE2* planar = std::get_if<SE2>(&pose)) {
     for (const double v :
          {planar->translation().x(), planar->translation().y(), planar->rotation().angle()}) {
@@ -184,7 +184,7 @@ void format_pose(Buffer out, const Pose& pose) {
   }
 }
 
-void format_edge(Buffer out, const RelativePoseConstraint& edge) {
+void format_edge(Text out, const RelativePoseConstraint& edge) {
   const PoseKind kind = kind_of(edge.T_from_to);
   print(out, "EDGE_{} {} {}", suffix_of(kind), edge.from, edge.to);
   format_pose(out, edge.T_from_to);
@@ -199,17 +199,17 @@ void format_edge(Buffer out, const RelativePoseConstraint& edge) {
 
 /// The upper triangle of the first `size` rows and columns, and the end of the line.
 template <class Matrix>
-void format_information(Buffer out, const Matrix& information, int size) {
+void format_information(Text out, const Matrix& information, int size) {
   for (int row = 0; row < size; ++row)
     for (int column = row; column < size; ++column) format_number(out, information(row, column));
   out.push_back('\n');
 }
 
-void format_point(Buffer out, const Eigen::Vector3d& point, bool planar) {
+void format_point(Text out, const Eigen::Vector3d& point, bool planar) {
   for (int i = 0; i < (planar ? 2 : 3); ++i) format_number(out, point[i]);
 }
 
-void format_position(Buffer out, const PositionConstraint& position, PoseKind kind) {
+void format_position(Text out, const PositionConstraint& position, PoseKind kind) {
   require(kind == PoseKind::kSE2 && position.lever_arm.isZero(0),
           "g2o: the format cannot express positions in space or beside a node");
   print(out, "EDGE_PRIOR_SE2_XY {}", position.node);
@@ -218,7 +218,7 @@ void format_position(Buffer out, const PositionConstraint& position, PoseKind ki
 }
 
 /// Writes a prior of the node itself: parameters 0 are the identity.
-void format_prior(Buffer out, const PosePriorConstraint& prior) {
+void format_prior(Text out, const PosePriorConstraint& prior) {
   const bool planar = kind_of(prior.T_world_node) == PoseKind::kSE2;
   print(out, "{} {}{}", planar ? "EDGE_PRIOR_SE2" : "EDGE_SE3_PRIOR", prior.node,
         planar ? "" : " 0");
@@ -226,7 +226,7 @@ void format_prior(Buffer out, const PosePriorConstraint& prior) {
   format_information(out, prior.information, planar ? 3 : 6);
 }
 
-void format_observation(Buffer out, const PointObservation& observation, bool planar) {
+void format_observation(Text out, const PointObservation& observation, bool planar) {
   print(out, "{} {} {}{}", planar ? "EDGE_SE2_XY" : "EDGE_SE3_TRACKXYZ", observation.node,
         observation.point, planar ? "" : " 0");
   format_point(out, observation.position_node, planar);
@@ -235,7 +235,7 @@ void format_observation(Buffer out, const PointObservation& observation, bool pl
 
 /// Appends what `format` writes of every item, in the order of the items but from all threads.
 template <class Item, class Format>
-void format_all(Buffer out, const std::vector<Item>& items, const Format& format) {
+void format_all(Text out, const std::vector<Item>& items, const Format& format) {
   constexpr std::size_t kBlock = 4096;
   std::vector<fmt::memory_buffer> blocks((items.size() + kBlock - 1) / kBlock);
   const unsigned threads =
@@ -248,15 +248,15 @@ void format_all(Buffer out, const std::vector<Item>& items, const Format& format
   for (const fmt::memory_buffer& block : blocks) out.append(block);
 }
 
-void format_poses(Buffer out, const PoseGraph& graph) {
+void format_poses(Text out, const PoseGraph& graph) {
   const PoseKind kind = graph.kind();
-  format_all(out, graph.nodes, [kind](Buffer block, const PoseNode& node) {
+  format_all(out, graph.nodes, [kind](Text block, const PoseNode& node) {
     print(block, "VERTEX_{} {}", suffix_of(kind), node.id);
     format_pose(block, node.T_world_node);
     if (kind == PoseKind::kSim3) print(block, kNoCamera);
     block.push_back('\n');
   });
-  format_all(out, graph.constraints, [kind](Buffer block, const Constraint& constraint) {
+  format_all(out, graph.constraints, [kind](Text block, const Constraint& constraint) {
     if (const auto* edge = std::get_if<RelativePoseConstraint>(&constraint))
       format_edge(block, *edge);
     else
@@ -264,7 +264,7 @@ void format_poses(Buffer out, const PoseGraph& graph) {
   });
 }
 
-void format_beside_poses(Buffer out, const LandmarkGraph& graph) {
+void format_beside_poses(Text out, const LandmarkGraph& graph) {
   const bool planar = graph.poses.kind() == PoseKind::kSE2;
   for (const GraphPoint& point : graph.points) {
     print(out, "{} {}", planar ? "VERTEX_XY" : "VERTEX_TRACKXYZ", point.id);
@@ -278,7 +278,7 @@ void format_beside_poses(Buffer out, const LandmarkGraph& graph) {
 
 /// Behind the edges: readers of other programs end at the first line with fewer than two numbers.
 template <class Vertices>
-void format_fixed(Buffer out, const Vertices& vertices) {
+void format_fixed(Text out, const Vertices& vertices) {
   for (const auto& vertex : vertices)
     if (vertex.fixed) print(out, "FIX {}\n", vertex.id);
 }

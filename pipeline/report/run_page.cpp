@@ -17,7 +17,7 @@ namespace {
 
 std::string thinned_page(const std::string& title, const std::string& program, json runs) {
   json data = report::report_data(title, program, std::move(runs));
-  report::thin_report(data);
+  report::thin_report(data, report::kMostRunPageBytes);
   return report::page_with(data);
 }
 

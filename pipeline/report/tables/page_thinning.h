@@ -6,6 +6,8 @@ namespace placegraph::report {
 
 /// Bytes of the data of a page, without images and their points, that no number of poses exceeds.
 inline constexpr std::size_t kMostPageBytes = 300'000;
+/// The same for the page of a run, whose landmarks are a cloud that is looked at from nearby.
+inline constexpr std::size_t kMostRunPageBytes = 2'000'000;
 
 /// Bytes that a part of a report takes in a page.
 std::size_t page_bytes(const nlohmann::json& part);

@@ -87,6 +87,15 @@ Eigen::MatrixXd covariance(const FactorGraph& graph, const std::vector<int>& var
   return matrix_of(marginal_covariance(copy, variables));
 }
 
+nb::object term_at(const FactorGraph& graph, int number) {
+  require(number >= 0 && static_cast<std::size_t>(number) < graph.terms.size(),
+          fmt::format("term: there is no term {}", number));
+  const FactorGraph::Term& term = graph.terms[static_cast<std::size_t>(number)];
+  const nb::object variables = nb::cast(term.variables);
+  return nb::make_tuple(NamedFactor{term.factor, fmt::format("of term {}", number)},
+                        nb::tuple(variables), term.kernel);
+}
+
 std::string text_of(const FactorGraph& graph) {
   return fmt::format("<FactorGraph: {} variables, {} terms>", graph.variables.size(),
                      graph.terms.size());
@@ -190,6 +199,9 @@ void bind_graph(nb::module_& m) {
            "exist, repeats or is held.")
       .def(
           "copy", [](const FactorGraph& g) { return g; }, "A graph with the same content.")
+      .def("term", &term_at, "term"_a,
+           nb::sig("def term(self, term: int) -> tuple[Factor, tuple[int, ...], RobustKernel]"),
+           "The factor of a term, its variables in the factor's order, and its kernel.")
       .def_prop_ro(
           "terms", [](const FactorGraph& g) { return g.terms.size(); }, "Number of terms.")
       .def("__len__", [](const FactorGraph& g) { return g.variables.size(); })

@@ -9,7 +9,8 @@ gtsam = pytest.importorskip("gtsam")
 
 import placegraph as pg  # noqa: E402
 from graph_samples import one_sign, plane, ring  # noqa: E402
-from placegraph.gtsam import factor_graph_from_gtsam, from_gtsam, to_gtsam  # noqa: E402
+from placegraph.gtsam import (factor_graph_from_gtsam, factor_graph_to_gtsam,  # noqa: E402
+                              from_gtsam, to_gtsam)
 
 ORDER = [3, 4, 5, 0, 1, 2]  # of our coordinates in those of a Pose3
 
@@ -186,6 +187,8 @@ def measured_in_the_plane() -> tuple[Any, Any]:
     factors, values = to_gtsam(anisotropic(plane()), hold=False)
     model = gtsam.noiseModel.Diagonal.Sigmas([0.1, 0.2, 0.3])
     factors.add(gtsam.PriorFactorPose2(3, gtsam.Pose2(3, 1, 0.3), model))
+    for i in range(3):
+        factors.add(gtsam.RangeFactorPose2(i, 3, 1.7, gtsam.noiseModel.Isotropic.Sigma(1, 0.2)))
     factors.add(gtsam.NonlinearEqualityPose2(0, values.atPose2(0)))
     return factors, values
 
@@ -202,6 +205,58 @@ def test_factor_graphs_have_the_costs_and_minima_of_gtsam(made: Any) -> None:
     params.setRelativeErrorTol(1e-12)
     theirs = gtsam.LevenbergMarquardtOptimizer(factors, values, params).optimize()
     assert report.cost_final == pytest.approx(factors.error(theirs), rel=1e-4)
+
+
+def with_factors_of_ours() -> pg.FactorGraph:
+    """Variables of every kind that gtsam has, with factors and kernels that it has not."""
+    graph = pg.FactorGraph()
+    first = graph.add_variable(pg.SE3(), held=True)
+    second = graph.add_variable(pg.SE3.from_quaternion_xyzw([0.1, -0.2, 0.1, 1], [1, 0.2, 0]))
+    scale = graph.add_variable(1.3)
+    offset = graph.add_variable(0.4, held=True)
+    point = graph.add_variable(np.array([0.5, 0.2, 4.0]))
+    frame = graph.add_variable(pg.SO3.exp([0.1, 0.2, 0.3]))
+    graph.add(pg.Factor.relative_pose(pg.SE3.from_quaternion_xyzw([0, 0, 0.1, 1], [1.1, 0, 0]), sigma=0.1),
+              [first, second], pg.RobustKernel("cauchy", 0.7))
+    graph.add(pg.Factor.non_holonomic([0, 1, 0], 0.05), [first, second])
+    graph.add(pg.Factor.absolute_rotation(pg.SO3.exp([0, 0.2, 0.2]), sigma=0.1), [second, frame])
+    graph.add(pg.Factor.absolute_rotation(pg.SO3.exp([0.1, 0.1, 0.3]), sigma=0.1), [first, frame])
+    for pose in (first, second):
+        graph.add(pg.Factor.point_in_node([0.4, 0.1, 4.1], information=np.diag([1.0, 4, 9])),
+                  [pose, point])
+    graph.add_residual(lambda s, o, p: s * p[:2] - o * np.array([1.0, 0.5]),
+                       [scale, offset, point], sigma=[0.1, 0.2])
+    return graph
+
+
+def test_factors_of_every_kind_have_the_same_costs_and_minima_in_gtsam() -> None:
+    graph = with_factors_of_ours()
+    report = pg.optimize_factors(graph)
+    factors, values = factor_graph_to_gtsam(graph)
+    assert factors.error(values) == pytest.approx(report.cost_initial, rel=1e-9)
+    params = gtsam.LevenbergMarquardtParams()
+    params.setMaxIterations(200)
+    params.setRelativeErrorTol(1e-12)
+    theirs = gtsam.LevenbergMarquardtOptimizer(factors, values, params).optimize()
+    assert factors.error(theirs) == pytest.approx(report.cost_final, rel=1e-4)
+    np.testing.assert_allclose(theirs.atPose3(0).matrix(), np.eye(4), atol=1e-9)
+
+
+@pytest.mark.parametrize("made", [measured_in_space, measured_in_the_plane], ids=["space", "plane"])
+def test_factor_graphs_return_to_gtsam_with_their_costs(made: Any) -> None:
+    factors, values = made()
+    again, start = factor_graph_to_gtsam(factor_graph_from_gtsam(factors, values)[0])
+    assert again.error(start) == pytest.approx(factors.error(values), rel=1e-9)
+
+
+def test_variables_that_gtsam_has_not_are_refused_by_name() -> None:
+    graph = pg.FactorGraph()
+    graph.add_variable(pg.SE3())
+    graph.add_variable(pg.Sim3())
+    with pytest.raises(pg.ArgumentError, match="variable 1 is a Sim3, which is not converted"):
+        factor_graph_to_gtsam(graph)
+    with pytest.raises(pg.ArgumentError, match="term: there is no term 0"):
+        graph.term(0)
 
 
 def test_an_equality_holds_a_variable() -> None:
@@ -231,10 +286,10 @@ def refused(add: Any, convert: Any) -> str:
 
 
 def test_factors_and_keys_are_named_as_gtsam_prints_them() -> None:
-    range_model = gtsam.noiseModel.Unit.Create(1)
+    bearing = gtsam.noiseModel.Unit.Create(1)
     for convert in (from_gtsam, factor_graph_from_gtsam):
-        said = refused(lambda _: gtsam.RangeFactorPose2(x(0), x(1), 1.0, range_model), convert)
-        assert said == "factors: factor 1, a RangeFactorPose2 of x0, x1, is not converted"
+        said = refused(lambda _: gtsam.BearingFactorPose2(x(0), x(1), gtsam.Rot2(), bearing), convert)
+        assert said == "factors: factor 1, a BearingFactorPose2 of x0, x1, is not converted"
         said = refused(lambda unit: gtsam.BetweenFactorPose2(x(1), x(7), gtsam.Pose2(), unit),
                        convert)
         assert said == "factors: factor 1, a BetweenFactorPose2 of x1, x7: there is no value of x7"
