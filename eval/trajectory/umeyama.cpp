@@ -38,7 +38,8 @@ AlignmentResult align_first_pose(const FramePair& first, const std::vector<Eigen
   result.pairs = static_cast<int>(from.size());
   const Eigen::Isometry3d& T_world_truth = first.T_world_truth;
   const Eigen::Isometry3d& T_world_estimate = *first.T_world_estimate;
-  result.R_truth_estimate = T_world_truth.linear() * T_world_estimate.linear().inverse();
+  if (T_world_truth.linear() != T_world_estimate.linear())
+    result.R_truth_estimate = T_world_truth.linear() * T_world_estimate.linear().inverse();
   result.outcome = Outcome::ok();
   if (with_scale) {
     double along = 0, squares = 0;
@@ -116,6 +117,13 @@ AlignmentResult umeyama(const std::vector<Eigen::Vector3d>& points_from,
   }
   result.t_truth_estimate = mean_to - result.scale * (result.R_truth_estimate * mean_from);
   result.rmse_m = rmse_after(result, points_from, points_to);
+  // Positions that fit as they are stay what they are: no similarity, but for rounding, is better.
+  if (const double unmoved_m = rmse_after({}, points_from, points_to); unmoved_m <= result.rmse_m) {
+    result.scale = 1;
+    result.R_truth_estimate.setIdentity();
+    result.t_truth_estimate.setZero();
+    result.rmse_m = unmoved_m;
+  }
   if (result.rank >= 2)
     result.outcome = Outcome::ok();
   else

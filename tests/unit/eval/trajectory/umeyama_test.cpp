@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 #include <placegraph/eval/trajectory/umeyama.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/random.h>
+#include <placegraph/graph/geometry/so3.h>
 
 #include "tests/support/trajectories.h"
 
@@ -123,6 +125,29 @@ TEST(Align, SaysThatNoPosedFrameIsTooFew) {
        {Alignment::kNone, Alignment::kOrigin, Alignment::kSe3, Alignment::kSim3, Alignment::kScale})
     EXPECT_EQ(align({FramePair{}}, alignment).outcome.code, Outcome::Code::kTooFewData)
         << to_string(alignment);
+}
+
+TEST(Align, ADriveAgainstItselfHasNoErrorAtAll) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Random random(seed);
+    const double size_m = std::pow(10, random.uniform(-3, 5));
+    std::vector<FramePair> pairs;
+    for (int i = 0; i < 3 + 10 * static_cast<int>(seed); ++i) {
+      Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+      T.linear() = SO3::exp({random.normal(), random.normal(), random.normal()}).matrix();
+      T.translation() = size_m * Eigen::Vector3d(random.normal(), random.normal(),
+                                                 seed % 3 ? random.normal() : 0);
+      pairs.push_back(pair_of(T, T));
+    }
+    for (const Alignment alignment : {Alignment::kNone, Alignment::kOrigin, Alignment::kSe3,
+                                      Alignment::kSim3, Alignment::kScale}) {
+      const AlignmentResult result = align(pairs, alignment);
+      if (alignment != Alignment::kScale) {
+        EXPECT_EQ(result.rmse_m, 0) << to_string(alignment);
+      }
+      EXPECT_LT(result.rmse_m, 1e-12 * size_m) << to_string(alignment);
+    }
+  }
 }
 
 }  // namespace umeyama_test
