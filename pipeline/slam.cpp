@@ -1,4 +1,5 @@
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/parallel.h>
 #include <placegraph/graph/map_changes.h>
 #include <placegraph/graph/measurements/measured_motion.h>
 #include <placegraph/graph/text/log_message.h>
@@ -268,7 +269,10 @@ void Slam::Impl::rescale(double factor) {
 }
 
 void Slam::Impl::add_keyframes(const OdometryUpdate& update, FrameResult& result) {
-  for (const NewKeyframe& keyframe : update.new_keyframes) add_keyframe(keyframe, result);
+  for (const NewKeyframe& keyframe : update.new_keyframes) {
+    check_interruption();
+    add_keyframe(keyframe, result);
+  }
   if (update.new_keyframes.empty()) return;
   result.keyframe = true;
   recorder.correct(update.posed_again, update.new_keyframes.front().id, odometry.map());

@@ -63,7 +63,7 @@ class PythonSlam {
   }
 
   FrameResult add(const Frame& frame) {
-    return call([&] {
+    return change([&] {
       const FrameResult result = slam_->add_frame(frame);
       next_ = frame.id.value() + 1;
       return result;
@@ -71,7 +71,7 @@ class PythonSlam {
   }
 
   void resume(const StoredMap& map, const Frame& last) {
-    call([&] {
+    change([&] {
       slam_->resume(map.map, map.history, last);
       next_ = last.id.value() + 1;
       return 0;
@@ -82,7 +82,7 @@ class PythonSlam {
     return call([&] { return stored(slam_->snapshot(), std::nullopt); });
   }
   std::shared_ptr<StoredMap> finish() {
-    return call([&] {
+    return change([&] {
       RunResult run;
       run.sensor = sensor();
       run.calibration = calibration_;
@@ -128,13 +128,24 @@ class PythonSlam {
   template <class Step>
   std::invoke_result_t<const Step&> call(const Step& step) {
     require(!busy_, "Slam: called during another call of the same object");
+    if (half_changed_) throw Error("Slam: an interrupted call left it half changed; make another");
     busy_ = true;
     struct Idle {
       bool& busy;
       ~Idle() { busy = false; }
     } idle{busy_};
-    const nb::gil_scoped_release release;
+    const WithoutGil released;
     return step();
+  }
+  /// The same of a step that changes the object, which is lost if an exception of Python ends it.
+  template <class Step>
+  std::invoke_result_t<const Step&> change(const Step& step) {
+    try {
+      return call(step);
+    } catch (const nb::python_error&) {
+      half_changed_ = true;
+      throw;
+    }
   }
 
   Sensor sensor() const {
@@ -163,7 +174,7 @@ class PythonSlam {
   std::shared_ptr<PythonRecognizer> recognizer_;
   std::optional<Slam> slam_;
   std::int64_t next_ = 0;
-  bool busy_ = false;
+  bool busy_ = false, half_changed_ = false;
 };
 
 int traverse_slam(PyObject* self, visitproc visit, void* arg) {
@@ -212,11 +223,10 @@ void bind_slam(nb::module_& m) {
       .def("view", &PythonSlam::view, doc("Slam::view"))
       .def("notes", &PythonSlam::notes, doc("Slam::notes"))
       .def("lens", &PythonSlam::lens, doc("Slam::lens"))
-      .def(
-          "overlay_mask", &PythonSlam::overlay_mask,
-          nb::sig("def overlay_mask(self) -> numpy.typing.NDArray[numpy.uint8] | None"),
-          "H x W uint8, 0 in regions fixed to the camera; None as long as nothing is found. "
-          "Later frames are masked by it.")
+      .def("overlay_mask", &PythonSlam::overlay_mask,
+           nb::sig("def overlay_mask(self) -> numpy.typing.NDArray[numpy.uint8] | None"),
+           "H x W uint8, 0 in regions fixed to the camera; None as long as nothing is found. "
+           "Later frames are masked by it.")
       .def("stages", &PythonSlam::stages,
            nb::sig("def stages(self) -> dict[str, tuple[float, int]]"), doc("Slam::stages"));
 }
