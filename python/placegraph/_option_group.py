@@ -1,10 +1,4 @@
-"""Options as nested objects, with the defaults, ranges and meanings of the C++ library.
-
-    options = pg.RunOptions()
-    options.loops.enabled = False
-    options.odometry.window.max_keyframes = 12      # ranges are checked here
-    print(options.to_yaml())
-"""
+"""Groups of options, whose names, types and texts are those of the C++ library."""
 
 from __future__ import annotations
 
@@ -74,19 +68,21 @@ class OptionGroup:
         return [(entry.path, entry.value) for entry in self._set.entries()
                 if entry.path.startswith(self._path) and entry.type != "group"]
 
-    def __getattr__(self, name: str) -> Any:
-        if name.startswith("_"):  # no option; also asked for before __init__
-            raise AttributeError(name)
-        entry = self._child(name)
-        if entry.type == "group":
-            return OptionGroup(self._set, entry.path + ".")
-        return self._set.get(entry.path)
+    if not TYPE_CHECKING:  # type checkers know the options of each kind, see options.kinds
 
-    def __setattr__(self, name: str, value: Value) -> None:
-        entry = self._child(name)
-        if entry.type == "group":
-            raise AttributeError(f"{entry.path}: a group of options, not a value")
-        self._set.set(entry.path, value)
+        def __getattr__(self, name: str) -> OptionGroup | Value:
+            if name.startswith("_"):  # no option; also asked for before __init__
+                raise AttributeError(name)
+            entry = self._child(name)
+            if entry.type == "group":
+                return OptionGroup(self._set, entry.path + ".")
+            return self._set.get(entry.path)
+
+        def __setattr__(self, name: str, value: Value) -> None:
+            entry = self._child(name)
+            if entry.type == "group":
+                raise AttributeError(f"{entry.path}: a group of options, not a value")
+            self._set.set(entry.path, value)
 
     def __dir__(self) -> list[str]:
         return sorted({*super().__dir__(), *self._children()})
@@ -161,59 +157,3 @@ def given_or_default(options: Kind | None, kind: type[Kind]) -> Kind:
         raise _core.ArgumentError(
             f"options: {kind.__name__} are needed, not {type(options).__name__}")
     return options
-
-
-class RunOptions(Options):
-    """Options of `run`."""
-
-    __slots__ = ()
-    _kind = _core.RunOptionSet
-
-
-class SlamOptions(Options):
-    """Options of `Slam`."""
-
-    __slots__ = ()
-    _kind = _core.SlamOptionSet
-
-
-class LocalizerOptions(Options):
-    """Options of `localize`."""
-
-    __slots__ = ()
-    _kind = _core.LocalizerOptionSet
-
-
-class EvaluationOptions(Options):
-    """Options of `evaluate`."""
-
-    __slots__ = ()
-    _kind = _core.EvaluationOptionSet
-
-
-class PoseGraphOptions(Options):
-    """Options of `optimize`."""
-
-    __slots__ = ()
-    _kind = _core.PoseGraphOptionSet
-
-
-class IncrementalOptions(Options):
-    """Options of `IncrementalOptimizer`."""
-
-    __slots__ = ()
-    _kind = _core.IncrementalOptionSet
-
-
-class PlaceRecognizerOptions(Options):
-    """Options of `PlaceRecognizer`."""
-
-    __slots__ = ()
-    _kind = _core.PlaceRecognizerOptionSet
-
-
-class SequenceFilterOptions(Options):
-    """Options of `SequenceFilter`."""
-
-    __slots__ = ()
-    _kind = _core.SequenceFilterOptionSet
