@@ -37,9 +37,12 @@ struct Slam::Impl {
   }
 
   void check_frame(const Frame& frame) const;
+  void require_whole() const {
+    require(!broken, "Slam: an earlier call threw an exception; use another object");
+  }
   /// After a step that throws, no other can follow.
   void perform(const auto& step) {
-    require(!broken, "Slam: an earlier call threw an exception; use another object");
+    require_whole();
     broken = true;
     step();
     broken = false;
@@ -123,7 +126,10 @@ MapChanges Slam::take_changes() {
 void Slam::resume(const Map& map, const PlaceHistory& history, const Frame& last) {
   impl_->perform([&] { impl_->take_up(map, history, last); });
 }
-Map Slam::snapshot() const { return impl_->feed.snapshot(impl_->sources()); }
+Map Slam::snapshot() const {
+  impl_->require_whole();
+  return impl_->feed.snapshot(impl_->sources());
+}
 LensDistortion Slam::lens() const { return impl_->odometry.lens().estimate(); }
 Image Slam::overlay_mask() const { return impl_->overlay ? impl_->overlay->mask() : Image(); }
 std::optional<OdometryError> Slam::odometry_error() const {

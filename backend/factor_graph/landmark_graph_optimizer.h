@@ -29,7 +29,7 @@ struct LandmarkGraphReport {
 /// Minimizes the sum of e^T Omega e over poses and points, from their current values.
 /// The sum is over edges, measured positions, priors and observations. In a connected component
 /// without a fixed node or point, prior or measured position, the first node is held. Throws as
-/// LandmarkGraph::check. `log_sink` receives a line for every step.
+/// LandmarkGraph::check. The log receives a line for every step.
 [[nodiscard]] LandmarkGraphReport optimize_landmark_graph(LandmarkGraph graph,
                                                           const LandmarkGraphOptions& options,
                                                           const LogSink& log_sink = {});

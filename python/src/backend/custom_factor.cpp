@@ -59,7 +59,7 @@ class PythonFactor final : public Factor {
     if (result.is_none()) return std::nullopt;
     try {
       result = nb::module_::import_("numpy").attr("atleast_1d")(result);
-    } catch (const nb::python_error& error) {  // checked_array says what is wrong
+    } catch (const nb::python_error& error) {      // checked_array says what is wrong
       if (!error.matches(PyExc_Exception)) throw;  // KeyboardInterrupt
     }
     const auto array =

@@ -63,7 +63,7 @@ class PythonSlam {
   }
 
   FrameResult add(const Frame& frame) {
-    return change([&] {
+    return call([&] {
       const FrameResult result = slam_->add_frame(frame);
       next_ = frame.id.value() + 1;
       return result;
@@ -71,7 +71,7 @@ class PythonSlam {
   }
 
   void resume(const StoredMap& map, const Frame& last) {
-    change([&] {
+    call([&] {
       slam_->resume(map.map, map.history, last);
       next_ = last.id.value() + 1;
       return 0;
@@ -82,7 +82,7 @@ class PythonSlam {
     return call([&] { return stored(slam_->snapshot(), std::nullopt); });
   }
   std::shared_ptr<StoredMap> finish() {
-    return change([&] {
+    return call([&] {
       RunResult run;
       run.sensor = sensor();
       run.calibration = calibration_;
@@ -128,7 +128,6 @@ class PythonSlam {
   template <class Step>
   std::invoke_result_t<const Step&> call(const Step& step) {
     require(!busy_, "Slam: called during another call of the same object");
-    if (half_changed_) throw Error("Slam: an interrupted call left it half changed; make another");
     busy_ = true;
     struct Idle {
       bool& busy;
@@ -136,16 +135,6 @@ class PythonSlam {
     } idle{busy_};
     const WithoutGil released;
     return step();
-  }
-  /// The same of a step that changes the object, which is lost if an exception of Python ends it.
-  template <class Step>
-  std::invoke_result_t<const Step&> change(const Step& step) {
-    try {
-      return call(step);
-    } catch (const nb::python_error&) {
-      half_changed_ = true;
-      throw;
-    }
   }
 
   Sensor sensor() const {
@@ -174,7 +163,7 @@ class PythonSlam {
   std::shared_ptr<PythonRecognizer> recognizer_;
   std::optional<Slam> slam_;
   std::int64_t next_ = 0;
-  bool busy_ = false, half_changed_ = false;
+  bool busy_ = false;
 };
 
 int traverse_slam(PyObject* self, visitproc visit, void* arg) {
