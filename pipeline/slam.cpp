@@ -1,4 +1,5 @@
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/parallel.h>
 #include <placegraph/graph/map_changes.h>
 #include <placegraph/graph/measurements/measured_motion.h>
 #include <placegraph/graph/text/log_message.h>
@@ -36,9 +37,12 @@ struct Slam::Impl {
   }
 
   void check_frame(const Frame& frame) const;
+  void require_whole() const {
+    require(!broken, "Slam: an earlier call threw an exception; use another object");
+  }
   /// After a step that throws, no other can follow.
   void perform(const auto& step) {
-    require(!broken, "Slam: an earlier call threw an exception; use another object");
+    require_whole();
     broken = true;
     step();
     broken = false;
@@ -122,7 +126,10 @@ MapChanges Slam::take_changes() {
 void Slam::resume(const Map& map, const PlaceHistory& history, const Frame& last) {
   impl_->perform([&] { impl_->take_up(map, history, last); });
 }
-Map Slam::snapshot() const { return impl_->feed.snapshot(impl_->sources()); }
+Map Slam::snapshot() const {
+  impl_->require_whole();
+  return impl_->feed.snapshot(impl_->sources());
+}
 LensDistortion Slam::lens() const { return impl_->odometry.lens().estimate(); }
 Image Slam::overlay_mask() const { return impl_->overlay ? impl_->overlay->mask() : Image(); }
 std::optional<OdometryError> Slam::odometry_error() const {
@@ -268,7 +275,10 @@ void Slam::Impl::rescale(double factor) {
 }
 
 void Slam::Impl::add_keyframes(const OdometryUpdate& update, FrameResult& result) {
-  for (const NewKeyframe& keyframe : update.new_keyframes) add_keyframe(keyframe, result);
+  for (const NewKeyframe& keyframe : update.new_keyframes) {
+    check_interruption();
+    add_keyframe(keyframe, result);
+  }
   if (update.new_keyframes.empty()) return;
   result.keyframe = true;
   recorder.correct(update.posed_again, update.new_keyframes.front().id, odometry.map());

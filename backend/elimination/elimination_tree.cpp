@@ -3,6 +3,7 @@
 #include <placegraph/backend/elimination/front_assembly.h>
 #include <placegraph/backend/elimination/front_covariance.h>
 #include <placegraph/backend/elimination/front_kernels.h>
+#include <placegraph/graph/core/parallel.h>
 
 #include <algorithm>
 
@@ -266,6 +267,7 @@ bool EliminationTree<D>::factorize_stale() {
   std::sort(stale_matrices_.begin(), stale_matrices_.end(),
             [&](int a, int b) { return forest_.earlier(a, b); });
   for (const int f : stale_matrices_) {
+    check_interruption();
     Front& front = forest_.fronts[f];
     assemble(forest_, front, damping_, pool_);
     const int frontal = static_cast<int>(front.frontal.size());

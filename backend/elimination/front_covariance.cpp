@@ -1,5 +1,6 @@
 #include <placegraph/backend/elimination/front_covariance.h>
 #include <placegraph/backend/elimination/front_kernels.h>
+#include <placegraph/graph/core/parallel.h>
 
 #include <algorithm>
 
@@ -39,6 +40,7 @@ Eigen::MatrixXd covariance(const FrontForest<D>& forest, const std::vector<int>&
         X.template block<D, 1>(place[v] * D, column) = x.template segment<D>(next++ * D);
   };
   for (Eigen::Index column = 0; column < X.cols(); ++column) {
+    check_interruption();
     for (auto f = path.begin(); f != path.end(); ++f)
       gather_and(forest.fronts[*f], column, FrontKernels<D>::forward);
     for (auto f = path.rbegin(); f != path.rend(); ++f)

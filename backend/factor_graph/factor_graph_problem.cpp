@@ -8,6 +8,7 @@
 #include <placegraph/backend/solver/ceres_factor.h>
 #include <placegraph/backend/solver/kernel_loss.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/parallel.h>
 #include <placegraph/graph/text/log_message.h>
 
 #include <algorithm>
@@ -60,6 +61,7 @@ class GuardedFactor final : public Factor {
                 std::span<Eigen::MatrixXd> jacobians) const override {
     if (thrown_) return false;
     try {
+      check_interruption();
       return factor_.evaluate(values, r, jacobians);
     } catch (...) {
       thrown_ = std::current_exception();
@@ -161,6 +163,7 @@ class StepLog final : public ceres::IterationCallback {
 
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& step) override {
     try {
+      check_interruption();
       if (!thrown_)
         log(sink_, LogLevel::kDebug, "factor graph: step {}, cost {:.9g}", step.iteration,
             step.cost);

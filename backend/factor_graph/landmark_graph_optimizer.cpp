@@ -98,16 +98,17 @@ namespace {
 
 /// Optimizes with the normal equations of the pose graph; points are poses without rotation.
 template <class Group>
-LandmarkGraphReport solve_packed(LandmarkGraph graph, const LandmarkGraphOptions& options) {
+LandmarkGraphReport solve_packed(LandmarkGraph graph, const LandmarkGraphOptions& options,
+                                 const LogSink& log_sink) {
   constexpr int dim = Group::kDof == 3 ? 2 : 3;
   PackedGraph<Group> packed = pack<Group>(graph);
   LandmarkGraphReport report;
-  const LocalSolution solution =
-      LocalSolver<Group>({.engine = PoseGraphEngine::kNative,
-                          .rotation_error = options.rotation_error,
-                          .max_iterations = options.max_iterations,
-                          .relative_decrease = options.relative_decrease})
-          .solve(packed);
+  const LocalSolution solution = LocalSolver<Group>({.engine = PoseGraphEngine::kNative,
+                                                     .rotation_error = options.rotation_error,
+                                                     .max_iterations = options.max_iterations,
+                                                     .relative_decrease = options.relative_decrease,
+                                                     .log = log_sink})
+                                     .solve(packed);
   report.outcome = solution.outcome;
   report.iterations = solution.iterations;
   report.chi2_initial = solution.cost_initial;
@@ -121,11 +122,12 @@ LandmarkGraphReport solve_packed(LandmarkGraph graph, const LandmarkGraphOptions
   return report;
 }
 
-LandmarkGraphReport solve_factors(LandmarkGraph graph, const LandmarkGraphOptions& options) {
+LandmarkGraphReport solve_factors(LandmarkGraph graph, const LandmarkGraphOptions& options,
+                                  const LogSink& log_sink) {
   LandmarkGraphReport report;
   const FactorGraph factors = to_factor_graph(graph, options.rotation_error);
   const FactorGraphReport solved =
-      optimize_factor_graph(factors, {options.max_iterations, options.relative_decrease});
+      optimize_factor_graph(factors, {options.max_iterations, options.relative_decrease}, log_sink);
   report.outcome = solved.outcome;
   report.iterations = solved.iterations;
   report.chi2_initial = 2 * solved.cost_initial;
@@ -180,14 +182,16 @@ void add_doubts(LandmarkGraphReport& report) {
 }  // namespace
 
 LandmarkGraphReport optimize_landmark_graph(LandmarkGraph graph,
-                                            const LandmarkGraphOptions& options) {
+                                            const LandmarkGraphOptions& options,
+                                            const LogSink& log_sink) {
   graph.check();
   LandmarkGraphReport report;
   if (options.engine == PoseGraphEngine::kCeres || graph.poses.kind() == PoseKind::kSim3)
-    report = solve_factors(std::move(graph), options);
+    report = solve_factors(std::move(graph), options, log_sink);
   else
-    report = graph.poses.kind() == PoseKind::kSE2 ? solve_packed<SE2>(std::move(graph), options)
-                                                  : solve_packed<SE3>(std::move(graph), options);
+    report = graph.poses.kind() == PoseKind::kSE2
+                 ? solve_packed<SE2>(std::move(graph), options, log_sink)
+                 : solve_packed<SE3>(std::move(graph), options, log_sink);
   report.degrees_of_freedom = find_components(report.graph).degrees_of_freedom;
   if (!report.outcome) return report;
   report.free = find_free_directions(report.graph, options.rotation_error);

@@ -2,6 +2,7 @@
 #include <placegraph/backend/factor_graph/factor_graph.h>
 #include <placegraph/backend/factor_graph/factor_graph_options.h>
 #include <placegraph/backend/pose_graph/pose_graph_report.h>
+#include <placegraph/graph/core/log.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/pose_graph/constraint.h>
 #include <placegraph/graph/pose_graph/landmark_graph.h>
@@ -28,9 +29,10 @@ struct LandmarkGraphReport {
 /// Minimizes the sum of e^T Omega e over poses and points, from their current values.
 /// The sum is over edges, measured positions, priors and observations. In a connected component
 /// without a fixed node or point, prior or measured position, the first node is held. Throws as
-/// LandmarkGraph::check.
+/// LandmarkGraph::check. The log receives a line for every step.
 [[nodiscard]] LandmarkGraphReport optimize_landmark_graph(LandmarkGraph graph,
-                                                          const LandmarkGraphOptions& options);
+                                                          const LandmarkGraphOptions& options,
+                                                          const LogSink& log_sink = {});
 
 /// Sum of e^T Omega e over edges, measured positions, priors and observations.
 /// Kernels are left out. Throws as LandmarkGraph::check.

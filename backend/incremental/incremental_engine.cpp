@@ -2,6 +2,7 @@
 #include <placegraph/backend/linear/relative_covariance.h>
 #include <placegraph/backend/solver/local_solver.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/parallel.h>
 
 #include <algorithm>
 #include <limits>
@@ -90,6 +91,7 @@ void IncrementalEngineOf<Group>::optimize(double excess, IncrementalStep& step) 
   double before = std::numeric_limits<double>::infinity();
   relax_damping();
   while (true) {
+    check_interruption();
     graph_.set_gradients();
     if (!factorize(step)) {
       step.outcome = Outcome::failure(Outcome::Code::kNotConverged, kIndefinite);

@@ -4,6 +4,7 @@
 #include <placegraph/backend/linear/fill_factor.h>
 #include <placegraph/backend/linear/simplicial_factor.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/parallel.h>
 
 #include <algorithm>
 #include <memory>
@@ -231,6 +232,7 @@ void BlockCholesky::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& product)
 }
 
 bool BlockCholesky::factorize(const Eigen::VectorXd& damping) {
+  check_interruption();
   const Eigen::VectorXd undamped = impl_->diagonal_by_position();
   impl_->factorized_diagonal = undamped;
   if (damping.size()) {
@@ -252,6 +254,7 @@ double BlockCholesky::smallest_pivot() const {
 }
 
 void BlockCholesky::solve(Eigen::Ref<Eigen::MatrixXd> b) const {
+  check_interruption();
   require(impl_->factorized, "BlockCholesky::solve: there is no factor");
   Eigen::MatrixXd permuted = impl_->to_positions(b);
   if (impl_->simplicial)

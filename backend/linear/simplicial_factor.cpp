@@ -1,6 +1,7 @@
 #include <placegraph/backend/linear/simplicial_factor.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/function_clones.h>
+#include <placegraph/graph/core/parallel.h>
 
 #include <algorithm>
 #include <cmath>
@@ -215,6 +216,7 @@ bool SimplicialFactor::factorize(const BlockPanels& matrix) {
 
 void SimplicialFactor::solve(Eigen::Ref<Eigen::MatrixXd> x) const {
   for (Eigen::Index c = 0; c < x.cols(); ++c) {
+    check_interruption();
     double* const column = x.col(c).data();
     switch (block_size_) {
       case 1:

@@ -1,4 +1,5 @@
 #include <placegraph/backend/linear/sparse_inverse.h>
+#include <placegraph/graph/core/parallel.h>
 
 #include <algorithm>
 
@@ -27,6 +28,7 @@ BlockFactor sparse_inverse(const BlockFactor& factor, int block_size) {
   };
   std::vector<int> place(static_cast<std::size_t>(count), -1);  // position of a row in column j
   for (int j = count - 1; j >= 0; --j) {
+    check_interruption();
     const int diagonal = pattern.start[j], end = pattern.start[j + 1];
     for (int k = diagonal + 1; k < end; ++k) place[pattern.row[k]] = k;
     for (int k = diagonal + 1; k < end; ++k) {

@@ -8,6 +8,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/pose_graph/node_index.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace placegraph {
@@ -160,7 +161,10 @@ Eigen::MatrixXd PoseMarginals::joint_covariance(const std::vector<NodeId>& ids) 
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(rows, columns_of_all);
   for (std::size_t k = 0; k < ids.size(); ++k)
     if (block[k] >= 0) columns.block(block[k] * dof, at[k], size[k], size[k]).setIdentity();
-  impl_->matrix().solve(columns);
+  // Some at once, so that a large covariance can be interrupted; chosen.
+  constexpr int kAtOnce = 64;
+  for (int first = 0; first < columns_of_all; first += kAtOnce)
+    impl_->matrix().solve(columns.middleCols(first, std::min(kAtOnce, columns_of_all - first)));
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(columns_of_all, columns_of_all);
   for (std::size_t k = 0; k < ids.size(); ++k)
     if (block[k] >= 0)

@@ -1,4 +1,5 @@
 #include <placegraph/backend/robust/max_clique.h>
+#include <placegraph/graph/core/parallel.h>
 
 #include <algorithm>
 #include <bit>
@@ -92,6 +93,7 @@ class Search {
     colour(level);
     candidates_.resize((level + 2) * words);
     while (branches_.size() > begin) {
+      check_interruption();
       const auto [v, bound] = branches_.back();
       if (weight_ + bound <= best_weight_ || !complete()) break;
       branches_.pop_back();

@@ -7,9 +7,12 @@
 #include <placegraph/backend/solver/ceres_factor.h>
 #include <placegraph/backend/solver/ceres_solver.h>
 #include <placegraph/backend/solver/kernel_loss.h>
+#include <placegraph/graph/core/parallel.h>
+#include <placegraph/graph/text/log_message.h>
 
 #include <algorithm>
 #include <deque>
+#include <exception>
 
 namespace placegraph {
 namespace {
@@ -83,6 +86,30 @@ class GraphProblem {
   ceres::Problem problem_;  // declared after all objects that it points to
 };
 
+/// Logs every step, and ends the optimization after an exception, which must not pass through
+/// Ceres.
+class IterationLog final : public ceres::IterationCallback {
+ public:
+  explicit IterationLog(const LogSink& sink) : sink_(sink) {}
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& step) override {
+    try {
+      check_interruption();
+      log(sink_, LogLevel::kDebug, "iteration {}: cost {:f}", step.iteration, 2 * step.cost);
+      return ceres::SOLVER_CONTINUE;
+    } catch (...) {
+      thrown_ = std::current_exception();
+      return ceres::SOLVER_ABORT;
+    }
+  }
+  void rethrow() const {
+    if (thrown_) std::rethrow_exception(thrown_);
+  }
+
+ private:
+  const LogSink& sink_;
+  std::exception_ptr thrown_;
+};
+
 ceres::Solver::Options solver_options(const LocalSolverOptions& options, bool deficient) {
   ceres::Solver::Options solver;
   solver.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
@@ -107,7 +134,11 @@ template <class Group>
 LocalSolution solve_with_ceres(PackedGraph<Group>& graph, const LocalSolverOptions& options) {
   GraphProblem<Group> problem(graph, options.rotation_error);
   ceres::Solver::Summary summary;
-  ceres::Solve(solver_options(options, problem.deficient()), &problem.problem(), &summary);
+  IterationLog steps(options.log);
+  ceres::Solver::Options solver = solver_options(options, problem.deficient());
+  solver.callbacks.push_back(&steps);
+  ceres::Solve(solver, &problem.problem(), &summary);
+  steps.rethrow();
   LocalSolution solution;
   solution.iterations = std::max(0, static_cast<int>(summary.iterations.size()) - 1);
   solution.cost_initial = 2 * summary.initial_cost;

@@ -4,6 +4,7 @@
 #include <placegraph/frontend/places/place_view.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/function_clones.h>
+#include <placegraph/graph/core/parallel.h>
 
 #include <algorithm>
 #include <cmath>
@@ -138,9 +139,11 @@ std::vector<PlaceSimilarity> PlaceRecognizer::query(const PlaceView& query, int 
   require(views_.empty() || query.thumbnail.size() == views_.front().thumbnail.size(),
           "PlaceRecognizer: the query has other cues than the views");
   std::vector<Candidate> candidates;
-  for (const int view : thumbnail(query, std::max(first, 0), std::min(last, size() - 1)))
+  for (const int view : thumbnail(query, std::max(first, 0), std::min(last, size() - 1))) {
+    check_interruption();
     candidates.push_back(
         {view, coarse_similarity(query, view_at(view), options_.cues), {}, 0, false});
+  }
   sort_by(candidates, [](const Candidate& c) { return c.coarse; });
   if (candidates.size() > static_cast<std::size_t>(options_.short_list))
     candidates.resize(static_cast<std::size_t>(options_.short_list));

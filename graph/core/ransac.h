@@ -1,6 +1,7 @@
 #pragma once
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/core/outcome.h>
+#include <placegraph/graph/core/parallel.h>
 #include <placegraph/graph/core/random.h>
 #include <placegraph/graph/core/ransac_options.h>
 
@@ -65,6 +66,7 @@ RansacResult<Model> ransac(int n, int sample_size, double threshold_squared,
   std::vector<int> sample;
   int needed = options.max_iterations;
   for (best.iterations = 0; best.iterations < needed; ++best.iterations) {
+    check_interruption();
     random.sample(n, sample_size, sample);
     bool improved = false;
     for (const Model& model : solve(sample)) improved |= consider(model);

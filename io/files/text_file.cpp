@@ -1,4 +1,5 @@
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/parallel.h>
 #include <placegraph/io/files/text_file.h>
 
 #include <algorithm>
@@ -56,6 +57,7 @@ TextFile::TextFile(std::string path) : path_(std::move(path)), text_(read_whole(
 }
 
 bool TextFile::next(std::string_view& line) {
+  check_interruption();
   if (position_ >= text_.size()) return false;
   std::size_t end = text_.find('\n', position_);
   if (end == std::string::npos) end = text_.size();

@@ -1,4 +1,5 @@
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/parallel.h>
 #include <placegraph/io/map/sqlite.h>
 #include <sqlite3.h>
 #include <zlib.h>
@@ -110,8 +111,7 @@ void SqliteDatabase::execute(const std::string& sql) {
 }
 
 void SqliteDatabase::merge_log() {
-  const int code =
-      sqlite3_exec(handle_, "PRAGMA journal_mode = DELETE", nullptr, nullptr, nullptr);
+  const int code = sqlite3_exec(handle_, "PRAGMA journal_mode = DELETE", nullptr, nullptr, nullptr);
   if (code != SQLITE_OK && code != SQLITE_CORRUPT && code != SQLITE_NOTADB)
     fail("moving its log into it");
 }
@@ -180,6 +180,7 @@ void SqliteStatement::run() {
 }
 
 bool SqliteStatement::next() {
+  check_interruption();
   const int code = sqlite3_step(handle_);
   if (code == SQLITE_ROW) return true;
   if (code != SQLITE_DONE) database_.fail("reading or writing");

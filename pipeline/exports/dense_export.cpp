@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/parallel.h>
 #include <placegraph/io/exports/gltf_scene.h>
 #include <placegraph/io/exports/surface_ply.h>
 #include <placegraph/io/files/output_file.h>
@@ -94,6 +95,7 @@ DenseSummary write_dense(const DenseOutputs& outputs, const StoredMap& stored, i
   VoxelCloud cloud(side);
   TsdfVolume volume(side);
   for (std::size_t i = 0; i < depths.size(); ++i) {
+    check_interruption();
     const KeyframeDepth depth = depths.of(i);
     if (!outputs.cloud.empty()) cloud.add(depth);
     if (!outputs.mesh.empty()) volume.add(depth);

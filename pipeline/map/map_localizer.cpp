@@ -3,6 +3,7 @@
 #include <placegraph/frontend/places/place_view.h>
 #include <placegraph/frontend/places/verification/recognition_probability.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/parallel.h>
 #include <placegraph/pipeline/loops/loop_closer.h>
 #include <placegraph/pipeline/map/map_localizer.h>
 
@@ -167,6 +168,7 @@ std::optional<RecognitionProbability> MapLocalizer::Impl::odds(bool sequence) co
     const int begin = s * views / stretches;
     std::vector<std::vector<PlaceSimilarity>> far, but_itself;
     for (int view = begin; view < begin + length; ++view) {
+      check_interruption();
       far.emplace_back();
       but_itself.emplace_back();
       for (const PlaceSimilarity& similarity : similarities(recognizer_.view(view))) {
@@ -210,6 +212,7 @@ std::vector<Localization> MapLocalizer::Impl::localize(std::size_t count, const 
   std::vector<std::optional<LocatedFrame>> verified;
   std::vector<std::string> hindrances, incomparable;
   for (std::size_t i = 0; i < count; ++i) {
+    check_interruption();
     const Frame frame = frames(i);
     incomparable.push_back(why_incomparable(frame));
     if (!incomparable.back().empty()) {

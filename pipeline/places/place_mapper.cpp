@@ -1,4 +1,5 @@
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/parallel.h>
 #include <placegraph/graph/geometry/bounded_covariance.h>
 #include <placegraph/pipeline/places/place_components.h>
 #include <placegraph/pipeline/places/place_constraints.h>
@@ -218,6 +219,7 @@ IncrementalStep PlaceMapper::finish() {
   // A place joins one other at a time, and every merger changes the map a little.
   constexpr int kRounds = 4;
   for (int round = 0; round < kRounds; ++round) {
+    check_interruption();
     const bool separated = separate_contradicted();
     if (separated) step = settle();
     const bool merged = merge(kNoneOpen);

@@ -8,8 +8,7 @@
 """
 
 import importlib as _importlib
-from typing import TYPE_CHECKING as _TYPE_CHECKING
-from typing import Any as _Any
+import typing as _typing
 
 from . import loops, synthetic, vision
 from ._core import version as __version__
@@ -53,6 +52,7 @@ from ._core import (
     estimate_truth_noise,
     fit_mount,
 )
+from ._progress import Progress
 from ._show import page_of, show
 from .datasets import Dataset, open_dataset
 from .evaluation import Comparison, Evaluation, compare, evaluate
@@ -104,17 +104,18 @@ from .options import (
 )
 from .slam import Event, Recognizer, RunResult, Slam, run
 
-if _TYPE_CHECKING:
+if _typing.TYPE_CHECKING:
     from . import bag, colmap, gtsam, rerun
 
 # Modules for packages that few need are imported when they are first used.
 _BESIDE = ("bag", "colmap", "gtsam", "rerun")
 
+if not _typing.TYPE_CHECKING:
 
-def __getattr__(name: str) -> _Any:
-    if name in _BESIDE:
-        return _importlib.import_module(f"{__name__}.{name}")
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    def __getattr__(name: str) -> object:
+        if name in _BESIDE:
+            return _importlib.import_module(f"{__name__}.{name}")
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
 def __dir__() -> list[str]:
@@ -177,6 +178,7 @@ __all__ = [
     "PoseGraph",
     "PoseGraphOptions",
     "PoseMarginals",
+    "Progress",
     "Recognizer",
     "RobustKernel",
     "RunBegan",

@@ -13,7 +13,7 @@ import html
 import os
 import warnings
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, overload
 
 from . import _core
 from ._estimates import (
@@ -202,8 +202,14 @@ class Comparison(Sequence[Evaluation]):
     def __iter__(self) -> Iterator[Evaluation]:
         return iter(self._results)
 
-    def __getitem__(self, which: Any) -> Any:
-        """A result by its index or its name."""
+    @overload
+    def __getitem__(self, which: int | str) -> Evaluation: ...
+
+    @overload
+    def __getitem__(self, which: slice) -> list[Evaluation]: ...
+
+    def __getitem__(self, which: int | str | slice) -> Evaluation | list[Evaluation]:
+        """A result by its index or its name; those of a slice."""
         if not isinstance(which, str):
             return self._results[which]
         for result in self._results:

@@ -16,8 +16,9 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from . import _core
+from ._progress import ProgressArgument, counted, reporting
 from .graphs import RobustKernel
-from .options import Options, given_or_default
+from .options import given_or_default, kinds
 
 if TYPE_CHECKING:
     import numpy as np
@@ -36,7 +37,7 @@ Sim3 = _core.Sim3
 Function = Callable[..., Any]
 
 
-class FactorGraphOptions(Options):
+class FactorGraphOptions(kinds.FactorGraphOptions):
     """Options of `optimize_factors` and `FixedLagSmoother`."""
 
     __slots__ = ()
@@ -44,14 +45,20 @@ class FactorGraphOptions(Options):
 
 
 def optimize_factors(
-    graph: FactorGraph, options: FactorGraphOptions | None = None
+    graph: FactorGraph,
+    options: FactorGraphOptions | None = None,
+    *,
+    progress: ProgressArgument = None,
 ) -> FactorGraphReport:
     """Minimizes the cost of a factor graph, which stays as it is.
 
-    An exception of a factor written in Python ends the optimization and is raised here; Ctrl-C ends
-    it between two steps.
+    `progress` counts steps, with their costs (see Progress). An exception of a factor written in
+    Python ends the optimization and is raised here.
     """
-    return _core.optimize_factor_graph(graph, given_or_default(options, FactorGraphOptions)._set)
+    chosen = given_or_default(options, FactorGraphOptions)
+    with reporting(progress, "optimize", "steps") as report:
+        on_step = None if report is None else counted(report)
+        return _core.optimize_factor_graph(graph, chosen._set, on_step)
 
 
 class FixedLagSmoother:

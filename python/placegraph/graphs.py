@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, overload
 from . import _core
 from ._notebook import figure_html
 from ._optional import optional
+from ._progress import ProgressArgument, counted, reporting
 from .options import IncrementalOptions, PoseGraphOptions, given_or_default
 
 if TYPE_CHECKING:
@@ -29,12 +30,14 @@ _ROBUST = ("none", "huber", "dcs", "gnc", "pcm", "auto")
 
 @overload
 def optimize(graph: PoseGraph, *, robust: str | None = None, certify: bool = False,
-             options: PoseGraphOptions | None = None) -> OptimizedGraph: ...
+             options: PoseGraphOptions | None = None,
+             progress: ProgressArgument = None) -> OptimizedGraph: ...
 
 
 @overload
 def optimize(graph: LandmarkGraph, *, robust: str | None = None, certify: bool = False,
-             options: PoseGraphOptions | None = None) -> OptimizedLandmarkGraph: ...
+             options: PoseGraphOptions | None = None,
+             progress: ProgressArgument = None) -> OptimizedLandmarkGraph: ...
 
 
 def optimize(
@@ -43,12 +46,14 @@ def optimize(
     robust: str | None = None,
     certify: bool = False,
     options: PoseGraphOptions | None = None,
+    progress: ProgressArgument = None,
 ) -> OptimizedGraph | OptimizedLandmarkGraph:
     """Minimizes the sum of squared, whitened errors of a pose graph, which stays as it is.
 
     `robust`: the method against false loops ('auto' is recommended where there may be some), in
     place of `options.robust.method`; `certify`: also bounds how far the solution is from the global
-    minimum of the isotropic chordal problem. Ctrl-C ends it between two steps. Warns with Doubt of
+    minimum of the isotropic chordal problem; `progress` counts steps, with their costs (see
+    Progress). Warns with Doubt of
     what speaks against the result (`OptimizedGraph.doubts`); NoResult: there is no minimum. A
     LandmarkGraph takes no robust method and no certificate.
     """
@@ -59,12 +64,14 @@ def optimize(
             raise _core.ArgumentError(f"robust: one of {names} is needed, not {robust!r}")
         chosen.set("robust.method", robust)
     result: OptimizedGraph | OptimizedLandmarkGraph
-    if isinstance(graph, LandmarkGraph):
-        if certify:
-            raise _core.ArgumentError("certify: a graph with priors and points has no certificate")
-        result = _core.optimize_landmark_graph(graph, chosen)
-    else:
-        result = _core.optimize_pose_graph(graph, chosen, certify)
+    if certify and isinstance(graph, LandmarkGraph):
+        raise _core.ArgumentError("certify: a graph with priors and points has no certificate")
+    with reporting(progress, "optimize", "steps") as report:
+        on_step = None if report is None else counted(report)
+        if isinstance(graph, LandmarkGraph):
+            result = _core.optimize_landmark_graph(graph, chosen, on_step)
+        else:
+            result = _core.optimize_pose_graph(graph, chosen, certify, on_step)
     for doubt in result.doubts:
         warnings.warn(f"graph: {doubt}", _core.Doubt, stacklevel=2)
     return result
@@ -97,7 +104,7 @@ class IncrementalOptimizer:
 
     The first node determines the group: SE(2), SE(3) or Sim(3). A node that no constraint connects
     to earlier ones starts a component at its own pose. Constraints are numbered in the order in
-    which they are added.
+    which they are added. After Ctrl-C in a call that changes the graph, every call raises Error.
     """
 
     def __init__(
@@ -139,9 +146,10 @@ class IncrementalOptimizer:
 
         return np.asarray(self._core.graph.poses)
 
-    def pose(self, node: int) -> Any:
+    def pose(self, node: int) -> _core.SE2 | _core.SE3 | _core.Sim3:
         """The present pose of a node as an SE2, SE3 or Sim3."""
-        return self._core.pose(node)
+        pose: _core.SE2 | _core.SE3 | _core.Sim3 = self._core.pose(node)
+        return pose
 
     @property
     def constraints(self) -> int:

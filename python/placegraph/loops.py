@@ -21,7 +21,7 @@ from ._core import LoopTruth
 from ._notebook import figure_html
 from ._tables import table_of
 from ._types import Path
-from .options import Options, given_or_default
+from .options import given_or_default, kinds
 
 if TYPE_CHECKING:
     import pandas
@@ -38,7 +38,7 @@ _KEYS = ("positives", "answered", "hits", "misses", "dropped", "unjudged", "r_at
          "r_at_10", "ap", "recall_at_100p", "f1_max")
 
 
-class RevisitOptions(Options):
+class RevisitOptions(kinds.RevisitOptions):
     """Criteria for a revisit of a place, of `LoopTruth.from_poses`."""
 
     __slots__ = ()

@@ -6,12 +6,13 @@ import itertools
 import os
 import re
 import warnings
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Sequence, Sized
 from typing import TYPE_CHECKING, Any
 
 from . import _core
 from ._notebook import figure_html
 from ._optional import optional
+from ._progress import ProgressArgument, Report, reporting
 from ._tables import table_of
 from ._types import Path
 from ._words import arguments_named
@@ -348,25 +349,39 @@ class Localizer:
         return at
 
     def localize_all(
-        self, images: Iterable[Image], *, sequence: bool = False
+        self,
+        images: Iterable[Image],
+        *,
+        sequence: bool = False,
+        progress: ProgressArgument = None,
     ) -> list[Localization]:
         """Localizes images, one result each.
 
         The images of an iterator are taken as they are needed, some tens at once. `sequence`: they
         are consecutive images of one drive, and neighbours are evidence; all are taken at once.
+        `progress` counts images (see Progress).
         """
         remaining = iter(images)
+        total = len(images) if isinstance(images, Sized) else None
         results: list[Localization] = []
-        while part := list(itertools.islice(remaining, None if sequence else _AT_ONCE)):
-            first = len(results)
-            try:
-                results += self._core.localize(part, sequence)
-            except _core.ArgumentError as error:
-                raise _core.ArgumentError(re.sub(
-                    r"^images\[(\d+)\]", lambda at: f"images[{first + int(at[1])}]", str(error)
-                )) from None
+        with reporting(progress, "localize", "images") as report:
+            while part := list(itertools.islice(remaining, None if sequence else _AT_ONCE)):
+                results += self._localized(part, sequence, len(results), total, report)
+            if report is not None:
+                report(len(results), total, "")
         _warn_of_refusals(results)
         return results
+
+    def _localized(self, part: list[Image], sequence: bool, first: int, total: int | None,
+                   report: Report | None) -> list[Localization]:
+        """The results of some images; `first`: number of the first of them."""
+        on_image = None if report is None else lambda i: report(first + i, total, "")
+        try:
+            return self._core.localize(part, sequence, on_image)
+        except _core.ArgumentError as error:
+            raise _core.ArgumentError(re.sub(
+                r"^images\[(\d+)\]", lambda at: f"images[{first + int(at[1])}]", str(error)
+            )) from None
 
 
 def _warn_of_refusals(results: Sequence[Localization]) -> None:

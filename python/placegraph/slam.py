@@ -5,9 +5,10 @@ from __future__ import annotations
 import os
 import warnings
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Protocol, Union
+from typing import TYPE_CHECKING, Protocol, TypeAlias, Union
 
 from . import _core
+from ._progress import ProgressArgument, Report, reporting
 from ._types import Path
 from .datasets import Dataset, open_dataset
 from .maps import Map, core_of
@@ -38,6 +39,9 @@ PlacesMerged), two components that were joined, and places that an optimization 
 Within add_frame the order is fixed: for each new keyframe KeyframeAdded, its places, its loops and
 their effects; last the FrameResult, once for every frame.
 """
+
+
+OnFrame: TypeAlias = Callable[[int, int, _core.FrameResult], object]
 
 
 class Recognizer(Protocol):
@@ -119,9 +123,10 @@ def run(
     surfaces: Path | None = None,
     recognizer: Recognizer | None = None,
     on_event: Callable[[Event], object] | None = None,
-    on_frame: Callable[[int, int, _core.FrameResult], object] | None = None,
+    on_frame: OnFrame | None = None,
     on_log: Callable[[str, str], object] | None = None,
     stop: Callable[[], bool] | None = None,
+    progress: ProgressArgument = None,
 ) -> RunResult:
     """Runs SLAM on every frame of a sequence (a dataset, or the path of one).
 
@@ -129,30 +134,45 @@ def run(
     the run that was interrupted there goes on. `surfaces`: model of surfaces, which the options
     `semantics` and `context` need. `recognizer`: a place recognizer of one's own.
     `on_event(event)` is called for every Event, `on_frame(done, total, result)` after every frame,
-    `on_log(level, text)` for every message, `stop()` before every frame: True ends the run. An
-    exception in any of them ends the run and is raised here, as KeyboardInterrupt is for Ctrl-C.
+    `on_log(level, text)` for every message, `stop()` before every frame: True ends the run;
+    `progress` counts frames (see Progress). An exception in any of them ends the run and is raised
+    here, as KeyboardInterrupt is for Ctrl-C.
     An unreadable frame other than the first one ends the run, too: see RunResult.broken_off. Warns
     with Doubt of each of RunResult.notes.
     """
     opened = dataset if isinstance(dataset, Dataset) else open_dataset(dataset)
     chosen = given_or_default(options, RunOptions)
     path = None if map_file is None else os.fspath(map_file)
-    done = _core.run(
-        opened._core,
-        chosen._set,
-        opened.path,
-        map_file=path,
-        resume=resume,
-        surfaces=None if surfaces is None else os.fspath(surfaces),
-        recognizer=recognizer,
-        on_event=on_event,
-        on_frame=on_frame,
-        on_log=on_log,
-        stop=stop,
-    )
+    with reporting(progress, "run", "frames") as report:
+        done = _core.run(
+            opened._core,
+            chosen._set,
+            opened.path,
+            map_file=path,
+            resume=resume,
+            surfaces=None if surfaces is None else os.fspath(surfaces),
+            recognizer=recognizer,
+            on_event=on_event,
+            on_frame=on_frame if report is None else _reported(report, on_frame),
+            on_log=on_log,
+            stop=stop,
+        )
     for note in done.notes:
         warnings.warn(f"{opened.name}: {note.text}", _core.Doubt, stacklevel=2)
     return RunResult(done, path or "")
+
+
+def _reported(report: Report, on_frame: OnFrame | None) -> OnFrame:
+    """The function that is called after every frame where progress is shown."""
+    if on_frame is not None and not callable(on_frame):
+        raise _core.ArgumentError(f"on_frame: a function is needed, not {on_frame!r}")
+
+    def after_frame(done: int, total: int, result: _core.FrameResult) -> None:
+        report(done, total, result.reason)
+        if on_frame is not None:
+            on_frame(done, total, result)
+
+    return after_frame
 
 
 class Slam:
@@ -167,8 +187,8 @@ class Slam:
     monocular otherwise. `motion`: the motion of the (left) camera by other sensors, on the clock of
     the frames. `surfaces`: a model of surfaces, which the options `semantics` and `context` need.
     `recognizer`: a place recognizer of one's own. `on_event(event)` is called for every Event,
-    `on_log(level, text)` for every message; an exception in them is raised by the call that they
-    interrupt, and the object is of no use afterwards. Objects share nothing, so that each thread
+    `on_log(level, text)` for every message. After an exception in them, and after Ctrl-C, in a call
+    that changes the object, every call raises Error. Objects share nothing, so that each thread
     may have one of its own; one object serves one call at a time.
     """
 

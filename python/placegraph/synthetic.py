@@ -13,6 +13,7 @@ import os
 from collections.abc import Callable, Iterator, Mapping
 
 from . import _core
+from ._progress import ProgressArgument, Report, reporting
 from ._types import Path, SensorName, sensor_of
 from .datasets import Dataset, open_dataset
 
@@ -123,21 +124,24 @@ class World:
         threads: int = 0,
         force: bool = False,
         on_frame: Callable[[int, int], None] | None = None,
+        progress: ProgressArgument = None,
     ) -> Dataset:
         """Writes the sequence in KITTI's layout (a flight in EuRoC's), and opens it.
 
         `labels`: also the class and plane of every pixel; `flow`: also the optical flow; `threads`:
         frames that are rendered at once, 0 for all processors; `force`: replace what the folder
-        holds; `on_frame(done, total)` is called after each frame. The folder is written as a whole
-        or not at all, also after Ctrl-C.
+        holds; `on_frame(done, total)` is called after each frame; `progress` counts them (see
+        Progress). The folder is written as a whole or not at all, also after Ctrl-C.
         """
         if threads < 0:
             raise _core.ArgumentError(f"threads: {threads} is negative")
         path = os.fspath(folder)
-        self._core.write(
-            path, sensor_of(sensor), labels=labels, flow=flow,
-            threads=threads or os.cpu_count() or 1, force=force, on_frame=on_frame,
-        )
+        with reporting(progress, "render", "frames") as report:
+            self._core.write(
+                path, sensor_of(sensor), labels=labels, flow=flow,
+                threads=threads or os.cpu_count() or 1, force=force,
+                on_frame=on_frame if report is None else _reported(report, on_frame),
+            )
         return open_dataset(path)
 
 
@@ -157,6 +161,7 @@ def render(
     threads: int = 0,
     force: bool = False,
     on_frame: Callable[[int, int], None] | None = None,
+    progress: ProgressArgument = None,
 ) -> Dataset:
     """Renders a sequence into a folder and opens it; see World for the arguments, and World.write.
 
@@ -167,5 +172,19 @@ def render(
         defects=defects,
     )
     return rendered.write(
-        folder, sensor, labels=labels, flow=flow, threads=threads, force=force, on_frame=on_frame
+        folder, sensor, labels=labels, flow=flow, threads=threads, force=force, on_frame=on_frame,
+        progress=progress,
     )
+
+
+def _reported(
+    report: Report, on_frame: Callable[[int, int], None] | None
+) -> Callable[[int, int], None]:
+    """The function that is called after every frame where progress is shown."""
+
+    def after_frame(done: int, total: int) -> None:
+        report(done, total, "")
+        if on_frame is not None:
+            on_frame(done, total)
+
+    return after_frame

@@ -97,157 +97,157 @@ from ._core import (
     umeyama,
     ventral_motion,
 )
-from .options import Options
+from .options import kinds
 
 
-class FlowOptions(Options):
+class FlowOptions(kinds.FlowOptions):
     """Options of `optical_flow`."""
 
     __slots__ = ()
     _kind = _core.FlowOptionSet
 
 
-class LucasKanadeOptions(Options):
+class LucasKanadeOptions(kinds.LucasKanadeOptions):
     """Options of `lucas_kanade`."""
 
     __slots__ = ()
     _kind = _core.LucasKanadeOptionSet
 
 
-class InterpolationFlowOptions(Options):
+class InterpolationFlowOptions(kinds.InterpolationFlowOptions):
     """Options of `interpolation_flow`."""
 
     __slots__ = ()
     _kind = _core.InterpolationFlowOptionSet
 
 
-class KeyPixelFlowOptions(Options):
+class KeyPixelFlowOptions(kinds.KeyPixelFlowOptions):
     """Options of `key_pixel_flow`."""
 
     __slots__ = ()
     _kind = _core.KeyPixelFlowOptionSet
 
 
-class RelativePoseOptions(Options):
+class RelativePoseOptions(kinds.RelativePoseOptions):
     """Options of `estimate_relative_pose`."""
 
     __slots__ = ()
     _kind = _core.RelativePoseOptionSet
 
 
-class Pose3d2dOptions(Options):
+class Pose3d2dOptions(kinds.Pose3d2dOptions):
     """Options of `estimate_pose_3d2d`."""
 
     __slots__ = ()
     _kind = _core.Pose3d2dOptionSet
 
 
-class Pose3d3dOptions(Options):
+class Pose3d3dOptions(kinds.Pose3d3dOptions):
     """Options of `estimate_pose_3d3d`."""
 
     __slots__ = ()
     _kind = _core.Pose3d3dOptionSet
 
 
-class GravityPoseOptions(Options):
+class GravityPoseOptions(kinds.GravityPoseOptions):
     """Options of `estimate_pose_with_gravity`."""
 
     __slots__ = ()
     _kind = _core.GravityPoseOptionSet
 
 
-class CircularMotionOptions(Options):
+class CircularMotionOptions(kinds.CircularMotionOptions):
     """Options of `estimate_circular_motion`."""
 
     __slots__ = ()
     _kind = _core.CircularMotionOptionSet
 
 
-class PlanarRegionsOptions(Options):
+class PlanarRegionsOptions(kinds.PlanarRegionsOptions):
     """Options of `find_planar_regions`."""
 
     __slots__ = ()
     _kind = _core.PlanarRegionsOptionSet
 
 
-class MotionFromPlanesOptions(Options):
+class MotionFromPlanesOptions(kinds.MotionFromPlanesOptions):
     """Options of `motion_from_planes`."""
 
     __slots__ = ()
     _kind = _core.MotionFromPlanesOptionSet
 
 
-class AlignOptions(Options):
+class AlignOptions(kinds.AlignOptions):
     """Options of `align`."""
 
     __slots__ = ()
     _kind = _core.AlignOptionSet
 
 
-class PlaneTrackerOptions(Options):
+class PlaneTrackerOptions(kinds.PlaneTrackerOptions):
     """Options of `PlaneTracker`."""
 
     __slots__ = ()
     _kind = _core.PlaneTrackerOptionSet
 
 
-class CloudPlanesOptions(Options):
+class CloudPlanesOptions(kinds.CloudPlanesOptions):
     """Options of `find_cloud_planes`."""
 
     __slots__ = ()
     _kind = _core.CloudPlanesOptionSet
 
 
-class CuboidOptions(Options):
+class CuboidOptions(kinds.CuboidOptions):
     """Options of `find_cuboids`."""
 
     __slots__ = ()
     _kind = _core.CuboidOptionSet
 
 
-class DepthPlanesOptions(Options):
+class DepthPlanesOptions(kinds.DepthPlanesOptions):
     """Options of `find_depth_planes`."""
 
     __slots__ = ()
     _kind = _core.DepthPlanesOptionSet
 
 
-class SegmentDetectorOptions(Options):
+class SegmentDetectorOptions(kinds.SegmentDetectorOptions):
     """Options of `detect_segments`."""
 
     __slots__ = ()
     _kind = _core.SegmentDetectorOptionSet
 
 
-class WideMatcherOptions(Options):
+class WideMatcherOptions(kinds.WideMatcherOptions):
     """Options of `match_wide`."""
 
     __slots__ = ()
     _kind = _core.WideMatcherOptionSet
 
 
-class SceneDirectionOptions(Options):
+class SceneDirectionOptions(kinds.SceneDirectionOptions):
     """Options of `find_scene_directions`."""
 
     __slots__ = ()
     _kind = _core.SceneDirectionOptionSet
 
 
-class OrientationMapOptions(Options):
+class OrientationMapOptions(kinds.OrientationMapOptions):
     """Options of `compute_orientation_map`."""
 
     __slots__ = ()
     _kind = _core.OrientationMapOptionSet
 
 
-class MarkerDetectorOptions(Options):
+class MarkerDetectorOptions(kinds.MarkerDetectorOptions):
     """Options of `MarkerDetector`."""
 
     __slots__ = ()
     _kind = _core.MarkerDetectorOptionSet
 
 
-class HorizonOptions(Options):
+class HorizonOptions(kinds.HorizonOptions):
     """Options of `estimate_horizon`."""
 
     __slots__ = ()

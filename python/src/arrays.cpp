@@ -42,7 +42,8 @@ nb::object checked_array(nb::handle value, const char* argument, const char* dty
   nb::object array;
   try {
     array = numpy.attr("asarray")(value);
-  } catch (const nb::python_error&) {  // rows of different lengths
+  } catch (const nb::python_error& error) {      // rows of different lengths
+    if (!error.matches(PyExc_Exception)) throw;  // KeyboardInterrupt
     throw ArgumentError(wanted);
   }
   const auto text = [](nb::handle object) { return std::string(nb::str(object).c_str()); };
@@ -66,7 +67,8 @@ nb::object checked_array(nb::handle value, const char* argument, const char* dty
 std::vector<std::size_t> shape_of(nb::handle value) {
   try {
     return nb::cast<std::vector<std::size_t>>(nb::module_::import_("numpy").attr("shape")(value));
-  } catch (const nb::python_error&) {  // checked_array says what is wrong
+  } catch (const nb::python_error& error) {      // checked_array says what is wrong
+    if (!error.matches(PyExc_Exception)) throw;  // KeyboardInterrupt
     return {};
   }
 }

@@ -10,6 +10,7 @@
 
 #include "docstrings.h"
 #include "python/src/eigen_arrays.h"
+#include "python/src/without_gil.h"
 
 namespace nb = nanobind;
 

@@ -133,6 +133,7 @@ Rendering render(const Scene& scene, const View& view, float contrast, bool maps
   const auto render_bands = [&](int first, int step) {
     SampleBand band(width, kBandRows);
     for (int b = first; b < bands; b += step) {
+      check_interruption();
       const int top = b * kBandRows, rows = std::min(kBandRows, height - top);
       band.rasterize(out.faces, top, rows);
       for (int r = 0; r < rows; ++r) shader.shade_row(band, r, top + r, maps);

@@ -59,7 +59,8 @@ class PythonFactor final : public Factor {
     if (result.is_none()) return std::nullopt;
     try {
       result = nb::module_::import_("numpy").attr("atleast_1d")(result);
-    } catch (const nb::python_error&) {  // checked_array says what is wrong
+    } catch (const nb::python_error& error) {      // checked_array says what is wrong
+      if (!error.matches(PyExc_Exception)) throw;  // KeyboardInterrupt
     }
     const auto array =
         ArrayArgument<double>{result}.get(fmt::format("residual of {}", name).c_str(), {rows});

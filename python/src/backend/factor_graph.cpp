@@ -69,11 +69,11 @@ void set_value(FactorGraph& graph, int variable, nb::handle value) {
   node.value = changed;
 }
 
-FactorGraphReport optimize(const FactorGraph& graph, const OptionSet& options) {
+FactorGraphReport optimize(const FactorGraph& graph, const OptionSet& options, nb::handle on_step) {
   const FactorGraph copy = graph;
   const FactorGraphOptions typed = options_in<FactorGraphOptions>(options, "options");
-  const nb::gil_scoped_release release;
-  return optimize_factor_graph(copy, typed, interruptible());
+  const WithoutGil released;
+  return optimize_factor_graph(copy, typed, steps_to(on_step));
 }
 
 Eigen::MatrixXd matrix_of(MarginalCovariance&& marginal) {
@@ -83,7 +83,7 @@ Eigen::MatrixXd matrix_of(MarginalCovariance&& marginal) {
 
 Eigen::MatrixXd covariance(const FactorGraph& graph, const std::vector<int>& variables) {
   const FactorGraph copy = graph;
-  const nb::gil_scoped_release release;
+  const WithoutGil released;
   return matrix_of(marginal_covariance(copy, variables));
 }
 
@@ -227,7 +227,7 @@ void bind_report(nb::module_& m) {
                            r.cost_initial, r.cost_final, r.iterations, r.outcome ? "" : ", ",
                            r.outcome.reason);
       });
-  m.def("optimize_factor_graph", &optimize, "graph"_a, "options"_a,
+  m.def("optimize_factor_graph", &optimize, "graph"_a, "options"_a, "on_step"_a = nb::none(),
         "Minimizes sum rho(|r|^2) / 2 by Levenberg-Marquardt from the current values.\n\n"
         "If most variables are points and lines, these are eliminated first. Directions that no "
         "term determines stay near their initial values. Deterministic, single-threaded. Raises "
@@ -278,7 +278,7 @@ void bind_smoother(nb::module_& m) {
           "update",
           [](Smoother& s) {
             return s.run(
-                [](FixedLagSmoother& smoother) { return smoother.update(interruptible()); });
+                [](FixedLagSmoother& smoother) { return smoother.update(python_warnings()); });
           },
           doc("FixedLagSmoother::update"))
       .def_prop_ro(

@@ -122,11 +122,14 @@ RotationError rotation_error_of(const std::string& name) {
   return name == "log" ? RotationError::kLog : RotationError::kQuaternion;
 }
 
-LogSink interruptible() {
-  return [](LogLevel level, const std::string& message) {
+LogSink steps_to(nb::handle on_step) {
+  if (on_step.is_none()) return python_warnings();
+  return [on_step](LogLevel level, const std::string& message) {
     const nb::gil_scoped_acquire gil;
-    if (level == LogLevel::kWarning) warn(message);
-    if (PyErr_CheckSignals() != 0) throw nb::python_error();
+    if (level == LogLevel::kWarning)
+      warn(message);
+    else
+      on_step(message);
   };
 }
 

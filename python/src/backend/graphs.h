@@ -48,8 +48,9 @@ void bind_pose_graph_building(nb::class_<PoseGraph>& graph);
 
 // ---- calls into the library ----
 
-/// A log that ends the call if Python has been interrupted, as by Ctrl-C.
-LogSink interruptible();
+/// A log that makes warnings those of Python, and gives `on_step` (a function, or None) the other
+/// messages: a line for each step.
+LogSink steps_to(nb::handle on_step);
 
 /// W with W^T W = information, of standard deviations (one, or one a row) or of a matrix.
 /// Throws ArgumentError unless exactly one of them is given and positive.
@@ -61,9 +62,12 @@ class Exclusive {
  public:
   Exclusive(const char* name, T value) : name_(name), value_(std::move(value)) {}
 
-  /// The object; throws ArgumentError while a call is running.
+  /// The object; throws ArgumentError while a call is running, and Error after a change that was
+  /// interrupted.
   T& get() {
     require(!busy_, std::string(name_) + ": another call is using it");
+    if (half_changed_)
+      throw Error(std::string(name_) + ": an interrupted call left it half changed; make another");
     return value_;
   }
   /// The object for the garbage collector; null while a call is running.
@@ -73,8 +77,18 @@ class Exclusive {
   auto run(const Function& function) {
     T& value = get();
     const Busy busy(busy_);
-    const nb::gil_scoped_release release;
+    const WithoutGil released;
     return function(value);
+  }
+  /// The same of a function that changes the object, which is lost if Python interrupts it.
+  template <class Function>
+  auto change(const Function& function) {
+    try {
+      return run(function);
+    } catch (const nb::python_error&) {
+      half_changed_ = true;
+      throw;
+    }
   }
 
  private:
@@ -87,7 +101,7 @@ class Exclusive {
   };
   const char* name_;
   T value_;
-  bool busy_ = false;
+  bool busy_ = false, half_changed_ = false;
 };
 
 /// A factor with its name.

@@ -54,7 +54,7 @@ IncrementalStep reweight(Optimizer& o, const ArrayArgument<std::int64_t>& constr
             fmt::format("constraints: there is no constraint {}", numbers.data()[i]));
     list.push_back({static_cast<int>(numbers.data()[i]), values.data()[i]});
   }
-  return o.run([&](IncrementalOptimizer& optimizer) { return optimizer.reweight(list); });
+  return o.change([&](IncrementalOptimizer& optimizer) { return optimizer.reweight(list); });
 }
 
 nb::any pose(Optimizer& o, std::int64_t id) {
@@ -79,7 +79,7 @@ void bind_incremental(nb::module_& m) {
       .def(
           "add",
           [](Optimizer& o, PoseGraph added) {
-            return o.run([&](IncrementalOptimizer& optimizer) {
+            return o.change([&](IncrementalOptimizer& optimizer) {
               return optimizer.add(added.nodes, added.constraints);
             });
           },
@@ -89,7 +89,7 @@ void bind_incremental(nb::module_& m) {
       .def(
           "remove_constraint",
           [](Optimizer& o, int constraint) {
-            return o.run([&](IncrementalOptimizer& optimizer) {
+            return o.change([&](IncrementalOptimizer& optimizer) {
               return optimizer.remove_constraint(constraint);
             });
           },
@@ -97,7 +97,7 @@ void bind_incremental(nb::module_& m) {
       .def(
           "finish",
           [](Optimizer& o) {
-            return o.run([](IncrementalOptimizer& optimizer) { return optimizer.finish(); });
+            return o.change([](IncrementalOptimizer& optimizer) { return optimizer.finish(); });
           },
           doc("IncrementalOptimizer::finish"))
       .def("pose", &pose, "id"_a, "The current pose T_world_node of a node.")

@@ -20,11 +20,12 @@ struct OptimizedGraph {
   std::optional<ChordalIsotropicCertificate> certificate;
 };
 
-OptimizedGraph optimize(PoseGraph graph, const OptionSet& options, bool with_certificate) {
+OptimizedGraph optimize(PoseGraph graph, const OptionSet& options, bool with_certificate,
+                        nb::handle on_step) {
   const PoseGraphOptions typed = options_in<PoseGraphOptions>(options, "options");
-  const nb::gil_scoped_release release;
+  const WithoutGil released;
   OptimizedGraph result;
-  result.report = optimize_pose_graph(std::move(graph), typed, interruptible());
+  result.report = optimize_pose_graph(std::move(graph), typed, steps_to(on_step));
   if (!result.report.outcome) throw NoResult("graph: " + result.report.outcome.reason);
   if (with_certificate && !result.report.graph.nodes.empty())
     result.certificate = certify_chordal_isotropic(
@@ -113,8 +114,7 @@ void bind_report(nb::module_& m) {
           "degrees_of_freedom", [](const O& o) { return o.report.degrees_of_freedom; },
           doc("PoseGraphReport::degrees_of_freedom"))
       .def_prop_ro(
-          "doubts",
-          [](const O& o) { return TupleOf<std::string>{texts_of(o.report.doubts)}; },
+          "doubts", [](const O& o) { return TupleOf<std::string>{texts_of(o.report.doubts)}; },
           "What speaks against the result, one line each, as the command warns of it.")
       .def_prop_ro(
           "iterations", [](const O& o) { return o.report.iterations; },
@@ -173,7 +173,7 @@ PoseKind kind_of(const LandmarkGraph& graph) { return graph.poses.kind(); }
 template <class Graph>
 Marginals marginals_of(const Graph& graph, const std::string& rotation_error) {
   const RotationError error = rotation_error_of(rotation_error);
-  const nb::gil_scoped_release release;
+  const WithoutGil released;
   Marginals result{PoseMarginals(graph, error), kind_of(graph)};
   if (!result.marginals.outcome())
     throw NoResult("graph: no covariances: " + result.marginals.outcome().reason);
@@ -181,7 +181,7 @@ Marginals marginals_of(const Graph& graph, const std::string& rotation_error) {
 }
 
 void bind_marginals(nb::module_& m) {
-  const auto released = nb::call_guard<nb::gil_scoped_release>();
+  const auto released = nb::call_guard<WithoutGil>();
   nb::class_<Marginals>(m, "PoseMarginals", doc("PoseMarginals"))
       .def(
           "__init__",
@@ -196,8 +196,7 @@ void bind_marginals(nb::module_& m) {
           [](Marginals* self, const LandmarkGraph& graph, const std::string& rotation_error) {
             new (self) Marginals(marginals_of(graph, rotation_error));
           },
-          "graph"_a, "rotation_error"_a = "log",
-          "The same of a graph with priors and points.")
+          "graph"_a, "rotation_error"_a = "log", "The same of a graph with priors and points.")
       .def(
           "covariance",
           [](const Marginals& p, std::int64_t id) {
@@ -209,7 +208,7 @@ void bind_marginals(nb::module_& m) {
           [](const Marginals& p) {
             std::vector<Information> all;
             {
-              const nb::gil_scoped_release release;
+              const WithoutGil released;
               all = p.marginals.covariances();
             }
             return stacked(all, degrees_of_freedom(p.kind));
@@ -220,7 +219,7 @@ void bind_marginals(nb::module_& m) {
           [](const Marginals& p) {
             std::vector<Information> all;
             {
-              const nb::gil_scoped_release release;
+              const WithoutGil released;
               all = p.marginals.point_covariances();
             }
             return stacked(all, p.kind == PoseKind::kSE2 ? 2 : 3);
@@ -231,7 +230,7 @@ void bind_marginals(nb::module_& m) {
           "joint_covariance",
           [](const Marginals& p, const ArrayArgument<std::int64_t>& ids) {
             const std::vector<NodeId> nodes = node_ids(ids);
-            const nb::gil_scoped_release release;
+            const WithoutGil released;
             return p.marginals.joint_covariance(nodes);
           },
           "ids"_a, doc("PoseMarginals::joint_covariance"))
@@ -246,7 +245,7 @@ void bind_marginals(nb::module_& m) {
           [](const Marginals& p) {
             std::vector<Information> all;
             {
-              const nb::gil_scoped_release release;
+              const WithoutGil released;
               all = p.marginals.constraint_covariances();
             }
             return stacked(all, degrees_of_freedom(p.kind));
@@ -261,7 +260,7 @@ void bind_pose_graph_optimization(nb::module_& m) {
   bind_report(m);
   bind_marginals(m);
   m.def("optimize_pose_graph", &optimize, "graph"_a, "options"_a, "certify"_a = false,
-        doc("optimize_pose_graph"));
+        "on_step"_a = nb::none(), doc("optimize_pose_graph"));
 }
 
 }  // namespace placegraph::python

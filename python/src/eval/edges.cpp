@@ -101,8 +101,8 @@ void bind_noise(nb::module_& m) {
         return fmt::format("<placegraph.TruthNoise: sigma [{:.3g}]>",
                            fmt::join(n.sigma.data(), n.sigma.data() + n.sigma.size(), ", "));
       });
-  m.def("estimate_truth_noise", &estimate_truth_noise, "trajectory"_a,
-        nb::call_guard<nb::gil_scoped_release>(), doc("estimate_truth_noise"));
+  m.def("estimate_truth_noise", &estimate_truth_noise, "trajectory"_a, nb::call_guard<WithoutGil>(),
+        doc("estimate_truth_noise"));
 }
 
 void bind_consistency(nb::module_& m) {
@@ -178,10 +178,10 @@ void bind_edges(nb::module_& m) {
                            each.parameters);
       });
   m.def("fit_mount", &mount_of, "graph"_a, "truth"_a, "noise"_a = nb::none(),
-        "frames"_a = FrameByNode(), nb::call_guard<nb::gil_scoped_release>(), doc("fit_mount"));
+        "frames"_a = FrameByNode(), nb::call_guard<WithoutGil>(), doc("fit_mount"));
   m.def(
       "edge_consistency", &consistency_of, "graph"_a, "truth"_a, "noise"_a = nb::none(),
-      "frames"_a = FrameByNode(), "mount"_a = nb::none(), nb::call_guard<nb::gil_scoped_release>(),
+      "frames"_a = FrameByNode(), "mount"_a = nb::none(), nb::call_guard<WithoutGil>(),
       "Errors of the edges of a pose graph over SE(3) or Sim(3), relative to their covariances, "
       "for each source of edges ('odometry', 'loop' ...).\n\n`truth`: true poses T_world_node by "
       "the ids of the nodes. `noise`: that of the truth, as of `estimate_truth_noise`; `frames`: "

@@ -126,7 +126,7 @@ std::optional<Statistics> if_known(const Outcome& outcome, const Statistics& sta
 EvaluationResult evaluated(const Trajectory& truth, const Trajectory& estimate,
                            const OptionSet& options, const std::string& name) {
   const EvaluationOptions& typed = options_in<EvaluationOptions>(options, "options");
-  const nb::gil_scoped_release release;
+  const WithoutGil released;
   return evaluate(truth, estimate, typed, name);
 }
 
@@ -134,7 +134,7 @@ Figure figure_of_results(const std::vector<EvaluationResult>& results, const std
                          bool own_truths) {
   require(!results.empty(), "results: there is none");
   const auto chosen = choice_of<EvaluationPlot>(kind, evaluation_plot_names(), "kind");
-  const nb::gil_scoped_release release;
+  const WithoutGil released;
   return figure_of(results, own_truths ? EvaluatedTruth::kOwn : EvaluatedTruth::kShared, chosen);
 }
 
@@ -210,7 +210,7 @@ void bind_result(nb::module_& m) {
 }
 
 void bind_files(nb::module_& m) {
-  const auto released = nb::call_guard<nb::gil_scoped_release>();
+  const auto released = nb::call_guard<WithoutGil>();
   m.def("is_run_folder", &is_run_folder, "folder"_a, doc("is_run_folder"));
   m.def("distinct_names", &distinct_names, "paths"_a, doc("distinct_names"));
   m.def("trajectory_of_run", &trajectory_of_run, "folder"_a, "timed"_a, doc("trajectory_of_run"));

@@ -154,8 +154,8 @@ void bind_figures(nb::module_& m) {
           "legend", [](const Figure& f) { return rows_of(f.legend); },
           "The entries of the legend, a dictionary each: text, mark, colour ...")
       .def(
-          "to_svg", [](const Figure& f) { return to_svg(f); },
-          nb::call_guard<nb::gil_scoped_release>(), "The picture as SVG text.")
+          "to_svg", [](const Figure& f) { return to_svg(f); }, nb::call_guard<WithoutGil>(),
+          "The picture as SVG text.")
       .def("_repr_svg_", [](const Figure& f) { return to_svg(f); });
 }
 

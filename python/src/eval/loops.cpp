@@ -115,7 +115,7 @@ LoopBenchmark judged(const LoopTruth& truth, const ArrayArgument<std::int64_t>& 
                      const ArrayArgument<double>& score, int tolerance) {
   require(tolerance >= 0, "tolerance: it must not be negative");
   const std::vector<LoopPrediction> predictions = predictions_of(query, candidate, score);
-  const nb::gil_scoped_release release;
+  const WithoutGil released;
   return judge_loops(truth, predictions, tolerance);
 }
 
@@ -210,7 +210,7 @@ void bind_truth(nb::module_& m) {
           "from_poses",
           [](const Trajectory& truth, const OptionsArgument<RevisitOptions>& options) {
             const RevisitOptions chosen = options.get();
-            const nb::gil_scoped_release release;
+            const WithoutGil released;
             return loop_truth_from_poses(truth, chosen);
           },
           "truth"_a, "options"_a = nb::none(), doc("loop_truth_from_poses"))

@@ -42,7 +42,7 @@ CloudPlanesResult planes_of(const PointCloud& cloud, const std::optional<std::st
   static const std::vector<std::string> methods = {"cuts", "ransac", "growing"};
   CloudPlanesOptions chosen = options.get();
   if (method) chosen.method = choice_of<CloudPlanesMethod>(*method, methods, "method");
-  const nb::gil_scoped_release release;
+  const WithoutGil released;
   return find_cloud_planes(cloud, chosen, built_in_planarity());
 }
 
@@ -51,7 +51,7 @@ std::vector<Cuboid> cuboids_of(const PointCloud& cloud, const CloudPlanesResult&
   require_same_rows(planes.labels.size(), cloud.points.size(), "planes", "cloud");
   require(planes.from_origin, "cloud: it was not taken from the origin");
   const CuboidOptions chosen = options.get();
-  const nb::gil_scoped_release release;
+  const WithoutGil released;
   return find_cuboids(cloud, planes, chosen);
 }
 
@@ -62,7 +62,7 @@ std::vector<DepthPlane> depth_planes(const DepthArgument& depth, const Camera& c
   chosen.check();
   require(image.cols == camera.width && image.rows == camera.height,
           "depth: it has another size than the camera's images");
-  const nb::gil_scoped_release release;
+  const WithoutGil released;
   return find_depth_planes(image, camera, chosen);
 }
 
@@ -91,7 +91,7 @@ void bind_cloud(nb::module_& m) {
           "camera without distortion.")
       .def_static(
           "read", [](const std::filesystem::path& path) { return read_point_cloud(path.string()); },
-          "path"_a, nb::call_guard<nb::gil_scoped_release>(), doc("read_point_cloud"))
+          "path"_a, nb::call_guard<WithoutGil>(), doc("read_point_cloud"))
       .def_prop_ro(
           "points", [](const PointCloud& c) { return view_of(c.points, c); },
           "The points, N x 3 [m].")

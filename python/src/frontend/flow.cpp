@@ -19,7 +19,7 @@ ImageResult<float> dense_flow(const GreyArgument& image_from, const GreyArgument
   const Image from = image_from.get("image_from"), to = image_to.get("image_to");
   FlowOptions chosen = options.get();
   if (method) chosen.method = choice_of<FlowMethod>(*method, flow_method_names(), "method");
-  const nb::gil_scoped_release release;
+  const WithoutGil released;
   try {
     return {optical_flow(from, to, chosen)};
   } catch (const cv::Exception&) {  // images without room for OpenCV's windows
@@ -40,7 +40,7 @@ FlowVectors flow_at(const GreyArgument& image_from, const GreyArgument& image_to
   const Image from = image_from.get("image_from"), to = image_to.get("image_to");
   const std::vector<Eigen::Vector2d> px = points_2d(points, "points");
   const Options chosen = options.get();
-  const nb::gil_scoped_release release;
+  const WithoutGil released;
   return {method(from, to, px, chosen)};
 }
 
@@ -48,7 +48,7 @@ FlowVectors flow_at_key_pixels(const GreyArgument& image_from, const GreyArgumen
                                const OptionsArgument<KeyPixelFlowOptions>& options) {
   const Image from = image_from.get("image_from"), to = image_to.get("image_to");
   const KeyPixelFlowOptions chosen = options.get();
-  const nb::gil_scoped_release release;
+  const WithoutGil released;
   return {key_pixel_flow(from, to, chosen)};
 }
 
@@ -63,7 +63,7 @@ std::pair<Array, Array> corners_of(const GreyArgument& image, double min_strengt
   require(allowed.empty() || allowed.size() == grey.size(), "mask: it has another size than image");
   std::vector<double> px, strength;
   {
-    const nb::gil_scoped_release release;
+    const WithoutGil released;
     for (const Corner& corner : find_corners(grey, min_strength, border, {}, allowed)) {
       px.insert(px.end(), {static_cast<double>(corner.u), static_cast<double>(corner.v)});
       strength.push_back(corner.strength);
@@ -78,7 +78,7 @@ FlowError error_of(const FlowArgument& flow, const FlowArgument& truth, double m
   const Image found = flow.get("flow"), wanted = truth.get("truth");
   require(found.size() == wanted.size(), "truth: it has another size than flow");
   require(min_px >= 0 && min_px < max_px, "min_px: from 0 to less than max_px is needed");
-  const nb::gil_scoped_release release;
+  const WithoutGil released;
   return flow_error(found, wanted, {min_px, max_px});
 }
 
@@ -86,7 +86,7 @@ FlowVectors sampled(const GreyArgument& image_from, const FlowArgument& flow, in
   const Image from = image_from.get("image_from"), dense = flow.get("flow");
   require(from.size() == dense.size(), "flow: it has another size than image_from");
   require(cell_px >= 1, "cell_px: it must be above 0");
-  const nb::gil_scoped_release release;
+  const WithoutGil released;
   return {sampled_flow(from, dense, cell_px)};
 }
 

@@ -28,13 +28,13 @@ DerotatedVectors derotated(const Camera& camera, const FlowVectors& flow, const 
                     -1e-12 * rotation.covariance.norm(),
             "covariance: it is not symmetric and positive semi-definite");
   }
-  const nb::gil_scoped_release release;
+  const WithoutGil released;
   return {derotate(camera, flow.vectors, rotation), rotation.covariance};
 }
 
 VentralMotion ventral(const DerotatedVectors& flow, const ArrayArgument<double>& normal) {
   const Eigen::Vector3d direction = direction_3(normal, "normal");
-  const nb::gil_scoped_release release;
+  const WithoutGil released;
   return ventral_motion(flow.vectors, direction, flow.rotation_covariance);
 }
 
@@ -108,13 +108,13 @@ void bind_flow_cues(nb::module_& m) {
       [](const DerotatedVectors& flow) {
         return affine_flow(flow.vectors, flow.rotation_covariance);
       },
-      "flow"_a, nb::call_guard<nb::gil_scoped_release>(), doc("AffineFlow"));
+      "flow"_a, nb::call_guard<WithoutGil>(), doc("AffineFlow"));
   m.def(
       "lateral_balance",
       [](const DerotatedVectors& flow) {
         return lateral_balance(flow.vectors, flow.rotation_covariance);
       },
-      "flow"_a, nb::call_guard<nb::gil_scoped_release>(), doc("LateralBalance"));
+      "flow"_a, nb::call_guard<WithoutGil>(), doc("LateralBalance"));
 }
 
 }  // namespace placegraph::python

@@ -43,7 +43,7 @@ HomographyFit refined(const ArrayArgument<double>& H_start, const ArrayArgument<
   require(std::isfinite(sigma_px) && sigma_px > 0, "sigma_px: it must be above 0");
   require(freedom > 0, "freedom: it must be above 0");
   require(max_iterations > 0, "max_iterations: it must be above 0");
-  const nb::gil_scoped_release release;
+  const WithoutGil released;
   std::vector<int> which(matches.px_ref.size());
   std::iota(which.begin(), which.end(), 0);
   return refine_homography(H, matches, which, {sigma_px, freedom}, max_iterations);
@@ -55,7 +55,7 @@ PlanarRegionsResult regions_of(const ArrayArgument<double>& px_ref,
                                std::uint64_t seed) {
   const PointMatches matches = matches_of(px_ref, px_cur);
   const PlanarRegionsOptions chosen = options.get();
-  const nb::gil_scoped_release release;
+  const WithoutGil released;
   Random random(seed);
   return find_planar_regions(matches, chosen, random);
 }
@@ -67,7 +67,7 @@ MotionFromPlanesResult motion_of(const Camera& camera, const ArrayArgument<doubl
   const PointMatches matches = matches_of(px_ref, px_cur);
   require_same_rows(matches.px_ref.size(), regions.labels.size(), "px_ref", "regions");
   const MotionFromPlanesOptions chosen = options.get();
-  const nb::gil_scoped_release release;
+  const WithoutGil released;
   return motion_from_planes(camera, matches, regions, chosen);
 }
 

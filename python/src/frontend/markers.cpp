@@ -20,13 +20,13 @@ Corners corners_of(const MarkerObservation& marker) {
 std::vector<MarkerObservation> detected(const MarkerDetector& detector, const GreyArgument& image,
                                         const std::optional<Camera>& lens) {
   const Image grey = image.get("image");
-  const nb::gil_scoped_release release;
+  const WithoutGil released;
   return detector.detect(grey, lens ? &*lens : nullptr);
 }
 
 MarkerPoses poses_of(const MarkerObservation& observation, double side_m, const Camera& camera) {
   require(std::isfinite(side_m) && side_m > 0, "side_m: it must be above 0");
-  const nb::gil_scoped_release release;
+  const WithoutGil released;
   return estimate_marker_poses(observation, side_m, camera);
 }
 

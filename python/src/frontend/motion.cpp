@@ -35,7 +35,7 @@ RelativePose relative_pose_of(const Camera& camera, const ArrayArgument<double>&
   RelativePoseOptions chosen = options.get();
   if (model)
     chosen.model = choice_of<RelativePoseModel>(*model, relative_pose_model_names(), "model");
-  const nb::gil_scoped_release release;
+  const WithoutGil released;
   Random random(seed);
   return estimate_relative_pose(camera, matches.ref, matches.cur, chosen, random);
 }
@@ -48,7 +48,7 @@ Pose3d2dResult pose_of_points(const Camera& camera, const ArrayArgument<double>&
   const auto pixels = points_2d(px, "px");
   require_same_rows(pixels.size(), points.size(), "px", "points_ref");
   const Pose3d2dOptions chosen = options.get();
-  const nb::gil_scoped_release release;
+  const WithoutGil released;
   Random random(seed);
   return estimate_pose_3d2d(camera, points, pixels, chosen, random, prior ? &*prior : nullptr);
 }
@@ -85,7 +85,7 @@ Pose3d3dResult pose_of_clouds(const ArrayArgument<double>& points_ref,
   const auto cur = cloud_of(points_cur, covariance_cur, "points_cur", "covariance_cur");
   require_same_rows(cur.size(), ref.size(), "points_cur", "points_ref");
   const Pose3d3dOptions chosen = options.get();
-  const nb::gil_scoped_release release;
+  const WithoutGil released;
   Random random(seed);
   return estimate_pose_3d3d(ref, cur, chosen, random);
 }
@@ -100,7 +100,7 @@ GravityPoseResult pose_with_gravity(const Camera& camera, const ArrayArgument<do
   const Eigen::Vector3d ref = direction_3(down_ref, "down_ref");
   const Eigen::Vector3d cur = direction_3(down_cur, "down_cur");
   const GravityPoseOptions chosen = options.get();
-  const nb::gil_scoped_release release;
+  const WithoutGil released;
   Random random(seed);
   return estimate_pose_with_gravity(camera, matches.ref, matches.cur, ref, cur, chosen, random);
 }
@@ -114,7 +114,7 @@ CircularMotionResult circular_motion(const Camera& camera, const ArrayArgument<d
   if (!R_level_cam.is_none())
     level = SO3::from_matrix(matrix_3x3(ArrayArgument<double>{R_level_cam}, "R_level_cam"));
   const CircularMotionOptions chosen = options.get();
-  const nb::gil_scoped_release release;
+  const WithoutGil released;
   return estimate_circular_motion(camera, matches.ref, matches.cur, level, chosen);
 }
 
@@ -122,7 +122,7 @@ AlignmentResult aligned_points(const ArrayArgument<double>& points_from,
                                const ArrayArgument<double>& points_to, bool with_scale) {
   const auto from = points_3d(points_from, "points_from"), to = points_3d(points_to, "points_to");
   require_same_rows(to.size(), from.size(), "points_to", "points_from");
-  const nb::gil_scoped_release release;
+  const WithoutGil released;
   return umeyama(from, to, with_scale);
 }
 

@@ -12,7 +12,8 @@ namespace {
 
 using namespace nb::literals;
 
-/// A recognizer that several threads of Python may use.
+/// A recognizer that several threads of Python may use. The lock is taken without the GIL, which
+/// who holds the lock may ask for.
 class SharedRecognizer {
  public:
   explicit SharedRecognizer(const OptionsArgument<PlaceRecognizerOptions>& options)
@@ -21,7 +22,7 @@ class SharedRecognizer {
   int add(const nb::object& image) {
     std::optional<PlaceView> view = description_in(image);
     const Image picture = view ? Image() : PictureArgument{image}.get("image");
-    const nb::gil_scoped_release release;
+    const WithoutGil released;
     if (!view) view = described(picture, false);
     const std::lock_guard lock(mutex_);
     return recognizer_.add(std::move(*view));
@@ -36,7 +37,7 @@ class SharedRecognizer {
     if (view) require_query(*view, "image");
     const Image picture = view ? Image() : PictureArgument{image}.get("image");
     std::vector<std::pair<int, double>> matches;
-    const nb::gil_scoped_release release;
+    const WithoutGil released;
     if (!view) view = described(picture, true);
     const std::lock_guard lock(mutex_);
     for (const PlaceSimilarity& each :
@@ -49,7 +50,7 @@ class SharedRecognizer {
 
   PlaceView describe(const PictureArgument& image, bool query) const {
     const Image picture = image.get("image");
-    const nb::gil_scoped_release release;
+    const WithoutGil released;
     return described(picture, query);
   }
 
@@ -58,7 +59,7 @@ class SharedRecognizer {
     if (a) require_query(*a, "query");
     const Image image_a = a ? Image() : PictureArgument{query}.get("query");
     const Image image_b = b ? Image() : PictureArgument{stored}.get("stored");
-    const nb::gil_scoped_release release;
+    const WithoutGil released;
     if (!a) a = described(image_a, true);
     if (!b) b = described(image_b, false);
     const PlaceCueOptions& cues = recognizer_.options().cues;
@@ -66,12 +67,14 @@ class SharedRecognizer {
   }
 
   PlaceView view(int index) {
+    const WithoutGil released;
     const std::lock_guard lock(mutex_);
     require(index >= 0 && index < recognizer_.size(),
             "index: there are " + std::to_string(recognizer_.size()) + " views");
     return recognizer_.view(index);
   }
   int size() {
+    const WithoutGil released;
     const std::lock_guard lock(mutex_);
     return recognizer_.size();
   }

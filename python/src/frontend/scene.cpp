@@ -34,7 +34,7 @@ ReadOnlyArray<double> detected_segments(const GreyArgument& image,
   chosen.check();
   std::vector<double> ends;
   {
-    const nb::gil_scoped_release release;
+    const WithoutGil released;
     for (const EdgeSegment& edge : detect_segments(grey, chosen)) {
       const LineSegment& s = edge.segment;
       ends.insert(ends.end(), {s.start.x(), s.start.y(), s.end.x(), s.end.y()});
@@ -49,7 +49,7 @@ SceneDirections directions_of(const ArrayArgument<double>& segments, const Camer
                               std::uint64_t seed) {
   const std::vector<LineSegment> lines = segments_in(segments);
   const SceneDirectionOptions chosen = options.get();
-  const nb::gil_scoped_release release;
+  const WithoutGil released;
   Random random(seed);
   return find_scene_directions(lines, camera, chosen, random);
 }
@@ -65,7 +65,7 @@ OrientationMap orientations_of(const ArrayArgument<double>& segments,
   for (const int each : axis_of) require(each >= -1 && each <= 2, "axis: -1, 0, 1 or 2 is needed");
   const SO3 R = SO3::from_matrix(matrix_3x3(R_cam_manhattan, "R_cam_manhattan"));
   const OrientationMapOptions chosen = options.get();
-  const nb::gil_scoped_release release;
+  const WithoutGil released;
   return compute_orientation_map(lines, axis_of, camera, R, chosen);
 }
 
@@ -74,7 +74,7 @@ Horizon horizon_of(const ArrayArgument<double>& segments, const Camera& camera,
   const std::vector<LineSegment> lines = segments_in(segments);
   const HorizonOptions chosen = options.get();
   chosen.check();
-  const nb::gil_scoped_release release;
+  const WithoutGil released;
   Random random(seed);
   return estimate_horizon(lines, camera, chosen, random);
 }
@@ -85,7 +85,7 @@ ImageResult<std::uint8_t> plan_surfaces_of(const OrientationMap& map, const Came
   require(map.labels.cols == camera.width && map.labels.rows == camera.height,
           "camera: its images have another size than the map");
   const SO3 R = SO3::from_matrix(matrix_3x3(R_cam_manhattan, "R_cam_manhattan"));
-  const nb::gil_scoped_release release;
+  const WithoutGil released;
   return {indoor_surfaces(map, camera, R)};
 }
 
@@ -110,7 +110,7 @@ LabelledImage classified(const SceneModel& model, const PictureArgument& image,
   require_kind(model, SceneModel::Kind::kSurfaces, "model");
   require_share(unknown_below, "unknown_below");
   const Image picture = image.get("image");
-  const nb::gil_scoped_release release;
+  const WithoutGil released;
   return {label_scene(model, picture, unknown_below), model.classes};
 }
 
@@ -120,7 +120,7 @@ LabelledImage labelled(const SceneModel& urban, const SceneModel& surfaces,
   require_kind(surfaces, SceneModel::Kind::kSurfaces, "surfaces");
   require_share(unknown_below, "unknown_below");
   const Image picture = image.get("image");
-  const nb::gil_scoped_release release;
+  const WithoutGil released;
   return {label_street_scene(urban, surfaces, picture, 1, unknown_below).classes, urban.classes};
 }
 
@@ -137,7 +137,7 @@ MatchedPoints matched(const GreyArgument& image_a, const GreyArgument& image_b,
   const Image a = image_a.get("image_a"), b = image_b.get("image_b");
   const WideMatcherOptions chosen = options.get();
   chosen.check();
-  const nb::gil_scoped_release release;
+  const WithoutGil released;
   const WideMatches found = match_wide(a, b, chosen);
   MatchedPoints points{found.outcome, {}, {}, found.F_b_a, found.candidates};
   for (const PointPair& pair : found.pairs) {
@@ -221,7 +221,7 @@ void bind_labels(nb::module_& m) {
   nb::class_<SceneModel>(m, "SceneModel", doc("SceneModel"))
       .def_static(
           "read", [](const std::filesystem::path& path) { return read_scene_model(path.string()); },
-          "path"_a, nb::call_guard<nb::gil_scoped_release>(), doc("read_scene_model"))
+          "path"_a, nb::call_guard<WithoutGil>(), doc("read_scene_model"))
       .def_prop_ro(
           "kind",
           [](const SceneModel& s) {

@@ -23,7 +23,7 @@ class SharedPlaneTracker {
 
   PlaneTrack track(const GreyArgument& image) {
     const Image grey = image.get("image").clone();  // it may become the second template
-    const nb::gil_scoped_release release;
+    const WithoutGil released;
     const std::lock_guard lock(mutex_);
     return tracker_.track(grey);
   }
@@ -61,7 +61,7 @@ RegionAlignment aligned(const GreyArgument& image_ref, const GreyArgument& image
   if (!H_start.is_none()) H = matrix_3x3(ArrayArgument<double>{H_start}, "H_start");
   require(std::abs(H.determinant()) > 1e-12, "H_start: the matrix is singular");
   const AlignOptions chosen = options.get();
-  const nb::gil_scoped_release release;
+  const WithoutGil released;
   return align_region(ref, cur, polygon, H, chosen, levels, max_samples);
 }
 

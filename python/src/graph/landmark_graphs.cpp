@@ -75,7 +75,7 @@ LandmarkGraph read(const std::filesystem::path& file, const std::string& indefin
   std::vector<std::string> remarks;
   LandmarkGraph graph;
   {
-    const nb::gil_scoped_release release;
+    const WithoutGil released;
     graph = read_landmark_graph(path, {.connected = false, .remarks = &remarks, .indefinite = how});
   }
   for (const std::string& remark : remarks) warn(path + ": " + remark);
@@ -99,7 +99,7 @@ void bind_graph(nb::module_& m) {
       .def(
           "write",
           [](const G& g, const std::filesystem::path& file) {
-            const nb::gil_scoped_release release;
+            const WithoutGil released;
             write_g2o(file.string(), g);
           },
           "path"_a, "Writes the graph in the g2o format; the file is replaced as a whole.")
@@ -171,7 +171,7 @@ void bind_graph(nb::module_& m) {
           "chi2",
           [](const G& g, const std::string& rotation_error) {
             const RotationError error = rotation_error_of(rotation_error);
-            const nb::gil_scoped_release release;
+            const WithoutGil released;
             return chi2(g, error);
           },
           "rotation_error"_a = "log",
@@ -185,14 +185,15 @@ void bind_graph(nb::module_& m) {
       });
 }
 
-LandmarkGraphReport optimize(LandmarkGraph graph, const OptionSet& options) {
+LandmarkGraphReport optimize(LandmarkGraph graph, const OptionSet& options, nb::handle on_step) {
   const PoseGraphOptions typed = options_in<PoseGraphOptions>(options, "options");
   require(typed.robust.method == RobustMethod::kNone,
           "robust: no robust method takes a graph with priors and points");
-  const nb::gil_scoped_release release;
+  const WithoutGil released;
   LandmarkGraphReport report = optimize_landmark_graph(
       std::move(graph),
-      {typed.rotation_error, typed.engine, typed.max_iterations, typed.relative_decrease});
+      {typed.rotation_error, typed.engine, typed.max_iterations, typed.relative_decrease},
+      steps_to(on_step));
   if (!report.outcome) throw NoResult("graph: " + report.outcome.reason);
   return report;
 }
@@ -229,7 +230,7 @@ void bind_report(nb::module_& m) {
 void bind_landmark_graphs(nb::module_& m) {
   bind_graph(m);
   bind_report(m);
-  m.def("optimize_landmark_graph", &optimize, "graph"_a, "options"_a,
+  m.def("optimize_landmark_graph", &optimize, "graph"_a, "options"_a, "on_step"_a = nb::none(),
         doc("optimize_landmark_graph"));
 }
 

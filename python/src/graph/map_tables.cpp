@@ -60,7 +60,7 @@ Table keyframe_table(const Map& map) {
   std::vector<std::int64_t> id, frame, stamp, place, component;
   std::vector<double> poses;
   {
-    const nb::gil_scoped_release release;
+    const WithoutGil released;
     const MapIndex index(map);
     for (const Keyframe& keyframe : map.keyframes) {
       const auto at = index.find(keyframe.id);
@@ -89,7 +89,7 @@ Table landmark_table(const Map& map) {
   std::vector<double> positions, covariances;
   std::vector<std::uint8_t> colours;
   {
-    const nb::gil_scoped_release release;
+    const WithoutGil released;
     const MapIndex index(map);
     for (const PointLandmark& landmark : map.landmarks) {
       const auto at = index.find(landmark.keyframe);
@@ -124,7 +124,7 @@ Table observation_table(const Map& map) {
   std::vector<float> px;
   std::vector<std::int32_t> camera;
   {
-    const nb::gil_scoped_release release;
+    const WithoutGil released;
     for (const Keyframe& each : map.keyframes)
       for (const LandmarkObservation& seen : each.observations) {
         keyframe.push_back(each.id.value());

@@ -89,18 +89,18 @@ std::string export_files(const StoredMap& stored, const std::map<std::string, st
 }
 
 void bind_files(nb::class_<StoredMap>& map) {
-  map.def_static("open", &open, "path"_a, nb::call_guard<nb::gil_scoped_release>(), doc("read_map"))
+  map.def_static("open", &open, "path"_a, nb::call_guard<WithoutGil>(), doc("read_map"))
       .def_static("from_colmap", &from_colmap, "folder"_a, "sequence"_a, "metric"_a = false,
-                  nb::call_guard<nb::gil_scoped_release>(),
+                  nb::call_guard<WithoutGil>(),
                   "The map of a COLMAP model in a folder, whose images are in a sequence.")
       .def(
           "save", [](const StoredMap& s, const std::string& path) { write_map(path, s); }, "path"_a,
-          nb::call_guard<nb::gil_scoped_release>(), doc("write_map"))
+          nb::call_guard<WithoutGil>(), doc("write_map"))
       .def_static("export_forms", &export_forms,
                   "Names of the forms of `export_files`, each with what it is.")
       .def("export_files", &export_files, "paths"_a, "component"_a = nb::none(), "ascii"_a = false,
            "resolution_m"_a = 0.05, "walls"_a = false, "voxel"_a = nb::none(), "force"_a = false,
-           nb::call_guard<nb::gil_scoped_release>(),
+           nb::call_guard<WithoutGil>(),
            "Writes parts of the map as files, `paths` by the names of their forms; a summary.");
 }
 
@@ -159,8 +159,8 @@ void bind_content(nb::class_<StoredMap>& map) {
            "The image of a keyframe as a small JPEG file, bytes; None if it is not stored.")
       .def(
           "pose_graph", [](const StoredMap& s) { return s.map.place_graph.pose_graph(); },
-          nb::call_guard<nb::gil_scoped_release>(), doc("PlaceGraph::pose_graph"))
-      .def("explain", &explain, "frame"_a, nb::call_guard<nb::gil_scoped_release>(),
+          nb::call_guard<WithoutGil>(), doc("PlaceGraph::pose_graph"))
+      .def("explain", &explain, "frame"_a, nb::call_guard<WithoutGil>(),
            "Explains the pose of a frame, or why it has none. The whole place graph is factorized "
            "once for the covariance. ArgumentError if the map has no such frame.");
 }

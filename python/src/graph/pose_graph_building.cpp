@@ -172,7 +172,7 @@ PoseGraph read(const std::filesystem::path& file, const std::string& indefinite)
   std::vector<std::string> remarks;
   PoseGraph graph;
   {
-    const nb::gil_scoped_release release;
+    const WithoutGil released;
     graph = read_pose_graph(path, {.connected = false, .remarks = &remarks, .indefinite = how});
   }
   for (const std::string& remark : remarks) warn(path + ": " + remark);
@@ -204,7 +204,7 @@ void bind_pose_graph_building(nb::class_<PoseGraph>& graph) {
           "write_g2o",
           [](const PoseGraph& g, const std::filesystem::path& path) {
             const PoseGraph copy = g;
-            const nb::gil_scoped_release release;
+            const WithoutGil released;
             write_g2o(path.string(), copy);
           },
           "path"_a, doc("write_g2o"))

@@ -165,7 +165,7 @@ void bind_trajectories(nb::module_& m) {
           [](const std::filesystem::path& path, const std::filesystem::path& times) {
             return read_trajectory(path.string(), times.string());
           },
-          "path"_a, "times"_a = "", nb::call_guard<nb::gil_scoped_release>(),
+          "path"_a, "times"_a = "", nb::call_guard<WithoutGil>(),
           "Reads a trajectory from a text file with one pose per line.\n\n"
           "A header that names the columns is used; otherwise the number of fields decides: KITTI "
           "(3x4 or 4x4), TUM, EuRoC. Blanks, tabs, commas or semicolons separate the fields. "
@@ -178,7 +178,7 @@ void bind_trajectories(nb::module_& m) {
           [](const Trajectory& t, const std::filesystem::path& path, TrajectoryFormat format) {
             write_trajectory(path.string(), t, format);
           },
-          "path"_a, "format"_a = TrajectoryFormat::kTum, nb::call_guard<nb::gil_scoped_release>(),
+          "path"_a, "format"_a = TrajectoryFormat::kTum, nb::call_guard<WithoutGil>(),
           doc("write_trajectory"))
       .def("__repr__", [](const Trajectory& each) { return text_of(each); })
       .def_prop_ro("posed", &Trajectory::posed, doc("Trajectory::posed"))

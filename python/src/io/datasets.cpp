@@ -46,8 +46,7 @@ void bind_imu(nb::module_& m) {
       .def_prop_ro(
           "accel_m_s2", [](const ImuRecording& r) { return imu_rows(r, &ImuSample::accel_m_s2); },
           kNew, "Specific force in the body frame: -gravity at rest [m/s^2], N x 3.");
-  m.def("read_imu", &read_imu, "folder"_a, nb::call_guard<nb::gil_scoped_release>(),
-        doc("read_imu"));
+  m.def("read_imu", &read_imu, "folder"_a, nb::call_guard<WithoutGil>(), doc("read_imu"));
 }
 
 }  // namespace
@@ -63,12 +62,12 @@ void bind_datasets(nb::module_& m) {
       .def("stamp_ns", &Dataset::stamp_ns, "index"_a, doc("Dataset::stamp_ns"))
       .def_prop_ro("stamps_ns", &stamps_of, kNew, "Times of all frames [ns], N of int64.")
       .def("image_path", &Dataset::image_path, "index"_a, doc("Dataset::image_path"))
-      .def("frame", &Dataset::frame, "index"_a, "sensor"_a,
-           nb::call_guard<nb::gil_scoped_release>(), doc("Dataset::frame"))
+      .def("frame", &Dataset::frame, "index"_a, "sensor"_a, nb::call_guard<WithoutGil>(),
+           doc("Dataset::frame"))
       .def_prop_ro("ground_truth", &Dataset::ground_truth, doc("Dataset::ground_truth"))
       .def_prop_ro("images_rectified", &Dataset::images_rectified, doc("Dataset::images_rectified"))
       .def("notes", &Dataset::notes, doc("Dataset::notes"));
-  m.def("open_dataset", &open_dataset, "path"_a, nb::call_guard<nb::gil_scoped_release>(),
+  m.def("open_dataset", &open_dataset, "path"_a, nb::call_guard<WithoutGil>(),
         "Recognizes the layout of a folder or video file and opens it as a sequence.\n\n"
         "Raises FileError if none is recognized, `path` does not exist or the sequence is broken.");
   bind_imu(m);

@@ -35,13 +35,13 @@ Image pixels_of(nb::handle array) {
 
 void write(const std::string& path, nb::handle array) {
   const Image image = pixels_of(array);
-  const nb::gil_scoped_release release;
+  const WithoutGil released;
   write_image(path, image);
 }
 
 nb::tuple read(const std::string& path) {
   const GreyAndColour image = [&] {
-    const nb::gil_scoped_release release;
+    const WithoutGil released;
     return read_image(path);
   }();
   return nb::make_tuple(array_of(image.grey, Access::kReadWrite),
@@ -60,7 +60,7 @@ nb::object demosaic(nb::handle array, const std::string& pattern) {
     if (pattern != name) continue;
     Image colour;
     {
-      const nb::gil_scoped_release release;
+      const WithoutGil released;
       cv::demosaicing(grey, colour, code);
     }
     return array_of(colour, Access::kReadWrite);
@@ -87,7 +87,7 @@ void write_imu_arrays(const std::string& folder, const ArrayArgument<std::int64_
     recording.samples.push_back({stamps.data()[i], Eigen::Vector3d(gyro.data() + 3 * i),
                                  Eigen::Vector3d(accel.data() + 3 * i)});
   }
-  const nb::gil_scoped_release release;
+  const WithoutGil released;
   write_imu(folder, recording);
 }
 

@@ -75,7 +75,7 @@ void write(const SyntheticWorld& world, const std::string& folder,
     if (PyErr_CheckSignals() != 0) throw nb::python_error();
     if (!on_frame.is_none()) on_frame(done, world.size());
   };
-  const nb::gil_scoped_release release;
+  const WithoutGil released;
   write_world(world, folder, options, progress);
 }
 
@@ -114,7 +114,7 @@ void bind_synthetic(nb::module_& m) {
              const std::optional<std::pair<int, int>>& size, int threads, const nb::dict& defects) {
             const SyntheticOptions options =
                 options_of(world, difficulty, seed, frames, duration_s, size, threads, defects);
-            const nb::gil_scoped_release release;
+            const WithoutGil released;
             new (self) SyntheticWorld(options);
           },
           "world"_a, nb::kw_only(), "difficulty"_a = "standard", "seed"_a = 1, "frames"_a = 0,
@@ -136,7 +136,7 @@ void bind_synthetic(nb::module_& m) {
       .def_prop_ro("ground_truth", &SyntheticWorld::ground_truth, nb::rv_policy::move,
                    doc("SyntheticWorld::ground_truth"))
       .def("render", &render, "index"_a, "sensor"_a = nb::none(), nb::kw_only(), "labels"_a = false,
-           "planes"_a = false, "flow"_a = false, nb::call_guard<nb::gil_scoped_release>(),
+           "planes"_a = false, "flow"_a = false, nb::call_guard<WithoutGil>(),
            "Renders a frame with the images that a sensor needs, and more if asked for.")
       .def("write", &write, "folder"_a, "sensor"_a = nb::none(), nb::kw_only(), "labels"_a = false,
            "flow"_a = false, "threads"_a = 1, "force"_a = false, "on_frame"_a = nb::none(),

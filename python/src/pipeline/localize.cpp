@@ -31,12 +31,21 @@ Frame query_frame(nb::handle image, std::size_t i) {
 }
 
 std::vector<Localization> localize(const MapLocalizer& localizer,
-                                   const nb::typed<nb::list, nb::any>& images, bool sequence) {
+                                   const nb::typed<nb::list, nb::any>& images, bool sequence,
+                                   const nb::object& on_image) {
   std::vector<Frame> frames;
   for (std::size_t i = 0; i < images.size(); ++i) frames.push_back(query_frame(images[i], i));
-  const nb::gil_scoped_release release;
+  const WithoutGil released;
   return localizer.localize(
-      frames.size(), [&](std::size_t i) { return frames[i]; }, sequence);
+      frames.size(),
+      [&](std::size_t i) {
+        if (!on_image.is_none()) {
+          const nb::gil_scoped_acquire gil;
+          on_image(i);
+        }
+        return frames[i];
+      },
+      sequence);
 }
 
 }  // namespace
@@ -69,12 +78,13 @@ void bind_localize(nb::module_& m) {
           "__init__",
           [](MapLocalizer* self, const StoredMap& stored, const OptionSet& options) {
             const auto& typed = options_in<LocalizerOptions>(options, "options");
-            const nb::gil_scoped_release release;
+            const WithoutGil released;
             new (self) MapLocalizer(typed, stored);
           },
           "map"_a, "options"_a, doc("MapLocalizer::MapLocalizer"))
-      .def("localize", &localize, "images"_a, "sequence"_a = false,
-           "Localizes a list of images: arrays, or frames of a dataset.");
+      .def("localize", &localize, "images"_a, "sequence"_a = false, "on_image"_a = nb::none(),
+           "Localizes a list of images: arrays, or frames of a dataset.\n\n"
+           "`on_image` is called with the number of each before it is compared.");
 }
 
 }  // namespace placegraph::python

@@ -67,7 +67,7 @@ std::string pose_graph_page(const PoseGraph& graph, const PoseGraph& before,
 }  // namespace
 
 void bind_reports(nb::module_& m) {
-  const auto released = nb::call_guard<nb::gil_scoped_release>();
+  const auto released = nb::call_guard<WithoutGil>();
   m.def("map_page", &map_page, "map"_a, "path"_a = "", "title"_a = "", released,
         "The page of a map as `placegraph report` writes it, HTML. `path`: the file of the map, "
         "beside which are other results of its run.");

@@ -91,7 +91,7 @@ PythonRun run(const Dataset& dataset, const OptionSet& options, const std::strin
   inputs.log = log_sink(callbacks.on_log);
   inputs.stop = [&] { return callbacks.stops(); };
   if (map_file) inputs.map_file = MapFile{*map_file, sequence, resume};
-  const nb::gil_scoped_release release;
+  const WithoutGil released;
   if (surfaces) inputs.surfaces = surfaces_in(*surfaces);
   PythonRun result = finished(run_sequence(dataset, copy, inputs), dataset, copy, sequence);
   if (map_file && std::filesystem::exists(*map_file))

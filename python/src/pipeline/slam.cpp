@@ -133,7 +133,7 @@ class PythonSlam {
       bool& busy;
       ~Idle() { busy = false; }
     } idle{busy_};
-    const nb::gil_scoped_release release;
+    const WithoutGil released;
     return step();
   }
 
@@ -212,11 +212,10 @@ void bind_slam(nb::module_& m) {
       .def("view", &PythonSlam::view, doc("Slam::view"))
       .def("notes", &PythonSlam::notes, doc("Slam::notes"))
       .def("lens", &PythonSlam::lens, doc("Slam::lens"))
-      .def(
-          "overlay_mask", &PythonSlam::overlay_mask,
-          nb::sig("def overlay_mask(self) -> numpy.typing.NDArray[numpy.uint8] | None"),
-          "H x W uint8, 0 in regions fixed to the camera; None as long as nothing is found. "
-          "Later frames are masked by it.")
+      .def("overlay_mask", &PythonSlam::overlay_mask,
+           nb::sig("def overlay_mask(self) -> numpy.typing.NDArray[numpy.uint8] | None"),
+           "H x W uint8, 0 in regions fixed to the camera; None as long as nothing is found. "
+           "Later frames are masked by it.")
       .def("stages", &PythonSlam::stages,
            nb::sig("def stages(self) -> dict[str, tuple[float, int]]"), doc("Slam::stages"));
 }

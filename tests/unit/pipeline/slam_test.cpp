@@ -1,8 +1,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/parallel.h>
 #include <placegraph/graph/place_history.h>
 #include <placegraph/pipeline/slam.h>
+
+#include <chrono>
+#include <stdexcept>
+#include <thread>
 
 #include "tests/support/message_of.h"
 #include "tests/support/scenes/blank_dataset.h"
@@ -51,6 +56,18 @@ TEST(Slam, EndsOnce) {
   EXPECT_THROW((void)slam.finish(), ArgumentError);
   EXPECT_THROW((void)slam.add_frame(frame_at(1)), ArgumentError);
   EXPECT_EQ(slam.snapshot().frames.size(), 1u);
+}
+
+TEST(Slam, AnInterruptedEndLeavesNoMap) {
+  Slam slam = empty_slam();
+  (void)slam.add_frame(frame_at(0));
+  {
+    const InterruptionScope scope([] { throw std::runtime_error("enough"); });
+    std::this_thread::sleep_for(std::chrono::milliseconds(120));  // until the next check is due
+    EXPECT_THROW((void)slam.finish(), std::runtime_error);
+  }
+  EXPECT_THROW((void)slam.finish(), ArgumentError);
+  EXPECT_THROW((void)slam.snapshot(), ArgumentError);
 }
 
 TEST(Slam, LabelsNeedAModel) {
