@@ -55,7 +55,7 @@ def test_wrong_reconstructions(run_folder: pathlib.Path, drive: pathlib.Path,
 
     with pytest.raises(pg.ArgumentError, match="reconstruction"):
         colmap.from_pycolmap(3, drive)
-    with pytest.raises(pg.Error, match="0 cameras"):
+    with pytest.raises(pg.Error, match="no camera in it"):
         colmap.from_pycolmap(pycolmap.Reconstruction(), drive)
     reconstruction = colmap.to_pycolmap(pg.Map.open(run_folder))
     with pytest.raises(pg.Error, match="absent"):
