@@ -5,6 +5,7 @@
 
 #include <limits>
 #include <string>
+#include <string_view>
 
 namespace placegraph::python {
 namespace {
@@ -32,6 +33,22 @@ bool are_keys(const nb::object& array, const std::string& dtype, const char* arg
   return true;
 }
 
+/// The matrices of an object that has them, as the rotations and motions of scipy.
+nb::object plain(nb::handle value) {
+  if (nb::hasattr(value, "as_matrix")) return value.attr("as_matrix")();
+  return nb::borrow(value);
+}
+
+/// Times of numpy, of any unit, as nanoseconds; any other array stays.
+nb::object as_nanoseconds(const nb::object& array, const char* argument) {
+  if (nb::cast<std::string>(array.attr("dtype").attr("kind")) != "M") return array;
+  if (!std::string_view(argument).ends_with("_ns")) return array;
+  const nb::module_ numpy = nb::module_::import_("numpy");
+  if (is_true(numpy.attr("isnat")(array).attr("any")()))
+    throw ArgumentError(fmt::format("{}: a value is no time", argument));
+  return array.attr("astype")("datetime64[ns]").attr("astype")("int64");
+}
+
 }  // namespace
 
 nb::object checked_array(nb::handle value, const char* argument, const char* dtype,
@@ -41,7 +58,7 @@ nb::object checked_array(nb::handle value, const char* argument, const char* dty
                                          form.empty() ? text_of_shape(shape) : form);
   nb::object array;
   try {
-    array = numpy.attr("asarray")(value);
+    array = as_nanoseconds(numpy.attr("asarray")(plain(value)), argument);
   } catch (const nb::python_error& error) {      // rows of different lengths
     if (!error.matches(PyExc_Exception)) throw;  // KeyboardInterrupt
     throw ArgumentError(wanted);
@@ -66,7 +83,8 @@ nb::object checked_array(nb::handle value, const char* argument, const char* dty
 
 std::vector<std::size_t> shape_of(nb::handle value) {
   try {
-    return nb::cast<std::vector<std::size_t>>(nb::module_::import_("numpy").attr("shape")(value));
+    return nb::cast<std::vector<std::size_t>>(
+        nb::module_::import_("numpy").attr("shape")(plain(value)));
   } catch (const nb::python_error& error) {      // checked_array says what is wrong
     if (!error.matches(PyExc_Exception)) throw;  // KeyboardInterrupt
     return {};

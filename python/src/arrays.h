@@ -20,9 +20,10 @@ using TableList = nb::typed<nb::list, Table>;
 /// The value of an argument as an array of a type and shape (kAny: any size), row by row.
 ///
 /// What numpy converts without loss is converted (integers to float64, lists, uint64 below 2^63 to
-/// int64); an array that fits is not copied. Throws ArgumentError, which names the argument, for
-/// anything else, and for values that are not finite if `finite`. `form` is the wanted shape in
-/// messages, where `shape` does not tell it.
+/// int64, times to an argument in _ns), and an object with as_matrix() to its matrices; an array
+/// that fits is not copied. Throws ArgumentError, which names the argument, for anything else, and
+/// for values that are not finite if `finite`. `form` is the wanted shape in messages, where
+/// `shape` does not tell it.
 nb::object checked_array(nb::handle value, const char* argument, const char* dtype,
                          const std::vector<int>& shape, bool finite, const std::string& form = "");
 
@@ -56,6 +57,12 @@ struct ArrayArgument {
                         Values values = Values::kFinite, const std::string& form = "") const {
     return nb::cast<ArrayView<Number>>(checked_array(value, argument, dtype_name<Number>(), shape,
                                                      values == Values::kFinite, form));
+  }
+
+  /// A quaternion x y z w: four numbers, or a rotation of scipy.
+  ArrayView<Number> get_xyzw(const char* argument) const {
+    if (!nb::hasattr(value, "as_quat")) return get(argument, {4});
+    return ArrayArgument{value.attr("as_quat")()}.get(argument, {4});
   }
 };
 

@@ -1,6 +1,7 @@
 """Trajectories: arrays, files, tables."""
 
 import pathlib
+from typing import Any
 
 import numpy as np
 import pytest
@@ -94,3 +95,41 @@ def test_a_trajectory_is_a_sequence_of_its_frames() -> None:
         trajectory[wrong("1")]
     with pytest.raises(pg.ArgumentError, match="slice: its step must be positive"):
         trajectory[::-1]
+
+
+@pytest.mark.parametrize("unit", ["ns", "us", "ms", "s"])
+def test_stamps_may_be_times_of_numpy(unit: str) -> None:
+    times = (np.datetime64("2026-11-28T10:00:00") + np.arange(4)).astype(f"datetime64[{unit}]")
+    poses = np.tile(np.eye(4), (4, 1, 1))
+    made = pg.Trajectory.from_arrays(times, poses)
+    assert made.stamps_ns.tolist() == times.astype("datetime64[ns]").astype(np.int64).tolist()
+    times[2] = np.datetime64("NaT")
+    with pytest.raises(pg.ArgumentError, match="stamps_ns: a value is no time"):
+        pg.Trajectory.from_arrays(times, poses)
+
+
+class Rotations:
+    """What rotations and motions of scipy offer."""
+
+    def __init__(self, matrices: np.ndarray) -> None:
+        self._matrices = matrices
+
+    def as_matrix(self) -> np.ndarray:
+        return self._matrices
+
+    def as_quat(self) -> np.ndarray:
+        return pg.SE3(np.block([[self._matrices, np.zeros((3, 1))],
+                                [np.zeros((1, 3)), np.ones((1, 1))]])).quaternion_xyzw
+
+
+def test_motions_of_scipy_are_matrices_and_its_rotations_quaternions() -> None:
+    poses = [pg.SE3.exp([i, 1, 2, 0.1 * i, 0.2, 0.3]) for i in range(3)]
+    motions: Any = Rotations(np.stack([pose.matrix() for pose in poses]))
+    made = pg.Trajectory.from_arrays(np.arange(3), motions)
+    np.testing.assert_allclose(made.poses, [pose.matrix() for pose in poses], atol=1e-12)
+    rotation: Any = Rotations(poses[1].rotation)
+    np.testing.assert_allclose(pg.SE3.from_quaternion_xyzw(rotation, [1, 1, 2]).matrix()[:3, :3],
+                               poses[1].rotation, atol=1e-12)
+    np.testing.assert_allclose(pg.SO3(rotation).matrix(), poses[1].rotation, atol=1e-12)
+    with pytest.raises(pg.ArgumentError, match="quaternion: an array of float64, 4"):
+        pg.SE3.from_quaternion_wxyz(rotation, [0, 0, 0])

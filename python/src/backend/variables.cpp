@@ -63,7 +63,7 @@ void bind_group(nb::class_<Group>& c) {
 }
 
 SO3 rotation_of(const ArrayArgument<double>& quaternion_xyzw) {
-  const Vector q = numbers(quaternion_xyzw, "quaternion_xyzw", 4);
+  const Eigen::Vector4d q(quaternion_xyzw.get_xyzw("quaternion_xyzw").data());
   require(std::abs(q.norm() - 1) < 1e-2, "quaternion_xyzw: it is not of unit length");
   return SO3(Eigen::Quaterniond(q[3], q[0], q[1], q[2]));
 }

@@ -30,7 +30,7 @@ SE3 from_matrix(const ArrayView<double>& array) {
 /// The motion of a quaternion whose parts stand at these positions of its array.
 SE3 from_quaternion(const ArrayArgument<double>& quaternion, int w, int x, int y, int z,
                     const ArrayArgument<double>& translation) {
-  const auto q = quaternion.get("quaternion", {4});
+  const auto q = w == 3 ? quaternion.get_xyzw("quaternion") : quaternion.get("quaternion", {4});
   const auto t = translation.get("translation", {3});
   const double* part = q.data();
   const Eigen::Quaterniond rotation(part[w], part[x], part[y], part[z]);
