@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
-import html
 from collections.abc import Sequence
+
+
+def escaped(text: str) -> str:
+    """Text as HTML, also between quotes."""
+    import html  # its table of names takes longer than most of the package
+
+    return html.escape(text)
 
 
 def table_html(rows: Sequence[tuple[str, str]]) -> str:
     """Names and values."""
-    cells = "".join(f"<tr><th style='text-align:left'>{html.escape(name)}</th>"
-                    f"<td style='text-align:left'>{html.escape(value)}</td></tr>"
+    cells = "".join(f"<tr><th style='text-align:left'>{escaped(name)}</th>"
+                    f"<td style='text-align:left'>{escaped(value)}</td></tr>"
                     for name, value in rows)
     return f"<table>{cells}</table>"
 

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import html
 import os
 import sys
 from collections.abc import Sequence
 from typing import Union
 
 from . import _core
+from ._notebook import escaped
 from ._types import Path
 from .evaluation import Comparison, Evaluation
 from .graphs import OptimizedGraph
@@ -55,7 +55,7 @@ class Page:
         self.height = height
 
     def _repr_html_(self) -> str:
-        text, height = (html.escape(str(each), quote=True) for each in (self.text, self.height))
+        text, height = (escaped(str(each)) for each in (self.text, self.height))
         return (f"<iframe srcdoc=\"{text}\" width=\"100%\" height=\"{height}\" "
                 "style=\"border:0\"></iframe>")
 

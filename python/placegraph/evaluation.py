@@ -9,7 +9,6 @@
 
 from __future__ import annotations
 
-import html
 import os
 import warnings
 from collections.abc import Iterator, Mapping, Sequence
@@ -26,7 +25,7 @@ from ._estimates import (
     times_beside,
     true_of,
 )
-from ._notebook import figure_html, table_html
+from ._notebook import escaped, figure_html, table_html
 from ._tables import table_of
 from .datasets import Dataset
 from .options import EvaluationOptions, given_or_default
@@ -266,7 +265,7 @@ class Comparison(Sequence[Evaluation]):
         return "\n".join([table.rstrip("\n"), *_warned(self._results)])
 
     def _repr_html_(self) -> str:
-        text = f"<pre>{html.escape(repr(self))}</pre>"
+        text = f"<pre>{escaped(repr(self))}</pre>"
         return self.picture().to_svg() + text if any(each.ok for each in self) else text
 
 
