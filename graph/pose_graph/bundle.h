@@ -1,6 +1,8 @@
 #pragma once
 #include <placegraph/graph/geometry/se3.h>
 
+#include <array>
+#include <optional>
 #include <vector>
 
 namespace [[gnu::visibility("default")]] placegraph {
@@ -10,6 +12,9 @@ namespace [[gnu::visibility("default")]] placegraph {
 struct BundleCamera {
   SE3 T_world_cam;                      ///< pose
   double focal_px = 1, k1 = 0, k2 = 0;  ///< focal length and coefficients of radial distortion
+  /// The numbers of the BAL file that it was read from, which are written again while they give
+  /// this camera: a rotation vector is not unique.
+  std::optional<std::array<double, 9>> of_file;
 };
 
 /// The observation of a point in a camera.

@@ -11,6 +11,9 @@
 namespace placegraph {
 namespace {
 
+/// COLMAP's id of no camera.
+constexpr std::uint32_t kNoColmapCamera = std::numeric_limits<std::uint32_t>::max();
+
 constexpr double kCameraCorner_px = 0.5;  ///< pixels count from the corner of the first one
 
 constexpr ColmapLens kColmapLenses[] = {
@@ -52,6 +55,8 @@ class CameraList {
   std::set<std::uint32_t> ids_;
 };
 
+std::string no_id(std::int64_t id) { return fmt::format("camera: {} is no id", id); }
+
 std::string there_twice(std::uint32_t id) { return fmt::format("camera {} is there twice", id); }
 
 ColmapModel::RawCamera parse_camera_line(const TextFile& file,
@@ -65,7 +70,7 @@ ColmapModel::RawCamera parse_camera_line(const TextFile& file,
     file.fail(fmt::format("{} has {} parameters", camera.model, lens->parameters));
   const std::int64_t width = file.integer(fields[2], "width");
   const std::int64_t height = file.integer(fields[3], "height");
-  if (width < 1 || height < 1) file.fail("the size of the image is not positive");
+  if (width < 0 || height < 0) file.fail("the size of the image is negative");
   camera.width = static_cast<std::uint64_t>(width);
   camera.height = static_cast<std::uint64_t>(height);
   for (std::size_t i = 4; i < fields.size(); ++i)
@@ -87,6 +92,7 @@ std::vector<ColmapModel::RawCamera> read_binary_cameras(const std::string& path)
   for (std::uint64_t i = 0; i < count; ++i) {
     ColmapModel::RawCamera camera;
     camera.id = bytes.next<std::uint32_t>();
+    if (camera.id == kNoColmapCamera) throw FileError(path, no_id(camera.id));
     const auto model = bytes.next<std::int32_t>();
     const auto* lens = std::ranges::find(kColmapLenses, model, &ColmapLens::id);
     if (lens == std::end(kColmapLenses))
@@ -122,8 +128,7 @@ std::vector<ColmapModel::RawCamera> read_text_cameras(const std::string& path) {
 
 std::uint32_t colmap_camera_id(const TextFile& file, std::string_view field) {
   const std::int64_t id = file.integer(field, "camera");
-  if (id < 0 || id >= std::numeric_limits<std::uint32_t>::max())
-    file.fail(fmt::format("camera: {} is no id", id));
+  if (id < 0 || id >= kNoColmapCamera) file.fail(no_id(id));
   return static_cast<std::uint32_t>(id);
 }
 

@@ -121,7 +121,12 @@ void read_text_points(const std::string& path, ColmapParts& parts) {
   }
 }
 
-/// The id of the camera of all images; without images that of the first camera.
+bool is_readable(const ColmapModel::RawCamera& camera) {
+  const ColmapLens* lens = find_colmap_lens(camera.model);
+  return lens != nullptr && lens->focal > 0;
+}
+
+/// The id of the camera of all images; without images that of the first camera of a known model.
 std::uint32_t used_camera(const std::string& path, const ColmapParts& parts,
                           const std::vector<ColmapModel::RawCamera>& cameras) {
   const std::vector<ColmapModel::Image>& images = parts.model.images;
@@ -136,7 +141,9 @@ std::uint32_t used_camera(const std::string& path, const ColmapParts& parts,
                                         images[0].id, images[0].name, images[i].id, images[i].name,
                                         first, camera));
   }
-  return images.empty() ? cameras.front().id : parts.image_cameras.front();
+  if (!images.empty()) return parts.image_cameras.front();
+  const auto readable = std::ranges::find_if(cameras, is_readable);
+  return readable == cameras.end() ? cameras.front().id : readable->id;
 }
 
 /// Puts the camera of the images and those that no image has into the model.

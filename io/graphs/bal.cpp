@@ -4,6 +4,8 @@
 #include <placegraph/io/files/text_file.h>
 #include <placegraph/io/graphs/bal.h>
 
+#include <array>
+
 namespace placegraph {
 namespace {
 
@@ -55,12 +57,32 @@ class NumberStream {
   std::size_t at_ = 0;
 };
 
+/// Rotation vector, translation, focal length and coefficients.
+using CameraNumbers = std::array<double, 9>;
+
+BundleCamera camera_of(const CameraNumbers& v) {
+  const SE3 T_cam_world(SO3::exp({v[0], v[1], v[2]}), Eigen::Vector3d(v[3], v[4], v[5]));
+  return {(half_turn_about_x() * T_cam_world).inverse(), v[6], v[7], v[8], v};
+}
+
 BundleCamera parse_camera(NumberStream& numbers) {
-  double v[9];
+  CameraNumbers v;
   for (double& x : v) x = numbers.number("camera parameter");
   if (!(v[6] > 0)) numbers.file().fail(fmt::format("the focal length {} is not positive", v[6]));
-  const SE3 T_cam_world(SO3::exp({v[0], v[1], v[2]}), Eigen::Vector3d(v[3], v[4], v[5]));
-  return {(half_turn_about_x() * T_cam_world).inverse(), v[6], v[7], v[8]};
+  return camera_of(v);
+}
+
+bool are_equal(const BundleCamera& a, const BundleCamera& b) {
+  return a.T_world_cam.matrix() == b.T_world_cam.matrix() && a.focal_px == b.focal_px &&
+         a.k1 == b.k1 && a.k2 == b.k2;
+}
+
+/// The numbers of a camera: those of its file while they give it.
+CameraNumbers numbers_of(const BundleCamera& camera) {
+  if (camera.of_file && are_equal(camera_of(*camera.of_file), camera)) return *camera.of_file;
+  const SE3 T_cam_world = half_turn_about_x() * camera.T_world_cam.inverse();
+  const Eigen::Vector3d w = T_cam_world.rotation().log(), t = T_cam_world.translation();
+  return {w[0], w[1], w[2], t[0], t[1], t[2], camera.focal_px, camera.k1, camera.k2};
 }
 
 }  // namespace
@@ -97,13 +119,8 @@ void write_bal(const std::string& path, const Bundle& bundle) {
                      bundle.observations.size());
   for (const BundleObservation& o : bundle.observations)
     out << fmt::format("{} {} {:.17g} {:.17g}\n", o.camera, o.point, o.px[0], -o.px[1]);
-  for (const BundleCamera& camera : bundle.cameras) {
-    const SE3 T_cam_world = half_turn_about_x() * camera.T_world_cam.inverse();
-    const Eigen::Vector3d w = T_cam_world.rotation().log(), t = T_cam_world.translation();
-    for (const double x :
-         {w[0], w[1], w[2], t[0], t[1], t[2], camera.focal_px, camera.k1, camera.k2})
-      out << fmt::format("{:.17g}\n", x);
-  }
+  for (const BundleCamera& camera : bundle.cameras)
+    for (const double x : numbers_of(camera)) out << fmt::format("{:.17g}\n", x);
   for (const Eigen::Vector3d& p : bundle.points)
     out << fmt::format("{:.17g}\n{:.17g}\n{:.17g}\n", p[0], p[1], p[2]);
   file.commit();

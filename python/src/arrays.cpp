@@ -46,7 +46,11 @@ nb::object as_nanoseconds(const nb::object& array, const char* argument) {
   const nb::module_ numpy = nb::module_::import_("numpy");
   if (is_true(numpy.attr("isnat")(array).attr("any")()))
     throw ArgumentError(fmt::format("{}: a value is no time", argument));
-  return array.attr("astype")("datetime64[ns]").attr("astype")("int64");
+  const nb::object times = array.attr("astype")("datetime64[ns]");
+  if (!is_true(times.attr("astype")(array.attr("dtype")).attr("__eq__")(array).attr("all")()))
+    throw ArgumentError(
+        fmt::format("{}: a time is not in nanoseconds, or not between 1678 and 2262", argument));
+  return times.attr("astype")("int64");
 }
 
 }  // namespace

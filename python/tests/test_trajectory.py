@@ -108,6 +108,13 @@ def test_stamps_may_be_times_of_numpy(unit: str) -> None:
         pg.Trajectory.from_arrays(times, poses)
 
 
+@pytest.mark.parametrize("first", [np.datetime64("3000-01-01"), np.datetime64("1000-01-01"),
+                                   np.datetime64(3, "ps")])
+def test_times_that_are_no_nanoseconds_are_refused(first: np.datetime64) -> None:
+    with pytest.raises(pg.ArgumentError, match="stamps_ns: a time is not in nanoseconds, or not"):
+        pg.Trajectory.from_arrays(first + np.arange(4), np.tile(np.eye(4), (4, 1, 1)))
+
+
 class Rotations:
     """What rotations and motions of scipy offer."""
 

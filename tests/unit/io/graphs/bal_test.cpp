@@ -70,6 +70,27 @@ TEST(Bal, WritesWhatItReads) {
   EXPECT_EQ(again.points[0], bundle.points[0]);
 }
 
+TEST(Bal, WritesTheNumbersOfACameraThatStays) {
+  const TemporaryFolder folder;
+  // Rotations beyond a half turn and without a unique vector, signed zeros, tiny numbers.
+  Bundle bundle = read_bal(folder.write("a.txt",
+                                        "3 1 1\n0 0 1 2\n"
+                                        "0 0 4 1000000 1e-9 2 500 0 0\n3 2 1 5 6 7 800 1e-8 1e-13\n"
+                                        "-0.0 0.02 9 -0.0 0.1 0.3 400 0.1 -0.0\n0 0 -4\n"));
+  bundle.cameras[1].focal_px = 900;
+  write_bal(folder / "b.txt", bundle);
+  const Bundle again = read_bal(folder / "b.txt");
+  for (const std::size_t i : {0U, 2U})
+    for (std::size_t k = 0; k < 9; ++k) {
+      const double written = (*again.cameras[i].of_file)[k], read = (*bundle.cameras[i].of_file)[k];
+      EXPECT_EQ(written, read);
+      EXPECT_EQ(std::signbit(written), std::signbit(read));
+    }
+  EXPECT_EQ(again.cameras[1].focal_px, 900);
+  EXPECT_LT((again.cameras[1].T_world_cam.matrix() - bundle.cameras[1].T_world_cam.matrix()).norm(),
+            1e-13);
+}
+
 TEST(Bal, NamesTheLineOfWhatIsWrong) {
   const TemporaryFolder folder;
   const auto complaint = [&](const std::string& text) {
