@@ -105,7 +105,8 @@ TEST(PageThinning, AnEvaluationOfAnyNumberOfPosesIsSmall) {
         EXPECT_LE(data_bytes(written), kMostPageBytes) << frames << " " << runs << " " << moves;
         const test::TemporaryFolder folder;
         folder.write("page.html", written);
-        for (const json& run : test::report_in(folder / "page.html")["runs"]) {
+        const json report = test::report_in(folder / "page.html");
+        for (const json& run : report["runs"]) {
           const std::vector<float> ids = values_of(run["frames"]["id"]);
           const auto n = static_cast<float>(frames), half = static_cast<float>(frames / 2);
           EXPECT_THAT(ids, IsSupersetOf({0.0f, static_cast<float>(frames / 3), half - 1, half,
