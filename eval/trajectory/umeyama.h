@@ -30,7 +30,8 @@ struct AlignmentResult {
 
 /// Fits the least-squares similarity from `points_from` to `points_to` [m] (Umeyama 1991).
 ///
-/// Equations 34 to 43; scale stays 1 unless `with_scale`. Outcomes: kTooFewData below three points;
+/// Equations 34 to 43; scale stays 1 unless `with_scale`. Points that fit at least as well where
+/// they are, as equal ones do but for rounding, stay there: the identity to the bit. Outcomes: kTooFewData below three points;
 /// kDegenerate if the points coincide (nothing fitted) or are on a line (see `rank`). Throws
 /// ArgumentError if the sizes differ.
 [[nodiscard]] AlignmentResult umeyama(const std::vector<Eigen::Vector3d>& points_from,

@@ -14,8 +14,6 @@ namespace {
 /// COLMAP's id of no camera.
 constexpr std::uint32_t kNoColmapCamera = std::numeric_limits<std::uint32_t>::max();
 
-constexpr double kCameraCorner_px = 0.5;  ///< pixels count from the corner of the first one
-
 constexpr ColmapLens kColmapLenses[] = {
     {"SIMPLE_PINHOLE", 0, 3, 1, Distortion::kNone},
     {"PINHOLE", 1, 4, 2, Distortion::kNone},
@@ -151,8 +149,8 @@ Camera camera_of_colmap(const std::string& path, const ColmapModel::RawCamera& r
   camera.height = static_cast<int>(raw.height);
   camera.fx = raw.parameters[0];
   camera.fy = raw.parameters[lens->focal - 1];
-  camera.cx = raw.parameters[lens->focal] - kCameraCorner_px;
-  camera.cy = raw.parameters[lens->focal + 1] - kCameraCorner_px;
+  camera.cx = raw.parameters[lens->focal] - kColmapCorner_px;
+  camera.cy = raw.parameters[lens->focal + 1] - kColmapCorner_px;
   camera.distortion = lens->distortion;
   for (std::size_t i = lens->focal + 2; i < raw.parameters.size(); ++i)
     camera.coefficients[i - lens->focal - 2] = raw.parameters[i];

@@ -11,8 +11,6 @@
 namespace placegraph {
 namespace {
 
-constexpr double kToCorner_px = 0.5;  ///< pixels count from the corner of the first one
-
 /// An entry of a track: an image and the position of the observation in it.
 struct ColmapTrackEntry {
   std::uint32_t image = 0, observation = 0;
@@ -73,7 +71,7 @@ ColmapModel::RawCamera raw_camera(const Camera& camera, std::uint32_t id) {
       "PINHOLE",
       static_cast<std::uint64_t>(camera.width),
       static_cast<std::uint64_t>(camera.height),
-      {camera.fx, camera.fy, camera.cx + kToCorner_px, camera.cy + kToCorner_px}};
+      {camera.fx, camera.fy, camera.cx + kColmapCorner_px, camera.cy + kColmapCorner_px}};
   if (camera.distortion == Distortion::kNone) return raw;
   raw.model = camera.distortion == Distortion::kEquidistant ? "OPENCV_FISHEYE" : "OPENCV";
   for (std::size_t i = 0; i < 4; ++i) raw.parameters.push_back(camera.coefficients[i]);
@@ -125,7 +123,7 @@ ColmapFiles binary_colmap(const ColmapModel& model) {
     files.images.append(image.name.c_str(), image.name.size() + 1);
     append_number(files.images, static_cast<std::uint64_t>(image.observations.size()));
     for (const ColmapModel::Observation& observation : image.observations) {
-      for (int i = 0; i < 2; ++i) append_number(files.images, observation.px[i] + kToCorner_px);
+      for (int i = 0; i < 2; ++i) append_number(files.images, observation.px[i] + kColmapCorner_px);
       append_number(files.images, model.points[static_cast<std::size_t>(observation.point)].id);
     }
   }
@@ -159,8 +157,8 @@ ColmapFiles text_colmap(const ColmapModel& model) {
                    fmt::join(colmap_pose(image.T_world_cam), " "), model.camera_id, image.name);
     const char* separator = "";
     for (const ColmapModel::Observation& observation : image.observations) {
-      fmt::format_to(images, "{}{} {} {}", separator, observation.px[0] + kToCorner_px,
-                     observation.px[1] + kToCorner_px,
+      fmt::format_to(images, "{}{} {} {}", separator, observation.px[0] + kColmapCorner_px,
+                     observation.px[1] + kColmapCorner_px,
                      model.points[static_cast<std::size_t>(observation.point)].id);
       separator = " ";
     }

@@ -42,6 +42,9 @@ struct ColmapModel {
   std::vector<Point> points;              ///< points, in any order
 };
 
+/// Pixels of COLMAP count from the corner of the first one, ours from its centre [px].
+inline constexpr double kColmapCorner_px = 0.5;
+
 /// Ids of the cameras that no image has.
 std::vector<std::uint32_t> unused_camera_ids(const ColmapModel& model);
 

@@ -13,7 +13,6 @@
 namespace placegraph {
 namespace {
 
-constexpr double kColmapCorner_px = 0.5;  ///< pixels count from the corner of the first one
 constexpr auto kNoColmapPoint = std::numeric_limits<std::uint64_t>::max();
 
 /// An image point with the id of its point, as files have it.

@@ -5,8 +5,20 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from . import _core
-from ._gtsam_terms import (EQUAL, ORDER, gtsam_module, largest_sigma, lever_arm_of, name_of, noise_model, noise_of,
-                           pose_noise_of, row_of_pose, row_of_value, terms_of)
+from ._gtsam_terms import (
+    EQUAL,
+    ORDER,
+    gtsam_module,
+    largest_sigma,
+    lever_arm_of,
+    name_of,
+    noise_model,
+    noise_of,
+    pose_noise_of,
+    row_of_pose,
+    row_of_value,
+    terms_of,
+)
 from .factor_graph import SE2, SO3, Factor, FactorGraph
 from .graphs import RobustKernel
 
@@ -20,8 +32,8 @@ def factor_graph_from_gtsam(factors: Any, values: Any) -> tuple[FactorGraph, dic
 
     Values are Pose2, Pose3 and Point3. Equalities and priors of constrained noise hold a variable.
     Converted are also: PriorFactor and BetweenFactor of Pose2 and Pose3, GPSFactor, GPSFactorArm,
-    RangeFactorPose2, RangeFactorPose3, and GenericProjectionFactorCal3_S2 without skew whose camera is the body.
-    Raises ArgumentError, which names the factor and its keys, for any other.
+    RangeFactorPose2, RangeFactorPose3, and GenericProjectionFactorCal3_S2 without skew whose camera
+    is the body. Raises ArgumentError, which names the factor and its keys, for any other.
     """
     gtsam = gtsam_module()
     terms = terms_of(gtsam, factors, values)
@@ -70,7 +82,7 @@ def factor_graph_to_gtsam(graph: FactorGraph) -> tuple[Any, Any]:
         factor, variables, kernel = graph.term(i)
         model = noise_model(gtsam, np.eye(factor.residual_size), kernel)
         kinds = [graph.kind(variable) for variable in variables]
-        factors.add(gtsam.CustomFactor(model, list(variables), _evaluation(gtsam, i, factor, kinds)))
+        factors.add(gtsam.CustomFactor(model, list(variables), _evaluation(i, factor, kinds)))
     return factors, values
 
 
@@ -106,7 +118,7 @@ def _own_value(values: Any, key: int, kind: str) -> Any:
     return float(value[0]) if kind == "scalar" else value
 
 
-def _evaluation(gtsam: Any, i: int, factor: Factor, kinds: list[str]) -> Any:
+def _evaluation(i: int, factor: Factor, kinds: list[str]) -> Any:
     """The function of a gtsam.CustomFactor that evaluates one of ours."""
     def evaluate(this: Any, values: Any, jacobians: Any) -> NDArray[np.float64]:
         own = [_own_value(values, key, kind) for key, kind in zip(this.keys(), kinds)]

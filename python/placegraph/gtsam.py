@@ -17,8 +17,21 @@ from typing import Any
 
 from . import _core
 from ._gtsam_factors import factor_graph_from_gtsam, factor_graph_to_gtsam
-from ._gtsam_terms import (EQUAL, ORDER, gtsam_module, largest_sigma, lever_arm_of, name_of, noise_model, noise_of,
-                           pose_noise_of, pose_of_row, row_of_pose, row_of_value, terms_of)
+from ._gtsam_terms import (
+    EQUAL,
+    ORDER,
+    gtsam_module,
+    largest_sigma,
+    lever_arm_of,
+    name_of,
+    noise_model,
+    noise_of,
+    pose_noise_of,
+    pose_of_row,
+    row_of_pose,
+    row_of_value,
+    terms_of,
+)
 from .graphs import PoseGraph
 
 __all__ = ["factor_graph_from_gtsam", "factor_graph_to_gtsam", "from_gtsam", "to_gtsam"]

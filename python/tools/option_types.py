@@ -29,9 +29,7 @@ def class_name(kind: str, group: str) -> str:
 def documented(text: str) -> str:
     """A docstring in a class, in lines of at most 100 characters."""
     text = text.replace("\\", "\\\\").replace('"""', "'''")
-    text = text[:1].upper() + text[1:] + ("" if text.endswith((".", '"')) else ".")
-    if text.endswith('"'):
-        text += "."
+    text = text[:1].upper() + text[1:] + ("" if text.endswith(".") else ".")
     return textwrap.fill(f'"""{text}"""', 96, initial_indent="    ", subsequent_indent="    ",
                          break_long_words=False, break_on_hyphens=False)
 

@@ -103,4 +103,10 @@ json rows_of_column(const json& column, const std::vector<std::size_t>& rows) {
   return result;
 }
 
+std::size_t page_bytes(const json& part) {
+  const std::string text = part.dump(-1, ' ', false, json::error_handler_t::replace);
+  constexpr std::size_t kEscaped = 5;  // "<" is "\u003c"
+  return text.size() + kEscaped * static_cast<std::size_t>(std::ranges::count(text, '<'));
+}
+
 }  // namespace placegraph::report

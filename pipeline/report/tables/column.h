@@ -24,6 +24,9 @@ std::vector<float> values_of(const nlohmann::json& column);
 /// Number of rows of a column.
 std::size_t rows_of(const nlohmann::json& column);
 
+/// Bytes that a column, or any part of a report, takes in a page.
+std::size_t page_bytes(const nlohmann::json& part);
+
 /// Some rows of a column, or of a column of texts; null remains null.
 nlohmann::json rows_of_column(const nlohmann::json& column, const std::vector<std::size_t>& rows);
 

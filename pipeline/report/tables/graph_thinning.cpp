@@ -11,7 +11,6 @@
 #include <vector>
 
 #include <placegraph/pipeline/report/tables/column.h>
-#include <placegraph/pipeline/report/tables/page_thinning.h>
 #include <placegraph/pipeline/report/tables/row_thinning.h>
 
 namespace placegraph::report {

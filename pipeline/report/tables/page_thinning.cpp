@@ -255,12 +255,6 @@ std::size_t bytes_of_images(const json& report) {
 
 }  // namespace
 
-std::size_t page_bytes(const json& part) {
-  const std::string text = part.dump(-1, ' ', false, json::error_handler_t::replace);
-  constexpr std::size_t kEscaped = 5;  // "<" is "\u003c"
-  return text.size() + kEscaped * static_cast<std::size_t>(std::ranges::count(text, '<'));
-}
-
 void thin_report(json& report, std::size_t most) {
   const std::size_t all = page_bytes(report) - bytes_of_images(report);
   if (all <= most) return;

@@ -9,9 +9,6 @@ inline constexpr std::size_t kMostPageBytes = 300'000;
 /// The same for the page of a run, whose landmarks are a cloud that is looked at from nearby.
 inline constexpr std::size_t kMostRunPageBytes = 2'000'000;
 
-/// Bytes that a part of a report takes in a page.
-std::size_t page_bytes(const nlohmann::json& part);
-
 /// Leaves rows of the tables of runs and graphs out if a report has more than so many bytes.
 ///
 /// Tables are thinned to the same number of bytes each, what small ones leave is for the others.

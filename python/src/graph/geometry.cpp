@@ -28,9 +28,8 @@ SE3 from_matrix(const ArrayView<double>& array) {
 }
 
 /// The motion of a quaternion whose parts stand at these positions of its array.
-SE3 from_quaternion(const ArrayArgument<double>& quaternion, int w, int x, int y, int z,
+SE3 from_quaternion(const ArrayView<double>& q, int w, int x, int y, int z,
                     const ArrayArgument<double>& translation) {
-  const auto q = w == 3 ? quaternion.get_xyzw("quaternion") : quaternion.get("quaternion", {4});
   const auto t = translation.get("translation", {3});
   const double* part = q.data();
   const Eigen::Quaterniond rotation(part[w], part[x], part[y], part[z]);
@@ -74,14 +73,14 @@ void bind_se3(nb::module_& m) {
       .def_static(
           "from_quaternion_xyzw",
           [](const ArrayArgument<double>& q, const ArrayArgument<double>& t) {
-            return from_quaternion(q, 3, 0, 1, 2, t);
+            return from_quaternion(q.get_xyzw("quaternion"), 3, 0, 1, 2, t);
           },
           "quaternion"_a, "translation"_a,
           "The motion of a quaternion x y z w, which is normalized, and a translation.")
       .def_static(
           "from_quaternion_wxyz",
           [](const ArrayArgument<double>& q, const ArrayArgument<double>& t) {
-            return from_quaternion(q, 0, 1, 2, 3, t);
+            return from_quaternion(q.get("quaternion", {4}), 0, 1, 2, 3, t);
           },
           "quaternion"_a, "translation"_a,
           "The motion of a quaternion w x y z, which is normalized, and a translation.")
