@@ -14,7 +14,7 @@ struct BundleCamera {
   double focal_px = 1, k1 = 0, k2 = 0;  ///< focal length and coefficients of radial distortion
   /// The numbers of the BAL file that it was read from, which are written again while they give
   /// this camera: a rotation vector is not unique.
-  std::optional<std::array<double, 9>> of_file;
+  std::optional<std::array<double, 9>> of_file = std::nullopt;
 };
 
 /// The observation of a point in a camera.
