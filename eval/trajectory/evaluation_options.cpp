@@ -17,17 +17,45 @@ void visit(OptionVisitor& field, SegmentOptions& o) {
         "width of an interval of the table per speed [m/s]", {1e-3, 1e3});
 }
 
+void AlignmentSpan::check() const {
+  check_ranges(*this);
+  require(begin < end, "align_over: the span ends before it begins");
+}
+
+void visit(OptionVisitor& field, AlignmentSpan& o) {
+  field.choice("unit", o.unit, {"all", "frames", "seconds", "poses"},
+               "what begin and end count: numbers of frames, seconds since the first posed frame, "
+               "or posed frames");
+  field("begin", o.begin, "first value of the span", {-1e12, 1e12});
+  field("end", o.end, "first value behind the span", {-1e12, 1e12});
+}
+
+void visit(OptionVisitor& field, RelativeErrorOptions& o) {
+  std::string deltas;
+  for (const Delta& delta : o.deltas) deltas += (deltas.empty() ? "" : ",") + to_string(delta);
+  const std::string before = deltas;
+  field("deltas", deltas, "lengths of steps, as 10f,1s,5m,10deg; empty: none");
+  if (deltas != before) o.deltas = parse_deltas(deltas);
+  field.choice("pairs", o.pairs, {"consecutive", "all"}, "where steps begin");
+}
+
 void EvaluationOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, EvaluationOptions& o) {
-  field.choice("align", o.alignment, {"none", "origin", "se3", "sim3", "scale"},
+  field.choice("align", o.alignment, {"none", "origin", "se3", "sim3", "scale", "yaw"},
                "transformation fitted before the comparison");
+  field.group("align_over", o.align_over, "poses that the transformation is fitted to");
+  field.choice("vertical", o.vertical, {"estimated", "x", "y", "z"},
+               "vertical of the ground truth's world");
+  field.choice("part", o.part, {"space", "xy", "xz", "yz", "fitted", "x", "y", "z"},
+               "part of the position errors that is judged");
   field.choice("associate", o.association, {"auto", "index", "time"},
                "association of the poses of the two files");
   field("max_difference_s", o.time.max_difference_s,
         "largest difference of the stamps of a pair [s]", {0, 1e6});
   field("offset_s", o.time.offset_s, "offset added to the estimate's stamps [s]", {-1e12, 1e12});
   field.group("segments", o.segments, "segments of t_rel and r_rel");
+  field.group("relative", o.relative, "relative errors over other steps than one frame");
 }
 
 }  // namespace placegraph

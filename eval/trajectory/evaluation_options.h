@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/eval/trajectory/delta.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/geometry/trajectory.h>
 
@@ -13,6 +14,42 @@ enum class Alignment {
   kSe3,     ///< rotation and translation by least squares of the positions
   kSim3,    ///< rotation, translation and scale
   kScale,   ///< as kOrigin, and one scale fitted about that first pose
+  kYaw,     ///< translation and rotation about the vertical, where gravity is known
+};
+
+/// The vertical of the ground truth's world.
+enum class Vertical {
+  kEstimated,  ///< the axis about which the ground truth turns
+  kX,          ///< the world's x
+  kY,          ///< the world's y, as in the frame of a camera that looks ahead
+  kZ,          ///< the world's z
+};
+
+/// The poses that an alignment is fitted to; errors are computed of all poses.
+struct AlignmentSpan {
+  enum class Unit {
+    kAll,      ///< every posed frame
+    kFrames,   ///< frames of the ground truth by their number
+    kSeconds,  ///< time since the first posed frame
+    kPoses,    ///< posed frames by their order
+  };
+  Unit unit = Unit::kAll;  ///< what begin and end count
+  double begin = 0;        ///< first value that belongs to the span
+  double end = 1e12;       ///< first value behind it
+  void check() const;
+};
+void visit(OptionVisitor& field, AlignmentSpan& options);
+
+/// Which part of the position errors is judged.
+enum class ErrorPart {
+  kSpace,   ///< the whole error
+  kXy,      ///< its part in the plane of the world's x and y
+  kXz,      ///< its part in the plane of x and z
+  kYz,      ///< its part in the plane of y and z
+  kFitted,  ///< its part in the plane that fits the true positions best
+  kX,       ///< its part along x
+  kY,       ///< its part along y
+  kZ,       ///< its part along z
 };
 
 /// How poses of the estimate are paired with poses of the ground truth.
@@ -34,12 +71,23 @@ struct SegmentOptions {
 };
 void visit(OptionVisitor& field, SegmentOptions& options);
 
+/// Relative errors besides those of consecutive frames.
+struct RelativeErrorOptions {
+  std::vector<Delta> deltas;                        ///< lengths of the steps, each judged by itself
+  StepPairs pairs = StepPairs::kConsecutive;        ///< where the steps begin
+};
+void visit(OptionVisitor& field, RelativeErrorOptions& options);
+
 /// Options of the comparison of an estimated trajectory with the ground truth.
 struct EvaluationOptions {
   Alignment alignment = Alignment::kSe3;         ///< transformation fitted before the comparison
+  AlignmentSpan align_over;                      ///< poses that it is fitted to
+  Vertical vertical = Vertical::kEstimated;      ///< of the truth's world
+  ErrorPart part = ErrorPart::kSpace;            ///< part of the position errors that is judged
   Association association = Association::kAuto;  ///< association of poses
   AssociationOptions time;                       ///< options of the association by time
   SegmentOptions segments;                       ///< segments of t_rel and r_rel
+  RelativeErrorOptions relative;                 ///< relative errors over other steps
   void check() const;
 };
 void visit(OptionVisitor& field, EvaluationOptions& options);
