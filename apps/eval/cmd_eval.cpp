@@ -39,6 +39,38 @@ void add_plot_options(CLI::App& command, EvalArguments& a) {
       ->capture_default_str();
 }
 
+void add_alignment_options(CLI::App& command, EvalArguments& a) {
+  command.add_option("--align", a.align, "transformation fitted before the errors are computed")
+      ->check(CLI::IsMember(eval_alignments()))
+      ->capture_default_str();
+  command.add_option("--align-frames", a.align_frames,
+                     "fit it to the frames A:B of the ground truth (B is the first behind them)");
+  command.add_option("--align-seconds", a.align_seconds,
+                     "fit it to the seconds A:B since the first posed frame");
+  command.add_option("--align-first", a.align_first, "fit it to the first N posed frames")
+      ->check(CLI::PositiveNumber);
+  command
+      .add_option("--vertical", a.vertical,
+                  "vertical of the ground truth's world, for --align yaw and errors along it")
+      ->check(CLI::IsMember(eval_verticals()))
+      ->capture_default_str();
+}
+
+void add_error_options(CLI::App& command, EvalArguments& a) {
+  command
+      .add_option("--delta", a.deltas,
+                  "relative errors over steps of 10f (frames), 1s, 5m or 10deg; several joined by "
+                  "commas")
+      ->delimiter(',');
+  command.add_flag("--all-pairs", a.all_pairs,
+                   "begin a step of --delta at every pose; default: where the one before ends");
+  command
+      .add_option("--part", a.part,
+                  "part of the position errors that is judged: in a plane, or along an axis")
+      ->check(CLI::IsMember(eval_parts()))
+      ->capture_default_str();
+}
+
 }  // namespace
 
 void add_eval_trajectory_command(
@@ -63,9 +95,8 @@ void add_eval_trajectory_command(
           "paired with TRUTH's by name")
       ->required()
       ->check(CLI::ExistingPath);
-  command->add_option("--align", a.align, "transformation fitted before the errors are computed")
-      ->check(CLI::IsMember(eval_alignments()))
-      ->capture_default_str();
+  add_alignment_options(*command, a);
+  add_error_options(*command, a);
   command
       ->add_option("--lengths", a.options.segments.lengths_m,
                    "lengths of the segments [m], as 100,200,300")

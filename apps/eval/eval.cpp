@@ -9,6 +9,7 @@
 #include <placegraph/pipeline/report/run_page.h>
 
 #include <algorithm>
+#include <charconv>
 #include <filesystem>
 
 #include "apps/support/choice.h"
@@ -117,15 +118,76 @@ void write_outputs(const EvalArguments& arguments, const EvalResult& result) {
   for (const auto& [path, svg] : figures) write_plot(path, svg);
 }
 
+/// The number on one side of the colon of a span; `missing` if there is none.
+double span_end(const std::string& option, const std::string& text, double missing) {
+  if (text.empty()) return missing;
+  double value = 0;
+  const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  require(error == std::errc() && rest == text.data() + text.size(),
+          option + ": '" + text + "' is not a number (a span is A:B, with either end open)");
+  return value;
+}
+
+AlignmentSpan span_of(const std::string& option, const std::string& text,
+                      AlignmentSpan::Unit unit) {
+  const std::size_t colon = text.find(':');
+  require(colon != std::string::npos, option + ": '" + text + "' is no span A:B");
+  AlignmentSpan span;
+  span.unit = unit;
+  span.begin = span_end(option, text.substr(0, colon), span.begin);
+  span.end = span_end(option, text.substr(colon + 1), span.end);
+  require(span.begin < span.end, option + ": '" + text + "' ends before it begins");
+  return span;
+}
+
+AlignmentSpan align_over(const EvalArguments& a) {
+  require(!a.align_frames.empty() + !a.align_seconds.empty() + (a.align_first > 0) <= 1,
+          "--align-frames, --align-seconds, --align-first: give one of them");
+  if (!a.align_frames.empty())
+    return span_of("--align-frames", a.align_frames, AlignmentSpan::Unit::kFrames);
+  if (!a.align_seconds.empty())
+    return span_of("--align-seconds", a.align_seconds, AlignmentSpan::Unit::kSeconds);
+  AlignmentSpan span;
+  if (a.align_first > 0) span = {AlignmentSpan::Unit::kPoses, 0, double(a.align_first)};
+  return span;
+}
+
+EvaluationOptions options_of(const EvalArguments& arguments) {
+  EvaluationOptions options = arguments.options;
+  options.alignment = choice<Alignment>("--align", eval_alignments(), arguments.align);
+  options.align_over = align_over(arguments);
+  options.vertical = choice<Vertical>("--vertical", eval_verticals(), arguments.vertical);
+  options.part = choice<ErrorPart>("--part", eval_parts(), arguments.part);
+  for (const std::string& delta : arguments.deltas)
+    options.relative.deltas.push_back(parse_delta(delta));
+  if (arguments.all_pairs) options.relative.pairs = StepPairs::kAll;
+  options.association =
+      choice<Association>("--associate", eval_associations(), arguments.associate);
+  options.check();
+  return options;
+}
+
 }  // namespace
 
 const std::vector<std::string>& eval_alignments() {
-  static const std::vector<std::string> names = {"none", "origin", "se3", "sim3", "scale"};
+  static const std::vector<std::string> names = {"none", "origin", "se3",
+                                                 "sim3", "scale", "yaw"};
   return names;
 }
 
 const std::vector<std::string>& eval_associations() {
   static const std::vector<std::string> names = {"auto", "index", "time"};
+  return names;
+}
+
+const std::vector<std::string>& eval_verticals() {
+  static const std::vector<std::string> names = {"estimated", "x", "y", "z"};
+  return names;
+}
+
+const std::vector<std::string>& eval_parts() {
+  static const std::vector<std::string> names = {"space", "xy", "xz", "yz",
+                                                 "fitted", "x", "y", "z"};
   return names;
 }
 
@@ -136,11 +198,7 @@ const EvaluationResult* EvalResult::refused() const {
 }
 
 EvalResult eval(const EvalArguments& arguments) {
-  EvaluationOptions options = arguments.options;
-  options.alignment = choice<Alignment>("--align", eval_alignments(), arguments.align);
-  options.association =
-      choice<Association>("--associate", eval_associations(), arguments.associate);
-  options.check();
+  const EvaluationOptions options = options_of(arguments);
   require(!arguments.estimates.empty(), "EST: no estimate is given");
   check_outputs(arguments);
   EvalResult result;

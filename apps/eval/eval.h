@@ -9,6 +9,9 @@ namespace placegraph::apps {
 /// Names of the alignments and of the associations, in the order of Alignment and Association.
 const std::vector<std::string>& eval_alignments();
 const std::vector<std::string>& eval_associations();
+/// Names of the verticals and of the parts of errors, in the order of Vertical and ErrorPart.
+const std::vector<std::string>& eval_verticals();
+const std::vector<std::string>& eval_parts();
 
 struct EvalArguments {
   std::string truth;  ///< true trajectory, folder of a KITTI sequence, or folder of trajectories
@@ -16,6 +19,12 @@ struct EvalArguments {
   std::vector<std::string> times;  ///< files of times for KITTI trajectories: one for all, or one
                                    ///< for the truth and one for the estimates
   std::string align = "se3";       ///< one of eval_alignments()
+  std::string align_frames, align_seconds;  ///< spans A:B of the alignment; empty: none
+  int align_first = 0;                      ///< number of poses it is fitted to; 0: all
+  std::string vertical = "estimated";       ///< one of eval_verticals()
+  std::string part = "space";               ///< one of eval_parts()
+  std::vector<std::string> deltas;          ///< lengths of steps, as parse_delta reads them
+  bool all_pairs = false;                   ///< a step begins at every pose
   std::string associate = "auto";  ///< one of eval_associations()
   EvaluationOptions options;       ///< alignment and association are chosen by the two names above
   std::string csv, latex, plot;    ///< files to write; empty: none

@@ -116,6 +116,8 @@ std::string alignment_text(Alignment alignment) {
       return "aligned by rotation, translation and scale (sim3)";
     case Alignment::kScale:
       return "aligned by the first pose and a scale (scale)";
+    case Alignment::kYaw:
+      return "aligned by translation and heading (yaw)";
   }
   return to_string(alignment);
 }

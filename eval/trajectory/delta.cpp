@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <placegraph/eval/trajectory/delta.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
@@ -61,6 +62,12 @@ std::vector<Delta> parse_deltas(const std::string& text) {
 
 std::string to_string(const Delta& delta) {
   return fmt::format("{}{}", delta.value, name_of(delta.unit).suffix);
+}
+
+std::string to_string(const std::vector<Delta>& deltas) {
+  std::vector<std::string> texts;
+  for (const Delta& delta : deltas) texts.push_back(to_string(delta));
+  return fmt::format("{}", fmt::join(texts, ","));
 }
 
 std::string text_of(const Delta& delta) {

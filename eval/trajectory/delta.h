@@ -33,6 +33,8 @@ std::vector<Delta> parse_deltas(const std::string& text);
 
 /// The delta as parse_delta reads it: "10f", "1s", "5m", "10deg".
 std::string to_string(const Delta& delta);
+/// Deltas joined by commas, as parse_deltas reads them.
+std::string to_string(const std::vector<Delta>& deltas);
 /// The delta in words: "10 frames", "1 s", "5 m", "10 deg".
 std::string text_of(const Delta& delta);
 

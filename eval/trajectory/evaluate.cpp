@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <placegraph/eval/trajectory/evaluate.h>
 #include <placegraph/eval/trajectory/plausibility.h>
+#include <placegraph/eval/trajectory/vertical.h>
 
 #include <algorithm>
 #include <cmath>
@@ -25,11 +26,52 @@ std::vector<FramePair> scaled(double scale, std::vector<FramePair> pairs) {
   return pairs;
 }
 
+Outcome needs_orientation(const char* what) {
+  return Outcome::failure(Outcome::Code::kTooFewData,
+                          std::string(what) + " needs orientations, but there are positions alone");
+}
+
 /// RPE, t_rel and r_rel: motions between frames, with the scale of the alignment only.
 void judge_motions(const std::vector<FramePair>& pairs, bool has_times,
-                   const SegmentOptions& segments, EvaluationResult& r) {
-  r.rpe = rpe(pairs);
-  r.segments = kitti_segments(pairs, has_times, segments);
+                   const EvaluationOptions& options, EvaluationResult& r) {
+  const double scale = r.alignment.scale;
+  r.rpe = relative_errors(pairs, has_times, {}, StepPairs::kConsecutive, scale);
+  for (const Delta& delta : options.relative.deltas)
+    r.relative.push_back(relative_errors(pairs, has_times, delta, options.relative.pairs, scale));
+  r.segments = scale == 1 ? kitti_segments(pairs, has_times, options.segments)
+                          : kitti_segments(scaled(scale, pairs), has_times, options.segments);
+}
+
+/// The same without orientations: nothing.
+void judge_no_motions(const EvaluationOptions& options, EvaluationResult& r) {
+  r.rpe.outcome = needs_orientation("RPE");
+  r.segments.outcome = needs_orientation("a relative error");
+  for (const Delta& delta : options.relative.deltas) {
+    RelativeErrors steps;
+    steps.delta = delta;
+    steps.pairs = options.relative.pairs;
+    steps.outcome = needs_orientation("RPE");
+    r.relative.push_back(std::move(steps));
+  }
+}
+
+/// Errors of the aligned poses, and where they lie.
+void judge_poses(bool has_orientation, const EvaluationOptions& options, EvaluationResult& r) {
+  const std::vector<FramePair>& pairs = r.aligned_pairs;
+  Outcome rotation = has_orientation ? Outcome::ok() : needs_orientation("a rotation error");
+  if (r.alignment.free_axis)
+    rotation = Outcome::failure(Outcome::Code::kDegenerate,
+                                "the alignment leaves the rotation about an axis arbitrary");
+  r.ape = ape(pairs, projection_of(pairs, options.part), rotation);
+  r.components = error_components(pairs, r.travelled_m, has_orientation, options.vertical);
+  r.profile = error_profile(pairs, r.travelled_m, r.ape, r.rpe, r.has_times,
+                            options.segments.frame_rate_hz);
+  // Of a plane, the positions of a mirrored estimate fit as well, turned over.
+  if (rotation && r.alignment.rank == 2 && r.ape.rotation_deg.median > 90)
+    r.warnings.push_back(fmt::format(
+        "the positions lie in a plane, in which a mirror image fits as well, turned over: the "
+        "orientations are {:.0f} deg off",
+        r.ape.rotation_deg.median));
 }
 
 std::string scale_warning(const std::vector<FramePair>& pairs, Alignment used) {
@@ -47,10 +89,7 @@ std::string scale_warning(const std::vector<FramePair>& pairs, Alignment used) {
 }
 
 void add_warnings(EvaluationResult& r, const PairingResult& paired) {
-  if (r.alignment.rank == 1)
-    r.warnings.push_back(
-        "the positions lie on a line: the rotation about it is arbitrary "
-        "(the ATE does not depend on it)");
+  for (const std::string& doubt : r.alignment.doubts) r.warnings.push_back(doubt);
   const std::string scale = scale_warning(paired.pairs, r.protocol.alignment);
   if (!scale.empty()) r.warnings.push_back(scale);
   if (paired.has_orientation)
@@ -58,6 +97,9 @@ void add_warnings(EvaluationResult& r, const PairingResult& paired) {
       r.warnings.push_back(warning);
   if (!r.segments.outcome) r.warnings.push_back("no t_rel and r_rel: " + r.segments.outcome.reason);
   if (!r.rpe.outcome) r.warnings.push_back("no RPE: " + r.rpe.outcome.reason);
+  for (const RelativeErrors& steps : r.relative)
+    if (!steps.outcome && paired.has_orientation)
+      r.warnings.push_back("no RPE over " + text_of(steps.delta) + ": " + steps.outcome.reason);
   if (r.coverage < 0.5)
     r.warnings.push_back(fmt::format(
         "only {:.1f} % of the frames have an estimate: the figures cover these frames only",
@@ -67,13 +109,17 @@ void add_warnings(EvaluationResult& r, const PairingResult& paired) {
         fmt::format("the ground truth is denser than the estimate: {} of its {} "
                     "frames are judged",
                     r.judged, r.frames));
-  if (r.estimate_without_truth > 0)
+  const int none = r.estimate_without_truth - r.estimate_beside_nearer;
+  if (none > 0)
     r.warnings.push_back(
-        fmt::format("{} of the estimate's {} poses have no ground truth{}",
-                    r.estimate_without_truth, r.estimate_frames,
+        fmt::format("{} of the estimate's {} poses have no ground truth{}", none, r.estimate_frames,
                     r.protocol.association == Association::kTime
                         ? fmt::format(" within {:g} s", r.protocol.max_difference_s)
                         : " of the same number"));
+  if (r.estimate_beside_nearer > 0)
+    r.warnings.push_back(
+        fmt::format("{} of the estimate's {} poses have a ground truth that a nearer pose uses",
+                    r.estimate_beside_nearer, r.estimate_frames));
 }
 
 /// Which of the two has all its positions in one point; empty if neither.
@@ -96,11 +142,6 @@ std::string who_stands(const std::vector<FramePair>& pairs) {
   constexpr double kNoPath_m = 1e-9;
   if (estimate_m < kNoPath_m) return ": the estimate never moves";
   return truth_m < kNoPath_m ? ": the ground truth never moves" : "";
-}
-
-Outcome needs_orientation(const char* what) {
-  return Outcome::failure(Outcome::Code::kTooFewData,
-                          std::string(what) + " needs orientations, but there are positions alone");
 }
 
 /// Length of the true path from the first posed frame to the last.
@@ -127,13 +168,19 @@ EvaluationResult evaluate(PairingResult paired, const EvaluationOptions& options
   options.check();
   EvaluationResult r;
   r.name = name;
-  r.protocol = {options.alignment,     paired.association,         options.time.max_difference_s,
-                options.time.offset_s, options.segments.lengths_m, options.segments.step};
+  r.protocol.alignment = options.alignment;
+  r.protocol.align_over = options.align_over;
+  r.protocol.association = paired.association;
+  r.protocol.max_difference_s = options.time.max_difference_s;
+  r.protocol.offset_s = options.time.offset_s;
+  r.protocol.lengths_m = options.segments.lengths_m;
+  r.protocol.step = options.segments.step;
   r.frames = paired.truth_frames;
   r.judged = static_cast<int>(paired.pairs.size());
   r.posed = paired.posed;
   r.estimate_frames = paired.estimate_frames;
   r.estimate_without_truth = paired.estimate_without_truth;
+  r.estimate_beside_nearer = paired.estimate_beside_nearer;
   r.outcome = paired.outcome;
   r.has_times = paired.has_times;
   const bool by_first_pose =
@@ -150,24 +197,31 @@ EvaluationResult evaluate(PairingResult paired, const EvaluationOptions& options
   r.path_m = r.travelled_m.back();
   r.posed_path_m = posed_path_m(paired.pairs, r.travelled_m);
 
-  r.alignment = align(paired.pairs, options.alignment);
+  const VerticalResult vertical =
+      options.alignment == Alignment::kYaw
+          ? vertical_of(paired.pairs, paired.has_orientation, options.vertical)
+          : VerticalResult{};
+  if (options.alignment == Alignment::kYaw && !vertical.outcome) {
+    r.outcome = vertical.outcome;
+    return r;
+  }
+  r.protocol.vertical = vertical.text;
+  r.protocol.part = projection_of(paired.pairs, options.part).text;
+  r.alignment = align(paired.pairs, options.alignment, options.align_over, vertical.axis);
   if (!usable(r.alignment)) {
     r.outcome = r.alignment.outcome;
     if (r.outcome.code == Outcome::Code::kDegenerate) r.outcome.reason += who_stands(paired.pairs);
     return r;
   }
-  if (!paired.has_orientation) {
-    r.rpe.outcome = needs_orientation("RPE");
-    r.segments.outcome = needs_orientation("a relative error");
-  } else if (r.alignment.scale == 1) {
-    judge_motions(paired.pairs, paired.has_times, options.segments, r);
-  } else {
-    judge_motions(scaled(r.alignment.scale, paired.pairs), paired.has_times, options.segments, r);
-  }
+  if (paired.has_orientation)
+    judge_motions(paired.pairs, paired.has_times, options, r);
+  else
+    judge_no_motions(options, r);
   add_warnings(r, paired);
+  const bool has_orientation = paired.has_orientation;
   r.aligned_pairs = std::move(paired.pairs);
   align_estimates(r.alignment, r.aligned_pairs);
-  r.ape = ape(r.aligned_pairs);
+  judge_poses(has_orientation, options, r);
   return r;
 }
 

@@ -31,9 +31,8 @@ void visit(OptionVisitor& field, AlignmentSpan& o) {
 }
 
 void visit(OptionVisitor& field, RelativeErrorOptions& o) {
-  std::string deltas;
-  for (const Delta& delta : o.deltas) deltas += (deltas.empty() ? "" : ",") + to_string(delta);
-  const std::string before = deltas;
+  const std::string before = to_string(o.deltas);
+  std::string deltas = before;
   field("deltas", deltas, "lengths of steps, as 10f,1s,5m,10deg; empty: none");
   if (deltas != before) o.deltas = parse_deltas(deltas);
   field.choice("pairs", o.pairs, {"consecutive", "all"}, "where steps begin");

@@ -1,4 +1,6 @@
+#include <fmt/format.h>
 #include <placegraph/eval/trajectory/pairing.h>
+#include <placegraph/eval/trajectory/stamp_shift.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/median.h>
 #include <placegraph/graph/measurements/stamp_plausibility.h>
@@ -76,6 +78,85 @@ Outcome why_not_by_time(const Trajectory& truth, const Trajectory& estimate,
                               (clock.empty() ? "" : "; " + clock));
 }
 
+/// The holes in the times of the ground truth, in words; empty if there is none.
+std::string holes_text(const Trajectory& truth) {
+  // Far more than a dropped frame or two. Chosen.
+  constexpr double kHole = 5;
+  if (!truth.has_times) return {};
+  const double median_ns = median_gap_ns(truth);
+  int holes = 0;
+  double all_ns = 0, longest_ns = 0, longest_at_ns = 0;
+  for (std::size_t i = 1; i < truth.size(); ++i) {
+    const auto from_ns = static_cast<double>(truth.poses[i - 1].stamp_ns);
+    const double gap_ns = static_cast<double>(truth.poses[i].stamp_ns) - from_ns;
+    if (gap_ns <= kHole * median_ns) continue;
+    ++holes;
+    all_ns += gap_ns;
+    if (gap_ns > longest_ns) longest_ns = gap_ns, longest_at_ns = from_ns;
+  }
+  if (holes == 0) return {};
+  return fmt::format(
+      "the ground truth has {} of {} s in all, where nothing is judged: the longest lasts {} s from "
+      "{} s on",
+      holes == 1 ? "a hole" : fmt::format("{} holes", holes), seconds_text(all_ns),
+      seconds_text(longest_ns), seconds_text(longest_at_ns));
+}
+
+/// How many of the posed stamps lie in the time that the other trajectory covers.
+int stamps_within(const Trajectory& trajectory, const Trajectory& other, double offset_ns,
+                  double slack_ns) {
+  const double first = static_cast<double>(other.poses.front().stamp_ns) - slack_ns;
+  const double last = static_cast<double>(other.poses.back().stamp_ns) + slack_ns;
+  int within = 0;
+  for (const StampedPose& pose : trajectory.poses) {
+    const double stamp = static_cast<double>(pose.stamp_ns) + offset_ns;
+    within += pose.T_world_body && stamp >= first && stamp <= last;
+  }
+  return within;
+}
+
+/// Refuses a pairing by time in which most poses of both find no partner.
+Outcome why_few_pairs(const Trajectory& truth, const Trajectory& estimate, int paired,
+                      const AssociationOptions& options) {
+  if (truth.poses.empty() || estimate.poses.empty()) return Outcome::ok();
+  const double offset_ns = options.offset_s * 1e9, slack_ns = options.max_difference_s * 1e9;
+  const int of_truth = stamps_within(truth, estimate, -offset_ns, slack_ns);
+  const int of_estimate = stamps_within(estimate, truth, offset_ns, slack_ns);
+  if (2 * paired >= std::min(of_truth, of_estimate)) return Outcome::ok();
+  std::vector<std::int64_t> shifted_ns = stamps_of(estimate);
+  for (std::int64_t& stamp : shifted_ns) stamp += std::llround(offset_ns);
+  const auto shift =
+      constant_shift_that_pairs(stamps_of(truth), shifted_ns, options.max_difference_s);
+  std::string remedy;
+  if (shift)
+    remedy = fmt::format("; {:+.4g} s on the estimate's stamps would pair {} (--offset {:.6g})",
+                         shift->shift_s, shift->pairs, options.offset_s + shift->shift_s);
+  return Outcome::failure(
+      Outcome::Code::kInconsistent,
+      fmt::format("most poses find no partner within {:g} s: {} pairs of {} poses of the ground "
+                  "truth and {} of the estimate in the time that both cover{}",
+                  options.max_difference_s, paired, of_truth, of_estimate, remedy));
+}
+
+/// Posed lines of the estimate without a partner whose nearest true pose is near enough.
+int beside_nearer(const Trajectory& truth, const Trajectory& estimate,
+                  const std::vector<int>& estimate_of, const AssociationOptions& options) {
+  std::vector<bool> paired(estimate.size(), false);
+  for (const int j : estimate_of)
+    if (j >= 0) paired[static_cast<std::size_t>(j)] = true;
+  const std::int64_t offset_ns = std::llround(options.offset_s * 1e9);
+  const std::int64_t limit_ns = std::llround(options.max_difference_s * 1e9);
+  int count = 0;
+  std::size_t i = 0;
+  for (std::size_t j = 0; j < estimate.size(); ++j) {
+    const std::int64_t stamp_ns = estimate.poses[j].stamp_ns + offset_ns;
+    while (i < truth.size() && truth.poses[i].stamp_ns < stamp_ns - limit_ns) ++i;
+    if (i < truth.size() && !paired[j] && estimate.poses[j].T_world_body)
+      count += truth.poses[i].stamp_ns <= stamp_ns + limit_ns;
+  }
+  return count;
+}
+
 /// Whether a frame of the ground truth that has no partner is lost, and one of those to judge.
 class LostFrames {
  public:
@@ -129,6 +210,30 @@ std::vector<int> partners(const Trajectory& truth, const Trajectory& estimate, b
   return estimate_of;
 }
 
+/// The frames to judge, with their estimates.
+void add_pairs(const Trajectory& truth, const Trajectory& estimate,
+               const std::vector<int>& estimate_of, const LostFrames& lost,
+               PairingResult& result) {
+  const bool by_time = result.association == Association::kTime;
+  result.pairs.reserve(by_time ? std::min(truth.size(), estimate.size()) : truth.size());
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    if (!truth.poses[i].T_world_body) continue;
+    ++result.truth_frames;
+    FramePair pair;
+    pair.frame = static_cast<int>(i);
+    pair.stamp_ns = truth.poses[i].stamp_ns;
+    pair.T_world_truth = *truth.poses[i].T_world_body;
+    if (estimate_of[i] >= 0)
+      pair.T_world_estimate = estimate.poses[static_cast<std::size_t>(estimate_of[i])].T_world_body;
+    const auto last_ns = result.pairs.empty()
+                             ? std::nullopt
+                             : std::optional<std::int64_t>(result.pairs.back().stamp_ns);
+    if (by_time && estimate_of[i] < 0 && !lost.judge(pair.stamp_ns, last_ns)) continue;
+    result.posed += pair.T_world_estimate.has_value();
+    result.pairs.push_back(pair);
+  }
+}
+
 Association choose(Association wanted, const Trajectory& truth, const Trajectory& estimate,
                    Outcome& outcome) {
   outcome = Outcome::ok();
@@ -168,29 +273,20 @@ PairingResult pair_trajectories(const Trajectory& truth, const Trajectory& estim
   if (!result.outcome) return result;
 
   const std::vector<int> estimate_of = partners(truth, estimate, by_time, options);
-  const LostFrames lost(truth, estimate, options.offset_s);
+  if (by_time) {
+    const auto paired = std::count_if(estimate_of.begin(), estimate_of.end(),
+                                      [](int partner) { return partner >= 0; });
+    result.outcome = why_few_pairs(truth, estimate, static_cast<int>(paired), options);
+    if (!result.outcome) return result;
+    result.estimate_beside_nearer = beside_nearer(truth, estimate, estimate_of, options);
+  }
   for (std::string odd :
-       {odd_times(truth, "the ground truth"), odd_times(estimate, "the estimate")})
+       {odd_times(truth, "the ground truth"), odd_times(estimate, "the estimate"),
+        holes_text(truth)})
     if (!odd.empty()) result.warnings.push_back(std::move(odd));
   result.has_times = truth.has_times;
   result.has_orientation = truth.has_orientation && estimate.has_orientation;
-  result.pairs.reserve(by_time ? std::min(truth.size(), estimate.size()) : truth.size());
-  for (std::size_t i = 0; i < truth.size(); ++i) {
-    if (!truth.poses[i].T_world_body) continue;
-    ++result.truth_frames;
-    FramePair pair;
-    pair.frame = static_cast<int>(i);
-    pair.stamp_ns = truth.poses[i].stamp_ns;
-    pair.T_world_truth = *truth.poses[i].T_world_body;
-    if (estimate_of[i] >= 0)
-      pair.T_world_estimate = estimate.poses[static_cast<std::size_t>(estimate_of[i])].T_world_body;
-    const auto last_ns = result.pairs.empty()
-                             ? std::nullopt
-                             : std::optional<std::int64_t>(result.pairs.back().stamp_ns);
-    if (by_time && estimate_of[i] < 0 && !lost.judge(pair.stamp_ns, last_ns)) continue;
-    result.posed += pair.T_world_estimate.has_value();
-    result.pairs.push_back(pair);
-  }
+  add_pairs(truth, estimate, estimate_of, LostFrames(truth, estimate, options.offset_s), result);
   result.estimate_frames = static_cast<int>(estimate.posed());
   result.estimate_without_truth = result.estimate_frames - result.posed;
   if (result.posed < 2)

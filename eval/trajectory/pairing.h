@@ -27,14 +27,17 @@ struct PairingResult {
   int posed = 0;                      ///< pairs with an estimate
   int estimate_frames = 0;            ///< posed lines of the estimate
   int estimate_without_truth = 0;     ///< posed lines of the estimate without a posed partner
-  std::vector<std::string> warnings;  ///< implausible times of either
+  /// Those of them whose nearest true pose is near enough, but is the partner of a nearer pose.
+  int estimate_beside_nearer = 0;
+  std::vector<std::string> warnings;  ///< implausible times of either, holes in the truth
 };
 
 /// Pairs the poses of two trajectories, or states in `outcome` why the pairs are ambiguous.
 ///
 /// kInconsistent: different numbers of lines without times, times on one side only, stamps that do
-/// not overlap. kTooFewData: fewer than two pairs. Throws ArgumentError if stamps of either do not
-/// increase.
+/// not overlap, or of which most of both find no partner in the time that both cover: figures of a
+/// few lucky pairs would say nothing. kTooFewData: fewer than two pairs. Throws ArgumentError if
+/// stamps of either do not increase.
 [[nodiscard]] PairingResult pair_trajectories(const Trajectory& truth, const Trajectory& estimate,
                                               Association association,
                                               const AssociationOptions& options);

@@ -31,17 +31,104 @@ Json groups_json(const std::vector<SegmentGroup>& groups, bool speed) {
   return rows;
 }
 
+/// The statistics by their names in files.
+std::vector<std::pair<const char*, double>> named_values(const Statistics& s) {
+  return {{"rmse", s.rmse}, {"mean", s.mean}, {"median", s.median}, {"std", s.std_dev},
+          {"min", s.min},   {"max", s.max},   {"sse", s.sse},       {"p75", s.p75},
+          {"p90", s.p90},   {"p95", s.p95},   {"p99", s.p99}};
+}
+
+Json statistics_json(const Statistics& s) {
+  Json json;
+  for (const auto& [name, value] : named_values(s)) json[name] = value;
+  json["count"] = s.count;
+  return json;
+}
+
+/// The errors over the steps of each delta that was asked for.
+Json relative_json(const std::vector<RelativeErrors>& relative) {
+  Json rows = Json::array();
+  for (const RelativeErrors& steps : relative) {
+    Json row;
+    row["delta"] = to_string(steps.delta);
+    row["pairs"] = steps.pairs == StepPairs::kAll ? "all" : "consecutive";
+    row["outcome"] = steps.outcome ? "ok" : steps.outcome.reason;
+    row["steps"] = steps.errors.size();
+    row["gaps"] = steps.gaps;
+    if (steps.outcome) {
+      row["translation_m"] = statistics_json(steps.translation_m);
+      row["rotation_deg"] = statistics_json(steps.rotation_deg);
+      row["full"] = statistics_json(steps.full);
+      row["length_m"] = statistics_json(steps.length_m);
+    }
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+Json profile_rows(const std::vector<ErrorGroup>& groups, const char* unit) {
+  Json rows = Json::array();
+  for (const ErrorGroup& group : groups) {
+    Json row;
+    row[std::string("from_") + unit] = group.from;
+    row[std::string("to_") + unit] = group.to;
+    row["frames"] = group.frames;
+    row["ate_rmse_m"] = group.ate_rmse_m;
+    row["rpe_trans_m"] = group.rpe_trans_m;
+    row["rpe_rot_deg"] = group.rpe_rot_deg;
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+Json worst_json(const std::vector<WorstStretch>& stretches, bool has_times) {
+  Json rows = Json::array();
+  for (const WorstStretch& stretch : stretches) {
+    Json row;
+    row["first_frame"] = stretch.first_frame;
+    row["last_frame"] = stretch.last_frame;
+    if (has_times) row["from_s"] = stretch.first_s, row["to_s"] = stretch.last_s;
+    row["from_m"] = stretch.first_m;
+    row["to_m"] = stretch.last_m;
+    row["largest_m"] = stretch.largest;
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+/// Everything that is known of the errors beside the figures.
+void add_errors(const EvaluationResult& r, Json& json) {
+  for (const ErrorRow& row : error_rows(r)) json["errors"][row.key] = statistics_json(row.statistics);
+  if (!r.outcome) return;
+  json["vertical"] = r.components.outcome ? Json(r.components.vertical) : Json(nullptr);
+  json["relative"] = relative_json(r.relative);
+  json["by_speed"] = profile_rows(r.profile.by_speed, "m_per_s");
+  json["by_turning_rate"] = profile_rows(r.profile.by_turning, "deg_per_s");
+  json["by_distance"] = profile_rows(r.profile.by_distance, "m");
+  json["worst"] = worst_json(r.profile.worst, r.has_times);
+  json["worst_steps"] = worst_json(r.profile.worst_steps, r.has_times);
+  if (r.profile.scale.outcome)
+    json["scale_of_stretches"] = {r.profile.scale.smallest, r.profile.scale.largest};
+}
+
 Json object(const EvaluationResult& r) {
   Json json;
   json["name"] = r.name;
   json["outcome"] = r.outcome ? "ok" : r.outcome.reason;
   json["align"] = to_string(r.protocol.alignment);
+  if (const std::string over = to_string(r.protocol.align_over); !over.empty())
+    json["align_over"] = over;
+  if (!r.protocol.part.empty()) json["part"] = r.protocol.part;
+  if (r.outcome && r.alignment.free_axis)
+    json["free_axis"] = {(*r.alignment.free_axis)[0], (*r.alignment.free_axis)[1],
+                         (*r.alignment.free_axis)[2]};
   json["scale"] = r.outcome ? Json(r.alignment.scale) : Json(nullptr);
   json["frames"] = r.frames;
   json["judged"] = r.judged;
   json["posed"] = r.posed;
   json["estimate_frames"] = r.estimate_frames;
   json["estimate_without_truth"] = r.estimate_without_truth;
+  json["estimate_beside_nearer"] = r.estimate_beside_nearer;
   for (const Metric& metric : metrics(r)) json[metric.key] = number(metric.value);
   json["path_m"] = r.path_m;
   json["association"] = to_string(r.protocol.association);
@@ -56,6 +143,7 @@ Json object(const EvaluationResult& r) {
   json["segments_skipped"] = r.segments.skipped;
   json["per_length"] = groups_json(r.segments.by_length, false);
   json["per_speed"] = groups_json(r.segments.by_speed, true);
+  add_errors(r, json);
   json["lost_frames"] = r.lost_frames;
   json["warnings"] = r.warnings;
   return json;
@@ -123,6 +211,33 @@ std::string groups_text(const SegmentResult& segments) {
   return text;
 }
 
+/// Statistics of every kind of error, a row each.
+std::string errors_text(const EvaluationResult& r) {
+  std::string text = fmt::format("\n  {:<38} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10}\n",
+                                 "errors", "rmse", "mean", "median", "std", "95 %", "max", "count");
+  for (const ErrorRow& row : error_rows(r)) {
+    if (row.key.ends_with("full") || row.key.ends_with("length_m")) continue;
+    const Statistics& s = row.statistics;
+    text += fmt::format("  {:<38} {:>10.4f} {:>10.4f} {:>10.4f} {:>10.4f} {:>10.4f} {:>10.4f} {:>10}\n",
+                        row.name + " [" + row.unit + "]", s.rmse, s.mean, s.median, s.std_dev,
+                        s.p95, s.max, s.count);
+  }
+  if (r.profile.worst.empty()) return text;
+  const WorstStretch& worst = r.profile.worst.front();
+  return text + fmt::format("  largest position errors at frames {} to {}, {:.1f} to {:.1f} m along the path: {:.4f} m\n",
+                            worst.first_frame, worst.last_frame, worst.first_m, worst.last_m,
+                            worst.largest);
+}
+
+/// Figures that the table of errors has are not lines of their own.
+bool has_own_line(const Metric& metric) {
+  if (metric.key == "ate_rmse_m" || metric.key == "ate_percent_of_path" ||
+      metric.key == "are_rmse_deg")
+    return true;
+  return metric.key != "coverage" && !metric.key.starts_with("ate_") &&
+         !metric.key.starts_with("are_");
+}
+
 }  // namespace
 
 std::string to_json(const EvaluationResult& result) { return json_text(object(result), 2); }
@@ -143,6 +258,9 @@ std::string to_csv(const std::vector<EvaluationResult>& results) {
     for (const Metric& m : metrics(r))
       csv.row(r.name, "metric", m.key, m.value ? fmt::format("{}", *m.value) : "", m.unit, "", "",
               "", "", m.protocol);
+    for (const ErrorRow& row : error_rows(r))
+      for (const auto& [what, value] : named_values(row.statistics))
+        csv.row(r.name, "errors", row.key + "_" + what, value, row.unit, "", "", "", "", "");
     for (const SegmentError& s : r.segments.segments) {
       const auto row = [&](const char* key, double value, const char* unit) {
         csv.row(r.name, "segment", key, value, unit, s.first_frame, s.last_frame, s.length_m,
@@ -180,16 +298,18 @@ std::string to_text(const EvaluationResult& r) {
   if (r.judged < r.frames || r.estimate_without_truth > 0)
     text += fmt::format(
         "  {} frames in the ground truth, {} in the estimate, {} of them without "
-        "ground truth\n",
-        r.frames, r.estimate_frames, r.estimate_without_truth);
+        "ground truth, {} with one that a nearer pose uses\n",
+        r.frames, r.estimate_frames, r.estimate_without_truth - r.estimate_beside_nearer,
+        r.estimate_beside_nearer);
   text +=
       fmt::format("  align {}, scale {:.6f}, association by {}\n", to_string(r.protocol.alignment),
                   r.alignment.scale, to_string(r.protocol.association));
   for (const Metric& m : metrics(r)) {
-    if (m.key == "coverage") continue;
+    if (!has_own_line(m)) continue;
     text +=
         fmt::format("  {:<15} {:>10} {:<9} {}\n", m.name, cell(m.value, "-"), m.unit, m.protocol);
   }
+  text += errors_text(r);
   if (r.segments.outcome) text += groups_text(r.segments);
   return text;
 }

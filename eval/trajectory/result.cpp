@@ -9,6 +9,9 @@ std::string alignment_text(const EvaluationResult& r) {
   std::string text = "align " + to_string(r.protocol.alignment);
   if (r.protocol.alignment == Alignment::kSim3 || r.protocol.alignment == Alignment::kScale)
     text += fmt::format(" (scale {:.6f})", r.alignment.scale);
+  if (r.protocol.alignment == Alignment::kYaw) text += " about " + r.protocol.vertical;
+  if (const std::string over = to_string(r.protocol.align_over); !over.empty())
+    text += " over " + over;
   return text;
 }
 
@@ -28,36 +31,109 @@ std::optional<double> when(bool has, double value) {
   return has ? std::optional<double>(value) : std::nullopt;
 }
 
-}  // namespace
+const char* pairs_text(StepPairs pairs) {
+  return pairs == StepPairs::kAll ? "overlapping" : "consecutive";
+}
 
-std::vector<Metric> metrics(const EvaluationResult& r) {
-  const bool ok{r.outcome};
-  const bool has_ape = ok && r.ape.outcome;
-  const bool has_rpe = ok && r.rpe.outcome;
-  const bool has_segments = ok && r.segments.outcome;
-  const std::string ate = fmt::format("positions, {} frames, {}", r.posed, alignment_text(r));
-  const std::string rpe_text = "consecutive frames, " + scale_text(r);
+std::vector<Metric> absolute_metrics(const EvaluationResult& r) {
+  const bool has = r.outcome && r.ape.outcome, turns = has && r.ape.rotation_outcome;
+  const std::string part = r.protocol.part.empty() ? "" : " " + r.protocol.part;
+  const std::string ate =
+      fmt::format("positions{}, {} frames, {}", part, r.posed, alignment_text(r));
+  const std::string are = fmt::format("rotations, {} frames, {}", r.posed, alignment_text(r));
+  const Statistics &e = r.ape.error_m, &a = r.ape.rotation_deg;
   return {
-      {"ate_rmse_m", "ATE RMSE", "m", when(has_ape, r.ape.error_m.rmse), ate},
+      {"ate_rmse_m", "ATE RMSE", "m", when(has, e.rmse), ate},
       {"ate_percent_of_path", "ATE/path", "%",
-       when(has_ape && r.posed_path_m > 0, 100 * r.ape.error_m.rmse / r.posed_path_m),
+       when(has && r.posed_path_m > 0, 100 * e.rmse / r.posed_path_m),
        fmt::format("ATE RMSE over the true path of {:.1f} m, {}", r.posed_path_m,
                    alignment_text(r))},
-      {"ate_mean_m", "ATE mean", "m", when(has_ape, r.ape.error_m.mean), ate},
-      {"ate_median_m", "ATE median", "m", when(has_ape, r.ape.error_m.median), ate},
-      {"ate_max_m", "ATE max", "m", when(has_ape, r.ape.error_m.max), ate},
-      {"t_rel_percent", "t_rel", "%", when(has_segments, r.segments.t_rel_percent),
-       segments_text(r)},
-      {"r_rel_deg_per_100m", "r_rel", "deg/100m", when(has_segments, r.segments.r_rel_deg_per_100m),
-       segments_text(r)},
+      {"ate_mean_m", "ATE mean", "m", when(has, e.mean), ate},
+      {"ate_median_m", "ATE median", "m", when(has, e.median), ate},
+      {"ate_std_m", "ATE std", "m", when(has, e.std_dev), ate},
+      {"ate_min_m", "ATE min", "m", when(has, e.min), ate},
+      {"ate_max_m", "ATE max", "m", when(has, e.max), ate},
+      {"ate_sse_m2", "ATE sse", "m^2", when(has, e.sse), ate},
+      {"ate_p95_m", "ATE 95 %", "m", when(has, e.p95), ate},
+      {"are_rmse_deg", "ARE RMSE", "deg", when(turns, a.rmse), are},
+      {"are_mean_deg", "ARE mean", "deg", when(turns, a.mean), are},
+      {"are_median_deg", "ARE median", "deg", when(turns, a.median), are},
+      {"are_std_deg", "ARE std", "deg", when(turns, a.std_dev), are},
+      {"are_min_deg", "ARE min", "deg", when(turns, a.min), are},
+      {"are_max_deg", "ARE max", "deg", when(turns, a.max), are},
+      {"are_sse_deg2", "ARE sse", "deg^2", when(turns, a.sse), are},
+  };
+}
+
+std::vector<Metric> relative_metrics(const EvaluationResult& r) {
+  const bool has_rpe = r.outcome && r.rpe.outcome;
+  const std::string rpe_text = "consecutive frames, " + scale_text(r);
+  std::vector<Metric> all = {
       {"rpe_trans_m", "RPE trans", "m", when(has_rpe, r.rpe.translation_m.rmse),
        "RMSE, " + rpe_text},
       {"rpe_rot_deg", "RPE rot", "deg", when(has_rpe, r.rpe.rotation_deg.rmse),
        "RMSE, " + rpe_text},
       {"rpe_rot_median_deg", "RPE rot median", "deg", when(has_rpe, r.rpe.rotation_deg.median),
        "median, " + rpe_text},
-      {"coverage", "coverage", "", when(ok, r.coverage), "posed frames over judged frames"},
   };
+  for (const RelativeErrors& steps : r.relative) {
+    const bool has = r.outcome && steps.outcome;
+    const std::string key = "rpe_" + to_string(steps.delta), over = " over " + text_of(steps.delta);
+    const std::string text = fmt::format("RMSE, {} {} steps, {}", steps.errors.size(),
+                                         pairs_text(steps.pairs), scale_text(r));
+    all.push_back({key + "_trans_m", "RPE trans" + over, "m",
+                   when(has, steps.translation_m.rmse), text});
+    all.push_back({key + "_rot_deg", "RPE rot" + over, "deg",
+                   when(has, steps.rotation_deg.rmse), text});
+  }
+  return all;
+}
+
+}  // namespace
+
+std::vector<Metric> metrics(const EvaluationResult& r) {
+  const bool ok{r.outcome};
+  const bool has_segments = ok && r.segments.outcome;
+  std::vector<Metric> all = absolute_metrics(r);
+  all.push_back({"t_rel_percent", "t_rel", "%", when(has_segments, r.segments.t_rel_percent),
+                 segments_text(r)});
+  all.push_back({"r_rel_deg_per_100m", "r_rel", "deg/100m",
+                 when(has_segments, r.segments.r_rel_deg_per_100m), segments_text(r)});
+  for (Metric& metric : relative_metrics(r)) all.push_back(std::move(metric));
+  all.push_back({"scale_drift_percent_per_100m", "scale drift", "%/100m",
+                 when(ok && r.profile.scale.outcome, r.profile.scale.percent_per_100m),
+                 "slope of the scale over the path, twenty stretches"});
+  all.push_back({"coverage", "coverage", "", when(ok, r.coverage),
+                 "posed frames over judged frames"});
+  return all;
+}
+
+std::vector<ErrorRow> error_rows(const EvaluationResult& r) {
+  std::vector<ErrorRow> rows;
+  if (!r.outcome) return rows;
+  if (r.ape.outcome) rows.push_back({"position_m", "position", "m", r.ape.error_m});
+  if (r.ape.rotation_outcome) {
+    rows.push_back({"rotation_deg", "rotation", "deg", r.ape.rotation_deg});
+    rows.push_back({"full", "whole pose", "", r.ape.full});
+  }
+  if (r.components.outcome) {
+    const ErrorComponents& c = r.components;
+    rows.push_back({"along_m", "along the path", "m", c.along_m, true});
+    rows.push_back({"across_m", "across the path", "m", c.across_m, true});
+    rows.push_back({"up_m", "along the vertical " + c.vertical, "m", c.up_m, true});
+  }
+  const auto add = [&](const RelativeErrors& steps, const std::string& key,
+                       const std::string& name) {
+    if (!steps.outcome) return;
+    rows.push_back({key + "_trans_m", name + ", translation", "m", steps.translation_m});
+    rows.push_back({key + "_rot_deg", name + ", rotation", "deg", steps.rotation_deg});
+    rows.push_back({key + "_full", name + ", whole motion", "", steps.full});
+    rows.push_back({key + "_length_m", name + ", length", "m", steps.length_m});
+  };
+  add(r.rpe, "rpe", "RPE");
+  for (const RelativeErrors& steps : r.relative)
+    add(steps, "rpe_" + to_string(steps.delta), "RPE over " + text_of(steps.delta));
+  return rows;
 }
 
 AverageResult average(const std::vector<EvaluationResult>& results) {

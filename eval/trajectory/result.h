@@ -1,9 +1,10 @@
 #pragma once
+#include <placegraph/eval/trajectory/alignment.h>
 #include <placegraph/eval/trajectory/ape.h>
+#include <placegraph/eval/trajectory/error_profile.h>
 #include <placegraph/eval/trajectory/kitti_segments.h>
 #include <placegraph/eval/trajectory/pairing.h>
-#include <placegraph/eval/trajectory/rpe.h>
-#include <placegraph/eval/trajectory/umeyama.h>
+#include <placegraph/eval/trajectory/relative_error.h>
 
 #include <optional>
 #include <string>
@@ -14,6 +15,9 @@ namespace [[gnu::visibility("default")]] placegraph {
 /// The method of computation of the figures of a result; every report states it.
 struct Protocol {
   Alignment alignment = Alignment::kSe3;         ///< transformation that was fitted
+  AlignmentSpan align_over;                      ///< poses that it was fitted to
+  std::string vertical;                          ///< the vertical that kYaw used
+  std::string part;                              ///< part of the position errors; empty: all
   Association association = Association::kAuto;  ///< the one used, kIndex or kTime
   double max_difference_s = 0, offset_s = 0;     ///< options of the association by time
   std::vector<double> lengths_m;                 ///< SegmentOptions::lengths_m
@@ -30,14 +34,18 @@ struct EvaluationResult {
   int posed = 0;      ///< evaluated frames with an estimate
   int estimate_frames = 0;         ///< posed frames of the estimate
   int estimate_without_truth = 0;  ///< those of them without a true pose
+  int estimate_beside_nearer = 0;  ///< and of these, those whose true pose a nearer one uses
   double coverage = 0;             ///< share of the evaluated frames that are posed, 0 to 1
   std::vector<int> lost_frames;    ///< evaluated frames without an estimate, ground-truth indices
   double path_m = 0;               ///< length of the true path
   double posed_path_m = 0;    ///< length of the true path from the first posed frame to the last
   AlignmentResult alignment;  ///< the transformation that was fitted
   ApeResult ape;              ///< absolute errors after the alignment
-  RpeResult rpe;              ///< errors of the motion between consecutive frames
+  ErrorComponents components;  ///< position errors along, across and up the path
+  RelativeErrors rpe;         ///< errors of the motion between consecutive frames
+  std::vector<RelativeErrors> relative;  ///< over the steps of the options, in their order
   SegmentResult segments;     ///< t_rel and r_rel
+  ErrorProfile profile;       ///< where the errors lie
   std::vector<std::string> warnings;     ///< one line each: a suspicious property and a remedy
   std::vector<FramePair> aligned_pairs;  ///< the evaluated frames, with aligned estimates
   bool has_times = false;                ///< their stamps are times, not indices
@@ -52,6 +60,18 @@ struct Metric {
   std::optional<double> value;  ///< nothing if the data allow none
   std::string protocol;         ///< method of computation, one line
 };
+
+/// The statistics of one kind of error of a result.
+struct ErrorRow {
+  std::string key;        ///< "position_m", "rotation_deg", "rpe_1s_trans_m"
+  std::string name;       ///< in words: "position", "RPE over 1 s, translation"
+  std::string unit;       ///< "m", "deg", ""
+  Statistics statistics;  ///< of the errors
+  bool with_sign = false; ///< the errors have signs, and their mean is a bias
+};
+
+/// All statistics of a result that the data allow, in a fixed order.
+std::vector<ErrorRow> error_rows(const EvaluationResult& result);
 
 /// All figures of a result in a fixed order; those of a failed one have no value.
 std::vector<Metric> metrics(const EvaluationResult& result);

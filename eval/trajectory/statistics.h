@@ -9,9 +9,13 @@ struct Statistics {
   double mean = 0;                         ///< arithmetic mean
   double median = 0;                       ///< mean of the two middle ones if their number is even
   double std_dev = 0;                      ///< root of the mean square about the mean
-  double min = 0, max = 0;                 ///< the smallest and the largest error
+  double min = 0;                          ///< the smallest error
+  double max = 0;                          ///< the largest error
   double sse = 0;                          ///< sum of squares
-  double p75 = 0, p90 = 0, p95 = 0, p99 = 0;  ///< percentiles, see quantile
+  double p75 = 0;                          ///< three quarters are not larger, see quantile
+  double p90 = 0;                          ///< nine tenths are not larger
+  double p95 = 0;                          ///< 95 of a hundred are not larger
+  double p99 = 0;                          ///< 99 of a hundred are not larger
   int count = 0;                           ///< number of errors
 };
 

@@ -26,57 +26,7 @@ Eigen::Vector3d mean_of(const std::vector<Eigen::Vector3d>& points) {
   return sum / static_cast<double>(points.size());
 }
 
-Outcome too_few(std::size_t have, int need) {
-  return Outcome::failure(
-      Outcome::Code::kTooFewData,
-      std::to_string(have) + " associated poses, the alignment needs " + std::to_string(need));
-}
-
-AlignmentResult align_first_pose(const FramePair& first, const std::vector<Eigen::Vector3d>& from,
-                                 const std::vector<Eigen::Vector3d>& to, bool with_scale) {
-  AlignmentResult result;
-  result.pairs = static_cast<int>(from.size());
-  const Eigen::Isometry3d& T_world_truth = first.T_world_truth;
-  const Eigen::Isometry3d& T_world_estimate = *first.T_world_estimate;
-  if (T_world_truth.linear() != T_world_estimate.linear())
-    result.R_truth_estimate = T_world_truth.linear() * T_world_estimate.linear().inverse();
-  result.outcome = Outcome::ok();
-  if (with_scale) {
-    double along = 0, squares = 0;
-    for (std::size_t i = 0; i < from.size(); ++i) {
-      const Eigen::Vector3d moved = result.R_truth_estimate * (from[i] - from[0]);
-      along += moved.dot(to[i] - to[0]);
-      squares += moved.squaredNorm();
-    }
-    if (squares > 0 && along > 0)
-      result.scale = along / squares;
-    else
-      result.outcome = Outcome::failure(
-          Outcome::Code::kDegenerate,
-          squares > 0 ? "the fitted scale is not positive" : "the estimate never moves: no scale");
-  }
-  result.t_truth_estimate = to[0] - result.scale * (result.R_truth_estimate * from[0]);
-  result.rmse_m = rmse_after(result, from, to);
-  return result;
-}
-
 }  // namespace
-
-std::string to_string(Alignment alignment) {
-  switch (alignment) {
-    case Alignment::kNone:
-      return "none";
-    case Alignment::kOrigin:
-      return "origin";
-    case Alignment::kSe3:
-      return "se3";
-    case Alignment::kSim3:
-      return "sim3";
-    case Alignment::kScale:
-      return "scale";
-  }
-  throw ArgumentError("unknown alignment");
-}
 
 Eigen::Isometry3d AlignmentResult::apply(const Eigen::Isometry3d& T_world_estimate) const {
   Eigen::Isometry3d T_world_aligned = Eigen::Isometry3d::Identity();
@@ -92,15 +42,18 @@ AlignmentResult umeyama(const std::vector<Eigen::Vector3d>& points_from,
   AlignmentResult result;
   result.pairs = static_cast<int>(points_from.size());
   if (result.pairs < 3) {
-    result.outcome = too_few(points_from.size(), 3);
+    result.outcome = Outcome::failure(
+        Outcome::Code::kTooFewData,
+        std::to_string(result.pairs) + " associated poses, the alignment needs 3");
     return result;
   }
   const Eigen::Vector3d mean_from = mean_of(points_from), mean_to = mean_of(points_to);
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  double variance_from = 0;
+  double variance_from = 0, variance_to = 0;
   for (std::size_t i = 0; i < points_from.size(); ++i) {
     covariance += (points_to[i] - mean_to) * (points_from[i] - mean_from).transpose();
     variance_from += (points_from[i] - mean_from).squaredNorm();
+    variance_to += (points_to[i] - mean_to).squaredNorm();
   }
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance,
                                               Eigen::ComputeFullU | Eigen::ComputeFullV);
@@ -114,6 +67,15 @@ AlignmentResult umeyama(const std::vector<Eigen::Vector3d>& points_from,
   if (result.rank > 0) {
     result.R_truth_estimate = svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();
     if (with_scale) result.scale = d.dot(sign) / variance_from;
+    const double common = d.dot(sign);
+    if (variance_from > 0 && variance_to > 0)
+      result.explained = common * common / (variance_from * variance_to);
+    // A reflection adds twice the smallest singular value to what both have in common.
+    const double left_m2 = variance_to + result.scale * result.scale * variance_from -
+                           2 * result.scale * common;
+    const double gain_m2 = sign[2] < 0 ? 4 * result.scale * d[2] : 0;
+    result.mirrored = result.rank == 3 && gain_m2 >= 0.75 * left_m2 && left_m2 > 0;
+    if (result.rank == 1) result.free_axis = svd.matrixU().col(0);
   }
   result.t_truth_estimate = mean_to - result.scale * (result.R_truth_estimate * mean_from);
   result.rmse_m = rmse_after(result, points_from, points_to);
@@ -132,38 +94,6 @@ AlignmentResult umeyama(const std::vector<Eigen::Vector3d>& points_from,
         result.rank == 1 ? "the positions lie on a line: the rotation about it is not determined"
                          : "the positions coincide: nothing to align by");
   return result;
-}
-
-AlignmentResult align(const std::vector<FramePair>& pairs, Alignment alignment) {
-  const FramePair* first = nullptr;
-  std::vector<Eigen::Vector3d> from, to;
-  for (const FramePair& pair : pairs) {
-    if (!pair.T_world_estimate) continue;
-    if (!first) first = &pair;
-    from.push_back(pair.T_world_estimate->translation());
-    to.push_back(pair.T_world_truth.translation());
-  }
-  AlignmentResult result;
-  const bool scale_only = alignment == Alignment::kScale;
-  if (from.size() < (scale_only ? 2u : 1u)) {
-    result.outcome = too_few(from.size(), scale_only ? 2 : 1);
-    return result;
-  }
-  switch (alignment) {
-    case Alignment::kNone:
-      result.pairs = static_cast<int>(from.size());
-      result.rmse_m = rmse_after(result, from, to);
-      result.outcome = Outcome::ok();
-      return result;
-    case Alignment::kOrigin:
-    case Alignment::kScale:
-      return align_first_pose(*first, from, to, scale_only);
-    case Alignment::kSe3:
-      return umeyama(from, to, false);
-    case Alignment::kSim3:
-      return umeyama(from, to, true);
-  }
-  throw ArgumentError("unknown alignment");
 }
 
 }  // namespace placegraph

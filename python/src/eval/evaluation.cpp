@@ -155,7 +155,14 @@ void bind_statistics(nb::module_& m) {
   statistics.def_ro("rmse", &Statistics::rmse, doc("Statistics::rmse"))
       .def_ro("mean", &Statistics::mean, doc("Statistics::mean"))
       .def_ro("median", &Statistics::median, doc("Statistics::median"))
+      .def_ro("std", &Statistics::std_dev, doc("Statistics::std_dev"))
+      .def_ro("min", &Statistics::min, doc("Statistics::min"))
       .def_ro("max", &Statistics::max, doc("Statistics::max"))
+      .def_ro("sse", &Statistics::sse, doc("Statistics::sse"))
+      .def_ro("p75", &Statistics::p75, doc("Statistics::p75"))
+      .def_ro("p90", &Statistics::p90, doc("Statistics::p90"))
+      .def_ro("p95", &Statistics::p95, doc("Statistics::p95"))
+      .def_ro("p99", &Statistics::p99, doc("Statistics::p99"))
       .def_ro("count", &Statistics::count, doc("Statistics::count"))
       .def("__repr__", [](const Statistics& s) {
         return fmt::format(
@@ -186,11 +193,11 @@ void bind_result(nb::module_& m) {
       .def_prop_ro(
           "rpe_m",
           [](const EvaluationResult& r) { return if_known(r.rpe.outcome, r.rpe.translation_m); },
-          doc("RpeResult::translation_m"))
+          doc("RelativeErrors::translation_m"))
       .def_prop_ro(
           "rpe_deg",
           [](const EvaluationResult& r) { return if_known(r.rpe.outcome, r.rpe.rotation_deg); },
-          doc("RpeResult::rotation_deg"))
+          doc("RelativeErrors::rotation_deg"))
       .def(
           "metric_rows", [](const EvaluationResult& r) { return rows_of(metrics(r)); },
           "All figures, a dictionary each.")

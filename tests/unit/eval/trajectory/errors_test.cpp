@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/eval/trajectory/ape.h>
 #include <placegraph/eval/trajectory/kitti_segments.h>
-#include <placegraph/eval/trajectory/rpe.h>
+#include <placegraph/eval/trajectory/relative_error.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 
@@ -66,7 +66,7 @@ TEST(Ape, SaysThatNoPosedFrameAllowsNoError) {
 }
 
 TEST(Rpe, MeasuresAConstantYawAndLengthErrorExactly) {
-  const RpeResult result = rpe(straight_line(20, 0.5 * kRadPerDeg, 1.1));
+  const RelativeErrors result = relative_errors(straight_line(20, 0.5 * kRadPerDeg, 1.1), true, {});
   ASSERT_TRUE(result.outcome);
   EXPECT_EQ(result.rotation_deg.count, 19);
   EXPECT_NEAR(result.rotation_deg.rmse, 0.5, 1e-9);
@@ -77,10 +77,10 @@ TEST(Rpe, MeasuresAConstantYawAndLengthErrorExactly) {
 TEST(Rpe, LeavesOutPairsWithALostFrame) {
   std::vector<FramePair> pairs = straight_line(5, 0);
   pairs[2].T_world_estimate.reset();
-  EXPECT_EQ(rpe(pairs).translation_m.count, 2);
+  EXPECT_EQ(relative_errors(pairs, true, {}).translation_m.count, 2);
   pairs[0].T_world_estimate.reset();
   pairs[4].T_world_estimate.reset();
-  EXPECT_EQ(rpe(pairs).outcome.code, Outcome::Code::kTooFewData);
+  EXPECT_EQ(relative_errors(pairs, true, {}).outcome.code, Outcome::Code::kTooFewData);
 }
 
 TEST(RotationAngle, SeesAHundredthDegreeInMatricesOfSevenDigits) {

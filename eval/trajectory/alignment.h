@@ -1,0 +1,29 @@
+#pragma once
+#include <placegraph/eval/trajectory/evaluation_options.h>
+#include <placegraph/eval/trajectory/frame_pair.h>
+#include <placegraph/eval/trajectory/umeyama.h>
+
+#include <string>
+#include <vector>
+
+namespace [[gnu::visibility("default")]] placegraph {
+
+/// Name of an alignment on the command line and in results: "none", "origin", "se3", ...
+std::string to_string(Alignment alignment);
+/// The span in words: "frames 0:50"; empty for all.
+std::string to_string(const AlignmentSpan& span);
+
+/// Fits the alignment of the given kind to the pairs of a span that have an estimate.
+///
+/// `vertical_axis`: unit vector in the truth's world, needed by kYaw alone. `doubts` of the result
+/// name what the positions do not determine: a line, a mirror image, few poses. Outcomes:
+/// kTooFewData (no pair in the span; fewer than three for kSe3 and kSim3, than two for kScale and
+/// kYaw); kDegenerate as umeyama, for kScale if the estimate never moves or the fitted scale is not
+/// positive, for kScale and kSim3 if the two motions have nothing in common that a scale could be
+/// told by, and for kYaw if the positions move along the vertical alone.
+[[nodiscard]] AlignmentResult align(const std::vector<FramePair>& pairs, Alignment alignment,
+                                    const AlignmentSpan& over = {},
+                                    const Eigen::Vector3d& vertical_axis =
+                                        Eigen::Vector3d::UnitZ());
+
+}  // namespace placegraph

@@ -1,0 +1,95 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <placegraph/eval/trajectory/evaluate.h>
+
+#include "tests/support/trajectories.h"
+
+namespace placegraph {
+namespace association_property_test {
+
+using ::testing::HasSubstr;
+
+/// The winding drive seen at a rate [Hz], with stamps off by a constant and jitter [s].
+Trajectory seen_at(double rate_hz, double seconds, double offset_s, double jitter_s,
+                   Random& random) {
+  const Trajectory dense = test::winding_drive(static_cast<int>(seconds * 10) + 2);
+  Trajectory seen;
+  std::int64_t last_ns = -1;
+  for (int i = 0; i < static_cast<int>(seconds * rate_hz); ++i) {
+    const double time_s = i / rate_hz;
+    const auto pose = interpolate(dense, std::llround(time_s * 1e9));
+    if (!pose) continue;
+    std::int64_t stamp_ns =
+        std::llround((time_s + offset_s + random.uniform(-jitter_s, jitter_s) + 1000) * 1e9);
+    stamp_ns = std::max(stamp_ns, last_ns + 1);
+    seen.poses.push_back({last_ns = stamp_ns, pose->isometry()});
+  }
+  return seen;
+}
+
+TEST(Association, OfClocksThatAreOffIsRefusedWithTheConstantThatPairsThem) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const double rate_hz = random.uniform(8, 20);
+    // Beyond the largest difference, and less than half a spacing beyond the next pose.
+    const double offset_s = (seed % 2 ? 1 : -1) * random.uniform(0.0245, 0.45 / rate_hz + 0.002);
+    const Trajectory truth = seen_at(rate_hz, 30, 0, 0, random);
+    const Trajectory estimate = seen_at(rate_hz, 30, offset_s, 0.002, random);
+    const EvaluationResult refused = evaluate(truth, estimate);
+    ASSERT_EQ(refused.outcome.code, Outcome::Code::kInconsistent)
+        << rate_hz << " Hz, " << offset_s << " s: posed " << refused.posed;
+    EXPECT_THAT(refused.outcome.reason, HasSubstr("--offset"));
+    const std::string& reason = refused.outcome.reason;
+    EvaluationOptions options;
+    options.time.offset_s = std::stod(reason.substr(reason.find("--offset ") + 9));
+    EXPECT_NEAR(options.time.offset_s, -offset_s, 0.01);
+    const EvaluationResult paired = evaluate(truth, estimate, options);
+    EXPECT_TRUE(paired.outcome);
+    EXPECT_GT(paired.coverage, 0.95);
+  }
+}
+
+TEST(Association, OfRatesThatDifferIsNotRefused) {
+  Random random(5);
+  for (const double truth_hz : {5.0, 10.0, 30.0, 100.0, 200.0})
+    for (const double estimate_hz : {7.0, 10.0, 20.0, 200.0}) {
+      SCOPED_TRACE(std::to_string(truth_hz) + " and " + std::to_string(estimate_hz));
+      // The sparser of both finds partners if the denser one has a pose every 40 ms.
+      if (std::max(truth_hz, estimate_hz) < 25 && truth_hz != estimate_hz) continue;
+      const EvaluationResult result = evaluate(seen_at(truth_hz, 20, 0, 0.001, random),
+                                               seen_at(estimate_hz, 20, 0, 0.001, random));
+      EXPECT_TRUE(result.outcome) << result.outcome.reason;
+      EXPECT_GT(result.coverage, 0.9);
+    }
+}
+
+TEST(Association, UsesEachTrueposeOnceAndSaysWhatItDoesNotUse) {
+  Random random(3);
+  const Trajectory truth = seen_at(100, 10, 0, 0, random), estimate = seen_at(200, 10, 0, 0, random);
+  const EvaluationResult result = evaluate(truth, estimate);
+  ASSERT_TRUE(result.outcome);
+  EXPECT_EQ(result.posed, result.frames);
+  EXPECT_NEAR(result.rpe.translation_m.max, 0, 1e-9);
+  EXPECT_EQ(result.estimate_beside_nearer, result.estimate_without_truth);
+  EXPECT_THAT(result.warnings, ::testing::Contains(HasSubstr("that a nearer pose uses")));
+  EXPECT_THAT(result.warnings,
+              ::testing::Not(::testing::Contains(HasSubstr("have no ground truth"))));
+}
+
+TEST(Association, CountsWhatTheTruthCovers) {
+  Random random(4);
+  const Trajectory truth = seen_at(10, 30, 0, 0, random);
+  Trajectory late = truth;
+  late.poses.erase(late.poses.begin(), late.poses.begin() + 100);
+  EXPECT_NEAR(evaluate(truth, late).coverage, 2.0 / 3, 0.01);
+  // A truth with a hole covers less, and says so.
+  Trajectory holed = truth;
+  holed.poses.erase(holed.poses.begin() + 100, holed.poses.begin() + 200);
+  const EvaluationResult result = evaluate(holed, truth);
+  EXPECT_DOUBLE_EQ(result.coverage, 1);
+  EXPECT_THAT(result.warnings, ::testing::Contains(HasSubstr("the ground truth has a hole of 10")));
+}
+
+}  // namespace association_property_test
+}  // namespace placegraph
