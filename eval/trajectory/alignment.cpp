@@ -54,6 +54,12 @@ double rmse_of(const AlignmentResult& a, const FittedPositions& positions) {
   return std::sqrt(squares / static_cast<double>(positions.from.size()));
 }
 
+Eigen::Vector3d mean_position(const std::vector<Eigen::Vector3d>& points) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& p : points) sum += p;
+  return sum / static_cast<double>(points.size());
+}
+
 AlignmentResult align_first_pose(const FittedPositions& positions, bool with_scale) {
   AlignmentResult result;
   const std::vector<Eigen::Vector3d>&from = positions.from, &to = positions.to;
@@ -63,14 +69,21 @@ AlignmentResult align_first_pose(const FittedPositions& positions, bool with_sca
     result.R_truth_estimate = T_world_truth.linear() * T_world_estimate.linear().inverse();
   result.outcome = Outcome::ok();
   if (with_scale) {
-    double along = 0, squares = 0, squares_to = 0;
+    double along = 0, squares = 0;
+    // What both have in common is told about their means: the noise of the first pose is in every
+    // displacement from it.
+    const Eigen::Vector3d mean_from = mean_position(from), mean_to = mean_position(to);
+    double common = 0, variance_from = 0, variance_to = 0;
     for (std::size_t i = 0; i < from.size(); ++i) {
       const Eigen::Vector3d moved = result.R_truth_estimate * (from[i] - from[0]);
       along += moved.dot(to[i] - to[0]);
       squares += moved.squaredNorm();
-      squares_to += (to[i] - to[0]).squaredNorm();
+      common += (result.R_truth_estimate * (from[i] - mean_from)).dot(to[i] - mean_to);
+      variance_from += (from[i] - mean_from).squaredNorm();
+      variance_to += (to[i] - mean_to).squaredNorm();
     }
-    if (squares > 0 && squares_to > 0) result.explained = along * along / (squares * squares_to);
+    if (variance_from > 0 && variance_to > 0)
+      result.explained = common * common / (variance_from * variance_to);
     if (squares > 0 && along > 0)
       result.scale = along / squares;
     else
@@ -80,12 +93,6 @@ AlignmentResult align_first_pose(const FittedPositions& positions, bool with_sca
   }
   result.t_truth_estimate = to[0] - result.scale * (result.R_truth_estimate * from[0]);
   return result;
-}
-
-Eigen::Vector3d mean_position(const std::vector<Eigen::Vector3d>& points) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& p : points) sum += p;
-  return sum / static_cast<double>(points.size());
 }
 
 /// Rotation about the vertical and translation, least squares of the positions.

@@ -82,8 +82,9 @@ TEST(RelativeErrors, AreThoseOfEveryStepThatTheDefinitionAllows) {
       for (std::size_t k = 0; k < chain.errors.size(); ++k) {
         const std::pair step(chain.errors[k].first, chain.errors[k].last);
         EXPECT_NE(std::find(expected.begin(), expected.end(), step), expected.end());
-        if (k > 0 && chain.errors[k - 1].last != step.first)
+        if (k > 0 && chain.errors[k - 1].last != step.first) {
           EXPECT_FALSE(whole(pairs, chain.errors[k - 1].last, step.first));
+        }
       }
     }
   }

@@ -156,7 +156,8 @@ TEST(Evaluate, GivesWhatPositionsAloneAllow) {
   EXPECT_THAT(r.warnings, Contains(HasSubstr("no t_rel and r_rel: ")));
   for (const Metric& metric : metrics(r)) {
     const bool of_motion =
-        metric.key.starts_with("rpe") || metric.key.find("_rel_") != std::string::npos;
+        metric.key.starts_with("rpe") || metric.key.starts_with("are") ||
+        metric.key.find("_rel_") != std::string::npos;
     EXPECT_EQ(metric.value.has_value(), !of_motion) << metric.key;
   }
   EXPECT_THAT(evaluate(truth, estimate, with(Alignment::kOrigin)).outcome.reason,

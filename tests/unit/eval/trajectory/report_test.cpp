@@ -70,7 +70,9 @@ TEST(Report, CsvHasOneNumberALineWithItsUnitAndEverySegmentTwice) {
   EXPECT_THAT(csv, StartsWith("name,record,key,value,unit,first_frame,last_frame,length_m,"
                               "speed_m_per_s,protocol\n\"a,b\",metric,ate_rmse_m,"));
   const auto lines = static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n'));
-  EXPECT_EQ(lines, 1 + metrics(r).size() + 2 * r.segments.segments.size());
+  EXPECT_EQ(lines, 1 + metrics(r).size() + 11 * error_rows(r).size() +
+                       2 * r.segments.segments.size());
+  EXPECT_THAT(csv, HasSubstr(",errors,rotation_deg_p95,"));
   EXPECT_THAT(csv, HasSubstr(",segment,t_rel_percent,"));
 }
 
