@@ -1,6 +1,7 @@
 #include "apps/eval/cmd_eval.h"
 
 #include <placegraph/eval/plots/evaluation_plot.h>
+#include <placegraph/graph/core/error.h>
 
 #include <CLI/CLI.hpp>
 #include <memory>
@@ -25,7 +26,11 @@ void run(const EvalCommand& command) {
   // A single estimate that cannot be evaluated is reported once, by the error.
   if (json || !refused || !result.single()) print(json ? to_json(result) : to_text(result));
   if (!refused && !command.arguments.report.empty()) command.write_page(command.arguments, result);
-  if (refused) throw NoResult(refused->name + ": " + refused->outcome.reason);
+  if (!refused) return;
+  const std::string reason = refused->name + ": " + refused->outcome.reason;
+  // What does not belong together is wrong input; what allows no figure is a result.
+  if (refused->outcome.code == Outcome::Code::kInconsistent) throw ArgumentError(reason);
+  throw NoResult(reason);
 }
 
 void add_plot_options(CLI::App& command, EvalArguments& a) {

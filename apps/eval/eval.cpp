@@ -204,23 +204,37 @@ EvalResult eval(const EvalArguments& arguments) {
   EvalResult result;
   const std::string& first = arguments.estimates.front();
   result.folders = fs::is_directory(first) && !is_run_folder(first);
-  for (const EvaluatedFiles& files : files_of(arguments)) {
-    result.results.push_back(evaluate(pair(files, arguments, options), options, files.name));
+  const std::vector<EvaluatedFiles> all = files_of(arguments);
+  const bool compared = !result.folders && all.size() > 1;
+  std::vector<PairingResult> paired;
+  std::vector<std::string> names;
+  for (const EvaluatedFiles& files : all) {
+    PairingResult own = pair(files, arguments, options);
+    if (compared) paired.push_back(own), names.push_back(files.name);
+    result.results.push_back(evaluate(std::move(own), options, files.name));
     for (const std::string& warning : result.results.back().warnings)
       warn(files.name + ": " + warning);
   }
+  if (compared) result.common = on_common_frames(paired, names, options);
+  if (result.common.needed)
+    warn("the estimates are of different frames: compare them by the figures of the frames that "
+         "all have");
   if (!result.refused()) write_outputs(arguments, result);
   return result;
 }
 
 std::string to_text(const EvalResult& result) {
-  return result.single() ? to_text(result.results.front())
-                         : to_table(result.results, result.folders);
+  if (result.single()) return to_text(result.results.front());
+  std::string text = to_table(result.results, result.folders);
+  if (result.common.needed)
+    text += "\non the frames that all estimates have:\n" + to_table(result.common.results, false);
+  return text;
 }
 
 std::string to_json(const EvalResult& result) {
-  return result.single() ? to_json(result.results.front())
-                         : to_json(result.results, result.folders);
+  return result.single()
+             ? to_json(result.results.front())
+             : to_json(result.results, result.folders, result.common.results);
 }
 
 }  // namespace placegraph::apps

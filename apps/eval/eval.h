@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/eval/trajectory/evaluate.h>
+#include <placegraph/eval/trajectory/common_frames.h>
 
 #include <string>
 #include <vector>
@@ -38,6 +38,7 @@ struct EvalArguments {
 struct EvalResult {
   std::vector<EvaluationResult> results;  ///< one for each estimate
   bool folders = false;                   ///< true if the files of two folders were paired by name
+  CommonResult common;                    ///< the estimates on the frames that all of them have
 
   /// True if a single estimate was evaluated.
   bool single() const { return results.size() == 1 && !folders; }

@@ -70,7 +70,7 @@ AlignmentResult align_first_pose(const FittedPositions& positions, bool with_sca
   result.outcome = Outcome::ok();
   if (with_scale) {
     double along = 0, squares = 0;
-    // What both have in common is told about their means: the noise of the first pose is in every
+    // What both have in common is computed about their means: the noise of the first pose is in every
     // displacement from it.
     const Eigen::Vector3d mean_from = mean_position(from), mean_to = mean_position(to);
     double common = 0, variance_from = 0, variance_to = 0;

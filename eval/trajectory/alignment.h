@@ -19,8 +19,8 @@ std::string to_string(const AlignmentSpan& span);
 /// name what the positions do not determine: a line, a mirror image, few poses. Outcomes:
 /// kTooFewData (no pair in the span; fewer than three for kSe3 and kSim3, than two for kScale and
 /// kYaw); kDegenerate as umeyama, for kScale if the estimate never moves or the fitted scale is not
-/// positive, for kScale and kSim3 if the two motions have nothing in common that a scale could be
-/// told by, and for kYaw if the positions move along the vertical alone.
+/// positive, for kScale and kSim3 if the two motions have too little in common to show a scale, and
+/// for kYaw if the positions move along the vertical alone.
 [[nodiscard]] AlignmentResult align(const std::vector<FramePair>& pairs, Alignment alignment,
                                     const AlignmentSpan& over = {},
                                     const Eigen::Vector3d& vertical_axis =

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <placegraph/eval/trajectory/alignment.h>
 #include <placegraph/eval/trajectory/evaluate.h>
 #include <placegraph/eval/trajectory/plausibility.h>
 #include <placegraph/eval/trajectory/vertical.h>
@@ -122,6 +123,20 @@ void add_warnings(EvaluationResult& r, const PairingResult& paired) {
                     r.estimate_beside_nearer, r.estimate_frames));
 }
 
+/// The alignment of the options; notes the vertical that it used.
+AlignmentResult fit_alignment(const PairingResult& paired, const EvaluationOptions& options,
+                              Protocol& protocol) {
+  if (options.alignment != Alignment::kYaw)
+    return align(paired.pairs, options.alignment, options.align_over);
+  const VerticalResult vertical =
+      vertical_of(paired.pairs, paired.has_orientation, options.vertical);
+  AlignmentResult none;
+  none.outcome = vertical.outcome;
+  if (!vertical.outcome) return none;
+  protocol.vertical = vertical.text;
+  return align(paired.pairs, options.alignment, options.align_over, vertical.axis);
+}
+
 /// Which of the two has all its positions in one point; empty if neither.
 std::string who_stands(const std::vector<FramePair>& pairs) {
   const Eigen::Isometry3d *first_truth = nullptr, *first_estimate = nullptr;
@@ -197,17 +212,8 @@ EvaluationResult evaluate(PairingResult paired, const EvaluationOptions& options
   r.path_m = r.travelled_m.back();
   r.posed_path_m = posed_path_m(paired.pairs, r.travelled_m);
 
-  const VerticalResult vertical =
-      options.alignment == Alignment::kYaw
-          ? vertical_of(paired.pairs, paired.has_orientation, options.vertical)
-          : VerticalResult{};
-  if (options.alignment == Alignment::kYaw && !vertical.outcome) {
-    r.outcome = vertical.outcome;
-    return r;
-  }
-  r.protocol.vertical = vertical.text;
   r.protocol.part = projection_of(paired.pairs, options.part).text;
-  r.alignment = align(paired.pairs, options.alignment, options.align_over, vertical.axis);
+  r.alignment = fit_alignment(paired, options, r.protocol);
   if (!usable(r.alignment)) {
     r.outcome = r.alignment.outcome;
     if (r.outcome.code == Outcome::Code::kDegenerate) r.outcome.reason += who_stands(paired.pairs);

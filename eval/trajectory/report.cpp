@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <placegraph/eval/trajectory/alignment.h>
 #include <placegraph/eval/trajectory/report.h>
 #include <placegraph/graph/text/csv_text.h>
 #include <placegraph/graph/text/json_text.h>
@@ -152,10 +153,14 @@ Json object(const EvaluationResult& r) {
 Json average_json(const AverageResult& mean) {
   Json json;
   json["sequences"] = mean.sequences;
+  json["failed"] = mean.failed;
   json["averaging"] =
       "metrics: mean over sequences; pooled_*: mean over all segments of all "
       "sequences";
   for (const Metric& metric : mean.means) json[metric.key] = number(metric.value);
+  if (mean.failed > 0)
+    for (const Metric& metric : mean.means_of_rest)
+      json["of_the_others"][metric.key] = number(metric.value);
   json[mean.pooled_t_rel.key] = number(mean.pooled_t_rel.value);
   json[mean.pooled_r_rel.key] = number(mean.pooled_r_rel.value);
   json["segments"] = mean.segments;
@@ -183,10 +188,13 @@ std::string cell(const std::optional<double>& value, const char* missing) {
 // The columns of comparison tables, by key.
 std::vector<Metric> columns(const std::vector<Metric>& all) {
   std::vector<Metric> chosen;
-  for (const char* key : {"ate_rmse_m", "ate_percent_of_path", "t_rel_percent",
-                          "r_rel_deg_per_100m", "rpe_trans_m", "rpe_rot_deg", "rpe_rot_median_deg"})
+  for (const char* key :
+       {"ate_rmse_m", "ate_percent_of_path", "t_rel_percent", "r_rel_deg_per_100m", "rpe_trans_m",
+        "rpe_rot_deg", "rpe_rot_median_deg", "are_rmse_deg"})
     for (const Metric& metric : all)
       if (metric.key == key) chosen.push_back(metric);
+  for (const Metric& metric : all)  // of the steps that were asked for
+    if (metric.name.find(" over ") != std::string::npos) chosen.push_back(metric);
   return chosen;
 }
 
@@ -196,6 +204,28 @@ std::string protocol_line(const EvaluationResult& r) {
       "step {}, mean over all segments",
       to_string(r.protocol.alignment), to_string(r.protocol.association),
       fmt::join(r.protocol.lengths_m, ", "), r.protocol.step);
+}
+
+std::string average_row(const std::string& name, int sequences, std::size_t width,
+                        const std::vector<Metric>& means) {
+  std::string row = fmt::format("{:<{}} {:>13}", name, width, fmt::format("{} seq.", sequences));
+  for (const Metric& metric : columns(means)) row += fmt::format(" {:>14}", cell(metric.value, "-"));
+  return row + "\n";
+}
+
+/// The rows of averages; a sequence without figures is never left out in silence.
+std::string average_text(const AverageResult& mean, std::size_t width) {
+  const int all = mean.sequences + mean.failed;
+  std::string text = average_row("mean over sequences", all, width, mean.means);
+  if (mean.failed > 0)
+    text += fmt::format("{:<{}} {} of {} sequences have no figures: no mean over all\n", "", width,
+                        mean.failed, all) +
+            average_row("mean of the others", mean.sequences, width, mean.means_of_rest);
+  if (mean.failed == 0)
+    text += fmt::format("{:<{}} {:>13} {:>14} {:>14} {:>14} {:>14}\n", "mean over all segments",
+                        width, fmt::format("{} segm.", mean.segments), "", "",
+                        cell(mean.pooled_t_rel.value, "-"), cell(mean.pooled_r_rel.value, "-"));
+  return text;
 }
 
 std::string groups_text(const SegmentResult& segments) {
@@ -242,10 +272,12 @@ bool has_own_line(const Metric& metric) {
 
 std::string to_json(const EvaluationResult& result) { return json_text(object(result), 2); }
 
-std::string to_json(const std::vector<EvaluationResult>& results, bool with_average) {
+std::string to_json(const std::vector<EvaluationResult>& results, bool with_average,
+                    const std::vector<EvaluationResult>& common) {
   Json json;
   json["results"] = Json::array();
   for (const EvaluationResult& result : results) json["results"].push_back(object(result));
+  for (const EvaluationResult& result : common) json["common"].push_back(object(result));
   if (with_average) json["average"] = average_json(average(results));
   return json_text(json, 2);
 }
@@ -332,16 +364,7 @@ std::string to_table(const std::vector<EvaluationResult>& results, bool with_ave
     text +=
         r.outcome ? fmt::format(" {:>9.6f}\n", r.alignment.scale) : " " + r.outcome.reason + "\n";
   }
-  if (with_average) {
-    const AverageResult mean = average(results);
-    text += fmt::format("{:<{}} {:>13}", fmt::format("mean over sequences"), width,
-                        fmt::format("{} seq.", mean.sequences));
-    for (const Metric& metric : columns(mean.means))
-      text += fmt::format(" {:>14}", cell(metric.value, "-"));
-    text += fmt::format("\n{:<{}} {:>13} {:>14} {:>14} {:>14}\n", "mean over all segments", width,
-                        fmt::format("{} segm.", mean.segments), "",
-                        cell(mean.pooled_t_rel.value, "-"), cell(mean.pooled_r_rel.value, "-"));
-  }
+  if (with_average) text += average_text(average(results), width);
   return text + protocol_line(results.front()) + "\n";
 }
 

@@ -14,7 +14,10 @@ namespace [[gnu::visibility("default")]] placegraph {
 std::string to_json(const EvaluationResult& result);
 
 /// Writes several results as {"results": [...]}, with "average" if `with_average`.
-std::string to_json(const std::vector<EvaluationResult>& results, bool with_average);
+///
+/// `common`, if not empty, are those of the frames that all have, and are written as "common".
+std::string to_json(const std::vector<EvaluationResult>& results, bool with_average,
+                    const std::vector<EvaluationResult>& common = {});
 
 /// Writes results as CSV with one number per line and a header.
 ///

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <placegraph/eval/trajectory/alignment.h>
 #include <placegraph/eval/trajectory/result.h>
 
 namespace placegraph {
@@ -78,7 +79,7 @@ std::vector<Metric> relative_metrics(const EvaluationResult& r) {
   };
   for (const RelativeErrors& steps : r.relative) {
     const bool has = r.outcome && steps.outcome;
-    const std::string key = "rpe_" + to_string(steps.delta), over = " over " + text_of(steps.delta);
+    const std::string key = "rpe_" + to_string(steps.delta), over = " over " + to_string(steps.delta);
     const std::string text = fmt::format("RMSE, {} {} steps, {}", steps.errors.size(),
                                          pairs_text(steps.pairs), scale_text(r));
     all.push_back({key + "_trans_m", "RPE trans" + over, "m",
@@ -141,7 +142,10 @@ AverageResult average(const std::vector<EvaluationResult>& results) {
   std::vector<int> counts;
   double t = 0, r = 0;
   for (const EvaluationResult& result : results) {
-    if (!result.outcome) continue;
+    if (!result.outcome) {
+      ++mean.failed;
+      continue;
+    }
     ++mean.sequences;
     const std::vector<Metric> own = metrics(result);
     if (mean.means.empty()) {
@@ -164,9 +168,16 @@ AverageResult average(const std::vector<EvaluationResult>& results) {
     if (mean.means[i].value) *mean.means[i].value /= counts[i];
     mean.means[i].protocol = fmt::format("mean over {} sequences", counts[i]);
   }
+  mean.means_of_rest = mean.means;
+  if (mean.failed > 0)
+    for (Metric& metric : mean.means) {
+      metric.value.reset();
+      metric.protocol = fmt::format("no mean: {} of {} sequences have no figures", mean.failed,
+                                    mean.failed + mean.sequences);
+    }
   const std::string pooled =
       fmt::format("mean over the {} segments of {} sequences", mean.segments, mean.sequences);
-  const bool any = mean.segments > 0;
+  const bool any = mean.segments > 0 && mean.failed == 0;
   mean.pooled_t_rel = {"pooled_t_rel_percent", "t_rel", "%", when(any, t / mean.segments), pooled};
   mean.pooled_r_rel = {"pooled_r_rel_deg_per_100m", "r_rel", "deg/100m",
                        when(any, r / mean.segments), pooled};

@@ -1,10 +1,10 @@
 #pragma once
-#include <placegraph/eval/trajectory/alignment.h>
 #include <placegraph/eval/trajectory/ape.h>
 #include <placegraph/eval/trajectory/error_profile.h>
 #include <placegraph/eval/trajectory/kitti_segments.h>
 #include <placegraph/eval/trajectory/pairing.h>
 #include <placegraph/eval/trajectory/relative_error.h>
+#include <placegraph/eval/trajectory/umeyama.h>
 
 #include <optional>
 #include <string>
@@ -79,12 +79,16 @@ std::vector<Metric> metrics(const EvaluationResult& result);
 /// Averages over several sequences.
 struct AverageResult {
   int sequences = 0;          ///< sequences whose outcome is ok
+  int failed = 0;             ///< those that are not
   int segments = 0;           ///< number of segments of all sequences
-  std::vector<Metric> means;  ///< mean of every metric over the sequences that have a value
-  /// Means over all segments of all sequences, as the KITTI devkit averages.
+  /// Mean of every metric over the sequences that have a value; none has one if a sequence failed:
+  /// who fails at the hard ones would have the better mean.
+  std::vector<Metric> means;
+  std::vector<Metric> means_of_rest;  ///< the same over the sequences that did not fail
+  /// Means over all segments of all sequences, as the KITTI devkit averages; no value if one failed.
   Metric pooled_t_rel, pooled_r_rel;
 };
-/// Averages the results of several sequences; those that failed are left out.
+/// Averages the results of several sequences.
 AverageResult average(const std::vector<EvaluationResult>& results);
 
 }  // namespace placegraph

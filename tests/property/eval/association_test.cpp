@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <placegraph/eval/trajectory/evaluate.h>
+#include <placegraph/eval/trajectory/common_frames.h>
 
 #include "tests/support/trajectories.h"
 
@@ -89,6 +89,64 @@ TEST(Association, CountsWhatTheTruthCovers) {
   const EvaluationResult result = evaluate(holed, truth);
   EXPECT_DOUBLE_EQ(result.coverage, 1);
   EXPECT_THAT(result.warnings, ::testing::Contains(HasSubstr("the ground truth has a hole of 10")));
+}
+
+CommonResult common_of(const Trajectory& truth, const std::vector<Trajectory>& estimates) {
+  std::vector<PairingResult> paired;
+  std::vector<std::string> names;
+  for (const Trajectory& estimate : estimates) {
+    paired.push_back(pair_trajectories(truth, estimate, Association::kAuto, {}));
+    names.push_back("e" + std::to_string(names.size()));
+  }
+  return on_common_frames(paired, names, {});
+}
+
+TEST(CommonFrames, MakeOneDriveOfTheSameEstimateWhoeverCoversLess) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    Random random(seed);
+    const Trajectory truth = test::winding_drive(150 + 10 * int(seed));
+    const Trajectory whole = test::drifting(truth, 0.02, 0.002, random);
+    Trajectory part = whole;
+    const auto first = std::ptrdiff_t(random.uniform(0, 60)),
+               last = first + std::ptrdiff_t(random.uniform(40, 90));
+    part.poses.erase(part.poses.begin() + last, part.poses.end());
+    part.poses.erase(part.poses.begin(), part.poses.begin() + first);
+    const CommonResult common = common_of(truth, {whole, part});
+    ASSERT_TRUE(common.needed);
+    ASSERT_EQ(common.results.size(), 2u);
+    EXPECT_EQ(common.results[0].posed, last - first);
+    EXPECT_NEAR(common.results[0].ape.error_m.rmse, common.results[1].ape.error_m.rmse, 1e-12);
+    EXPECT_NEAR(common.results[0].rpe.translation_m.rmse,
+                common.results[1].rpe.translation_m.rmse, 1e-12);
+    EXPECT_NEAR(common.results[1].ape.error_m.rmse, evaluate(truth, part).ape.error_m.rmse, 1e-12);
+  }
+}
+
+TEST(CommonFrames, AreNotNeededWhereAllCoverTheSameAtTheirOwnRates) {
+  Random random(2);
+  const Trajectory truth = seen_at(100, 20, 0, 0, random);
+  const Trajectory slow = seen_at(7, 20, 0, 0.001, random), fast = seen_at(50, 20, 0, 0, random);
+  EXPECT_FALSE(common_of(truth, {slow, fast}).needed);
+  EXPECT_FALSE(common_of(truth, {slow}).needed);
+  Trajectory lost = fast;  // from 8 to 12 s
+  lost.poses.erase(lost.poses.begin() + 400, lost.poses.begin() + 600);
+  const CommonResult common = common_of(truth, {slow, lost});
+  ASSERT_TRUE(common.needed);
+  for (const EvaluationResult& result : common.results)
+    for (const FramePair& pair : result.aligned_pairs) {
+      const double seconds = static_cast<double>(pair.stamp_ns) * 1e-9 - 1000;
+      EXPECT_FALSE(pair.T_world_estimate && seconds > 8.1 && seconds < 11.9) << seconds;
+    }
+}
+
+TEST(CommonFrames, OfEstimatesThatNeverMeetGiveNoFigures) {
+  const Trajectory truth = test::winding_drive(100);
+  Trajectory first = truth, second = truth;
+  first.poses.resize(40);
+  second.poses.erase(second.poses.begin(), second.poses.begin() + 60);
+  const CommonResult common = common_of(truth, {first, second});
+  ASSERT_TRUE(common.needed);
+  for (const EvaluationResult& result : common.results) EXPECT_FALSE(result.outcome);
 }
 
 }  // namespace association_property_test

@@ -227,7 +227,7 @@ TEST(Average, IsOverSequencesAndPooledOverSegments) {
   a.segments.segments.assign(1, {.t_percent = 1, .r_deg_per_100m = 4});
   b.segments.t_rel_percent = 2;
   b.segments.segments.assign(3, {.t_percent = 2, .r_deg_per_100m = 8});
-  const AverageResult mean = average({a, b, failed});
+  const AverageResult mean = average({a, b});
   EXPECT_EQ(mean.sequences, 2);
   EXPECT_EQ(mean.segments, 4);
   EXPECT_DOUBLE_EQ(*mean.pooled_t_rel.value, 7.0 / 4);
@@ -240,6 +240,15 @@ TEST(Average, IsOverSequencesAndPooledOverSegments) {
       EXPECT_FALSE(metric.value);
     }
   }
+  // A sequence without figures leaves no mean over all, and is counted.
+  const AverageResult partial = average({a, b, failed});
+  EXPECT_EQ(partial.failed, 1);
+  EXPECT_FALSE(partial.pooled_t_rel.value);
+  for (const Metric& metric : partial.means) EXPECT_FALSE(metric.value) << metric.key;
+  for (const Metric& metric : partial.means_of_rest)
+    if (metric.key == "t_rel_percent") {
+      EXPECT_DOUBLE_EQ(*metric.value, 1.5);
+    }
 }
 
 TEST(EvaluationOptions, NameTheFieldThatIsOutOfRange) {

@@ -1,0 +1,75 @@
+#include <placegraph/eval/trajectory/common_frames.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/median.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace placegraph {
+namespace {
+
+constexpr double kNearShare = 0.75;  // as for lost frames of a single estimate
+
+/// The stamps at which an estimate is posed.
+class PosedTimes {
+ public:
+  explicit PosedTimes(const std::vector<FramePair>& pairs) {
+    for (const FramePair& pair : pairs)
+      if (pair.T_world_estimate) stamps_ns_.push_back(pair.stamp_ns);
+    std::vector<double> spacings_ns;
+    for (std::size_t i = 1; i < stamps_ns_.size(); ++i)
+      spacings_ns.push_back(static_cast<double>(stamps_ns_[i] - stamps_ns_[i - 1]));
+    if (!spacings_ns.empty()) near_ns_ = kNearShare * median_of(std::move(spacings_ns));
+  }
+
+  bool covers(std::int64_t stamp_ns) const {
+    const auto after = std::lower_bound(stamps_ns_.begin(), stamps_ns_.end(), stamp_ns);
+    double distance_ns = std::numeric_limits<double>::infinity();
+    if (after != stamps_ns_.end()) distance_ns = static_cast<double>(*after - stamp_ns);
+    if (after != stamps_ns_.begin())
+      distance_ns = std::min(distance_ns, static_cast<double>(stamp_ns - *std::prev(after)));
+    return distance_ns <= near_ns_;
+  }
+
+ private:
+  std::vector<std::int64_t> stamps_ns_;
+  double near_ns_ = 0;
+};
+
+}  // namespace
+
+CommonResult on_common_frames(const std::vector<PairingResult>& paired,
+                              const std::vector<std::string>& names,
+                              const EvaluationOptions& options) {
+  require(paired.size() == names.size(), "common frames: as many names as pairings");
+  std::vector<PosedTimes> times;
+  for (const PairingResult& each : paired)
+    if (each.outcome) times.emplace_back(each.pairs);
+  CommonResult common;
+  if (times.size() < 2) return common;
+  std::vector<PairingResult> kept = paired;
+  for (PairingResult& each : kept) {
+    each.warnings.clear();
+    if (!each.outcome) continue;
+    for (FramePair& pair : each.pairs) {
+      const bool everywhere = std::all_of(times.begin(), times.end(), [&](const PosedTimes& other) {
+        return other.covers(pair.stamp_ns);
+      });
+      if (!pair.T_world_estimate || everywhere) continue;
+      pair.T_world_estimate.reset();
+      --each.posed;
+      common.needed = true;
+    }
+    if (each.posed < 2)
+      each.outcome = Outcome::failure(Outcome::Code::kTooFewData,
+                                      "the estimates have no two frames in common");
+  }
+  if (!common.needed) return common;
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    common.results.push_back(evaluate(std::move(kept[i]), options, names[i]));
+    common.results.back().warnings.clear();  // said of the estimate's own frames already
+  }
+  return common;
+}
+
+}  // namespace placegraph
