@@ -3,15 +3,9 @@
 #include <placegraph/eval/trajectory/frame_pair.h>
 #include <placegraph/eval/trajectory/umeyama.h>
 
-#include <string>
 #include <vector>
 
 namespace [[gnu::visibility("default")]] placegraph {
-
-/// Name of an alignment on the command line and in results: "none", "origin", "se3", ...
-std::string to_string(Alignment alignment);
-/// The span in words: "frames 0:50"; empty for all.
-std::string to_string(const AlignmentSpan& span);
 
 /// Fits the alignment of the given kind to the pairs of a span that have an estimate.
 ///

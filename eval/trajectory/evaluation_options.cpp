@@ -1,7 +1,33 @@
+#include <fmt/format.h>
 #include <placegraph/eval/trajectory/evaluation_options.h>
 #include <placegraph/graph/core/error.h>
 
 namespace placegraph {
+
+std::string to_string(Alignment alignment) {
+  switch (alignment) {
+    case Alignment::kNone:
+      return "none";
+    case Alignment::kOrigin:
+      return "origin";
+    case Alignment::kSe3:
+      return "se3";
+    case Alignment::kSim3:
+      return "sim3";
+    case Alignment::kScale:
+      return "scale";
+    case Alignment::kYaw:
+      return "yaw";
+  }
+  throw ArgumentError("unknown alignment");
+}
+
+std::string to_string(const AlignmentSpan& span) {
+  if (span.unit == AlignmentSpan::Unit::kAll) return {};
+  static constexpr const char* kNames[] = {"", "frames", "seconds", "poses"};
+  const std::string end = span.end < AlignmentSpan{}.end ? fmt::format("{:g}", span.end) : "";
+  return fmt::format("{} {:g}:{}", kNames[static_cast<int>(span.unit)], span.begin, end);
+}
 
 void SegmentOptions::check() const {
   check_ranges(*this);

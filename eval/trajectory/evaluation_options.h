@@ -3,6 +3,7 @@
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/geometry/trajectory.h>
 
+#include <string>
 #include <vector>
 
 namespace [[gnu::visibility("default")]] placegraph {
@@ -39,6 +40,11 @@ struct AlignmentSpan {
   void check() const;
 };
 void visit(OptionVisitor& field, AlignmentSpan& options);
+
+/// Name of an alignment on the command line and in results: "none", "origin", "se3", ...
+std::string to_string(Alignment alignment);
+/// The span in words: "frames 0:50"; empty for all.
+std::string to_string(const AlignmentSpan& span);
 
 /// Which part of the position errors is judged.
 enum class ErrorPart {

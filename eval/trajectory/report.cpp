@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <placegraph/eval/trajectory/alignment.h>
 #include <placegraph/eval/trajectory/report.h>
 #include <placegraph/graph/text/csv_text.h>
 #include <placegraph/graph/text/json_text.h>

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <placegraph/eval/trajectory/alignment.h>
 #include <placegraph/eval/trajectory/result.h>
 
 namespace placegraph {

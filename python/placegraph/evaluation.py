@@ -83,6 +83,11 @@ class Evaluation:
         return self._core.ape_m
 
     @property
+    def are_deg(self) -> _core.Statistics | None:
+        """Statistics of the absolute rotation errors after the alignment [deg]."""
+        return self._core.are_deg
+
+    @property
     def rpe_m(self) -> _core.Statistics | None:
         """Statistics of the errors in translation between consecutive frames [m]."""
         return self._core.rpe_m
@@ -126,12 +131,37 @@ class Evaluation:
 
     @property
     def frames(self) -> pandas.DataFrame:
-        """The evaluated frames: frame, stamp_ns, error_m (NaN where lost), travelled_m."""
+        """The evaluated frames: frame, stamp_ns, travelled_m, and errors (NaN where lost).
+
+        error_m and error_deg are those of position and rotation; along_m, across_m and up_m the
+        position errors with signs by the direction of the true path.
+        """
         return table_of(self._core.frame_table())
 
     def frame_table(self) -> dict[str, Any]:
         """The same with truth and aligned estimate (N x 4 x 4) as arrays."""
         return self._core.frame_table()
+
+    @property
+    def errors(self) -> pandas.DataFrame:
+        """Statistics of every kind of error, a row each: rmse, mean, median, std, ..., p99."""
+        return table_of(self._core.error_table()).set_index("key")
+
+    def steps(self, delta: str = "1f") -> pandas.DataFrame:
+        """The relative errors of each step over a delta of the evaluation: '1s', '10f', '5m'.
+
+        ArgumentError: the evaluation was not asked for that delta.
+        """
+        return table_of(self._core.step_table(delta))
+
+    def by(self, what: str) -> pandas.DataFrame:
+        """ATE and RPE in intervals of 'speed' [m/s], 'turning_rate' [deg/s] or 'distance' [m]."""
+        return table_of(self._core.profile_table(what))
+
+    @property
+    def worst(self) -> pandas.DataFrame:
+        """The stretches of the hundredth of frames with the largest position errors."""
+        return table_of(self._core.worst_table())
 
     @property
     def segments(self) -> pandas.DataFrame:
@@ -178,14 +208,24 @@ class Evaluation:
 class Comparison(Sequence[Evaluation]):
     """Evaluations of several estimates of one ground truth, or of several sequences."""
 
-    def __init__(self, results: Sequence[Evaluation], own_truths: bool) -> None:
+    def __init__(self, results: Sequence[Evaluation], own_truths: bool,
+                 common: Sequence[Evaluation] = ()) -> None:
         self._results = list(results)
         self._own = own_truths
+        self._common = list(common)
 
     @property
     def own_truths(self) -> bool:
         """Whether each result is of a sequence of its own."""
         return self._own
+
+    @property
+    def common(self) -> Comparison | None:
+        """The estimates on the frames that all of them have; None if they have the same ones.
+
+        Figures of different frames do not compare.
+        """
+        return Comparison(self._common, False) if self._common else None
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Comparison):
@@ -227,16 +267,19 @@ class Comparison(Sequence[Evaluation]):
 
     @property
     def average(self) -> dict[str, Any]:
-        """Averages of the figures over the sequences whose outcome is ok.
+        """Averages of the figures over the sequences; None where one of them failed.
 
-        `pooled_t_rel` and `pooled_r_rel` are means over all segments of all sequences, as the KITTI
-        devkit averages.
+        `failed` counts these, and `of_the_others` has the averages of the others. `pooled_t_rel`
+        and `pooled_r_rel` are means over all segments of all sequences, as the KITTI devkit
+        averages.
         """
         average = _core.average_results([each._core for each in self])
         figures = {row["key"]: row["value"] for row in average["means"]}
         for key in ("pooled_t_rel", "pooled_r_rel"):
             figures[key] = average[key]["value"]
-        return {"sequences": average["sequences"], "segments": average["segments"], **figures}
+        rest = {row["key"]: row["value"] for row in average["means_of_rest"]}
+        return {"sequences": average["sequences"], "failed": average["failed"],
+                "segments": average["segments"], "of_the_others": rest, **figures}
 
     def picture(self, kind: str = "overview") -> _core.Figure:
         """The picture that `placegraph eval --plot-kind` draws."""
@@ -250,7 +293,8 @@ class Comparison(Sequence[Evaluation]):
 
     def to_json(self) -> str:
         """The results as `placegraph eval --json` prints them."""
-        return _core.results_to_json([each._core for each in self], self._own)
+        return _core.results_to_json([each._core for each in self], self._own,
+                                     [each._core for each in self._common])
 
     def to_csv(self) -> str:
         """The results as CSV, one number per line."""
@@ -262,6 +306,9 @@ class Comparison(Sequence[Evaluation]):
 
     def __repr__(self) -> str:
         table = _core.results_to_table([each._core for each in self], self._own)
+        if self._common:
+            table += "\non the frames that all estimates have:\n" + _core.results_to_table(
+                [each._core for each in self._common])
         return "\n".join([table.rstrip("\n"), *_warned(self._results)])
 
     def _repr_html_(self) -> str:
@@ -280,10 +327,15 @@ def _warn(result: Evaluation) -> None:
         warnings.warn(f"{result.name}: {text}", _core.Doubt, stacklevel=3)
 
 
-def _options(options: EvaluationOptions | None, align: str | None) -> _core.OptionSet:
+def _options(options: EvaluationOptions | None, align: str | None,
+             deltas: str | Sequence[str] | None, all_pairs: bool) -> _core.OptionSet:
     chosen = given_or_default(options, EvaluationOptions)._set.copy()
     if align is not None:
         chosen.set("align", align)
+    if deltas is not None:
+        chosen.set("relative.deltas", deltas if isinstance(deltas, str) else ",".join(deltas))
+    if all_pairs:
+        chosen.set("relative.pairs", "all")
     return chosen
 
 
@@ -292,6 +344,8 @@ def evaluate(
     estimate: EstimateLike,
     *,
     align: str | None = None,
+    deltas: str | Sequence[str] | None = None,
+    all_pairs: bool = False,
     name: str | None = None,
     times: Path | Sequence[Path] | None = None,
     options: EvaluationOptions | None = None,
@@ -300,11 +354,13 @@ def evaluate(
 
     `truth`: a Trajectory, the file of one, a Dataset, or the folder of a sequence; `estimate`: a
     Trajectory, the file of one, a Map, or the output folder of a run. `align`: 'none', 'origin',
-    'se3' (the default), 'sim3' or 'scale'; it takes precedence over that of `options`. `times`:
-    file of times for trajectories without, or two, for truth and estimate. Warns with Doubt of what
+    'se3' (the default), 'sim3', 'scale' or 'yaw'; it takes precedence over that of `options`.
+    `deltas`: lengths of steps of further relative errors, as '1s', '10f', '5m' or '10deg'; with
+    `all_pairs` a step begins at every pose. `times`: file of times for trajectories without, or
+    two, for truth and estimate. Warns with Doubt of what
     is suspicious in the data. NoResult: the data allow no figures.
     """
-    result = _evaluated(truth, estimate, align, name, times, options)
+    result = _evaluated(truth, estimate, name, times, _options(options, align, deltas, all_pairs))
     _warn(result)
     if not result.ok:
         raise _core.NoResult(f"{result.name}: {result.reason}")
@@ -314,13 +370,23 @@ def evaluate(
 def _evaluated(
     truth: TruthLike,
     estimate: EstimateLike,
-    align: str | None,
     name: str | None,
     times: Path | Sequence[Path] | None,
-    options: EvaluationOptions | None,
+    chosen: _core.OptionSet,
 ) -> Evaluation:
     """The evaluation, also without figures."""
-    chosen = _options(options, align)
+    true, estimated, name = _read_both(truth, estimate, name, times, chosen)
+    return Evaluation(_core.evaluate_trajectory(true, estimated, chosen, name))
+
+
+def _read_both(
+    truth: TruthLike,
+    estimate: EstimateLike,
+    name: str | None,
+    times: Path | Sequence[Path] | None,
+    chosen: _core.OptionSet,
+) -> tuple[_core.Trajectory, _core.Trajectory, str]:
+    """The two trajectories and the name of the estimate."""
     truth_times, estimate_times = files_of_times(times)
     truth, estimate = true_of(truth), estimated_of(estimate)
     if name is None:
@@ -331,8 +397,7 @@ def _evaluated(
     # A KITTI sequence stores its times beside its poses; they are needed if the estimate has times.
     if not truth_times and estimated.has_times and chosen.get("associate") != "index":
         truth_times = times_beside(truth)
-    true = read_truth(truth, truth_times)
-    return Evaluation(_core.evaluate_trajectory(true, estimated, chosen, name))
+    return read_truth(truth, truth_times), estimated, name
 
 
 def compare(
@@ -340,6 +405,8 @@ def compare(
     estimates: Mapping[str, EstimateLike] | Sequence[EstimateLike] | EstimateLike,
     *,
     align: str | None = None,
+    deltas: str | Sequence[str] | None = None,
+    all_pairs: bool = False,
     times: Path | Sequence[Path] | None = None,
     options: EvaluationOptions | None = None,
 ) -> Comparison:
@@ -347,28 +414,39 @@ def compare(
 
     `estimates`: what `evaluate` takes, by names, or a list of it, where "estimate 1", ... are the
     names of trajectories and maps; or one folder, whose files are paired by name with those of the
-    folder `truth`. Warns with Doubt of what is suspicious in the data, and of an estimate without
-    figures, which means over the others leave out; NoResult: none has figures.
+    folder `truth`. Estimates of different frames of one truth are judged on common ones, too; see
+    `Comparison.common`. Other arguments as of `evaluate`. Warns with Doubt of what is suspicious in
+    the data, and of an estimate without figures, without which there is no mean over all;
+    NoResult: none has figures.
     """
+    chosen = _options(options, align, deltas, all_pairs)
     if isinstance(estimates, (str, os.PathLike)):
         folder = existing(estimates, "estimates")
         if os.path.isdir(folder) and not _core.is_run_folder(folder):
             if isinstance(truth, (_core.Trajectory, Dataset)) or not os.path.isdir(
                     truths := existing(truth, "truth")):
                 raise _core.ArgumentError("truth: a folder is needed, as estimates is one")
-            return _compared([_evaluated(true, estimate, align, name, times, options)
+            return _compared([_evaluated(true, estimate, name, times, chosen)
                               for name, true, estimate in _core.pair_files(truths, folder)], True)
-    return _compared([_evaluated(truth, each, align, name, times, options)
-                      for name, each in named_estimates(estimates)], False)
+    both = [_read_both(truth, each, name, times, chosen)
+            for name, each in named_estimates(estimates)]
+    results = [Evaluation(_core.evaluate_trajectory(*each[:2], chosen, each[2])) for each in both]
+    common = _core.evaluate_common_frames(
+        both[0][0], [each[1] for each in both], [each[2] for each in both], chosen) if both else []
+    return _compared(results, False, [Evaluation(each) for each in common])
 
 
-def _compared(results: Sequence[Evaluation], own_truths: bool) -> Comparison:
+def _compared(results: Sequence[Evaluation], own_truths: bool,
+              common: Sequence[Evaluation] = ()) -> Comparison:
     failed = [each for each in results if not each.ok]
     if results and len(failed) == len(results):
         raise _core.NoResult("; ".join(f"{each.name}: {each.reason}" for each in failed))
     for each in results:
         _warn(each)
     for each in failed:
-        warnings.warn(f"{each.name} has no figures, and means leave it out: {each.reason}",
+        warnings.warn(f"{each.name} has no figures, so that there is no mean over all: "
+                      f"{each.reason}", _core.Doubt, stacklevel=3)
+    if common:
+        warnings.warn("the estimates are of different frames: compare them by `common`",
                       _core.Doubt, stacklevel=3)
-    return Comparison(results, own_truths)
+    return Comparison(results, own_truths, common)

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <nanobind/stl/array.h>
 #include <placegraph/eval/plots/evaluation_plot.h>
-#include <placegraph/eval/trajectory/evaluate.h>
+#include <placegraph/eval/trajectory/common_frames.h>
 #include <placegraph/eval/trajectory/report.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/datasets/evaluated_files.h>
@@ -21,8 +21,11 @@ using namespace nb::literals;
 Table frame_table(const EvaluationResult& result) {
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   std::vector<std::int64_t> frame, stamp;
-  std::vector<double> truth, estimate, error;
+  std::vector<double> truth, estimate, error, rotation, along, across, up;
   std::size_t next = 0;
+  const auto of_frame = [&](const auto& values, std::size_t i) {
+    return i < values.size() ? values[i] : kUnknown;
+  };
   for (const FramePair& pair : result.aligned_pairs) {
     frame.push_back(pair.frame);
     stamp.push_back(pair.stamp_ns);
@@ -30,9 +33,14 @@ Table frame_table(const EvaluationResult& result) {
     append_rows(pair.T_world_estimate ? Eigen::Matrix4d(pair.T_world_estimate->matrix())
                                       : Eigen::Matrix4d::Constant(kUnknown),
                 estimate);
-    error.push_back(pair.T_world_estimate && next < result.ape.frame_errors_m.size()
-                        ? result.ape.frame_errors_m[next++]
-                        : kUnknown);
+    const std::size_t posed =
+        pair.T_world_estimate ? next++ : std::numeric_limits<std::size_t>::max();
+    error.push_back(of_frame(result.ape.frame_errors_m, posed));
+    rotation.push_back(of_frame(result.ape.frame_errors_deg, posed));
+    const std::vector<Eigen::Vector3d>& parts = result.components.errors_m;
+    along.push_back(posed < parts.size() ? parts[posed][0] : kUnknown);
+    across.push_back(posed < parts.size() ? parts[posed][1] : kUnknown);
+    up.push_back(posed < parts.size() ? parts[posed][2] : kUnknown);
   }
   const std::size_t n = frame.size();
   std::vector<double> travelled = result.travelled_m;
@@ -43,6 +51,10 @@ Table frame_table(const EvaluationResult& result) {
   table["truth"] = owned_array(std::move(truth), {n, 4, 4});
   table["estimate"] = owned_array(std::move(estimate), {n, 4, 4});
   table["error_m"] = owned_array(std::move(error), {n});
+  table["error_deg"] = owned_array(std::move(rotation), {n});
+  table["along_m"] = owned_array(std::move(along), {n});
+  table["across_m"] = owned_array(std::move(across), {n});
+  table["up_m"] = owned_array(std::move(up), {n});
   table["travelled_m"] = owned_array(std::move(travelled), {n});
   return table;
 }
@@ -90,6 +102,120 @@ Table segment_table(const EvaluationResult& result) {
   return table;
 }
 
+/// Statistics of every kind of error, a row each.
+Table error_table(const EvaluationResult& result) {
+  std::vector<std::string> key, name, unit;
+  std::vector<double> rmse, mean, median, std_dev, min, max, sse, p75, p90, p95, p99;
+  std::vector<std::int64_t> count;
+  for (const ErrorRow& row : error_rows(result)) {
+    key.push_back(row.key);
+    name.push_back(row.name);
+    unit.push_back(row.unit);
+    const Statistics& s = row.statistics;
+    for (const auto& [values, value] :
+         {std::pair(&rmse, s.rmse), std::pair(&mean, s.mean), std::pair(&median, s.median),
+          std::pair(&std_dev, s.std_dev), std::pair(&min, s.min), std::pair(&max, s.max),
+          std::pair(&sse, s.sse), std::pair(&p75, s.p75), std::pair(&p90, s.p90),
+          std::pair(&p95, s.p95), std::pair(&p99, s.p99)})
+      values->push_back(value);
+    count.push_back(s.count);
+  }
+  const std::size_t n = rmse.size();
+  Table table;
+  table["key"] = key;
+  table["name"] = name;
+  table["unit"] = unit;
+  for (auto& [column, values] :
+       {std::pair("rmse", &rmse), std::pair("mean", &mean), std::pair("median", &median),
+        std::pair("std", &std_dev), std::pair("min", &min), std::pair("max", &max),
+        std::pair("sse", &sse), std::pair("p75", &p75), std::pair("p90", &p90),
+        std::pair("p95", &p95), std::pair("p99", &p99)})
+    table[column] = owned_array(std::move(*values), {n});
+  table["count"] = owned_array(std::move(count), {n});
+  return table;
+}
+
+/// The steps of one relative error; frames are those of the ground truth.
+Table step_table(const EvaluationResult& result, const RelativeErrors& steps) {
+  std::vector<std::int64_t> first, last;
+  std::vector<double> translation, rotation, full, length;
+  for (const RelativeError& step : steps.errors) {
+    first.push_back(result.aligned_pairs[static_cast<std::size_t>(step.first)].frame);
+    last.push_back(result.aligned_pairs[static_cast<std::size_t>(step.last)].frame);
+    translation.push_back(step.translation_m);
+    rotation.push_back(step.rotation_deg);
+    full.push_back(step.full);
+    length.push_back(step.length_m);
+  }
+  const std::size_t n = first.size();
+  Table table;
+  table["first_frame"] = owned_array(std::move(first), {n});
+  table["last_frame"] = owned_array(std::move(last), {n});
+  table["translation_m"] = owned_array(std::move(translation), {n});
+  table["rotation_deg"] = owned_array(std::move(rotation), {n});
+  table["full"] = owned_array(std::move(full), {n});
+  table["length_m"] = owned_array(std::move(length), {n});
+  return table;
+}
+
+/// The steps over a delta as it was asked for; "1f" is always there.
+Table steps_over(const EvaluationResult& result, const std::string& delta) {
+  const Delta wanted = parse_delta(delta);
+  for (const RelativeErrors& steps : result.relative)
+    if (steps.delta == wanted) return step_table(result, steps);
+  require(wanted == Delta{}, "delta " + delta + ": was not among the deltas of the evaluation");
+  return step_table(result, result.rpe);
+}
+
+/// Errors by intervals of "speed", "turning_rate" or "distance".
+Table profile_table(const EvaluationResult& result, const std::string& by) {
+  require(by == "speed" || by == "turning_rate" || by == "distance",
+          "by: '" + by + "' is none of speed, turning_rate, distance");
+  const ErrorProfile& profile = result.profile;
+  std::vector<double> from, to, ate, translation, rotation;
+  std::vector<std::int64_t> frames;
+  for (const ErrorGroup& group : by == "speed"          ? profile.by_speed
+                                 : by == "turning_rate" ? profile.by_turning
+                                                        : profile.by_distance) {
+    from.push_back(group.from);
+    to.push_back(group.to);
+    frames.push_back(group.frames);
+    ate.push_back(group.ate_rmse_m);
+    translation.push_back(group.rpe_trans_m);
+    rotation.push_back(group.rpe_rot_deg);
+  }
+  const std::size_t n = from.size();
+  Table table;
+  table["from"] = owned_array(std::move(from), {n});
+  table["to"] = owned_array(std::move(to), {n});
+  table["frames"] = owned_array(std::move(frames), {n});
+  table["ate_rmse_m"] = owned_array(std::move(ate), {n});
+  table["rpe_trans_m"] = owned_array(std::move(translation), {n});
+  table["rpe_rot_deg"] = owned_array(std::move(rotation), {n});
+  return table;
+}
+
+/// The stretches with the largest errors, of positions or of steps.
+Table worst_table(const std::vector<WorstStretch>& stretches) {
+  std::vector<std::int64_t> first, last;
+  std::vector<double> from, to, largest;
+  for (const WorstStretch& stretch : stretches) {
+    first.push_back(stretch.first_frame);
+    last.push_back(stretch.last_frame);
+    from.push_back(stretch.first_m);
+    to.push_back(stretch.last_m);
+    largest.push_back(stretch.largest);
+  }
+  const std::size_t n = first.size();
+  Table table;
+  table["first_frame"] = owned_array(std::move(first), {n});
+  table["last_frame"] = owned_array(std::move(last), {n});
+  table["from_m"] = owned_array(std::move(from), {n});
+  table["to_m"] = owned_array(std::move(to), {n});
+  table["largest_m"] = owned_array(std::move(largest), {n});
+  return table;
+}
+
 /// The figure of a metric, whose value is None if the data allow none.
 Table row_of(const Metric& metric) {
   Table row;
@@ -111,6 +237,9 @@ Table protocol_of(const EvaluationResult& result) {
   const Protocol& protocol = result.protocol;
   Table row;
   row["align"] = to_string(protocol.alignment);
+  row["align_over"] = to_string(protocol.align_over);
+  row["vertical"] = protocol.vertical;
+  row["part"] = protocol.part;
   row["association"] = to_string(protocol.association);
   row["max_difference_s"] = protocol.max_difference_s;
   row["offset_s"] = protocol.offset_s;
@@ -138,10 +267,25 @@ Figure figure_of_results(const std::vector<EvaluationResult>& results, const std
   return figure_of(results, own_truths ? EvaluatedTruth::kOwn : EvaluatedTruth::kShared, chosen);
 }
 
+/// The estimates on the frames that all have; empty if they have the same ones.
+std::vector<EvaluationResult> common_results(const Trajectory& truth,
+                                             const std::vector<Trajectory>& estimates,
+                                             const std::vector<std::string>& names,
+                                             const OptionSet& options) {
+  const EvaluationOptions& typed = options_in<EvaluationOptions>(options, "options");
+  const WithoutGil released;
+  std::vector<PairingResult> paired;
+  for (const Trajectory& estimate : estimates)
+    paired.push_back(pair_trajectories(truth, estimate, typed.association, typed.time));
+  return on_common_frames(paired, names, typed).results;
+}
+
 Table average_of(const std::vector<EvaluationResult>& results) {
   const AverageResult mean = average(results);
   Table row;
   row["sequences"] = mean.sequences;
+  row["failed"] = mean.failed;
+  row["means_of_rest"] = rows_of(mean.means_of_rest);
   row["segments"] = mean.segments;
   row["means"] = rows_of(mean.means);
   row["pooled_t_rel"] = row_of(mean.pooled_t_rel);
@@ -201,7 +345,21 @@ void bind_result(nb::module_& m) {
       .def(
           "metric_rows", [](const EvaluationResult& r) { return rows_of(metrics(r)); },
           "All figures, a dictionary each.")
+      .def_prop_ro(
+          "are_deg",
+          [](const EvaluationResult& r) {
+            return if_known(r.ape.rotation_outcome, r.ape.rotation_deg);
+          },
+          doc("ApeResult::rotation_deg"))
       .def("frame_table", &frame_table, "Columns of the evaluated frames.")
+      .def("error_table", &error_table, "Columns of the statistics of every kind of error.")
+      .def("step_table", &steps_over, "delta"_a = "1f", "Columns of the steps over a delta.")
+      .def("profile_table", &profile_table, "by"_a,
+           "Columns of the errors by 'speed' [m/s], 'turning_rate' [deg/s] or 'distance' [m].")
+      .def(
+          "worst_table",
+          [](const EvaluationResult& r) { return worst_table(r.profile.worst); },
+          "Columns of the stretches with the largest position errors, the largest first.")
       .def("segment_table", &segment_table, "Columns of the KITTI segments.")
       .def(
           "length_table",
@@ -251,11 +409,16 @@ void bind_evaluation(nb::module_& m) {
         "own_truths"_a = false,
         "A figure of the results that did not fail.\n\n`kind`: one of `evaluation_plots()`. "
         "`own_truths`: each result is of a sequence of its own.");
+  m.def("evaluate_common_frames", &common_results, "truth"_a, "estimates"_a, "names"_a,
+        "options"_a, doc("on_common_frames"));
   m.def("average_results", &average_of, "results"_a, doc("average"));
   m.def(
       "results_to_json",
-      [](const Results& results, bool average) { return to_json(results, average); }, "results"_a,
-      "average"_a = false, "Several results as JSON, with their averages if `average`.");
+      [](const Results& results, bool average, const Results& common) {
+        return to_json(results, average, common);
+      },
+      "results"_a, "average"_a = false, "common"_a = Results(),
+      "Several results as JSON, with their averages if `average`, and those of common frames.");
   m.def(
       "results_to_csv", [](const Results& results) { return to_csv(results); }, "results"_a,
       doc("to_csv"));
