@@ -4,8 +4,6 @@
 #include <fmt/format.h>
 #include <placegraph/eval/plots/evaluation_plot.h>
 #include <placegraph/eval/trajectory/evaluation_options.h>
-#include <placegraph/eval/trajectory/rpe.h>
-#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>
@@ -23,21 +21,56 @@ using namespace report;
 using nlohmann::json;
 using Poses = std::vector<std::optional<Eigen::Isometry3d>>;
 
-/// Errors of the frames that have an estimate; those of rotation only if there are orientations.
-void put_errors(const std::vector<FramePair>& pairs, bool oriented, json& frames) {
-  std::vector<float> error_m, error_deg;
-  for (const FramePair& pair : pairs) {
-    error_m.push_back(kUnknown);
-    error_deg.push_back(kUnknown);
-    if (!pair.T_world_estimate) continue;
-    const Eigen::Isometry3d& T = *pair.T_world_estimate;
-    error_m.back() =
-        static_cast<float>((T.translation() - pair.T_world_truth.translation()).norm());
-    error_deg.back() = static_cast<float>(
-        rad_to_deg(rotation_angle(pair.T_world_truth.rotation().transpose() * T.rotation())));
+/// A value of each frame of a result, unknown where nothing sets it.
+class FrameValues {
+ public:
+  explicit FrameValues(std::size_t frames) : values_(frames, kUnknown) {}
+  float& operator[](std::size_t frame) { return values_[frame]; }
+  json column() const { return report::column(values_); }
+
+ private:
+  std::vector<float> values_;
+};
+
+/// Values of the posed frames, in their order, of those that a result has.
+json of_posed(const EvaluationResult& result, const std::vector<double>& values) {
+  FrameValues frames(result.aligned_pairs.size());
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < result.aligned_pairs.size() && next < values.size(); ++i)
+    if (result.aligned_pairs[i].T_world_estimate) frames[i] = static_cast<float>(values[next++]);
+  return frames.column();
+}
+
+/// Adds the series to the columns of the frames, and names it.
+void add_series(const std::string& title, const char* unit, json column, json& run) {
+  const std::string name = fmt::format("series_{}", run["frame_series"].size());
+  run["frames"][name] = std::move(column);
+  run["frame_series"].push_back({{"column", name}, {"title", title}, {"unit", unit}});
+}
+
+/// Position errors by direction, and relative errors at the end of each step.
+void add_error_series(const EvaluationResult& result, json& run) {
+  const ErrorComponents& parts = result.components;
+  const std::string up = "Error along the vertical " + parts.vertical;
+  const char* const titles[] = {"Error along the path", "Error across the path", up.c_str()};
+  for (int row = 0; row < 3 && parts.outcome; ++row) {
+    std::vector<double> values;
+    for (const Eigen::Vector3d& error : parts.errors_m) values.push_back(error[row]);
+    add_series(titles[row], "m", of_posed(result, values), run);
   }
-  frames["error_m"] = column(error_m);
-  if (oriented) frames["error_deg"] = column(error_deg);
+  const auto add_steps = [&](const RelativeErrors& steps) {
+    FrameValues translation(result.aligned_pairs.size()), rotation(result.aligned_pairs.size());
+    for (const RelativeError& step : steps.errors) {
+      translation[static_cast<std::size_t>(step.last)] = static_cast<float>(step.translation_m);
+      rotation[static_cast<std::size_t>(step.last)] = static_cast<float>(step.rotation_deg);
+    }
+    const std::string over = "RPE over " + text_of(steps.delta);
+    add_series(over + ", translation", "m", translation.column(), run);
+    add_series(over + ", rotation", "deg", rotation.column(), run);
+  };
+  if (result.rpe.outcome) add_steps(result.rpe);
+  for (const RelativeErrors& steps : result.relative)
+    if (steps.outcome) add_steps(steps);
 }
 
 /// Without times the stamps are numbers of frames, and speeds follow from the usual rate.
@@ -63,7 +96,9 @@ json frames_of(const EvaluationResult& result) {
   frames["component"] = column(component);
   frames["pose"] = pose_column(estimate);
   frames["truth"] = pose_column(truth);
-  put_errors(result.aligned_pairs, static_cast<bool>(result.rpe.outcome), frames);
+  frames["error_m"] = of_posed(result, result.ape.frame_errors_m);
+  if (result.ape.rotation_outcome)
+    frames["error_deg"] = of_posed(result, result.ape.frame_errors_deg);
   return frames;
 }
 
@@ -80,19 +115,68 @@ json table_of(const std::string& title, const std::string& protocol, const char*
                         rows);
 }
 
+/// Statistics of every kind of error.
+json errors_table(const EvaluationResult& result) {
+  std::vector<std::vector<std::string>> rows;
+  for (const ErrorRow& row : error_rows(result)) {
+    const Statistics& s = row.statistics;
+    std::vector<std::string> cells = {row.unit.empty() ? row.name
+                                                       : fmt::format("{} [{}]", row.name, row.unit)};
+    for (const double value : {s.rmse, s.mean, s.median, s.std_dev, s.p95, s.max})
+      cells.push_back(fmt::format("{:.4f}", value));
+    cells.push_back(fmt::format("{}", s.count));
+    rows.push_back(std::move(cells));
+  }
+  return describe_table("Errors", "errors along directions have signs, their mean is a bias",
+                        {"Error", "RMSE", "Mean", "Median", "Std", "95 %", "Max", "Count"}, rows);
+}
+
+json profile_table(const std::string& title, const char* unit,
+                   const std::vector<ErrorGroup>& groups) {
+  std::vector<std::vector<std::string>> rows;
+  for (const ErrorGroup& group : groups)
+    rows.push_back({fmt::format("{:g} to {:g} {}", group.from, group.to, unit),
+                    fmt::format("{}", group.frames), fmt::format("{:.4f}", group.ate_rmse_m),
+                    fmt::format("{:.4f}", group.rpe_trans_m),
+                    fmt::format("{:.4f}", group.rpe_rot_deg)});
+  return describe_table(title, "frames of each interval; relative errors of consecutive frames",
+                        {"Interval", "Frames", "ATE [m]", "RPE [m]", "RPE [deg]"}, rows);
+}
+
+json worst_table(const std::vector<WorstStretch>& stretches) {
+  constexpr std::size_t kRows = 10;
+  std::vector<std::vector<std::string>> rows;
+  for (std::size_t i = 0; i < std::min(kRows, stretches.size()); ++i)
+    rows.push_back({fmt::format("{} to {}", stretches[i].first_frame, stretches[i].last_frame),
+                    fmt::format("{:.1f} to {:.1f} m", stretches[i].first_m, stretches[i].last_m),
+                    fmt::format("{:.4f}", stretches[i].largest)});
+  return describe_table("Largest position errors",
+                        "stretches of the hundredth of frames with the largest errors",
+                        {"Frames", "Path", "Largest [m]"}, rows);
+}
+
 json tables_of(const EvaluationResult& result) {
   json tables = json::array();
+  tables.push_back(errors_table(result));
+  tables.push_back(worst_table(result.profile.worst));
+  tables.push_back(profile_table("Errors by distance", "m", result.profile.by_distance));
+  if (!result.profile.by_speed.empty()) {
+    tables.push_back(profile_table("Errors by speed of the frame", "m/s", result.profile.by_speed));
+    tables.push_back(
+        profile_table("Errors by turning rate", "deg/s", result.profile.by_turning));
+  }
   if (!result.segments.outcome) return tables;
   const std::string protocol = fmt::format(
       "segments begin at every {}th frame; mean over those of a row", result.protocol.step);
-  tables.push_back(table_of("Errors by length", protocol, "m", result.segments.by_length));
+  tables.push_back(table_of("Errors of segments by length", protocol, "m", result.segments.by_length));
   if (!result.segments.by_speed.empty())
-    tables.push_back(table_of("Errors by speed", protocol, "m/s", result.segments.by_speed));
+    tables.push_back(table_of("Errors of segments by speed", protocol, "m/s", result.segments.by_speed));
   return tables;
 }
 
 json run_of(const EvaluationResult& result, const EvaluationPage& page) {
   json run = bare_run(result.name, frames_of(result));
+  add_error_series(result, run);
   const int last = result.aligned_pairs.empty() ? 0 : result.aligned_pairs.back().frame;
   const int first = result.aligned_pairs.empty() ? 0 : result.aligned_pairs.front().frame;
   run["recording"] = page.sequences ? result.name : page.truth;

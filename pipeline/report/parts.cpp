@@ -52,7 +52,8 @@ json bare_run(const std::string& name, json frames) {
                            "cpu_s", "wall_s", "path_length"})
     run["summary"][name] = nullptr;
   for (const char* list :
-       {"notes", "figures", "tables", "components", "planes", "floor_plan", "pictures"})
+       {"notes", "figures", "tables", "components", "planes", "floor_plan", "pictures",
+        "frame_series"})
     run[list] = json::array();
   return run;
 }

@@ -431,8 +431,8 @@ def compare(
     both = [_read_both(truth, each, name, times, chosen)
             for name, each in named_estimates(estimates)]
     results = [Evaluation(_core.evaluate_trajectory(*each[:2], chosen, each[2])) for each in both]
-    common = _core.evaluate_common_frames(
-        both[0][0], [each[1] for each in both], [each[2] for each in both], chosen) if both else []
+    truths, estimated, names = (list(column) for column in zip(*both))
+    common = _core.evaluate_common_frames(truths, estimated, names, chosen)
     return _compared(results, False, [Evaluation(each) for each in common])
 
 

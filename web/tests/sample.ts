@@ -117,6 +117,7 @@ export function sampleReport(runs: Run[], graphs: Graph[] = []): Report {
     title: runs.map((run) => run.name).join(", ") || "pose graph",
     runs,
     pictures: [],
+    frame_series: [],
     tables: [],
     graphs,
   };

@@ -25,7 +25,8 @@ export function sampleEstimate(options: Partial<SampleOptions>): Run {
         rows: [["100 m", "1.2345"]],
       },
     ],
-    frames: { ...run.frames, online: null, inliers: null, confidence: null, sigma_m: null, environment: null },
+    frame_series: [{ column: "series_0", title: "Error along the path", unit: "m" }],
+    frames: { ...run.frames, series_0: run.frames.error_m, online: null, inliers: null, confidence: null, sigma_m: null, environment: null },
     keyframes: { id: nothing, frame: nothing, place: nothing, thumbnails: [], tracks: null },
     places: { id: nothing, keyframe: nothing, component: nothing, position: column("f32", [], 3) },
     constraints: { from: nothing, to: nothing, source: labels([]) },
@@ -43,6 +44,7 @@ export function sampleJudged(options: Partial<SampleOptions> = {}): Run {
   return {
     ...run,
     frames: { ...frames, truth: null, error_m: null, error_deg: null },
+    frame_series: [],
     figures: [{ name: "average precision", value: 0.75, unit: "", protocol: "poses within 5 m and 30 deg" }],
     keyframes: sampleRun({ ...options, landmarks: 0 }).keyframes,
     loops: {

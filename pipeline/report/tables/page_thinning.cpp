@@ -93,6 +93,8 @@ std::vector<RowSeries> series_of(const json& frames) {
     if (!frames[name].is_null()) series.push_back({values_of(frames[name]), 7, 3});
   for (const char* name : {"error_m", "error_deg", "sigma_m", "confidence", "inliers", "component"})
     if (!frames[name].is_null()) series.push_back({values_of(frames[name]), 1, 1});
+  for (const auto& [name, values] : frames.items())
+    if (name.starts_with("series_")) series.push_back({values_of(values), 1, 1});
   return series;
 }
 

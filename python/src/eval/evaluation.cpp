@@ -268,15 +268,17 @@ Figure figure_of_results(const std::vector<EvaluationResult>& results, const std
 }
 
 /// The estimates on the frames that all have; empty if they have the same ones.
-std::vector<EvaluationResult> common_results(const Trajectory& truth,
+/// `truths`: that of each estimate, of one sequence, with times for those that have times.
+std::vector<EvaluationResult> common_results(const std::vector<Trajectory>& truths,
                                              const std::vector<Trajectory>& estimates,
                                              const std::vector<std::string>& names,
                                              const OptionSet& options) {
   const EvaluationOptions& typed = options_in<EvaluationOptions>(options, "options");
   const WithoutGil released;
+  require(truths.size() == estimates.size(), "truths: one is needed for each estimate");
   std::vector<PairingResult> paired;
-  for (const Trajectory& estimate : estimates)
-    paired.push_back(pair_trajectories(truth, estimate, typed.association, typed.time));
+  for (std::size_t i = 0; i < truths.size(); ++i)
+    paired.push_back(pair_trajectories(truths[i], estimates[i], typed.association, typed.time));
   return on_common_frames(paired, names, typed).results;
 }
 
@@ -409,7 +411,7 @@ void bind_evaluation(nb::module_& m) {
         "own_truths"_a = false,
         "A figure of the results that did not fail.\n\n`kind`: one of `evaluation_plots()`. "
         "`own_truths`: each result is of a sequence of its own.");
-  m.def("evaluate_common_frames", &common_results, "truth"_a, "estimates"_a, "names"_a,
+  m.def("evaluate_common_frames", &common_results, "truths"_a, "estimates"_a, "names"_a,
         "options"_a, doc("on_common_frames"));
   m.def("average_results", &average_of, "results"_a, doc("average"));
   m.def(

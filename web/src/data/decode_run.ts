@@ -10,12 +10,13 @@ import {
   readPlaces,
 } from "./decode_tables";
 import type { RunData } from "./model";
-import type { Camera, Component, Finding, Judgement, Option, Summary } from "./report";
+import type { Camera, Component, Finding, FrameSeries, Judgement, Option, Summary } from "./report";
 
 export function decodeRun(value: unknown, where: string): RunData {
   const json = asObject(value, where);
   const at = (name: string): string => `${where}.${name}`;
-  const frames = readFrames(json["frames"], at("frames"));
+  const more = orNull(json["frame_series"], at("frame_series"), (v, w) => listOf(v, w, readFrameSeries)) ?? [];
+  const frames = readFrames(json["frames"], at("frames"), more);
   return {
     name: asText(json["name"], at("name")),
     folder: asText(json["folder"], at("folder")),
@@ -50,6 +51,15 @@ function numbersOf<K extends string>(json: Json, where: string, names: readonly 
   const result = {} as Record<K, number>;
   for (const name of names) result[name] = asNumber(json[name], `${where}.${name}`);
   return result;
+}
+
+function readFrameSeries(value: unknown, where: string): FrameSeries {
+  const json = asObject(value, where);
+  return {
+    column: asText(json["column"], `${where}.column`),
+    title: asText(json["title"], `${where}.title`),
+    unit: asText(json["unit"], `${where}.unit`),
+  };
 }
 
 function readSummary(value: unknown, where: string): Summary {

@@ -10,6 +10,7 @@ import type {
   PlaceTable,
   TrackTable,
 } from "./model";
+import type { FrameSeries } from "./report";
 import { readColumn, TableReader } from "./table_reader";
 
 function rowsById(id: Values): Map<number, number> {
@@ -18,7 +19,7 @@ function rowsById(id: Values): Map<number, number> {
   return rows;
 }
 
-export function readFrames(value: unknown, where: string): FrameTable {
+export function readFrames(value: unknown, where: string, more: FrameSeries[] = []): FrameTable {
   const table = new TableReader(value, where, "id");
   const id = table.column("id");
   return {
@@ -37,6 +38,7 @@ export function readFrames(value: unknown, where: string): FrameTable {
     inliers: table.optional("inliers"),
     reason: table.labels("reason"),
     environment: table.optionalLabels("environment"),
+    more: more.map(({ column, title, unit }) => ({ title, unit, values: table.column(column) })),
     rowOf: rowsById(id),
   };
 }

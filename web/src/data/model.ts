@@ -59,6 +59,8 @@ export interface FrameTable {
   inliers: Values | null;
   reason: Labels;
   environment: Labels | null;
+  /** Further series that the report names. */
+  more: { title: string; unit: string; values: Values }[];
   /** The row of a frame id. */
   rowOf: Map<number, number>;
 }

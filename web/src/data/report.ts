@@ -51,6 +51,8 @@ export interface Run {
   camera: Camera | null;
   components: Component[];
   frames: Frames;
+  /** Further values of each frame; `column` is one of the columns of `frames`. */
+  frame_series: FrameSeries[];
   keyframes: Keyframes;
   landmarks: Landmarks;
   places: Places;
@@ -131,6 +133,12 @@ export interface Component {
   posed: number;
 }
 
+export interface FrameSeries {
+  column: string;
+  title: string;
+  unit: string;
+}
+
 /** One row for each input frame; NaN where a value is unknown. */
 export interface Frames {
   id: Column;
@@ -152,6 +160,8 @@ export interface Frames {
   /** Why a frame is lost. */
   reason: LabelColumn;
   environment: LabelColumn | null;
+  /** Columns that `frame_series` names. */
+  [series: `series_${number}`]: Column | null;
 }
 
 export interface Keyframes {

@@ -1,7 +1,9 @@
 /** Values along a run, one a frame: what graphs and colours show. */
 import type { RunData } from "./model";
 
-export type SeriesName = "error" | "rotation_error" | "speed" | "uncertainty" | "confidence" | "inliers" | "time";
+type KnownSeries = "error" | "rotation_error" | "speed" | "uncertainty" | "confidence" | "inliers" | "time";
+/** `more:N` is the N-th of the series that the report names itself. */
+export type SeriesName = KnownSeries | `more:${number}`;
 
 export interface Series {
   name: SeriesName;
@@ -19,12 +21,19 @@ export function availableSeries(run: RunData): SeriesName[] {
   const names: SeriesName[] = [];
   if (hasValues(frames.errorM)) names.push("error");
   if (hasValues(frames.errorDeg)) names.push("rotation_error");
+  frames.more.forEach((each, i) => {
+    if (hasValues(each.values)) names.push(`more:${i}`);
+  });
   if (frames.inliers !== null) names.push("inliers");
   if (hasValues(frames.confidence)) names.push("confidence");
   if (hasValues(frames.sigma)) names.push("uncertainty");
   if (hasValues(frames.pose)) names.push("speed");
   names.push("time");
   return names;
+}
+
+function isNamed(name: SeriesName): name is `more:${number}` {
+  return name.startsWith("more:");
 }
 
 function hasValues(values: ArrayLike<number> | null): boolean {
@@ -36,6 +45,11 @@ function hasValues(values: ArrayLike<number> | null): boolean {
 export function series(run: RunData, name: SeriesName): Series {
   const { frames } = run;
   const unit = lengthUnit(run);
+  if (isNamed(name)) {
+    const more = frames.more[Number(name.slice(5))];
+    if (!more) return { name, title: "Unknown", unit: "", values: copyOf(null, frames.count) };
+    return { name, title: more.title, unit: more.unit, values: Float64Array.from(more.values) };
+  }
   switch (name) {
     case "error":
       return { name, title: "Position error", unit: "m", values: copyOf(frames.errorM, frames.count) };

@@ -25,7 +25,7 @@ export type LayerName = (typeof LAYERS)[number];
 export const TABS = ["overview", "frame", "loops", "compare", "pictures", "graph"] as const;
 export type Tab = (typeof TABS)[number];
 
-export type ColourBy = Exclude<SeriesName, "rotation_error" | "inliers"> | "component" | "run";
+export type ColourBy = Exclude<SeriesName, "rotation_error" | "inliers" | `more:${number}`> | "component" | "run";
 export type PointColour = "own" | "height" | "uncertainty";
 export type GraphShape = "before" | "after" | "both";
 /** What the view does when the cursor moves: nothing, move along, or look through the camera. */

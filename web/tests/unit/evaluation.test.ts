@@ -3,7 +3,7 @@ import { comparable, compareRuns, firstParting } from "../../src/data/compare";
 import { decodeReport } from "../../src/data/decode";
 import { certainty, filterLoops, isGood, sortLoops, stageCounts } from "../../src/data/loops";
 import { startState } from "../../src/page/start_state";
-import { availableSeries } from "../../src/data/series";
+import { availableSeries, series } from "../../src/data/series";
 import { tracksOf } from "../../src/panels/tracks_overlay";
 import { sampleReport, sampleRun } from "../sample";
 import { sampleEstimate, sampleJudged } from "../sample_eval";
@@ -32,7 +32,9 @@ describe("evaluated trajectories", () => {
   });
 
   it("have no series of what is not known", () => {
-    expect(availableSeries(a)).toEqual(["error", "rotation_error", "speed", "time"]);
+    expect(availableSeries(a)).toEqual(["error", "rotation_error", "more:0", "speed", "time"]);
+    expect(series(a, "more:0")).toMatchObject({ title: "Error along the path", unit: "m" });
+    expect(series(a, "more:0").values).toEqual(series(a, "error").values);
   });
 
   it("have tables with as many cells as columns", () => {

@@ -58,8 +58,17 @@ TEST_F(EvalReport, HasEveryEstimateInTheFrameOfTheTruth) {
   EXPECT_EQ(run["figures"][0]["name"], "ATE RMSE");
   EXPECT_NEAR(run["figures"][0]["value"].get<double>(), 0.5, 1e-6);
   EXPECT_THAT(run["figures"][0]["protocol"].get<std::string>(), HasSubstr("align none"));
-  EXPECT_EQ(run["tables"][0]["title"], "Errors by length");
-  EXPECT_EQ(run["tables"][0]["rows"][0][0], "20 m");
+  EXPECT_EQ(run["tables"][0]["title"], "Errors");
+  EXPECT_EQ(run["tables"][0]["rows"][0][0], "position [m]");
+  const json& last = run["tables"].back();
+  EXPECT_EQ(last["title"], "Errors of segments by speed");
+  EXPECT_EQ(run["tables"][run["tables"].size() - 2]["rows"][0][0], "20 m");
+  // What the reader may choose as a graph: components of the error and relative errors.
+  ASSERT_GE(run["frame_series"].size(), 5u);
+  for (const json& series : run["frame_series"])
+    EXPECT_EQ(test::rows_in(run["frames"][series["column"].get<std::string>()]), 200u)
+        << series["title"];
+  EXPECT_EQ(run["frame_series"][0]["title"], "Error along the path");
   std::vector<std::string> titles;
   for (const json& picture : report["pictures"]) {
     titles.push_back(picture["title"]);
