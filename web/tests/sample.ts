@@ -107,6 +107,7 @@ export function sampleRun(options: Partial<SampleOptions> = {}): Run {
     street_map: o.street ? sampleStreet(path) : null,
     georeference: o.earth ? sampleEarth(path) : null,
     pictures: [picture("Trajectory from above", path)],
+    frame_series: [],
   };
 }
 
@@ -117,7 +118,6 @@ export function sampleReport(runs: Run[], graphs: Graph[] = []): Report {
     title: runs.map((run) => run.name).join(", ") || "pose graph",
     runs,
     pictures: [],
-    frame_series: [],
     tables: [],
     graphs,
   };
