@@ -79,6 +79,109 @@ def test_rpe_is_that_of_numpy() -> None:
         np.sqrt((error[:, :3, 3]**2).sum(1).mean()), rel=1e-9)
 
 
+def relative(truth: Array, estimate: Array, steps: list[tuple[int, int]]) -> Array:
+    """The pose errors of steps."""
+    moved = [np.linalg.inv(each[[i for i, _ in steps]]) @ each[[j for _, j in steps]]
+             for each in (truth, estimate)]
+    return np.linalg.inv(moved[0]) @ moved[1]
+
+
+def test_relative_errors_over_steps_are_those_of_numpy() -> None:
+    truth, estimate = motion()
+    path = np.append(0, np.cumsum(np.linalg.norm(np.diff(truth[:, :3, 3], axis=0), axis=1)))
+    chains: dict[str, list[tuple[int, int]]] = {"10f": [], "2s": [], "25m": []}
+    for delta, ends in (("10f", lambda i: i + 10), ("2s", lambda i: i + 20),
+                        ("25m", lambda i: int(np.searchsorted(path, path[i] + 25)))):
+        i = 0
+        while ends(i) < len(truth):
+            chains[delta].append((i, ends(i)))
+            i = ends(i)
+    result = pg.evaluate(trajectory(truth), trajectory(estimate), deltas=list(chains))
+    for delta, steps in chains.items():
+        error = relative(truth, estimate, steps)
+        table = result.steps(delta)
+        np.testing.assert_array_equal(table[["first_frame", "last_frame"]], steps)
+        lengths = np.linalg.norm(error[:, :3, 3], axis=1)
+        np.testing.assert_allclose(table["translation_m"], lengths, rtol=1e-9)
+        row = result.errors.loc[f"rpe_{delta}_trans_m"]
+        assert row["rmse"] == pytest.approx(np.sqrt((lengths**2).mean()), rel=1e-9)
+        assert row["std"] == pytest.approx(np.std(lengths), rel=1e-9)
+        assert row["p90"] == pytest.approx(np.quantile(lengths, 0.9), rel=1e-9)
+        assert result[f"rpe_{delta}_trans_m"] == pytest.approx(row["rmse"], rel=1e-12)
+    every = pg.evaluate(trajectory(truth), trajectory(estimate), deltas="10f", all_pairs=True)
+    assert len(every.steps("10f")) == len(truth) - 10
+    assert len(every.steps()) == len(truth) - 1
+    with pytest.raises(pg.ArgumentError, match="was not among the deltas"):
+        every.steps("3f")
+    with pytest.raises(pg.ArgumentError, match="delta '0s'"):
+        pg.evaluate(trajectory(truth), trajectory(estimate), deltas="0s")
+
+
+def test_rotation_errors_and_components_are_those_of_numpy() -> None:
+    truth, estimate = motion()
+    result = pg.evaluate(trajectory(truth), trajectory(estimate), align="sim3")
+    aligned = result.frame_table()["estimate"]
+    error = np.linalg.inv(truth) @ aligned
+    cosine = np.clip((np.trace(error[:, :3, :3], axis1=1, axis2=2) - 1) / 2, -1, 1)
+    angles = np.degrees(np.arccos(cosine))
+    np.testing.assert_allclose(result.frames["error_deg"], angles, atol=1e-5)
+    assert result.are_deg is not None
+    assert result.are_deg.rmse == pytest.approx(np.sqrt((angles**2).mean()), rel=1e-5)
+    parts = result.frames[["along_m", "across_m", "up_m"]].to_numpy()
+    np.testing.assert_allclose(np.linalg.norm(parts, axis=1), result.frames["error_m"], rtol=1e-9)
+    np.testing.assert_allclose(parts[:, 2], aligned[:, 1, 3] - truth[:, 1, 3], atol=1e-12)
+    assert result.by("distance")["frames"].sum() == len(truth)
+    assert result.worst["largest_m"].iloc[0] == pytest.approx(result.frames["error_m"].max())
+    with pytest.raises(pg.ArgumentError, match="speed"):
+        result.by("colour")
+
+
+def test_alignment_over_a_part_and_by_heading() -> None:
+    truth, estimate = motion()
+    options = pg.EvaluationOptions()
+    options.align_over.unit = "poses"
+    options.align_over.end = 50
+    result = pg.evaluate(trajectory(truth), trajectory(estimate), align="sim3", options=options)
+    scale, R, t = similarity(estimate[:50, :3, 3], truth[:50, :3, 3], True)
+    moved = scale * estimate[:, :3, 3] @ R.T + t
+    errors = np.linalg.norm(moved - truth[:, :3, 3], axis=1)
+    assert result["ate_rmse_m"] == pytest.approx(np.sqrt((errors**2).mean()), rel=1e-9)
+    assert result.protocol["align_over"] == "poses 0:50"
+    turned = pg.SE3.exp([5, 6, 7, 0, 1.1, 0]).matrix() @ truth
+    by_yaw = pg.evaluate(trajectory(truth), trajectory(turned), align="yaw")
+    assert some(by_yaw["ate_max_m"]) < 1e-9
+    assert by_yaw.protocol["vertical"] == "y (estimated)"
+
+
+def test_estimates_of_different_frames_are_compared_on_common_ones() -> None:
+    truth, estimate = motion()
+    half = estimate.copy()
+    half[150:] = np.nan
+    with pytest.warns(pg.Doubt, match="different frames"):
+        both = pg.compare(trajectory(truth), {"whole": trajectory(estimate),
+                                              "half": trajectory(half)})
+    assert both.common is not None
+    assert both.common["whole"]["ate_rmse_m"] == both.common["half"]["ate_rmse_m"]
+    assert both["half"]["ate_rmse_m"] == pytest.approx(both.common["half"]["ate_rmse_m"])
+    assert json.loads(both.to_json())["common"][0]["posed"] == 150
+    assert pg.compare(trajectory(truth), [trajectory(estimate)] * 2).common is None
+
+
+def test_a_failure_leaves_no_mean(tmp_path: pathlib.Path) -> None:
+    truth, estimate = motion()
+    for folder in ("truth", "estimate"):
+        (tmp_path / folder).mkdir()
+    for sequence in ("00.txt", "01.txt"):
+        write(tmp_path / "truth", sequence, truth)
+    write(tmp_path / "estimate", "00.txt", estimate)
+    write(tmp_path / "estimate", "01.txt", np.full_like(estimate, np.nan))
+    with pytest.warns(pg.Doubt, match="no mean over all"):
+        compared = pg.compare(tmp_path / "truth", tmp_path / "estimate")
+    assert compared.average["failed"] == 1
+    assert compared.average["ate_rmse_m"] is None
+    assert compared.average["of_the_others"]["ate_rmse_m"] == compared["00"]["ate_rmse_m"]
+
+
 def test_lost_frames_have_no_error() -> None:
     truth, estimate = motion()
     estimate[40:50] = np.nan

@@ -17,6 +17,7 @@ import numpy
 from evo.core import metrics
 from evo.tools import file_interface
 from exports_dense import check_bundle, check_dense
+from exports_evaluation import check_evaluation
 from exports_geometry import check_geometry, package
 
 FRAMES = 40
@@ -143,6 +144,7 @@ def main():
     placegraph = Program(sys.argv[1], sys.argv[2])
     write_runs(placegraph)
     check_trajectories(placegraph)
+    check_evaluation(placegraph, check)
     check_lost_frames(placegraph)
     check_graphs(placegraph)
     check_places(placegraph)
