@@ -9,15 +9,6 @@
 namespace placegraph {
 namespace {
 
-template <class Function>
-std::vector<ErrorSeries> mapped(std::vector<ErrorSeries> series, const Function& function) {
-  for (ErrorSeries& one : series) {
-    one.check();
-    for (StretchError& e : one.errors) e.error = function(e.error);
-  }
-  return series;
-}
-
 /// All but estimate, low and high.
 Interval interval_by(const MeanDeviation& deviation, double level) {
   require(level > 0 && level < 1, "the level of an interval is between 0 and 1");
@@ -66,10 +57,14 @@ Interval interval_of_mean(const std::vector<ErrorSeries>& series, double level) 
 }
 
 Interval interval_of_rmse(const std::vector<ErrorSeries>& series, double level) {
-  Interval interval = interval_of_mean(mapped(series, [](double e) { return e * e; }), level);
-  interval.estimate = std::sqrt(interval.estimate);
-  interval.low = std::sqrt(interval.low);
-  interval.high = std::sqrt(interval.high);
+  const MeanDeviation squares = deviation_of_mean(series, [](double e) { return e * e; });
+  Interval interval = interval_by(squares, level);
+  interval.estimate = std::sqrt(squares.mean);
+  if (!interval.outcome) return interval;
+  // Of the logarithm of the root.
+  const double half = 0.5 * half_width(interval, squares.sigma) / squares.mean;
+  interval.low = interval.estimate * std::exp(-half);
+  interval.high = interval.estimate * std::exp(half);
   return interval;
 }
 
@@ -79,7 +74,7 @@ Interval interval_of_median(const std::vector<ErrorSeries>& series, double level
   const std::vector<double> sorted = sorted_errors(series);
   const double median = median_of_sorted(sorted);
   const MeanDeviation below =
-      deviation_of_mean(mapped(series, [median](double e) { return e < median ? 1.0 : 0.0; }));
+      deviation_of_mean(series, [median](double e) { return e < median ? 1.0 : 0.0; });
   Interval interval = interval_by(below, level);
   interval.estimate = median;
   if (!interval.outcome) return interval;
