@@ -1,0 +1,30 @@
+#pragma once
+#include <placegraph/eval/uncertainty/error_series.h>
+#include <placegraph/eval/uncertainty/interval.h>
+
+#include <vector>
+
+namespace [[gnu::visibility("default")]] placegraph {
+
+/// Intervals of figures of the errors of one drive: what another estimate of it would have.
+///
+/// The true value is the expectation of the figure over estimates of the same drive by the same
+/// system. The interval is Student's, on a logarithmic scale where no error is negative: figures of
+/// few independent errors are skewed. Its width comes from the scatter along the drive, by an
+/// orthonormal series variance (Müller 2007; Lazarus et al. 2018) whose half waves hold at least
+/// two of the longest stretches and four times the length over which errors are correlated.
+/// Outcome: kTooFewData if the drive holds fewer than four disjoint stretches of the longest, or
+/// fewer than twenty independent errors of the shortest; kDegenerate if the errors are all equal.
+/// Throws ArgumentError if ErrorSeries::check() does, or for a level outside (0, 1).
+
+/// Of the mean over all errors of all series, as t_rel and r_rel are.
+[[nodiscard]] Interval interval_of_mean(const std::vector<ErrorSeries>& series,
+                                        double level = 0.95);
+/// Of the root of the mean square over all errors of all series.
+[[nodiscard]] Interval interval_of_rmse(const std::vector<ErrorSeries>& series,
+                                        double level = 0.95);
+/// Of the median over all errors of all series: between two quantiles of them (Woodruff 1952).
+[[nodiscard]] Interval interval_of_median(const std::vector<ErrorSeries>& series,
+                                          double level = 0.95);
+
+}  // namespace placegraph
