@@ -1,5 +1,5 @@
 #include <placegraph/eval/edges/edge_consistency.h>
-#include <placegraph/eval/trajectory/statistics.h>
+#include <placegraph/eval/errors/statistics.h>
 #include <placegraph/graph/core/chi_squared.h>
 
 #include <Eigen/Cholesky>

@@ -1,6 +1,5 @@
 #include <placegraph/eval/loops/loop_check.h>
-#include <placegraph/eval/trajectory/frame_pair.h>
-#include <placegraph/eval/trajectory/relative_error.h>
+#include <placegraph/eval/association/frame_pair.h>
 #include <placegraph/graph/core/angle.h>
 
 #include <cmath>

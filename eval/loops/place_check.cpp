@@ -1,5 +1,5 @@
 #include <placegraph/eval/loops/place_check.h>
-#include <placegraph/eval/trajectory/relative_error.h>
+#include <placegraph/eval/association/frame_pair.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/place_transitions.h>

@@ -1,5 +1,5 @@
 #include <placegraph/eval/loops/route_check.h>
-#include <placegraph/eval/trajectory/statistics.h>
+#include <placegraph/eval/errors/statistics.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/route.h>
 

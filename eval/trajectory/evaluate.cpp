@@ -1,8 +1,8 @@
 #include <fmt/format.h>
-#include <placegraph/eval/trajectory/alignment.h>
+#include <placegraph/eval/alignment/alignment.h>
 #include <placegraph/eval/trajectory/evaluate.h>
 #include <placegraph/eval/trajectory/plausibility.h>
-#include <placegraph/eval/trajectory/vertical.h>
+#include <placegraph/eval/alignment/vertical.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/eval/trajectory/evaluation_options.h>
-#include <placegraph/eval/trajectory/pairing.h>
+#include <placegraph/eval/association/pairing.h>
 #include <placegraph/eval/trajectory/result.h>
 #include <placegraph/graph/geometry/trajectory.h>
 

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 #include <placegraph/eval/trajectory/plausibility.h>
-#include <placegraph/eval/trajectory/relative_error.h>
+#include <placegraph/eval/errors/relative_error.h>
 #include <placegraph/graph/core/angle.h>
 
 #include <Eigen/SVD>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/eval/trajectory/frame_pair.h>
+#include <placegraph/eval/association/frame_pair.h>
 
 #include <string>
 #include <vector>

@@ -1,10 +1,10 @@
 #pragma once
-#include <placegraph/eval/trajectory/ape.h>
-#include <placegraph/eval/trajectory/error_profile.h>
-#include <placegraph/eval/trajectory/kitti_segments.h>
-#include <placegraph/eval/trajectory/pairing.h>
-#include <placegraph/eval/trajectory/relative_error.h>
-#include <placegraph/eval/trajectory/umeyama.h>
+#include <placegraph/eval/errors/ape.h>
+#include <placegraph/eval/errors/error_profile.h>
+#include <placegraph/eval/errors/kitti_segments.h>
+#include <placegraph/eval/association/pairing.h>
+#include <placegraph/eval/errors/relative_error.h>
+#include <placegraph/eval/alignment/umeyama.h>
 
 #include <optional>
 #include <string>

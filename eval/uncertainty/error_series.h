@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/eval/trajectory/kitti_segments.h>
+#include <placegraph/eval/errors/kitti_segments.h>
 
 #include <string>
 #include <vector>

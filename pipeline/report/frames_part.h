@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/eval/trajectory/umeyama.h>
+#include <placegraph/eval/alignment/umeyama.h>
 #include <placegraph/graph/map.h>
 
 #include <nlohmann/json_fwd.hpp>

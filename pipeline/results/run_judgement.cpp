@@ -1,7 +1,7 @@
 #include <placegraph/eval/loops/loop_check.h>
 #include <placegraph/eval/loops/place_check.h>
 #include <placegraph/eval/trajectory/evaluate.h>
-#include <placegraph/eval/trajectory/umeyama.h>
+#include <placegraph/eval/alignment/umeyama.h>
 #include <placegraph/pipeline/results/run_judgement.h>
 
 #include <nlohmann/json.hpp>

@@ -5,7 +5,7 @@
 // passes where there are any. Prints figure, tab, value.
 #include <fmt/format.h>
 #include <placegraph/eval/loops/route_check.h>
-#include <placegraph/eval/trajectory/statistics.h>
+#include <placegraph/eval/errors/statistics.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/datasets/open_dataset.h>
 #include <placegraph/pipeline/run.h>

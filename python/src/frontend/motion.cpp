@@ -1,5 +1,5 @@
 #include <fmt/format.h>
-#include <placegraph/eval/trajectory/umeyama.h>
+#include <placegraph/eval/alignment/umeyama.h>
 #include <placegraph/frontend/relative_pose/pose_3d2d.h>
 #include <placegraph/frontend/relative_pose/relative_pose.h>
 #include <placegraph/graph/core/error.h>

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/eval/trajectory/relative_error.h>
+#include <placegraph/eval/errors/relative_error.h>
 #include <placegraph/graph/core/angle.h>
 
 #include "tests/support/trajectories.h"

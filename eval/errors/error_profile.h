@@ -1,7 +1,7 @@
 #pragma once
-#include <placegraph/eval/trajectory/ape.h>
-#include <placegraph/eval/trajectory/frame_pair.h>
-#include <placegraph/eval/trajectory/relative_error.h>
+#include <placegraph/eval/errors/ape.h>
+#include <placegraph/eval/association/frame_pair.h>
+#include <placegraph/eval/errors/relative_error.h>
 
 #include <vector>
 

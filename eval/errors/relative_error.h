@@ -1,12 +1,20 @@
 #pragma once
-#include <placegraph/eval/trajectory/delta.h>
-#include <placegraph/eval/trajectory/frame_pair.h>
-#include <placegraph/eval/trajectory/statistics.h>
+#include <placegraph/eval/errors/delta.h>
+#include <placegraph/eval/association/frame_pair.h>
+#include <placegraph/eval/errors/statistics.h>
+#include <placegraph/graph/core/options.h>
 #include <placegraph/graph/core/outcome.h>
 
 #include <vector>
 
 namespace [[gnu::visibility("default")]] placegraph {
+
+/// Relative errors besides those of consecutive frames.
+struct RelativeErrorOptions {
+  std::vector<Delta> deltas;                        ///< lengths of the steps, each judged by itself
+  StepPairs pairs = StepPairs::kConsecutive;        ///< where the steps begin
+};
+void visit(OptionVisitor& field, RelativeErrorOptions& options);
 
 /// The relative error of one step: E = (T_i^-1 T_j)_truth^-1 (T_i^-1 T_j)_estimate.
 struct RelativeError {
@@ -46,8 +54,5 @@ struct RelativeErrors {
 /// A gap is a frame without estimate at either end, or a spacing of stamps (of frame numbers without
 /// times) that is longer than the median one by half of it and by ten median deviations.
 std::vector<bool> gaps_before(const std::vector<FramePair>& pairs);
-
-/// Angle [rad], in [0, pi], of a rotation matrix that may be orthonormal to some digits only.
-double rotation_angle(const Eigen::Matrix3d& R);
 
 }  // namespace placegraph

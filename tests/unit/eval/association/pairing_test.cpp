@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <placegraph/eval/trajectory/pairing.h>
+#include <placegraph/eval/association/pairing.h>
 
 #include "tests/support/trajectories.h"
 

@@ -26,6 +26,9 @@ inline Eigen::Matrix4d relative_pose(const Eigen::Isometry3d& T_world_a,
   return T_world_a.matrix().inverse() * T_world_b.matrix();
 }
 
+/// Angle [rad], in [0, pi], of a rotation matrix that may be orthonormal to some digits only.
+double rotation_angle(const Eigen::Matrix3d& R);
+
 /// Length of the true path [m] up to every frame; 0 at the first.
 std::vector<double> travelled_m(const std::vector<FramePair>& pairs);
 

@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/eval/trajectory/evaluation_options.h>
-#include <placegraph/eval/trajectory/frame_pair.h>
+#include <placegraph/eval/alignment/alignment_options.h>
+#include <placegraph/eval/association/frame_pair.h>
 #include <placegraph/graph/core/outcome.h>
 
 #include <string>

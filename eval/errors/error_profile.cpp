@@ -1,4 +1,4 @@
-#include <placegraph/eval/trajectory/error_profile.h>
+#include <placegraph/eval/errors/error_profile.h>
 #include <placegraph/graph/core/angle.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 #include <fmt/format.h>
-#include <placegraph/eval/trajectory/relative_error.h>
+#include <placegraph/eval/errors/relative_error.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/median.h>
 
@@ -154,9 +154,12 @@ Statistics of_each(const std::vector<RelativeError>& errors, double RelativeErro
 
 }  // namespace
 
-double rotation_angle(const Eigen::Matrix3d& R) {
-  const Eigen::Vector3d twice_sin_axis(R(2, 1) - R(1, 2), R(0, 2) - R(2, 0), R(1, 0) - R(0, 1));
-  return std::atan2(twice_sin_axis.norm(), R.trace() - 1.0);
+void visit(OptionVisitor& field, RelativeErrorOptions& o) {
+  const std::string before = to_string(o.deltas);
+  std::string deltas = before;
+  field("deltas", deltas, "lengths of steps, as 10f,1s,5m,10deg; empty: none");
+  if (deltas != before) o.deltas = parse_deltas(deltas);
+  field.choice("pairs", o.pairs, {"consecutive", "all"}, "where steps begin");
 }
 
 std::vector<bool> gaps_before(const std::vector<FramePair>& pairs) {

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
-#include <placegraph/eval/trajectory/alignment.h>
-#include <placegraph/eval/trajectory/vertical.h>
+#include <placegraph/eval/alignment/alignment.h>
+#include <placegraph/eval/alignment/vertical.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

@@ -1,6 +1,13 @@
-#include <placegraph/eval/trajectory/frame_pair.h>
+#include <placegraph/eval/association/frame_pair.h>
+
+#include <cmath>
 
 namespace placegraph {
+
+double rotation_angle(const Eigen::Matrix3d& R) {
+  const Eigen::Vector3d twice_sin_axis(R(2, 1) - R(1, 2), R(0, 2) - R(2, 0), R(1, 0) - R(0, 1));
+  return std::atan2(twice_sin_axis.norm(), R.trace() - 1.0);
+}
 
 std::vector<double> travelled_m(const std::vector<FramePair>& pairs) {
   std::vector<double> distance_m(pairs.size(), 0.0);

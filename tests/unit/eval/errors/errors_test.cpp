@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
-#include <placegraph/eval/trajectory/ape.h>
-#include <placegraph/eval/trajectory/kitti_segments.h>
-#include <placegraph/eval/trajectory/relative_error.h>
+#include <placegraph/eval/errors/ape.h>
+#include <placegraph/eval/errors/kitti_segments.h>
+#include <placegraph/eval/errors/relative_error.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 

@@ -1,13 +1,26 @@
 #pragma once
-#include <placegraph/eval/trajectory/evaluation_options.h>
-#include <placegraph/eval/trajectory/frame_pair.h>
-#include <placegraph/eval/trajectory/statistics.h>
+#include <placegraph/eval/alignment/alignment_options.h>
+#include <placegraph/eval/association/frame_pair.h>
+#include <placegraph/eval/errors/statistics.h>
 #include <placegraph/graph/core/outcome.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace [[gnu::visibility("default")]] placegraph {
+
+/// Which part of the position errors is judged.
+enum class ErrorPart {
+  kSpace,   ///< the whole error
+  kXy,      ///< its part in the plane of the world's x and y
+  kXz,      ///< its part in the plane of x and z
+  kYz,      ///< its part in the plane of y and z
+  kFitted,  ///< its part in the plane that fits the true positions best
+  kX,       ///< its part along x
+  kY,       ///< its part along y
+  kZ,       ///< its part along z
+};
 
 /// The part of position errors that is judged: a plane or an axis of the truth's world.
 struct ErrorProjection {

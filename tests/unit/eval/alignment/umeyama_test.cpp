@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/eval/trajectory/alignment.h>
+#include <placegraph/eval/alignment/alignment.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>
 #include <placegraph/graph/geometry/so3.h>

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/eval/trajectory/stamp_shift.h>
+#include <placegraph/eval/association/stamp_shift.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>
 

@@ -1,12 +1,22 @@
 #pragma once
-#include <placegraph/eval/trajectory/evaluation_options.h>
-#include <placegraph/eval/trajectory/frame_pair.h>
+#include <placegraph/eval/association/frame_pair.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/core/outcome.h>
 
 #include <vector>
 
 namespace [[gnu::visibility("default")]] placegraph {
+
+/// Segments of the relative errors t_rel and r_rel; the defaults are those of KITTI.
+struct SegmentOptions {
+  /// Lengths of the segments along the true path.
+  std::vector<double> lengths_m = {100, 200, 300, 400, 500, 600, 700, 800};
+  int step = 10;                 ///< frames between the starts of two segments
+  double frame_rate_hz = 10;     ///< frame rate for speeds, if the ground truth has no times
+  double speed_bin_m_per_s = 2;  ///< width of an interval of speed in the table per speed
+  void check() const;
+};
+void visit(OptionVisitor& field, SegmentOptions& options);
 
 /// The error over one segment, divided by its nominal length.
 struct SegmentError {

@@ -1,4 +1,4 @@
-#include <placegraph/eval/trajectory/umeyama.h>
+#include <placegraph/eval/alignment/umeyama.h>
 #include <placegraph/graph/core/error.h>
 
 #include <Eigen/SVD>

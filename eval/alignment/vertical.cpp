@@ -1,6 +1,5 @@
 #include <fmt/format.h>
-#include <placegraph/eval/trajectory/relative_error.h>
-#include <placegraph/eval/trajectory/vertical.h>
+#include <placegraph/eval/alignment/vertical.h>
 
 #include <Eigen/Eigenvalues>
 #include <cmath>

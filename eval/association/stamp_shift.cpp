@@ -1,4 +1,4 @@
-#include <placegraph/eval/trajectory/stamp_shift.h>
+#include <placegraph/eval/association/stamp_shift.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/median.h>
 

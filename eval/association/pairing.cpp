@@ -1,6 +1,6 @@
 #include <fmt/format.h>
-#include <placegraph/eval/trajectory/pairing.h>
-#include <placegraph/eval/trajectory/stamp_shift.h>
+#include <placegraph/eval/association/pairing.h>
+#include <placegraph/eval/association/stamp_shift.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/median.h>
 #include <placegraph/graph/measurements/stamp_plausibility.h>

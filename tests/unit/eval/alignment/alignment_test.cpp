@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <placegraph/eval/trajectory/alignment.h>
+#include <placegraph/eval/alignment/alignment.h>
 #include <placegraph/eval/trajectory/evaluate.h>
-#include <placegraph/eval/trajectory/vertical.h>
+#include <placegraph/eval/alignment/vertical.h>
 #include <placegraph/graph/core/angle.h>
 
 #include <numbers>

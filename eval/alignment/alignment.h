@@ -1,7 +1,7 @@
 #pragma once
-#include <placegraph/eval/trajectory/evaluation_options.h>
-#include <placegraph/eval/trajectory/frame_pair.h>
-#include <placegraph/eval/trajectory/umeyama.h>
+#include <placegraph/eval/alignment/alignment_options.h>
+#include <placegraph/eval/association/frame_pair.h>
+#include <placegraph/eval/alignment/umeyama.h>
 
 #include <vector>
 

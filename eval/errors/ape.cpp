@@ -1,7 +1,7 @@
 #include <fmt/format.h>
-#include <placegraph/eval/trajectory/ape.h>
-#include <placegraph/eval/trajectory/relative_error.h>
-#include <placegraph/eval/trajectory/vertical.h>
+#include <placegraph/eval/errors/ape.h>
+#include <placegraph/eval/errors/relative_error.h>
+#include <placegraph/eval/alignment/vertical.h>
 #include <placegraph/graph/core/angle.h>
 
 #include <algorithm>

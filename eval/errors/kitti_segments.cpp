@@ -1,4 +1,4 @@
-#include <placegraph/eval/trajectory/kitti_segments.h>
+#include <placegraph/eval/errors/kitti_segments.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 
@@ -53,6 +53,20 @@ std::map<long, SegmentGroup> grouped(const std::vector<SegmentError>& segments, 
 }
 
 }  // namespace
+
+void SegmentOptions::check() const {
+  check_ranges(*this);
+  require(!lengths_m.empty(), "lengths_m: empty list");
+}
+
+void visit(OptionVisitor& field, SegmentOptions& o) {
+  field("lengths_m", o.lengths_m, "segment lengths of t_rel and r_rel [m]", {1e-3, 1e6});
+  field("step", o.step, "frames between the starts of two segments", {1, 1e6});
+  field("frame_rate_hz", o.frame_rate_hz,
+        "frame rate for speeds, if the ground truth has no times [Hz]", {1e-3, 1e4});
+  field("speed_bin_m_per_s", o.speed_bin_m_per_s,
+        "width of an interval of the table per speed [m/s]", {1e-3, 1e3});
+}
 
 std::vector<SegmentGroup> group_by_length(const std::vector<SegmentError>& segments) {
   std::vector<SegmentGroup> rows;

@@ -1,4 +1,4 @@
-#include <placegraph/eval/trajectory/statistics.h>
+#include <placegraph/eval/errors/statistics.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

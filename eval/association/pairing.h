@@ -1,6 +1,5 @@
 #pragma once
-#include <placegraph/eval/trajectory/evaluation_options.h>
-#include <placegraph/eval/trajectory/frame_pair.h>
+#include <placegraph/eval/association/frame_pair.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/geometry/trajectory.h>
 
@@ -8,6 +7,14 @@
 #include <vector>
 
 namespace [[gnu::visibility("default")]] placegraph {
+
+/// How poses of the estimate are paired with poses of the ground truth.
+enum class Association {
+  kAuto,   ///< by time if both have times, by index if neither has; otherwise refused
+  kIndex,  ///< frames of the same number: line i with line i, both of the same length, unless the
+           ///< files number their frames
+  kTime,   ///< nearest stamps
+};
 
 /// Name of an association: "auto", "index" or "time".
 std::string to_string(Association association);
