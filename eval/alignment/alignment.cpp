@@ -167,7 +167,7 @@ void add_doubts(Alignment alignment, const FittedPositions& positions,
         result.rank == 1 ? "" : " within their errors", a[0], a[1], a[2]));
   }
   if (result.mirrored)
-    result.doubts.push_back(
+    result.doubts.emplace_back(
         "the estimate looks like a mirror image: a reflection would at least halve the error");
   const int numbers = alignment == Alignment::kSim3 ? 7 : alignment == Alignment::kSe3 ? 6 : 4;
   if (result.pairs < numbers)
