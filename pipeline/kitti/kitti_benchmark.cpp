@@ -171,6 +171,9 @@ KittiBenchmark evaluate_kitti(const std::string& truths, const std::vector<std::
   require(!estimates.empty(), "estimates: there is none");
   const TruePoses poses = read_truths(truths, sequences);
   const std::vector<std::string> names = distinct_names(estimates);
+  for (const std::string& name : names)
+    require(std::ranges::count(names, name) == 1,
+            "estimates: two have the same name '" + name + "'");
   KittiBenchmark benchmark;
   for (std::size_t i = 0; i < estimates.size(); ++i)
     benchmark.systems.push_back(

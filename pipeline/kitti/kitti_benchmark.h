@@ -6,7 +6,7 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// Judges submissions to KITTI's odometry benchmark, as the devkit's `evaluate_odometry` does.
+/// Judges submissions to KITTI's odometry benchmark as its devkit does (evaluate_odometry).
 ///
 /// `truths` and each of `estimates` is a folder with `00.txt` ... or `00/poses.txt` ...: poses
 /// T_world_cam of every frame, twelve numbers a line. Every sequence of `truths` is judged, or
