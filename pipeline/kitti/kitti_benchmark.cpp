@@ -91,7 +91,7 @@ class SubmissionJudge {
       const std::string path = (std::filesystem::path(folder_) / (name + ".txt")).string();
       system_.faults.push_back({path, 0,
                                 sequence.has_truth
-                                    ? "is missing (--sequences chooses those to judge)"
+                                    ? "is missing: the ground truth has this sequence"
                                     : "is missing: the server wants all of 11 to 21"});
     } else {
       sequence.file = file->second;
@@ -126,6 +126,7 @@ class SubmissionJudge {
   }
 
   void compare(const Trajectory& truth, const Trajectory& poses, KittiSequence& sequence) {
+    sequence.pairs.reserve(truth.size());
     for (std::size_t i = 0; i < truth.size(); ++i)
       sequence.pairs.push_back({static_cast<int>(i), static_cast<std::int64_t>(i),
                                 *truth.poses[i].T_world_body, poses.poses[i].T_world_body});
