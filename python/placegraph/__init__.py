@@ -83,6 +83,7 @@ from .graphs import (
     optimize,
     to_networkx,
 )
+from .kitti import KittiEvaluation, evaluate_kitti
 from .maps import (
     Explanation,
     Judgement,
@@ -153,6 +154,7 @@ __all__ = [
     "IncrementalOptions",
     "Judgement",
     "KeyframeAdded",
+    "KittiEvaluation",
     "LandmarkGraph",
     "LensDistortion",
     "LensFound",
@@ -203,6 +205,7 @@ __all__ = [
     "edge_consistency",
     "estimate_truth_noise",
     "evaluate",
+    "evaluate_kitti",
     "fit_mount",
     "from_networkx",
     "localizer_options",

@@ -50,6 +50,7 @@ void bind_tracking(nb::module_& m);
 void bind_scene(nb::module_& m);
 void bind_markers(nb::module_& m);
 void bind_places(nb::module_& m);
+void bind_kitti(nb::module_& m);
 void bind_loops(nb::module_& m);
 void bind_figures(nb::module_& m);
 void bind_reports(nb::module_& m);

@@ -60,6 +60,7 @@ NB_MODULE(_core, m) {
   bind_synthetic(m);
   bind_evaluation(m);
   bind_edges(m);
+  bind_kitti(m);
   bind_flow(m);
   bind_flow_cues(m);
   bind_motion(m);

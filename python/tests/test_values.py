@@ -2,7 +2,9 @@
 
 import copy
 import multiprocessing
+import os
 import pickle
+import tempfile
 from collections.abc import Callable
 from typing import Any
 
@@ -23,6 +25,18 @@ def drive(shift: float = 0.0, *, lost: int = -1) -> pg.Trajectory:
     if lost >= 0:
         poses[lost] = np.nan
     return pg.Trajectory.from_arrays(np.arange(8) * 10**8, poses)
+
+
+KITTI = tempfile.TemporaryDirectory()
+
+
+def kitti(shift: float) -> pg.KittiEvaluation:
+    """The judged submission of a short drive, always of the same name."""
+    folders = [os.path.join(KITTI.name, name) for name in ("truth", "mine")]
+    for folder, poses in zip(folders, (drive(), drive(shift))):
+        os.makedirs(folder, exist_ok=True)
+        poses.write(os.path.join(folder, "03.txt"), pg.TrajectoryFormat.KITTI)
+    return pg.evaluate_kitti(*folders)
 
 
 def failed_evaluation() -> pg.Evaluation:
@@ -110,6 +124,7 @@ VALUES: dict[str, tuple[Callable[[], Any], Callable[[], Any]]] = {
                    lambda: pg.evaluate(drive(), drive(0.02)).ape_m),
     "AlignmentResult": (lambda: pg.evaluate(drive(), drive(0.01)).alignment,
                         lambda: pg.evaluate(drive(), drive(0.02)).alignment),
+    "KittiEvaluation": (lambda: kitti(0.01), lambda: kitti(0.02)),
     "LoopTruth": (lambda: loops.LoopTruth({5: [1, 2], 7: []}), lambda: loops.LoopTruth({5: [1]})),
     "LoopScore": (score, lambda: score(0.7)),
     "TruthNoise": (edges, lambda: edges(2.0)),
@@ -162,7 +177,8 @@ def test_every_class_that_is_pickled_is_tested() -> None:
     pickled = {name for name, kind in vars(_core).items()
                if isinstance(kind, type) and "__setstate__" in vars(kind)}
     tested = {type(make()).__name__ for make, _ in VALUES.values()}
-    assert pickled - tested == ELSEWHERE | {"EvaluationResult", "LoopBenchmark"}
+    assert pickled - tested == ELSEWHERE | {"EvaluationResult", "KittiBenchmark",
+                                                    "LoopBenchmark"}
 
 
 def moved_at_random(T: Any, dof: int) -> Any:
