@@ -86,6 +86,12 @@ void add_eval_trajectory_command(
       ->add_option("--offset", a.options.time.offset_s,
                    "time added to the stamps of the estimate [s]")
       ->capture_default_str();
+  command
+      ->add_option("--estimate", a.estimated,
+                   "constant offsets that are estimated and removed first: body (the pose between "
+                   "the two bodies), time, or body,time")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"body", "time"}));
   command->add_option("--times", a.times, kTimesText)
       ->delimiter(',')
       ->expected(1)

@@ -17,6 +17,7 @@ struct EvalArguments {
                                    ///< for the truth and one for the estimates
   std::string align = "se3";       ///< one of eval_alignments()
   std::string associate = "auto";  ///< one of eval_associations()
+  std::vector<std::string> estimated;  ///< offsets estimated first: "body", "time"
   EvaluationOptions options;       ///< alignment and association are chosen by the two names above
   std::string csv, latex, plot;    ///< files to write; empty: none
   /// Kinds of figures for `plot`, of evaluation_plot_names(); several go to files of their own, of

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/eval/offsets/offset_estimation.h>
 #include <placegraph/eval/trajectory/ape.h>
 #include <placegraph/eval/trajectory/kitti_segments.h>
 #include <placegraph/eval/trajectory/pairing.h>
@@ -38,6 +39,7 @@ struct EvaluationResult {
   ApeResult ape;              ///< absolute errors after the alignment
   RpeResult rpe;              ///< errors of the motion between consecutive frames
   SegmentResult segments;     ///< t_rel and r_rel
+  std::optional<OffsetEstimate> offsets;  ///< those of body and time, if they were estimated
   std::vector<std::string> warnings;     ///< one line each: a suspicious property and a remedy
   std::vector<FramePair> aligned_pairs;  ///< the evaluated frames, with aligned estimates
   bool has_times = false;                ///< their stamps are times, not indices

@@ -1,4 +1,4 @@
-#include <placegraph/eval/trajectory/posed_path.h>
+#include <placegraph/eval/offsets/posed_path.h>
 #include <placegraph/graph/core/median.h>
 
 #include <algorithm>

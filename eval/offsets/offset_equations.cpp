@@ -1,4 +1,4 @@
-#include <placegraph/eval/trajectory/offset_equations.h>
+#include <placegraph/eval/offsets/offset_equations.h>
 
 #include <Eigen/SVD>
 #include <algorithm>
@@ -8,7 +8,7 @@ namespace placegraph {
 namespace {
 
 /// Share of a motion's duration over which the truth's velocity is taken, either way. Chosen.
-constexpr double kVelocityShare = 1. / 8;
+constexpr double kVelocityShare = 1. / 4;
 
 Vector6d scaled_twist(const Vector6d& twist, double scale) {
   Vector6d out = twist;

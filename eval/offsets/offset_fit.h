@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/eval/trajectory/offset_equations.h>
+#include <placegraph/eval/offsets/offset_equations.h>
 #include <placegraph/graph/core/outcome.h>
 
 namespace placegraph {
@@ -10,8 +10,9 @@ struct OffsetFit {
   OffsetState state;
   /// Of the parameters, in the tangent of T_estimate_truth; none along directions that are free.
   OffsetMatrix covariance = OffsetMatrix::Zero();
-  /// Mean information of a motion about the parameters, in units in which noise alone would make
-  /// the identity; see kShown. Zero for parameters that are not fitted.
+  /// Mean information of a motion about the parameters that the motions of both have in common, in
+  /// units in which noise alone would give either the identity; see least_shown. Zero for
+  /// parameters that are not fitted.
   OffsetMatrix information = OffsetMatrix::Zero();
   /// Orthonormal columns: the directions that the motions leave free, in the same units.
   Eigen::Matrix<double, kOffsetParameters, Eigen::Dynamic> free;
@@ -21,9 +22,10 @@ struct OffsetFit {
   double rotation_rad = 0;   ///< and about an axis
 };
 
-/// Information that a motion must have about a direction, where noise alone would make 1: twice
-/// its size. Chosen.
-inline constexpr double kShown = 4;
+/// Information that the motions of both must have in common about a direction that counts as
+/// shown, where noise alone would give either 1. Chosen. A truth without orientations is compared
+/// with motions of the estimate alone, whose noise is part of the information: more is asked for.
+inline double least_shown(bool positions_alone) { return positions_alone ? 3 : 1; }
 
 /// Fits the parameters to the motions of both trajectories.
 ///

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/eval/trajectory/posed_path.h>
+#include <placegraph/eval/offsets/posed_path.h>
 
 namespace placegraph {
 

@@ -1,5 +1,5 @@
 #include <fmt/format.h>
-#include <placegraph/eval/trajectory/offset_freedom.h>
+#include <placegraph/eval/offsets/offset_freedom.h>
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
@@ -24,12 +24,13 @@ std::string axis_text(const Eigen::Vector3d& axis) {
 }
 
 /// Orthonormal directions of three parameters that are free with all others held.
-std::vector<Eigen::Vector3d> free_alone(const OffsetMatrix& information, int at) {
+std::vector<Eigen::Vector3d> free_alone(const OffsetMatrix& information, int at,
+                                        double bound) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(
       Eigen::Matrix3d(information.block<3, 3>(at, at)));
   std::vector<Eigen::Vector3d> found;
   for (int k = 0; k < 3; ++k)
-    if (solver.eigenvalues()[k] < kShown) found.push_back(solver.eigenvectors().col(k));
+    if (solver.eigenvalues()[k] < bound) found.push_back(solver.eigenvectors().col(k));
   return found;
 }
 
@@ -38,25 +39,37 @@ void take_out(Eigen::MatrixXd& columns, const OffsetVector& direction) {
   columns -= direction * (direction.transpose() * columns).eval();
 }
 
-FreeOffset lever_arm_along(const Eigen::Vector3d& axis, std::size_t count) {
-  FreeOffset free;
-  free.lever_arm = unit_axis(axis);
-  free.text = fmt::format("the lever arm along {} is free: {}", axis_text(free.lever_arm),
-                          count == 3   ? "the body does not turn"
-                          : count == 1 ? "the body turns about that axis alone"
-                                       : "the body hardly turns");
-  return free;
+/// The names of the free directions of the lever arm; one for all three.
+std::vector<FreeOffset> lever_arms(const std::vector<Eigen::Vector3d>& axes) {
+  if (axes.size() == 3)
+    return {FreeOffset{
+        {0, 0, 0}, {0, 0, 0}, false, "the lever arm is free: the body does not turn"}};
+  std::vector<FreeOffset> named;
+  for (const Eigen::Vector3d& axis : axes) {
+    FreeOffset free;
+    free.lever_arm = unit_axis(axis);
+    free.text = fmt::format("the lever arm along {} is free: the body turns about that axis alone",
+                            axis_text(free.lever_arm));
+    named.push_back(free);
+  }
+  return named;
 }
 
-FreeOffset rotation_about(const Eigen::Vector3d& axis, std::size_t count) {
-  FreeOffset free;
-  free.rotation = unit_axis(axis);
-  free.text = fmt::format(
-      "the rotation about {} is free: {}", axis_text(free.rotation),
-      count == 3   ? "the body stands still"
-      : count == 1 ? "the body moves along that axis and turns about no other"
-                   : "the body hardly moves");
-  return free;
+/// The names of the free directions of the rotation; one for all three.
+std::vector<FreeOffset> rotations(const std::vector<Eigen::Vector3d>& axes) {
+  if (axes.size() == 3)
+    return {FreeOffset{
+        {0, 0, 0}, {0, 0, 0}, false, "the rotation of the body is free: it stands still"}};
+  std::vector<FreeOffset> named;
+  for (const Eigen::Vector3d& axis : axes) {
+    FreeOffset free;
+    free.rotation = unit_axis(axis);
+    free.text = fmt::format(
+        "the rotation about {} is free: the body moves along that axis and turns about no other",
+        axis_text(free.rotation));
+    named.push_back(free);
+  }
+  return named;
 }
 
 /// What is free together, of columns in the axes of the estimate's body.
@@ -104,27 +117,25 @@ std::vector<FreeOffset> free_offsets(const OffsetFit& fit, const OffsetOptions& 
                                      bool has_rotation) {
   const OffsetMatrix turn = to_estimate_axes(fit, has_rotation);
   const OffsetMatrix information = turn * fit.information * turn.transpose();
+  const double bound = least_shown(!has_rotation);
   Eigen::MatrixXd rest = turn * fit.free;
   std::vector<FreeOffset> found;
-  if (options.body) {
-    const std::vector<Eigen::Vector3d> levers = free_alone(information, kLeverAt);
-    for (const Eigen::Vector3d& axis : levers) {
-      found.push_back(lever_arm_along(axis, levers.size()));
+  const auto take = [&](const std::vector<Eigen::Vector3d>& axes, int at,
+                        const std::vector<FreeOffset>& named) {
+    for (const Eigen::Vector3d& axis : axes) {
       OffsetVector direction = OffsetVector::Zero();
-      direction.segment<3>(kLeverAt) = axis;
+      direction.segment<3>(at) = axis;
       take_out(rest, direction);
     }
-  }
-  if (options.body || !has_rotation) {
-    const std::vector<Eigen::Vector3d> turns = free_alone(information, kRotationAt);
-    for (const Eigen::Vector3d& axis : turns) {
-      if (has_rotation) found.push_back(rotation_about(axis, turns.size()));
-      OffsetVector direction = OffsetVector::Zero();
-      direction.segment<3>(kRotationAt) = axis;
-      take_out(rest, direction);
-    }
-  }
-  if (options.time && information(kTimeAt, kTimeAt) < kShown) {
+    found.insert(found.end(), named.begin(), named.end());
+  };
+  const std::vector<Eigen::Vector3d> levers = free_alone(information, kLeverAt, bound);
+  if (options.body) take(levers, kLeverAt, lever_arms(levers));
+  const std::vector<Eigen::Vector3d> turns = free_alone(information, kRotationAt, bound);
+  // Of positions alone it is a rotation of the worlds that nobody asks for.
+  if (!has_rotation) take(turns, kRotationAt, {});
+  if (has_rotation && options.body) take(turns, kRotationAt, rotations(turns));
+  if (options.time && information(kTimeAt, kTimeAt) < bound) {
     FreeOffset free;
     free.time = true;
     free.text =

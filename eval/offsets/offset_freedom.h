@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/eval/trajectory/offset_estimation.h>
-#include <placegraph/eval/trajectory/offset_fit.h>
+#include <placegraph/eval/offsets/offset_estimation.h>
+#include <placegraph/eval/offsets/offset_fit.h>
 
 #include <vector>
 

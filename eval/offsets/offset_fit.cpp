@@ -1,4 +1,4 @@
-#include <placegraph/eval/trajectory/offset_fit.h>
+#include <placegraph/eval/offsets/offset_fit.h>
 #include <placegraph/graph/core/median.h>
 
 #include <Eigen/Eigenvalues>
@@ -26,11 +26,16 @@ using Columns = Eigen::Matrix<double, kOffsetParameters, Eigen::Dynamic>;
 /// The sums over all motions at a state.
 struct OffsetSums {
   OffsetVector unit = OffsetVector::Zero();  ///< change that a motion's noise looks like
-  OffsetMatrix derivative = OffsetMatrix::Zero(), information = OffsetMatrix::Zero();
+  OffsetMatrix derivative = OffsetMatrix::Zero();
   OffsetVector score = OffsetVector::Zero();
   std::vector<OffsetVector> waves;  ///< of the scores, see kWaves
   int motions = 0;
   double translation_m = 0, rotation_rad = 0;
+
+  /// What the motions of both have in common about the parameters; a motion's share.
+  OffsetMatrix information() const {
+    return (derivative + derivative.transpose()) / (2 * std::max(1, motions));
+  }
 };
 
 double scatter_of(const std::vector<OffsetRow>& rows, int at) {
@@ -79,7 +84,6 @@ OffsetSums sums_of(const OffsetEquations& equations, const OffsetMask& mask,
         positions_alone ? 0 : huber_weight(row.error.tail<3>(), sums.rotation_rad));
     const OffsetJacobian weighted = weights.asDiagonal() * row.instrument;
     sums.derivative += weighted.transpose() * row.derivative;
-    sums.information += weighted.transpose() * row.instrument;
     const OffsetVector score = weighted.transpose() * row.error;
     sums.score += score;
     const double half_turns = length > 0 ? (row.time - first) / length : 0;
@@ -89,11 +93,12 @@ OffsetSums sums_of(const OffsetEquations& equations, const OffsetMask& mask,
   return sums;
 }
 
-/// Directions by what a motion tells of them; columns in units of the noise, orthonormal.
+/// Directions by what a motion shows of them; columns in units of the noise, orthonormal.
 struct Directions {
   Columns shown, free;
 
   Directions(const OffsetSums& sums, double bound) {
+    const OffsetMatrix information = sums.information();
     std::vector<int> fitted;
     for (int k = 0; k < kOffsetParameters; ++k)
       if (sums.unit[k] > 0) fitted.push_back(k);
@@ -101,8 +106,7 @@ struct Directions {
     for (std::size_t a = 0; a < fitted.size(); ++a)
       for (std::size_t b = 0; b < fitted.size(); ++b)
         in_units(static_cast<int>(a), static_cast<int>(b)) =
-            sums.unit[fitted[a]] * sums.information(fitted[a], fitted[b]) *
-            sums.unit[fitted[b]] / std::max(1, sums.motions);
+            sums.unit[fitted[a]] * information(fitted[a], fitted[b]) * sums.unit[fitted[b]];
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(in_units);
     int count_free = 0;
     while (count_free < in_units.rows() && solver.eigenvalues()[count_free] < bound) ++count_free;
@@ -142,15 +146,14 @@ class DurationFit {
     return sums_of(equations_, mask_, state, duration_, most_, waves_);
   }
 
-  /// Newton's steps along the directions of which a motion tells more than `bound`; true once a
-  /// step is below a thousandth of what a motion's noise looks like, over the root of their number.
-  bool descend(OffsetState& state, double bound, int steps) const {
-    constexpr double kEnough = 1e-3;
+  /// Newton's steps along the directions of which a motion shows more than `bound`; true once a
+  /// step is below `enough` of what a motion's noise looks like, over the root of their number.
+  bool descend(OffsetState& state, double bound, int steps, double enough) const {
     for (int k = 0; k < steps; ++k) {
       const OffsetSums now = sums(state);
       const Directions directions(now, bound);
       OffsetVector step = ShownSystem(now, directions).step(now.score);
-      // No further than velocities are alike, and rotations nearly linear.
+      // No further than velocities are similar, and rotations nearly linear.
       const double most = std::max(2 * std::abs(step[kTimeAt]) / duration_,
                                    step.segment<3>(kRotationAt).norm());
       if (most > 1) step /= most;
@@ -158,7 +161,7 @@ class DurationFit {
       double length = 0;
       for (int p = 0; p < kOffsetParameters; ++p)
         if (now.unit[p] > 0) length = std::max(length, std::abs(step[p]) / now.unit[p]);
-      if (length * std::sqrt(static_cast<double>(now.motions)) < kEnough) return true;
+      if (length * std::sqrt(static_cast<double>(now.motions)) < enough) return true;
     }
     return false;
   }
@@ -170,7 +173,7 @@ class DurationFit {
   int most_, waves_;
 };
 
-/// How much motions of a duration tell in their time: first of how many directions.
+/// How much motions of a duration show in their time: first of how many directions.
 struct DurationWorth {
   int shown = 0;
   double log_information = 0;
@@ -179,8 +182,8 @@ struct DurationWorth {
   }
 };
 
-DurationWorth worth_of(const OffsetSums& sums, double duration) {
-  const Directions directions(sums, kShown);
+DurationWorth worth_of(const OffsetSums& sums, double duration, double bound) {
+  const Directions directions(sums, bound);
   DurationWorth worth;
   worth.shown = static_cast<int>(directions.shown.cols());
   if (worth.shown == 0) return worth;
@@ -189,7 +192,7 @@ DurationWorth worth_of(const OffsetSums& sums, double duration) {
   const Eigen::MatrixXd basis =
       qr.householderQ() * Eigen::MatrixXd::Identity(kOffsetParameters, worth.shown);
   const Eigen::MatrixXd rate =
-      basis.transpose() * sums.information * basis / (sums.motions * duration);
+      basis.transpose() * sums.information() * basis / duration;
   worth.log_information = std::log(std::max(rate.determinant(), 1e-300));
   return worth;
 }
@@ -197,7 +200,7 @@ DurationWorth worth_of(const OffsetSums& sums, double duration) {
 /// The same state without the change from `start` along free directions.
 OffsetState without_free(const OffsetState& state, const OffsetState& start,
                          const OffsetSums& sums, bool positions_alone) {
-  const Directions directions(sums, kShown);
+  const Directions directions(sums, least_shown(positions_alone));
   if (directions.free.cols() == 0) return state;
   OffsetVector change = OffsetVector::Zero();
   if (positions_alone) {
@@ -217,7 +220,7 @@ OffsetState without_free(const OffsetState& state, const OffsetState& start,
 }
 
 /// Covariance by the slowest waves of the scores (Lazarus, Lewis, Stock, Watson 2018), whose mean
-/// square is the variance of their sum, whatever correlates them for shorter than a wave.
+/// square is the variance of their sum if they are correlated for less long than a wave.
 OffsetMatrix covariance_of(const OffsetSums& sums, const Directions& directions) {
   const ShownSystem system(sums, directions);
   OffsetMatrix covariance = OffsetMatrix::Zero();
@@ -233,63 +236,75 @@ OffsetMatrix covariance_of(const OffsetSums& sums, const Directions& directions)
   return covariance * (2 / count * student * student);
 }
 
+// Directions of which a motion shows less than this take no part while the errors are still those
+// of a wrong state; steps of either part, and lengths of the last in deviations of a parameter of
+// which a motion shows as much as noise. Chosen.
+constexpr double kFaint = 0.04;
+constexpr int kTrialSteps = 8, kSteps = 30;
+constexpr double kTrialEnough = 0.1, kEnough = 1e-3;
+
+/// The duration whose motions show most, and the states of the first fit with it.
+struct BestDuration {
+  DurationWorth worth{-1, 0};
+  double duration = 0;
+  OffsetState begin, state;
+};
+
+BestDuration best_duration(const OffsetEquations& equations, const OffsetMask& mask,
+                           const OffsetState& start, int least_motions) {
+  const double longest = equations.span() / (kWaves * kWaveShare);
+  BestDuration best;
+  for (double duration = equations.spacing(); best.duration == 0 || duration <= longest;
+       duration *= 2) {
+    if (duration > equations.span()) break;
+    const DurationFit trial(equations, mask, duration, kTrialMotions);
+    OffsetState begin = start;
+    if (mask[kRotationAt])
+      begin = equations.aligned(start, duration, kTrialMotions, mask[kScaleAt]);
+    OffsetState state = begin;
+    (void)trial.descend(state, kFaint, kTrialSteps, kTrialEnough);
+    const OffsetSums sums = trial.sums(state);
+    const DurationWorth worth =
+        worth_of(sums, duration, least_shown(equations.positions_alone()));
+    if (sums.motions >= least_motions && best.worth < worth)
+      best = {worth, duration, begin, state};
+  }
+  return best;
+}
+
 }  // namespace
 
 OffsetFit fit_offsets(const OffsetEquations& equations, const OffsetMask& mask,
                       const OffsetState& start) {
-  // Directions of which a motion tells less than this (a fifth of its noise) take no part while
-  // the errors are still those of a wrong state; steps of either part. Chosen.
-  constexpr double kFaint = 0.04;
-  constexpr int kTrialSteps = 8, kSteps = 30;
   OffsetFit fit;
   const auto parameters = static_cast<int>(std::count(mask.begin(), mask.end(), true));
-  const auto needed = parameters + kWavesBeyond;
-  const double spacing = equations.spacing();
-  if (!(equations.span() >= needed * kWaveShare * spacing)) {
+  const int needed = kWaveShare * (parameters + kWavesBeyond);
+  const auto common = static_cast<int>(std::max(0.0, equations.span()) / equations.spacing());
+  const BestDuration best =
+      common < needed ? BestDuration{} : best_duration(equations, mask, start, needed / 2);
+  if (best.worth.shown < 0) {
     fit.outcome = Outcome::failure(
         Outcome::Code::kTooFewData,
-        "the trajectories have " + std::to_string(std::max(0, static_cast<int>(equations.span() / spacing))) +
-            " poses in common, and " + std::to_string(needed * kWaveShare) +
-            " are needed for the offsets");
+        "the offsets need " + std::to_string(needed) +
+            " poses in the time that both cover, without gaps, and there are " +
+            std::to_string(common) + (common < needed ? "" : " with gaps"));
     return fit;
   }
   const bool positions_alone = equations.positions_alone();
-  const bool rotation = mask[kRotationAt];
-  DurationWorth best{-1, 0};
-  OffsetState begin;
-  for (double duration = spacing;
-       duration == spacing || duration <= equations.span() / (kWaves * kWaveShare);
-       duration *= 2) {
-    const DurationFit trial(equations, mask, duration, kTrialMotions);
-    OffsetState first = start;
-    if (rotation) first = equations.aligned(start, duration, kTrialMotions, mask[kScaleAt]);
-    OffsetState state = first;
-    (void)trial.descend(state, kFaint, kTrialSteps);
-    const OffsetSums sums = trial.sums(state);
-    const DurationWorth worth = worth_of(sums, duration);
-    if (sums.motions < needed || !(best < worth)) continue;
-    best = worth;
-    fit.duration = duration;
-    fit.state = state;
-    begin = first;
-  }
-  if (best.shown < 0) {
-    fit.outcome = Outcome::failure(Outcome::Code::kTooFewData,
-                                   "too few poses of both are at the same times for the offsets");
-    return fit;
-  }
-  const DurationFit final_fit(equations, mask, fit.duration, kMotions);
-  (void)final_fit.descend(fit.state, kFaint, kTrialSteps);
-  fit.state = without_free(fit.state, begin, final_fit.sums(fit.state), positions_alone);
-  const bool converged = final_fit.descend(fit.state, kShown, kSteps);
+  const double bound = least_shown(positions_alone);
+  const DurationFit final_fit(equations, mask, best.duration, kMotions);
+  fit.duration = best.duration;
+  fit.state = best.state;
+  (void)final_fit.descend(fit.state, kFaint, kTrialSteps, kTrialEnough);
+  fit.state = without_free(fit.state, best.begin, final_fit.sums(fit.state), positions_alone);
+  const bool converged = final_fit.descend(fit.state, bound, kSteps, kEnough);
   const OffsetSums sums = final_fit.sums(fit.state);
-  const Directions directions(sums, kShown);
+  const Directions directions(sums, bound);
   fit.free = directions.free;
   fit.motions = sums.motions;
   fit.translation_m = sums.translation_m;
   fit.rotation_rad = sums.rotation_rad;
-  fit.information = sums.unit.asDiagonal() * sums.information * sums.unit.asDiagonal();
-  fit.information /= std::max(1, sums.motions);
+  fit.information = sums.unit.asDiagonal() * sums.information() * sums.unit.asDiagonal();
   fit.covariance = covariance_of(sums, directions);
   fit.outcome = converged ? Outcome::ok()
                           : Outcome::failure(Outcome::Code::kNotConverged,

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
-#include <placegraph/eval/trajectory/offset_estimation.h>
-#include <placegraph/eval/trajectory/offset_fit.h>
-#include <placegraph/eval/trajectory/offset_freedom.h>
-#include <placegraph/eval/trajectory/speed_correlation.h>
+#include <placegraph/eval/offsets/offset_estimation.h>
+#include <placegraph/eval/offsets/offset_fit.h>
+#include <placegraph/eval/offsets/offset_freedom.h>
+#include <placegraph/eval/offsets/speed_correlation.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

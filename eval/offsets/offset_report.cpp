@@ -1,5 +1,5 @@
 #include <fmt/format.h>
-#include <placegraph/eval/trajectory/offset_estimation.h>
+#include <placegraph/eval/offsets/offset_estimation.h>
 #include <placegraph/graph/core/angle.h>
 
 #include <cmath>

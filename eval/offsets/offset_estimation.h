@@ -19,7 +19,10 @@ struct OffsetOptions {
 };
 void visit(OptionVisitor& field, OffsetOptions& options);
 
-/// A direction of the offsets that the motions do not show, in the axes of the estimate's body.
+/// A direction of the offsets that the motions do not show.
+///
+/// In the axes of the estimate's body. Where every direction of the lever arm or of the rotation is
+/// free, there is one for all, without a vector.
 struct FreeOffset {
   Eigen::Vector3d lever_arm = Eigen::Vector3d::Zero();  ///< unit vector, or zero
   Eigen::Vector3d rotation = Eigen::Vector3d::Zero();   ///< axis as unit vector, or zero
@@ -54,23 +57,23 @@ struct OffsetEstimate {
 
 /// Estimates constant offsets of body and time from the motions of both trajectories.
 ///
-/// Poses are T_world_body of either. Relative motions of the two bodies are X^-1 M X (hand-eye
-/// calibration, Park and Martin 1994) at times that differ by a constant, by whose correlation of
-/// speeds the search begins (Furgale et al. 2013); all are fitted at once, robustly, with a scale
-/// if asked for. No alignment of the worlds enters, and drift only as far as it grows during a
-/// motion. Deviations are those of sums over blocks of the drive, so that errors may be correlated.
-/// If either has positions alone, rotations between the bodies are not estimated, and a lever arm
-/// needs the estimate's orientations. Throws ArgumentError for options that check() refuses, if
-/// neither is asked for, and if stamps do not increase.
+/// Poses are T_world_body of either. Relative motions of the two bodies are X^-1 M X (Park and
+/// Martin 1994, sensor calibration on SE(3)) at times that differ by a constant, by whose
+/// correlation of speeds the search begins (Furgale et al. 2013); all are fitted at once,
+/// robustly, with a scale if asked for. No alignment of the worlds enters, and drift only as far as
+/// it grows during a motion. Deviations are those of the slowest waves of the errors, which may be
+/// correlated. If either has positions alone, rotations between the bodies are not estimated, and a
+/// lever arm needs the estimate's orientations. Throws ArgumentError for options that check()
+/// refuses, if neither is asked for, and if stamps do not increase.
 [[nodiscard]] OffsetEstimate estimate_offsets(const Trajectory& truth, const Trajectory& estimate,
                                               const OffsetOptions& options);
 
-/// The estimate with the truth's body and stamps: T_world_estimate T_estimate_truth, later by time.
+/// The estimate with the truth's body and stamps: T_world_body T_estimate_truth, later.
 /// The lever arm is in units of the estimate, that is, divided by the scale.
 [[nodiscard]] Trajectory with_offsets(const Trajectory& estimate, const OffsetEstimate& offsets);
 
-/// Two or three lines for people, each with its deviations; what is free, and the reason if there
-/// is no estimate.
+/// Lines for people: values with deviations, and what is free.
+/// Without an estimate, its reason.
 [[nodiscard]] std::string to_text(const OffsetEstimate& offsets);
 
 /// A JSON object without a newline: the members above, null for what is not known.

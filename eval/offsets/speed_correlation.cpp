@@ -1,4 +1,4 @@
-#include <placegraph/eval/trajectory/speed_correlation.h>
+#include <placegraph/eval/offsets/speed_correlation.h>
 
 #include <algorithm>
 #include <cmath>
