@@ -33,6 +33,36 @@ void run(const EvalCommand& command) {
   throw NoResult(reason);
 }
 
+/// Which poses are compared, and what is removed before.
+void add_pairing_options(CLI::App& command, EvalArguments& a) {
+  command
+      .add_option("--associate", a.associate,
+                  "how poses are paired: by index or by time; auto: by time if both have times")
+      ->check(CLI::IsMember(eval_associations()))
+      ->capture_default_str();
+  command
+      .add_option("--max-difference", a.options.time.max_difference_s,
+                  "largest time difference of paired poses [s]")
+      ->capture_default_str();
+  command
+      .add_option("--offset", a.options.time.offset_s,
+                  "time added to the stamps of the estimate [s]")
+      ->capture_default_str();
+  command
+      .add_option("--estimate", a.estimated,
+                  "constant offsets that are estimated and removed first: body (the pose between "
+                  "the two bodies), time, or body,time")
+      ->delimiter(',')
+      ->expected(1)
+      ->take_all()
+      ->check(CLI::IsMember({"body", "time"}));
+  command.add_option("--times", a.times, kTimesText)
+      ->delimiter(',')
+      ->expected(1)
+      ->take_all()
+      ->check(CLI::ExistingFile);
+}
+
 void add_plot_options(CLI::App& command, EvalArguments& a) {
   command.add_option("--plot", a.plot, kPlotText)->type_name(kOutput);
   command
@@ -109,24 +139,7 @@ void add_eval_trajectory_command(
       ->capture_default_str();
   command->add_option("--step", a.options.segments.step, "frames between the starts of segments")
       ->capture_default_str();
-  command
-      ->add_option("--associate", a.associate,
-                   "how poses are paired: by index or by time; auto: by time if both have times")
-      ->check(CLI::IsMember(eval_associations()))
-      ->capture_default_str();
-  command
-      ->add_option("--max-difference", a.options.time.max_difference_s,
-                   "largest time difference of paired poses [s]")
-      ->capture_default_str();
-  command
-      ->add_option("--offset", a.options.time.offset_s,
-                   "time added to the stamps of the estimate [s]")
-      ->capture_default_str();
-  command->add_option("--times", a.times, kTimesText)
-      ->delimiter(',')
-      ->expected(1)
-      ->take_all()
-      ->check(CLI::ExistingFile);
+  add_pairing_options(*command, a);
   command->add_flag("--json", eval_command->json, kJsonText);
   command->add_option("--csv", a.csv, "write the details as CSV")->type_name(kOutput);
   command->add_option("--latex", a.latex, "write the figures as a LaTeX table")->type_name(kOutput);

@@ -54,9 +54,22 @@ std::vector<EvaluatedFiles> files_of(const EvalArguments& arguments) {
   return files;
 }
 
+OffsetOptions offset_options(const EvalArguments& arguments, const EvaluationOptions& options) {
+  const auto asked = [&](const char* name) {
+    const std::vector<std::string>& names = arguments.estimated;
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  OffsetOptions offsets;
+  offsets.body = asked("body");
+  offsets.time = asked("time");
+  offsets.scale = options.alignment == Alignment::kSim3 || options.alignment == Alignment::kScale;
+  offsets.start_s = options.time.offset_s;
+  return offsets;
+}
+
 /// The trajectories are local, because long ones take most of the memory.
 PairingResult pair(const EvaluatedFiles& files, const EvalArguments& arguments,
-                   const EvaluationOptions& options) {
+                   const EvaluationOptions& options, std::optional<OffsetEstimate>& offsets) {
   std::string truth_times = arguments.times.empty() ? "" : arguments.times.front();
   const std::string estimate_times = arguments.times.empty() ? "" : arguments.times.back();
   const Trajectory estimate = read_evaluated(files.estimate, estimate_times);
@@ -64,7 +77,30 @@ PairingResult pair(const EvaluatedFiles& files, const EvalArguments& arguments,
   if (truth_times.empty() && estimate.has_times && options.association != Association::kIndex)
     truth_times = times_beside(files.truth);
   const Trajectory truth = read_truth(files.truth, truth_times);
-  return pair_trajectories(truth, estimate, options.association, options.time);
+  if (arguments.estimated.empty())
+    return pair_trajectories(truth, estimate, options.association, options.time);
+  offsets = estimate_offsets(truth, estimate, offset_options(arguments, options));
+  AssociationOptions time = options.time;
+  time.offset_s = 0;  // is part of what was estimated
+  PairingResult paired;
+  paired.outcome = offsets->outcome;
+  return offsets->outcome ? pair_trajectories(truth, with_offsets(estimate, *offsets),
+                                              options.association, time)
+                          : paired;
+}
+
+/// One estimate against its truth; its pairs are added to `kept`, if that is not null.
+EvaluationResult evaluate_files(const EvaluatedFiles& files, const EvalArguments& arguments,
+                                EvaluationOptions options, std::vector<PairingResult>* kept) {
+  std::optional<OffsetEstimate> offsets;
+  PairingResult paired = pair(files, arguments, options, offsets);
+  if (kept) kept->push_back(paired);
+  if (offsets) options.time.offset_s = offsets->time_s;
+  EvaluationResult result = evaluate(std::move(paired), options, files.name);
+  if (offsets)
+    for (const FreeOffset& free : offsets->free) result.warnings.push_back(free.text);
+  result.offsets = std::move(offsets);
+  return result;
 }
 
 /// A figure to write.
@@ -209,9 +245,9 @@ EvalResult eval(const EvalArguments& arguments) {
   std::vector<PairingResult> paired;
   std::vector<std::string> names;
   for (const EvaluatedFiles& files : all) {
-    PairingResult own = pair(files, arguments, options);
-    if (compared) paired.push_back(own), names.push_back(files.name);
-    result.results.push_back(evaluate(std::move(own), options, files.name));
+    result.results.push_back(
+        evaluate_files(files, arguments, options, compared ? &paired : nullptr));
+    names.push_back(files.name);
     for (const std::string& warning : result.results.back().warnings)
       warn(files.name + ": " + warning);
   }

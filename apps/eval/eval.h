@@ -26,6 +26,7 @@ struct EvalArguments {
   std::vector<std::string> deltas;          ///< lengths of steps, as parse_delta reads them
   bool all_pairs = false;                   ///< a step begins at every pose
   std::string associate = "auto";  ///< one of eval_associations()
+  std::vector<std::string> estimated;  ///< offsets estimated first: "body", "time"
   EvaluationOptions options;       ///< alignment and association are chosen by the two names above
   std::string csv, latex, plot;    ///< files to write; empty: none
   /// Kinds of figures for `plot`, of evaluation_plot_names(); several go to files of their own, of

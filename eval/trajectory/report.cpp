@@ -136,6 +136,7 @@ Json object(const EvaluationResult& r) {
     json["max_difference_s"] = r.protocol.max_difference_s;
     json["offset_s"] = r.protocol.offset_s;
   }
+  if (r.offsets) json["offsets"] = Json::parse(to_json(*r.offsets));
   json["lengths_m"] = r.protocol.lengths_m;
   json["step"] = r.protocol.step;
   json["averaging"] = "mean over all segments";
@@ -335,6 +336,7 @@ std::string to_text(const EvaluationResult& r) {
   text +=
       fmt::format("  align {}, scale {:.6f}, association by {}\n", to_string(r.protocol.alignment),
                   r.alignment.scale, to_string(r.protocol.association));
+  if (r.offsets) text += to_text(*r.offsets);
   for (const Metric& m : metrics(r)) {
     if (!has_own_line(m)) continue;
     text +=

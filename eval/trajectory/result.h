@@ -1,10 +1,11 @@
 #pragma once
+#include <placegraph/eval/alignment/umeyama.h>
+#include <placegraph/eval/association/pairing.h>
 #include <placegraph/eval/errors/ape.h>
 #include <placegraph/eval/errors/error_profile.h>
 #include <placegraph/eval/errors/kitti_segments.h>
-#include <placegraph/eval/association/pairing.h>
 #include <placegraph/eval/errors/relative_error.h>
-#include <placegraph/eval/alignment/umeyama.h>
+#include <placegraph/eval/offsets/offset_estimation.h>
 
 #include <optional>
 #include <string>
@@ -46,6 +47,7 @@ struct EvaluationResult {
   std::vector<RelativeErrors> relative;  ///< over the steps of the options, in their order
   SegmentResult segments;     ///< t_rel and r_rel
   ErrorProfile profile;       ///< where the errors lie
+  std::optional<OffsetEstimate> offsets;  ///< those of body and time, if they were estimated
   std::vector<std::string> warnings;     ///< one line each: a suspicious property and a remedy
   std::vector<FramePair> aligned_pairs;  ///< the evaluated frames, with aligned estimates
   bool has_times = false;                ///< their stamps are times, not indices

@@ -102,6 +102,44 @@ TEST_F(EvalCommand, TakesTheTimesBesideASequence) {
   EXPECT_LT(result.results[0].ape.error_m.rmse, 1e-5);
 }
 
+TEST_F(EvalCommand, EstimatesAndRemovesOffsetsFirst) {
+  // A drive of 200 frames at 10 Hz, seen by a body 0.3 m to the side whose clock is 0.2 s late.
+  const Trajectory truth = test::winding_drive(200);
+  Trajectory estimate = truth;
+  for (StampedPose& pose : estimate.poses) {
+    pose.stamp_ns += 200'000'000;
+    pose.T_world_body = *pose.T_world_body * Eigen::Translation3d(0.3, 0, 0);
+  }
+  write_trajectory(folder / "truth.tum", truth, TrajectoryFormat::kTum);
+  write_trajectory(folder / "estimate.tum", estimate, TrajectoryFormat::kTum);
+  arguments.truth = folder / "truth.tum";
+  arguments.estimates = {folder / "estimate.tum"};
+  const double unmoved_m = eval(arguments).results[0].ape.error_m.rmse;
+  arguments.estimated = {"body", "time"};
+  const EvaluationResult result = eval(arguments).results[0];
+  ASSERT_TRUE(result.offsets && result.offsets->outcome);
+  EXPECT_NEAR(result.offsets->time_s, -0.2, 1e-3);
+  EXPECT_NEAR(result.offsets->T_estimate_truth.translation().x(), -0.3, 0.01);
+  EXPECT_NEAR(result.protocol.offset_s, -0.2, 1e-3);
+  EXPECT_LT(result.ape.error_m.rmse, 0.1 * unmoved_m);
+  const auto json = nlohmann::json::parse(to_json(eval(arguments)));
+  EXPECT_NEAR(json["offsets"]["time_s"], -0.2, 1e-3);
+}
+
+TEST_F(EvalCommand, OffsetsThatTheMotionDoesNotShowAreNoAnswer) {
+  Trajectory truth = test::winding_drive(200);
+  for (std::size_t i = 0; i < truth.size(); ++i)
+    truth.poses[i].T_world_body = Eigen::Translation3d(0.5 * static_cast<double>(i), 0, 0) *
+                                  Eigen::Isometry3d::Identity();
+  write_trajectory(folder / "truth.tum", truth, TrajectoryFormat::kTum);
+  arguments.truth = folder / "truth.tum";
+  arguments.estimates = {folder / "truth.tum"};
+  arguments.estimated = {"time"};
+  const EvalResult result = eval(arguments);
+  ASSERT_NE(result.refused(), nullptr);
+  EXPECT_THAT(result.refused()->outcome.reason, HasSubstr("the time offset is free"));
+}
+
 TEST_F(EvalCommand, WritesTheFilesThatAreNamed) {
   arguments.truth = write_drive("truth.txt");
   arguments.estimates = {write_drive("estimate.txt")};
