@@ -110,7 +110,7 @@ ConvertResult convert_graph(const ConvertArguments& arguments, Form to) {
 Trajectory posed_frames(const Trajectory& trajectory, const std::string& path,
                         const std::string& posed_in) {
   Trajectory other = trajectory;
-  if (!posed_in.empty()) other = read_trajectory(posed_in, "");
+  if (!posed_in.empty()) other = warned(read_trajectory(posed_in, ""));
   require(other.size() == trajectory.size(),
           fmt::format("--posed-in: {} has {} frames, {} has {}", posed_in, other.size(), path,
                       trajectory.size()));

@@ -27,7 +27,7 @@ struct PairingResult {
   int posed = 0;                      ///< pairs with an estimate
   int estimate_frames = 0;            ///< posed lines of the estimate
   int estimate_without_truth = 0;     ///< posed lines of the estimate without a posed partner
-  std::vector<std::string> warnings;  ///< implausible times of either
+  std::vector<std::string> warnings;  ///< those of their readers, implausible times of either
 };
 
 /// Pairs the poses of two trajectories, or states in `outcome` why the pairs are ambiguous.

@@ -34,6 +34,8 @@ class RecordedDataset : public Dataset {
     for (const std::string& odd :
          {odd_spacing(s_.stamps_ns, "frame"), irregular_spacing(s_.stamps_ns)})
       if (!odd.empty()) s_.notes.push_back({odd, false, NoteCause::kTimes, ""});
+    if (s_.ground_truth)
+      for (const std::string& warning : s_.ground_truth->warnings) s_.notes.push_back({warning});
     if (s_.ground_truth && s_.ground_truth->posed() < n)
       s_.notes.push_back(
           {fmt::format("{} of {} frames have no ground truth", n - s_.ground_truth->posed(), n)});
@@ -136,6 +138,7 @@ std::string folder_name(const std::string& path) {
 Trajectory resample(const Trajectory& recorded, const std::vector<std::int64_t>& stamps_ns,
                     double max_gap_s) {
   Trajectory result;
+  result.warnings = recorded.warnings;
   result.poses.reserve(stamps_ns.size());
   for (const std::int64_t stamp_ns : stamps_ns) {
     StampedPose pose{stamp_ns, std::nullopt};

@@ -3,6 +3,7 @@
 #include <placegraph/io/files/atomic_file.h>
 #include <placegraph/io/files/text_file.h>
 #include <placegraph/io/trajectories/pose_table.h>
+#include <placegraph/io/trajectories/repeated_rows.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 
 #include <iterator>
@@ -21,6 +22,11 @@ class Reader {
   void add(const PoseLine& line) {
     const auto index = static_cast<std::int64_t>(trajectory_.size());
     const std::int64_t stamp = table_.columns().stamp ? line.stamp : index;
+    if (index > 0 && trajectory_.has_times && stamp == trajectory_.poses.back().stamp_ns) {
+      repeated_.push_back({static_cast<std::size_t>(table_.file().line()),
+                           static_cast<std::size_t>(index - 1), line.T_world_body});
+      return;
+    }
     if (index > 0 && stamp <= trajectory_.poses.back().stamp_ns)
       table_.file().fail(trajectory_.numbered
                              ? fmt::format("the number {} of the frame does not increase", stamp)
@@ -39,12 +45,16 @@ class Reader {
     if (oriented_ > 0 && first_bare_line_ > 0)
       throw FileError(table_.file().path(), first_bare_line_,
                       "the quaternion has length 0 or is nan, not 1 as on other lines");
+    if (!repeated_.empty())
+      trajectory_.warnings.push_back(
+          repeated_rows_warning(table_.file().path(), trajectory_.poses, repeated_));
     return std::move(trajectory_);
   }
 
  private:
   const PoseTable& table_;
   Trajectory trajectory_;
+  std::vector<RepeatedStamp> repeated_;
   std::size_t oriented_ = 0;
   int first_line_ = 0, first_bare_line_ = 0;
 };
