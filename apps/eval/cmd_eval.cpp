@@ -91,6 +91,8 @@ void add_eval_trajectory_command(
       ->expected(1)
       ->take_all()
       ->check(CLI::ExistingFile);
+  command->add_option("--apply", a.apply, kApplyText);
+  command->add_option("--apply-truth", a.apply_truth, "the same for the ground truth");
   command->add_flag("--json", eval_command->json, kJsonText);
   command->add_option("--csv", a.csv, "write the details as CSV")->type_name(kOutput);
   command->add_option("--latex", a.latex, "write the figures as a LaTeX table")->type_name(kOutput);

@@ -135,20 +135,6 @@ std::string folder_name(const std::string& path) {
   return (normal.has_filename() ? normal : normal.parent_path()).filename().string();
 }
 
-Trajectory resample(const Trajectory& recorded, const std::vector<std::int64_t>& stamps_ns,
-                    double max_gap_s) {
-  Trajectory result;
-  result.warnings = recorded.warnings;
-  result.poses.reserve(stamps_ns.size());
-  for (const std::int64_t stamp_ns : stamps_ns) {
-    StampedPose pose{stamp_ns, std::nullopt};
-    if (const auto T = interpolate(recorded, stamp_ns, max_gap_s))
-      pose.T_world_body = T->isometry();
-    result.poses.push_back(pose);
-  }
-  return result;
-}
-
 std::vector<std::int64_t> synthetic_stamps_ns(std::size_t count, double rate_hz) {
   std::vector<std::int64_t> stamps_ns(count);
   for (std::size_t i = 0; i < count; ++i) {

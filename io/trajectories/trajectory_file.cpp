@@ -3,6 +3,7 @@
 #include <placegraph/io/files/atomic_file.h>
 #include <placegraph/io/files/text_file.h>
 #include <placegraph/io/trajectories/pose_table.h>
+#include <placegraph/io/trajectories/posed_images.h>
 #include <placegraph/io/trajectories/repeated_rows.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 
@@ -96,6 +97,26 @@ void format_euroc(const StampedPose& pose, Buffer out) {
                  t.x(), t.y(), t.z(), q.w(), q.x(), q.y(), q.z());
 }
 
+Trajectory read_table(TextFile file, Orientation orientation) {
+  PoseTable table(std::move(file));
+  Reader reader(table);
+  PoseLine line;
+  while (table.next(line)) reader.add(line);
+  Trajectory trajectory = reader.finish();
+  if (orientation == Orientation::kNeeded && !trajectory.has_orientation)
+    throw FileError(
+        table.file().path(), reader.first_line(),
+        "has positions alone (" + table.columns().text() + "), but orientations are needed here");
+  return trajectory;
+}
+
+Trajectory read_any_poses(const std::string& path, Orientation orientation) {
+  if (is_binary_model(path)) return read_binary_images_poses(path);
+  TextFile file(path);
+  if (std::optional<Trajectory> images = read_posed_images(file)) return std::move(*images);
+  return read_table(std::move(file), orientation);
+}
+
 void check_writable(const Trajectory& trajectory, TrajectoryFormat format) {
   require(trajectory.has_orientation,
           "the trajectory has positions alone: its poses have no orientation to write");
@@ -135,15 +156,7 @@ void give_times(Trajectory& trajectory, const std::string& path, const std::stri
 
 Trajectory read_trajectory(const std::string& path, const std::string& times_path,
                            Orientation orientation) {
-  PoseTable table(path);
-  Reader reader(table);
-  PoseLine line;
-  while (table.next(line)) reader.add(line);
-  Trajectory trajectory = reader.finish();
-  if (orientation == Orientation::kNeeded && !trajectory.has_orientation)
-    throw FileError(
-        path, reader.first_line(),
-        "has positions alone (" + table.columns().text() + "), but orientations are needed here");
+  Trajectory trajectory = read_any_poses(path, orientation);
   if (!times_path.empty()) give_times(trajectory, path, times_path);
   return trajectory;
 }

@@ -1,8 +1,7 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/geometry/se3.h>
-#include <placegraph/graph/geometry/trajectory.h>
-#include <placegraph/io/datasets/resample.h>
+#include <placegraph/graph/geometry/trajectory_edit.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 
 #include <cmath>
