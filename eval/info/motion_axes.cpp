@@ -120,7 +120,7 @@ std::optional<Eigen::Vector3d> mean_direction_body(
   for (std::size_t i = 0; i < motions.size(); ++i) {
     if (!(lengths[i] > least)) continue;
     const MotionOver& motion = motions[i];
-    // The body's axes half way: a turn moves it to neither side.
+    // The body's axes half way: their rotation moves it to neither side.
     const Eigen::Quaterniond q = turned(frames.q_world_body[motion.from])
                                      .slerp(0.5, turned(frames.q_world_body[motion.to]));
     sum += q.conjugate() * (frames.p_world[motion.to] - frames.p_world[motion.from]).normalized();

@@ -171,7 +171,7 @@ const std::vector<FilterStepKind>& pose_steps() {
        "(x y z qx qy qz qw), 8 (TUM), 12 or 16 (matrix), or JSON",
        parse_transform},
       {"axes", "axes body|world|both FROM:TO",
-       "names the axes of the body, of the world or of both anew: camera (x right, y down, z "
+       "changes the names of the axes of the body, of the world or of both: camera (x right, y down, z "
        "forward), opengl (x right, y up, z back), flu (x forward, y left, z up), frd, rfu; for "
        "worlds also enu, ned, nwu",
        parse_axes},
@@ -179,7 +179,7 @@ const std::vector<FilterStepKind>& pose_steps() {
       {"scale", "scale X", "multiplies positions by X", parse_scale},
       {"invert", "invert", "replaces every pose by its inverse", parse_invert},
       {"quaternion", "quaternion wxyz|xyzw",
-       "reads the quaternions anew: the file has them in this order, but they were read in the "
+       "for quaternions that the file has in this order, but that were read in the "
        "other",
        parse_quaternion},
       {"project", "project xy|xz|yz",
