@@ -48,13 +48,10 @@ std::string read_whole(const std::string& path) {
 
 }  // namespace
 
-TextFile::TextFile(std::string path) : TextFile(path, read_whole(path)) {}
-
-TextFile::TextFile(std::string name, std::string text)
-    : path_(std::move(name)), text_(std::move(text)) {
-  const std::string_view content = text_;
-  if (content.starts_with("\xEF\xBB\xBF")) begin_ = 3;
-  if (content.starts_with("\xFF\xFE") || content.starts_with("\xFE\xFF"))
+TextFile::TextFile(std::string path) : path_(std::move(path)), text_(read_whole(path_)) {
+  const std::string_view text = text_;
+  if (text.starts_with("\xEF\xBB\xBF")) begin_ = 3;
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
     throw FileError(path_, "is text in UTF-16: save it as UTF-8");
   rewind();
 }

@@ -23,8 +23,6 @@ inline bool is_digit(char c) { return c >= '0' && c <= '9'; }
 class TextFile {
  public:
   explicit TextFile(std::string path);
-  /// The same from a text in memory, with a name that stands for the path in messages.
-  TextFile(std::string name, std::string text);
 
   /// The next line without its line end; false at the end of the file.
   bool next(std::string_view& line);

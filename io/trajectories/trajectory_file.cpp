@@ -161,10 +161,6 @@ Trajectory read_trajectory(const std::string& path, const std::string& times_pat
   return trajectory;
 }
 
-Trajectory parse_trajectory(const std::string& text, const std::string& name) {
-  return read_table(TextFile(name, text), Orientation::kOptional);
-}
-
 Trajectory read_timed_poses(const std::string& path, Orientation orientation) {
   Trajectory trajectory = read_trajectory(path, {}, orientation);
   if (!trajectory.has_times)

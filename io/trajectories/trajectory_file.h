@@ -28,11 +28,6 @@ enum class Orientation { kNeeded, kOptional };
 /// (tolerance 1e-2), no orientation where it is needed.
 Trajectory read_trajectory(const std::string& path, const std::string& times_path = {},
                            Orientation orientation = Orientation::kNeeded);
-/// Reads a trajectory from the text of such a table, as pandas writes it.
-///
-/// `name` stands for the file in messages. Orientations may be missing. Throws FileError as
-/// read_trajectory.
-Trajectory parse_trajectory(const std::string& text, const std::string& name);
 /// Reads a trajectory with a time in every line.
 ///
 /// Throws FileError as read_trajectory, and if the lines have no times.

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import os
+import tempfile
+import warnings
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -48,5 +51,14 @@ def trajectory_of_table(table: pandas.DataFrame) -> _core.Trajectory:
             columns[f"{name}_ns"] = utc.astype("int64")
         else:
             columns[str(name)] = values
-    text = pandas.DataFrame(columns).to_csv(index=False, na_rep="nan")
-    return _core.trajectory_from_text(text, "table")
+    # As a file, so that the names of columns are those of files.
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "table")
+        pandas.DataFrame(columns).to_csv(path, index=False, na_rep="nan")
+        try:
+            trajectory = _core.read_evaluated(path)
+        except _core.FileError as error:
+            raise _core.FileError(str(error).replace(path, "table")) from None
+    for text in trajectory.warnings:
+        warnings.warn(text.replace(path, "table"), _core.Doubt, stacklevel=3)
+    return trajectory

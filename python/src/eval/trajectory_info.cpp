@@ -2,7 +2,7 @@
 #include <placegraph/eval/info/trajectory_info.h>
 
 #include "python/src/arrays.h"
-#include "python/src/values/value_class.h"
+#include "python/src/frontend/functions.h"
 
 namespace placegraph::python {
 namespace {

@@ -92,13 +92,6 @@ Trajectory read_file(const std::filesystem::path& path, const std::filesystem::p
   }());
 }
 
-Trajectory from_text(const std::string& text, const std::string& name) {
-  return doubted([&] {
-    const WithoutGil released;
-    return parse_trajectory(text, name);
-  }());
-}
-
 std::string text_of(const Trajectory& trajectory) {
   return fmt::format("<placegraph.Trajectory: {} of {} frames posed, path length {:.4g}>",
                      trajectory.posed(), trajectory.size(), trajectory.path_length());
@@ -186,7 +179,6 @@ void bind_stamped_pose(nb::module_& m) {
 }
 
 void bind_functions(nb::module_& m) {
-  m.def("trajectory_from_text", &from_text, "text"_a, "name"_a, doc("parse_trajectory"));
   m.def(
       "merge_trajectories",
       [](std::vector<Trajectory> parts, bool keep_first) {
