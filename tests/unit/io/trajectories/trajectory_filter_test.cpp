@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "tests/support/message_of.h"
+#include "tests/support/paths.h"
 #include "tests/support/random_map.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/trajectories.h"
@@ -232,6 +233,12 @@ TEST(TrajectoryFilter, HasAFormAndALineForEveryStep) {
     EXPECT_FALSE(step.form.empty());
     EXPECT_FALSE(step.text.empty()) << step.form;
   }
+}
+
+TEST(TrajectoryFilter, IsDocumentedStepByStep) {
+  const std::string page = test::read_file(test::source_dir() + "/docs/datasets.md");
+  for (const FilterStepForm& step : filter_step_forms())
+    EXPECT_THAT(page, HasSubstr(step.text + " |\n")) << step.form;
 }
 
 }  // namespace trajectory_filter_test
