@@ -12,8 +12,8 @@ namespace {
 
 // Shares of an extent below which positions are on a line or in a plane. Chosen.
 constexpr double kLineShare = 1e-2, kPlaneShare = 5e-2;
-// The turns have one axis if the others have less than a tenth of the squared angles; it agrees with
-// the normal of a plane within 20 degrees. Chosen.
+// The turns have one axis if the others have less than a tenth of the squared angles; it agrees
+// with the normal of a plane within 20 degrees. Chosen.
 constexpr double kOneAxisShare = 0.9, kSameAxis_deg = 20;
 constexpr double kLeastTurn_deg = 30;  // of all turns together: less is noise or a straight drive
 // Directions of steps as long as a tenth of the longest ones are more than noise. Chosen.

@@ -32,7 +32,8 @@ void take_box(const PosedFrames& frames, TrajectoryInfo& info) {
 std::size_t repeated_poses(const Trajectory& trajectory) {
   std::size_t count = 0;
   for (std::size_t i = 1; i < trajectory.size(); ++i) {
-    const auto &before = trajectory.poses[i - 1].T_world_body, &T = trajectory.poses[i].T_world_body;
+    const auto& before = trajectory.poses[i - 1].T_world_body;
+    const auto& T = trajectory.poses[i].T_world_body;
     count += before && T && before->matrix() == T->matrix();
   }
   return count;

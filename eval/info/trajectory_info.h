@@ -71,7 +71,7 @@ struct TrajectoryInfo {
   Eigen::Vector3d extent_m = Eigen::Vector3d::Zero();  ///< size of the box around the positions
   Spread spacing_s;             ///< between posed frames: seconds, or numbers of frames
   Spread speed;                 ///< [m/s], or [m] from frame to frame without times
-  Spread turning_deg;           ///< [deg/s], or [deg] from frame to frame; none without orientations
+  Spread turning_deg;           ///< [deg/s], or [deg] between frames; none without orientations
   std::size_t repeated = 0;     ///< poses that equal the one before in every number
   std::vector<FrameSpan> gaps;  ///< more than five median spacings without a pose
   std::vector<FrameSpan> stops;           ///< the body stands, for a second (10 frames) or longer
@@ -86,8 +86,8 @@ struct TrajectoryInfo {
 
 /// Describes a trajectory by its poses alone.
 ///
-/// Speeds are over 0.1 s (or from frame to frame). A body stands where it moves less than 2 % of its
-/// usual distance (95 % quantile) in 0.5 s (5 frames), and turns as little. A step is implausible
+/// Speeds are over 0.1 s (or from frame to frame). A body stands where it moves less than 2 % of
+/// its usual distance (95 % quantile) in 0.5 s (5 frames), and turns as little. A step is implausible
 /// if it is five times as fast as all but one of the ten steps around it. A plane is evident if the
 /// positions leave it by less than 5 % of its shorter extent, and the axis of the turns agrees. An
 /// axis looks forward if 80 % of the directions of motion agree and it is within 30 degrees.

@@ -53,8 +53,8 @@ struct MergedTrajectory {
 };
 
 /// Joins trajectories of one body in one world, in the order of their times.
-/// Throws ArgumentError if there is none, one has no times or no frame, only some have orientations,
-/// or two overlap in time and `overlap` is kRefused.
+/// Throws ArgumentError if there is none, one has no times or no frame, only some have
+/// orientations, or two overlap in time and `overlap` is kRefused.
 MergedTrajectory merge(std::vector<Trajectory> parts, Overlap overlap);
 
 /// The parts of a trajectory between times without a pose of more than `max_gap_s`.

@@ -125,7 +125,8 @@ FilterFunction parse_interpolate(FilterWords& words) {
   require(!gap_s || *gap_s > 0, "the longest gap is not positive");
   return [given_ns, rate_hz, gap_s](const Trajectory& trajectory) {
     need_times(trajectory);
-    const double most_s = gap_s.value_or(1e-9 * static_cast<double>(longest_spacing_ns(trajectory)));
+    const double most_s =
+        gap_s.value_or(1e-9 * static_cast<double>(longest_spacing_ns(trajectory)));
     return resample(trajectory, rate_hz > 0 ? stamps_at_rate(trajectory, rate_hz) : given_ns,
                     most_s);
   };
@@ -186,7 +187,8 @@ FilterFunction parse_sync(FilterWords& words) {
   for (const std::int64_t stamp_ns : stamps_in_file(path))
     other.poses.push_back({stamp_ns, std::nullopt});
   AssociationOptions options;
-  options.max_difference_s = words.has_next() ? words.number("the difference [s]") : kSyncedWithin_s;
+  options.max_difference_s =
+      words.has_next() ? words.number("the difference [s]") : kSyncedWithin_s;
   require(options.max_difference_s >= 0, "the difference is negative");
   return [other, options](const Trajectory& trajectory) {
     need_times(trajectory);
@@ -250,25 +252,25 @@ FilterFunction parse_merge(FilterWords& words) {
 
 const std::vector<FilterStepKind>& frame_steps() {
   static const std::vector<FilterStepKind> steps = {
-      {"crop", "crop A:B | crop at A:B | crop Af:Bf",
-       "keeps the frames from A to B, both included: seconds since the first frame, times [s], or "
-       "numbers of frames; one end may be left out",
+      {"crop", "crop [at] A:B",
+       "keeps the frames from A to B seconds after the first (`at`: times; `10f:20f`: frames)",
        parse_crop},
-      {"downsample", "downsample N | to N | [Xm] [Xs] [Xdeg]",
-       "keeps every N-th frame, N frames spread evenly, or poses that are so far from the last one "
-       "kept in metres, seconds or degrees (any of them)",
+      {"downsample", "downsample N",
+       "keeps every N-th frame (`to N`: N frames), or poses that are `0.5m 2s 5deg` apart",
        parse_downsample},
-      {"interpolate", "interpolate FILE | RATEhz [gap S]",
-       "poses at the times of a list of times or of a trajectory, or at a rate; none across a gap "
-       "of more than S seconds (default: five median spacings)",
+      {"interpolate", "interpolate FILE [gap S]",
+       "poses at the times in a file or at a rate (`10hz`), none across a gap",
        parse_interpolate},
       {"sync", "sync FILE [S]",
-       "keeps the frames that have a partner in FILE within S seconds (default 0.02)", parse_sync},
+       "keeps the frames that have a partner in a file within S seconds (0.02)",
+       parse_sync},
       {"posed", "posed", "leaves out frames without a pose", parse_posed},
-      {"distinct", "distinct", "leaves out poses that equal the one before in every number",
+      {"distinct", "distinct",
+       "leaves out poses that equal the one before in every number",
        parse_distinct},
       {"offset", "offset S", "adds S seconds to the times", parse_offset},
-      {"reverse", "reverse", "reverses the order of the poses; the times keep their range",
+      {"reverse", "reverse",
+       "reverses the order of the poses; the times keep their range",
        parse_reverse},
       {"merge", "merge FILE", "adds a trajectory of another time", parse_merge},
   };

@@ -165,26 +165,20 @@ FilterFunction parse_axes(FilterWords& words) {
 
 const std::vector<FilterStepKind>& pose_steps() {
   static const std::vector<FilterStepKind> steps = {
-      {"transform", "transform [left|right|propagate] FILE|NUMBERS [inverse]",
-       "left (default): moves the world, T * T_world_body; right: takes another body, "
-       "T_world_body * T; propagate: appends T to every motion from pose to pose. 7 numbers "
-       "(x y z qx qy qz qw), 8 (TUM), 12 or 16 (matrix), or JSON",
+      {"transform", "transform FILE [inverse]",
+       "moves the world by T (`left`), the body (`right`) or every motion (`propagate`)",
        parse_transform},
-      {"axes", "axes body|world|both FROM:TO",
-       "changes the names of the axes of the body, of the world or of both: camera (x right, y down, z "
-       "forward), opengl (x right, y up, z back), flu (x forward, y left, z up), frd, rfu; for "
-       "worlds also enu, ned, nwu",
+      {"axes", "axes WHICH FROM:TO",
+       "other axes of the `body`, the `world` or `both`, as `axes body camera:flu`",
        parse_axes},
       {"origin", "origin", "moves the world so that the first pose is the identity", parse_origin},
       {"scale", "scale X", "multiplies positions by X", parse_scale},
       {"invert", "invert", "replaces every pose by its inverse", parse_invert},
-      {"quaternion", "quaternion wxyz|xyzw",
-       "for quaternions that the file has in this order, but that were read in the "
-       "other",
+      {"quaternion", "quaternion wxyz",
+       "for quaternions that the file has in this order, but that were read as xyzw (or `xyzw`)",
        parse_quaternion},
-      {"project", "project xy|xz|yz",
-       "puts the trajectory into a plane of the world: the third coordinate becomes 0, the "
-       "orientation the nearest rotation about that axis",
+      {"project", "project xy",
+       "puts the poses into a plane of the world: xy, xz or yz",
        parse_project},
   };
   return steps;

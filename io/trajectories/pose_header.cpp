@@ -50,7 +50,8 @@ std::optional<StampUnit> unit_of(std::string_view word) {
     return StampUnit::kMilliseconds;
   if (one_of(word, {"us", "usec", "micros", "microsecond", "microseconds"}))
     return StampUnit::kMicroseconds;
-  if (one_of(word, {"ns", "nsec", "nsecs", "nanos", "nanosec", "nanosecs", "nanosecond", "nanoseconds"}))
+  if (one_of(word, {"ns", "nsec", "nsecs", "nanos", "nanosec", "nanosecs", "nanosecond",
+                    "nanoseconds"}))
     return StampUnit::kNanoseconds;
   return std::nullopt;
 }

@@ -47,9 +47,11 @@ std::optional<std::int64_t> time_in(const std::string& stem) {
 
 /// The last whole number in a name; nothing if there is none of 64 bits.
 std::optional<std::int64_t> number_in(const std::string& stem) {
-  const auto end = std::find_if(stem.rbegin(), stem.rend(), is_digit).base();
-  const auto begin = std::find_if_not(std::make_reverse_iterator(end), stem.rend(), is_digit);
-  return parse_integer(std::string_view(&*begin.base(), static_cast<std::size_t>(end - begin.base())));
+  const std::size_t last = stem.find_last_of("0123456789");
+  if (last == stem.npos) return std::nullopt;
+  const std::size_t before = stem.find_last_not_of("0123456789", last);
+  const std::size_t first = before == stem.npos ? 0 : before + 1;
+  return parse_integer(std::string_view(stem).substr(first, last + 1 - first));
 }
 
 /// The stamps that all names have; empty if one has none.

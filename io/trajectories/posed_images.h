@@ -11,8 +11,8 @@ bool is_binary_model(const std::string& path);
 ///
 /// The frames are in the order of the images' names. Their stamps are the times that the names
 /// consist of (nanoseconds, or decimal seconds, since 1970), otherwise the last whole numbers in
-/// the names, as numbers of frames, otherwise 0, 1, 2, ... Throws FileError if the file is truncated
-/// or malformed, holds no image, or if two images have one number.
+/// the names, as numbers of frames, otherwise 0, 1, 2, ... Throws FileError if the file is
+/// truncated or malformed, holds no image, or if two images have one number.
 Trajectory read_binary_images_poses(const std::string& path);
 
 /// The same from COLMAP's images.txt, or from a transforms.json of radiance fields.

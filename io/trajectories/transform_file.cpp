@@ -78,7 +78,8 @@ Eigen::Isometry3d read_transform(const std::string& path) {
         split_blank(line, fields);
       else
         split_at(line[separator], line, fields);
-      for (const std::string_view field : fields) numbers.push_back(file.number(field, "transform"));
+      for (const std::string_view field : fields)
+        numbers.push_back(file.number(field, "transform"));
     }
     return transform_of(numbers);
   } catch (const ArgumentError& error) {

@@ -11,9 +11,8 @@ namespace placegraph {
 /// row that is not 0 0 0 1.
 Eigen::Isometry3d transform_of(const std::vector<double>& numbers);
 
-/// Reads a rigid motion from a file: such numbers on one or several lines, or JSON with x, y, z, qx,
-/// qy, qz, qw.
-/// Throws FileError.
+/// Reads a rigid motion from a file: such numbers on one or several lines, or JSON.
+/// The keys of JSON are x, y, z, qx, qy, qz, qw. Throws FileError.
 Eigen::Isometry3d read_transform(const std::string& path);
 
 }  // namespace placegraph

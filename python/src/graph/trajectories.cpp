@@ -205,8 +205,8 @@ void bind_making(nb::class_<Trajectory>& trajectory) {
       .def_static(
           "from_arrays", &from_arrays, "stamps_ns"_a, "poses"_a,
           "A trajectory of stamps (N, int64) [ns] and matrices T_world_body (N x 4 x 4).\n\n"
-          "A matrix with NaN is that of a frame without a pose. Of rows with one stamp the first is "
-          "kept, with a warning (Doubt). Raises ArgumentError for stamps that go back and matrices "
+          "A matrix with NaN is that of a frame without a pose. Of rows with one stamp the first "
+          "is kept, with a warning (Doubt). Raises ArgumentError for stamps that go back and matrices "
           "that are no rigid motions.")
       .def_static("from_pandas", &from_pandas, "table"_a,
                   nb::sig("def from_pandas(table: pandas.DataFrame) -> Trajectory"),

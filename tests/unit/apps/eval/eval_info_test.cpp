@@ -57,7 +57,8 @@ TEST_F(EvalInfoCommand, SaysNullAndTheReasonWhereNothingIsEvident) {
   EXPECT_TRUE(object["forward"]["axis"].is_null());
   EXPECT_TRUE(object["unit_of_positions"]["as_read"].is_null());
   EXPECT_TRUE(object["turning_deg_per_s"].is_null());
-  EXPECT_THAT(to_text(infos), HasSubstr("plane               not evident: the body does not move\n"));
+  EXPECT_THAT(to_text(infos),
+              HasSubstr("plane               not evident: the body does not move\n"));
 }
 
 TEST_F(EvalInfoCommand, ShowsSeveralAsATable) {

@@ -108,7 +108,8 @@ TEST(TrajectoryInfo, FindsPlaneTiltAndForwardAxisInAnyWorld) {
     if (camera) axes.linear() = kCamera.transpose();
     const double tilt_deg = random.uniform(0, 30);
     const double about = random.uniform(0, 2 * std::numbers::pi);
-    const Eigen::Vector3d in_plane = axes.linear() * Eigen::Vector3d(std::cos(about), std::sin(about), 0);
+    const Eigen::Vector3d in_plane =
+        axes.linear() * Eigen::Vector3d(std::cos(about), std::sin(about), 0);
     const Eigen::Vector3d p(random.uniform(-9, 9), random.uniform(-9, 9), random.uniform(-9, 9));
     const Eigen::Isometry3d tilted = test::isometry(deg_to_rad(tilt_deg) * in_plane, p);
     const TrajectoryInfo info =
@@ -133,11 +134,13 @@ TEST(TrajectoryInfo, SaysWhereNothingIsEvident) {
   EXPECT_EQ(wild.quaternions.outcome.code, Outcome::Code::kDegenerate);
 
   Trajectory line;
-  for (int i = 0; i < 50; ++i) line.poses.push_back({i * 100'000'000LL, test::isometry({0, 0, 0}, {1.0 * i, 0, 0})});
+  for (int i = 0; i < 50; ++i)
+    line.poses.push_back({i * 100'000'000LL, test::isometry({0, 0, 0}, {1.0 * i, 0, 0})});
   EXPECT_THAT(trajectory_info(line).plane.outcome.reason, HasSubstr("a straight line"));
 
   Trajectory still;
-  for (int i = 0; i < 50; ++i) still.poses.push_back({i * 100'000'000LL, test::isometry({0, 0, 0}, {1, 2, 3})});
+  for (int i = 0; i < 50; ++i)
+    still.poses.push_back({i * 100'000'000LL, test::isometry({0, 0, 0}, {1, 2, 3})});
   const TrajectoryInfo stands = trajectory_info(still);
   EXPECT_THAT(stands.plane.outcome.reason, HasSubstr("does not move"));
   EXPECT_FALSE(stands.length_unit.outcome);
@@ -152,9 +155,12 @@ TEST(TrajectoryInfo, SaysWhereNothingIsEvident) {
 TEST(TrajectoryInfo, ABodyThatTurnsAboutAnotherAxisIsInNoEvidentPlane) {
   // Rolls about its own x axis while its path is in the plane of x and y.
   Trajectory drive = vehicle(200);
-  for (std::size_t i = 0; i < drive.size(); ++i)
-    drive.poses[i].T_world_body->linear() =
-        Eigen::AngleAxisd(0.2 * static_cast<double>(i), Eigen::Vector3d::UnitX()).toRotationMatrix();
+  double roll = 0;
+  for (StampedPose& pose : drive.poses) {
+    pose.T_world_body->linear() =
+        Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX()).toRotationMatrix();
+    roll += 0.2;
+  }
   const MotionPlane plane = trajectory_info(drive).plane;
   EXPECT_EQ(plane.outcome.code, Outcome::Code::kInconsistent);
   EXPECT_THAT(plane.outcome.reason, HasSubstr("turns about an axis 90 deg from its normal"));
@@ -187,7 +193,8 @@ TEST(TrajectoryInfo, DoubtsUnitsThatMakeSpeedsOrTimesImplausible) {
   EXPECT_FALSE(scaled(1e-6).outcome);
 
   const Likelihood degrees = trajectory_info(changed(vehicle(200), [](Eigen::Isometry3d& T) {
-                               T.translation() = T.translation() / 111'000 + Eigen::Vector3d(49, 8.4, 110);
+                               T.translation() /= 111'000;
+                               T.translation() += Eigen::Vector3d(49, 8.4, 110);
                              })).length_unit;
   EXPECT_FALSE(degrees.as_read);
   EXPECT_THAT(degrees.answer, HasSubstr("degrees of latitude and longitude"));

@@ -16,7 +16,8 @@ using testing::HasSubstr;
 Trajectory at_times(const std::vector<double>& times_s) {
   Trajectory trajectory;
   for (const double time_s : times_s)
-    trajectory.poses.push_back({std::llround(1e9 * time_s), test::isometry({0, 0, 0}, {time_s, 0, 0})});
+    trajectory.poses.push_back(
+        {std::llround(1e9 * time_s), test::isometry({0, 0, 0}, {time_s, 0, 0})});
   return trajectory;
 }
 

@@ -32,7 +32,8 @@ TEST(RepeatedRows, OfTumEurocAndTablesKeepTheFirstPose) {
   const std::string euroc = folder.write(
       "t.csv", "1000000000,1,0,0,1,0,0,0\n2000000000,2,0,0,1,0,0,0\n2000000000,9,0,0,1,0,0,0\n"
                "3000000000,3,0,0,1,0,0,0\n");
-  const std::string table = folder.write("t.txt", "time,x,y,z\n1,1,0,0\n2,2,0,0\n2,9,0,0\n3,3,0,0\n");
+  const std::string table =
+      folder.write("t.txt", "time,x,y,z\n1,1,0,0\n2,2,0,0\n2,9,0,0\n3,3,0,0\n");
   for (const auto& [path, line] : {std::pair{tum, 4}, {euroc, 3}, {table, 4}}) {
     SCOPED_TRACE(path);
     const Trajectory read = read_trajectory(path, {}, Orientation::kOptional);
@@ -47,7 +48,8 @@ TEST(RepeatedRows, OfTumEurocAndTablesKeepTheFirstPose) {
 TEST(RepeatedRows, ThatGoBackOrAreMostOfAFileStayRefused) {
   const TemporaryFolder folder;
   const std::string back = folder.write("b", "1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n");
-  EXPECT_THAT(message_of([&] { read_trajectory(back); }), HasSubstr("b:3: time 1000000000 ns does"));
+  EXPECT_THAT(message_of([&] { read_trajectory(back); }),
+              HasSubstr("b:3: time 1000000000 ns does"));
   std::string digits;
   for (int i = 0; i < 10; ++i) digits += i < 5 ? "1e9 0 0 0 0 0 0 1\n" : "1.1e9 0 0 0 0 0 0 1\n";
   const std::string lost = folder.write("l", digits);

@@ -97,7 +97,8 @@ TEST(TrajectoryFilter, InterpolatesAtARateAndAtTimesButNotAcrossGaps) {
   ASSERT_EQ(at_times.size(), 4u);
   EXPECT_EQ(at_times.posed(), 2u);
   const std::string poses = folder.write("p.tum", "0.25 0 0 0 0 0 0 1\n3.5 0 0 0 0 0 0 1\n");
-  EXPECT_LT(difference(filtered(drive, "interpolate " + poses), filtered(at_times, "posed")), 1e-12);
+  EXPECT_LT(difference(filtered(drive, "interpolate " + poses), filtered(at_times, "posed")),
+            1e-12);
   EXPECT_EQ(tenths(filtered(drive, "sync " + poses + " 0.06")), (Times{2, 35}));
   EXPECT_EQ(tenths(filtered(drive, "sync " + poses)), (Times{35}));
 }
@@ -151,8 +152,8 @@ TEST(TrajectoryFilter, TransformsReadAllFormsOfTheirFiles) {
         folder.write("8", fmt::format("# tum\n99 1 2 3 0 0 {:.17g} {:.17g}\n", h, h)),
         folder.write("12", "0 -1 0 1 1 0 0 2 0 0 1 3\n"),
         folder.write("16", "0, -1, 0, 1\n1, 0, 0, 2\n0, 0, 1, 3\n0, 0, 0, 1\n"),
-        folder.write("json", fmt::format("{{\"x\":1,\"y\":2,\"z\":3,\"qx\":0,\"qy\":0,\"qz\":{:.17g},"
-                                         "\"qw\":{:.17g}}}",
+        folder.write("json", fmt::format("{{\"x\":1,\"y\":2,\"z\":3,\"qx\":0,\"qy\":0,"
+                                         "\"qz\":{:.17g},\"qw\":{:.17g}}}",
                                          h, h))}) {
     SCOPED_TRACE(path);
     EXPECT_LT(difference(filtered(drive, "transform " + path), filtered(drive, expected)), 1e-12);
