@@ -13,6 +13,7 @@
 #include "apps/eval/cmd_eval.h"
 #include "apps/eval/cmd_eval_edges.h"
 #include "apps/eval/cmd_eval_kitti.h"
+#include "apps/eval/cmd_eval_info.h"
 #include "apps/eval/cmd_eval_noise.h"
 #include "apps/eval/cmd_loops.h"
 #include "apps/graph/cmd_bundle.h"
@@ -68,6 +69,7 @@ void add_eval_group(CLI::App& app) {
   add_eval_edges_command(group);
   add_eval_kitti_command(group);
   add_eval_noise_command(group);
+  add_eval_info_command(group);
   add_eval_loops_command(
       group, [](const LoopsArguments& a, const LoopsResult& r) { write_loops_page(a, r); });
   add_eval_scene_commands(group);

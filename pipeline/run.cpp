@@ -66,7 +66,7 @@ MeasuredMotion read_motion(const Dataset& dataset, const MotionOptions& options,
   const auto& v = options.T_cam_body;
   const Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
   const SE3 T_cam_body(q.normalized().toRotationMatrix(), Eigen::Vector3d(v[0], v[1], v[2]));
-  const MeasuredMotion motion = read_odometry(options.file, options.noise, stamps_ns);
+  const MeasuredMotion motion = read_odometry(options.file, options.noise, stamps_ns, log);
   check_common_time(options.file, motion, stamps_ns, log);
   return motion.seen_from(T_cam_body);
 }

@@ -140,6 +140,8 @@ void add_eval_trajectory_command(
   command->add_option("--step", a.options.segments.step, "frames between the starts of segments")
       ->capture_default_str();
   add_pairing_options(*command, a);
+  command->add_option("--apply", a.apply, kApplyText);
+  command->add_option("--apply-truth", a.apply_truth, "the same for the ground truth");
   command->add_flag("--json", eval_command->json, kJsonText);
   command->add_option("--csv", a.csv, "write the details as CSV")->type_name(kOutput);
   command->add_option("--latex", a.latex, "write the figures as a LaTeX table")->type_name(kOutput);

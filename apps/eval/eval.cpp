@@ -6,6 +6,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/datasets/distinct_paths.h>
 #include <placegraph/io/datasets/evaluated_files.h>
+#include <placegraph/io/trajectories/trajectory_filter.h>
 #include <placegraph/pipeline/report/run_page.h>
 
 #include <algorithm>
@@ -72,11 +73,13 @@ PairingResult pair(const EvaluatedFiles& files, const EvalArguments& arguments,
                    const EvaluationOptions& options, std::optional<OffsetEstimate>& offsets) {
   std::string truth_times = arguments.times.empty() ? "" : arguments.times.front();
   const std::string estimate_times = arguments.times.empty() ? "" : arguments.times.back();
-  const Trajectory estimate = read_evaluated(files.estimate, estimate_times);
+  const Trajectory estimate =
+      TrajectoryFilter(arguments.apply).apply(read_evaluated(files.estimate, estimate_times));
   // A KITTI sequence stores its times beside its poses; they are needed if the estimate has times.
   if (truth_times.empty() && estimate.has_times && options.association != Association::kIndex)
     truth_times = times_beside(files.truth);
-  const Trajectory truth = read_truth(files.truth, truth_times);
+  const Trajectory truth =
+      TrajectoryFilter(arguments.apply_truth).apply(read_truth(files.truth, truth_times));
   if (arguments.estimated.empty())
     return pair_trajectories(truth, estimate, options.association, options.time);
   offsets = estimate_offsets(truth, estimate, offset_options(arguments, options));

@@ -18,6 +18,7 @@ struct EvalArguments {
   std::vector<std::string> estimates;  ///< estimated trajectories, or one folder of them
   std::vector<std::string> times;  ///< files of times for KITTI trajectories: one for all, or one
                                    ///< for the truth and one for the estimates
+  std::string apply, apply_truth;  ///< filters of the estimates and of the truth; empty: none
   std::string align = "se3";       ///< one of eval_alignments()
   std::string align_frames, align_seconds;  ///< spans A:B of the alignment; empty: none
   int align_first = 0;                      ///< number of poses it is fitted to; 0: all

@@ -39,8 +39,8 @@ std::string direction_text(const DirectionNoise& noise) {
 
 Trajectory read_true_poses(const std::string& path) {
   const std::filesystem::path file(path);
-  return read_trajectory(
-      (std::filesystem::is_directory(file) ? file / "poses.txt" : file).string());
+  return warned(read_trajectory(
+      (std::filesystem::is_directory(file) ? file / "poses.txt" : file).string()));
 }
 
 TruthNoise truth_noise_of(const std::string& text, const Trajectory& truth) {

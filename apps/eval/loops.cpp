@@ -31,7 +31,7 @@ Protocol protocol_of(const LoopsArguments& arguments) {
   if (!arguments.poses.empty()) {
     RevisitOptions revisit = arguments.revisit;
     revisit.min_age = arguments.min_age.value_or(revisit.min_age);
-    protocol.poses = read_trajectory(arguments.poses);
+    protocol.poses = warned(read_trajectory(arguments.poses));
     protocol.truth = loop_truth_from_poses(*protocol.poses, revisit);
     protocol.text = fmt::format("poses within {:g} m and {:g} deg", revisit.same.radius_m,
                                 revisit.same.heading_deg);

@@ -93,7 +93,7 @@ Flight open_flight(const FlightArguments& arguments) {
   if (!arguments.true_markers.empty())
     flight.true_layout = read_marker_layout(arguments.true_markers);
   const std::string truth = flight.body.mav_folder + "/state_groundtruth_estimate0/data.csv";
-  if (fs::exists(truth)) flight.truth = read_body_states(truth);
+  if (fs::exists(truth)) flight.truth = read_body_states(truth, messages());
   if (arguments.start_from_truth) {
     require(!flight.truth.empty(), "--start-from-truth: there is no " + truth);
     flight.options.initial_state = with_small_covariance(flight.truth.front());

@@ -36,6 +36,20 @@ void add_convert_command(CLI::App& graph) {
                    "also leave out frames without a pose in this trajectory of as many frames, "
                    "so that the truth and the estimate keep corresponding lines")
       ->check(CLI::ExistingFile);
+  command->add_option("--apply", a.apply,
+                      kApplyText);
+  command
+      ->add_option("--merge", a.merge,
+                   "trajectories of other times to join to IN, separated by commas")
+      ->delimiter(',')
+      ->expected(1)
+      ->take_all()
+      ->check(CLI::ExistingFile);
+  command->add_flag("--overlap", a.overlap,
+                    "of joined trajectories that overlap in time keep the one that begins first");
+  command->add_option("--split", a.split,
+                      "write parts, to files OUT_1, OUT_2, ...: `gaps` divides where poses are "
+                      "missing, a length of time as 60s into parts of it");
   command->add_flag("--force", a.force, kForceText);
   command->callback([arguments] { print(to_text(convert(*arguments))); });
 }

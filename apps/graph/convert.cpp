@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/geometry/trajectory_edit.h>
 #include <placegraph/graph/pose_graph/rigid_graph.h>
 #include <placegraph/io/files/text_file.h>
 #include <placegraph/io/graphs/g2o.h>
 #include <placegraph/io/graphs/pose_graph_file.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
+#include <placegraph/io/trajectories/trajectory_filter.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -81,6 +83,8 @@ Trajectory poses_of(PoseGraph graph) {
 
 ConvertResult convert_graph(const ConvertArguments& arguments, Form to) {
   if (!arguments.times.empty()) throw ArgumentError("--times: a pose graph has none");
+  require(arguments.merge.empty() && arguments.apply.empty() && arguments.split.empty(),
+          "--merge, --apply, --split: these are for trajectories, not for a pose graph");
   require(!arguments.posed_only && arguments.posed_in.empty(),
           "--posed-only, --posed-in: a pose graph has no lost frames");
   std::vector<std::string> remarks;
@@ -110,7 +114,7 @@ ConvertResult convert_graph(const ConvertArguments& arguments, Form to) {
 Trajectory posed_frames(const Trajectory& trajectory, const std::string& path,
                         const std::string& posed_in) {
   Trajectory other = trajectory;
-  if (!posed_in.empty()) other = read_trajectory(posed_in, "");
+  if (!posed_in.empty()) other = warned(read_trajectory(posed_in, ""));
   require(other.size() == trajectory.size(),
           fmt::format("--posed-in: {} has {} frames, {} has {}", posed_in, other.size(), path,
                       trajectory.size()));
@@ -122,22 +126,90 @@ Trajectory posed_frames(const Trajectory& trajectory, const std::string& path,
   return posed;
 }
 
+/// A trajectory, with those that are joined to it.
+struct JoinedTrajectory {
+  Trajectory trajectory;
+  std::size_t frames = 0;  ///< that were read
+};
+
+JoinedTrajectory read_joined(const ConvertArguments& arguments) {
+  Trajectory first = warned(read_trajectory(arguments.in, arguments.times));
+  std::size_t frames = first.size();
+  if (arguments.merge.empty()) return {std::move(first), frames};
+  require(first.has_times, "--merge: " + arguments.in + " has no times; give them with --times");
+  std::vector<Trajectory> parts = {std::move(first)};
+  for (const std::string& path : arguments.merge) {
+    parts.push_back(warned(read_timed_poses(path)));
+    frames += parts.back().size();
+  }
+  try {
+    return {merge(std::move(parts), arguments.overlap ? Overlap::kFirstKept : Overlap::kRefused)
+                .trajectory,
+            frames};
+  } catch (const ArgumentError& error) {
+    throw ArgumentError(std::string("--merge: ") + error.what() +
+                        "; --overlap keeps what begins first");
+  }
+}
+
+std::vector<Trajectory> parts_of(const Trajectory& trajectory, const std::string& split) {
+  if (split.empty()) return {trajectory};
+  if (split == "gaps")
+    return split_at_gaps(trajectory, 1e-9 * static_cast<double>(longest_spacing_ns(trajectory)));
+  const auto length_s = split.ends_with('s') ? parse_double(split.substr(0, split.size() - 1))
+                                             : std::nullopt;
+  require(length_s && *length_s > 0,
+          "--split: '" + split + "' is neither gaps nor a length of time, as 60s");
+  return split_every(trajectory, *length_s);
+}
+
+/// "out.tum" of 12 parts: "out_01.tum", "out_02.tum", ...
+std::vector<std::string> part_paths(const std::filesystem::path& out, std::size_t parts) {
+  std::vector<std::string> paths;
+  const int digits = static_cast<int>(std::to_string(parts).size());
+  for (std::size_t i = 1; i <= parts; ++i)
+    paths.push_back((out.parent_path() / fmt::format("{}_{:0{}}{}", out.stem().string(), i, digits,
+                                                     out.extension().string()))
+                        .string());
+  return paths;
+}
+
+/// Writes all parts, or removes those that are written.
+void write_parts(const std::vector<std::string>& paths, const std::vector<Trajectory>& parts,
+                 TrajectoryFormat to) {
+  std::size_t written = 0;
+  try {
+    for (; written < paths.size(); ++written) write_trajectory(paths[written], parts[written], to);
+  } catch (const Error&) {
+    std::error_code ignored;
+    for (std::size_t i = 0; i < written; ++i) std::filesystem::remove(paths[i], ignored);
+    throw;
+  }
+}
+
 ConvertResult convert_trajectory(const ConvertArguments& arguments, TrajectoryFormat to) {
   require(!arguments.rigid, "--rigid: " + arguments.in + " is a trajectory, not a pose graph");
-  const Trajectory read = read_trajectory(arguments.in, arguments.times);
-  const Trajectory trajectory = arguments.posed_only || !arguments.posed_in.empty()
-                                    ? posed_frames(read, arguments.in, arguments.posed_in)
-                                    : read;
+  const TrajectoryFilter filter(arguments.apply);
+  const JoinedTrajectory read = read_joined(arguments);
+  const Trajectory trajectory =
+      filter.apply(arguments.posed_only || !arguments.posed_in.empty()
+                       ? posed_frames(read.trajectory, arguments.in, arguments.posed_in)
+                       : read.trajectory);
   if (to != TrajectoryFormat::kKitti && !trajectory.has_times) {
     throw ArgumentError(arguments.in + ": has no times, which " + arguments.out +
                         " needs; give them with --times");
   }
-  write_trajectory(arguments.out, trajectory, to);
   ConvertResult result;
+  const std::vector<Trajectory> parts = parts_of(trajectory, arguments.split);
+  if (!arguments.split.empty()) result.parts = part_paths(arguments.out, parts.size());
+  for (const std::string& path : result.parts) require_free(path, arguments.force);
+  write_parts(arguments.split.empty() ? std::vector{arguments.out} : result.parts, parts, to);
   result.kind = ConvertResult::Kind::kTrajectory;
-  result.frames = trajectory.size();
-  result.posed = trajectory.posed();
-  result.left_out = read.size() - trajectory.size();
+  for (const Trajectory& part : parts) {
+    result.frames += part.size();
+    result.posed += part.posed();
+  }
+  result.left_out = read.frames - std::min(read.frames, result.frames);
   return result;
 }
 
@@ -145,7 +217,7 @@ ConvertResult convert_trajectory(const ConvertArguments& arguments, TrajectoryFo
 
 ConvertResult convert(const ConvertArguments& arguments) {
   const Form to = wanted_form(arguments);
-  require_free(arguments.out, arguments.force);
+  if (arguments.split.empty()) require_free(arguments.out, arguments.force);
   const bool graph = is_pose_graph(arguments.in);
   if (!graph && to == kG2o)
     throw ArgumentError(arguments.in + ": is a trajectory, which does not become a pose graph");
@@ -179,7 +251,12 @@ std::string to_text(const ConvertResult& result) {
                                             result.priors, result.landmarks, result.observations));
       break;
   }
-  return fmt::format("{}: {}, written to {}\n", result.in, found, result.out);
+  const std::string where =
+      result.parts.empty()
+          ? result.out
+          : fmt::format("{} files, {} to {}", result.parts.size(), result.parts.front(),
+                        result.parts.back());
+  return fmt::format("{}: {}, written to {}\n", result.in, found, where);
 }
 
 }  // namespace placegraph::apps

@@ -22,6 +22,9 @@ inline constexpr const char* kSequenceText =
     "the images are consecutive: use the evidence of neighbouring images";
 inline constexpr const char* kSensorText = "sensor to assume; auto takes the best that is recorded";
 inline constexpr const char* kTimesText = "file of times, one per line [s]";
+inline constexpr const char* kApplyText =
+    "steps that change the trajectory first, as \"crop 10:60; downsample 0.5m\": docs/datasets.md "
+    "lists them";
 inline constexpr const char* kReportText = "file for a page that shows the result in a browser";
 inline constexpr const char* kPlotText = "draw the result as .png, .svg or .pdf";
 inline constexpr const char* kConfigText =

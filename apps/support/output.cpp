@@ -86,6 +86,11 @@ void warn(const std::string& message) {
   std::fprintf(stderr, "warning: %s\n", one_line(message).c_str());
 }
 
+Trajectory warned(Trajectory trajectory) {
+  for (const std::string& warning : trajectory.warnings) warn(warning);
+  return trajectory;
+}
+
 std::string one_line(const std::string& text) {
   std::string line;
   for (std::size_t i = 0; i < text.size(); ++i) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/log.h>
+#include <placegraph/graph/geometry/trajectory.h>
 #include <placegraph/io/files/output_file.h>
 
 #include <exception>
@@ -57,6 +58,9 @@ LogSink messages();
 
 /// Prints "warning: ..." as one line on stderr.
 void warn(const std::string& message);
+
+/// The trajectory, after its reader's warnings are printed so.
+Trajectory warned(Trajectory trajectory);
 
 /// The text in one line, as messages are printed: control characters are escaped, and of a very
 /// long text only its begin and end are kept.

@@ -272,6 +272,8 @@ PairingResult pair_trajectories(const Trajectory& truth, const Trajectory& estim
       by_time ? why_not_by_time(truth, estimate, options) : why_not_by_index(truth, estimate);
   if (!result.outcome) return result;
 
+  for (const Trajectory* read : {&truth, &estimate})
+    result.warnings.insert(result.warnings.end(), read->warnings.begin(), read->warnings.end());
   const std::vector<int> estimate_of = partners(truth, estimate, by_time, options);
   if (by_time) {
     const auto paired = std::count_if(estimate_of.begin(), estimate_of.end(),

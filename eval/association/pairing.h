@@ -36,7 +36,8 @@ struct PairingResult {
   int estimate_without_truth = 0;     ///< posed lines of the estimate without a posed partner
   /// Those of them whose nearest true pose is near enough, but is the partner of a nearer pose.
   int estimate_beside_nearer = 0;
-  std::vector<std::string> warnings;  ///< implausible times of either, holes in the truth
+  /// Those of their readers, implausible times of either, holes in the truth.
+  std::vector<std::string> warnings;
 };
 
 /// Pairs the poses of two trajectories, or states in `outcome` why the pairs are ambiguous.

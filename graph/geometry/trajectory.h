@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace [[gnu::visibility("default")]] placegraph {
@@ -21,6 +22,8 @@ struct Trajectory {
   bool has_times = true;  ///< false: stamps are numbers of frames (a KITTI file without times)
   bool numbered = false;  ///< without times: frames may be left out, so that numbers have gaps
   bool has_orientation = true;  ///< false: positions alone; rotations are the identity
+  /// What a reader left out or doubts, one line each that names the file; empty if all is well.
+  std::vector<std::string> warnings = {};
 
   /// Number of frames, lost ones included.
   std::size_t size() const { return poses.size(); }

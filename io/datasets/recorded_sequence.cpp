@@ -34,6 +34,8 @@ class RecordedDataset : public Dataset {
     for (const std::string& odd :
          {odd_spacing(s_.stamps_ns, "frame"), irregular_spacing(s_.stamps_ns)})
       if (!odd.empty()) s_.notes.push_back({odd, false, NoteCause::kTimes, ""});
+    if (s_.ground_truth)
+      for (const std::string& warning : s_.ground_truth->warnings) s_.notes.push_back({warning});
     if (s_.ground_truth && s_.ground_truth->posed() < n)
       s_.notes.push_back(
           {fmt::format("{} of {} frames have no ground truth", n - s_.ground_truth->posed(), n)});
@@ -131,19 +133,6 @@ std::vector<Sensor> sensors_of(const Calibration& calibration) {
 std::string folder_name(const std::string& path) {
   const auto normal = std::filesystem::absolute(path).lexically_normal();
   return (normal.has_filename() ? normal : normal.parent_path()).filename().string();
-}
-
-Trajectory resample(const Trajectory& recorded, const std::vector<std::int64_t>& stamps_ns,
-                    double max_gap_s) {
-  Trajectory result;
-  result.poses.reserve(stamps_ns.size());
-  for (const std::int64_t stamp_ns : stamps_ns) {
-    StampedPose pose{stamp_ns, std::nullopt};
-    if (const auto T = interpolate(recorded, stamp_ns, max_gap_s))
-      pose.T_world_body = T->isometry();
-    result.poses.push_back(pose);
-  }
-  return result;
 }
 
 std::vector<std::int64_t> synthetic_stamps_ns(std::size_t count, double rate_hz) {

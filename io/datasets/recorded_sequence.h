@@ -1,7 +1,7 @@
 #pragma once
+#include <placegraph/graph/geometry/trajectory_edit.h>
 #include <placegraph/io/calibration/rectification.h>
 #include <placegraph/io/datasets/dataset.h>
-#include <placegraph/io/datasets/resample.h>
 
 #include <functional>
 

@@ -2,60 +2,29 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/exports/colmap_bytes.h>
 #include <placegraph/io/exports/colmap_cameras.h>
+#include <placegraph/io/exports/colmap_images.h>
 #include <placegraph/io/exports/colmap_reader.h>
 #include <placegraph/io/files/text_file.h>
 
 #include <algorithm>
 #include <filesystem>
-#include <limits>
 #include <unordered_map>
 
 namespace placegraph {
 namespace {
-
-constexpr auto kNoColmapPoint = std::numeric_limits<std::uint64_t>::max();
-
-/// An image point with the id of its point, as files have it.
-struct ColmapImagePoint {
-  Eigen::Vector2d px;
-  std::uint64_t point = kNoColmapPoint;
-};
 
 /// What the files have in common: points are found by their ids when all of them are read.
 struct ColmapParts {
   ColmapModel model;
   std::vector<std::uint32_t> image_cameras;                 ///< id of the camera of each image
   std::vector<std::vector<ColmapImagePoint>> image_points;  ///< those of each image
-};
 
-SE3 pose_from_colmap(const std::string& path, const std::array<double, 7>& numbers) {
-  const Eigen::Quaterniond q(numbers[0], numbers[1], numbers[2], numbers[3]);
-  if (!(q.norm() > 1e-6)) throw FileError(path, "the quaternion of a pose is zero");
-  return SE3(SO3(q.normalized()), {numbers[4], numbers[5], numbers[6]}).inverse();
-}
-
-void read_binary_images(const std::string& path, ColmapParts& parts) {
-  ColmapBytes bytes(path);
-  const auto count = bytes.next<std::uint64_t>();
-  for (std::uint64_t i = 0; i < count; ++i) {
-    ColmapModel::Image& image = parts.model.images.emplace_back();
-    image.id = bytes.next<std::uint32_t>();
-    std::array<double, 7> pose{};
-    for (double& number : pose) number = bytes.next_finite();
-    image.T_world_cam = pose_from_colmap(path, pose);
-    parts.image_cameras.push_back(bytes.next<std::uint32_t>());
-    image.name = bytes.next_name();
-    std::vector<ColmapImagePoint>& points = parts.image_points.emplace_back();
-    const auto observations = bytes.next<std::uint64_t>();
-    for (std::uint64_t k = 0; k < observations; ++k) {
-      const double x = bytes.next_finite(), y = bytes.next_finite();
-      const auto point = bytes.next<std::uint64_t>();
-      if (point != kNoColmapPoint)
-        points.push_back({{x - kColmapCorner_px, y - kColmapCorner_px}, point});
-    }
+  void take(ColmapImages images) {
+    model.images = std::move(images.images);
+    image_cameras = std::move(images.cameras);
+    image_points = std::move(images.points);
   }
-  bytes.end();
-}
+};
 
 void read_binary_points(const std::string& path, ColmapParts& parts) {
   ColmapBytes bytes(path);
@@ -70,35 +39,6 @@ void read_binary_points(const std::string& path, ColmapParts& parts) {
     for (std::uint64_t k = 0; k < track; ++k) bytes.next<std::uint64_t>();
   }
   bytes.end();
-}
-
-void read_text_images(const std::string& path, ColmapParts& parts) {
-  TextFile file(path);
-  std::string_view line;
-  std::vector<std::string_view> fields;
-  while (file.next(line)) {
-    split_blank(line, fields);
-    if (fields.empty() || fields[0][0] == '#') continue;
-    if (fields.size() != 10) file.fail("not an image: id, pose, camera and name are 10 fields");
-    ColmapModel::Image& image = parts.model.images.emplace_back();
-    image.id = static_cast<std::uint32_t>(file.integer(fields[0], "id"));
-    std::array<double, 7> pose{};
-    for (std::size_t i = 0; i < 7; ++i) pose[i] = file.number(fields[1 + i], "pose");
-    image.T_world_cam = pose_from_colmap(path, pose);
-    parts.image_cameras.push_back(colmap_camera_id(file, fields[8]));
-    image.name = fields[9];
-    std::vector<ColmapImagePoint>& points = parts.image_points.emplace_back();
-    if (!file.next(line)) break;  // an image without image points at the end of the file
-    split_blank(line, fields);
-    if (fields.size() % 3 != 0) file.fail("image points are not x, y and the id of a point");
-    for (std::size_t i = 0; i < fields.size(); i += 3) {
-      const std::int64_t point = file.integer(fields[i + 2], "point");
-      if (point >= 0)
-        points.push_back({{file.number(fields[i], "x") - kColmapCorner_px,
-                           file.number(fields[i + 1], "y") - kColmapCorner_px},
-                          static_cast<std::uint64_t>(point)});
-    }
-  }
 }
 
 void read_text_points(const std::string& path, ColmapParts& parts) {
@@ -171,7 +111,7 @@ ColmapModel read_colmap(const std::string& folder, ColmapLenses lenses) {
   ColmapParts parts;
   std::vector<ColmapModel::RawCamera> cameras =
       (binary ? read_binary_cameras : read_text_cameras)(path("cameras"));
-  (binary ? read_binary_images : read_text_images)(path("images"), parts);
+  parts.take((binary ? read_binary_images : read_text_images)(path("images")));
   const std::uint32_t used = used_camera(path("images"), parts, cameras);
   put_cameras(path("cameras"), used, lenses, std::move(cameras), parts.model);
   (binary ? read_binary_points : read_text_points)(path("points3D"), parts);

@@ -1,6 +1,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/files/text_file.h>
 #include <placegraph/io/sensors/odometry_file.h>
+#include <placegraph/io/trajectories/repeated_rows.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 
 #include <Eigen/Cholesky>
@@ -41,8 +42,10 @@ Matrix6d parse_covariance(const TextFile& file, const Fields& fields, std::size_
 
 /// Reads poses of the frames, or poses with their own times, in any format of read_trajectory.
 MeasuredMotion read_poses(const std::string& path, const MotionNoise& noise,
-                          const std::vector<std::int64_t>& stamps_ns) {
+                          const std::vector<std::int64_t>& stamps_ns, const LogSink& log) {
   Trajectory trajectory = read_trajectory(path);
+  for (const std::string& warning : trajectory.warnings)
+    if (log) log(LogLevel::kWarning, warning);
   if (trajectory.has_times) return MeasuredMotion(trajectory, noise);
   if (trajectory.size() != stamps_ns.size())
     throw FileError(path, std::to_string(trajectory.size()) +
@@ -56,12 +59,14 @@ MeasuredMotion read_poses(const std::string& path, const MotionNoise& noise,
 }  // namespace
 
 MeasuredMotion read_odometry(const std::string& path, const MotionNoise& noise,
-                             const std::vector<std::int64_t>& stamps_ns) {
+                             const std::vector<std::int64_t>& stamps_ns, const LogSink& log) {
   noise.check();
   TextFile file(path);
   std::string_view line;
   Fields fields;
   std::vector<MotionStep> steps;
+  std::vector<StampedPose> poses;
+  std::vector<RepeatedStamp> repeated;
   std::size_t count = 0;
   bool first = true;
   std::int64_t last_ns = 0;
@@ -73,7 +78,7 @@ MeasuredMotion read_odometry(const std::string& path, const MotionNoise& noise,
       const bool motion_lines =
           line.find_first_of(",;") == line.npos &&
           (count == 8 || count == 9 || count == 14 || count == 15 || count == 29 || count == 30);
-      if (!motion_lines) return read_poses(path, noise, stamps_ns);
+      if (!motion_lines) return read_poses(path, noise, stamps_ns, log);
     }
     const bool is_pose = count == 8 || count == 14 || count == 29;
     if (fields.size() != count)
@@ -84,6 +89,11 @@ MeasuredMotion read_odometry(const std::string& path, const MotionNoise& noise,
     step.from_ns = is_pose ? last_ns : file.seconds_as_ns(fields[0], "time");
     const std::size_t at = is_pose ? 1 : 2;
     const SE3 pose = parse_pose(file, fields, at);
+    if (is_pose && !first && step.to_ns == last_ns) {
+      repeated.push_back(
+          {static_cast<std::size_t>(file.line()), poses.size() - 1, pose.isometry()});
+      continue;
+    }
     step.T_from_to = is_pose ? T_odom_last.inverse() * pose : pose;
     if (!(is_pose && first) && !(step.T_from_to.translation().norm() <= kMaxStep_m))
       file.fail("the step is longer than 1e9 m");
@@ -92,11 +102,14 @@ MeasuredMotion read_odometry(const std::string& path, const MotionNoise& noise,
     if (!(is_pose && first) && (step.to_ns <= step.from_ns || (!first && step.from_ns < last_ns)))
       file.fail("times must increase");
     if (!(is_pose && first)) steps.push_back(step);
+    if (is_pose) poses.push_back({step.to_ns, pose.isometry()});
     last_ns = step.to_ns;
     T_odom_last = pose;
     first = false;
   }
+  const std::string warning = repeated_rows_warning(path, poses, repeated);
   if (steps.empty()) throw FileError(path, "there is no step of motion in it");
+  if (!warning.empty() && log) log(LogLevel::kWarning, warning);
   return MeasuredMotion(std::move(steps));
 }
 

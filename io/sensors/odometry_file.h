@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/graph/core/log.h>
 #include <placegraph/graph/measurements/measured_motion.h>
 
 #include <string>
@@ -21,11 +22,12 @@ namespace [[gnu::visibility("default")]] placegraph {
 ///
 /// Times [s] are on the clock of the frames. The order of the tangent is translation [m], rotation
 /// [rad], in the frame at the step's end. `stamps_ns` are the times of the images and are needed
-/// for KITTI lines only. Throws FileError with file:line: an unknown or changing number of fields,
-/// not a number, a step longer than 1e9 m, times that do not increase, a quaternion not of unit
-/// length (1e-2), a standard deviation that is not positive, a covariance that is not positive
-/// definite, fewer than one step, a number of KITTI lines that differs from the number of frames.
+/// for KITTI lines only. Of poses with one time the first is kept, and `log` gets a warning. Throws
+/// FileError with file:line: an unknown or changing number of fields, not a number, a step longer
+/// than 1e9 m, times that go back, a quaternion not of unit length (1e-2), a standard deviation that
+/// is not positive, a covariance that is not positive definite, fewer than one step, a number of
+/// KITTI lines that differs from the number of frames.
 MeasuredMotion read_odometry(const std::string& path, const MotionNoise& noise,
-                             const std::vector<std::int64_t>& stamps_ns);
+                             const std::vector<std::int64_t>& stamps_ns, const LogSink& log = {});
 
 }  // namespace placegraph

@@ -3,14 +3,26 @@
 #include <placegraph/io/files/atomic_file.h>
 #include <placegraph/io/files/text_file.h>
 #include <placegraph/io/trajectories/body_state_file.h>
+#include <placegraph/io/trajectories/repeated_rows.h>
 
 #include <cmath>
 
 namespace placegraph {
+namespace {
 
-std::vector<BodyState> read_body_states(const std::string& path) {
+std::vector<StampedPose> poses_of(const std::vector<BodyState>& states) {
+  std::vector<StampedPose> poses;
+  for (const BodyState& state : states)
+    poses.push_back({state.stamp_ns, state.T_world_body.isometry()});
+  return poses;
+}
+
+}  // namespace
+
+std::vector<BodyState> read_body_states(const std::string& path, const LogSink& log) {
   TextFile file(path);
   std::vector<BodyState> states;
+  std::vector<RepeatedStamp> repeated;
   std::string_view line;
   std::vector<std::string_view> fields;
   constexpr std::size_t kColumns = 17;
@@ -23,7 +35,7 @@ std::vector<BodyState> read_body_states(const std::string& path) {
                       fields.size()));
     BodyState state;
     state.stamp_ns = file.integer(fields[0], "time [ns]");
-    if (!states.empty() && state.stamp_ns <= states.back().stamp_ns)
+    if (!states.empty() && state.stamp_ns < states.back().stamp_ns)
       file.fail(fmt::format("time {} ns does not increase", state.stamp_ns));
     double v[kColumns - 1];
     for (std::size_t i = 0; i + 1 < kColumns; ++i) v[i] = file.number(fields[i + 1], "state");
@@ -35,9 +47,15 @@ std::vector<BodyState> read_body_states(const std::string& path) {
     state.velocity_world = {v[7], v[8], v[9]};
     state.gyro_bias = {v[10], v[11], v[12]};
     state.accel_bias = {v[13], v[14], v[15]};
-    states.push_back(state);
+    if (!states.empty() && state.stamp_ns == states.back().stamp_ns)
+      repeated.push_back({static_cast<std::size_t>(file.line()), states.size() - 1,
+                          state.T_world_body.isometry()});
+    else
+      states.push_back(state);
   }
   if (states.empty()) throw FileError(path, "holds no states");
+  const std::string warning = repeated_rows_warning(path, poses_of(states), repeated);
+  if (!warning.empty() && log) log(LogLevel::kWarning, warning);
   return states;
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace placegraph {
 namespace {
@@ -73,6 +74,19 @@ const char* name_of(StampUnit unit) {
   return "t";
 }
 
+/// Whole seconds in one column and the nanoseconds after them in another.
+std::int64_t parse_two_columns(const TextFile& file, std::string_view seconds,
+                               std::string_view nanoseconds) {
+  constexpr std::int64_t kSecond_ns = 1'000'000'000;
+  const std::int64_t s = whole_number(file, seconds, "whole seconds of the time");
+  const std::int64_t ns = whole_number(file, nanoseconds, "nanoseconds of the time");
+  if (ns < 0 || ns >= kSecond_ns)
+    file.fail("nanoseconds of the time: " + in_quotes(nanoseconds) + " is not from 0 to 999999999");
+  if (std::abs(s) >= std::numeric_limits<std::int64_t>::max() / kSecond_ns)
+    file.fail("whole seconds of the time: " + in_quotes(seconds) + " is beyond 64 bits of ns");
+  return s * kSecond_ns + ns;
+}
+
 PoseLine parse_matrix(const TextFile& file, const Fields& fields, const PoseColumns& columns) {
   PoseLine line;
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
@@ -130,6 +144,7 @@ PoseLine parse_position(const TextFile& file, const Fields& fields, const PoseCo
 std::string PoseColumns::text() const {
   std::vector<std::string> names(fields, "-");
   if (stamp) names[*stamp] = name_of(unit);
+  if (nanoseconds) names[*nanoseconds] = "ns";
   constexpr const char *axes[] = {"x", "y", "z"}, *parts[] = {"qw", "qx", "qy", "qz"};
   if (matrix)
     for (std::size_t i = 0; i < 12; ++i) names[(*matrix)[i]] = fmt::format("m{}{}", i / 4, i % 4);
@@ -146,7 +161,10 @@ PoseLine PoseColumns::parse(const TextFile& file, const Fields& line) const {
   if (line.size() != fields && !(more && line.size() > fields))
     file.fail(fmt::format("expected {} fields ({}), found {}", fields, text(), line.size()));
   PoseLine pose = matrix ? parse_matrix(file, line, *this) : parse_position(file, line, *this);
-  if (stamp) pose.stamp = parse_stamp(file, line[*stamp], unit);
+  if (nanoseconds)
+    pose.stamp = parse_two_columns(file, line[*stamp], line[*nanoseconds]);
+  else if (stamp)
+    pose.stamp = parse_stamp(file, line[*stamp], unit);
   return pose;
 }
 

@@ -33,6 +33,7 @@ struct PoseColumns {
   bool more = false;                 ///< lines may have more fields, which are skipped
   std::optional<std::size_t> stamp;  ///< none: lines are frames 0, 1, 2, ...
   StampUnit unit = StampUnit::kUnknown;
+  std::optional<std::size_t> nanoseconds;  ///< added to a stamp of whole seconds
   /// Columns of the 3x4 matrix T_world_body, row by row.
   std::optional<std::array<std::size_t, 12>> matrix;
   std::array<std::size_t, 3> position{};                 ///< x y z [m], where there is no matrix

@@ -14,6 +14,7 @@ struct Role {
   int index = 0;  ///< index in x y z or in w x y z, or 10 row + column of a matrix
   StampUnit unit = StampUnit::kSeconds;
   bool has_unit = false;
+  std::string of = {};  ///< of a stamp: its name without the unit
 };
 
 bool one_of(std::string_view text, std::initializer_list<std::string_view> list) {
@@ -49,7 +50,8 @@ std::optional<StampUnit> unit_of(std::string_view word) {
     return StampUnit::kMilliseconds;
   if (one_of(word, {"us", "usec", "micros", "microsecond", "microseconds"}))
     return StampUnit::kMicroseconds;
-  if (one_of(word, {"ns", "nsec", "nsecs", "nanos", "nanosecond", "nanoseconds"}))
+  if (one_of(word, {"ns", "nsec", "nsecs", "nanos", "nanosec", "nanosecs", "nanosecond",
+                    "nanoseconds"}))
     return StampUnit::kNanoseconds;
   return std::nullopt;
 }
@@ -85,6 +87,7 @@ std::optional<Role> stamp_role(std::string_view name, const std::string& bracket
   // "t_x" does not reach this line, "t" alone is the time; "" is a bare unit such as "seconds".
   if (last.empty() && !role.has_unit) return std::nullopt;
   role.kind = Role::kStamp;
+  role.of = stem;
   return role;
 }
 
@@ -164,10 +167,11 @@ struct NamedColumns {
   std::array<std::optional<std::size_t>, 3> position;
   std::array<std::optional<std::size_t>, 4> quaternion;
   std::vector<std::pair<int, std::size_t>> matrix;  ///< 10 row + column
-  std::optional<std::size_t> angle;
+  std::optional<std::size_t> angle, nanoseconds;
   std::size_t known = 0;
 
   explicit NamedColumns(const std::vector<std::string>& names) {
+    std::vector<std::pair<Role, std::size_t>> timed;
     for (std::size_t k = 0; k < names.size(); ++k) {
       const Role role = role_of(names[k]);
       known += role.kind != Role::kUnknown;
@@ -181,7 +185,20 @@ struct NamedColumns {
       if (role.kind == Role::kQuaternion) first(quaternion[static_cast<std::size_t>(role.index)]);
       if (role.kind == Role::kAngle) first(angle);
       if (role.kind == Role::kMatrix) matrix.emplace_back(role.index, k);
+      if (role.kind == Role::kStamp && role.has_unit) timed.emplace_back(role, k);
     }
+    take_two_columns(timed);
+  }
+  /// Seconds and nanoseconds of one name are one time, and more exact than another column.
+  void take_two_columns(const std::vector<std::pair<Role, std::size_t>>& timed) {
+    for (const auto& [seconds, s] : timed)
+      for (const auto& [rest, ns] : timed)
+        if (!nanoseconds && seconds.of == rest.of && seconds.unit == StampUnit::kSeconds &&
+            rest.unit == StampUnit::kNanoseconds) {
+          stamp_role = seconds;
+          stamp = s;
+          nanoseconds = ns;
+        }
   }
   bool has_position() const { return position[0] && position[1] && position[2]; }
   int quaternion_parts() const {
@@ -256,6 +273,7 @@ PoseHeader parse_pose_header(std::string_view line, std::size_t fields) {
   if (named.stamp) {
     columns.stamp = *named.stamp;
     columns.unit = named.stamp_role.has_unit ? named.stamp_role.unit : StampUnit::kUnknown;
+    columns.nanoseconds = named.nanoseconds;
   } else if (named.number) {
     columns.stamp = *named.number;
     columns.unit = StampUnit::kFrameNumber;

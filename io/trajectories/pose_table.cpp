@@ -71,6 +71,17 @@ StampUnit unit_of(const std::vector<Fields>& lines, std::size_t column, char sep
   return whole && separator != ' ' ? StampUnit::kNanoseconds : StampUnit::kSeconds;
 }
 
+/// Whether the first lines have whole seconds in one column and less than one in nanoseconds in
+/// the other.
+bool is_in_two_columns(const std::vector<Fields>& lines, const PoseColumns& columns) {
+  return std::ranges::all_of(lines, [&](const Fields& fields) {
+    if (std::max(*columns.stamp, *columns.nanoseconds) >= fields.size()) return true;
+    const auto s = parse_integer(fields[*columns.stamp]);
+    const auto ns = parse_integer(fields[*columns.nanoseconds]);
+    return s && ns && *ns < 1'000'000'000;
+  });
+}
+
 /// The formats of tables without a header whose lines have as many fields as the first.
 std::vector<Form> forms_of(const std::vector<Fields>& lines, char separator) {
   const std::size_t n = lines.front().size();
@@ -164,7 +175,7 @@ struct Sample {
 
 }  // namespace
 
-PoseTable::PoseTable(const std::string& path) : file_(path) { find_columns(); }
+PoseTable::PoseTable(TextFile file) : file_(std::move(file)) { find_columns(); }
 
 bool PoseTable::next_line(std::string_view& line) {
   while (file_.next_data(line))
@@ -214,6 +225,9 @@ void PoseTable::find_columns() {
     columns_ = header.columns;
     columns_.separator = sample.separator;
     columns_.fields = fields;
+    // The same time twice, in seconds and in nanoseconds, is no time in two columns.
+    if (columns_.nanoseconds && !is_in_two_columns(sample.lines, columns_))
+      columns_.nanoseconds.reset();
     if (columns_.stamp && columns_.unit == StampUnit::kUnknown)
       columns_.unit = unit_of(sample.lines, *columns_.stamp, sample.separator, false);
   }

@@ -15,7 +15,9 @@ class PoseTable {
   /// Throws FileError with the line: no pose; a header that names unreadable columns or another
   /// number of columns than the lines have; lines of unknown format, with the number of their
   /// fields and the reason why each format does not fit.
-  explicit PoseTable(const std::string& path);
+  explicit PoseTable(const std::string& path) : PoseTable(TextFile(path)) {}
+  /// The same from a file that is open, read from its begin.
+  explicit PoseTable(TextFile file);
 
   const PoseColumns& columns() const { return columns_; }
   const TextFile& file() const { return file_; }

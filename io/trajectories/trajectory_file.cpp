@@ -3,6 +3,8 @@
 #include <placegraph/io/files/atomic_file.h>
 #include <placegraph/io/files/text_file.h>
 #include <placegraph/io/trajectories/pose_table.h>
+#include <placegraph/io/trajectories/posed_images.h>
+#include <placegraph/io/trajectories/repeated_rows.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 
 #include <iterator>
@@ -21,6 +23,11 @@ class Reader {
   void add(const PoseLine& line) {
     const auto index = static_cast<std::int64_t>(trajectory_.size());
     const std::int64_t stamp = table_.columns().stamp ? line.stamp : index;
+    if (index > 0 && trajectory_.has_times && stamp == trajectory_.poses.back().stamp_ns) {
+      repeated_.push_back({static_cast<std::size_t>(table_.file().line()),
+                           static_cast<std::size_t>(index - 1), line.T_world_body});
+      return;
+    }
     if (index > 0 && stamp <= trajectory_.poses.back().stamp_ns)
       table_.file().fail(trajectory_.numbered
                              ? fmt::format("the number {} of the frame does not increase", stamp)
@@ -39,12 +46,16 @@ class Reader {
     if (oriented_ > 0 && first_bare_line_ > 0)
       throw FileError(table_.file().path(), first_bare_line_,
                       "the quaternion has length 0 or is nan, not 1 as on other lines");
+    if (!repeated_.empty())
+      trajectory_.warnings.push_back(
+          repeated_rows_warning(table_.file().path(), trajectory_.poses, repeated_));
     return std::move(trajectory_);
   }
 
  private:
   const PoseTable& table_;
   Trajectory trajectory_;
+  std::vector<RepeatedStamp> repeated_;
   std::size_t oriented_ = 0;
   int first_line_ = 0, first_bare_line_ = 0;
 };
@@ -86,6 +97,26 @@ void format_euroc(const StampedPose& pose, Buffer out) {
                  t.x(), t.y(), t.z(), q.w(), q.x(), q.y(), q.z());
 }
 
+Trajectory read_table(TextFile file, Orientation orientation) {
+  PoseTable table(std::move(file));
+  Reader reader(table);
+  PoseLine line;
+  while (table.next(line)) reader.add(line);
+  Trajectory trajectory = reader.finish();
+  if (orientation == Orientation::kNeeded && !trajectory.has_orientation)
+    throw FileError(
+        table.file().path(), reader.first_line(),
+        "has positions alone (" + table.columns().text() + "), but orientations are needed here");
+  return trajectory;
+}
+
+Trajectory read_any_poses(const std::string& path, Orientation orientation) {
+  if (is_binary_model(path)) return read_binary_images_poses(path);
+  TextFile file(path);
+  if (std::optional<Trajectory> images = read_posed_images(file)) return std::move(*images);
+  return read_table(std::move(file), orientation);
+}
+
 void check_writable(const Trajectory& trajectory, TrajectoryFormat format) {
   require(trajectory.has_orientation,
           "the trajectory has positions alone: its poses have no orientation to write");
@@ -125,15 +156,7 @@ void give_times(Trajectory& trajectory, const std::string& path, const std::stri
 
 Trajectory read_trajectory(const std::string& path, const std::string& times_path,
                            Orientation orientation) {
-  PoseTable table(path);
-  Reader reader(table);
-  PoseLine line;
-  while (table.next(line)) reader.add(line);
-  Trajectory trajectory = reader.finish();
-  if (orientation == Orientation::kNeeded && !trajectory.has_orientation)
-    throw FileError(
-        path, reader.first_line(),
-        "has positions alone (" + table.columns().text() + "), but orientations are needed here");
+  Trajectory trajectory = read_any_poses(path, orientation);
   if (!times_path.empty()) give_times(trajectory, path, times_path);
   return trajectory;
 }

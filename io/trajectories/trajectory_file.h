@@ -19,10 +19,13 @@ enum class Orientation { kNeeded, kOptional };
 ///
 /// A header that names the columns is used; otherwise the number of fields decides: KITTI (3x4 or
 /// 4x4), TUM, EuRoC, positions alone with or without time. Blanks, tabs, commas or semicolons
-/// separate the fields. Without times, stamps are the numbers of the frames and `has_times` is
-/// false, unless `times_path` names a file of times; see give_times. Throws FileError with the
-/// line: missing, empty, of unknown format, not a number, times or numbers not increasing, not a
-/// rotation (tolerance 1e-2), no orientation where it is needed.
+/// separate the fields. COLMAP's images.txt and images.bin and the transforms.json of radiance
+/// fields are read, too, as poses T_world_cam (x right, y down, z forward) in the order of the
+/// names of their images, whose times or numbers are the stamps. Without times, stamps are the
+/// numbers of the frames and `has_times` is false, unless `times_path` names a file of times; see
+/// give_times. Of rows with one time the first is kept, with a line in `warnings`. Throws FileError
+/// with the line: missing, empty, of unknown format, not a number, times that go back or numbers
+/// not increasing, not a rotation (tolerance 1e-2), no orientation where it is needed.
 Trajectory read_trajectory(const std::string& path, const std::string& times_path = {},
                            Orientation orientation = Orientation::kNeeded);
 /// Reads a trajectory with a time in every line.

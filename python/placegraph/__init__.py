@@ -46,12 +46,16 @@ from ._core import (
     TrackingState,
     Trajectory,
     TrajectoryFormat,
+    TrajectoryInfo,
     TruthMount,
     TruthNoise,
     edge_consistency,
     estimate_truth_noise,
+    filter_steps,
     fit_mount,
+    merge_trajectories,
 )
+from ._info import trajectory_info
 from ._progress import Progress
 from ._show import page_of, show
 from .datasets import Dataset, open_dataset
@@ -199,6 +203,7 @@ __all__ = [
     "TrackingState",
     "Trajectory",
     "TrajectoryFormat",
+    "TrajectoryInfo",
     "TruthMount",
     "TruthNoise",
     "compare",
@@ -206,11 +211,13 @@ __all__ = [
     "estimate_truth_noise",
     "evaluate",
     "evaluate_kitti",
+    "filter_steps",
     "fit_mount",
     "from_networkx",
     "localizer_options",
     "loops",
     "marginal_covariances",
+    "merge_trajectories",
     "open_dataset",
     "optimize",
     "optimize_factors",
@@ -219,5 +226,6 @@ __all__ = [
     "show",
     "synthetic",
     "to_networkx",
+    "trajectory_info",
     "vision",
 ]

@@ -12,7 +12,9 @@ from .datasets import Dataset
 from .maps import Map
 
 if TYPE_CHECKING:
-    TrajectoryLike: TypeAlias = _core.Trajectory | Path
+    import pandas
+
+    TrajectoryLike: TypeAlias = _core.Trajectory | pandas.DataFrame | Path
     TruthLike: TypeAlias = TrajectoryLike | Dataset
     EstimateLike: TypeAlias = TrajectoryLike | Map
 
@@ -30,10 +32,20 @@ def existing(given: object, argument: str) -> str:
     return path
 
 
+def _is_table(given: object) -> bool:
+    """Whether it is a DataFrame of pandas, which need not be imported."""
+    return hasattr(given, "to_csv") and hasattr(given, "columns")
+
+
+def _of_table(given: TrajectoryLike) -> TrajectoryLike:
+    """The trajectory of a table of pandas; a trajectory or a path as it is."""
+    return _core.Trajectory.from_pandas(given) if _is_table(given) else given
+
+
 def true_of(given: TruthLike) -> TrajectoryLike:
-    """The true trajectory of a dataset; a trajectory or a path as it is."""
+    """The true trajectory of a dataset or of a table; a trajectory or a path as it is."""
     if not isinstance(given, Dataset):
-        return given
+        return _of_table(given)
     truth = given.ground_truth
     if truth is None:
         raise _core.ArgumentError(f"truth: the dataset {given.name} has no ground truth")
@@ -41,8 +53,8 @@ def true_of(given: TruthLike) -> TrajectoryLike:
 
 
 def estimated_of(given: EstimateLike) -> TrajectoryLike:
-    """The trajectory of a map; a trajectory or a path as it is."""
-    return given.trajectory() if isinstance(given, Map) else given
+    """The trajectory of a map or of a table; a trajectory or a path as it is."""
+    return given.trajectory() if isinstance(given, Map) else _of_table(given)
 
 
 def named_estimates(
@@ -52,14 +64,14 @@ def named_estimates(
     if isinstance(given, Mapping):
         named = list(given.items())
     else:
-        if isinstance(given, (str, os.PathLike, _core.Trajectory, Map)):
+        if isinstance(given, (str, os.PathLike, _core.Trajectory, Map)) or _is_table(given):
             given = [given]
         elif not isinstance(given, Iterable):
             raise _core.ArgumentError(
                 f"estimates: a list or a dictionary is needed, not {type(given).__name__}")
         estimates = list(given)
         paths = {i: existing(each, "estimates") for i, each in enumerate(estimates)
-                 if not isinstance(each, (_core.Trajectory, Map))}
+                 if not isinstance(each, (_core.Trajectory, Map)) and not _is_table(each)}
         names = dict(zip(paths, _core.distinct_names(list(paths.values()))))
         named = [(names.get(i, f"estimate {i + 1}"), each) for i, each in enumerate(estimates)]
     if not named:

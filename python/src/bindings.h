@@ -40,6 +40,7 @@ void bind_localize(nb::module_& m);
 void bind_slam(nb::module_& m);
 void bind_synthetic(nb::module_& m);
 void bind_evaluation(nb::module_& m);
+void bind_trajectory_info(nb::module_& m);
 void bind_flow(nb::module_& m);
 void bind_edges(nb::module_& m);
 void bind_flow_cues(nb::module_& m);

@@ -59,6 +59,7 @@ NB_MODULE(_core, m) {
   bind_figures(m);
   bind_synthetic(m);
   bind_evaluation(m);
+  bind_trajectory_info(m);
   bind_edges(m);
   bind_kitti(m);
   bind_flow(m);

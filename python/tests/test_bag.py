@@ -17,7 +17,7 @@ from placegraph import _core
 
 pytest.importorskip("rosbags")
 
-from placegraph.bag import Topics, convert, list_topics  # noqa: E402
+from placegraph.bag import Topics, convert, list_topics, read_trajectory  # noqa: E402
 from placegraph.bag.__main__ import main  # noqa: E402
 
 KINDS = ("ros1", "sqlite", "mcap")
@@ -467,3 +467,29 @@ def test_bad_input_is_one_line(make: Callable[[pathlib.Path], pathlib.Path], opt
     error = capsys.readouterr().err
     assert text in error and error.count("\n") == 1
     assert sorted(tmp_path.rglob("*")) == before
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_topic_of_poses_is_a_trajectory(kind: str, tmp_path: pathlib.Path) -> None:
+    poses = np.tile(np.eye(4), (5, 1, 1))
+    poses[:, 0, 3] = np.arange(5)
+    with BagWriter(tmp_path, kind) as bag:
+        for i in (0, 2, 1, 3, 4):  # messages of a bag need not be in order
+            bag.pose("/estimate", stamp(i), poses[i])
+            bag.transform("/tf", stamp(i), "world", "body", poses[i])
+            bag.transform("/tf", stamp(i), "body", "cam", np.eye(4))
+        bag.pose("/twice", stamp(0), poses[0])
+        bag.pose("/twice", stamp(1), poses[1])
+        bag.pose("/twice", stamp(1), poses[3])
+        bag.imu("/imu", stamp(0), np.zeros(3), np.zeros(3))
+    for topic in ("/estimate", "tf:world:body"):
+        read = read_trajectory(bag.path, topic)
+        np.testing.assert_array_equal(read.stamps_ns, [stamp(i) for i in range(5)])
+        np.testing.assert_allclose(read.poses, poses, atol=1e-12)
+    with pytest.warns(pg.Doubt, match="the stamp stands twice"):
+        assert read_trajectory(bag.path, "/twice").poses[1][0, 3] == 1
+    for topic, message in (("/imu", "sensor_msgs/msg/Imu has no poses"), ("tf:world", "PARENT"),
+                           ("/none", "no such topic; of poses are /estimate, /twice"),
+                           ("tf:world:wheel", "has no poses in the bag")):
+        with pytest.raises(pg.ArgumentError, match=message):
+            read_trajectory(bag.path, topic)

@@ -7,5 +7,6 @@ which `open_dataset` and the program read.
 
 from .convert import Conversion, convert
 from .topics import Topics, list_topics
+from .trajectories import read_trajectory
 
-__all__ = ["Conversion", "Topics", "convert", "list_topics"]
+__all__ = ["Conversion", "Topics", "convert", "list_topics", "read_trajectory"]

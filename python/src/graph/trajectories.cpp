@@ -1,9 +1,10 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/geometry/se3.h>
-#include <placegraph/graph/geometry/trajectory.h>
-#include <placegraph/io/datasets/resample.h>
+#include <placegraph/graph/geometry/repeated_stamps.h>
+#include <placegraph/graph/geometry/trajectory_edit.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
+#include <placegraph/io/trajectories/trajectory_filter.h>
 
 #include <cmath>
 #include <filesystem>
@@ -11,6 +12,7 @@
 
 #include "python/src/arrays.h"
 #include "python/src/values/value_class.h"
+#include "python/src/warnings.h"
 
 namespace placegraph::python {
 namespace {
@@ -35,6 +37,27 @@ ReadOnlyArray<std::int64_t> stamps_of(const Trajectory& trajectory) {
   return owned_array(std::move(stamps), {trajectory.size()});
 }
 
+/// The trajectory, after its warnings have become those of Python.
+Trajectory doubted(Trajectory trajectory) {
+  for (const std::string& warning : trajectory.warnings) warn(warning);
+  return trajectory;
+}
+
+/// The pose of a row of matrices; nothing if it has NaN.
+std::optional<Eigen::Isometry3d> pose_in(const double* values, std::size_t row) {
+  using RowMajor = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
+  const Eigen::Map<const RowMajor> matrix(values);
+  if (matrix.hasNaN()) return std::nullopt;
+  require(matrix.allFinite(), fmt::format("poses: row {} is not finite", row));
+  const Eigen::Matrix3d R = matrix.topLeftCorner<3, 3>();
+  require((R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < 1e-2 &&
+              R.determinant() > 0 && matrix.row(3) == Eigen::RowVector4d(0, 0, 0, 1),
+          fmt::format("poses: row {} is no rigid motion", row));
+  Eigen::Isometry3d T;
+  T.matrix() = matrix;
+  return T;
+}
+
 Trajectory from_arrays(const ArrayArgument<std::int64_t>& stamps_argument,
                        const ArrayArgument<double>& poses_argument) {
   const auto stamps_ns = stamps_argument.get("stamps_ns", {kAny});
@@ -42,29 +65,41 @@ Trajectory from_arrays(const ArrayArgument<std::int64_t>& stamps_argument,
   require(stamps_ns.shape(0) == poses.shape(0),
           fmt::format("poses: {} stamps and {} poses", stamps_ns.shape(0), poses.shape(0)));
   Trajectory trajectory;
-  const double* value = poses.data();
-  for (std::size_t i = 0; i < poses.shape(0); ++i, value += 16) {
-    StampedPose& pose = trajectory.poses.emplace_back();
-    pose.stamp_ns = stamps_ns.data()[i];
-    require(i == 0 || pose.stamp_ns > trajectory.poses[i - 1].stamp_ns,
-            fmt::format("stamps_ns: row {} does not increase", i));
-    using RowMajor = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
-    const Eigen::Map<const RowMajor> matrix(value);
-    if (matrix.hasNaN()) continue;
-    require(matrix.allFinite(), fmt::format("poses: row {} is not finite", i));
-    const Eigen::Matrix3d R = matrix.topLeftCorner<3, 3>();
-    require((R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < 1e-2 &&
-                R.determinant() > 0 && matrix.row(3) == Eigen::RowVector4d(0, 0, 0, 1),
-            fmt::format("poses: row {} is no rigid motion", i));
-    pose.T_world_body.emplace();
-    pose.T_world_body->matrix() = matrix;
+  std::vector<RepeatedStamp> repeated;
+  for (std::size_t i = 0; i < poses.shape(0); ++i) {
+    const StampedPose pose{stamps_ns.data()[i], pose_in(poses.data() + 16 * i, i)};
+    const std::int64_t before_ns =
+        trajectory.poses.empty() ? pose.stamp_ns - 1 : trajectory.poses.back().stamp_ns;
+    require(pose.stamp_ns >= before_ns, fmt::format("stamps_ns: row {} goes back", i));
+    if (pose.stamp_ns == before_ns)
+      repeated.push_back({i, trajectory.size() - 1, pose.T_world_body});
+    else
+      trajectory.poses.push_back(pose);
   }
-  return trajectory;
+  require(repeated.size() <= trajectory.size(),
+          fmt::format("stamps_ns: {} of {} rows have the stamp of the row before", repeated.size(),
+                      poses.shape(0)));
+  if (!repeated.empty())
+    trajectory.warnings.push_back(
+        repeated_stamps_warning("stamps_ns: row ", trajectory.poses, repeated));
+  return doubted(std::move(trajectory));
+}
+
+Trajectory read_file(const std::filesystem::path& path, const std::filesystem::path& times) {
+  return doubted([&] {
+    const WithoutGil released;
+    return read_trajectory(path.string(), times.string());
+  }());
 }
 
 std::string text_of(const Trajectory& trajectory) {
   return fmt::format("<placegraph.Trajectory: {} of {} frames posed, path length {:.4g}>",
                      trajectory.posed(), trajectory.size(), trajectory.path_length());
+}
+
+Trajectory from_pandas(const nb::object& table) {
+  return nb::cast<Trajectory>(
+      nb::module_::import_("placegraph._tables").attr("trajectory_of_table")(table));
 }
 
 nb::object table_of(const Trajectory& trajectory) {
@@ -143,36 +178,58 @@ void bind_stamped_pose(nb::module_& m) {
       });
 }
 
-}  // namespace
+void bind_functions(nb::module_& m) {
+  m.def(
+      "merge_trajectories",
+      [](std::vector<Trajectory> parts, bool keep_first) {
+        return merge(std::move(parts), keep_first ? Overlap::kFirstKept : Overlap::kRefused)
+            .trajectory;
+      },
+      "parts"_a, nb::kw_only(), "keep_first"_a = false,
+      "Joins trajectories of one body in one world, in the order of their times.\n\n"
+      "`keep_first`: of trajectories that overlap in time the one that begins first is kept there. "
+      "Raises ArgumentError for an overlap otherwise, and for trajectories without times.");
+  m.def(
+      "filter_steps",
+      [] {
+        std::vector<std::pair<std::string, std::string>> steps;
+        for (const FilterStepForm& step : filter_step_forms())
+          steps.emplace_back(step.form, step.text);
+        return steps;
+      },
+      "The steps of `Trajectory.apply`: how each is written, and what it does.");
+}
 
-void bind_trajectories(nb::module_& m) {
-  bind_stamped_pose(m);
-  nb::enum_<TrajectoryFormat>(m, "TrajectoryFormat", "Formats in which trajectories are written.")
-      .value("KITTI", TrajectoryFormat::kKitti)
-      .value("TUM", TrajectoryFormat::kTum)
-      .value("EUROC", TrajectoryFormat::kEuroc);
-  nb::class_<Trajectory> trajectory(m, "Trajectory", doc("Trajectory"));
-  bind_value(trajectory, Hash::kByValue);
-  bind_elements(trajectory);
+void bind_making(nb::class_<Trajectory>& trajectory) {
   trajectory.def(nb::init<>(), "No poses.")
       .def_static(
           "from_arrays", &from_arrays, "stamps_ns"_a, "poses"_a,
           "A trajectory of stamps (N, int64) [ns] and matrices T_world_body (N x 4 x 4).\n\n"
-          "A matrix with NaN is that of a frame without a pose. Raises ArgumentError for "
-          "stamps that do not increase and matrices that are no rigid motions.")
+          "A matrix with NaN is that of a frame without a pose. Of rows with one stamp the first "
+          "is kept, with a warning (Doubt). Raises ArgumentError for stamps that go back and matrices "
+          "that are no rigid motions.")
+      .def_static("from_pandas", &from_pandas, "table"_a,
+                  nb::sig("def from_pandas(table: pandas.DataFrame) -> Trajectory"),
+                  "A trajectory of the rows of a DataFrame.\n\n"
+                  "The names of the columns are those of a header that `read` obeys: stamp_ns or "
+                  "another time, or `frame`, x, y, z, qx, qy, qz, qw, or the entries of matrices; "
+                  "an index of times or of floats [s] is the time if no column is. Raises "
+                  "FileError for a table without such columns.")
       .def_static(
-          "read",
-          [](const std::filesystem::path& path, const std::filesystem::path& times) {
-            return read_trajectory(path.string(), times.string());
-          },
-          "path"_a, "times"_a = "", nb::call_guard<WithoutGil>(),
+          "read", &read_file, "path"_a, "times"_a = "",
           "Reads a trajectory from a text file with one pose per line.\n\n"
           "A header that names the columns is used; otherwise the number of fields decides: KITTI "
           "(3x4 or 4x4), TUM, EuRoC. Blanks, tabs, commas or semicolons separate the fields. "
+          "COLMAP's images.txt and images.bin and transforms.json are read, too. "
           "Without times, stamps are the numbers of the frames and `has_times` is False, unless "
-          "`times` names a file with one time [s] per line and frame. Raises FileError with the "
-          "line: missing, empty, of unknown format, not a number, times or numbers not "
-          "increasing, not a rotation (tolerance 1e-2), no orientation.")
+          "`times` names a file with one time [s] per line and frame. Of lines with one time the "
+          "first is kept, with a warning (Doubt). Raises FileError with the line: missing, empty, "
+          "of unknown format, not a number, times that go back or numbers not increasing, not a "
+          "rotation (tolerance 1e-2), no orientation.");
+}
+
+void bind_content(nb::class_<Trajectory>& trajectory) {
+  trajectory
       .def(
           "write",
           [](const Trajectory& t, const std::filesystem::path& path, TrajectoryFormat format) {
@@ -184,12 +241,17 @@ void bind_trajectories(nb::module_& m) {
       .def_prop_ro("posed", &Trajectory::posed, doc("Trajectory::posed"))
       .def_prop_ro("path_length", &Trajectory::path_length, doc("Trajectory::path_length"))
       .def_ro("has_times", &Trajectory::has_times, doc("Trajectory::has_times"))
+      .def_prop_ro("warnings", as_tuple(&Trajectory::warnings), doc("Trajectory::warnings"))
       .def_prop_ro("stamps_ns", &stamps_of, kNew,
                    "Stamps, N of int64 [ns]; numbers of frames where has_times is false.\n\n"
                    "`from_arrays` makes a trajectory with others.")
       .def_prop_ro("poses", &poses_of, kNew,
                    "Matrices T_world_body, N x 4 x 4; NaN where there is none.\n\n"
-                   "`from_arrays` makes a trajectory with others.")
+                   "`from_arrays` makes a trajectory with others.");
+}
+
+void bind_changes(nb::class_<Trajectory>& trajectory) {
+  trajectory
       .def(
           "resample",
           [](const Trajectory& t, const ArrayArgument<std::int64_t>& stamps_ns, double max_gap_s) {
@@ -213,8 +275,43 @@ void bind_trajectories(nb::module_& m) {
           "The pose T_world_body at a time [ns] between two frames that have one; None outside the "
           "trajectory, beside a lost frame, or across a gap wider than `max_gap_s`.\n\n"
           "The translation is interpolated linearly, the rotation along the geodesic.")
+      .def(
+          "apply",
+          [](const Trajectory& t, const std::string& chain) {
+            return TrajectoryFilter(chain).apply(t);
+          },
+          "chain"_a, nb::call_guard<WithoutGil>(),
+          "The trajectory after a chain of steps, as \"crop 10:60; downsample 0.5m\".\n\n"
+          "`filter_steps()` lists them. Raises ArgumentError with the step and its number, "
+          "NoResult if a step leaves no pose.")
+      .def(
+          "split",
+          [](const Trajectory& t, std::optional<double> every_s) {
+            return every_s ? split_every(t, *every_s)
+                           : split_at_gaps(t, 1e-9 * static_cast<double>(longest_spacing_ns(t)));
+          },
+          "every_s"_a = nb::none(),
+          "Parts of that length [s]; without one the parts between gaps of more than five median "
+          "spacings. Raises ArgumentError for a trajectory without times.")
       .def("to_pandas", &table_of, nb::sig("def to_pandas(self) -> pandas.DataFrame"),
            "A row for each frame: stamp_ns, x, y, z, qx, qy, qz, qw; NaN where there is no pose.");
+}
+
+}  // namespace
+
+void bind_trajectories(nb::module_& m) {
+  bind_stamped_pose(m);
+  nb::enum_<TrajectoryFormat>(m, "TrajectoryFormat", "Formats in which trajectories are written.")
+      .value("KITTI", TrajectoryFormat::kKitti)
+      .value("TUM", TrajectoryFormat::kTum)
+      .value("EUROC", TrajectoryFormat::kEuroc);
+  nb::class_<Trajectory> trajectory(m, "Trajectory", doc("Trajectory"));
+  bind_value(trajectory, Hash::kByValue);
+  bind_elements(trajectory);
+  bind_making(trajectory);
+  bind_content(trajectory);
+  bind_changes(trajectory);
+  bind_functions(m);
 }
 
 }  // namespace placegraph::python

@@ -77,6 +77,7 @@ INSTANTIATE_TEST_SUITE_P(
                         kRpe, kRpeDeg},
         FieldEvaluation{"eval_nanoseconds_as_decimals", "truth.csv", "point_zero.csv", "", kAte,
                         kRpe, kRpeDeg},
+        FieldEvaluation{"eval_one_stamp_twice", "truth.tum", "estimate.tum", "", 0.005463, -2, 0},
         FieldEvaluation{"eval_positions_only_truth", "truth_4_columns.tum", "estimate.tum", "",
                         0.054809, -1, 0},
         FieldEvaluation{"eval_positions_only_truth", "truth_zero_quaternion.tum", "estimate.tum",

@@ -130,7 +130,7 @@ TEST_F(RunOdometryCli, ABrokenFileGivesOneLineAndNothingIsWritten) {
               "bad.txt:2: the step is longer"},
         Fault{first + "1e308 0 0 1 0 0 0 1\n", "bad.txt:2: time"},
         Fault{first + "0.1 0 0 one 0 0 0 1\n", "bad.txt:2: pose: 'one' is not a number"},
-        Fault{first + second + "# still\n0.1 0 0 2 0 0 0 1\n", "bad.txt:4: times must increase"},
+        Fault{first + second + "# still\n0.01 0 0 2 0 0 0 1\n", "bad.txt:4: times must increase"},
         Fault{first + second + "0.05 0 0 2 0 0 0 1\n", "bad.txt:3: times must increase"},
         Fault{first + "0.1 0 0 1 0 0 0 0\n", "bad.txt:2: quaternion is not of unit length"},
         Fault{first, "bad.txt: there is no step of motion"},

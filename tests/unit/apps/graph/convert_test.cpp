@@ -131,6 +131,72 @@ TEST_F(ConvertCommand, RefusesWhatTheFormCannotHold) {
   expect_refused(named, "--to: 'toro' is none of kitti, tum, euroc, g2o");
 }
 
+TEST_F(ConvertCommand, AppliesAFilter) {
+  write_trajectory(folder / "in.tum", test::winding_drive(50), TrajectoryFormat::kTum);
+  ConvertArguments arguments = from_to("in.tum", "out.tum");
+  arguments.apply = "crop 1:3; downsample 5";
+  const ConvertResult result = convert(arguments);
+  EXPECT_EQ(result.frames, 5u);
+  EXPECT_EQ(result.left_out, 45u);
+  const Trajectory written = read_trajectory(arguments.out);
+  EXPECT_EQ(written.poses[0].stamp_ns, 1'000'000'000);
+  arguments.out = folder / "none.tum";
+  arguments.apply = "crop 1:3; turn";
+  expect_refused(arguments, "step 2 (turn): 'turn' is none of crop, ");
+  arguments.apply = "crop 90:";
+  EXPECT_THAT(message_of<NoResult>([&] { convert(arguments); }),
+              HasSubstr("leaves no pose of 50 frames"));
+  EXPECT_FALSE(std::filesystem::exists(arguments.out));
+}
+
+TEST_F(ConvertCommand, MergesWhatItHasSplit) {
+  Trajectory drive = test::winding_drive(60);
+  for (std::size_t i = 20; i < 30; ++i) drive.poses[i].T_world_body.reset();
+  write_trajectory(folder / "in.tum", drive, TrajectoryFormat::kTum);
+  for (const auto& [split, files] : {std::pair{"gaps", 2}, {"2s", 3}, {"0.5s", 10}}) {
+    SCOPED_TRACE(split);
+    ConvertArguments parts = from_to("in.tum", std::string(split) + "/part.tum");
+    std::filesystem::create_directories(folder / split);
+    parts.split = split;
+    const ConvertResult result = convert(parts);
+    ASSERT_EQ(static_cast<int>(result.parts.size()), files);
+    EXPECT_EQ(std::filesystem::path(result.parts[0]).filename(),
+              files < 10 ? "part_1.tum" : "part_01.tum");
+    EXPECT_FALSE(std::filesystem::exists(parts.out));
+    ConvertArguments whole = from_to("in.tum", std::string(split) + "/whole.tum");
+    whole.in = result.parts.back();
+    whole.merge.assign(result.parts.begin(), result.parts.end() - 1);
+    EXPECT_EQ(convert(whole).frames, 50u);
+    EXPECT_EQ(test::read_file(whole.out), test::read_file(folder / "in.tum"));
+  }
+}
+
+TEST_F(ConvertCommand, RefusesOverlapsUnlessToldWhatToKeep) {
+  write_trajectory(folder / "a.tum", test::winding_drive(50), TrajectoryFormat::kTum);
+  ConvertArguments arguments = from_to("a.tum", "out.tum");
+  arguments.merge = {folder / "a.tum"};
+  expect_refused(arguments, "--merge: merge: a trajectory begins at 0 ns, before the end of an "
+                            "earlier one at 4900000000 ns; --overlap keeps");
+  arguments.overlap = true;
+  EXPECT_EQ(convert(arguments).left_out, 50u);
+  write_poses("poses.txt");
+  ConvertArguments untimed = from_to("poses.txt", "other.tum");
+  untimed.merge = {folder / "a.tum"};
+  expect_refused(untimed, "has no times; give them with --times");
+}
+
+TEST_F(ConvertCommand, WritesAllPartsOrNone) {
+  write_trajectory(folder / "in.tum", test::winding_drive(60), TrajectoryFormat::kTum);
+  folder.write("out_2.tum", "mine\n");
+  ConvertArguments arguments = from_to("in.tum", "out.tum");
+  arguments.split = "2s";
+  expect_refused(arguments, "out_2.tum");
+  EXPECT_FALSE(std::filesystem::exists(folder / "out_1.tum"));
+  EXPECT_EQ(test::read_file(folder / "out_2.tum"), "mine\n");
+  arguments.split = "2 hours";
+  expect_refused(arguments, "--split: '2 hours' is neither gaps nor a length of time, as 60s");
+}
+
 TEST(ConvertText, CountsWhatAGraphHas) {
   ConvertResult result;
   result.kind = ConvertResult::Kind::kGraph;

@@ -69,6 +69,8 @@ TEST_F(OdometryFile, RefusesWhatIsNone) {
   EXPECT_THAT(refusal("1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1 5\n"),
               HasSubstr("odometry.txt:2: 8 fields needed as in the first line, not 9"));
   EXPECT_THAT(refusal("1 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n"),
+              HasSubstr("odometry.txt: there is no step of motion"));
+  EXPECT_THAT(refusal("1 0 0 0 0 0 0 1\n0.9 0 0 0 0 0 0 1\n"),
               HasSubstr("odometry.txt:2: times must increase"));
   EXPECT_THAT(refusal("1 2 0 0 0 0 0 0 1\n1.5 3 0 0 0 0 0 0 1\n"),
               HasSubstr("odometry.txt:2: times must increase"));
