@@ -13,6 +13,7 @@
 #include "apps/eval/cmd_eval.h"
 #include "apps/eval/cmd_eval_edges.h"
 #include "apps/eval/cmd_eval_noise.h"
+#include "apps/eval/cmd_eval_table.h"
 #include "apps/eval/cmd_loops.h"
 #include "apps/graph/cmd_bundle.h"
 #include "apps/graph/cmd_convert.h"
@@ -64,6 +65,7 @@ void add_eval_group(CLI::App& app) {
                               "trajectory poses.txt trajectory_optimized.kitti --align se3");
   add_eval_trajectory_command(
       group, [](const EvalArguments& a, const EvalResult& r) { write_eval_page(a, r); });
+  add_eval_table_command(group);
   add_eval_edges_command(group);
   add_eval_noise_command(group);
   add_eval_loops_command(

@@ -16,7 +16,7 @@ import sys
 from source_includes import includes_of, layer_of
 
 LIST = "cmake/public_headers.txt"
-MOST_HEADERS = 279  # the header of all doors is installed besides
+MOST_HEADERS = 289  # the header of all doors is installed besides
 MOST_BEHIND = {"pipeline/slam.h": 40, "pipeline/placegraph.h": 90}
 USERS = ("apps", "python/src")
 FOREIGN = re.compile(r"[a-z_]+$|Eigen/")  # the standard library's and Eigen's
