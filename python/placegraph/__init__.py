@@ -22,6 +22,8 @@ from ._core import (
     Distortion,
     Doubt,
     Error,
+    EvoResult,
+    FigureTable,
     FileError,
     Frame,
     FrameResult,
@@ -51,11 +53,12 @@ from ._core import (
     edge_consistency,
     estimate_truth_noise,
     fit_mount,
+    read_evo_result,
 )
 from ._progress import Progress
 from ._show import page_of, show
 from .datasets import Dataset, open_dataset
-from .evaluation import Comparison, Evaluation, compare, evaluate
+from .evaluation import Comparison, Evaluation, compare, evaluate, figure_table
 from .factor_graph import (
     SE2,
     SO3,
@@ -138,11 +141,13 @@ __all__ = [
     "Evaluation",
     "EvaluationOptions",
     "Event",
+    "EvoResult",
     "Explanation",
     "Factor",
     "FactorGraph",
     "FactorGraphOptions",
     "FactorGraphReport",
+    "FigureTable",
     "FileError",
     "FixedLagSmoother",
     "Frame",
@@ -203,6 +208,7 @@ __all__ = [
     "edge_consistency",
     "estimate_truth_noise",
     "evaluate",
+    "figure_table",
     "fit_mount",
     "from_networkx",
     "localizer_options",
@@ -212,6 +218,7 @@ __all__ = [
     "optimize",
     "optimize_factors",
     "page_of",
+    "read_evo_result",
     "run",
     "show",
     "synthetic",

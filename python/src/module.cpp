@@ -59,6 +59,7 @@ NB_MODULE(_core, m) {
   bind_figures(m);
   bind_synthetic(m);
   bind_evaluation(m);
+  bind_tables(m);
   bind_edges(m);
   bind_flow(m);
   bind_flow_cues(m);
