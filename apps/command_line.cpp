@@ -12,9 +12,10 @@
 #include "apps/config/cmd_config.h"
 #include "apps/eval/cmd_eval.h"
 #include "apps/eval/cmd_eval_edges.h"
-#include "apps/eval/cmd_eval_kitti.h"
+#include "apps/eval/benchmarks/cmd_eval_kitti.h"
 #include "apps/eval/cmd_eval_info.h"
 #include "apps/eval/cmd_eval_noise.h"
+#include "apps/eval/benchmarks/cmd_eval_table.h"
 #include "apps/eval/cmd_loops.h"
 #include "apps/graph/cmd_bundle.h"
 #include "apps/graph/cmd_convert.h"
@@ -66,6 +67,7 @@ void add_eval_group(CLI::App& app) {
                               "trajectory poses.txt trajectory_optimized.kitti --align se3");
   add_eval_trajectory_command(
       group, [](const EvalArguments& a, const EvalResult& r) { write_eval_page(a, r); });
+  add_eval_table_command(group);
   add_eval_edges_command(group);
   add_eval_kitti_command(group);
   add_eval_noise_command(group);

@@ -52,5 +52,5 @@ configure_package_config_file(cmake/placegraphConfig.cmake.in ${PROJECT_BINARY_D
   INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/placegraph)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/placegraphConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/placegraphConfig.cmake ${PROJECT_BINARY_DIR}/placegraphConfigVersion.cmake
-    cmake/FindCAMD.cmake cmake/FindCHOLMOD.cmake cmake/FindGeographicLib.cmake
+    cmake/FindCAMD.cmake cmake/FindCHOLMOD.cmake cmake/FindGeographicLib.cmake cmake/Findminizip.cmake
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/placegraph)

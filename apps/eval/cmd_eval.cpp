@@ -72,6 +72,19 @@ void add_plot_options(CLI::App& command, EvalArguments& a) {
       ->delimiter(',')
       ->check(CLI::IsMember(evaluation_plot_names()))
       ->capture_default_str();
+  command
+      .add_option("--map", a.map,
+                  "map under the view from above, in the frame of the truth: .yaml of an occupancy "
+                  "grid (ROS), or a picture beside its world file")
+      ->check(CLI::ExistingFile);
+  command
+      .add_option("--map-corners", a.map_corners_m,
+                  "corners of a picture of --map: x,y of the lower left and of the upper right [m]")
+      ->delimiter(',');
+  command
+      .add_option("--plot-settings", a.plot_settings,
+                  "YAML file of size, fonts, colours, limits and units of the figures")
+      ->check(CLI::ExistingFile);
 }
 
 void add_alignment_options(CLI::App& command, EvalArguments& a) {
@@ -145,6 +158,10 @@ void add_eval_trajectory_command(
   command->add_flag("--json", eval_command->json, kJsonText);
   command->add_option("--csv", a.csv, "write the details as CSV")->type_name(kOutput);
   command->add_option("--latex", a.latex, "write the figures as a LaTeX table")->type_name(kOutput);
+  command
+      ->add_option("--evo-results", a.evo_results,
+                   "write the position errors of one estimate as a result archive of evo (.zip)")
+      ->type_name(kOutput);
   add_plot_options(*command, a);
   command->add_option("--report", a.report, kReportText)->type_name(kOutput);
   command->add_flag("--force", a.force, kForceText);

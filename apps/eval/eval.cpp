@@ -1,13 +1,17 @@
 #include "apps/eval/eval.h"
 
 #include <fmt/format.h>
+#include <placegraph/eval/drawing/figure_settings.h>
 #include <placegraph/eval/plots/evaluation_plot.h>
 #include <placegraph/eval/trajectory/report.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/datasets/distinct_paths.h>
 #include <placegraph/io/datasets/evaluated_files.h>
+#include <placegraph/io/scene/ground_picture_file.h>
 #include <placegraph/io/trajectories/trajectory_filter.h>
 #include <placegraph/pipeline/report/run_page.h>
+#include <placegraph/pipeline/results/evo_archives.h>
 
 #include <algorithm>
 #include <charconv>
@@ -133,8 +137,10 @@ std::vector<PlotFile> plot_files(const EvalArguments& arguments) {
 void check_outputs(const EvalArguments& arguments) {
   if (!arguments.report.empty()) require_page_name(arguments.report);
   require_plot_name(arguments.plot);
-  std::vector<NamedPath> outputs = {
-      {"--csv", arguments.csv}, {"--latex", arguments.latex}, {"--report", arguments.report}};
+  std::vector<NamedPath> outputs = {{"--csv", arguments.csv},
+                                    {"--latex", arguments.latex},
+                                    {"--report", arguments.report},
+                                    {"--evo-results", arguments.evo_results}};
   for (const PlotFile& file : plot_files(arguments)) outputs.push_back({"--plot", file.path});
   for (const NamedPath& output : outputs)
     if (!output.path.empty()) require_free(output.path, arguments.force);
@@ -142,12 +148,45 @@ void check_outputs(const EvalArguments& arguments) {
   require(arguments.times.size() <= 2, "--times: one file for all, or two: ground truth, estimate");
 }
 
-void write_outputs(const EvalArguments& arguments, const EvalResult& result) {
+std::string last_name_of(const std::string& path) {
+  const fs::path whole = path;
+  return (whole.has_filename() ? whole : whole.parent_path()).filename().string();
+}
+
+/// How figures look, and what lies under them.
+struct PlotLook {
+  FigureSettings settings;
+  std::optional<GroundPicture> ground;
+};
+
+/// Read before the work. Errors name the file.
+PlotLook plot_look_of(const EvalArguments& arguments) {
+  PlotLook look;
+  const std::string& path = arguments.plot_settings;
+  require(!arguments.plot.empty() || (path.empty() && arguments.map.empty()),
+          "--plot-settings, --map: there is no --plot to apply them to");
+  require(arguments.map_corners_m.empty() || !arguments.map.empty(),
+          "--map-corners: there is no --map to place");
+  if (!arguments.map.empty())
+    look.ground = read_ground_picture(arguments.map, arguments.map_corners_m);
+  if (path.empty()) return look;
+  read_options(path, look.settings, option_notes());
+  try {
+    look.settings.check();
+  } catch (const ArgumentError& error) {
+    throw FileError(path, error.what());
+  }
+  return look;
+}
+
+void write_outputs(const EvalArguments& arguments, const EvalResult& result, const PlotLook& look) {
   const EvaluatedTruth truth = result.folders ? EvaluatedTruth::kOwn : EvaluatedTruth::kShared;
   std::vector<std::pair<std::string, std::string>> figures;  // before the first file is written
   const std::vector<PlotFile> files = plot_files(arguments);
   for (const PlotFile& file : files) try {
-      figures.emplace_back(file.path, to_svg(figure_of(result.results, truth, file.kind)));
+      figures.emplace_back(
+          file.path, to_svg(with_settings(figure_of(result.results, truth, file.kind, look.ground),
+                                          look.settings)));
     } catch (const ArgumentError& error) {
       if (files.size() == 1) throw;
       warn(fmt::format("{} is not drawn: {}", file.path, error.what()));
@@ -155,6 +194,9 @@ void write_outputs(const EvalArguments& arguments, const EvalResult& result) {
   if (!arguments.csv.empty()) write_file(arguments.csv, to_csv(result.results));
   if (!arguments.latex.empty()) write_file(arguments.latex, to_latex(result.results));
   for (const auto& [path, svg] : figures) write_plot(path, svg);
+  if (!arguments.evo_results.empty())
+    write_evo_result(arguments.evo_results,
+                     evo_result_of(result.results.front(), last_name_of(arguments.truth)));
 }
 
 /// The number on one side of the colon of a span; `missing` if there is none.
@@ -240,10 +282,13 @@ EvalResult eval(const EvalArguments& arguments) {
   const EvaluationOptions options = options_of(arguments);
   require(!arguments.estimates.empty(), "EST: no estimate is given");
   check_outputs(arguments);
+  const PlotLook look = plot_look_of(arguments);
   EvalResult result;
   const std::string& first = arguments.estimates.front();
   result.folders = fs::is_directory(first) && !is_run_folder(first);
   const std::vector<EvaluatedFiles> all = files_of(arguments);
+  require(arguments.evo_results.empty() || all.size() == 1,
+          "--evo-results: an archive of evo holds one estimate");
   const bool compared = !result.folders && all.size() > 1;
   std::vector<PairingResult> paired;
   std::vector<std::string> names;
@@ -258,7 +303,7 @@ EvalResult eval(const EvalArguments& arguments) {
   if (result.common.needed)
     warn("the estimates are of different frames: compare them by the figures of the frames that "
          "all have");
-  if (!result.refused()) write_outputs(arguments, result);
+  if (!result.refused()) write_outputs(arguments, result, look);
   return result;
 }
 

@@ -33,8 +33,12 @@ struct EvalArguments {
   /// Kinds of figures for `plot`, of evaluation_plot_names(); several go to files of their own, of
   /// which the names end in _KIND.
   std::vector<std::string> plot_kinds = {"overview"};
-  std::string report;  ///< page that the caller writes; empty: none
-  bool force = false;  ///< overwrite them
+  std::string plot_settings;  ///< YAML of FigureSettings; empty: the figures' own look
+  std::string map;            ///< under the overview, see read_ground_picture(); empty: none
+  std::vector<double> map_corners_m;  ///< of `map`: lower left x, y, upper right x, y; empty: none
+  std::string evo_results;            ///< archive of evo to write; empty: none
+  std::string report;                 ///< page that the caller writes; empty: none
+  bool force = false;                 ///< overwrite them
 };
 
 struct EvalResult {

@@ -24,6 +24,7 @@ constexpr std::pair<std::string_view, std::string_view> kPages[] = {
     {"config", "options.md"},
     {"eval labels", "scene.md"},
     {"eval loops", "evaluation.md#loops"},
+    {"eval table", "evaluation.md#tables"},
     {"eval edges", "evaluation.md#edges"},
     {"eval info", "evaluation.md#a-trajectory-without-truth"},
     {"eval noise", "evaluation.md#noise-of-the-truth"},

@@ -37,6 +37,7 @@ void make_equal(FigurePanel& panel) {
       std::max({panel.x.range.size() / panel.size[0], panel.y.range.size() / panel.size[1], 1e-12});
   panel.x.range = resized(panel.x.range, unit_per_px * panel.size[0]);
   panel.y.range = resized(panel.y.range, unit_per_px * panel.size[1]);
+  panel.equal = true;
 }
 
 std::string to_svg(const Figure& figure, double detail) {
@@ -49,11 +50,13 @@ std::string to_svg(const Figure& figure, double detail) {
         "thinned: what is left out lies within {:.0f} px of what is drawn", std::ceil(most_px)));
   for (const std::string& note : written)
     for (std::string& line : wrapped(note, kTextPx, room)) notes.push_back(std::move(line));
-  const Legend legend(figure.legend, room);
+  const bool top = figure.legend_place == LegendPlace::kTop;
+  const Legend legend(
+      figure.legend_place == LegendPlace::kNone ? std::vector<LegendEntry>() : figure.legend, room);
   const double above = 12 + kTitleLine * static_cast<double>(title.size()) +
                        kNoteLine * static_cast<double>(notes.size()),
                legend_px = legend.height_px() > 0 ? legend.height_px() + 10 : 0;
-  SvgCanvas canvas(figure.width_px, above + legend_px + figure.height_px);
+  SvgCanvas canvas(figure.width_px, above + legend_px + figure.height_px, figure.scale);
   double y = 12;
   for (const std::string& line : title) {
     canvas.text({kSide, y + 0.75 * kTitleLine}, line, kTitlePx, kInk, TextAnchor::kLeft);
@@ -63,9 +66,9 @@ std::string to_svg(const Figure& figure, double detail) {
     canvas.text({kSide, y + 0.75 * kNoteLine}, line, kTextPx, kFaint, TextAnchor::kLeft);
     y += kNoteLine;
   }
-  legend.draw(canvas, {kSide, above + 6});
+  legend.draw(canvas, {kSide, above + (top ? 6 : figure.height_px)});
   for (std::size_t i = 0; i < figure.panels.size(); ++i)
-    draw_panel(canvas, figure.panels[i], {0, above + legend_px}, tolerances_px[i]);
+    draw_panel(canvas, figure.panels[i], {0, above + (top ? legend_px : 0)}, tolerances_px[i]);
   return canvas.finish();
 }
 

@@ -52,6 +52,7 @@ struct LegendEntry {
   std::string text;                     ///< what the mark means
   Stroke stroke;                        ///< its colour and width
   LegendMark mark = LegendMark::kLine;  ///< what is drawn before the text
+  std::string series = {};              ///< the curve it is of, see FigureLine
 };
 
 /// A colour for a share from 0 (dark blue) to 1 (yellow).
@@ -63,6 +64,8 @@ struct FigureLine {
   std::vector<std::optional<Eigen::Vector2d>> points;  ///< nothing: a gap
   Stroke stroke;                                       ///< how it is drawn
   std::vector<double> shares;  ///< for scale_colour(), at each point; empty: the stroke's colour
+  /// Name of the estimate or truth that it shows, by which settings find it; empty: of none.
+  std::string series = {};
 };
 
 /// Discs at points in the coordinates of a panel.
@@ -71,6 +74,7 @@ struct FigureDots {
   double radius_px = 2.5;               ///< their radius [px]
   Colour fill = {255, 255, 255};        ///< colour of the inside
   Colour edge;                          ///< colour of the edge
+  std::string series = {};              ///< as of a line
 };
 
 /// Filled rings; what lies in a ring within another one is a hole.
@@ -78,6 +82,17 @@ struct FigureArea {
   std::vector<std::vector<Eigen::Vector2d>> rings;  ///< in the coordinates of the panel
   Colour fill;                                      ///< colour of the inside
   double opacity = 1;                               ///< from 0, nothing is seen, to 1
+  std::string series = {};                          ///< as of a line
+};
+
+/// A picture, each pixel a parallelogram in the coordinates of the panel.
+struct FigurePicture {
+  std::string source;      ///< "data:image/png;base64,..."
+  Eigen::Vector2d pixels;  ///< columns and rows
+  Eigen::Vector2d corner;  ///< outer corner of the first pixel of the first row
+  Eigen::Vector2d right;   ///< from a pixel to its right neighbour
+  Eigen::Vector2d down;    ///< from a pixel to the one below it
+  double opacity = 1;      ///< from 0, nothing is seen, to 1
 };
 
 /// A text around a point, white behind it.
@@ -87,7 +102,7 @@ struct FigureText {
 };
 
 /// What a panel shows.
-using FigureShape = std::variant<FigureLine, FigureDots, FigureArea, FigureText>;
+using FigureShape = std::variant<FigureLine, FigureDots, FigureArea, FigureText, FigurePicture>;
 
 /// An axis of a panel.
 struct FigureAxis {
@@ -117,19 +132,30 @@ struct FigurePanel {
   /// Texts beside points where there is room, the first ones first.
   std::vector<FigureText> labels;
   std::optional<FigureScale> scale;  ///< the bar of colours at its right
+  bool grid = true;                  ///< whether lines cross it at the numbers of its axes
+  bool equal = false;                ///< whether both axes have one scale: make_equal()
+};
+
+/// Where a legend stands.
+enum class LegendPlace {
+  kTop,     ///< above the panels
+  kBottom,  ///< below them
+  kNone     ///< nowhere
 };
 
 /// A title, notes, a legend, and an area with panels.
 struct Figure {
-  std::string title;                ///< first line
-  std::vector<std::string> notes;   ///< lines below the title
-  std::vector<LegendEntry> legend;  ///< what the marks mean
-  double width_px = 0;              ///< width of the area
-  double height_px = 0;             ///< height of the area
-  std::vector<FigurePanel> panels;  ///< in the area
+  std::string title;                             ///< first line
+  std::vector<std::string> notes;                ///< lines below the title
+  std::vector<LegendEntry> legend;               ///< what the marks mean
+  double width_px = 0;                           ///< width of the area
+  double height_px = 0;                          ///< height of the area
+  std::vector<FigurePanel> panels;               ///< in the area
+  LegendPlace legend_place = LegendPlace::kTop;  ///< where the legend stands
+  double scale = 1;  ///< pixels of the picture for each of the lengths above, texts and strokes too
 };
 
-/// Makes the scale of both axes equal by widening the range of one.
+/// Makes the scale of both axes equal by widening the range of one, and marks the panel so.
 void make_equal(FigurePanel& panel);
 
 /// The picture as SVG text. It is as wide as the area, and higher by title, notes and legend.
@@ -139,4 +165,4 @@ void make_equal(FigurePanel& panel);
 /// `detail`: share of these bytes, above 0, for a picture that is one of several.
 std::string to_svg(const Figure& figure, double detail = 1);
 
-}  // namespace placegraph
+}  // namespace gnu::visibility("default")]]placegraph

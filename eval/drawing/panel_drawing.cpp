@@ -23,11 +23,11 @@ AxisTicks ticks_of(const FigureAxis& axis, double size_px, double room_px) {
   return linear_ticks(axis.range, std::clamp(static_cast<int>(size_px / room_px), 3, kMost));
 }
 
-void draw_x_axis(SvgCanvas& canvas, const FigureAxis& axis, const PanelView& view) {
+void draw_x_axis(SvgCanvas& canvas, const FigureAxis& axis, const PanelView& view, bool grid) {
   const AxisTicks ticks = ticks_of(axis, view.size[0], 64);
   for (const AxisTick& tick : ticks.ticks) {
     const double at = view({tick.at, view.y.min})[0];
-    canvas.line({{at, view.corner[1]}, {at, view.bottom()}}, {kGrid});
+    if (grid) canvas.line({{at, view.corner[1]}, {at, view.bottom()}}, {kGrid});
     canvas.line({{at, view.bottom()}, {at, view.bottom() + 5}}, {kFrame});
     canvas.text({at, view.bottom() + 20}, tick.text, kTickPx, kInk, TextAnchor::kMiddle);
   }
@@ -43,12 +43,12 @@ void draw_categories(SvgCanvas& canvas, const FigureAxis& axis, const PanelView&
                 TextAnchor::kRight);
 }
 
-void draw_y_axis(SvgCanvas& canvas, const FigureAxis& axis, const PanelView& view) {
+void draw_y_axis(SvgCanvas& canvas, const FigureAxis& axis, const PanelView& view, bool grid) {
   const AxisTicks ticks = ticks_of(axis, view.size[1], 46);
   double width = 0;
   for (const AxisTick& tick : ticks.ticks) {
     const double at = view({view.x.min, tick.at})[1];
-    canvas.line({{view.corner[0], at}, {view.right(), at}}, {kGrid});
+    if (grid) canvas.line({{view.corner[0], at}, {view.right(), at}}, {kGrid});
     canvas.line({{view.corner[0] - 5, at}, {view.corner[0], at}}, {kFrame});
     canvas.text({view.corner[0] - 9, at + 5}, tick.text, kTickPx, kInk, TextAnchor::kRight);
     width = std::max(width, text_width(tick.text, kTickPx));
@@ -85,6 +85,13 @@ void draw(SvgCanvas& canvas, const FigureArea& area, const PanelView& view, doub
   for (std::vector<Vector2d>& ring : rings)
     for (Vector2d& p : ring) p = view(p);
   canvas.area(rings, area.fill, area.opacity);
+}
+
+void draw(SvgCanvas& canvas, const FigurePicture& picture, const PanelView& view, double) {
+  const Vector2d corner = view(picture.corner);
+  canvas.picture(picture.source, picture.pixels, corner,
+                 view(picture.corner + picture.right) - corner,
+                 view(picture.corner + picture.down) - corner, picture.opacity);
 }
 
 /// In several lines if it contains line breaks.
@@ -169,9 +176,9 @@ void draw_panel(SvgCanvas& canvas, const FigurePanel& panel, const Vector2d& ori
   canvas.text(view.corner + Vector2d(0, -11),
               fitted(panel.heading, kHeadingPx, view.size[0] + kRightMargin - 6), kHeadingPx, kInk,
               TextAnchor::kLeft);
-  draw_x_axis(canvas, panel.x, view);
+  draw_x_axis(canvas, panel.x, view, panel.grid);
   if (panel.y.categories.empty())
-    draw_y_axis(canvas, panel.y, view);
+    draw_y_axis(canvas, panel.y, view, panel.grid);
   else
     draw_categories(canvas, panel.y, view);
   canvas.begin_clip(view.corner, view.size);

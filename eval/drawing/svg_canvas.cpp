@@ -67,12 +67,12 @@ std::string path_in_tenths(const std::vector<std::vector<Vector2d>>& lines) {
   return path;
 }
 
-SvgCanvas::SvgCanvas(double width_px, double height_px)
+SvgCanvas::SvgCanvas(double width_px, double height_px, double scale)
     : out_(fmt::format(
-          "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" "
+          "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{2:.0f}\" height=\"{3:.0f}\" "
           "viewBox=\"0 0 {0:.0f} {1:.0f}\" font-family=\"DejaVu Sans, Verdana, Helvetica, Arial, "
           "sans-serif\">\n<rect width=\"{0:.0f}\" height=\"{1:.0f}\" fill=\"#ffffff\"/>\n",
-          width_px, height_px)) {}
+          width_px, height_px, scale * width_px, scale * height_px)) {}
 
 void SvgCanvas::line(const std::vector<Vector2d>& points, const Stroke& stroke) {
   if (const std::string path = points_of(points); !path.empty())
@@ -135,6 +135,17 @@ void SvgCanvas::text(const Vector2d& at, const std::string& text, double size_px
   out_ += '>';
   out_ += xml_text(text);
   out_ += "</text>\n";
+}
+
+void SvgCanvas::picture(const std::string& source, const Vector2d& pixels, const Vector2d& corner,
+                        const Vector2d& right, const Vector2d& down, double opacity) {
+  if (!corner.allFinite() || !right.allFinite() || !down.allFinite()) return;
+  out_ += fmt::format(
+      "<image width=\"{:.0f}\" height=\"{:.0f}\" preserveAspectRatio=\"none\" "
+      "opacity=\"{:.3g}\" transform=\"matrix({:.8g} {:.8g} {:.8g} {:.8g} {:.3f} {:.3f})\" "
+      "href=\"{}\"/>\n",
+      pixels[0], pixels[1], opacity, right[0], right[1], down[0], down[1], corner[0], corner[1],
+      source);
 }
 
 void SvgCanvas::begin_clip(const Vector2d& corner, const Vector2d& size) {

@@ -17,7 +17,8 @@ std::string path_in_tenths(const std::vector<std::vector<Eigen::Vector2d>>& line
 /// Coordinates in pixels, y down; the ground is white. Points that are not finite are left out.
 class SvgCanvas {
  public:
-  SvgCanvas(double width_px, double height_px);
+  /// `scale`: pixels of the picture for each of the lengths that the calls name.
+  SvgCanvas(double width_px, double height_px, double scale = 1);
   void line(const std::vector<Eigen::Vector2d>& points, const Stroke& stroke);
   /// Several lines in one stroke, which is nowhere less transparent where they overlap, in
   /// coordinates that take few bytes.
@@ -34,6 +35,11 @@ class SvgCanvas {
   /// `at` is on the baseline; `size_px` is the height of the font. A rotated text reads upwards.
   void text(const Eigen::Vector2d& at, const std::string& text, double size_px, Colour colour,
             TextAnchor anchor, bool rotated = false);
+  /// A picture of `pixels` columns and rows: its outer corner, and the steps to the pixel at the
+  /// right and to the one below. `source` is a data URI.
+  void picture(const std::string& source, const Eigen::Vector2d& pixels,
+               const Eigen::Vector2d& corner, const Eigen::Vector2d& right,
+               const Eigen::Vector2d& down, double opacity);
   /// Strokes between these two calls are clipped to the rectangle.
   void begin_clip(const Eigen::Vector2d& corner, const Eigen::Vector2d& size);
   void end_clip();

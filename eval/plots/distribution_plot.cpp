@@ -37,6 +37,19 @@ FigureLine stroke_from(const Vector2d& a, const Vector2d& b, Colour colour, doub
   return {{a, b}, {colour, width_px}, {}};
 }
 
+/// Names the sample in those of its shapes that have its colour.
+void name_series(const std::string& name, Colour colour, std::size_t first,
+                 std::vector<FigureShape>& shapes) {
+  for (std::size_t i = first; i < shapes.size(); ++i) {
+    if (auto* line = std::get_if<FigureLine>(&shapes[i]); line && line->stroke.colour == colour)
+      line->series = name;
+    if (auto* dots = std::get_if<FigureDots>(&shapes[i]); dots && dots->edge == colour)
+      dots->series = name;
+    if (auto* area = std::get_if<FigureArea>(&shapes[i]); area && area->fill == colour)
+      area->series = name;
+  }
+}
+
 /// A row for every sample, and shapes in it.
 template <typename Draw>
 void draw_rows(const std::vector<Sample>& samples, const std::string& label, const Draw& draw,
@@ -51,7 +64,9 @@ void draw_rows(const std::vector<Sample>& samples, const std::string& label, con
     values.add(sorted.back());
     panel.y.categories.push_back(fitted(samples[i].name, kTickPx, kMostName_px));
     name_px = std::max(name_px, text_width(panel.y.categories.back(), kTickPx));
+    const std::size_t first = panel.shapes.size();
     draw(sorted, static_cast<double>(i), curve_stroke(i).colour, panel.shapes);
+    name_series(samples[i].name, curve_stroke(i).colour, first, panel.shapes);
   }
   panel.x = {label, {0, std::max(1.04 * values.max, kLeastError)}, false, {}};
   const double rows = static_cast<double>(samples.size());

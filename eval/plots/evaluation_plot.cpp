@@ -37,6 +37,8 @@ void add_curves(const EvaluationResult& r, const std::string& name, bool with_tr
     curve.positions_m.back() = pair.T_world_estimate->translation();
     error.error_m.back() = (pair.T_world_estimate->translation() - true_m).norm();
   }
+  truth.series = "ground truth";
+  curve.series = plot_name(r.name);
   if (with_truth) plot.curves.push_back(std::move(truth));
   plot.curves.push_back(std::move(curve));
   plot.errors.push_back(std::move(error));
@@ -143,12 +145,18 @@ Plot plot_of(const std::vector<EvaluationResult>& results) {
 }
 
 Figure figure_of(const std::vector<EvaluationResult>& results, EvaluatedTruth truth,
-                 EvaluationPlot kind) {
+                 EvaluationPlot kind, const std::optional<GroundPicture>& ground) {
   const std::vector<EvaluationResult> good = drawable(results);
   require(!good.empty(), "plot: no estimate was evaluated");
   const bool several = truth == EvaluatedTruth::kOwn && good.size() > 1;
-  if (kind == EvaluationPlot::kOverview)
-    return several ? sequences_figure(good) : figure_of(plot_of(good));
+  require(!ground || (kind == EvaluationPlot::kOverview && !several),
+          "plot: a map is drawn under the overview of one sequence");
+  if (kind == EvaluationPlot::kOverview) {
+    if (several) return sequences_figure(good);
+    Plot plot = plot_of(good);
+    plot.ground = ground;
+    return figure_of(plot);
+  }
   Figure figure;
   figure.title = title_of(kind);
   figure.notes = {alignment_text(good.front().protocol.alignment)};

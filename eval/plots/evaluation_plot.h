@@ -1,7 +1,9 @@
 #pragma once
 #include <placegraph/eval/drawing/figure.h>
 #include <placegraph/eval/trajectory/result.h>
+#include <placegraph/graph/image/ground_picture.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,11 +32,13 @@ enum class EvaluatedTruth {
 
 /// A figure of the results that did not fail, of which the notes name the alignment.
 /// Several sequences have a panel each in the overview. Throws ArgumentError for kXyz and kRpy of
-/// several sequences, which have no time in common, and if there is nothing to draw.
+/// several sequences, which have no time in common, and if there is nothing to draw. `ground`, in
+/// the frame of the truth, stands under the view from above of the overview of one sequence;
+/// ArgumentError for other figures, and if that view does not show x and y, or nothing of it.
 Figure figure_of(const std::vector<EvaluationResult>& results, EvaluatedTruth truth,
-                 EvaluationPlot kind);
+                 EvaluationPlot kind, const std::optional<GroundPicture>& ground = {});
 
 /// How the positions were aligned, in words.
 std::string alignment_text(Alignment alignment);
 
-}  // namespace placegraph
+}  // namespace gnu::visibility("default")]]placegraph

@@ -59,6 +59,10 @@ void unwrap(Series& series, const Series& reference) {
       (*series[i])[1] += 360 * std::round(((*reference[i])[1] - (*series[i])[1]) / 360);
 }
 
+LegendEntry series_entry(const std::string& name, const Stroke& stroke) {
+  return {name, stroke, LegendMark::kLine, name};
+}
+
 /// Three values of a pose, and how they are drawn.
 struct PoseValues {
   const char* labels[3];
@@ -98,17 +102,18 @@ void draw_over_time(const std::vector<EvaluationResult>& results, const PoseValu
   }
   const Stroke truth_stroke{kReference, 4};
   for (int row = 0; row < 3; ++row) {
-    std::vector<FigureShape> lines = {FigureLine{{}, truth_stroke, {}}};
+    std::vector<FigureShape> lines = {FigureLine{{}, truth_stroke, {}, "ground truth"}};
     for (std::size_t r = 0; r < results.size(); ++r) {
       auto [truth, estimate] = series_of(results[r], timed, begin_ns, values, row);
       if (r == longest) std::get<FigureLine>(lines.front()).points = std::move(truth);
-      lines.emplace_back(FigureLine{std::move(estimate), curve_stroke(r), {}});
+      lines.emplace_back(
+          FigureLine{std::move(estimate), curve_stroke(r), {}, plot_name(results[r].name)});
     }
     add_panel(x, values.labels[row], std::move(lines), false, figure);
   }
-  figure.legend.push_back({"ground truth", truth_stroke});
+  figure.legend.push_back({"ground truth", truth_stroke, LegendMark::kLine, "ground truth"});
   for (std::size_t r = 0; r < results.size(); ++r)
-    figure.legend.push_back({plot_name(results[r].name), curve_stroke(r)});
+    figure.legend.push_back(series_entry(plot_name(results[r].name), curve_stroke(r)));
 }
 
 /// Angles about x, y and z, R = Rz(yaw) Ry(pitch) Rx(roll) [deg].
@@ -160,9 +165,10 @@ void draw_relative_errors(const std::vector<EvaluationResult>& results, Figure& 
       translation.back() = Vector2d(at, error.topRightCorner<3, 1>().norm());
       rotation.back() = Vector2d(at, rad_to_deg(rotation_angle(error.topLeftCorner<3, 3>())));
     }
-    translations.emplace_back(FigureLine{std::move(translation), stroke, {}});
-    rotations.emplace_back(FigureLine{std::move(rotation), stroke, {}});
-    figure.legend.push_back({plot_name(results[r].name), curve_stroke(r)});
+    translations.emplace_back(
+        FigureLine{std::move(translation), stroke, {}, plot_name(results[r].name)});
+    rotations.emplace_back(FigureLine{std::move(rotation), stroke, {}, plot_name(results[r].name)});
+    figure.legend.push_back(series_entry(plot_name(results[r].name), curve_stroke(r)));
   }
   const FigureAxis x{"distance travelled [m]", {}, false, {}};
   add_panel(x, "translation [m]", std::move(translations), true, figure);
@@ -174,8 +180,10 @@ void draw_lengths(const std::vector<EvaluationResult>& results, Figure& figure) 
   bool any = false;
   for (std::size_t r = 0; r < results.size(); ++r) {
     const Stroke stroke = curve_stroke(r);
-    FigureLine translation{{}, stroke, {}}, rotation{{}, stroke, {}};
-    FigureDots marks[2] = {{{}, 4, kWhite, stroke.colour}, {{}, 4, kWhite, stroke.colour}};
+    const std::string name = plot_name(results[r].name);
+    FigureLine translation{{}, stroke, {}, name}, rotation{{}, stroke, {}, name};
+    FigureDots marks[2] = {{{}, 4, kWhite, stroke.colour, name},
+                           {{}, 4, kWhite, stroke.colour, name}};
     for (const SegmentGroup& group : results[r].segments.by_length) {
       marks[0].points.emplace_back(group.from, group.t_percent);
       marks[1].points.emplace_back(group.from, group.r_deg_per_100m);
@@ -187,7 +195,7 @@ void draw_lengths(const std::vector<EvaluationResult>& results, Figure& figure) 
     translations.emplace_back(std::move(marks[0]));
     rotations.emplace_back(std::move(rotation));
     rotations.emplace_back(std::move(marks[1]));
-    figure.legend.push_back({plot_name(results[r].name), stroke});
+    figure.legend.push_back(series_entry(name, stroke));
   }
   require(any, "plot of lengths: no path is as long as a segment (--lengths chooses others)");
   const FigureAxis x{"length of the segments [m]", {}, false, {}};

@@ -17,7 +17,7 @@ std::vector<LegendEntry> legend_of(const Plot& plot) {
   const std::vector<Stroke> strokes = curve_strokes(plot);
   for (std::size_t i = 0; i < plot.curves.size(); ++i) {
     const PlotCurve& curve = plot.curves[i];
-    LegendEntry entry{curve.name, strokes[i], LegendMark::kLine};
+    LegendEntry entry{curve.name, strokes[i], LegendMark::kLine, curve.series};
     if (!curve.error_m.empty()) entry.mark = LegendMark::kScale;
     if (std::ranges::none_of(legend, [&](const auto& e) { return e.text == entry.text; }))
       legend.push_back(std::move(entry));
@@ -40,14 +40,19 @@ std::vector<LegendEntry> legend_of(const Plot& plot) {
 
 FigurePanel error_panel(const Plot& plot, bool over_time) {
   std::vector<Stroke> strokes;
+  std::vector<std::string> series;
   for (std::size_t i = 0; i < plot.curves.size(); ++i)
-    if (!plot.curves[i].reference) strokes.push_back(curve_strokes(plot)[i]);
+    if (!plot.curves[i].reference) {
+      strokes.push_back(curve_strokes(plot)[i]);
+      series.push_back(plot.curves[i].series);
+    }
   FigurePanel panel;
   Interval along, errors;
   along.add(0);
   for (const PlotError& error : plot.errors) {
     const std::vector<double>& at = over_time ? error.time_s : error.distance_m;
-    FigureLine line{{}, strokes.at(static_cast<std::size_t>(error.estimate)), {}};
+    const auto estimate = static_cast<std::size_t>(error.estimate);
+    FigureLine line{{}, strokes.at(estimate), {}, series[estimate]};
     line.stroke.width_px = 1.6;
     for (std::size_t i = 0; i < at.size(); ++i) {
       along.add(at[i]);
@@ -99,6 +104,7 @@ Figure figure_of(const Plot& plot) {
   Figure figure;
   figure.title = plot.title;
   figure.notes = plot.notes;
+  if (plot.ground) figure.notes.push_back("map below: " + plot.ground->name);
   figure.legend = legend_of(plot);
   constexpr double kLeastWidth_px = 640;
   const Vector2d most_px = plot.errors.empty() ? Vector2d(900, 640) : Vector2d(760, 600);

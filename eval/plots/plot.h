@@ -1,6 +1,7 @@
 #pragma once
 #include <placegraph/eval/drawing/figure.h>
 #include <placegraph/eval/trajectory/result.h>
+#include <placegraph/graph/image/ground_picture.h>
 
 #include <Eigen/Core>
 #include <optional>
@@ -18,6 +19,7 @@ struct PlotCurve {
   double width_px = 2;
   /// Error at each position [m], 0 where there is none, which then colours the line; may be empty.
   std::vector<double> error_m = {};
+  std::string series = {};  ///< as FigureLine::series
 };
 
 /// A position error over the distance travelled and over time, drawn in the colour of the estimate
@@ -41,14 +43,17 @@ struct Plot {
   std::vector<Eigen::Vector3d> places_m;  ///< nodes of the map
   /// Names of the places, written where there is room, the first ones first; empty: none.
   std::vector<std::string> place_names;
-  PlotLinks links_m;           ///< loop closures
-  PlotLinks rejected_links_m;  ///< false ones
+  PlotLinks links_m;                    ///< loop closures
+  PlotLinks rejected_links_m;           ///< false ones
+  std::optional<GroundPicture> ground;  ///< under the view from above
 };
 
 /// Views from above and from the side, and beside them the errors, if there are any.
 /// The view from above shows the two axes of largest extent of the first reference (else of the
 /// first curve) in equal scale. The view from the side shows the third axis, stretched if it is
 /// small, and shares the longer axis of the other view. There is none if all lies in a plane.
+/// Throws ArgumentError if there is a picture of the ground, and the view from above does not show
+/// x and y, or nothing of the picture.
 Figure figure_of(const Plot& plot);
 std::string to_svg(const Plot& plot);
 

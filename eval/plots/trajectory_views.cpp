@@ -2,6 +2,7 @@
 #include <placegraph/eval/drawing/plot_axis.h>
 #include <placegraph/eval/drawing/plot_style.h>
 #include <placegraph/eval/plots/trajectory_views.h>
+#include <placegraph/graph/core/error.h>
 
 #include <algorithm>
 #include <array>
@@ -72,7 +73,7 @@ std::vector<FigureShape> shapes_of(const Plot& plot,
     for (std::size_t i = 0; i < plot.curves.size(); ++i) {
       const PlotCurve& curve = plot.curves[i];
       if (curve.reference != reference) continue;
-      FigureLine line{{}, strokes[i], {}};
+      FigureLine line{{}, strokes[i], {}, curve.series};
       for (const auto& p : curve.positions_m)
         line.points.push_back(p ? std::optional<Vector2d>(seen(*p)) : std::nullopt);
       for (const double error : curve.error_m) line.shares.push_back(error / most_error_m);
@@ -112,6 +113,32 @@ FigurePanel panel_of(const Plot& plot, int horizontal, int vertical) {
   return panel;
 }
 
+/// Puts the picture of the ground below what the panel shows, whose ranges stay.
+void add_ground(const Plot& plot, int horizontal, int vertical, FigurePanel& panel) {
+  if (!plot.ground) return;
+  const GroundPicture& ground = *plot.ground;
+  require(horizontal == 0 && vertical == 1,
+          fmt::format("{}: is a map of x and y, and the view from above shows {} and {}",
+                      ground.name, "xyz"[horizontal], "xyz"[vertical]));
+  Interval x, y;
+  for (const int right : {0, ground.columns})
+    for (const int down : {0, ground.rows}) {
+      const Vector2d corner = ground.corner_m + right * ground.right_m + down * ground.down_m;
+      x.add(corner[0]);
+      y.add(corner[1]);
+    }
+  const bool meets = x.min < panel.x.range.max && x.max > panel.x.range.min &&
+                     y.min < panel.y.range.max && y.max > panel.y.range.min;
+  require(meets,
+          fmt::format("{}: covers x {:.6g} to {:.6g} and y {:.6g} to {:.6g}, and the drive lies "
+                      "elsewhere: is it in another frame?",
+                      ground.name, x.min, x.max, y.min, y.max));
+  constexpr double kOpacity = 0.6;  // chosen: curves stand out from it
+  panel.shapes.insert(panel.shapes.begin(),
+                      FigurePicture{ground.source, Vector2d(ground.columns, ground.rows),
+                                    ground.corner_m, ground.right_m, ground.down_m, kOpacity});
+}
+
 /// The size of a panel of this content in equal scale: as large as allowed, no side too short.
 Vector2d size_of(const FigurePanel& panel, const Vector2d& most_px) {
   const Vector2d content(panel.x.range.size(), panel.y.range.size());
@@ -149,6 +176,7 @@ FigurePanel view_from_above(const Plot& plot, const Vector2d& size_px) {
   FigurePanel panel = panel_of(plot, horizontal, vertical);
   panel.size = size_px;
   make_equal(panel);
+  add_ground(plot, horizontal, vertical, panel);
   return panel;
 }
 
@@ -161,6 +189,7 @@ TrajectoryViews trajectory_views(const Plot& plot, const Vector2d& most_px) {
   above.size = size_of(above, most_px);
   above.corner = {kLeftMargin, kTopMargin};
   make_equal(above);
+  add_ground(plot, horizontal, vertical, above);
   const double right = above.scale ? kBarMargin : kRightMargin;
   views.width_px = kLeftMargin + above.size[0] + right;
   views.height_px = kTopMargin + above.size[1] + kBottomMargin;

@@ -22,6 +22,8 @@ from ._core import (
     Distortion,
     Doubt,
     Error,
+    EvoResult,
+    FigureTable,
     FileError,
     Frame,
     FrameResult,
@@ -54,12 +56,13 @@ from ._core import (
     filter_steps,
     fit_mount,
     merge_trajectories,
+    read_evo_result,
 )
 from ._info import trajectory_info
 from ._progress import Progress
 from ._show import page_of, show
 from .datasets import Dataset, open_dataset
-from .evaluation import Comparison, Evaluation, compare, evaluate
+from .evaluation import Comparison, Evaluation, compare, evaluate, figure_table
 from .factor_graph import (
     SE2,
     SO3,
@@ -143,11 +146,13 @@ __all__ = [
     "Evaluation",
     "EvaluationOptions",
     "Event",
+    "EvoResult",
     "Explanation",
     "Factor",
     "FactorGraph",
     "FactorGraphOptions",
     "FactorGraphReport",
+    "FigureTable",
     "FileError",
     "FixedLagSmoother",
     "Frame",
@@ -212,6 +217,7 @@ __all__ = [
     "evaluate",
     "evaluate_kitti",
     "filter_steps",
+    "figure_table",
     "fit_mount",
     "from_networkx",
     "localizer_options",
@@ -222,6 +228,7 @@ __all__ = [
     "optimize",
     "optimize_factors",
     "page_of",
+    "read_evo_result",
     "run",
     "show",
     "synthetic",

@@ -178,6 +178,13 @@ class Evaluation:
         """Mean errors of the segments in each interval of speed [m/s]."""
         return table_of(self._core.speed_table())
 
+    def save_for_evo(self, path: Path, reference: str = "reference") -> None:
+        """Writes the position errors as a result archive of evo (.zip), as `evo_ape` does.
+
+        `reference` is the name of the ground truth in it. NoResult: there are no figures.
+        """
+        _core.write_evaluation_for_evo(os.fspath(path), self._core, reference)
+
     def picture(self, kind: str = "overview") -> _core.Figure:
         """The picture that `placegraph eval --plot-kind` draws; `to_svg()` is its text."""
         return _core.evaluation_figure([self._core], kind)
@@ -450,3 +457,24 @@ def _compared(results: Sequence[Evaluation], own_truths: bool,
         warnings.warn("the estimates are of different frames: compare them by `common`",
                       _core.Doubt, stacklevel=3)
     return Comparison(results, own_truths, common)
+
+
+
+def figure_table(
+    systems: Mapping[str, Comparison | Evaluation],
+    figures: Sequence[str] = ("ate_rmse_m",),
+    *,
+    rows: str = "sequences",
+) -> _core.FigureTable:
+    """A table of figures of systems on sequences, as `placegraph eval table` makes it.
+
+    `systems`: by their names, comparisons of a folder of sequences, or evaluations of one.
+    `figures`: keys as "ate_rmse_m". `rows`: 'sequences' or 'systems'. Failures keep their cells,
+    and no mean leaves one out without saying so.
+    """
+    given = []
+    for name, results in systems.items():
+        each = [results] if isinstance(results, Evaluation) else list(results)
+        given.append((name, [(one.name if len(each) > 1 else "sequence", one._core)
+                             for one in each]))
+    return _core.table_of_systems(given, list(figures), rows)

@@ -60,6 +60,7 @@ NB_MODULE(_core, m) {
   bind_synthetic(m);
   bind_evaluation(m);
   bind_trajectory_info(m);
+  bind_tables(m);
   bind_edges(m);
   bind_kitti(m);
   bind_flow(m);

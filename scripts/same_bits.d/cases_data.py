@@ -35,6 +35,9 @@ CASES = [
     Case("bal", "published bundle adjustment", (
         "bundle {data}/bal/dubrovnik-3-7-pre.txt -o dubrovnik.txt --json",
         "bundle {data}/bal/problem-49-7776-pre.txt -o ladybug.txt --json")),
+    Case("golden_table", "published trajectories in one table", (
+        "eval table orb={data}/golden/KITTI_00_ORB.txt sptam={data}/golden/KITTI_00_SPTAM.txt --truth {data}/golden/KITTI_00_gt.txt "
+        "--rows systems --out t.txt,t.csv,t.tex,t.md,t.json,t.html",)),
     Case("golden", "published trajectories judged", (
         "eval {data}/golden/KITTI_00_gt.txt {data}/golden/KITTI_00_ORB.txt {data}/golden/KITTI_00_SPTAM.txt --align se3 --csv e.csv --latex e.tex --plot e.png",
         "eval {data}/golden/KITTI_00_gt.txt {data}/golden/KITTI_00_ORB.txt --align sim3 --json",

@@ -14,6 +14,7 @@ os.environ.setdefault("HOME", sys.argv[2])  # evo writes its settings there
 import gtsam
 import networkx
 import numpy
+from evo import main_ape
 from evo.core import metrics
 from evo.tools import file_interface
 from exports_dense import check_bundle, check_dense
@@ -72,6 +73,26 @@ def check_trajectories(placegraph):
     ape.process_data((truth, kitti))
     told = json.loads(placegraph("eval", "drive/poses.txt", "stereo/trajectory_optimized.kitti", "--align", "none", "--json"))
     check("evo's error is that of eval", close(ape.get_statistic(metrics.StatisticsType.rmse), told["ate_rmse_m"], 1e-6))
+
+
+def check_results_of_evo(placegraph):
+    """Archives of both directions: what eval writes is evo's own result, and what evo writes is tabled."""
+    pair = ("drive/poses.txt", "stereo/trajectory_optimized.kitti")
+    placegraph("eval", *pair, "--align", "se3", "--evo-results", "ours.zip")
+    ours = file_interface.load_res_file(placegraph.at("ours.zip"), load_trajectories=True)
+    truth, estimate = (file_interface.read_kitti_poses_file(placegraph.at(file)) for file in pair)
+    own = main_ape.ape(truth, estimate, metrics.PoseRelation.translation_part, align=True)
+    check("evo reads the statistics of --evo-results", all(close(ours.stats[name], value, 1e-6) for name, value in own.stats.items()), ours.stats)
+    check("evo reads the errors of --evo-results", numpy.allclose(ours.np_arrays["error_array"], own.np_arrays["error_array"], atol=1e-6))
+    check("title and label are evo's", all(ours.info[name] == own.info[name] for name in ("title", "label")), ours.info)
+    check("the alignment is evo's", numpy.allclose(ours.np_arrays["alignment_transformation_sim3"], own.np_arrays["alignment_transformation_sim3"], atol=1e-6))
+    check("evo reads both trajectories of --evo-results", sorted(each.num_poses for each in ours.trajectories.values()) == [FRAMES, FRAMES])
+    own.info["ref_name"], own.info["est_name"] = "gt/drive.kitti", "runs/stereo.kitti"
+    file_interface.save_res_file(placegraph.at("theirs.zip"), own)
+    table = json.loads(placegraph("eval", "table", "theirs.zip", "--figures", ",".join(f"ape_m_{name}" for name in own.stats), "--json"))
+    values = [cell["value"] for cell in table["rows"][0]["cells"]]
+    check("eval table has evo's statistics to the bit", values == list(own.stats.values()), values)
+    check("eval table has evo's names", table["rows"][0]["name"] == "drive" and table["caption"] == "stereo", table["rows"])
 
 
 def check_lost_frames(placegraph):
@@ -145,6 +166,7 @@ def main():
     write_runs(placegraph)
     check_trajectories(placegraph)
     check_evaluation(placegraph, check)
+    check_results_of_evo(placegraph)
     check_lost_frames(placegraph)
     check_graphs(placegraph)
     check_places(placegraph)

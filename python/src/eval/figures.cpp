@@ -77,6 +77,18 @@ Table row_of(const FigureText& text) {
   return row;
 }
 
+Table row_of(const FigurePicture& picture) {
+  Table row;
+  row["kind"] = "picture";
+  row["source"] = picture.source;
+  row["pixels"] = tuple_of(picture.pixels);
+  row["corner"] = tuple_of(picture.corner);
+  row["right"] = tuple_of(picture.right);
+  row["down"] = tuple_of(picture.down);
+  row["opacity"] = picture.opacity;
+  return row;
+}
+
 Table row_of(const FigureAxis& axis) {
   Table row;
   row["label"] = axis.label;

@@ -1,4 +1,4 @@
-#include "apps/eval/eval_kitti.h"
+#include "apps/eval/benchmarks/eval_kitti.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

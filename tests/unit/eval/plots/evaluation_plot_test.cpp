@@ -7,6 +7,7 @@
 #include <placegraph/graph/core/error.h>
 
 #include <cmath>
+#include <cstdio>
 
 #include "../drawing/svg_check.h"
 
@@ -160,6 +161,76 @@ TEST(Distributions, AViolinIsWidestWhereMostValuesAre) {
   const auto widest = std::ranges::min_element(ring, {}, [](const auto& p) { return p[1]; });
   EXPECT_NEAR((*widest)[0], 2, 0.2);
   test::expect_good_svg(to_svg(figure));
+}
+
+/// A drive in the plane of x and y, which a map of the ground shows.
+EvaluationResult level_result() {
+  Trajectory truth = drive(120, Eigen::Vector3d::Zero(), 0);
+  for (StampedPose& pose : truth.poses) {
+    const Eigen::Vector3d p = pose.T_world_body->translation();
+    pose.T_world_body->translation() = Eigen::Vector3d(p[0], p[2], p[1]);
+  }
+  return evaluate(truth, truth, {}, "ours");
+}
+
+GroundPicture ground() {
+  GroundPicture picture;
+  picture.name = "map.yaml";
+  picture.source = "data:image/png;base64,AAAA";
+  picture.columns = 4;
+  picture.rows = 2;
+  picture.corner_m = {-50, 100};
+  picture.right_m = {30, 0};
+  picture.down_m = {0, -60};
+  return picture;
+}
+
+TEST(EvaluationPlots, AMapLiesUnderTheViewFromAbove) {
+  const EvaluationResult result = level_result();
+  const Figure figure = figure_of({result}, EvaluatedTruth::kShared, EvaluationPlot::kOverview,
+                                  ground()),
+               without = figure_of({result}, EvaluatedTruth::kShared, EvaluationPlot::kOverview);
+  ASSERT_TRUE(std::holds_alternative<FigurePicture>(figure.panels[0].shapes.front()));
+  EXPECT_THAT(figure.notes, Contains("map below: map.yaml"));
+  // What the panel shows stays; the picture stands where its corners are.
+  EXPECT_EQ(figure.panels[0].x.range.min, without.panels[0].x.range.min);
+  for (std::size_t i = 1; i < figure.panels.size(); ++i)
+    for (const FigureShape& shape : figure.panels[i].shapes)
+      EXPECT_FALSE(std::holds_alternative<FigurePicture>(shape));
+  const std::string svg = to_svg(figure);
+  test::expect_good_svg(svg);
+  const std::size_t at = svg.find("<image ");
+  ASSERT_NE(at, std::string::npos);
+  EXPECT_LT(at, svg.find("<polyline", svg.find("<g clip-path")));
+  const std::string matrix = test::attribute(svg.substr(at, svg.find('>', at) - at), "transform");
+  double a = 0, b = 0, c = 0, d = 0, e = 0, f = 0;
+  ASSERT_EQ(std::sscanf(matrix.c_str(), "matrix(%lf %lf %lf %lf %lf %lf)", &a, &b, &c, &d, &e, &f),
+            6);
+  const FigurePanel& panel = figure.panels[0];
+  const double px_per_m = panel.size[0] / panel.x.range.size();
+  EXPECT_NEAR(a, 30 * px_per_m, 1e-4);
+  EXPECT_NEAR(d, 60 * px_per_m, 1e-4);  // y of the picture points down
+  EXPECT_NEAR(b, 0, 1e-9);
+  EXPECT_NEAR(e, panel.corner[0] + (-50 - panel.x.range.min) * px_per_m, 1e-2);
+}
+
+TEST(EvaluationPlots, AMapOfOtherAxesOrElsewhereIsRefused) {
+  const auto message = [](const EvaluationResult& result, const GroundPicture& picture,
+                          EvaluationPlot kind = EvaluationPlot::kOverview) {
+    try {
+      (void)figure_of({result}, EvaluatedTruth::kShared, kind, picture);
+    } catch (const ArgumentError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(message(evaluated("ours", 1), ground()),
+              HasSubstr("is a map of x and y, and the view from above shows x and z"));
+  GroundPicture far = ground();
+  far.corner_m = {5000, 100};
+  EXPECT_THAT(message(level_result(), far), HasSubstr("the drive lies elsewhere"));
+  EXPECT_THAT(message(level_result(), ground(), EvaluationPlot::kBox),
+              HasSubstr("under the overview of one sequence"));
 }
 
 }  // namespace evaluation_plot_test

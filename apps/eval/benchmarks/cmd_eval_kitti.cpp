@@ -1,4 +1,4 @@
-#include "apps/eval/cmd_eval_kitti.h"
+#include "apps/eval/benchmarks/cmd_eval_kitti.h"
 
 #include <placegraph/eval/kitti/kitti_report.h>
 #include <placegraph/graph/core/error.h>
@@ -7,7 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "apps/eval/eval_kitti.h"
+#include "apps/eval/benchmarks/eval_kitti.h"
 #include "apps/support/option_texts.h"
 #include "apps/support/output.h"
 

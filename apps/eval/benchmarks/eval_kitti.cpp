@@ -1,4 +1,4 @@
-#include "apps/eval/eval_kitti.h"
+#include "apps/eval/benchmarks/eval_kitti.h"
 
 #include <placegraph/io/files/output_file.h>
 #include <placegraph/pipeline/kitti/kitti_benchmark.h>
