@@ -24,7 +24,7 @@ constexpr int kCorrelationsOfHalfWave = 8;
 constexpr double kFewestIndependent = 25;
 // A loop that is closed takes about so much from the longest waves (scripts/interval_study).
 constexpr double kWavesOfLoops = 0.4;
-// Longer series are summed in groups. Chosen: a group is then a hundredth of the shortest half wave.
+// Longer series are summed in groups: a group is a hundredth of the shortest half wave. Chosen.
 constexpr int kMostGroups = 4096;
 
 /// Errors of a series less their mean, neighbours summed.

@@ -9,7 +9,7 @@ namespace placegraph {
 
 /// How far the mean over correlated errors may be from its expectation.
 struct MeanDeviation {
-  Outcome outcome;      ///< kTooFewData, kDegenerate: as Interval
+  Outcome outcome;      ///< kTooFewData, kDegenerate: as ConfidenceInterval
   double mean = 0;      ///< of the terms of all errors of all series
   double sigma = 0;     ///< standard deviation of the mean; only if outcome
   int waves = 0;        ///< degrees of freedom of sigma

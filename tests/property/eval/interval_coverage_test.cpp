@@ -20,16 +20,16 @@ constexpr double kFewest = 0.93 - 4 * 0.015;
 constexpr ErrorModel kModels[] = {ErrorModel::kWhite, ErrorModel::kPositionWalk,
                                   ErrorModel::kHeadingWalk, ErrorModel::kLoopClosed};
 
-double mean_estimate(const std::vector<Interval>& intervals) {
+double mean_estimate(const std::vector<ConfidenceInterval>& intervals) {
   double mean = 0;
-  for (const Interval& interval : intervals)
+  for (const ConfidenceInterval& interval : intervals)
     mean += interval.estimate / static_cast<double>(intervals.size());
   return mean;
 }
 
-double share_that_holds(const std::vector<Interval>& intervals, double expectation) {
+double share_that_holds(const std::vector<ConfidenceInterval>& intervals, double expectation) {
   double given = 0, held = 0;
-  for (const Interval& interval : intervals) {
+  for (const ConfidenceInterval& interval : intervals) {
     given += static_cast<bool>(interval.outcome);
     held += interval.outcome && interval.low <= expectation && expectation <= interval.high;
   }
@@ -42,7 +42,7 @@ TEST(IntervalCoverage, IntervalsOfOneDriveHoldTheirExpectation) {
   for (const ErrorModel model : kModels) {
     SCOPED_TRACE(to_string(model));
     Random random(11, static_cast<std::uint64_t>(model));
-    std::vector<Interval> segments, motions;
+    std::vector<ConfidenceInterval> segments, motions;
     for (int i = 0; i < kDraws; ++i) {
       const PlanarDrive estimate = estimate_of(truth, model, random);
       segments.push_back(interval_of_mean(segment_series(truth, estimate, {50, 100, 200}, 3)));
@@ -70,7 +70,7 @@ TEST(IntervalCoverage, IntervalsOfRepeatedRunsHoldTheirExpectation) {
   for (const ErrorModel model : kModels) {
     SCOPED_TRACE(to_string(model));
     Random random(13, static_cast<std::uint64_t>(model));
-    std::vector<Interval> intervals;
+    std::vector<ConfidenceInterval> intervals;
     for (int i = 0; i < kDraws; ++i) {
       std::vector<double> figures;
       for (int run = 0; run < 6; ++run)

@@ -27,7 +27,7 @@ struct DriveCase {
   Shape shape;
   int frames;
   double step_m;
-  std::function<Interval(const PlanarDrive&, const PlanarDrive&)> interval;
+  std::function<ConfidenceInterval(const PlanarDrive&, const PlanarDrive&)> interval;
 };
 
 DriveCase segments(Shape shape, int frames, double step_m, const std::vector<double>& lengths_m) {
@@ -51,9 +51,8 @@ std::vector<DriveCase> drive_cases() {
           segments(Shape::kRing, 3500, 1, kLengths),
           segments(Shape::kBlocks, 3000, 1, {100, 200}),
           motions("RPE, 1 frame, mean", Shape::kWinding, 1000, 1, 1, interval_of_mean),
-          motions("RPE, 1 frame, median", Shape::kRing, 2000, 1, 1, interval_of_median),
+          motions("RPE, 1 frame, median", Shape::kRing, 1000, 1, 1, interval_of_median),
           motions("RPE, 10 frames, all, RMSE", Shape::kBlocks, 2000, 10, 1, interval_of_rmse),
-          motions("RPE, 10 frames, RMSE", Shape::kWinding, 4000, 10, 10, interval_of_rmse),
           motions("RPE, 100 frames, all, mean", Shape::kRing, 4000, 100, 1, interval_of_mean)};
 }
 
@@ -68,14 +67,14 @@ struct Coverage {
 Coverage coverage_of(const DriveCase& drive, ErrorModel model, int draws) {
   const PlanarDrive truth = planar_drive(drive.shape, drive.frames, drive.step_m);
   Random random(1, static_cast<std::uint64_t>(model));
-  std::vector<Interval> intervals;
+  std::vector<ConfidenceInterval> intervals;
   double expectation = 0;
   for (int i = 0; i < draws; ++i) {
     intervals.push_back(drive.interval(truth, estimate_of(truth, model, random)));
     expectation += intervals.back().estimate / draws;
   }
   Coverage coverage;
-  for (const Interval& interval : intervals) {
+  for (const ConfidenceInterval& interval : intervals) {
     if (!interval.outcome) continue;
     ++coverage.given;
     coverage.held += interval.low <= expectation && expectation <= interval.high;
@@ -155,7 +154,7 @@ void study_runs(const std::vector<ErrorModel>& models, bool judged) {
       for (const int runs : {5, 10, 20}) {
         int held = 0;
         for (int i = 0; i < 4 * kDraws; ++i) {
-          const Interval interval = interval_of_runs(drawn(figures, runs, random));
+          const ConfidenceInterval interval = interval_of_runs(drawn(figures, runs, random));
           held += interval.low <= expectation && expectation <= interval.high;
         }
         const double share = held / (4.0 * kDraws);
@@ -178,7 +177,8 @@ TEST(IntervalStudy, IntervalsOfTheAteOfRepeatedRunsHold) {
 
 TEST(IntervalStudy, RatiosOfTwoEstimatesOfOneDriveHold) {
   // The second system's errors are the first model's too, of other noise: the true ratio is 1.
-  std::printf("| figure | errors | given [%%] | hold 1 [%%] | p < 0.05 [%%] |\n|---|---|---|---|---|\n");
+  std::printf(
+      "| figure | errors | given [%%] | hold 1 [%%] | p < 0.05 [%%] |\n|---|---|---|---|---|\n");
   const PlanarDrive truth = planar_drive(Shape::kBlocks, 4000, 1.25);
   for (const ErrorModel model : {ErrorModel::kWhite, ErrorModel::kPositionWalk,
                                  ErrorModel::kHeadingWalk, ErrorModel::kLoopClosed})

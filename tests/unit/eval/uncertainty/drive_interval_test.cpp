@@ -51,7 +51,7 @@ TEST(DriveInterval, OfSingleFramesIsThatOfTheProjectionsOnWaves) {
   const ErrorSeries series = independent_errors_of(500, random);
   double sum = 0;
   for (const StretchError& e : series.errors) sum += e.error;
-  const Interval interval = interval_of_mean({series});
+  const ConfidenceInterval interval = interval_of_mean({series});
   ASSERT_TRUE(interval.outcome) << interval.outcome.reason;
   EXPECT_NEAR(interval.estimate, sum / 500, 1e-12);
   EXPECT_EQ(interval.of, "this drive's errors");
@@ -67,7 +67,7 @@ TEST(DriveInterval, OfErrorsOfBothSignsIsSymmetric) {
   Random random(2);
   ErrorSeries series = independent_errors_of(300, random);
   for (StretchError& e : series.errors) e.error -= 2;
-  const Interval interval = interval_of_mean({series});
+  const ConfidenceInterval interval = interval_of_mean({series});
   ASSERT_TRUE(interval.outcome);
   EXPECT_NEAR(interval.high - interval.estimate, interval.estimate - interval.low, 1e-12);
 }
@@ -77,7 +77,7 @@ TEST(DriveInterval, OfTheRmseIsTheRootOfThatOfTheMeanSquare) {
   const ErrorSeries series = independent_errors_of(300, random);
   ErrorSeries squares = series;
   for (StretchError& e : squares.errors) e.error *= e.error;
-  const Interval root = interval_of_rmse({series}), mean = interval_of_mean({squares});
+  const ConfidenceInterval root = interval_of_rmse({series}), mean = interval_of_mean({squares});
   ASSERT_TRUE(root.outcome);
   EXPECT_NEAR(root.estimate, std::sqrt(mean.estimate), 1e-12);
   // Correlations are those of the errors, not of their squares: the waves may differ.
@@ -92,7 +92,7 @@ TEST(DriveInterval, OfTheRmseIsTheRootOfThatOfTheMeanSquare) {
 TEST(DriveInterval, OfTheMedianIsBetweenErrors) {
   Random random(4);
   const ErrorSeries series = independent_errors_of(401, random);
-  const Interval interval = interval_of_median({series});
+  const ConfidenceInterval interval = interval_of_median({series});
   ASSERT_TRUE(interval.outcome);
   int below = 0, within = 0;
   for (const StretchError& e : series.errors) {
@@ -116,7 +116,7 @@ TEST(DriveInterval, ScalesMirrorsAndShiftsWithTheDrive) {
   }
   for (auto e = series.errors.rbegin(); e != series.errors.rend(); ++e)
     mirrored.errors.push_back({-e->last_frame, -e->first_frame, e->error});
-  const Interval base = interval_of_mean({series});
+  const ConfidenceInterval base = interval_of_mean({series});
   ASSERT_TRUE(base.outcome) << base.outcome.reason;
   EXPECT_NEAR(interval_of_mean({scaled}).high, 7 * base.high, 1e-9);
   EXPECT_NEAR(interval_of_mean({shifted}).high, base.high, 1e-9);
@@ -129,7 +129,7 @@ TEST(DriveInterval, OfOverlappingErrorsKnowsThatNeighboursShareTheirNoise) {
   Random random(6);
   double mean_half = 0;
   for (int i = 0; i < 20; ++i) {
-    const Interval interval = interval_of_mean({overlapping_errors(3000, 30, random)});
+    const ConfidenceInterval interval = interval_of_mean({overlapping_errors(3000, 30, random)});
     ASSERT_TRUE(interval.outcome) << interval.outcome.reason;
     EXPECT_LE(interval.degrees_freedom, 40);
     mean_half += 0.5 * (interval.high - interval.low) / 20 /
@@ -140,7 +140,7 @@ TEST(DriveInterval, OfOverlappingErrorsKnowsThatNeighboursShareTheirNoise) {
 
 TEST(DriveInterval, OfAMillionErrorsIsTheOneOfTheirNumber) {
   Random random(7);
-  const Interval interval = interval_of_mean({independent_errors_of(200'000, random)});
+  const ConfidenceInterval interval = interval_of_mean({independent_errors_of(200'000, random)});
   ASSERT_TRUE(interval.outcome);
   EXPECT_EQ(interval.degrees_freedom, 40);
   // Forty squares know the deviation to 11 %.
@@ -150,7 +150,7 @@ TEST(DriveInterval, OfAMillionErrorsIsTheOneOfTheirNumber) {
 
 TEST(DriveInterval, IsNoneOfFewStretches) {
   Random random(8);
-  const Interval interval = interval_of_mean({overlapping_errors(300, 100, random)});
+  const ConfidenceInterval interval = interval_of_mean({overlapping_errors(300, 100, random)});
   EXPECT_EQ(interval.outcome.code, Outcome::Code::kTooFewData);
   EXPECT_EQ(interval.outcome.reason, "only 3 disjoint stretches of 100 frames, 4 are needed");
   EXPECT_NEAR(interval.estimate, 2, 0.5);
@@ -163,7 +163,7 @@ TEST(DriveInterval, IsNoneOfErrorsThatWalk) {
   double level = 100;
   for (int i = 0; i < 1000; ++i) series.errors.push_back({i, i + 1, level += random.normal()});
   for (const auto interval_of : {interval_of_mean, interval_of_rmse, interval_of_median}) {
-    const Interval interval = interval_of({series}, 0.95);
+    const ConfidenceInterval interval = interval_of({series}, 0.95);
     EXPECT_EQ(interval.outcome.code, Outcome::Code::kTooFewData);
     EXPECT_NE(interval.outcome.reason.find("are correlated"), std::string::npos)
         << interval.outcome.reason;
@@ -193,8 +193,8 @@ TEST(DriveInterval, RefusesWhatIsNoSeries) {
 }
 
 TEST(ErrorSeries, OfSegmentsAreOnePerLength) {
-  const std::vector<SegmentError> segments = {{0, 90, 100, 1.5, 0.2, 10}, {0, 180, 200, 1.1, 0.1, 10},
-                                              {10, 99, 100, 1.6, 0.3, 10}};
+  const std::vector<SegmentError> segments = {
+      {0, 90, 100, 1.5, 0.2, 10}, {0, 180, 200, 1.1, 0.1, 10}, {10, 99, 100, 1.6, 0.3, 10}};
   const auto translation = translation_series(segments), rotation = rotation_series(segments);
   ASSERT_EQ(translation.size(), 2u);
   EXPECT_EQ(translation[0].stretch, "100 m");

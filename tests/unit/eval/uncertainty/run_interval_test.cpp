@@ -12,7 +12,7 @@ namespace run_interval_test {
 TEST(RunInterval, OfFiveRunsIsTheOneComputedByHand) {
   // Mean 3, deviation sqrt(2.5); t = 2.7764 of four degrees of freedom:
   // 3 exp(-+ 2.7764 sqrt(2.5) / 3 / sqrt(5)).
-  const Interval interval = interval_of_runs({4, 2, 5, 1, 3});
+  const ConfidenceInterval interval = interval_of_runs({4, 2, 5, 1, 3});
   ASSERT_TRUE(interval.outcome);
   EXPECT_NEAR(interval.estimate, 3, 1e-12);
   EXPECT_NEAR(interval.low, 1.55923903, 1e-7);
@@ -22,13 +22,13 @@ TEST(RunInterval, OfFiveRunsIsTheOneComputedByHand) {
 }
 
 TEST(RunInterval, IsWiderAtAHigherLevelAndScalesWithItsUnit) {
-  const Interval base = interval_of_runs({4, 2, 5, 1, 3});
+  const ConfidenceInterval base = interval_of_runs({4, 2, 5, 1, 3});
   EXPECT_GT(interval_of_runs({4, 2, 5, 1, 3}, 0.99).high, base.high);
   EXPECT_NEAR(interval_of_runs({40, 20, 50, 10, 30}).low, 10 * base.low, 1e-9);
 }
 
 TEST(RunInterval, IsNoneOfFewerThanFiveRuns) {
-  const Interval one = interval_of_runs({0.7}), three = interval_of_runs({0.7, 0.8, 0.9});
+  const ConfidenceInterval one = interval_of_runs({0.7}), three = interval_of_runs({0.7, 0.8, 0.9});
   EXPECT_EQ(one.outcome.code, Outcome::Code::kTooFewData);
   EXPECT_EQ(one.outcome.reason, "1 run: 5 are needed");
   EXPECT_EQ(three.outcome.reason, "3 runs: 5 are needed");
@@ -36,7 +36,7 @@ TEST(RunInterval, IsNoneOfFewerThanFiveRuns) {
 }
 
 TEST(RunInterval, IsNoneOfRunsThatRepeatOneComputation) {
-  const Interval interval = interval_of_runs({0.7, 0.7, 0.7, 0.7, 0.7, 0.7});
+  const ConfidenceInterval interval = interval_of_runs({0.7, 0.7, 0.7, 0.7, 0.7, 0.7});
   EXPECT_EQ(interval.outcome.code, Outcome::Code::kDegenerate);
   EXPECT_EQ(interval.outcome.reason, "all 6 runs are equal");
 }
