@@ -112,6 +112,10 @@ void add_error_options(CLI::App& command, EvalArguments& a) {
       ->delimiter(',');
   command.add_flag("--all-pairs", a.all_pairs,
                    "begin a step of --delta at every pose; default: where the one before ends");
+  command.add_flag("--intervals", a.options.intervals,
+                   "confidence intervals of the figures, and comparisons with the first estimate");
+  command.add_flag("--repeated-runs", a.repeated_runs,
+                   "the estimates are runs of one system: means and intervals over them");
   command
       .add_option("--part", a.part,
                   "part of the position errors that is judged: in a plane, or along an axis")

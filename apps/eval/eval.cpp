@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 #include <placegraph/eval/drawing/figure_settings.h>
+#include <placegraph/eval/edges/truth_noise.h>
 #include <placegraph/eval/plots/evaluation_plot.h>
 #include <placegraph/eval/trajectory/report.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/text/json_text.h>
 #include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/datasets/distinct_paths.h>
 #include <placegraph/io/datasets/evaluated_files.h>
@@ -16,6 +18,7 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "apps/support/choice.h"
 #include "apps/support/output.h"
@@ -25,6 +28,7 @@ namespace placegraph::apps {
 namespace {
 
 namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
 
 std::vector<EvaluatedFiles> files_of_folders(const std::string& truths,
                                              const std::string& estimates) {
@@ -199,6 +203,26 @@ void write_outputs(const EvalArguments& arguments, const EvalResult& result, con
                      evo_result_of(result.results.front(), last_name_of(arguments.truth)));
 }
 
+/// The true poses of the judged frames.
+Trajectory true_trajectory(const EvaluationResult& result) {
+  Trajectory truth;
+  truth.has_times = result.has_times;
+  for (const FramePair& pair : result.aligned_pairs)
+    truth.poses.push_back({pair.stamp_ns, pair.T_world_truth});
+  return truth;
+}
+
+/// Each further estimate against the first, on the frames that all have.
+std::vector<std::vector<FigureComparison>> comparisons_with_first(const EvalResult& result) {
+  const std::vector<EvaluationResult>& judged =
+      result.common.needed ? result.common.results : result.results;
+  std::vector<std::vector<FigureComparison>> comparisons;
+  const TruthNoise noise = estimate_truth_noise(true_trajectory(judged.front()));
+  for (std::size_t i = 1; i < judged.size(); ++i)
+    comparisons.push_back(compare_estimates(judged.front(), judged[i], noise));
+  return comparisons;
+}
+
 /// The number on one side of the colon of a span; `missing` if there is none.
 double span_end(const std::string& option, const std::string& text, double missing) {
   if (text.empty()) return missing;
@@ -303,6 +327,9 @@ EvalResult eval(const EvalArguments& arguments) {
   if (result.common.needed)
     warn("the estimates are of different frames: compare them by the figures of the frames that "
          "all have");
+  if (arguments.repeated_runs) result.of_runs = intervals_of_repeated_runs(result.results);
+  if (compared && options.intervals && !arguments.repeated_runs)
+    result.comparisons = comparisons_with_first(result);
   if (!result.refused()) write_outputs(arguments, result, look);
   return result;
 }
@@ -312,13 +339,22 @@ std::string to_text(const EvalResult& result) {
   std::string text = to_table(result.results, result.folders);
   if (result.common.needed)
     text += "\non the frames that all estimates have:\n" + to_table(result.common.results, false);
+  if (!result.of_runs.empty()) text += "\nover the runs:\n" + to_text(result.of_runs);
+  for (const std::vector<FigureComparison>& each : result.comparisons)
+    text += "\n" + to_text(each);
   return text;
 }
 
 std::string to_json(const EvalResult& result) {
-  return result.single()
-             ? to_json(result.results.front())
-             : to_json(result.results, result.folders, result.common.results);
+  if (result.single()) return to_json(result.results.front());
+  Json json =
+      Json::parse(to_json(result.results, result.folders, result.common.results));
+  if (!result.of_runs.empty()) json["over_runs"] = Json::parse(to_json(result.of_runs));
+  for (std::size_t i = 0; i < result.comparisons.size(); ++i)
+    json["comparisons"].push_back({{"first", result.results.front().name},
+                                   {"second", result.results[i + 1].name},
+                                   {"figures", Json::parse(to_json(result.comparisons[i]))}});
+  return json_text(json, 2);
 }
 
 }  // namespace placegraph::apps

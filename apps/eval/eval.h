@@ -1,5 +1,6 @@
 #pragma once
 #include <placegraph/eval/trajectory/common_frames.h>
+#include <placegraph/eval/trajectory/figure_intervals.h>
 
 #include <string>
 #include <vector>
@@ -26,6 +27,7 @@ struct EvalArguments {
   std::string part = "space";               ///< one of eval_parts()
   std::vector<std::string> deltas;          ///< lengths of steps, as parse_delta reads them
   bool all_pairs = false;                   ///< a step begins at every pose
+  bool repeated_runs = false;               ///< the estimates are runs of one system
   std::string associate = "auto";  ///< one of eval_associations()
   std::vector<std::string> estimated;  ///< offsets estimated first: "body", "time"
   EvaluationOptions options;       ///< alignment and association are chosen by the two names above
@@ -44,6 +46,9 @@ struct EvalArguments {
 struct EvalResult {
   std::vector<EvaluationResult> results;  ///< one for each estimate
   bool folders = false;                   ///< true if the files of two folders were paired by name
+  std::vector<FigureInterval> of_runs;    ///< of repeated runs, if the estimates are such
+  /// Of each further estimate against the first, with intervals and without repeated runs.
+  std::vector<std::vector<FigureComparison>> comparisons;
   CommonResult common;                    ///< the estimates on the frames that all of them have
 
   /// True if a single estimate was evaluated.

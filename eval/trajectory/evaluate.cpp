@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <placegraph/eval/alignment/alignment.h>
 #include <placegraph/eval/trajectory/evaluate.h>
+#include <placegraph/eval/trajectory/figure_intervals.h>
 #include <placegraph/eval/trajectory/plausibility.h>
 #include <placegraph/eval/alignment/vertical.h>
 
@@ -228,6 +229,7 @@ EvaluationResult evaluate(PairingResult paired, const EvaluationOptions& options
   r.aligned_pairs = std::move(paired.pairs);
   align_estimates(r.alignment, r.aligned_pairs);
   judge_poses(has_orientation, options, r);
+  if (options.intervals) r.intervals = intervals_of_drive(r);
   return r;
 }
 

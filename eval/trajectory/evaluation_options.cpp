@@ -18,6 +18,7 @@ void visit(OptionVisitor& field, EvaluationOptions& o) {
         "largest difference of the stamps of a pair [s]", {0, 1e6});
   field("offset_s", o.time.offset_s, "offset added to the estimate's stamps [s]", {-1e12, 1e12});
   field.group("segments", o.segments, "segments of t_rel and r_rel");
+  field("intervals", o.intervals, "confidence intervals of the figures");
   field.group("relative", o.relative, "relative errors over other steps than one frame");
 }
 

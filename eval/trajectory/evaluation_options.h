@@ -19,6 +19,7 @@ struct EvaluationOptions {
   AssociationOptions time;                       ///< options of the association by time
   SegmentOptions segments;                       ///< segments of t_rel and r_rel
   RelativeErrorOptions relative;                 ///< relative errors over other steps
+  bool intervals = false;  ///< confidence intervals of the figures, by the errors along the drive
   void check() const;
 };
 void visit(OptionVisitor& field, EvaluationOptions& options);

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <placegraph/eval/trajectory/figure_intervals.h>
 #include <placegraph/eval/trajectory/report.h>
 #include <placegraph/graph/text/csv_text.h>
 #include <placegraph/graph/text/json_text.h>
@@ -145,6 +146,7 @@ Json object(const EvaluationResult& r) {
   json["per_length"] = groups_json(r.segments.by_length, false);
   json["per_speed"] = groups_json(r.segments.by_speed, true);
   add_errors(r, json);
+  if (!r.intervals.empty()) json["intervals"] = Json::parse(to_json(r.intervals));
   json["lost_frames"] = r.lost_frames;
   json["warnings"] = r.warnings;
   return json;
@@ -343,6 +345,7 @@ std::string to_text(const EvaluationResult& r) {
         fmt::format("  {:<15} {:>10} {:<9} {}\n", m.name, cell(m.value, "-"), m.unit, m.protocol);
   }
   text += errors_text(r);
+  if (!r.intervals.empty()) text += "\n  confidence\n" + to_text(r.intervals);
   if (r.segments.outcome) text += groups_text(r.segments);
   return text;
 }

@@ -6,6 +6,7 @@
 #include <placegraph/eval/errors/kitti_segments.h>
 #include <placegraph/eval/errors/relative_error.h>
 #include <placegraph/eval/offsets/offset_estimation.h>
+#include <placegraph/eval/uncertainty/confidence_interval.h>
 
 #include <optional>
 #include <string>
@@ -23,6 +24,12 @@ struct Protocol {
   double max_difference_s = 0, offset_s = 0;     ///< options of the association by time
   std::vector<double> lengths_m;                 ///< SegmentOptions::lengths_m
   int step = 0;                                  ///< SegmentOptions::step
+};
+
+/// The confidence interval of one figure.
+struct FigureInterval {
+  std::string key, name, unit;  ///< as Metric
+  ConfidenceInterval interval;  ///< of this drive's errors, or of repeated runs
 };
 
 /// One estimated trajectory evaluated against one ground truth.
@@ -47,6 +54,7 @@ struct EvaluationResult {
   std::vector<RelativeErrors> relative;  ///< over the steps of the options, in their order
   SegmentResult segments;     ///< t_rel and r_rel
   ErrorProfile profile;       ///< where the errors lie
+  std::vector<FigureInterval> intervals;  ///< of the figures, if the options ask for them
   std::optional<OffsetEstimate> offsets;  ///< those of body and time, if they were estimated
   std::vector<std::string> warnings;     ///< one line each: a suspicious property and a remedy
   std::vector<FramePair> aligned_pairs;  ///< the evaluated frames, with aligned estimates

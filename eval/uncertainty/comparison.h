@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/eval/uncertainty/error_series.h>
-#include <placegraph/eval/uncertainty/interval.h>
+#include <placegraph/eval/uncertainty/confidence_interval.h>
 
 #include <string>
 #include <vector>

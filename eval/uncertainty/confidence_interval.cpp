@@ -1,5 +1,5 @@
 #include <fmt/format.h>
-#include <placegraph/eval/uncertainty/interval.h>
+#include <placegraph/eval/uncertainty/confidence_interval.h>
 
 namespace placegraph {
 

@@ -1,0 +1,46 @@
+#pragma once
+#include <placegraph/eval/edges/truth_noise.h>
+#include <placegraph/eval/trajectory/result.h>
+#include <placegraph/eval/uncertainty/comparison.h>
+
+#include <string>
+#include <vector>
+
+namespace [[gnu::visibility("default")]] placegraph {
+
+/// Intervals of the figures of one estimate, from the scatter of its errors along the drive.
+///
+/// Of t_rel, r_rel and every RPE; an ATE of one run has none, and says so.
+[[nodiscard]] std::vector<FigureInterval> intervals_of_drive(const EvaluationResult& result,
+                                                             double level = 0.95);
+
+/// Intervals of the figures of repeated runs of one system over one drive.
+///
+/// A run without figures leaves no figure an interval: a system that fails where it is hard would
+/// have the better mean.
+[[nodiscard]] std::vector<FigureInterval> intervals_of_repeated_runs(
+    const std::vector<EvaluationResult>& runs, double level = 0.95);
+
+/// The comparison of one figure of two estimates.
+struct FigureComparison {
+  std::string key;        ///< as Metric
+  Comparison comparison;  ///< of the second against the first
+};
+
+/// Compares two estimates of one drive by the errors over the same segments and steps.
+///
+/// No difference counts that is smaller than what the noise of the true poses adds to a figure
+/// (`noise`, see estimate_truth_noise).
+[[nodiscard]] std::vector<FigureComparison> compare_estimates(const EvaluationResult& first,
+                                                              const EvaluationResult& second,
+                                                              const TruthNoise& noise,
+                                                              double level = 0.95);
+
+/// Lines for people.
+std::string to_text(const std::vector<FigureInterval>& intervals);
+std::string to_text(const std::vector<FigureComparison>& comparisons);
+/// JSON objects by the keys of the figures, without a newline.
+std::string to_json(const std::vector<FigureInterval>& intervals);
+std::string to_json(const std::vector<FigureComparison>& comparisons);
+
+}  // namespace placegraph
