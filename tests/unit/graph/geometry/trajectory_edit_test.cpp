@@ -24,7 +24,7 @@ Trajectory at_times(const std::vector<double>& times_s) {
 std::vector<double> times_of(const Trajectory& trajectory) {
   std::vector<double> times_s;
   for (const StampedPose& pose : trajectory.poses)
-    times_s.push_back(1e-9 * static_cast<double>(pose.stamp_ns));
+    times_s.push_back(static_cast<double>(pose.stamp_ns) / 1e9);
   return times_s;
 }
 
