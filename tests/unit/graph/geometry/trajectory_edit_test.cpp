@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <placegraph/graph/core/random.h>
 #include <placegraph/graph/geometry/trajectory_edit.h>
 
