@@ -47,6 +47,30 @@ std::optional<Eigen::Vector3d> turning_axis(const PosedFrames& frames) {
   return parts.eigenvectors().col(2);
 }
 
+/// From the first position, so that positions that are all equal have no deviation at all.
+Eigen::Vector3d mean_of(const std::vector<Eigen::Vector3d>& points) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& p : points) sum += p - points.front();
+  return points.front() + sum / static_cast<double>(points.size());
+}
+
+/// The axes of positions by columns, from that of the least extent to that of the greatest.
+Eigen::Matrix3d principal_axes(const std::vector<Eigen::Vector3d>& points) {
+  const Eigen::Vector3d mean = mean_of(points);
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  for (const Eigen::Vector3d& p : points) squares += (p - mean) * (p - mean).transpose();
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(squares).eigenvectors();
+}
+
+/// Standard deviations of positions along axes.
+Eigen::Vector3d rms_along(const Eigen::Matrix3d& axes, const std::vector<Eigen::Vector3d>& points) {
+  const Eigen::Vector3d mean = mean_of(points);
+  Eigen::Vector3d squares = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& p : points)
+    squares += (axes.transpose() * (p - mean)).cwiseAbs2();
+  return (squares / static_cast<double>(points.size())).cwiseSqrt();
+}
+
 std::string convention_of(const std::string& axis) {
   if (axis == "+z") return "a camera (x right, y down, z forward)";
   if (axis == "-z") return "a camera of OpenGL (x right, y up, z back)";
@@ -65,14 +89,10 @@ MotionPlane motion_plane(const PosedFrames& frames) {
     plane.outcome = Outcome::failure(Outcome::Code::kTooFewData, "fewer than 3 poses");
     return plane;
   }
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& p : frames.p_world) mean += p / static_cast<double>(frames.size());
-  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
-  for (const Eigen::Vector3d& p : frames.p_world) squares += (p - mean) * (p - mean).transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> parts(squares /
-                                                             static_cast<double>(frames.size()));
-  const Eigen::Vector3d rms = parts.eigenvalues().cwiseMax(0).cwiseSqrt();
-  plane.normal_world = parts.eigenvectors().col(0);
+  const Eigen::Matrix3d axes = principal_axes(frames.p_world);
+  // Along the axes themselves: the root of an eigenvalue has half of its digits.
+  const Eigen::Vector3d rms = rms_along(axes, frames.p_world);
+  plane.normal_world = axes.col(0);
   plane.rms_m = rms[0];
   plane.share = rms[1] > 0 ? rms[0] / rms[1] : 1;
   Eigen::Index axis = 0;

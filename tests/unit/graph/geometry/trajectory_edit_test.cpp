@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <placegraph/graph/core/random.h>
 #include <placegraph/graph/geometry/trajectory_edit.h>
 
@@ -24,7 +25,7 @@ Trajectory at_times(const std::vector<double>& times_s) {
 std::vector<double> times_of(const Trajectory& trajectory) {
   std::vector<double> times_s;
   for (const StampedPose& pose : trajectory.poses)
-    times_s.push_back(1e-9 * static_cast<double>(pose.stamp_ns));
+    times_s.push_back(static_cast<double>(pose.stamp_ns) / 1e9);
   return times_s;
 }
 

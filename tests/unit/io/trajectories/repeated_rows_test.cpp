@@ -28,7 +28,7 @@ struct Warnings {
 TEST(RepeatedRows, OfTumEurocAndTablesKeepTheFirstPose) {
   const TemporaryFolder folder;
   const std::string tum = folder.write(
-      "t.tum", "# t x y z q\n1 1 0 0 0 0 0 1\n2 2 0 0 0 0 0 1\n2 9 0 0 0 0 0 1\n3 3 0 0 0 0 0 1\n");
+      "t.tum", "# of TUM\n1 1 0 0 0 0 0 1\n2 2 0 0 0 0 0 1\n2 9 0 0 0 0 0 1\n3 3 0 0 0 0 0 1\n");
   const std::string euroc = folder.write(
       "t.csv", "1000000000,1,0,0,1,0,0,0\n2000000000,2,0,0,1,0,0,0\n2000000000,9,0,0,1,0,0,0\n"
                "3000000000,3,0,0,1,0,0,0\n");
