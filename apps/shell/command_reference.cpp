@@ -25,6 +25,7 @@ constexpr std::pair<std::string_view, std::string_view> kPages[] = {
     {"eval labels", "scene.md"},
     {"eval loops", "evaluation.md#loops"},
     {"eval edges", "evaluation.md#edges"},
+    {"eval kitti", "evaluation.md#kittis-benchmark"},
     {"eval noise", "evaluation.md#noise-of-the-truth"},
     {"eval", "evaluation.md"},
     {"map loops", "map.md#editing-loops"},
