@@ -27,6 +27,7 @@ constexpr std::pair<std::string_view, std::string_view> kPages[] = {
     {"eval table", "evaluation.md#tables"},
     {"eval edges", "evaluation.md#edges"},
     {"eval info", "evaluation.md#a-trajectory-without-truth"},
+    {"eval kitti", "evaluation.md#kittis-benchmark"},
     {"eval noise", "evaluation.md#noise-of-the-truth"},
     {"eval", "evaluation.md"},
     {"map loops", "map.md#editing-loops"},
