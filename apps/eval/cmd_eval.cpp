@@ -63,7 +63,11 @@ void add_pairing_options(CLI::App& command, EvalArguments& a) {
       ->check(CLI::ExistingFile);
 }
 
-void add_plot_options(CLI::App& command, EvalArguments& a) {
+void add_output_options(CLI::App& command, EvalArguments& a) {
+  command
+      .add_option("--evo-results", a.evo_results,
+                  "write the position errors of one estimate as a result archive of evo (.zip)")
+      ->type_name(kOutput);
   command.add_option("--plot", a.plot, kPlotText)->type_name(kOutput);
   command
       .add_option("--plot-kind", a.plot_kinds,
@@ -162,11 +166,7 @@ void add_eval_trajectory_command(
   command->add_flag("--json", eval_command->json, kJsonText);
   command->add_option("--csv", a.csv, "write the details as CSV")->type_name(kOutput);
   command->add_option("--latex", a.latex, "write the figures as a LaTeX table")->type_name(kOutput);
-  command
-      ->add_option("--evo-results", a.evo_results,
-                   "write the position errors of one estimate as a result archive of evo (.zip)")
-      ->type_name(kOutput);
-  add_plot_options(*command, a);
+  add_output_options(*command, a);
   command->add_option("--report", a.report, kReportText)->type_name(kOutput);
   command->add_flag("--force", a.force, kForceText);
   command->callback([eval_command] { run(*eval_command); });

@@ -18,28 +18,29 @@ using Eigen::Vector2d;
 
 constexpr const char* kTruthSeries = "ground truth";
 
-/// The beginning of the label of an axis, and its limits.
+/// The key of limits, the beginning of the label of their axis, and they.
 struct NamedLimits {
+  const char* key;
   const char* label;
   const std::vector<double>& range;
 };
 
 std::vector<NamedLimits> named_limits(const AxisLimits& l) {
-  return {{"x", l.x},
-          {"y", l.y},
-          {"z", l.z},
-          {"roll", l.roll},
-          {"pitch", l.pitch},
-          {"yaw", l.yaw},
-          {"time", l.time},
-          {"frame", l.frame},
-          {"distance travelled", l.distance_travelled},
-          {"position error", l.position_error},
-          {"translation", l.translation},
-          {"rotation", l.rotation},
-          {"t_rel", l.t_rel},
-          {"r_rel", l.r_rel},
-          {"length of the segments", l.segment_length}};
+  return {{"x", "x", l.x},
+          {"y", "y", l.y},
+          {"z", "z", l.z},
+          {"roll", "roll", l.roll},
+          {"pitch", "pitch", l.pitch},
+          {"yaw", "yaw", l.yaw},
+          {"time", "time", l.time},
+          {"frame", "frame", l.frame},
+          {"distance_travelled", "distance travelled", l.distance_travelled},
+          {"position_error", "position error", l.position_error},
+          {"translation", "translation", l.translation},
+          {"rotation", "rotation", l.rotation},
+          {"t_rel", "t_rel", l.t_rel},
+          {"r_rel", "r_rel", l.r_rel},
+          {"segment_length", "length of the segments", l.segment_length}};
 }
 
 std::optional<Colour> colour_of(const std::string& text) {
@@ -155,7 +156,9 @@ class PanelStretch {
 /// Panels of one scale keep it, and those beside or below them that share an axis follow.
 void keep_equal(Figure& figure) {
   for (FigurePanel& panel : figure.panels) {
-    if (!panel.equal) continue;
+    const double along = panel.x.range.size() / panel.size[0],
+                 up = panel.y.range.size() / panel.size[1];
+    if (!panel.equal || std::abs(along - up) <= 1e-9 * along) continue;  // but for rounding
     make_equal(panel);
     for (FigurePanel& other : figure.panels) {
       if (other.equal) continue;
@@ -237,7 +240,7 @@ void set_colours(Figure& figure, const std::map<std::string, Colour>& colours) {
 
 void set_limits(Figure& figure, const AxisLimits& limits) {
   const auto set = [&](FigureAxis& axis) {
-    for (const auto& [label, range] : named_limits(limits))
+    for (const auto& [key, label, range] : named_limits(limits))
       if (!range.empty() && axis.categories.empty() &&
           (axis.label == label || axis.label.starts_with(std::string(label) + " [")))
         axis.range = {range[0], range[1]};
@@ -251,10 +254,10 @@ void set_limits(Figure& figure, const AxisLimits& limits) {
 }  // namespace
 
 void AxisLimits::check() const {
-  for (const auto& [label, range] : named_limits(*this))
+  for (const auto& [key, label, range] : named_limits(*this))
     require(range.empty() || (range.size() == 2 && std::isfinite(range[0]) &&
                               std::isfinite(range[1]) && range[0] < range[1]),
-            fmt::format("limits: those of {} are not [least, greatest]", label));
+            fmt::format("{}: is not [least, greatest]", key));
 }
 
 void visit(OptionVisitor& field, AxisLimits& o) {
@@ -278,7 +281,6 @@ void visit(OptionVisitor& field, AxisLimits& o) {
 void FigureSettings::check() const {
   check_ranges(*this);
   (void)named_colours(colours);
-  limits.check();
 }
 
 void visit(OptionVisitor& field, FigureSettings& o) {

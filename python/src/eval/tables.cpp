@@ -16,9 +16,9 @@ nb::dict arrays_of(const EvoResult& result) {
   nb::dict arrays;
   for (const auto& [name, array] : result.arrays) {
     std::vector<double> values = array.values;
-    arrays[name.c_str()] = array.columns == 1
-                               ? nb::cast(owned_array(std::move(values), {array.rows}))
-                               : nb::cast(owned_array(std::move(values), {array.rows, array.columns}));
+    arrays[name.c_str()] =
+        array.columns == 1 ? nb::cast(owned_array(std::move(values), {array.rows}))
+                           : nb::cast(owned_array(std::move(values), {array.rows, array.columns}));
   }
   return arrays;
 }
@@ -71,17 +71,24 @@ FigureTable table_of_systems(const std::vector<std::pair<std::string, Evaluated>
 void bind_tables(nb::module_& m) {
   bind_evo(m);
   nb::class_<FigureTable>(m, "FigureTable", doc("FigureTable"))
-      .def("to_text", [](const FigureTable& t) { return to_text(t); }, doc("to_text"))
-      .def("to_csv", [](const FigureTable& t) { return to_csv(t); },
-           "The table as CSV: a line for each row, the notes in the last column.")
-      .def("to_latex", [](const FigureTable& t) { return to_latex(t); },
-           "The table for LaTeX (booktabs), best figures bold, notes below.")
-      .def("to_markdown", [](const FigureTable& t) { return to_markdown(t); }, doc("to_markdown"))
-      .def("to_json", [](const FigureTable& t) { return to_json(t); },
-           "The table as JSON, as `placegraph eval table --json` prints it.")
-      .def("to_html", [](const FigureTable& t) { return to_html(t); }, doc("to_html"))
-      .def("_repr_html_", [](const FigureTable& t) { return to_html_fragment(t); },
-           doc("to_html_fragment"))
+      .def(
+          "to_text", [](const FigureTable& t) { return to_text(t); }, doc("to_text"))
+      .def(
+          "to_csv", [](const FigureTable& t) { return to_csv(t); },
+          "The table as CSV: a line for each row, the notes in the last column.")
+      .def(
+          "to_latex", [](const FigureTable& t) { return to_latex(t); },
+          "The table for LaTeX (booktabs), best figures bold, notes below.")
+      .def(
+          "to_markdown", [](const FigureTable& t) { return to_markdown(t); }, doc("to_markdown"))
+      .def(
+          "to_json", [](const FigureTable& t) { return to_json(t); },
+          "The table as JSON, as `placegraph eval table --json` prints it.")
+      .def(
+          "to_html", [](const FigureTable& t) { return to_html(t); }, doc("to_html"))
+      .def(
+          "_repr_html_", [](const FigureTable& t) { return to_html_fragment(t); },
+          doc("to_html_fragment"))
       .def("__repr__", [](const FigureTable& t) { return to_text(t); });
   m.def("table_of_systems", &table_of_systems, "systems"_a, "figures"_a, "rows"_a = "sequences",
         doc("table_of"));

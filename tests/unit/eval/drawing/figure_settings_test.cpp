@@ -58,6 +58,14 @@ std::vector<Colour> colours_of(const Figure& figure, const std::string& series) 
   return colours;
 }
 
+/// Distance of a text from the top of the picture.
+double height_of(const std::string& svg, const std::string& text) {
+  const std::size_t end = svg.find(">" + text + "</text>");
+  EXPECT_NE(end, std::string::npos) << text;
+  const std::size_t begin = svg.rfind("<text ", end);
+  return test::number(svg.substr(begin, end - begin), "y");
+}
+
 TEST(FigureSettings, TheDefaultsChangeNothing) {
   for (const Figure& figure : all_figures())
     EXPECT_EQ(to_svg(with_settings(figure, {})), to_svg(figure));
@@ -173,7 +181,8 @@ TEST(FigureSettings, TitleNotesGridAndLegendAreAsTold) {
   EXPECT_EQ(texts.front(), "KITTI 00");
   EXPECT_THAT(texts, Not(Contains(figure.notes.front())));
   EXPECT_THAT(texts, Contains("ground truth"));
-  EXPECT_GT(svg.find(">ground truth<"), svg.find(">from above<"));
+  EXPECT_GT(height_of(svg, "ground truth"), height_of(svg, "time [s]"));
+  EXPECT_LT(height_of(to_svg(figure), "ground truth"), height_of(to_svg(figure), "from above"));
   EXPECT_THAT(svg, Not(HasSubstr("#e4e4e4")));  // the grid
   EXPECT_THAT(to_svg(figure), HasSubstr("#e4e4e4"));
   settings.legend = LegendPlace::kNone;
@@ -208,8 +217,8 @@ TEST(FigureSettings, WhatMakesNoSenseIsRefused) {
   EXPECT_THAT(message([](auto& s) {
                 s.limits.time = {4, 2};
               }),
-              HasSubstr("those of time are not [least, greatest]"));
-  EXPECT_THAT(message([](auto& s) { s.limits.x = {4}; }), HasSubstr("those of x"));
+              HasSubstr("limits.time: is not [least, greatest]"));
+  EXPECT_THAT(message([](auto& s) { s.limits.x = {4}; }), HasSubstr("limits.x: is not"));
   EXPECT_THAT(message([](auto& s) { s.width_px = 120; }), HasSubstr("too few"));
   EXPECT_THAT(message([](auto& s) { s.font_px = 0; }), HasSubstr("font_px"));
 }

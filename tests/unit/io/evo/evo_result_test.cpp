@@ -14,9 +14,9 @@ namespace evo_result_test {
 
 using ::testing::HasSubstr;
 
-const std::string kInfo = R"({"title": "APE w.r.t. translation part (m)\n(not aligned)",)"
-                          R"( "ref_name": "gt.tum", "est_name": "a.tum", "label": "APE (m)"
-})";
+const std::string kInfo =
+    R"json({"title": "APE w.r.t. translation part (m)\n(not aligned)", "ref_name": "gt.tum",)json"
+    R"json( "est_name": "a.tum", "label": "APE (m)"})json";
 
 std::string contents(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
