@@ -31,14 +31,15 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 std::vector<EvaluatedFiles> files_of_folders(const std::string& truths,
-                                             const std::string& estimates) {
+                                             const std::string& estimates, int& missing) {
   const PairedFiles paired = pair_files(truths, estimates);
   for (const std::string& file : paired.alone)
     warn(file + ": no file of that name in " + estimates);
+  missing = static_cast<int>(paired.alone.size());
   return paired.pairs;
 }
 
-std::vector<EvaluatedFiles> files_of(const EvalArguments& arguments) {
+std::vector<EvaluatedFiles> files_of(const EvalArguments& arguments, int& missing) {
   const std::string& truth = arguments.truth;
   const std::vector<std::string>& estimates = arguments.estimates;
   const bool one_folder = estimates.size() == 1 && fs::is_directory(estimates.front()) &&
@@ -46,7 +47,7 @@ std::vector<EvaluatedFiles> files_of(const EvalArguments& arguments) {
   if (one_folder && fs::is_directory(truth)) {
     require(!fs::exists(fs::path(truth) / "poses.txt"),
             estimates.front() + ": is not an output folder of `placegraph run`");
-    return files_of_folders(truth, estimates.front());
+    return files_of_folders(truth, estimates.front(), missing);
   }
   const std::vector<std::string> names = distinct_names(estimates);
   std::vector<EvaluatedFiles> files;
@@ -310,7 +311,7 @@ EvalResult eval(const EvalArguments& arguments) {
   EvalResult result;
   const std::string& first = arguments.estimates.front();
   result.folders = fs::is_directory(first) && !is_run_folder(first);
-  const std::vector<EvaluatedFiles> all = files_of(arguments);
+  const std::vector<EvaluatedFiles> all = files_of(arguments, result.missing);
   require(arguments.evo_results.empty() || all.size() == 1,
           "--evo-results: an archive of evo holds one estimate");
   const bool compared = !result.folders && all.size() > 1;
@@ -336,7 +337,7 @@ EvalResult eval(const EvalArguments& arguments) {
 
 std::string to_text(const EvalResult& result) {
   if (result.single()) return to_text(result.results.front());
-  std::string text = to_table(result.results, result.folders);
+  std::string text = to_table(result.results, result.folders, result.missing);
   if (result.common.needed)
     text += "\non the frames that all estimates have:\n" + to_table(result.common.results, false);
   if (!result.of_runs.empty()) text += "\nover the runs:\n" + to_text(result.of_runs);
@@ -348,7 +349,7 @@ std::string to_text(const EvalResult& result) {
 std::string to_json(const EvalResult& result) {
   if (result.single()) return to_json(result.results.front());
   Json json =
-      Json::parse(to_json(result.results, result.folders, result.common.results));
+      Json::parse(to_json(result.results, result.folders, result.common.results, result.missing));
   if (!result.of_runs.empty()) json["over_runs"] = Json::parse(to_json(result.of_runs));
   for (std::size_t i = 0; i < result.comparisons.size(); ++i)
     json["comparisons"].push_back({{"first", result.results.front().name},

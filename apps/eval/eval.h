@@ -35,7 +35,7 @@ struct EvalArguments {
   /// Kinds of figures for `plot`, of evaluation_plot_names(); several go to files of their own, of
   /// which the names end in _KIND.
   std::vector<std::string> plot_kinds = {"overview"};
-  std::string plot_settings;  ///< YAML of FigureSettings; empty: the figures' own look
+  std::string plot_settings;  ///< YAML of FigureSettings; empty: the figures' own style
   std::string map;            ///< under the overview, see read_ground_picture(); empty: none
   std::vector<double> map_corners_m;  ///< of `map`: lower left x, y, upper right x, y; empty: none
   std::string evo_results;            ///< archive of evo to write; empty: none
@@ -49,6 +49,7 @@ struct EvalResult {
   std::vector<FigureInterval> of_runs;    ///< of repeated runs, if the estimates are such
   /// Of each further estimate against the first, with intervals and without repeated runs.
   std::vector<std::vector<FigureComparison>> comparisons;
+  int missing = 0;      ///< files of the folder of truths without an estimate
   CommonResult common;                    ///< the estimates on the frames that all of them have
 
   /// True if a single estimate was evaluated.

@@ -7,8 +7,9 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// Least and greatest number of an axis, [least, greatest], in the unit that it shows; empty: by
-/// the data.
+/// Least and greatest number of each axis, in the unit that it shows.
+///
+/// [least, greatest]; empty: by the data.
 struct AxisLimits {
   std::vector<double> x;                   ///< coordinate x
   std::vector<double> y;                   ///< coordinate y

@@ -77,7 +77,7 @@ struct SequenceFigures {
   double coverage = 1;  ///< share of the judged frames that are posed
 };
 
-/// The figures of an evaluation for a table: metrics(), its reasons, and a remark on lost frames.
+/// The figures of an evaluation for a table, with its reasons and a remark on lost frames.
 SequenceFigures sequence_figures(const EvaluationResult& result, const std::string& name);
 
 /// A system with its results.

@@ -36,11 +36,13 @@ struct FigureComparison {
                                                               const TruthNoise& noise,
                                                               double level = 0.95);
 
-/// Lines for people.
+/// Writes the intervals for people, a line each.
 std::string to_text(const std::vector<FigureInterval>& intervals);
+/// Writes the sentences of the comparisons, a line each.
 std::string to_text(const std::vector<FigureComparison>& comparisons);
-/// JSON objects by the keys of the figures, without a newline.
+/// Writes the intervals as a JSON object by the keys of the figures, without a newline.
 std::string to_json(const std::vector<FigureInterval>& intervals);
+/// Writes the comparisons as a JSON object by the keys of the figures, without a newline.
 std::string to_json(const std::vector<FigureComparison>& comparisons);
 
 }  // namespace placegraph

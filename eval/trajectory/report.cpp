@@ -275,12 +275,12 @@ bool has_own_line(const Metric& metric) {
 std::string to_json(const EvaluationResult& result) { return json_text(object(result), 2); }
 
 std::string to_json(const std::vector<EvaluationResult>& results, bool with_average,
-                    const std::vector<EvaluationResult>& common) {
+                    const std::vector<EvaluationResult>& common, int missing) {
   Json json;
   json["results"] = Json::array();
   for (const EvaluationResult& result : results) json["results"].push_back(object(result));
   for (const EvaluationResult& result : common) json["common"].push_back(object(result));
-  if (with_average) json["average"] = average_json(average(results));
+  if (with_average) json["average"] = average_json(average(results, missing));
   return json_text(json, 2);
 }
 
@@ -350,7 +350,8 @@ std::string to_text(const EvaluationResult& r) {
   return text;
 }
 
-std::string to_table(const std::vector<EvaluationResult>& results, bool with_average) {
+std::string to_table(const std::vector<EvaluationResult>& results, bool with_average,
+                     int missing) {
   std::size_t width = 22;
   for (const EvaluationResult& r : results) width = std::max(width, r.name.size());
   if (results.empty()) return {};
@@ -368,7 +369,7 @@ std::string to_table(const std::vector<EvaluationResult>& results, bool with_ave
     text +=
         r.outcome ? fmt::format(" {:>9.6f}\n", r.alignment.scale) : " " + r.outcome.reason + "\n";
   }
-  if (with_average) text += average_text(average(results), width);
+  if (with_average) text += average_text(average(results, missing), width);
   return text + protocol_line(results.front()) + "\n";
 }
 

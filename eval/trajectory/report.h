@@ -15,9 +15,9 @@ std::string to_json(const EvaluationResult& result);
 
 /// Writes several results as {"results": [...]}, with "average" if `with_average`.
 ///
-/// `common`, if not empty, are those of the frames that all have, and are written as "common".
+/// `missing` sequences have no estimate, and leave no mean over all. `common`, if not empty, are those of the frames that all have, and are written as "common".
 std::string to_json(const std::vector<EvaluationResult>& results, bool with_average,
-                    const std::vector<EvaluationResult>& common = {});
+                    const std::vector<EvaluationResult>& common = {}, int missing = 0);
 
 /// Writes results as CSV with one number per line and a header.
 ///
@@ -35,6 +35,7 @@ std::string to_latex(const std::vector<EvaluationResult>& results);
 std::string to_text(const EvaluationResult& result);
 
 /// Writes a comparison for people, one row per result, and the averages if `with_average`.
-std::string to_table(const std::vector<EvaluationResult>& results, bool with_average);
+std::string to_table(const std::vector<EvaluationResult>& results, bool with_average,
+                     int missing = 0);
 
 }  // namespace placegraph

@@ -136,8 +136,9 @@ std::vector<ErrorRow> error_rows(const EvaluationResult& r) {
   return rows;
 }
 
-AverageResult average(const std::vector<EvaluationResult>& results) {
+AverageResult average(const std::vector<EvaluationResult>& results, int missing) {
   AverageResult mean;
+  mean.failed = missing;
   std::vector<int> counts;
   double t = 0, r = 0;
   for (const EvaluationResult& result : results) {

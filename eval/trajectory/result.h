@@ -99,6 +99,8 @@ struct AverageResult {
   Metric pooled_t_rel, pooled_r_rel;
 };
 /// Averages the results of several sequences.
-AverageResult average(const std::vector<EvaluationResult>& results);
+///
+/// `missing` further sequences have no estimate at all, and count as failed.
+AverageResult average(const std::vector<EvaluationResult>& results, int missing = 0);
 
 }  // namespace placegraph

@@ -32,7 +32,7 @@ struct EvoResult {
 /// Reads a result archive of evo (1.38.1 and earlier).
 ///
 /// The zip archive has info.json, stats.json, arrays as .npy (older ones as .npz, with the same
-/// bytes) and, where evo was told so, the trajectories as .tum or .kitti. Nothing is unpacked to
+/// bytes) and, where evo was asked to, the trajectories as .tum or .kitti. Nothing is unpacked to
 /// disk, and no size that the archive states is trusted. Throws FileError, which names archive and
 /// entry, if it is no such archive, an entry is missing or damaged, a statistic is no finite
 /// number, or it unpacks to more than 1 GiB.

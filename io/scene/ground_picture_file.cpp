@@ -35,7 +35,7 @@ void take_pixels(const Image& image, GroundPicture& picture) {
   picture.source = "data:image/png;base64," + to_base64(encode_png(small, {6, false}));
 }
 
-/// How a map_server tells cells apart.
+/// How a map_server says cells apart.
 struct GridThresholds {
   bool negate = false;
   double occupied = 0.65, free = 0.25;  ///< those of map_server

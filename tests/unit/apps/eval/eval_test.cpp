@@ -44,6 +44,72 @@ TEST_F(EvalCommand, MeasuresHowFarAnEstimateIsOff) {
   EXPECT_LT(eval(arguments).results[0].ape.error_m.rmse, 1e-6);
 }
 
+TEST_F(EvalCommand, TakesStepsPartsAndSpansFromTheirTexts) {
+  arguments.truth = write_drive("truth.txt");
+  arguments.estimates = {write_drive("estimate.txt", 0.3)};
+  arguments.deltas = {"10f", "5m"};
+  arguments.align_frames = ":30";
+  arguments.part = "xz";
+  const EvaluationResult result = eval(arguments).results[0];
+  ASSERT_EQ(result.relative.size(), 2u);
+  EXPECT_EQ(result.relative[1].delta, (Delta{5, Delta::Unit::kMetres}));
+  EXPECT_EQ(result.alignment.pairs, 30);
+  EXPECT_EQ(result.protocol.part, "in the plane xz");
+  arguments.align_frames = "30:20";
+  EXPECT_THAT(message_of([&] { eval(arguments); }), HasSubstr("--align-frames: '30:20' ends"));
+  arguments.align_frames = "a:20";
+  EXPECT_THAT(message_of([&] { eval(arguments); }), HasSubstr("'a' is not a number"));
+  arguments.align_frames = "20";
+  EXPECT_THAT(message_of([&] { eval(arguments); }), HasSubstr("is no span A:B"));
+  arguments.align_first = 5;
+  EXPECT_THAT(message_of([&] { eval(arguments); }), HasSubstr("give one of them"));
+  arguments.align_frames.clear();
+  EXPECT_EQ(eval(arguments).results[0].alignment.pairs, 5);
+  arguments.deltas = {"0s"};
+  EXPECT_THAT(message_of([&] { eval(arguments); }), HasSubstr("delta '0s'"));
+}
+
+TEST_F(EvalCommand, ComparesEstimatesOfDifferentFramesOnCommonOnes) {
+  arguments.truth = write_drive("truth.txt");
+  Trajectory half = test::winding_drive(60, 1, false);
+  for (std::size_t i = 30; i < 60; ++i) half.poses[i].T_world_body.reset();
+  write_trajectory(folder / "half.txt", half, TrajectoryFormat::kKitti);
+  arguments.estimates = {write_drive("whole.txt", 0.3), folder / "half.txt"};
+  const EvalResult result = eval(arguments);
+  ASSERT_TRUE(result.common.needed);
+  EXPECT_EQ(result.common.results[0].posed, 30);
+  EXPECT_THAT(to_text(result), HasSubstr("on the frames that all estimates have"));
+  EXPECT_EQ(nlohmann::json::parse(to_json(result))["common"].size(), 2u);
+}
+
+TEST_F(EvalCommand, GivesIntervalsOfRepeatedRunsFromFiveOn) {
+  arguments.truth = write_drive("truth.txt");
+  arguments.align = "none";
+  arguments.repeated_runs = true;
+  for (int run = 0; run < 5; ++run)
+    arguments.estimates.push_back(write_drive("r" + std::to_string(run), 0.3 + 0.01 * run));
+  const auto ate = [](const EvalResult& result) { return result.of_runs.at(0).interval; };
+  const EvalResult five = eval(arguments);
+  ASSERT_TRUE(ate(five).outcome) << ate(five).outcome.reason;
+  EXPECT_NEAR(ate(five).estimate, 0.32, 1e-6);
+  EXPECT_LT(ate(five).low, 0.32);
+  EXPECT_GT(ate(five).high, 0.32);
+  EXPECT_THAT(to_text(five), HasSubstr("over the runs"));
+  arguments.estimates.pop_back();
+  EXPECT_FALSE(ate(eval(arguments)).outcome);
+}
+
+TEST_F(EvalCommand, LeavesNoMeanWhereASequenceHasNoEstimate) {
+  arguments.truth = folder / "truth";
+  arguments.estimates = {folder / "estimates"};
+  write_drive("truth/00.txt"), write_drive("truth/01.txt");
+  write_drive("estimates/00.txt", 0.1);
+  const nlohmann::json json = nlohmann::json::parse(to_json(eval(arguments)));
+  EXPECT_EQ(json["average"]["failed"], 1);
+  EXPECT_TRUE(json["average"]["ate_rmse_m"].is_null());
+  EXPECT_FALSE(json["average"]["of_the_others"]["ate_rmse_m"].is_null());
+}
+
 TEST_F(EvalCommand, TakesTheOutputFolderOfARun) {
   arguments.truth = write_drive("truth.txt");
   write_drive("run/trajectory_optimized.kitti", 0.3);
