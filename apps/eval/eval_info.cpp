@@ -17,7 +17,7 @@
 namespace placegraph::apps {
 namespace {
 
-using json = nlohmann::ordered_json;
+using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kListed = 5;                     // spans that a text names
 constexpr std::int64_t kSince1970_ns = 946684800LL * 1000000000;  // 2000-01-01: later is a date
@@ -164,14 +164,14 @@ std::string table(const std::vector<NamedInfo>& infos) {
   return text + "speed: median, m/s or m a frame; plane: the axis across it; -: not evident\n";
 }
 
-json spread_json(const Spread& spread) {
+Json spread_json(const Spread& spread) {
   if (spread.count == 0) return nullptr;
   return {{"min", spread.min}, {"p05", spread.p05}, {"median", spread.median},
           {"p95", spread.p95}, {"max", spread.max}, {"count", spread.count}};
 }
 
-json span_json(const TrajectoryInfo& info, const FrameSpan& span) {
-  json object = {{"first", span.first}, {"last", span.last}};
+Json span_json(const TrajectoryInfo& info, const FrameSpan& span) {
+  Json object = {{"first", span.first}, {"last", span.last}};
   if (info.has_times) {
     object["from_s"] = in_seconds(span.first_ns - info.first_ns);
     object["length_s"] = in_seconds(span.length_ns());
@@ -181,14 +181,14 @@ json span_json(const TrajectoryInfo& info, const FrameSpan& span) {
   return object;
 }
 
-json spans_json(const TrajectoryInfo& info, const std::vector<FrameSpan>& spans) {
-  json list = json::array();
+Json spans_json(const TrajectoryInfo& info, const std::vector<FrameSpan>& spans) {
+  Json list = Json::array();
   for (const FrameSpan& span : spans) list.push_back(span_json(info, span));
   return list;
 }
 
 /// null where nothing is evident, with the reason beside it.
-json plane_json(const MotionPlane& plane) {
+Json plane_json(const MotionPlane& plane) {
   if (!plane.outcome) return {{"axis", nullptr}, {"reason", plane.outcome.reason}};
   return {{"axis", std::string(1, plane.axis)},
           {"tilt_deg", plane.tilt_deg},
@@ -196,7 +196,7 @@ json plane_json(const MotionPlane& plane) {
           {"rms_m", plane.rms_m}};
 }
 
-json forward_json(const ForwardAxis& forward) {
+Json forward_json(const ForwardAxis& forward) {
   if (!forward.outcome) return {{"axis", nullptr}, {"reason", forward.outcome.reason}};
   return {{"axis", forward.axis},
           {"angle_deg", forward.angle_deg},
@@ -205,26 +205,26 @@ json forward_json(const ForwardAxis& forward) {
           {"convention", forward.convention}};
 }
 
-json likelihood_json(const Likelihood& likelihood) {
+Json likelihood_json(const Likelihood& likelihood) {
   if (!likelihood.outcome) return {{"as_read", nullptr}, {"reason", likelihood.outcome.reason}};
   return {{"as_read", likelihood.as_read}, {"reason", likelihood.answer}};
 }
 
-json jumps_json(const TrajectoryInfo& info) {
-  json list = json::array();
+Json jumps_json(const TrajectoryInfo& info) {
+  Json list = Json::array();
   for (const ImplausibleStep& jump : info.jumps) {
-    json object = span_json(info, jump.span);
+    Json object = span_json(info, jump.span);
     object["distance_m"] = jump.distance_m;
     object["angle_deg"] = jump.angle_deg;
-    object["times_faster"] = jump.times_faster ? json(*jump.times_faster) : json(nullptr);
+    object["times_faster"] = jump.times_faster ? Json(*jump.times_faster) : Json(nullptr);
     list.push_back(object);
   }
   return list;
 }
 
-json info_json(const NamedInfo& named) {
+Json info_json(const NamedInfo& named) {
   const TrajectoryInfo& info = named.info;
-  json object = {{"name", named.name},
+  Json object = {{"name", named.name},
                  {"frames", info.frames},
                  {"posed", info.posed},
                  {"has_times", info.has_times},
@@ -271,9 +271,9 @@ std::string to_text(const std::vector<NamedInfo>& infos) {
 
 std::string to_json(const std::vector<NamedInfo>& infos) {
   if (infos.size() == 1) return json_text(info_json(infos.front()), 1);
-  json list = json::array();
+  Json list = Json::array();
   for (const NamedInfo& each : infos) list.push_back(info_json(each));
-  return json_text(json{{"trajectories", list}}, 1);
+  return json_text(Json{{"trajectories", list}}, 1);
 }
 
 }  // namespace placegraph::apps
