@@ -118,22 +118,31 @@ void set_length_unit(Figure& figure, LengthUnit unit) {
   }
 }
 
-/// A map of one coordinate that stretches what any panel covers, and nothing else.
+/// A map of one coordinate that stretches what any panel covers, but no panel's margins.
 class PanelStretch {
  public:
   PanelStretch(const Figure& figure, int axis, double wanted_px, double own_px) {
+    const double before = axis == 0 ? kLeftMargin : kTopMargin,
+                 after = axis == 0 ? kRightMargin : kBottomMargin;
     std::set<double> ends = {0};
     for (const FigurePanel& panel : figure.panels) {
-      ends.insert(panel.corner[axis]);
-      ends.insert(panel.corner[axis] + panel.size[axis]);
+      const double begin = panel.corner[axis], end = begin + panel.size[axis];
+      ends.insert({std::max(begin - before, 0.0), begin, end, end + after});
     }
     ends_.assign(ends.begin(), ends.end());
     double covered_px = 0;
     for (std::size_t i = 0; i + 1 < ends_.size(); ++i) {
       const double middle = 0.5 * (ends_[i] + ends_[i + 1]);
-      covered_.push_back(std::ranges::any_of(figure.panels, [&](const FigurePanel& panel) {
-        return middle > panel.corner[axis] && middle < panel.corner[axis] + panel.size[axis];
-      }));
+      const auto within = [&](double around_before, double around_after) {
+        return [=](const FigurePanel& panel) {
+          const double begin = panel.corner[axis], end = begin + panel.size[axis];
+          return middle > begin - around_before && middle < end + around_after;
+        };
+      };
+      // Beside one panel may stand the inside of another: the margin stays.
+      const auto with_margins = std::ranges::count_if(figure.panels, within(before, after)),
+                 inside = std::ranges::count_if(figure.panels, within(0, 0));
+      covered_.push_back(inside > 0 && inside == with_margins);
       if (covered_.back()) covered_px += ends_[i + 1] - ends_[i];
     }
     factor_ = covered_px > 0 ? 1 + (wanted_px - own_px) / covered_px : 1;

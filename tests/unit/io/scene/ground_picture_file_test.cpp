@@ -5,6 +5,7 @@
 #include <placegraph/io/files/picture_file.h>
 #include <placegraph/io/scene/ground_picture_file.h>
 
+#include <algorithm>
 #include <opencv2/core.hpp>
 
 #include "tests/support/message_of.h"
@@ -76,9 +77,14 @@ TEST(GroundPictureFile, GridsOfTheExportAreRead) {
   grid.rows = 4;
   grid.cells.assign(20, CellState::kFree);
   grid.cells[0] = CellState::kOccupied;  // least x and y
-  folder.write("g.pgm", to_pgm(grid));
+  // As PNG, which the library reads without its picture plug-in.
+  const std::string pgm = to_pgm(grid);
+  const std::string pixels_of_pgm = pgm.substr(pgm.size() - 20);
+  Image picture_of_grid(4, 5, CV_8UC1);
+  std::copy(pixels_of_pgm.begin(), pixels_of_pgm.end(), picture_of_grid.data);
+  write_png(folder / "g.png", picture_of_grid);
   const GroundPicture picture =
-      read_ground_picture(folder.write("g.yaml", to_map_server_yaml(grid, "g.pgm")));
+      read_ground_picture(folder.write("g.yaml", to_map_server_yaml(grid, "g.png")));
   EXPECT_LT((at(picture, 0, 4) - Eigen::Vector2d(1, -2)).norm(), 1e-12);
   EXPECT_LT((at(picture, 5, 0) - Eigen::Vector2d(1.5, -1.6)).norm(), 1e-12);
   Image pixels = pixels_of(picture);
