@@ -8,8 +8,11 @@
 namespace placegraph {
 namespace {
 
-/// Share of a free direction with which a parameter takes part in it. Chosen.
+/// Share of a free direction with which a parameter takes part in its name. Chosen.
 constexpr double kPart = 0.1;
+/// And that with which its value is unknown: a metre along the direction moves it by a centimetre.
+/// Chosen.
+constexpr double kMoved = 0.01;
 
 /// A unit vector whose largest component is positive, without negative zeros.
 Eigen::Vector3d unit_axis(const Eigen::Vector3d& vector) {
@@ -109,7 +112,7 @@ OffsetVector moved_by_free(const OffsetFit& fit, const OffsetMatrix& turn) {
   OffsetVector moved = OffsetVector::Zero();
   const Eigen::MatrixXd free = turn * fit.free;
   for (int k = 0; k < kOffsetParameters; ++k)
-    if (free.row(k).norm() > kPart) moved[k] = std::numeric_limits<double>::infinity();
+    if (free.row(k).norm() > kMoved) moved[k] = std::numeric_limits<double>::infinity();
   return moved;
 }
 

@@ -37,7 +37,7 @@ class SmoothMotion {
 
 /// Offsets, rates and noise of a made pair of trajectories.
 struct OffsetWorld {
-  std::function<SE3(double)> T_world_truth;  ///< the motion of the truth's body, by the truth's clock
+  std::function<SE3(double)> T_world_truth;  ///< motion of the truth's body, by its clock
   SE3 T_estimate_truth;                      ///< what is to be found
   double time_s = 0;                         ///< added to the estimate's stamps
   double scale = 1;                          ///< metres per unit of the estimate
