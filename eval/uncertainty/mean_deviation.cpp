@@ -177,14 +177,14 @@ MeanDeviation deviation_of_mean(const std::vector<ErrorSeries>& series, const Te
   }
   MeanDeviation result;
   result.mean = sum / count;
-  const AllowedWaves waves = allowed_waves(series);
-  result.outcome = waves.outcome;
-  if (!result.outcome) return result;
   // Rounding of equal errors.
   if (squares <= 1e-24 * sum * sum) {
     result.outcome = Outcome::failure(Outcome::Code::kDegenerate, "the errors do not vary");
     return result;
   }
+  const AllowedWaves waves = allowed_waves(series);
+  result.outcome = waves.outcome;
+  if (!result.outcome) return result;
   int first = groups.front().front().first_frame, last = first;
   for (const GroupedSeries& one : groups)
     for (const ErrorGroup& group : one) {
