@@ -6,6 +6,22 @@
 
 namespace placegraph {
 
+namespace {
+
+/// The quantile of values of which those before `divided` are not above the others; moves it on.
+double quantile_above(std::vector<double>& values, std::size_t& divided, double q) {
+  const double place = q * static_cast<double>(values.size() - 1);
+  const auto below = static_cast<std::size_t>(place);
+  const auto at = [&](std::size_t i) { return values.begin() + static_cast<std::ptrdiff_t>(i); };
+  std::nth_element(at(divided), at(below), values.end());
+  divided = below;
+  if (below + 1 >= values.size()) return values[below];
+  const double next = *std::min_element(at(below + 1), values.end());
+  return values[below] + (place - static_cast<double>(below)) * (next - values[below]);
+}
+
+}  // namespace
+
 double quantile(const std::vector<double>& sorted, double q) {
   require(!sorted.empty(), "quantile of an empty list");
   require(q >= 0 && q <= 1, "quantile: the share is outside [0, 1]");
@@ -18,27 +34,28 @@ double quantile(const std::vector<double>& sorted, double q) {
 
 Statistics statistics_of(const std::vector<double>& errors) {
   require(!errors.empty(), "statistics of an empty list");
-  std::vector<double> sorted = errors;
-  std::sort(sorted.begin(), sorted.end());
   Statistics s;
-  s.count = static_cast<int>(sorted.size());
+  s.count = static_cast<int>(errors.size());
   double sum = 0;
-  for (const double e : sorted) {
+  for (const double e : errors) {
     sum += e;
     s.sse += e * e;
   }
   s.mean = sum / s.count;
   s.rmse = std::sqrt(s.sse / s.count);
   double squares = 0;
-  for (const double e : sorted) squares += (e - s.mean) * (e - s.mean);
+  for (const double e : errors) squares += (e - s.mean) * (e - s.mean);
   s.std_dev = std::sqrt(squares / s.count);
-  s.median = quantile(sorted, 0.5);
-  s.min = sorted.front();
-  s.max = sorted.back();
-  s.p75 = quantile(sorted, 0.75);
-  s.p90 = quantile(sorted, 0.90);
-  s.p95 = quantile(sorted, 0.95);
-  s.p99 = quantile(sorted, 0.99);
+  const auto [least, greatest] = std::minmax_element(errors.begin(), errors.end());
+  s.min = *least;
+  s.max = *greatest;
+  // Each quantile divides what is above the one before: linear in all.
+  std::vector<double> values = errors;
+  std::size_t divided = 0;
+  for (const auto& [q, member] :
+       {std::pair(0.5, &s.median), std::pair(0.75, &s.p75), std::pair(0.9, &s.p90),
+        std::pair(0.95, &s.p95), std::pair(0.99, &s.p99)})
+    *member = quantile_above(values, divided, q);
   return s;
 }
 

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 #include <placegraph/eval/trajectory/plausibility.h>
-#include <placegraph/eval/errors/relative_error.h>
+#include <placegraph/eval/association/frame_pair.h>
 #include <placegraph/graph/core/angle.h>
 
 #include <Eigen/SVD>
@@ -17,6 +17,8 @@ namespace {
 // reading is better. Chosen.
 constexpr int kMaxShift = 5;
 constexpr double kClearlyBetter = 0.5;
+/// More motions than this, evenly spread, would show nothing else. Chosen.
+constexpr int kMostMotions = 10'000;
 /// Misfits below this (1 % of the motion) need no explanation.
 constexpr double kGoodMisfit = 1e-4;
 /// Orientations that differ by less are the same.
@@ -73,7 +75,7 @@ struct Motions {
     truth.reserve(pairs.size());
     estimate.reserve(pairs.size());
     // The same window of ground truth for every shift, so that misfits can be compared.
-    for (int i = kMaxShift; i + stride + kMaxShift < n; ++i) {
+    for (int i = kMaxShift; i + stride + kMaxShift < n; i += std::max(1, n / kMostMotions)) {
       const auto& a = pairs[static_cast<std::size_t>(i + shift)].T_world_estimate;
       const auto& b = pairs[static_cast<std::size_t>(i + shift + stride)].T_world_estimate;
       if (!a || !b) continue;

@@ -74,9 +74,9 @@ Json profile_rows(const std::vector<ErrorGroup>& groups, const char* unit) {
     row[std::string("from_") + unit] = group.from;
     row[std::string("to_") + unit] = group.to;
     row["frames"] = group.frames;
-    row["ate_rmse_m"] = group.ate_rmse_m;
-    row["rpe_trans_m"] = group.rpe_trans_m;
-    row["rpe_rot_deg"] = group.rpe_rot_deg;
+    row["position_rmse_m"] = group.ate_rmse_m;
+    row["step_trans_rmse_m"] = group.rpe_trans_m;
+    row["step_rot_rmse_deg"] = group.rpe_rot_deg;
     rows.push_back(row);
   }
   return rows;

@@ -9,7 +9,7 @@ namespace [[gnu::visibility("default")]] placegraph {
 /// The interval of four runs is more than twice as wide as that of ten. Chosen.
 inline constexpr int kFewestRuns = 5;
 
-/// Interval of a figure of repeated runs: of its expectation over runs or seeds.
+/// ConfidenceInterval of a figure of repeated runs: of its expectation over runs or seeds.
 ///
 /// `figures` are one figure of each run (an ATE, any error), the estimate is their mean. The
 /// interval is Student's on a logarithmic scale, on which figures that scatter by half of their
