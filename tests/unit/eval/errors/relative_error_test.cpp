@@ -156,5 +156,23 @@ TEST(Quantile, IsThatOfNumpy) {
   EXPECT_THROW((void)quantile(sorted, 1.5), ArgumentError);
 }
 
+TEST(Statistics, HaveTheQuantilesOfTheSortedList) {
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    Random random(seed);
+    std::vector<double> errors;
+    for (int i = 0; i < 1 + int(seed * seed % 997); ++i)
+      errors.push_back(seed % 3 == 0 ? std::floor(random.uniform(0, 5)) : random.normal());
+    const Statistics s = statistics_of(errors);
+    std::sort(errors.begin(), errors.end());
+    EXPECT_EQ(s.median, quantile(errors, 0.5)) << seed;
+    EXPECT_EQ(s.p75, quantile(errors, 0.75)) << seed;
+    EXPECT_EQ(s.p90, quantile(errors, 0.9)) << seed;
+    EXPECT_EQ(s.p95, quantile(errors, 0.95)) << seed;
+    EXPECT_EQ(s.p99, quantile(errors, 0.99)) << seed;
+    EXPECT_EQ(s.min, errors.front());
+    EXPECT_EQ(s.max, errors.back());
+  }
+}
+
 }  // namespace relative_error_test
 }  // namespace placegraph
