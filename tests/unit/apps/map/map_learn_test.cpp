@@ -1,6 +1,7 @@
 #include "apps/map/map_learn.h"
 
 #include <gtest/gtest.h>
+#include <placegraph/io/map/map_database.h>
 #include <placegraph/graph/core/error.h>
 
 #include <map>
