@@ -247,10 +247,10 @@ TEST(IntervalStudy, EqualSystemsRaiseFewAlarmsAndTenPercentAreFoundByTheRunsAske
 }
 
 TEST(IntervalStudy, ModelsThatNoConstantWasChosenBy) {
-  study_drives({ErrorModel::kScaleWander, ErrorModel::kBursts, ErrorModel::kCorrelated,
+  study_drives({ErrorModel::kBursts, ErrorModel::kCorrelated,
                 ErrorModel::kHeavyTails},
                false);
-  study_runs({ErrorModel::kScaleWander, ErrorModel::kBursts, ErrorModel::kCorrelated,
+  study_runs({ErrorModel::kBursts, ErrorModel::kCorrelated,
               ErrorModel::kHeavyTails},
              false);
 }
