@@ -342,7 +342,7 @@ std::string to_text(const EvalResult& result) {
     text += "\non the frames that all estimates have:\n" + to_table(result.common.results, false);
   if (!result.of_runs.empty()) text += "\nover the runs:\n" + to_text(result.of_runs);
   for (const std::vector<FigureComparison>& each : result.comparisons)
-    text += "\n" + to_text(each);
+    text.append("\n").append(to_text(each));
   return text;
 }
 

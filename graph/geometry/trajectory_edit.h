@@ -26,9 +26,9 @@ Trajectory resample(const Trajectory& recorded, const std::vector<std::int64_t>&
 
 /// How far a frame is from the last one that is kept; any one of them is enough.
 struct FrameSpacing {
-  std::optional<double> m;    ///< distance [m]
-  std::optional<double> s;    ///< time [s]
-  std::optional<double> deg;  ///< angle of the rotation [deg]
+  std::optional<double> m = std::nullopt;    ///< distance [m]
+  std::optional<double> s = std::nullopt;    ///< time [s]
+  std::optional<double> deg = std::nullopt;  ///< angle of the rotation [deg]
 };
 
 /// The first posed frame, and every one that is as far from the last one that is kept.
