@@ -56,17 +56,17 @@ TEST_F(EvalCommand, TakesStepsPartsAndSpansFromTheirTexts) {
   EXPECT_EQ(result.alignment.pairs, 30);
   EXPECT_EQ(result.protocol.part, "in the plane xz");
   arguments.align_frames = "30:20";
-  EXPECT_THAT(message_of([&] { eval(arguments); }), HasSubstr("--align-frames: '30:20' ends"));
+  EXPECT_THAT(message_of<ArgumentError>([&] { eval(arguments); }), HasSubstr("--align-frames: '30:20' ends"));
   arguments.align_frames = "a:20";
-  EXPECT_THAT(message_of([&] { eval(arguments); }), HasSubstr("'a' is not a number"));
+  EXPECT_THAT(message_of<ArgumentError>([&] { eval(arguments); }), HasSubstr("'a' is not a number"));
   arguments.align_frames = "20";
-  EXPECT_THAT(message_of([&] { eval(arguments); }), HasSubstr("is no span A:B"));
+  EXPECT_THAT(message_of<ArgumentError>([&] { eval(arguments); }), HasSubstr("is no span A:B"));
   arguments.align_first = 5;
-  EXPECT_THAT(message_of([&] { eval(arguments); }), HasSubstr("give one of them"));
+  EXPECT_THAT(message_of<ArgumentError>([&] { eval(arguments); }), HasSubstr("give one of them"));
   arguments.align_frames.clear();
   EXPECT_EQ(eval(arguments).results[0].alignment.pairs, 5);
   arguments.deltas = {"0s"};
-  EXPECT_THAT(message_of([&] { eval(arguments); }), HasSubstr("delta '0s'"));
+  EXPECT_THAT(message_of<ArgumentError>([&] { eval(arguments); }), HasSubstr("delta '0s'"));
 }
 
 TEST_F(EvalCommand, ComparesEstimatesOfDifferentFramesOnCommonOnes) {
