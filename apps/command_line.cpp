@@ -12,7 +12,9 @@
 #include "apps/config/cmd_config.h"
 #include "apps/eval/cmd_eval.h"
 #include "apps/eval/cmd_eval_edges.h"
+#include "apps/eval/cmd_eval_gate.h"
 #include "apps/eval/cmd_eval_noise.h"
+#include "apps/eval/cmd_eval_record.h"
 #include "apps/eval/cmd_loops.h"
 #include "apps/graph/cmd_bundle.h"
 #include "apps/graph/cmd_convert.h"
@@ -66,6 +68,8 @@ void add_eval_group(CLI::App& app) {
       group, [](const EvalArguments& a, const EvalResult& r) { write_eval_page(a, r); });
   add_eval_edges_command(group);
   add_eval_noise_command(group);
+  add_eval_record_command(group);
+  add_eval_gate_command(group);
   add_eval_loops_command(
       group, [](const LoopsArguments& a, const LoopsResult& r) { write_loops_page(a, r); });
   add_eval_scene_commands(group);

@@ -41,6 +41,37 @@ void add_plot_options(CLI::App& command, EvalArguments& a) {
 
 }  // namespace
 
+void add_protocol_options(CLI::App& command, EvalArguments& a) {
+  command.add_option("--align", a.align, "transformation fitted before the errors are computed")
+      ->check(CLI::IsMember(eval_alignments()))
+      ->capture_default_str();
+  command
+      .add_option("--lengths", a.options.segments.lengths_m,
+                   "lengths of the segments [m], as 100,200,300")
+      ->delimiter(',')
+      ->capture_default_str();
+  command.add_option("--step", a.options.segments.step, "frames between the starts of segments")
+      ->capture_default_str();
+  command
+      .add_option("--associate", a.associate,
+                   "how poses are paired: by index or by time; auto: by time if both have times")
+      ->check(CLI::IsMember(eval_associations()))
+      ->capture_default_str();
+  command
+      .add_option("--max-difference", a.options.time.max_difference_s,
+                   "largest time difference of paired poses [s]")
+      ->capture_default_str();
+  command
+      .add_option("--offset", a.options.time.offset_s,
+                   "time added to the stamps of the estimate [s]")
+      ->capture_default_str();
+  command.add_option("--times", a.times, kTimesText)
+      ->delimiter(',')
+      ->expected(1)
+      ->take_all()
+      ->check(CLI::ExistingFile);
+}
+
 void add_eval_trajectory_command(
     CLI::App& eval_group,
     const std::function<void(const EvalArguments&, const EvalResult&)>& write_page) {
@@ -63,34 +94,7 @@ void add_eval_trajectory_command(
           "paired with TRUTH's by name")
       ->required()
       ->check(CLI::ExistingPath);
-  command->add_option("--align", a.align, "transformation fitted before the errors are computed")
-      ->check(CLI::IsMember(eval_alignments()))
-      ->capture_default_str();
-  command
-      ->add_option("--lengths", a.options.segments.lengths_m,
-                   "lengths of the segments [m], as 100,200,300")
-      ->delimiter(',')
-      ->capture_default_str();
-  command->add_option("--step", a.options.segments.step, "frames between the starts of segments")
-      ->capture_default_str();
-  command
-      ->add_option("--associate", a.associate,
-                   "how poses are paired: by index or by time; auto: by time if both have times")
-      ->check(CLI::IsMember(eval_associations()))
-      ->capture_default_str();
-  command
-      ->add_option("--max-difference", a.options.time.max_difference_s,
-                   "largest time difference of paired poses [s]")
-      ->capture_default_str();
-  command
-      ->add_option("--offset", a.options.time.offset_s,
-                   "time added to the stamps of the estimate [s]")
-      ->capture_default_str();
-  command->add_option("--times", a.times, kTimesText)
-      ->delimiter(',')
-      ->expected(1)
-      ->take_all()
-      ->check(CLI::ExistingFile);
+  add_protocol_options(*command, a);
   command->add_flag("--json", eval_command->json, kJsonText);
   command->add_option("--csv", a.csv, "write the details as CSV")->type_name(kOutput);
   command->add_option("--latex", a.latex, "write the figures as a LaTeX table")->type_name(kOutput);

@@ -26,6 +26,8 @@ constexpr std::pair<std::string_view, std::string_view> kPages[] = {
     {"eval loops", "evaluation.md#loops"},
     {"eval edges", "evaluation.md#edges"},
     {"eval noise", "evaluation.md#noise-of-the-truth"},
+    {"eval record", "evaluation.md#is-this-change-a-regression"},
+    {"eval gate", "evaluation.md#is-this-change-a-regression"},
     {"eval", "evaluation.md"},
     {"map loops", "map.md#editing-loops"},
     {"map plan", "floor_plan.md"},

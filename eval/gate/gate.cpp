@@ -29,6 +29,13 @@ GateFigure of_sequence(const std::string& sequence, const std::string& figure, S
   return one;
 }
 
+/// A figure whose rule asks for a test that cannot be made.
+struct Untested {
+  GateTest test;
+  FigurePair pair;
+  bool too_few;  ///< for too few runs or sequences
+};
+
 /// The work of judge(): what belongs together is paired, told, tested, and put in order.
 class Gate {
  public:
@@ -44,7 +51,7 @@ class Gate {
     for (const GateRules::Must& must : rules_.musts) check_must(must);
     for (const auto& [key, pairs] : over_sequences_) judge_over_sequences(key, pairs);
     decide_tests(tests_, options_, figures_);
-    for (const auto& [index, pair] : untested_) decide_untested(pair, figures_[index]);
+    for (const Untested& one : untested_) decide_untested(one, figures_[one.test.figure]);
     return concluded();
   }
 
@@ -121,11 +128,7 @@ class Gate {
     }
     figures_[index].reason = outcome.reason;
     figures_[index].standing = Standing::kUnjudged;
-    // Where the one lacks runs, the other may know how many are needed.
-    if (outcome.code == Outcome::Code::kTooFewData)
-      figures_[index].runs_needed = std::max(
-          kFewestRuns, one.rule.over_sequences ? 0 : runs_needed_for(one, 1, options_));
-    untested_.emplace_back(index, pair);
+    untested_.push_back({one, pair, outcome.code == Outcome::Code::kTooFewData});
   }
 
   void judge_over_sequences(const std::string& key, const Pairs& pairs) {
@@ -149,16 +152,22 @@ class Gate {
          [&pairs](GateTest& one) { return test_pairs(pairs, one); });
   }
 
-  void decide_untested(const FigurePair& pair, GateFigure& figure) const {
-    if (pair.rule.otherwise && !pair.rule.over_sequences) {
+  void decide_untested(const Untested& one, GateFigure& figure) const {
+    if (one.pair.rule.otherwise && !one.pair.rule.over_sequences) {
       const std::string why = figure.reason;
-      figure.runs_needed = 0;
-      judge_by_tolerance(pair, figure);
+      judge_by_tolerance(one.pair, figure);
       if (figure.reason.empty()) figure.reason = why + ", so by its tolerance";
-    } else if (figure.runs_needed > 0) {
-      figure.reason += fmt::format(": {} {} are needed", figure.runs_needed,
-                                   pair.rule.over_sequences ? "sequences" : "runs of each");
+      return;
     }
+    if (!one.too_few) return;
+    // Where the one lacks runs, the other may know how many are needed.
+    figure.runs_needed = kFewestRuns;
+    if (!one.pair.rule.over_sequences)
+      figure.runs_needed =
+          std::max(kFewestRuns, runs_needed_for(one.test, tests_.size() + untested_.size(),
+                                                options_));
+    figure.reason += fmt::format(": {} {} are needed", figure.runs_needed,
+                                 one.pair.rule.over_sequences ? "sequences" : "runs of each");
   }
 
   void check_must(const GateRules::Must& must) {
@@ -179,7 +188,7 @@ class Gate {
   std::vector<std::string> judged_;       ///< sequences of the candidate that have a partner
   std::map<std::string, Pairs> over_sequences_;
   std::vector<GateTest> tests_;
-  std::vector<std::pair<std::size_t, FigurePair>> untested_;  ///< figures without a test
+  std::vector<Untested> untested_;
 };
 
 std::string name_of(const std::string& name, const Record& record) {

@@ -43,6 +43,7 @@ void append_sequence(const RecordedSequence& more, const std::string& name,
   const std::string difference = difference_of(sequence, more);
   require(difference.empty(), name + ": is no run of the same: " + sequence.name + ": " +
                                   difference);
+  if (sequence.options.empty()) sequence.options = more.options;
   const std::size_t before = runs_of(sequence), runs = runs_of(more);
   for (RecordedFigure& figure : sequence.figures) {
     const RecordedFigure* other = more.find(figure.key);
@@ -158,6 +159,8 @@ std::string difference_of(const RecordedSequence& a, const RecordedSequence& b) 
   if (a.truth.fingerprint != b.truth.fingerprint)
     return fmt::format("the truth is another one: {} poses over {:.1f} m, and {} over {:.1f} m",
                        a.truth.frames, a.truth.path_m, b.truth.frames, b.truth.path_m);
+  // Of a sequence without any result it is not known how its figures would have been made.
+  if (a.options.empty() || b.options.empty()) return "";
   const auto value_of = [](const RecordedSequence& sequence, const std::string& key) {
     const auto found = sequence.options.find(key);
     return found == sequence.options.end() ? std::string("not recorded") : found->second;

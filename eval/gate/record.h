@@ -47,7 +47,8 @@ struct RecordedTruth {
 struct RecordedSequence {
   std::string name;                            ///< unique in its record
   RecordedTruth truth;                         ///< what it was judged by
-  std::map<std::string, std::string> options;  ///< how the figures were made: "align" -> "se3"
+  /// How the figures were made: "align" -> "se3". Empty if no run has a result.
+  std::map<std::string, std::string> options;
   std::optional<double> reference_s;  ///< CPU time of a fixed program in the same sitting
   std::vector<std::string> failures;  ///< a line for each run without a result: which, and why
   std::vector<RecordedFigure> figures;  ///< in the order of the report
@@ -76,7 +77,8 @@ struct Record {
 [[nodiscard]] Record merged(const std::vector<Record>& records,
                             const std::vector<std::string>& names);
 
-/// Why two sequences' figures may not be compared: other truth, other options. Empty: they may.
+/// Why two sequences' figures may not be compared: other truth, or other options if both have
+/// some. Empty: they may.
 std::string difference_of(const RecordedSequence& a, const RecordedSequence& b);
 
 }  // namespace placegraph

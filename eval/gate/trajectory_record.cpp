@@ -91,7 +91,7 @@ RecordedSequence record_of(const std::string& name, const Trajectory& truth,
                     truth.path_length()};
   // A run that was refused has no association of its own.
   const auto ok = std::ranges::find_if(runs, [](const EvaluationResult& r) { return !!r.outcome; });
-  sequence.options = options_of((ok == runs.end() ? runs.front() : *ok).protocol);
+  if (ok != runs.end()) sequence.options = options_of(ok->protocol);
   for (const Metric& metric : metrics(runs.front())) {
     RecordedFigure& figure = sequence.figures.emplace_back();
     figure.key = metric.key;
