@@ -70,7 +70,6 @@ TEST(GateStatistics, EqualSystemsAlarmInSixOfAHundredPairsAtMost) {
       }
       alarms += judge(record_of(a), record_of(b), rules).exit_code() == 1;
     }
-    RecordProperty(name, alarms);
     EXPECT_LE(alarms, 0.06 * kPairs) << name;
   }
 }
