@@ -32,10 +32,11 @@ const char* to_string(Difference difference);
 
 /// Two systems' figures, errors of any kind: smaller is better.
 struct Comparison {
-  Outcome outcome;           ///< as Interval; kInconsistent: the two have nothing in common
+  /// As ConfidenceInterval; kInconsistent: the two have nothing in common.
+  Outcome outcome;
   double first = 0;          ///< the figure of the first system
   double second = 0;         ///< the figure of the second one
-  Interval ratio;            ///< second over first
+  ConfidenceInterval ratio;            ///< second over first
   double p_value = 1;        ///< of a ratio of 1, two-sided; only if outcome
   double p_worse = 1;        ///< of the second being no worse, one-sided; only if outcome
   int common = 0;            ///< errors or runs of the first system that are compared
@@ -74,8 +75,8 @@ enum class SeriesFigure { kMean, kRmse };
 
 /// Compares runs in pairs of the same sequence or seed: entry i of both.
 ///
-/// Student's test of the mean logarithm of the ratios: every pair has the same weight, whatever the
-/// size of its figures, and `first` and `second` are the geometric means. Outcome as compare_runs().
+/// Student's test of the mean logarithm of the ratios: every pair has the same weight, of large
+/// figures or small, and `first` and `second` are the geometric means. Outcome as compare_runs().
 /// Throws ArgumentError for lists of different length and figures that are not positive.
 [[nodiscard]] Comparison compare_paired_runs(const std::vector<double>& first,
                                              const std::vector<double>& second,

@@ -9,19 +9,10 @@
 namespace placegraph {
 namespace {
 
-template <class Function>
-std::vector<ErrorSeries> mapped(std::vector<ErrorSeries> series, const Function& function) {
-  for (ErrorSeries& one : series) {
-    one.check();
-    for (StretchError& e : one.errors) e.error = function(e.error);
-  }
-  return series;
-}
-
 /// All but estimate, low and high.
-Interval interval_by(const MeanDeviation& deviation, double level) {
+ConfidenceInterval interval_by(const MeanDeviation& deviation, double level) {
   require(level > 0 && level < 1, "the level of an interval is between 0 and 1");
-  Interval interval;
+  ConfidenceInterval interval;
   interval.outcome = deviation.outcome;
   interval.level = level;
   interval.degrees_freedom = deviation.waves;
@@ -29,7 +20,7 @@ Interval interval_by(const MeanDeviation& deviation, double level) {
   return interval;
 }
 
-double half_width(const Interval& interval, double sigma) {
+double half_width(const ConfidenceInterval& interval, double sigma) {
   return sigma * student_t_quantile(0.5 + 0.5 * interval.level, interval.degrees_freedom);
 }
 
@@ -49,9 +40,9 @@ double median_of_sorted(const std::vector<double>& sorted) {
 
 }  // namespace
 
-Interval interval_of_mean(const std::vector<ErrorSeries>& series, double level) {
+ConfidenceInterval interval_of_mean(const std::vector<ErrorSeries>& series, double level) {
   const MeanDeviation deviation = deviation_of_mean(series);
-  Interval interval = interval_by(deviation, level);
+  ConfidenceInterval interval = interval_by(deviation, level);
   interval.estimate = deviation.mean;
   if (!interval.outcome) return interval;
   const double half = half_width(interval, deviation.sigma);
@@ -65,22 +56,26 @@ Interval interval_of_mean(const std::vector<ErrorSeries>& series, double level) 
   return interval;
 }
 
-Interval interval_of_rmse(const std::vector<ErrorSeries>& series, double level) {
-  Interval interval = interval_of_mean(mapped(series, [](double e) { return e * e; }), level);
-  interval.estimate = std::sqrt(interval.estimate);
-  interval.low = std::sqrt(interval.low);
-  interval.high = std::sqrt(interval.high);
+ConfidenceInterval interval_of_rmse(const std::vector<ErrorSeries>& series, double level) {
+  const MeanDeviation squares = deviation_of_mean(series, [](double e) { return e * e; });
+  ConfidenceInterval interval = interval_by(squares, level);
+  interval.estimate = std::sqrt(squares.mean);
+  if (!interval.outcome) return interval;
+  // Of the logarithm of the root.
+  const double half = 0.5 * half_width(interval, squares.sigma) / squares.mean;
+  interval.low = interval.estimate * std::exp(-half);
+  interval.high = interval.estimate * std::exp(half);
   return interval;
 }
 
-Interval interval_of_median(const std::vector<ErrorSeries>& series, double level) {
+ConfidenceInterval interval_of_median(const std::vector<ErrorSeries>& series, double level) {
   require(!series.empty(), "no series of errors");
   for (const ErrorSeries& one : series) one.check();
   const std::vector<double> sorted = sorted_errors(series);
   const double median = median_of_sorted(sorted);
   const MeanDeviation below =
-      deviation_of_mean(mapped(series, [median](double e) { return e < median ? 1.0 : 0.0; }));
-  Interval interval = interval_by(below, level);
+      deviation_of_mean(series, [median](double e) { return e < median ? 1.0 : 0.0; });
+  ConfidenceInterval interval = interval_by(below, level);
   interval.estimate = median;
   if (!interval.outcome) return interval;
   const double half = half_width(interval, below.sigma);

@@ -6,7 +6,7 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// Intervals of figures of the errors of one drive: what another estimate of it would have.
+/// Interval of the mean over all errors of all series of one drive, as t_rel and r_rel are.
 ///
 /// The true value is the expectation of the figure over estimates of the same drive by the same
 /// system. The interval is Student's, on a logarithmic scale where no error is negative: figures of
@@ -16,15 +16,14 @@ namespace [[gnu::visibility("default")]] placegraph {
 /// Outcome: kTooFewData if the drive holds fewer than four disjoint stretches of the longest, or
 /// fewer than twenty independent errors of the shortest; kDegenerate if the errors are all equal.
 /// Throws ArgumentError if ErrorSeries::check() does, or for a level outside (0, 1).
-
-/// Of the mean over all errors of all series, as t_rel and r_rel are.
-[[nodiscard]] Interval interval_of_mean(const std::vector<ErrorSeries>& series,
-                                        double level = 0.95);
-/// Of the root of the mean square over all errors of all series.
-[[nodiscard]] Interval interval_of_rmse(const std::vector<ErrorSeries>& series,
-                                        double level = 0.95);
-/// Of the median over all errors of all series: between two quantiles of them (Woodruff 1952).
-[[nodiscard]] Interval interval_of_median(const std::vector<ErrorSeries>& series,
-                                          double level = 0.95);
+[[nodiscard]] ConfidenceInterval interval_of_mean(const std::vector<ErrorSeries>& series,
+                                                  double level = 0.95);
+/// Interval of the root of the mean square over all errors; as interval_of_mean().
+[[nodiscard]] ConfidenceInterval interval_of_rmse(const std::vector<ErrorSeries>& series,
+                                                  double level = 0.95);
+/// Interval of the median over all errors; as interval_of_mean().
+/// It lies between two quantiles of the errors (Woodruff 1952).
+[[nodiscard]] ConfidenceInterval interval_of_median(const std::vector<ErrorSeries>& series,
+                                                    double level = 0.95);
 
 }  // namespace placegraph

@@ -28,13 +28,12 @@ void ErrorSeries::check() const {
   require(!errors.empty(), "a series of errors over " + stretch + " is empty");
   const StretchError* before = nullptr;
   for (const StretchError& e : errors) {
-    require((!before || e.first_frame > before->first_frame) &&
-                e.last_frame >= e.first_frame,
-            fmt::format("the error of frames {} to {} is out of order", e.first_frame,
-                        e.last_frame));
-    require(std::isfinite(e.error),
-            fmt::format("the error of frames {} to {} is no finite number", e.first_frame,
-                        e.last_frame));
+    const bool ordered = e.last_frame >= e.first_frame &&
+                         (!before || e.first_frame > before->first_frame);
+    if (!ordered || !std::isfinite(e.error))
+      throw ArgumentError(fmt::format("the error of frames {} to {} {}", e.first_frame,
+                                      e.last_frame,
+                                      ordered ? "is no finite number" : "is out of order"));
     before = &e;
   }
 }

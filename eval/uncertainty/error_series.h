@@ -22,7 +22,7 @@ struct ErrorSeries {
   void check() const;
 };
 
-/// The errors in translation [%] of KITTI's segments: one series per length, by ascending length.
+/// The errors in translation [%] of KITTI's segments, a series per length, by length.
 std::vector<ErrorSeries> translation_series(const std::vector<SegmentError>& segments);
 /// The errors in rotation [deg/100 m] of KITTI's segments, likewise.
 std::vector<ErrorSeries> rotation_series(const std::vector<SegmentError>& segments);

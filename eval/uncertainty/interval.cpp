@@ -3,7 +3,7 @@
 
 namespace placegraph {
 
-std::string to_text(const Interval& interval) {
+std::string to_text(const ConfidenceInterval& interval) {
   if (!interval.outcome)
     return fmt::format("{:.4g}, no interval: {}", interval.estimate, interval.outcome.reason);
   return fmt::format("{:.4g}, {:g} % interval {:.4g} to {:.4g} ({})", interval.estimate,

@@ -5,8 +5,9 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// Where the true value of a figure lies: its expectation over estimates of the same kind.
-struct Interval {
+/// Where the true value of a figure lies.
+/// It is the figure's expectation over estimates of the same kind.
+struct ConfidenceInterval {
   /// kTooFewData: the data hold too few independent errors or runs; kDegenerate: they do not vary.
   Outcome outcome;
   double estimate = 0;         ///< the figure, in its unit; filled without an interval, too
@@ -16,7 +17,8 @@ struct Interval {
   std::string of;              ///< "this drive's errors" or "repeated runs"
 };
 
-/// An interval in a line: "0.9123, 95 % interval 0.8012 to 1.039 (repeated runs)", or the reason.
-std::string to_text(const Interval& interval);
+/// An interval in a line, or why there is none.
+/// "0.9123, 95 % interval 0.8012 to 1.039 (repeated runs)".
+std::string to_text(const ConfidenceInterval& interval);
 
 }  // namespace placegraph

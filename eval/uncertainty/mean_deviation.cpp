@@ -16,12 +16,15 @@ constexpr int kMostWaves = 40;
 // Two stretches in half a wave, and two waves: with one, the interval would span a factor of
 // thousands.
 constexpr int kStretchesOfHalfWave = 2, kFewestWaves = 2;
-// Correlated as those of an autoregressive process, errors lose a tenth of the shortest wave.
-constexpr int kCorrelationsOfHalfWave = 4;
-// A random walk, which has no mean, passes for as many in one drive of a hundred
+// With four, autoregressive errors lose a tenth of the shortest wave, and how long they are
+// correlated is underestimated in drives that hold few of them (scripts/interval_study).
+constexpr int kCorrelationsOfHalfWave = 8;
+// A random walk, which has no mean, passes for as many in one or two of a hundred drives
 // (scripts/interval_study).
-constexpr double kFewestIndependent = 20;
-// Longer series are summed in groups. Chosen: a group is then a hundredth of the shortest half wave.
+constexpr double kFewestIndependent = 25;
+// A loop that is closed takes about so much from the longest waves (scripts/interval_study).
+constexpr double kWavesOfLoops = 0.4;
+// Longer series are summed in groups: a group is a hundredth of the shortest half wave. Chosen.
 constexpr int kMostGroups = 4096;
 
 /// Errors of a series less their mean, neighbours summed.
@@ -31,10 +34,12 @@ struct ErrorGroup {
 };
 using GroupedSeries = std::vector<ErrorGroup>;
 
-GroupedSeries grouped(const ErrorSeries& series) {
+using Term = std::function<double(double)>;
+
+GroupedSeries grouped(const ErrorSeries& series, const Term& term) {
   const std::size_t size = (series.errors.size() + kMostGroups - 1) / kMostGroups;
   double mean = 0;
-  for (const StretchError& e : series.errors) mean += e.error;
+  for (const StretchError& e : series.errors) mean += term(e.error);
   mean /= static_cast<double>(series.errors.size());
   GroupedSeries groups;
   for (std::size_t i = 0; i < series.errors.size(); ++i) {
@@ -43,7 +48,7 @@ GroupedSeries grouped(const ErrorSeries& series) {
     ErrorGroup& group = groups.back();
     group.last_frame = std::max(group.last_frame, e.last_frame);
     ++group.count;
-    group.sum += e.error - mean;
+    group.sum += term(e.error) - mean;
   }
   return groups;
 }
@@ -118,70 +123,78 @@ struct WaveSums {
     }
   }
 
-  /// The mean square of the projections, of which each is one of the sum of all errors.
-  double mean_square() const {
+  /// The variance of the sum of all errors, by the projections.
+  double variance() const {
     Eigen::VectorXd along = Eigen::VectorXd::Zero(of_frames.rows()), squares = along;
     for (Eigen::Index i = 0; i + 1 < of_frames.cols(); ++i) {
       along += of_frames.col(i);
       squares += along.cwiseAbs2();
     }
-    return squares[0] *
-           of_errors.cwiseAbs2().cwiseQuotient(squares.tail(of_errors.size())).mean();
+    const auto waves = of_errors.size();
+    return squares[0] * of_errors.cwiseAbs2().cwiseQuotient(squares.tail(waves)).sum() /
+           (static_cast<double>(waves) - kWavesOfLoops);
   }
 };
 
+/// The waves that the errors of a drive allow, or why they allow none.
+struct AllowedWaves {
+  Outcome outcome;
+  int count = 0;
+};
+
+AllowedWaves allowed_waves(const std::vector<ErrorSeries>& series) {
+  const auto [shortest, longest] = std::minmax_element(
+      series.begin(), series.end(),
+      [](const ErrorSeries& a, const ErrorSeries& b) { return mean_frames(a) < mean_frames(b); });
+  const int disjoint = disjoint_stretches(*longest);
+  if (constexpr int kFewest = kStretchesOfHalfWave * kFewestWaves; disjoint < kFewest)
+    return {Outcome::failure(Outcome::Code::kTooFewData,
+                             fmt::format("only {} disjoint stretch{} of {}, {} are needed",
+                                         disjoint, disjoint == 1 ? "" : "es", longest->stretch,
+                                         kFewest))};
+  const double independent = independent_errors(grouped(*shortest, [](double e) { return e; }));
+  if (independent < kFewestIndependent)
+    return {Outcome::failure(
+        Outcome::Code::kTooFewData,
+        fmt::format("the errors over {} are correlated: {:.1f} independent ones, {:g} are needed",
+                    shortest->stretch, independent, kFewestIndependent))};
+  return {Outcome::ok(), std::min({kMostWaves, disjoint / kStretchesOfHalfWave,
+                                   static_cast<int>(independent / kCorrelationsOfHalfWave)})};
+}
+
 }  // namespace
 
-MeanDeviation deviation_of_mean(const std::vector<ErrorSeries>& series) {
+MeanDeviation deviation_of_mean(const std::vector<ErrorSeries>& series, const Term& term) {
   require(!series.empty(), "no series of errors");
   std::vector<GroupedSeries> groups;
   double sum = 0, squares = 0, count = 0;
-  int first = series.front().errors.empty() ? 0 : series.front().errors.front().first_frame;
-  int last = first;
   for (const ErrorSeries& one : series) {
     one.check();
-    groups.push_back(grouped(one));
-    for (const StretchError& e : one.errors) {
-      sum += e.error;
-      first = std::min(first, e.first_frame);
-      last = std::max(last, e.last_frame);
-    }
+    groups.push_back(grouped(one, term));
+    for (const StretchError& e : one.errors) sum += term(e.error);
     for (const ErrorGroup& group : groups.back()) squares += group.sum * group.sum;
     count += static_cast<double>(one.errors.size());
   }
   MeanDeviation result;
   result.mean = sum / count;
-  const auto [shortest, longest] = std::minmax_element(
-      series.begin(), series.end(),
-      [](const ErrorSeries& a, const ErrorSeries& b) { return mean_frames(a) < mean_frames(b); });
-  const int disjoint = disjoint_stretches(*longest);
-  if (disjoint < kStretchesOfHalfWave * kFewestWaves) {
-    result.outcome = Outcome::failure(
-        Outcome::Code::kTooFewData,
-        fmt::format("only {} disjoint stretch{} of {}, {} are needed", disjoint,
-                    disjoint == 1 ? "" : "es", longest->stretch,
-                    kStretchesOfHalfWave * kFewestWaves));
-    return result;
-  }
+  const AllowedWaves waves = allowed_waves(series);
+  result.outcome = waves.outcome;
+  if (!result.outcome) return result;
   // Rounding of equal errors.
   if (squares <= 1e-24 * sum * sum) {
     result.outcome = Outcome::failure(Outcome::Code::kDegenerate, "the errors do not vary");
     return result;
   }
-  const double independent = independent_errors(groups[shortest - series.begin()]);
-  if (independent < kFewestIndependent) {
-    result.outcome = Outcome::failure(
-        Outcome::Code::kTooFewData,
-        fmt::format("the errors over {} are correlated: {:.1f} independent ones, {:g} are needed",
-                    shortest->stretch, independent, kFewestIndependent));
-    return result;
-  }
-  result.waves = std::min({kMostWaves, disjoint / kStretchesOfHalfWave,
-                           static_cast<int>(independent / kCorrelationsOfHalfWave)});
-  WaveSums sums(result.waves, first, last);
+  int first = groups.front().front().first_frame, last = first;
+  for (const GroupedSeries& one : groups)
+    for (const ErrorGroup& group : one) {
+      first = std::min(first, group.first_frame);
+      last = std::max(last, group.last_frame);
+    }
+  result.waves = waves.count;
+  WaveSums sums(waves.count, first, last);
   for (const GroupedSeries& one : groups) sums.add(one);
-  result.sigma = std::sqrt(sums.mean_square()) / count;
-  result.outcome = Outcome::ok();
+  result.sigma = std::sqrt(sums.variance()) / count;
   return result;
 }
 

@@ -31,10 +31,10 @@ RunStatistics statistics_of_runs(const std::vector<double>& figures) {
   return result;
 }
 
-Interval interval_of_runs(const std::vector<double>& figures, double level) {
+ConfidenceInterval interval_of_runs(const std::vector<double>& figures, double level) {
   require(level > 0 && level < 1, "the level of an interval is between 0 and 1");
   const RunStatistics runs = statistics_of_runs(figures);
-  Interval interval;
+  ConfidenceInterval interval;
   interval.outcome = runs.outcome;
   interval.estimate = runs.mean;
   interval.level = level;

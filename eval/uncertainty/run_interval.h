@@ -5,8 +5,8 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// Runs without which their scatter is not known: of four, Student's interval is half as wide again
-/// as of ten and seldom decides anything.
+/// Runs without which their scatter is not known.
+/// The interval of four runs is more than twice as wide as that of ten. Chosen.
 inline constexpr int kFewestRuns = 5;
 
 /// Interval of a figure of repeated runs: of its expectation over runs or seeds.
@@ -16,7 +16,8 @@ inline constexpr int kFewestRuns = 5;
 /// mean or more are less skewed. Outcome: kTooFewData for fewer than kFewestRuns runs, kDegenerate
 /// if they are all equal (runs that repeat the same computation). Throws ArgumentError for a figure
 /// that is negative or not finite, for none, and for a level outside (0, 1).
-[[nodiscard]] Interval interval_of_runs(const std::vector<double>& figures, double level = 0.95);
+[[nodiscard]] ConfidenceInterval interval_of_runs(const std::vector<double>& figures,
+                                                  double level = 0.95);
 
 /// What runs_needed() looks for.
 struct PowerOptions {
@@ -33,10 +34,10 @@ struct RunsNeeded {
   int runs = 0;     ///< of each system, at least kFewestRuns; only if outcome
 };
 
-/// Runs that each of two systems needs for an effect to be found, by the scatter of the baseline.
+/// Runs that each of two systems needs for an effect to be found.
 ///
-/// Stein's rule (1945) for two systems of the same relative scatter: it takes into account that the
-/// scatter is itself estimated, from few runs. Throws as interval_of_runs().
+/// Stein's rule (1945) for two systems of the relative scatter of the baseline: it takes into
+/// account that the scatter is itself estimated, from few runs. Throws as interval_of_runs().
 [[nodiscard]] RunsNeeded runs_needed(const std::vector<double>& baseline,
                                      const PowerOptions& options = {});
 

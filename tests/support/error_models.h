@@ -3,6 +3,7 @@
 #include <placegraph/graph/core/random.h>
 
 #include <Eigen/Core>
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -115,11 +116,37 @@ struct StepErrors {
         shift_m[i] = normal2(0.02 * scale);
       }
     }
-    if (model != ErrorModel::kLoopClosed) return;
-    double sum = 0;
-    for (const double angle : heading_rad) sum += angle;
-    for (std::size_t i = 1; i < truth.size(); ++i)
-      heading_rad[i] -= sum / static_cast<double>(truth.size() - 1);
+    if (model == ErrorModel::kLoopClosed) close(truth);
+  }
+
+  /// Corrects all steps by least squares, weighed by their noise, so that the last pose is right to
+  /// first order: what a pose graph does with a loop.
+  void close(const PlanarDrive& truth) {
+    const int count = static_cast<int>(truth.size());
+    constexpr double kShift = 0.02, kHeading = 0.0005;
+    // Rows: the last position and heading; columns: a step's shift and rotation over their noise.
+    const auto effect = [&](int i) {
+      const Eigen::Vector2d lever = truth.back().position_m - truth[i - 1].position_m;
+      Eigen::Matrix3d A = Eigen::Vector3d(kShift, kShift, kHeading).asDiagonal();
+      A.topRightCorner<2, 1>() = kHeading * Eigen::Vector2d(-lever.y(), lever.x());
+      return A;
+    };
+    const auto noise = [&](int i) {
+      return Eigen::Vector3d(shift_m[i].x() / kShift, shift_m[i].y() / kShift,
+                             heading_rad[i] / kHeading);
+    };
+    Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d open = Eigen::Vector3d::Zero();
+    for (int i = 1; i < count; ++i) {
+      squares += effect(i) * effect(i).transpose();
+      open += effect(i) * noise(i);
+    }
+    const Eigen::Vector3d weights = squares.ldlt().solve(open);
+    for (int i = 1; i < count; ++i) {
+      const Eigen::Vector3d correction = effect(i).transpose() * weights;
+      shift_m[i] -= kShift * correction.head<2>();
+      heading_rad[i] -= kHeading * correction[2];
+    }
   }
 };
 
@@ -141,11 +168,6 @@ inline PlanarDrive estimate_of(const PlanarDrive& truth, ErrorModel model, Rando
                              rotated(std::exp(errors.log_scale[i]) * step, middle_rad) +
                              errors.shift_m[i];
     estimate[i].heading_rad = truth[i].heading_rad + heading_error_rad;
-  }
-  if (model == ErrorModel::kLoopClosed) {
-    const Eigen::Vector2d open_m = estimate.back().position_m - truth.back().position_m;
-    for (std::size_t i = 0; i < truth.size(); ++i)
-      estimate[i].position_m -= open_m * static_cast<double>(i) / (truth.size() - 1.0);
   }
   return estimate;
 }
