@@ -28,7 +28,7 @@ struct RecordedFigure {
   std::optional<double> whole;               ///< the values are counts out of so many
   std::string text;       ///< what stands around the number; another text is another figure
   double noise_floor = 0;  ///< what the noise of the truth adds, in the unit of the figure
-  Interval interval;       ///< of its expectation, where the runs or the drive allow one
+  ConfidenceInterval interval;       ///< of its expectation, where the runs or the drive allow one
 
   /// The values that there are, by size: a figure does not depend on the order of the runs.
   std::vector<double> present() const;

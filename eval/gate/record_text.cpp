@@ -76,7 +76,7 @@ class RecordPart {
   std::string source_, path_;
 };
 
-RecordJson interval_json(const Interval& interval) {
+RecordJson interval_json(const ConfidenceInterval& interval) {
   if (!interval.outcome) return {{"reason", interval.outcome.reason}};
   return {{"low", interval.low},
           {"high", interval.high},
@@ -84,9 +84,9 @@ RecordJson interval_json(const Interval& interval) {
           {"of", interval.of}};
 }
 
-Interval read_interval(const RecordPart& part, double estimate) {
+ConfidenceInterval read_interval(const RecordPart& part, double estimate) {
   part.expect_keys({"low", "high", "level", "of", "reason"});
-  Interval interval;
+  ConfidenceInterval interval;
   interval.estimate = estimate;
   if (part.has("reason")) {
     interval.outcome = Outcome::failure(Outcome::Code::kTooFewData, part.at("reason").text());

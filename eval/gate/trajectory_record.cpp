@@ -50,12 +50,12 @@ Better better_of(const std::string& key) {
 }
 
 /// The interval of what one run allows: of the segments of the drive.
-Interval interval_of_drive(const std::string& key, const SegmentResult& segments) {
+ConfidenceInterval interval_of_drive(const std::string& key, const SegmentResult& segments) {
   if (segments.outcome && key == "t_rel_percent")
     return interval_of_mean(translation_series(segments.segments));
   if (segments.outcome && key == "r_rel_deg_per_100m")
     return interval_of_mean(rotation_series(segments.segments));
-  Interval none;
+  ConfidenceInterval none;
   none.outcome = Outcome::failure(Outcome::Code::kTooFewData, "one run: no interval");
   return none;
 }
