@@ -68,7 +68,7 @@ void add_eval_group(CLI::App& app) {
       group, [](const EvalArguments& a, const EvalResult& r) { write_eval_page(a, r); });
   add_eval_edges_command(group);
   add_eval_noise_command(group);
-  add_eval_record_command(group);
+  add_eval_record_command(group, kProgram);
   add_eval_gate_command(group);
   add_eval_loops_command(
       group, [](const LoopsArguments& a, const LoopsResult& r) { write_loops_page(a, r); });

@@ -1,6 +1,6 @@
 #include "apps/eval/cmd_eval_gate.h"
 
-#include <placegraph/eval/gate/gate_report.h>
+#include <placegraph/eval/gate/gate.h>
 #include <placegraph/graph/core/error.h>
 
 #include <CLI/CLI.hpp>

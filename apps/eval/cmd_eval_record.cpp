@@ -5,13 +5,12 @@
 
 #include "apps/eval/cmd_eval.h"
 #include "apps/eval/eval_record.h"
-#include "apps/pages.h"
 #include "apps/support/option_texts.h"
 #include "apps/support/output.h"
 
 namespace placegraph::apps {
 
-void add_eval_record_command(CLI::App& eval_group) {
+void add_eval_record_command(CLI::App& eval_group, const std::string& program) {
   auto arguments = std::make_shared<EvalRecordArguments>();
   EvalRecordArguments& a = *arguments;
   auto system = std::make_shared<std::string>();
@@ -37,9 +36,9 @@ void add_eval_record_command(CLI::App& eval_group) {
                     "add the runs to those of the file, and sequences that it lacks");
   add_protocol_options(*command, a.evaluation);
   command->add_flag("--force", a.evaluation.force, kForceText);
-  command->callback([arguments, system] {
+  command->callback([arguments, system, program] {
     if (!system->empty()) arguments->programs.push_back(*system);
-    arguments->programs.emplace_back(kProgram);
+    arguments->programs.push_back(program);
     print(to_text(eval_record(*arguments)));
   });
 }

@@ -1,6 +1,6 @@
 #include "apps/eval/eval_gate.h"
 
-#include <placegraph/eval/gate/gate_report.h>
+#include <placegraph/eval/gate/gate.h>
 #include <placegraph/eval/gate/gate_rules.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/datasets/distinct_paths.h>

@@ -16,7 +16,7 @@ struct EvalGateArguments {
 };
 
 /// Judges candidates by a baseline: `placegraph eval gate`.
-/// Writes the requested files whatever the verdict. Throws ArgumentError, FileError.
+/// Writes the requested files with any verdict. Throws ArgumentError, FileError.
 GateResult eval_gate(const EvalGateArguments& arguments);
 
 }  // namespace placegraph::apps

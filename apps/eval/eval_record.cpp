@@ -1,7 +1,7 @@
 #include "apps/eval/eval_record.h"
 
 #include <fmt/format.h>
-#include <placegraph/eval/gate/record_text.h>
+#include <placegraph/eval/gate/record.h>
 #include <placegraph/eval/gate/trajectory_record.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/datasets/evaluated_files.h>
@@ -85,7 +85,7 @@ EvaluationResult missing_run(const std::string& reason) {
   return result;
 }
 
-RecordedSequence record_runs(const std::string& name, const RecordedRuns& sequence,
+SequenceRecord record_runs(const std::string& name, const RecordedRuns& sequence,
                              const EvalArguments& arguments, const EvaluationOptions& options) {
   const std::vector<std::string>& times = arguments.times;
   std::vector<EvaluationResult> results;
@@ -107,9 +107,9 @@ RecordedSequence record_runs(const std::string& name, const RecordedRuns& sequen
 }
 
 /// The runs behind those that the record has, and sequences that it lacks.
-void append_to(const RecordedSequence& sequence, const std::vector<std::string>& programs,
+void append_to(const SequenceRecord& sequence, const std::vector<std::string>& programs,
                const std::string& file, Record& record) {
-  const auto found = std::ranges::find(record.sequences, sequence.name, &RecordedSequence::name);
+  const auto found = std::ranges::find(record.sequences, sequence.name, &SequenceRecord::name);
   if (found == record.sequences.end()) {
     record.sequences.push_back(sequence);
     return;
@@ -152,10 +152,10 @@ Record read_record(const std::string& path) {
 
 std::string to_text(const Record& record) {
   std::string text;
-  for (const RecordedSequence& sequence : record.sequences) {
+  for (const SequenceRecord& sequence : record.sequences) {
     const std::size_t runs = sequence.figures.empty() ? 0 : sequence.figures.front().values.size();
     text += fmt::format("{}: {} run{}", sequence.name, runs, runs == 1 ? "" : "s");
-    if (const RecordedFigure* ate = sequence.find("ate_rmse_m"); ate && ate->mean())
+    if (const FigureRecord* ate = sequence.find("ate_rmse_m"); ate && ate->mean())
       text += fmt::format(", ATE {:.4g} m", *ate->mean());
     text += "\n";
     for (const std::string& failure : sequence.failures) text += "  failed: " + failure + "\n";

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kLost = std::numeric_limits<double>::infinity();
 
-std::string value_text(const RecordedFigure& figure) {
+std::string value_text(const FigureRecord& figure) {
   const std::optional<double> mean = figure.mean();
   if (!mean) return "-";
   if (figure.verdict && (*mean == 0 || *mean == 1)) return *mean == 1 ? "yes" : "no";
@@ -19,7 +19,7 @@ std::string value_text(const RecordedFigure& figure) {
 }
 
 /// The text of a figure with its value in it.
-std::string form_text(const RecordedFigure& figure) {
+std::string form_text(const FigureRecord& figure) {
   std::string text = figure.text.empty() ? "{}" : figure.text;
   const std::size_t place = text.find("{}");
   return place == std::string::npos ? text : text.replace(place, 2, value_text(figure));
@@ -43,7 +43,7 @@ void decide_lost(const std::string& reason, GateFigure& figure) {
 }
 
 /// Share of the runs that have no value.
-double failed_share(const RecordedFigure& figure) {
+double failed_share(const FigureRecord& figure) {
   return 1 - static_cast<double>(figure.present().size()) /
                  static_cast<double>(figure.values.size());
 }
@@ -57,12 +57,12 @@ void decide_failed_runs(const FigurePair& pair, GateFigure& figure) {
   decide_lost(reason, figure);
 }
 
-void decide_form(const FigurePair& pair, bool told, GateFigure& figure) {
+void decide_form(const FigurePair& pair, bool reported, GateFigure& figure) {
   figure.before_text = form_text(pair.before);
   figure.after_text = form_text(pair.after);
   figure.change.clear();
-  decide(told ? Standing::kTold : Standing::kRegressed, "of another form", figure);
-  figure.worse_by = told ? 0 : kLost;
+  decide(reported ? Standing::kReported : Standing::kRegressed, "of another form", figure);
+  figure.worse_by = reported ? 0 : kLost;
 }
 
 void decide_verdicts(const FigurePair& pair, GateFigure& figure) {
@@ -76,7 +76,7 @@ void decide_verdicts(const FigurePair& pair, GateFigure& figure) {
   }
 }
 
-/// A time is told beside its ratio to the reference programs of the two sittings.
+/// A time is reported beside its ratio to the reference programs of the two sittings.
 std::string time_text(const FigurePair& pair, double before, double after) {
   const auto &a = pair.before_sequence.reference_s, &b = pair.after_sequence.reference_s;
   if (pair.rule.kind != GateRule::Kind::kTime || !a || !b || before == 0) return "";
@@ -132,7 +132,7 @@ GateFigure described(const FigurePair& pair) {
 }
 
 bool judge_presence(const FigurePair& pair, GateFigure& figure) {
-  const bool told = pair.rule.kind == GateRule::Kind::kInfo ||
+  const bool reported = pair.rule.kind == GateRule::Kind::kInfo ||
                     pair.rule.kind == GateRule::Kind::kTime;
   const bool one_form =
       pair.before.text == pair.after.text && pair.before.verdict == pair.after.verdict;
@@ -143,13 +143,13 @@ bool judge_presence(const FigurePair& pair, GateFigure& figure) {
   } else if (figure.before && !figure.after) {
     decide_failed_runs(pair, figure);
   } else if (!one_form) {
-    decide_form(pair, told, figure);
+    decide_form(pair, reported, figure);
   } else if (failed_share(pair.after) > failed_share(pair.before)) {
     decide_failed_runs(pair, figure);
   } else if (pair.before.verdict) {
     decide_verdicts(pair, figure);
-  } else if (told) {
-    decide(figure.before == figure.after ? Standing::kSame : Standing::kTold, "", figure);
+  } else if (reported) {
+    decide(figure.before == figure.after ? Standing::kSame : Standing::kReported, "", figure);
   } else if (pair.before.whole != pair.after.whole && !pair.rule.whole_may_change) {
     decide_lost("of another whole: a count out of another number is another figure", figure);
   } else {
@@ -168,7 +168,7 @@ void judge_by_tolerance(const FigurePair& pair, GateFigure& figure) {
       allowed + 1e-9 * std::max({std::abs(before), std::abs(after), pair.rule.absolute});
   const double worse = worsening(pair.better(), before, after);
   const std::string unit = figure.unit.empty() ? "" : " " + figure.unit;
-  const auto told = [&](const char* word) {
+  const auto reported = [&](const char* word) {
     return fmt::format("{} to {}{}: {} by {}, and {} is allowed", figure.before_text,
                        figure.after_text, unit, word, number_text(std::abs(worse)),
                        number_text(allowed));
@@ -176,7 +176,7 @@ void judge_by_tolerance(const FigurePair& pair, GateFigure& figure) {
   if (figure.before == figure.after && !shares)
     decide(Standing::kSame, "", figure);
   else if (worse > room)
-    decide(Standing::kRegressed, told("worse"), figure);
+    decide(Standing::kRegressed, reported("worse"), figure);
   else if (worse < -room)
     decide(Standing::kImproved, "", figure);
   else

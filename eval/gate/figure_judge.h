@@ -5,10 +5,10 @@ namespace placegraph {
 
 /// A figure of both systems with its rule.
 struct FigurePair {
-  const RecordedSequence& before_sequence;
-  const RecordedSequence& after_sequence;
-  const RecordedFigure& before;
-  const RecordedFigure& after;
+  const SequenceRecord& before_sequence;
+  const SequenceRecord& after_sequence;
+  const FigureRecord& before;
+  const FigureRecord& after;
   GateRule rule;
 
   Better better() const { return rule.better.value_or(after.better); }
@@ -22,7 +22,7 @@ double worsening(Better better, double before, double after);
 /// Texts, values and change of a pair; its standing is not yet decided.
 GateFigure described(const FigurePair& pair);
 
-/// Decides what needs no test: figures that are lost, new, of another form, told or verdicts.
+/// Decides what needs no test: figures that are lost, new, of another form, for information, or verdicts.
 /// Returns false if the values themselves must be judged.
 bool judge_presence(const FigurePair& pair, GateFigure& figure);
 

@@ -29,6 +29,25 @@ GateFigure of_sequence(const std::string& sequence, const std::string& figure, S
   return one;
 }
 
+/// A figure over all its sequences: the means of its means.
+GateFigure described_over_sequences(const Pairs& pairs) {
+  GateFigure figure = described(pairs.front());
+  figure.sequence = fmt::format("(all {})", pairs.size());
+  double before = 0, after = 0;
+  for (const FigurePair& pair : pairs) {
+    before += *pair.before.mean() / static_cast<double>(pairs.size());
+    after += *pair.after.mean() / static_cast<double>(pairs.size());
+  }
+  figure.before = before;
+  figure.after = after;
+  figure.before_text = number_text(before);
+  figure.after_text = number_text(after);
+  const double worse = worsening(pairs.front().better(), before, after);
+  figure.change = before == 0 ? "" : fmt::format("{:+.3g} %", 100 * (after / before - 1));
+  figure.worse_by = before == 0 ? worse : worse / std::abs(before);
+  return figure;
+}
+
 /// A figure whose rule asks for a test that cannot be made.
 struct Untested {
   GateTest test;
@@ -36,7 +55,7 @@ struct Untested {
   bool too_few;  ///< for too few runs or sequences
 };
 
-/// The work of judge(): what belongs together is paired, told, tested, and put in order.
+/// The work of judge(): what belongs together is paired, judged, tested, and put in order.
 class Gate {
  public:
   Gate(const Record& baseline, const Record& candidate, const GateRules& rules,
@@ -44,12 +63,12 @@ class Gate {
       : baseline_(baseline), candidate_(candidate), rules_(rules), options_(options) {}
 
   GateResult run() {
-    for (const RecordedSequence& before : baseline_.sequences) judge_sequence(before);
-    for (const RecordedSequence& after : candidate_.sequences)
+    for (const SequenceRecord& before : baseline_.sequences) judge_sequence(before);
+    for (const SequenceRecord& after : candidate_.sequences)
       if (!std::ranges::count(judged_, after.name))
         add(of_sequence(after.name, "", Standing::kNew, "the baseline has no such sequence"));
     for (const GateRules::Must& must : rules_.musts) check_must(must);
-    for (const auto& [key, pairs] : over_sequences_) judge_over_sequences(key, pairs);
+    for (const auto& [unused, pairs] : over_sequences_) judge_over_sequences(pairs);
     decide_tests(tests_, options_, figures_);
     for (const Untested& one : untested_) decide_untested(one, figures_[one.test.figure]);
     return concluded();
@@ -58,20 +77,20 @@ class Gate {
  private:
   void add(GateFigure figure) { figures_.push_back(std::move(figure)); }
 
-  /// A sequence or figure of which every rule is `ignore` is not told.
+  /// A sequence or figure that is ignored has no line.
   bool ignored(const std::string& sequence, const std::string& key) const {
     return rules_.rule_of(sequence, key).kind == GateRule::Kind::kIgnore;
   }
 
-  void judge_sequence(const RecordedSequence& before) {
+  void judge_sequence(const SequenceRecord& before) {
     const std::optional<std::string> name = rules_.sequence_now(before.name);
     if (!name) return;
     const auto all_ignored = [&] {
-      return std::ranges::all_of(before.figures, [&](const RecordedFigure& figure) {
+      return std::ranges::all_of(before.figures, [&](const FigureRecord& figure) {
         return ignored(*name, figure.key);
       });
     };
-    const RecordedSequence* after = candidate_.find(*name);
+    const SequenceRecord* after = candidate_.find(*name);
     judged_.push_back(*name);
     if (!after) {
       if (before.figures.empty() || !all_ignored())
@@ -85,19 +104,19 @@ class Gate {
     judge_figures(before, *after);
   }
 
-  void judge_figures(const RecordedSequence& before, const RecordedSequence& after) {
+  void judge_figures(const SequenceRecord& before, const SequenceRecord& after) {
     std::vector<std::string> known;
-    for (const RecordedFigure& figure : before.figures) {
+    for (const FigureRecord& figure : before.figures) {
       const std::optional<std::string> key = rules_.figure_now(after.name, figure.key);
       if (!key) continue;
       known.push_back(*key);
       if (ignored(after.name, *key)) continue;
-      if (const RecordedFigure* now = after.find(*key))
+      if (const FigureRecord* now = after.find(*key))
         judge_figure({before, after, figure, *now, rules_.rule_of(after.name, *key)});
       else if (figure.mean() || !figure.text.empty())
         add(of_sequence(after.name, *key, Standing::kRegressed, "the candidate lacks the figure"));
     }
-    for (const RecordedFigure& figure : after.figures)
+    for (const FigureRecord& figure : after.figures)
       if (!std::ranges::count(known, figure.key) && !ignored(after.name, figure.key))
         add(of_sequence(after.name, figure.key, Standing::kNew, "the baseline has no such figure"));
   }
@@ -109,7 +128,7 @@ class Gate {
     add(std::move(figure));
     if (decided || pair.rule.kind != GateRule::Kind::kSignificant) return;
     if (pair.rule.over_sequences) {
-      figures_.back().standing = Standing::kTold;
+      figures_.back().standing = Standing::kReported;
       figures_.back().reason = "judged over all sequences";
       over_sequences_[pair.after.key].push_back(pair);
       return;
@@ -131,23 +150,8 @@ class Gate {
     untested_.push_back({one, pair, outcome.code == Outcome::Code::kTooFewData});
   }
 
-  void judge_over_sequences(const std::string& key, const Pairs& pairs) {
-    GateFigure figure = described(pairs.front());
-    figure.sequence = fmt::format("(all {})", pairs.size());
-    double before = 0, after = 0;
-    for (const FigurePair& pair : pairs) {
-      before += *pair.before.mean() / static_cast<double>(pairs.size());
-      after += *pair.after.mean() / static_cast<double>(pairs.size());
-    }
-    figure.figure = key;
-    figure.before = before;
-    figure.after = after;
-    figure.before_text = number_text(before);
-    figure.after_text = number_text(after);
-    const double worse = worsening(pairs.front().better(), before, after);
-    figure.change = before == 0 ? "" : fmt::format("{:+.3g} %", 100 * (after / before - 1));
-    figure.worse_by = before == 0 ? worse : worse / std::abs(before);
-    add(std::move(figure));
+  void judge_over_sequences(const Pairs& pairs) {
+    add(described_over_sequences(pairs));
     test(figures_.size() - 1, pairs.front(),
          [&pairs](GateTest& one) { return test_pairs(pairs, one); });
   }
@@ -171,8 +175,8 @@ class Gate {
   }
 
   void check_must(const GateRules::Must& must) {
-    for (const RecordedSequence& sequence : candidate_.sequences)
-      for (const RecordedFigure& figure : sequence.figures)
+    for (const SequenceRecord& sequence : candidate_.sequences)
+      for (const FigureRecord& figure : sequence.figures)
         if (fits_pattern(must.sequence, sequence.name) && fits_pattern(must.figure, figure.key) && figure.mean())
           return;
     add(of_sequence(must.sequence, must.figure, Standing::kRegressed,
@@ -242,7 +246,7 @@ const char* to_string(Standing standing) {
     case Standing::kImproved: return "improved";
     case Standing::kWithin: return "within the rule";
     case Standing::kNew: return "new";
-    case Standing::kTold: return "told";
+    case Standing::kReported: return "for information";
     case Standing::kSame: break;
   }
   return "same";

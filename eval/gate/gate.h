@@ -25,10 +25,12 @@ enum class Standing {
   kImproved,   ///< better by more than the rule would allow the other way
   kWithin,     ///< another value, within what the rule allows
   kNew,        ///< the baseline has none
-  kTold,       ///< for information
+  kReported,       ///< for information
   kSame,       ///< the same to the digit
 };
-/// "regressed", "cannot be judged", "improved", "within the rule", "new", "told", "same".
+/// The name of a standing, as reports have it.
+/// They are "regressed", "cannot be judged", "improved", "within the rule", "new",
+/// "for information", "same".
 const char* to_string(Standing standing);
 
 /// One figure of one sequence, judged.
@@ -67,5 +69,22 @@ struct GateResult {
 [[nodiscard]] GateResult judge(const Record& baseline, const Record& candidate,
                                const GateRules& rules = default_rules(),
                                const GateOptions& options = {});
+
+/// A gate's result for people: the verdict, a table, and sentences.
+///
+/// Figures that are the same to the digit stand in it only with `everything`.
+std::string to_text(const GateResult& result, bool everything = true);
+
+/// All of a gate's result as JSON.
+std::string to_json(const GateResult& result);
+
+/// A page for a pull request: what regressed first, the rest folded.
+std::string to_markdown(const GateResult& result);
+
+/// JUnit's XML with a test case for each figure.
+///
+/// It is a failure where the figure regressed, an error where it cannot be judged. Characters that
+/// XML does not allow become question marks.
+std::string to_junit(const GateResult& result);
 
 }  // namespace placegraph

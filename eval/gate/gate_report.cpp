@@ -1,5 +1,5 @@
 #include <fmt/format.h>
-#include <placegraph/eval/gate/gate_report.h>
+#include <placegraph/eval/gate/gate.h>
 #include <placegraph/graph/text/json_text.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ GateCells cells_of(const GateFigure& figure) {
 
 /// Whether a figure stands in a short report.
 bool noteworthy(const GateFigure& figure) {
-  return figure.standing != Standing::kSame && figure.standing != Standing::kTold;
+  return figure.standing != Standing::kSame && figure.standing != Standing::kReported;
 }
 
 const char* headline(const GateResult& result) {
@@ -39,7 +39,7 @@ std::string counts_text(const GateResult& result) {
   std::string text;
   for (const Standing standing :
        {Standing::kRegressed, Standing::kUnjudged, Standing::kImproved, Standing::kWithin,
-        Standing::kNew, Standing::kTold, Standing::kSame})
+        Standing::kNew, Standing::kReported, Standing::kSame})
     if (const int count = result.count(standing))
       text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, to_string(standing));
   return fmt::format("{} figures: {}.", result.figures.size(), text);
@@ -119,16 +119,16 @@ std::string test_case(const GateFigure& figure) {
   std::string text =
       fmt::format("    <testcase classname=\"{}\" name=\"{}\">\n", xml_text(figure.sequence),
                   xml_text(figure.figure.empty() ? "(the sequence)" : figure.figure));
-  const std::string told =
+  const std::string reported =
       fmt::format("{} to {} {} ({}), rule: {}", figure.before_text, figure.after_text, figure.unit,
                   figure.change, figure.rule);
   if (figure.standing == Standing::kRegressed || figure.standing == Standing::kUnjudged) {
     const char* element = figure.standing == Standing::kRegressed ? "failure" : "error";
     text += fmt::format("      <{0} type=\"{1}\" message=\"{2}\">{3}</{0}>\n", element,
-                        to_string(figure.standing), xml_text(figure.reason), xml_text(told));
+                        to_string(figure.standing), xml_text(figure.reason), xml_text(reported));
   } else {
     text += fmt::format("      <system-out>{}: {}</system-out>\n", to_string(figure.standing),
-                        xml_text(told));
+                        xml_text(reported));
   }
   return text + "    </testcase>\n";
 }

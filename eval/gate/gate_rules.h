@@ -13,9 +13,9 @@ struct GateRule {
   enum class Kind {
     kTolerance,    ///< worse by more than a tolerance
     kSignificant,  ///< worse by more than the scatter of the runs, or of the sequences, explains
-    kInfo,         ///< told, never worse
-    kTime,         ///< told, beside the ratio to the reference programs of the two sittings
-    kIgnore,       ///< not even told
+    kInfo,         ///< reported, never worse
+    kTime,         ///< reported, beside the ratio to the reference programs of the two sittings
+    kIgnore,       ///< not even reported
   };
   Kind kind = Kind::kTolerance;
   std::optional<Better> better;       ///< in place of the record's
@@ -56,7 +56,7 @@ struct GateRules {
 /// Whether a name fits a pattern.
 bool fits_pattern(const std::string& pattern, const std::string& name);
 
-/// Reads rules, a line each: `SEQUENCE | FIGURE | RULE`, `must SEQUENCE | FIGURE`, `rename ...`.
+/// Reads rules, a line each: `SEQUENCE | FIGURE | RULE` and others.
 ///
 /// docs/evaluation.md lists them. Lines that begin with # are comments. Throws FileError, which
 /// names `source` and the line.

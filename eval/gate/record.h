@@ -19,7 +19,7 @@ enum class Better {
 const char* to_string(Better better);
 
 /// One figure of a sequence with its value in every run.
-struct RecordedFigure {
+struct FigureRecord {
   std::string key;                           ///< "ate_rmse_m"; unique in its sequence
   std::string unit;                          ///< "m", "%"; empty: none
   Better better = Better::kSmaller;          ///< a rule may say otherwise
@@ -37,39 +37,39 @@ struct RecordedFigure {
 };
 
 /// The true trajectory by which a sequence was judged.
-struct RecordedTruth {
+struct TruthRecord {
   std::string fingerprint;  ///< of its poses, see truth_fingerprint(); empty: not a trajectory
   int frames = 0;           ///< posed frames
   double path_m = 0;        ///< length of its path
 };
 
 /// The figures of one sequence.
-struct RecordedSequence {
+struct SequenceRecord {
   std::string name;                            ///< unique in its record
-  RecordedTruth truth;                         ///< what it was judged by
+  TruthRecord truth;                         ///< what it was judged by
   /// How the figures were made: "align" -> "se3". Empty if no run has a result.
   std::map<std::string, std::string> options;
   std::optional<double> reference_s;  ///< CPU time of a fixed program in the same sitting
   std::vector<std::string> failures;  ///< a line for each run without a result: which, and why
-  std::vector<RecordedFigure> figures;  ///< in the order of the report
+  std::vector<FigureRecord> figures;  ///< in the order of the report
 
   /// The figure of that key, or nullptr.
-  const RecordedFigure* find(const std::string& key) const;
+  const FigureRecord* find(const std::string& key) const;
 };
 
-/// Results of a system, as a team commits them: figures of every sequence and how they were made.
+/// Results of a system: figures of every sequence and how they were made.
 struct Record {
   std::vector<std::string> programs;  ///< versions that made the figures, each once
-  std::vector<RecordedSequence> sequences;
+  std::vector<SequenceRecord> sequences;
 
   /// The sequence of that name, or nullptr.
-  const RecordedSequence* find(const std::string& name) const;
+  const SequenceRecord* find(const std::string& name) const;
   /// Throws ArgumentError for names and keys that are empty or stand twice, figures without values
   /// or of different numbers of runs in a sequence, and numbers that are not finite.
   void check() const;
 };
 
-/// Records of several runs of one system as one: the values of each figure one behind the other.
+/// Records of several runs of one system as one, run behind run.
 ///
 /// `names` are those of the records, for messages. A sequence or figure that a record lacks is a
 /// run without a value, and a failure says so. Throws ArgumentError if records differ in truth,
@@ -77,8 +77,21 @@ struct Record {
 [[nodiscard]] Record merged(const std::vector<Record>& records,
                             const std::vector<std::string>& names);
 
-/// Why two sequences' figures may not be compared: other truth, or other options if both have
-/// some. Empty: they may.
-std::string difference_of(const RecordedSequence& a, const RecordedSequence& b);
+/// Why two sequences' figures may not be compared; empty if they may.
+/// They may not with another truth, and with other options if both have some.
+std::string difference_of(const SequenceRecord& a, const SequenceRecord& b);
+
+/// The version of the format that to_json() writes.
+inline constexpr int kRecordVersion = 1;
+
+/// A record as JSON, a line for each figure, so that a diff shows what changed.
+/// Throws as Record::check().
+std::string to_json(const Record& record);
+
+/// Reads what to_json() writes; `source` is the file's name in messages.
+///
+/// Throws FileError, one line with the place, for text that is no JSON, another format or version,
+/// an unknown or repeated key, a value of another type, and what Record::check() refuses.
+[[nodiscard]] Record parse_record(const std::string& text, const std::string& source);
 
 }  // namespace placegraph

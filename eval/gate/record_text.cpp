@@ -1,5 +1,5 @@
 #include <fmt/format.h>
-#include <placegraph/eval/gate/record_text.h>
+#include <placegraph/eval/gate/record.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>
@@ -102,7 +102,7 @@ ConfidenceInterval read_interval(const RecordPart& part, double estimate) {
   return interval;
 }
 
-RecordJson figure_json(const RecordedFigure& figure) {
+RecordJson figure_json(const FigureRecord& figure) {
   RecordJson json = {{"key", figure.key}, {"unit", figure.unit}};
   json["better"] = to_string(figure.better);
   json["values"] = RecordJson::array();
@@ -121,9 +121,9 @@ RecordJson figure_json(const RecordedFigure& figure) {
   return json;
 }
 
-RecordedFigure read_figure(const RecordPart& part) {
+FigureRecord read_figure(const RecordPart& part) {
   part.expect_keys({"key", "unit", "better", "values", "whole", "text", "noise_floor", "interval"});
-  RecordedFigure figure;
+  FigureRecord figure;
   figure.key = part.at("key").text();
   if (part.has("unit")) figure.unit = part.at("unit").text();
   const std::string better = part.at("better").text();
@@ -153,7 +153,7 @@ RecordedFigure read_figure(const RecordPart& part) {
 }
 
 /// Everything of a sequence but its figures.
-RecordJson sequence_json(const RecordedSequence& sequence) {
+RecordJson sequence_json(const SequenceRecord& sequence) {
   RecordJson json = {{"name", sequence.name}};
   if (!sequence.truth.fingerprint.empty())
     json["truth"] = {{"fingerprint", sequence.truth.fingerprint},
@@ -165,9 +165,9 @@ RecordJson sequence_json(const RecordedSequence& sequence) {
   return json;
 }
 
-RecordedSequence read_sequence(const RecordPart& part) {
+SequenceRecord read_sequence(const RecordPart& part) {
   part.expect_keys({"name", "truth", "options", "reference_s", "failures", "figures"});
-  RecordedSequence sequence;
+  SequenceRecord sequence;
   sequence.name = part.at("name").text();
   if (part.has("truth")) {
     const RecordPart truth = part.at("truth");
@@ -218,7 +218,7 @@ std::string to_json(const Record& record) {
     std::string head = dumped(sequence_json(record.sequences[i]));
     head.pop_back();
     text += (i == 0 ? "\n  " : ",\n  ") + head + ",\n   \"figures\": [";
-    const std::vector<RecordedFigure>& figures = record.sequences[i].figures;
+    const std::vector<FigureRecord>& figures = record.sequences[i].figures;
     for (std::size_t k = 0; k < figures.size(); ++k)
       text += (k == 0 ? "\n    " : ",\n    ") + dumped(figure_json(figures[k]));
     text += "]}";

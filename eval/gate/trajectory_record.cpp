@@ -60,8 +60,8 @@ ConfidenceInterval interval_of_drive(const std::string& key, const SegmentResult
   return none;
 }
 
-void fill_intervals(const std::vector<EvaluationResult>& runs, RecordedSequence& sequence) {
-  for (RecordedFigure& figure : sequence.figures) {
+void fill_intervals(const std::vector<EvaluationResult>& runs, SequenceRecord& sequence) {
+  for (FigureRecord& figure : sequence.figures) {
     const std::vector<double> values = figure.present();
     if (values.empty() || values.front() < 0) continue;
     figure.interval = runs.size() == 1 ? interval_of_drive(figure.key, runs.front().segments)
@@ -82,10 +82,10 @@ std::string truth_fingerprint(const Trajectory& truth) {
   return fmt::format("{:016x}", hash.value());
 }
 
-RecordedSequence record_of(const std::string& name, const Trajectory& truth,
+SequenceRecord record_of(const std::string& name, const Trajectory& truth,
                            const std::vector<EvaluationResult>& runs) {
   require(!runs.empty(), name + ": no run is given");
-  RecordedSequence sequence;
+  SequenceRecord sequence;
   sequence.name = name;
   sequence.truth = {truth_fingerprint(truth), static_cast<int>(truth.posed()),
                     truth.path_length()};
@@ -93,7 +93,7 @@ RecordedSequence record_of(const std::string& name, const Trajectory& truth,
   const auto ok = std::ranges::find_if(runs, [](const EvaluationResult& r) { return !!r.outcome; });
   if (ok != runs.end()) sequence.options = options_of(ok->protocol);
   for (const Metric& metric : metrics(runs.front())) {
-    RecordedFigure& figure = sequence.figures.emplace_back();
+    FigureRecord& figure = sequence.figures.emplace_back();
     figure.key = metric.key;
     figure.unit = metric.unit;
     figure.better = better_of(metric.key);
@@ -105,7 +105,7 @@ RecordedSequence record_of(const std::string& name, const Trajectory& truth,
       require(options_of(run.protocol) == sequence.options,
               name + ": " + run.name + " was judged with other options than the runs before");
     const std::vector<Metric> own = metrics(run);
-    for (RecordedFigure& figure : sequence.figures) {
+    for (FigureRecord& figure : sequence.figures) {
       const auto found = std::ranges::find(own, figure.key, &Metric::key);
       figure.values.push_back(found == own.end() ? std::nullopt : found->value);
     }

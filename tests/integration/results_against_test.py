@@ -32,7 +32,7 @@ RULES = """# a comment
 * | recall | higher 1 % 0.002
 * | * | equal 0.1 %
 """
-WORDS = {"regressed": "worse", "improved": "better", "within the rule": "same", "told": "info"}
+WORDS = {"regressed": "worse", "improved": "better", "within the rule": "same", "for information": "info"}
 MARK = "<!-- section: town -->\n\n"
 PAGE = "# Town\n\n    a command\n\n| row | ATE [m] |\n|---|---|\n| a | 1.00 |\n\n## Second\n\n| row | x |\n|---|---|\n| b | 1 |\n"
 

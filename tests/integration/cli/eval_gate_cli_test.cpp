@@ -27,7 +27,7 @@ class EvalGate : public test::CliTest {
     for (StampedPose& pose : drive.poses)
       pose.T_world_body->translation() +=
           sigma_m * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
-    std::filesystem::create_directories((dir / name).parent_path());
+    std::filesystem::create_directories(std::filesystem::path(dir / name).parent_path());
     write_trajectory(dir / name, drive, TrajectoryFormat::kKitti);
   }
   /// A record of `runs` runs.

@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <placegraph/eval/gate/gate_report.h>
+#include <placegraph/eval/gate/gate.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>

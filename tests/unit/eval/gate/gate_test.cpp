@@ -14,7 +14,7 @@ namespace gate_test {
 using namespace gate_worlds;
 using testing::HasSubstr;
 
-GateFigure judged(const RecordedFigure& before, const RecordedFigure& after,
+GateFigure judged(const FigureRecord& before, const FigureRecord& after,
                   const std::string& rule) {
   Record a = record_of({}), b = record_of({});
   a.sequences[0].figures = {before};
@@ -24,20 +24,20 @@ GateFigure judged(const RecordedFigure& before, const RecordedFigure& after,
   return result.figures.front();
 }
 
-RecordedFigure number(std::optional<double> value, const std::string& text = "") {
-  RecordedFigure figure;
+FigureRecord number(std::optional<double> value, const std::string& text = "") {
+  FigureRecord figure;
   figure.key = "x";
   figure.values = {value};
   figure.text = text;
   return figure;
 }
-RecordedFigure of_whole(double value, double whole) {
-  RecordedFigure figure = number(value);
+FigureRecord of_whole(double value, double whole) {
+  FigureRecord figure = number(value);
   figure.whole = whole;
   return figure;
 }
-RecordedFigure verdict(bool yes) {
-  RecordedFigure figure = number(yes ? 1 : 0);
+FigureRecord verdict(bool yes) {
+  FigureRecord figure = number(yes ? 1 : 0);
   figure.verdict = true;
   return figure;
 }
@@ -64,7 +64,7 @@ TEST(Gate, TolerancesAreTheLargerOfTheTwo) {
   EXPECT_EQ(standing(100, 101, "equal 0.1 %"), kRegressed);
   EXPECT_EQ(standing(100, 99, "equal 0.1 %"), kRegressed);
   EXPECT_EQ(standing(100, 100.1, "equal 0.1 %"), kWithin);
-  EXPECT_EQ(standing(1, 9, "info"), kTold);
+  EXPECT_EQ(standing(1, 9, "info"), kReported);
 }
 
 TEST(Gate, WhatIsLostIsWorseUnderEveryRuleButIgnore) {
@@ -107,7 +107,7 @@ TEST(Gate, AFigureOfAnotherFormIsAnotherFigure) {
   EXPECT_EQ(judged(number(5, "<= {}"), number(5, ">= {}"), "equal").after_text, ">= 5");
   EXPECT_EQ(judged(number({}, "chordal"), number({}, "file"), "equal").standing,
             Standing::kRegressed);
-  EXPECT_EQ(judged(number({}, "chordal"), number({}, "file"), "info").standing, Standing::kTold);
+  EXPECT_EQ(judged(number({}, "chordal"), number({}, "file"), "info").standing, Standing::kReported);
   EXPECT_EQ(judged(number({}, "chordal"), number({}, "chordal"), "equal").standing,
             Standing::kSame);
 }
@@ -231,9 +231,9 @@ Record shuffled(Record record, Random& random) {
       std::swap(list[i - 1], list[static_cast<std::size_t>(random.index(static_cast<int>(i)))]);
   };
   shuffle(record.sequences);
-  for (RecordedSequence& sequence : record.sequences) {
+  for (SequenceRecord& sequence : record.sequences) {
     shuffle(sequence.figures);
-    for (RecordedFigure& figure : sequence.figures) shuffle(figure.values);
+    for (FigureRecord& figure : sequence.figures) shuffle(figure.values);
   }
   return record;
 }
@@ -258,7 +258,7 @@ TEST(Gate, OrdersOfRunsFiguresAndSequencesDoNotMatter) {
       for (int s = 0; s < sequences; ++s) {
         Record one = record_of({{"a", {}}, {"b", {}}, {"c", {}}, {"d", {}}});
         one.sequences[0].name = std::to_string(s);
-        for (RecordedFigure& figure : one.sequences[0].figures)
+        for (FigureRecord& figure : one.sequences[0].figures)
           for (int run = 0; run < runs; ++run)
             figure.values.emplace_back(std::exp(random.normal(0, 0.3)));
         record.sequences.push_back(one.sequences[0]);

@@ -15,7 +15,7 @@ inline Record record_of(const std::vector<std::pair<std::string, Values>>& figur
   Record record{{"system"}, {{}}};
   record.sequences[0].name = "00";
   for (const auto& [key, values] : figures) {
-    RecordedFigure& figure = record.sequences[0].figures.emplace_back();
+    FigureRecord& figure = record.sequences[0].figures.emplace_back();
     figure.key = key;
     figure.values = values;
   }

@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <placegraph/eval/gate/record_text.h>
+#include <placegraph/eval/gate/record.h>
 #include <placegraph/eval/gate/trajectory_record.h>
 #include <placegraph/eval/trajectory/evaluate.h>
 #include <placegraph/graph/core/error.h>
@@ -15,15 +15,15 @@ namespace record_test {
 using test::message_of;
 using testing::HasSubstr;
 
-RecordedFigure figure(const std::string& key, std::vector<std::optional<double>> values) {
-  RecordedFigure one;
+FigureRecord figure(const std::string& key, std::vector<std::optional<double>> values) {
+  FigureRecord one;
   one.key = key;
   one.values = std::move(values);
   return one;
 }
 
-Record record_with(std::vector<RecordedFigure> figures) {
-  RecordedSequence sequence;
+Record record_with(std::vector<FigureRecord> figures) {
+  SequenceRecord sequence;
   sequence.name = "00";
   sequence.figures = std::move(figures);
   return {{"system 1"}, {sequence}};
@@ -34,14 +34,14 @@ Record random_record(Random& random) {
   Record record{{"a \"quoted\" program", "b"}, {}};
   const int sequences = random.index(4), runs = 1 + random.index(6);
   for (int s = 0; s < sequences; ++s) {
-    RecordedSequence& sequence = record.sequences.emplace_back();
+    SequenceRecord& sequence = record.sequences.emplace_back();
     sequence.name = "sequence, of \xc3\xa4 town " + std::to_string(s);
     if (random.index(2)) sequence.truth = {"00ff", random.index(1000), random.uniform(0, 1e4)};
     if (random.index(2)) sequence.options = {{"align", "se3"}, {"lengths_m", "100,200"}};
     if (random.index(2)) sequence.reference_s = random.uniform(0.1, 2);
     if (random.index(2)) sequence.failures = {"run 2: too few pairs"};
     for (int f = random.index(5); f > 0; --f) {
-      RecordedFigure& one = sequence.figures.emplace_back();
+      FigureRecord& one = sequence.figures.emplace_back();
       one.key = "figure " + std::to_string(f);
       one.unit = random.index(2) ? "m" : "";
       one.better = static_cast<Better>(random.index(4));
@@ -67,8 +67,8 @@ TEST(RecordText, ReadsWhatItWrites) {
     const std::string text = to_json(random_record(random));
     const Record read = parse_record(text, "a.json");
     EXPECT_EQ(to_json(read), text);
-    for (const RecordedSequence& sequence : read.sequences)
-      for (const RecordedFigure& one : sequence.figures) EXPECT_FALSE(one.values.empty());
+    for (const SequenceRecord& sequence : read.sequences)
+      for (const FigureRecord& one : sequence.figures) EXPECT_FALSE(one.values.empty());
   }
 }
 
@@ -181,10 +181,10 @@ TEST(TrajectoryRecord, HasTheFiguresOfEveryRunAndTheFailedOnes) {
   for (std::size_t i = 1; i < single.size(); ++i) single.poses[i].T_world_body.reset();
   EvaluationOptions options;
   options.alignment = Alignment::kNone;
-  const RecordedSequence sequence =
+  const SequenceRecord sequence =
       record_of("00", truth, {evaluate(truth, near, options, "near"),
                               evaluate(truth, single, options, "single")});
-  const RecordedFigure* ate = sequence.find("ate_rmse_m");
+  const FigureRecord* ate = sequence.find("ate_rmse_m");
   ASSERT_NE(ate, nullptr);
   ASSERT_EQ(ate->values.size(), 2u);
   EXPECT_NEAR(ate->values[0].value(), 0.3, 1e-9);
