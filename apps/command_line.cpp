@@ -16,6 +16,9 @@
 #include "apps/eval/cmd_eval_info.h"
 #include "apps/eval/cmd_eval_noise.h"
 #include "apps/eval/benchmarks/cmd_eval_table.h"
+#include "apps/eval/benchmarks/cmd_eval_gate.h"
+#include "apps/eval/cmd_eval_noise.h"
+#include "apps/eval/benchmarks/cmd_eval_record.h"
 #include "apps/eval/cmd_loops.h"
 #include "apps/graph/cmd_bundle.h"
 #include "apps/graph/cmd_convert.h"
@@ -72,6 +75,8 @@ void add_eval_group(CLI::App& app) {
   add_eval_kitti_command(group);
   add_eval_noise_command(group);
   add_eval_info_command(group);
+  add_eval_record_command(group, kProgram);
+  add_eval_gate_command(group);
   add_eval_loops_command(
       group, [](const LoopsArguments& a, const LoopsResult& r) { write_loops_page(a, r); });
   add_eval_scene_commands(group);

@@ -116,10 +116,6 @@ void add_error_options(CLI::App& command, EvalArguments& a) {
       ->delimiter(',');
   command.add_flag("--all-pairs", a.all_pairs,
                    "begin a step of --delta at every pose; default: where the one before ends");
-  command.add_flag("--intervals", a.options.intervals,
-                   "confidence intervals of the figures, and comparisons with the first estimate");
-  command.add_flag("--repeated-runs", a.repeated_runs,
-                   "the estimates are runs of one system: means and intervals over them");
   command
       .add_option("--part", a.part,
                   "part of the position errors that is judged: in a plane, or along an axis")
@@ -128,6 +124,21 @@ void add_error_options(CLI::App& command, EvalArguments& a) {
 }
 
 }  // namespace
+
+void add_protocol_options(CLI::App& command, EvalArguments& a) {
+  add_alignment_options(command, a);
+  add_error_options(command, a);
+  command
+      .add_option("--lengths", a.options.segments.lengths_m,
+                  "lengths of the segments [m], as 100,200,300")
+      ->delimiter(',')
+      ->capture_default_str();
+  command.add_option("--step", a.options.segments.step, "frames between the starts of segments")
+      ->capture_default_str();
+  add_pairing_options(command, a);
+  command.add_option("--apply", a.apply, kApplyText);
+  command.add_option("--apply-truth", a.apply_truth, "the same for the ground truth");
+}
 
 void add_eval_trajectory_command(
     CLI::App& eval_group,
@@ -151,18 +162,11 @@ void add_eval_trajectory_command(
           "paired with TRUTH's by name")
       ->required()
       ->check(CLI::ExistingPath);
-  add_alignment_options(*command, a);
-  add_error_options(*command, a);
-  command
-      ->add_option("--lengths", a.options.segments.lengths_m,
-                   "lengths of the segments [m], as 100,200,300")
-      ->delimiter(',')
-      ->capture_default_str();
-  command->add_option("--step", a.options.segments.step, "frames between the starts of segments")
-      ->capture_default_str();
-  add_pairing_options(*command, a);
-  command->add_option("--apply", a.apply, kApplyText);
-  command->add_option("--apply-truth", a.apply_truth, "the same for the ground truth");
+  add_protocol_options(*command, a);
+  command->add_flag("--intervals", a.options.intervals,
+                   "confidence intervals of the figures, and comparisons with the first estimate");
+  command->add_flag("--repeated-runs", a.repeated_runs,
+                   "the estimates are runs of one system: means and intervals over them");
   command->add_flag("--json", eval_command->json, kJsonText);
   command->add_option("--csv", a.csv, "write the details as CSV")->type_name(kOutput);
   command->add_option("--latex", a.latex, "write the figures as a LaTeX table")->type_name(kOutput);

@@ -7,6 +7,9 @@ namespace placegraph::apps {
 struct EvalArguments;
 struct EvalResult;
 
+/// Adds the options that say how a trajectory is judged: alignment, segments, association, times.
+void add_protocol_options(CLI::App& command, EvalArguments& arguments);
+
 /// Adds `placegraph eval trajectory TRUTH EST...`, which evaluates estimated trajectories.
 /// `write_page` writes the page of `--report`.
 void add_eval_trajectory_command(

@@ -101,20 +101,6 @@ PairingResult pair(const EvaluatedFiles& files, const EvalArguments& arguments,
                           : paired;
 }
 
-/// One estimate against its truth; its pairs are added to `kept`, if that is not null.
-EvaluationResult evaluate_files(const EvaluatedFiles& files, const EvalArguments& arguments,
-                                EvaluationOptions options, std::vector<PairingResult>* kept) {
-  std::optional<OffsetEstimate> offsets;
-  PairingResult paired = pair(files, arguments, options, offsets);
-  if (kept) kept->push_back(paired);
-  if (offsets) options.time.offset_s = offsets->time_s;
-  EvaluationResult result = evaluate(std::move(paired), options, files.name);
-  if (offsets)
-    for (const FreeOffset& free : offsets->free) result.warnings.push_back(free.text);
-  result.offsets = std::move(offsets);
-  return result;
-}
-
 /// A figure to write.
 struct PlotFile {
   EvaluationPlot kind;
@@ -258,7 +244,9 @@ AlignmentSpan align_over(const EvalArguments& a) {
   return span;
 }
 
-EvaluationOptions options_of(const EvalArguments& arguments) {
+}  // namespace
+
+EvaluationOptions evaluation_options(const EvalArguments& arguments) {
   EvaluationOptions options = arguments.options;
   options.alignment = choice<Alignment>("--align", eval_alignments(), arguments.align);
   options.align_over = align_over(arguments);
@@ -273,7 +261,18 @@ EvaluationOptions options_of(const EvalArguments& arguments) {
   return options;
 }
 
-}  // namespace
+EvaluationResult evaluate_files(const EvaluatedFiles& files, const EvalArguments& arguments,
+                                EvaluationOptions options, std::vector<PairingResult>* kept) {
+  std::optional<OffsetEstimate> offsets;
+  PairingResult paired = pair(files, arguments, options, offsets);
+  if (kept) kept->push_back(paired);
+  if (offsets) options.time.offset_s = offsets->time_s;
+  EvaluationResult result = evaluate(std::move(paired), options, files.name);
+  if (offsets)
+    for (const FreeOffset& free : offsets->free) result.warnings.push_back(free.text);
+  result.offsets = std::move(offsets);
+  return result;
+}
 
 const std::vector<std::string>& eval_alignments() {
   static const std::vector<std::string> names = {"none", "origin", "se3",
@@ -304,7 +303,7 @@ const EvaluationResult* EvalResult::refused() const {
 }
 
 EvalResult eval(const EvalArguments& arguments) {
-  const EvaluationOptions options = options_of(arguments);
+  const EvaluationOptions options = evaluation_options(arguments);
   require(!arguments.estimates.empty(), "EST: no estimate is given");
   check_outputs(arguments);
   const PlotLook look = plot_look_of(arguments);

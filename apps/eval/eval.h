@@ -2,6 +2,8 @@
 #include <placegraph/eval/trajectory/common_frames.h>
 #include <placegraph/eval/trajectory/figure_intervals.h>
 
+#include <placegraph/io/datasets/evaluated_files.h>
+
 #include <string>
 #include <vector>
 
@@ -62,6 +64,15 @@ struct EvalResult {
 /// Writes the requested files if every estimate could be evaluated. Throws ArgumentError,
 /// FileError.
 EvalResult eval(const EvalArguments& arguments);
+
+/// The options of the evaluation that the arguments name. Throws ArgumentError.
+EvaluationOptions evaluation_options(const EvalArguments& arguments);
+
+/// Evaluates one estimate against its truth, with filters and offsets as the arguments say.
+/// Its pairs are added to `kept`, if that is not null. Throws as eval().
+EvaluationResult evaluate_files(const EvaluatedFiles& files, const EvalArguments& arguments,
+                                EvaluationOptions options,
+                                std::vector<PairingResult>* kept = nullptr);
 
 /// A single result in full, several results as a table.
 std::string to_text(const EvalResult& result);

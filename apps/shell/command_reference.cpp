@@ -29,6 +29,8 @@ constexpr std::pair<std::string_view, std::string_view> kPages[] = {
     {"eval info", "evaluation.md#a-trajectory-without-truth"},
     {"eval kitti", "evaluation.md#kittis-benchmark"},
     {"eval noise", "evaluation.md#noise-of-the-truth"},
+    {"eval record", "evaluation.md#is-this-change-a-regression"},
+    {"eval gate", "evaluation.md#is-this-change-a-regression"},
     {"eval", "evaluation.md"},
     {"map loops", "map.md#editing-loops"},
     {"map plan", "floor_plan.md"},

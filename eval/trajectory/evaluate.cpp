@@ -191,6 +191,7 @@ EvaluationResult evaluate(PairingResult paired, const EvaluationOptions& options
   r.protocol.offset_s = options.time.offset_s;
   r.protocol.lengths_m = options.segments.lengths_m;
   r.protocol.step = options.segments.step;
+  r.protocol.pairs = options.relative.pairs;
   r.frames = paired.truth_frames;
   r.judged = static_cast<int>(paired.pairs.size());
   r.posed = paired.posed;

@@ -23,6 +23,7 @@ struct Protocol {
   Association association = Association::kAuto;  ///< the one used, kIndex or kTime
   double max_difference_s = 0, offset_s = 0;     ///< options of the association by time
   std::vector<double> lengths_m;                 ///< SegmentOptions::lengths_m
+  StepPairs pairs = StepPairs::kConsecutive;     ///< RelativeErrorOptions::pairs
   int step = 0;                                  ///< SegmentOptions::step
 };
 

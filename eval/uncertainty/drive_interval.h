@@ -6,7 +6,7 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// ConfidenceInterval of the mean over all errors of all series of one drive, as t_rel and r_rel are.
+/// Interval of the mean over all errors of all series of one drive, as t_rel and r_rel are.
 ///
 /// The true value is the expectation of the figure over estimates of the same drive by the same
 /// system. The interval is Student's, on a logarithmic scale where no error is negative: figures of
@@ -18,10 +18,10 @@ namespace [[gnu::visibility("default")]] placegraph {
 /// Throws ArgumentError if ErrorSeries::check() does, or for a level outside (0, 1).
 [[nodiscard]] ConfidenceInterval interval_of_mean(const std::vector<ErrorSeries>& series,
                                                   double level = 0.95);
-/// ConfidenceInterval of the root of the mean square over all errors; as interval_of_mean().
+/// Interval of the root of the mean square over all errors; as interval_of_mean().
 [[nodiscard]] ConfidenceInterval interval_of_rmse(const std::vector<ErrorSeries>& series,
                                                   double level = 0.95);
-/// ConfidenceInterval of the median over all errors; as interval_of_mean().
+/// Interval of the median over all errors; as interval_of_mean().
 /// It lies between two quantiles of the errors (Woodruff 1952).
 [[nodiscard]] ConfidenceInterval interval_of_median(const std::vector<ErrorSeries>& series,
                                                     double level = 0.95);

@@ -1,4 +1,4 @@
-"""Compares two sets of results, figure by figure: what `scripts/results --against` and `--compare` print.
+"""Compares two sets of results by `placegraph eval gate`: what `scripts/results --against` and `--compare` print.
 
 against.py fetch BASELINE [SECTION...]    prints BASELINE as a single file, if it is well formed and has one of them
 against.py compare OLD NEW [SECTION...]   OLD, NEW: folders of the form of docs/results, git revisions, or single
@@ -6,35 +6,27 @@ against.py compare OLD NEW [SECTION...]   OLD, NEW: folders of the form of docs/
   --names OLD NEW     what they are called in messages
   --all               prints figures that are the same to the digit, too
   --tolerances FILE   in place of tolerances.txt beside this program
+  --program FILE      the gate, in place of build/release/placegraph or $PLACEGRAPH
 
 Exit codes: 0 no figure is worse than its tolerance, 1 one is or is gone, 2 nothing could be compared.
 """
 
 import argparse
-import dataclasses
+import json
+import math
+import os
 import pathlib
 import subprocess
 import sys
+import tempfile
 
-import rules as rules_module
 import tables
 
 HERE = pathlib.Path(__file__).resolve().parent
 
 
 class Unusable(Exception):
-    """No baseline, no section, no rules to compare by."""
-
-
-@dataclasses.dataclass
-class Line:
-    section: str
-    row: str
-    column: str
-    before: str
-    after: str
-    judgement: rules_module.Judgement
-    tolerance: str = "-"
+    """No baseline, no section, no program to compare by."""
 
 
 def pages_of_folder(folder):
@@ -97,176 +89,98 @@ def single_file(fetched):
     return "\n".join(f"<!-- section: {section_of_page(path)} -->\n\n{text}" for path, text in fetched.items())
 
 
-def gone(section, row, column="-", before="-"):
-    return Line(section, row, column, before, "-", rules_module.Judgement("worse", "gone"))
+def figures_of_cell(column, cell):
+    """The figures of a cell as a record has them; a cell without numbers is one that has a text alone."""
+    found, form = tables.figures_of(cell)
+    if not found:
+        return [{"key": column, "better": "equal", "values": [None], "text": form}]
+    recorded = []
+    for part, figure in enumerate(found):
+        places = iter("{}" if k == part else "#" for k in range(len(found)))
+        text = "".join(next(places) if c == "\0" else c for c in form)
+        value = bool(figure.value) if figure.kind == "verdict" else figure.value
+        one = {"key": column if len(found) == 1 else f"{column}#{part + 1}", "better": "equal",
+               "values": [value if math.isfinite(value) else None]}
+        one |= {"whole": figure.total} if figure.kind == "fraction" else {}
+        recorded.append(one | ({"text": text} if text != "{}" else {}))
+    return recorded
 
 
-def fresh(section, row):
-    return Line(section, row, "-", "-", "-", rules_module.Judgement("new"))
-
-
-def compare_cells(place, before, after, rules, references):
-    """Lines of the figures of one cell; place is section, row and column."""
-    old, old_text = tables.figures_of(before)
-    new, new_text = tables.figures_of(after)
-    if len(old) != len(new):
-        # A figure that is lost altogether is told as such, whatever stood around it.
-        if all(figure.kind == "missing" for figure in new) or not new:
-            new = (new or [tables.Figure("missing", after)]) * len(old)
-            new = new[: len(old)]
-        elif all(figure.kind == "missing" for figure in old):
-            return [Line(*place, before, after, rules_module.Judgement("new", "no figure before"))]
-    if len(old) != len(new) or (not old and before.strip() != after.strip()):
-        rule = rules.of(*place, 1)
-        verdict = "info" if rule.direction == "info" else "worse"
-        return [Line(*place, before, after, rules_module.Judgement(verdict, "of another form"), str(rule))]
-    lines = []
-    for part, (a, b) in enumerate(zip(old, new), 1):
-        rule = rules.of(*place, part)
-        name = place[2] if len(old) == 1 else f"{place[2]} #{part}"
-        tolerance = "yes stays yes" if a.kind == "verdict" else str(rule)
-        lines.append(Line(*place[:2], name, a.text, b.text, rules_module.judge(a, b, rule, references), tolerance))
-    lost = any(figure.kind == "missing" for figure in old + new)
-    if old and old_text != new_text and not lost and all(line.judgement.verdict == "same" for line in lines):
-        rule = rules.of(*place, 1)
-        verdict = "info" if rule.direction == "info" else "worse"
-        lines.append(Line(*place, before, after, rules_module.Judgement(verdict, "of another form"), str(rule)))
-    return lines
-
-
-def compare_rows(place, old, new, rules, references):
-    """Lines of one row: the cells of its figures by their columns; place is section and row, as they are now."""
-    lines = []
-    for column, before in old.items():
-        name = column if column in new else rules.renamed_column(*place, column)
-        if name is None:
-            continue
-        if name in new:
-            lines += compare_cells((*place, name), before, new[name], rules, references)
-        elif before not in ("", "-"):
-            lines.append(gone(*place, column, before))
-    return lines
-
-
-def rows_without_names(missing, rest):
-    """Pairs of rows whose names differ by numbers alone, where that is unambiguous."""
-    def by_mask(names):
-        result = {}
-        for name in names:
-            result.setdefault(tables.masked(name), []).append(name)
-        return result
-
-    old, new = by_mask(missing), by_mask(rest)
-    return {a[0]: new[mask][0] for mask, a in old.items() if len(a) == 1 and len(new.get(mask, [])) == 1}
-
-
-def compare_tables(section, old, new, rules, references):
-    width = tables.key_width(old, new)
-    old_rows, new_rows = tables.rows_by_key(old, width), tables.rows_by_key(new, width)
-    names, missing = {}, []
-    for row in old_rows:
-        name = row if row in new_rows else rules.renamed_row(section, row)
-        if name in new_rows:
-            names[row] = name
-        elif name is not None:
-            missing.append(row)
-    rest = [row for row in new_rows if row not in names.values()]
-    lines = []
-    for row, name in rows_without_names(missing, rest).items():
-        names[row] = name
-        lines += compare_cells((section, name, "(name)"), row, name, rules, references)
-    for row, cells in old_rows.items():
-        if row in names:
-            figures = dict(zip(old.columns[width:], cells[width:]))
-            others = dict(zip(new.columns[width:], new_rows[names[row]][width:]))
-            lines += compare_rows((section, names[row]), figures, others, rules, references)
-        elif row in missing:
-            lines.append(gone(section, row))
-    return lines + [fresh(section, row) for row in rest if row not in names.values()]
-
-
-def compare_sections(old, new, rules):
-    references = (old.reference_s, new.reference_s)
-    if old.tables and not new.tables:
-        return [gone(new.name, new.remark or "all of its tables")]
-    lines = []
-    for before, after in tables.matched_tables(old.tables, new.tables):
-        if before is None:
-            lines += [fresh(new.name, row) for row in tables.rows_by_key(after, tables.key_width(after))]
-        elif after is None:
-            width = tables.key_width(before)
-            rows = tables.rows_by_key(before, width)
-            lines += [gone(new.name, row) for row in rows if rules.renamed_row(new.name, row) is not None]
+def columns_of(table):
+    """The columns; a target, a verdict and a peer are named by the column that they are of, too."""
+    names, subject = [], ""
+    for name in table.names:
+        if name.lower() in tables.GENERIC:
+            name = f"{name} ({subject})" if subject else name
         else:
-            lines += compare_tables(new.name, before, after, rules, references)
-    return lines
+            subject = name
+        names.append(name if name not in names else f"{name} no. {names.count(name) + 1}")
+    return names
 
 
-def by_new_names(old, new, rules):
-    """The older sections by the names they have now; new: names that are known to be there."""
-    renamed = {name: name if name in new else rules.renamed_section(name) for name in old}
-    return {new_name: old[name] for name, new_name in renamed.items() if new_name is not None}
+def widths_of(*versions):
+    """Columns that name the rows of a table, so many that they do in each version of a section."""
+    same = {}
+    for section in versions:
+        for table in tables.joined_tables(section.tables):
+            same.setdefault((table.heading, table.names[0]), []).append(table)
+    return {place: tables.key_width(*alike) for place, alike in same.items()}
 
 
-def compare(old, new, rules, chosen, names=("the baseline", "the new results")):
-    """Lines of all sections chosen (of all that the older has, where none is), by dictionaries of sections."""
-    older = by_new_names(old, new, rules)
-    wanted = list(chosen) or list(older)
-    unknown = [name for name in wanted if name not in older and name not in new]
+def sequences_of(section, widths):
+    """A section as a record has it: each row is a sequence. Rows of one name in several tables are one."""
+    rows = {}
+    for table in tables.joined_tables(section.tables):
+        width = widths[table.heading, table.names[0]]
+        for name, cells in tables.rows_by_key(table, width).items():
+            figures = [figure for column, cell in list(zip(columns_of(table), cells))[width:]
+                       for figure in figures_of_cell(column, cell)]
+            keys, copy, wanted = {figure["key"] for figure in figures}, 1, name
+            while any(figure["key"] in keys for figure in rows.get(wanted, [])):
+                copy += 1
+                wanted = f"{name} no. {copy}"
+            rows.setdefault(wanted, []).extend(figures)
+    reference = {"reference_s": section.reference_s} if section.reference_s else {}
+    return [{"name": f"{section.name}/{name}", **reference, "figures": figures} for name, figures in rows.items()]
+
+
+def chosen_sections(old, new, chosen, names):
+    """The sections to compare: those chosen, or all that the older has."""
+    wanted = list(chosen) or list(old)
+    unknown = [name for name in wanted if name not in old and name not in new]
     if unknown:
         raise Unusable(f"neither {names[0]} nor {names[1]} has a section {unknown[0]}")
-    if not any(name in older for name in wanted):
+    if not any(name in old for name in wanted):
         raise Unusable(f"{names[0]} has no section {', '.join(wanted)}")
-    lines = []
+    return wanted
+
+
+def write_records(old, new, wanted, names, files):
+    """Both versions of the sections as records."""
+    sequences = ([], [])
     for name in wanted:
-        if name not in older:
-            lines.append(fresh(name, "all of its rows"))
-        elif name not in new:
-            lines.append(gone(name, "all of its rows"))
-        else:
-            lines += compare_sections(older[name], new[name], rules)
-    return lines
+        versions = [(kept, version[name]) for kept, version in zip(sequences, (old, new)) if name in version]
+        widths = widths_of(*(section for _, section in versions))
+        for kept, section in versions:
+            kept.extend(sequences_of(section, widths))
+    for name, kept, file in zip(names, sequences, files):
+        record = {"format": "placegraph record", "version": 1, "programs": [name], "sequences": kept}
+        file.write_text(json.dumps(record, allow_nan=False), encoding="utf-8")
 
 
-def print_lines(lines, everything, names, references):
-    print(f"Figures of {names[0]} and of {names[1]}{references}:\n")
-    print("| section | row | column | before | after | change | tolerance | verdict |")
-    print("|---|---|---|---|---|---|---|---|")
-    for line in lines:
-        if everything or line.before != line.after or line.judgement.verdict not in ("same", "info"):
-            verdict = line.judgement.verdict
-            cells = (line.section, line.row, line.column, line.before, line.after, line.judgement.change or "-",
-                     line.tolerance, f"**{verdict}**" if verdict == "worse" else verdict)
-            print("|", " | ".join(cells), "|")
-    count = {}
-    for line in lines:
-        key = "unchanged" if line.before == line.after and line.judgement.verdict in ("same", "info") else \
-            {"same": "within tolerance", "info": "for information"}.get(line.judgement.verdict, line.judgement.verdict)
-        count[key] = count.get(key, 0) + 1
-    order = ("worse", "better", "within tolerance", "for information", "new", "unchanged")
-    told = ", ".join(f"{count[key]} {key}" for key in order if key in count)
-    print(f"\n{len(lines)} figures: {told or 'none'}.")
-
-
-def told_references(old, new, chosen):
-    pairs = [(old[n].reference_s, new[n].reference_s) for n in chosen or old if n in old and n in new]
-    if not pairs or all(None in pair for pair in pairs):
-        return " (no reference runs on both sides: times are as they were)"
-    return ""
-
-
-def read_rules(file):
-    source = pathlib.Path(file)
-    try:
-        return rules_module.parse_rules(source.read_text(encoding="utf-8"), source.name)
-    except OSError as error:
-        raise Unusable(f"{source}: {error.strerror}") from None
+def gate_program(named):
+    """The program that compares."""
+    built = HERE.parents[1] / "build" / "release" / "placegraph"
+    program = pathlib.Path(named or (built if built.is_file() else os.environ.get("PLACEGRAPH", built)))
+    if not program.is_file():
+        raise Unusable(f"{program} is not built; `cmake --build --preset release --target placegraph_cli` builds it")
+    return program.resolve()
 
 
 def run_fetch(arguments):
     fetched = fetch(arguments.baseline)
-    older = by_new_names(sections_of(fetched, arguments.baseline), arguments.sections, read_rules(arguments.tolerances))
-    if arguments.sections and not any(name in older for name in arguments.sections):
+    sections = sections_of(fetched, arguments.baseline)
+    if arguments.sections and not any(name in sections for name in arguments.sections):
         raise Unusable(f"{arguments.baseline} has no section {', '.join(arguments.sections)}")
     sys.stdout.write(single_file(fetched))
     return 0
@@ -274,12 +188,19 @@ def run_fetch(arguments):
 
 def run_compare(arguments):
     names = arguments.names or (arguments.old, arguments.new)
-    rules = read_rules(arguments.tolerances)
     old = sections_of(fetch(arguments.old), names[0])
     new = sections_of(fetch(arguments.new), names[1])
-    lines = compare(old, new, rules, arguments.sections, names)
-    print_lines(lines, arguments.all, names, told_references(old, new, arguments.sections))
-    return 1 if any(line.judgement.verdict == "worse" for line in lines) else 0
+    wanted = chosen_sections(old, new, arguments.sections, names)
+    command = [gate_program(arguments.program), "eval", "gate", "before.json", "after.json",
+               "--rules", pathlib.Path(arguments.tolerances).resolve()]
+    with tempfile.TemporaryDirectory() as folder:
+        write_records(old, new, wanted, names, [pathlib.Path(folder, file) for file in command[3:5]])
+        done = subprocess.run(command + ([] if arguments.all else ["--changed"]), cwd=folder, capture_output=True,
+                              text=True, check=False)
+    sys.stdout.write(done.stdout)
+    if done.returncode not in (0, 1):
+        raise Unusable(done.stderr.strip().removeprefix("placegraph: "))
+    return done.returncode
 
 
 def main(argv):
@@ -295,14 +216,12 @@ def main(argv):
     comparing.add_argument("sections", nargs="*")
     comparing.add_argument("--names", nargs=2)
     comparing.add_argument("--all", action="store_true")
-    for command in (fetching, comparing):
-        command.add_argument("--tolerances", default=HERE / "tolerances.txt")
+    comparing.add_argument("--tolerances", default=HERE / "tolerances.txt")
+    comparing.add_argument("--program")
     arguments = parser.parse_args(argv)
     try:
-        if arguments.command == "fetch":
-            return run_fetch(arguments)
-        return run_compare(arguments)
-    except (Unusable, tables.Malformed, rules_module.BadRule) as error:
+        return run_fetch(arguments) if arguments.command == "fetch" else run_compare(arguments)
+    except (Unusable, tables.Malformed, OSError) as error:
         print(f"scripts/results: {error}", file=sys.stderr)
         return 2
 

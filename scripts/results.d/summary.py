@@ -14,7 +14,6 @@ import pathlib
 import re
 import sys
 
-import rules
 import tables
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -86,10 +85,10 @@ def matching_rows(section, row):
     """[{column: cell}] of the rows of the one table that fit."""
     found = []
     for table in tables.joined_tables(section.tables):
-        if row.column not in table.columns or (row.heading and not rules.pattern(row.heading).fullmatch(table.heading)):
+        if row.column not in table.columns or (row.heading and not tables.pattern(row.heading).fullmatch(table.heading)):
             continue
         keyed = tables.rows_by_key(table, tables.key_width(table))
-        fits = [dict(zip(table.columns, cells)) for name, cells in keyed.items() if rules.pattern(row.row).fullmatch(name)]
+        fits = [dict(zip(table.columns, cells)) for name, cells in keyed.items() if tables.pattern(row.row).fullmatch(name)]
         if fits:
             found.append(fits)
     if len(found) != 1:

@@ -75,9 +75,9 @@ def figures_of(cell):
     return found, re.sub(r"\s+", " ", FIGURE.sub("\0", cell))
 
 
-def masked(text):
-    """A name without the numbers in it."""
-    return re.sub(rf"(?<![\w.@]){NUMBER}(?!\w)", "#", text)
+def pattern(text):
+    """`*` stands for anything, all else for itself."""
+    return re.compile(".*".join(re.escape(part) for part in text.strip().split("*")), re.DOTALL)
 
 
 def cells_of(line):
@@ -214,26 +214,3 @@ def joined_tables(tables):
                           [a + b[width:] for a, b in zip(wide.rows, table.rows)], wide.line)
         result.append(table)
     return result
-
-
-def matched_tables(before, after):
-    """Pairs of tables of two versions of a section: by heading, first column and order, then by first
-    column and order alone; None where the other version has none."""
-
-    def keyed(tables):
-        counts, result = {}, {}
-        for table in tables:
-            key = (table.heading, table.columns[0])
-            counts[key] = counts.get(key, 0) + 1
-            result[(*key, counts[key])] = table
-        return result
-
-    old, new = keyed(joined_tables(before)), keyed(joined_tables(after))
-    pairs = [(old[key], new[key]) for key in old if key in new]
-    rest = [table for key, table in new.items() if key not in old]
-    for key in (key for key in old if key not in new):
-        other = next((table for table in rest if table.columns[0] == key[1]), None)
-        if other is not None:
-            rest.remove(other)
-        pairs.append((old[key], other))
-    return pairs + [(None, table) for table in rest]

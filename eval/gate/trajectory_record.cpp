@@ -1,0 +1,122 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <placegraph/eval/gate/trajectory_record.h>
+#include <placegraph/eval/association/pairing.h>
+#include <placegraph/eval/uncertainty/drive_interval.h>
+#include <placegraph/eval/uncertainty/run_interval.h>
+#include <placegraph/graph/core/error.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+namespace placegraph {
+namespace {
+
+/// FNV-1a (Fowler, Noll and Vo) over 64 bits, on the bytes of numbers from the lowest on.
+class PoseHash {
+ public:
+  void add(std::uint64_t word) {
+    for (int byte = 0; byte < 8; ++byte) {
+      hash_ ^= (word >> (8 * byte)) & 0xff;
+      hash_ *= 0x100000001b3ULL;
+    }
+  }
+  /// Zero has one sign.
+  void add(double number) { add(std::bit_cast<std::uint64_t>(std::nearbyint(number * 1e9) + 0.0)); }
+  std::uint64_t value() const { return hash_; }
+
+ private:
+  std::uint64_t hash_ = 0xcbf29ce484222325ULL;
+};
+
+std::map<std::string, std::string> options_of(const Protocol& protocol) {
+  std::map<std::string, std::string> options = {
+      {"align", to_string(protocol.alignment)},
+      {"associate", to_string(protocol.association)},
+      {"lengths_m", fmt::format("{}", fmt::join(protocol.lengths_m, ","))},
+      {"step", std::to_string(protocol.step)}};
+  if (const std::string over = to_string(protocol.align_over); !over.empty())
+    options["align_over"] = over;
+  if (!protocol.part.empty()) options["part"] = protocol.part;
+  if (!protocol.vertical.empty()) options["vertical"] = protocol.vertical;
+  if (protocol.pairs == StepPairs::kAll) options["pairs"] = "all";
+  if (protocol.association == Association::kTime) {
+    options["max_difference_s"] = fmt::format("{}", protocol.max_difference_s);
+    options["offset_s"] = fmt::format("{}", protocol.offset_s);
+  }
+  return options;
+}
+
+Better better_of(const std::string& key) {
+  if (key == "coverage") return Better::kLarger;
+  return key.starts_with("scale_drift") ? Better::kNearerZero : Better::kSmaller;
+}
+
+/// The interval of what one run allows: of the segments of the drive.
+ConfidenceInterval interval_of_drive(const std::string& key, const SegmentResult& segments) {
+  if (segments.outcome && key == "t_rel_percent")
+    return interval_of_mean(translation_series(segments.segments));
+  if (segments.outcome && key == "r_rel_deg_per_100m")
+    return interval_of_mean(rotation_series(segments.segments));
+  ConfidenceInterval none;
+  none.outcome = Outcome::failure(Outcome::Code::kTooFewData, "one run: no interval");
+  return none;
+}
+
+void fill_intervals(const std::vector<EvaluationResult>& runs, SequenceRecord& sequence) {
+  for (FigureRecord& figure : sequence.figures) {
+    const std::vector<double> values = figure.present();
+    if (values.empty() || values.front() < 0) continue;
+    figure.interval = runs.size() == 1 ? interval_of_drive(figure.key, runs.front().segments)
+                                       : interval_of_runs(values);
+  }
+}
+
+}  // namespace
+
+std::string truth_fingerprint(const Trajectory& truth) {
+  PoseHash hash;
+  for (const StampedPose& pose : truth.poses) {
+    hash.add(static_cast<std::uint64_t>(pose.T_world_body.has_value()));
+    if (!pose.T_world_body) continue;
+    for (int row = 0; row < 3; ++row)
+      for (int column = 0; column < 4; ++column) hash.add((*pose.T_world_body)(row, column));
+  }
+  return fmt::format("{:016x}", hash.value());
+}
+
+SequenceRecord record_of(const std::string& name, const Trajectory& truth,
+                           const std::vector<EvaluationResult>& runs) {
+  require(!runs.empty(), name + ": no run is given");
+  SequenceRecord sequence;
+  sequence.name = name;
+  sequence.truth = {truth_fingerprint(truth), static_cast<int>(truth.posed()),
+                    truth.path_length()};
+  // A run that was refused has no association of its own.
+  const auto ok = std::ranges::find_if(runs, [](const EvaluationResult& r) { return !!r.outcome; });
+  if (ok != runs.end()) sequence.options = options_of(ok->protocol);
+  for (const Metric& metric : metrics(runs.front())) {
+    FigureRecord& figure = sequence.figures.emplace_back();
+    figure.key = metric.key;
+    figure.unit = metric.unit;
+    figure.better = better_of(metric.key);
+  }
+  for (const EvaluationResult& run : runs) {
+    if (!run.outcome)
+      sequence.failures.push_back(run.name + ": " + run.outcome.reason);
+    else
+      require(options_of(run.protocol) == sequence.options,
+              name + ": " + run.name + " was judged with other options than the runs before");
+    const std::vector<Metric> own = metrics(run);
+    for (FigureRecord& figure : sequence.figures) {
+      const auto found = std::ranges::find(own, figure.key, &Metric::key);
+      figure.values.push_back(found == own.end() ? std::nullopt : found->value);
+    }
+  }
+  fill_intervals(runs, sequence);
+  return sequence;
+}
+
+}  // namespace placegraph
