@@ -24,11 +24,13 @@ class PosedTimes {
 
   bool covers(std::int64_t stamp_ns) const {
     const auto after = std::lower_bound(stamps_ns_.begin(), stamps_ns_.end(), stamp_ns);
+    const bool first = after == stamps_ns_.begin(), last = after == stamps_ns_.end();
     double distance_ns = std::numeric_limits<double>::infinity();
-    if (after != stamps_ns_.end()) distance_ns = static_cast<double>(*after - stamp_ns);
-    if (after != stamps_ns_.begin())
+    if (!last) distance_ns = static_cast<double>(*after - stamp_ns);
+    if (!first)
       distance_ns = std::min(distance_ns, static_cast<double>(stamp_ns - *std::prev(after)));
-    return distance_ns <= near_ns_;
+    // Before the first pose and behind the last one none is missing for a whole spacing.
+    return distance_ns <= (first || last ? near_ns_ / kNearShare : near_ns_);
   }
 
  private:
