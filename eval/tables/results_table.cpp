@@ -230,11 +230,15 @@ SequenceFigures sequence_figures(const EvaluationResult& result, const std::stri
     if (metric.value) continue;
     const bool relative = metric.key.starts_with("rpe"), absolute = metric.key.starts_with("ate");
     const Outcome& outcome = absolute   ? result.ape.outcome
+                             : metric.key.starts_with("are") ? result.ape.rotation_outcome
                              : relative ? result.rpe.outcome
                                         : result.segments.outcome;
     figures.reasons[metric.key] =
         outcome.reason.empty() ? "the data allow no such figure" : outcome.reason;
   }
+  for (const FigureInterval& each : result.intervals)
+    if (each.interval.outcome)
+      figures.intervals[each.key] = {each.interval.low, each.interval.high};
   figures.coverage = result.coverage;
   if (result.posed < result.judged)
     figures.remark = fmt::format("of {} of {} frames", result.posed, result.judged);

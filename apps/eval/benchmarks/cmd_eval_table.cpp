@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "apps/eval/benchmarks/eval_table.h"
+#include "apps/eval/cmd_eval.h"
 #include "apps/support/option_texts.h"
 #include "apps/support/output.h"
 
@@ -16,32 +17,6 @@ struct EvalTableCommand {
   EvalTableArguments arguments;
   bool json = false;
 };
-
-void add_judging_options(CLI::App& command, EvalArguments& a) {
-  command.add_option("--align", a.align, "transformation fitted before the errors are computed")
-      ->check(CLI::IsMember(eval_alignments()))
-      ->capture_default_str();
-  command
-      .add_option("--lengths", a.options.segments.lengths_m,
-                  "lengths of the segments [m], as 100,200,300")
-      ->delimiter(',')
-      ->capture_default_str();
-  command.add_option("--step", a.options.segments.step, "frames between the starts of segments")
-      ->capture_default_str();
-  command
-      .add_option("--associate", a.associate,
-                  "how poses are paired: by index or by time; auto: by time if both have times")
-      ->check(CLI::IsMember(eval_associations()))
-      ->capture_default_str();
-  command
-      .add_option("--max-difference", a.options.time.max_difference_s,
-                  "largest time difference of paired poses [s]")
-      ->capture_default_str();
-  command
-      .add_option("--offset", a.options.time.offset_s,
-                  "time added to the stamps of the estimates [s]")
-      ->capture_default_str();
-}
 
 }  // namespace
 
@@ -71,7 +46,9 @@ void add_eval_table_command(CLI::App& eval_group) {
   command->add_option("--rows", a.rows, "what the rows are")
       ->check(CLI::IsMember(table_row_names()))
       ->capture_default_str();
-  add_judging_options(*command, a.judging);
+  add_protocol_options(*command, a.judging);
+  command->add_flag("--intervals", a.judging.options.intervals,
+                    "confidence intervals of the figures");
   command
       ->add_option("--out", a.outputs,
                    "files to write, joined by commas: .txt, .csv, .tex, .md, .json, .html")
