@@ -10,7 +10,7 @@
 #include "tests/unit/eval/gate/gate_worlds.h"
 
 namespace placegraph {
-namespace gate_statistics_test {
+namespace gate_study_test {
 
 using namespace gate_worlds;
 
@@ -52,7 +52,7 @@ Values draw(const RunModel& model, Random& random, double scatter, int runs, dou
   return values;
 }
 
-TEST(GateStatistics, EqualSystemsAlarmInSixOfAHundredPairsAtMost) {
+TEST(GateStudy, EqualSystemsAlarmInSixOfAHundredPairsAtMost) {
   // 2,000 pairs of each model; the deviation of 5 % of so many is 0.5 %.
   constexpr int kPairs = 2000;
   const GateRules rules = parse_rules("* | * | significant", "r");
@@ -74,7 +74,7 @@ TEST(GateStatistics, EqualSystemsAlarmInSixOfAHundredPairsAtMost) {
   }
 }
 
-TEST(GateStatistics, TenPercentWorseIsFoundWithTheRunsItAsksFor) {
+TEST(GateStudy, TenPercentWorseIsFoundWithTheRunsItAsksFor) {
   constexpr int kTrials = 1000;
   const GateRules rules = parse_rules("* | * | significant 10 %", "r");
   for (const double scatter : {0.05, 0.1, 0.2})
@@ -95,5 +95,5 @@ TEST(GateStatistics, TenPercentWorseIsFoundWithTheRunsItAsksFor) {
     }
 }
 
-}  // namespace gate_statistics_test
+}  // namespace gate_study_test
 }  // namespace placegraph
