@@ -67,7 +67,11 @@ struct GroupSpelling {
 
 const std::vector<GroupSpelling>& group_spellings() {
   static const std::vector<GroupSpelling> spellings = {
-      {"eval", "trajectory", {"trajectory", "table", "kitti", "info", "edges", "loops", "labels", "noise"}, true},
+      {"eval",
+       "trajectory",
+       {"trajectory", "table", "kitti", "info", "record", "gate", "edges", "loops", "labels",
+        "noise"},
+       true},
       {"synth", "sequence", {"sequence", "graph"}},
   };
   return spellings;

@@ -86,7 +86,7 @@ TEST(RecordText, NamesWhatIsWrongAndWhere) {
       {"\"version\": 1", "\"version\": 0", "version: 0 of the format of records"},
       {"\"version\": 1", "\"version\": \"1\"", "version: is no number"},
       {"placegraph record", "another", "is no record of `placegraph eval record`"},
-      {"[1.5]", "[NaN]", "line 4"},
+      {"[1.5]", "[NaN]", "line 6"},
       {"[1.5]", "[1e999]", "a.json: "},
       {"[1.5]", "[\"1.5\"]", "sequences[0].figures[0].values[0]: is no number"},
       {"[1.5]", "[]", "00: ate: has no values"},
