@@ -18,7 +18,7 @@ void add_eval_gate_command(CLI::App& eval_group) {
   EvalGateArguments& a = *arguments;
   CLI::App* command = eval_group.add_subcommand(
       "gate", "Judge whether a change is a regression: exit code 0 no, 1 yes, 2 cannot be judged");
-  command->footer("placegraph eval gate baseline.json candidate.json --markdown report.md");
+  command->footer("placegraph eval gate baseline.json candidate.json --summary report.md");
   command->add_option("BASELINE", a.baseline, "record of `eval record`")
       ->required()
       ->check(CLI::ExistingFile);
@@ -35,7 +35,7 @@ void add_eval_gate_command(CLI::App& eval_group) {
       ->capture_default_str();
   command->add_flag("--changed", *changed, "leave out figures that are the same to the digit");
   command->add_flag("--json", *json, kJsonText);
-  command->add_option("--markdown", a.markdown, "write a page for a pull request")
+  command->add_option("--summary", a.markdown, "write a page for a pull request")
       ->type_name(kOutput);
   command->add_option("--junit", a.junit, "write JUnit's XML, a test case for each figure")
       ->type_name(kOutput);

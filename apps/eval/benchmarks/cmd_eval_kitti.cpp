@@ -44,9 +44,9 @@ void add_eval_kitti_command(CLI::App& eval_group) {
       ->add_option("--sequences", a.sequences,
                    "sequences to judge, as 09,10; all of TRUTHS without it")
       ->delimiter(',');
-  command->add_option("--out", a.out, "folder for the devkit's tables and plots")
+  command->add_option("-o,--out", a.out, "folder for the devkit's tables and plots")
       ->type_name(kOutput);
-  command->add_option("--format", a.format, "format of the plots; none: tables alone")
+  command->add_option("--plot-format", a.format, "format of the plots; none: tables alone")
       ->check(CLI::IsMember(kitti_plot_formats()))
       ->capture_default_str();
   command->add_flag("--json", *json, kJsonText);

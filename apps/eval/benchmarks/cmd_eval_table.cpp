@@ -50,7 +50,7 @@ void add_eval_table_command(CLI::App& eval_group) {
   command->add_flag("--intervals", a.judging.options.intervals,
                     "confidence intervals of the figures");
   command
-      ->add_option("--out", a.outputs,
+      ->add_option("-o,--out", a.outputs,
                    "files to write, joined by commas: .txt, .csv, .tex, .md, .json, .html")
       ->delimiter(',')
       ->type_name(kOutput);

@@ -25,7 +25,7 @@ void check_gate_outputs(const EvalGateArguments& arguments) {
   for (const std::string& candidate : arguments.candidates)
     inputs.push_back({"CANDIDATE", candidate});
   if (!arguments.rules.empty()) inputs.push_back({"--rules", arguments.rules});
-  if (!arguments.markdown.empty()) outputs.push_back({"--markdown", arguments.markdown});
+  if (!arguments.markdown.empty()) outputs.push_back({"--summary", arguments.markdown});
   if (!arguments.junit.empty()) outputs.push_back({"--junit", arguments.junit});
   for (const NamedPath& output : outputs) require_free(output.path, arguments.force);
   require_distinct_paths(outputs, inputs);

@@ -133,11 +133,11 @@ TEST_F(Cli, EvalGivesNullAndAWarningForAClipThatIsTooShort) {
 TEST_F(Cli, EvalRefusesToGuessTheAssociation) {
   write_file(dir / "short.txt", circle_kitti(100));
   const CommandResult lengths = run("eval gt.txt short.txt");
-  EXPECT_EQ(lengths.code, 1);
+  EXPECT_EQ(lengths.code, 2);
   EXPECT_THAT(lengths.err, HasSubstr("the ground truth has 150, the estimate 100"));
   write_file(dir / "est.tum", circle_tum(150));
   const CommandResult times = run("eval gt.txt est.tum");
-  EXPECT_EQ(times.code, 1);
+  EXPECT_EQ(times.code, 2);
   EXPECT_THAT(times.err, HasSubstr("only the estimate has times"));
 }
 

@@ -51,7 +51,7 @@ TEST_F(EvalGate, OfOneRunEachGoesByTheTolerance) {
   EXPECT_EQ(same.code, 0) << same.err;
   EXPECT_THAT(same.out, ::testing::StartsWith("No regression: "));
   EXPECT_EQ(same.err, "");
-  const auto worse = run("eval gate a.json c.json --markdown report.md --junit report.xml");
+  const auto worse = run("eval gate a.json c.json --summary report.md --junit report.xml");
   EXPECT_EQ(worse.code, 1);
   EXPECT_THAT(worse.out, ::testing::StartsWith("Regressed: "));
   EXPECT_THAT(worse.err, ::testing::StartsWith("placegraph: regressed: "));
@@ -143,7 +143,7 @@ TEST_F(EvalGate, RefusesBrokenFilesInOneLine) {
   expect_usage_error("eval gate a.json a.json --rules rules.txt", "rules.txt:2: 'better' is no rule");
   expect_usage_error("eval gate a.json none.json", "none.json");
   expect_usage_error("eval gate a.json a.json --level 2", "level");
-  expect_usage_error("eval gate a.json a.json --markdown a.json --force", "a.json");
+  expect_usage_error("eval gate a.json a.json --summary a.json --force", "a.json");
 }
 
 }  // namespace eval_gate_cli_test

@@ -43,7 +43,7 @@ TEST_F(KittiCli, ASubmissionWithFaultsIsPrintedAndEndsWithTwo) {
 
 TEST_F(KittiCli, RefusesWhatItCannotJudge) {
   expect_usage_error("eval kitti truth mine --sequences 04", "no true poses of the sequence '04'");
-  expect_usage_error("eval kitti truth mine --format gif", "gif");
+  expect_usage_error("eval kitti truth mine --plot-format gif", "gif");
   dir.write("empty/readme", "");
   expect_usage_error("eval kitti truth empty", "empty: holds no poses of a sequence");
 }
