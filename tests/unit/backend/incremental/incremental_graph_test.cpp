@@ -84,9 +84,9 @@ TYPED_TEST(IncrementalGraphOf, TakesManyWeightsAsItTakesOneAfterTheOther) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     IncrementalGraph<TypeParam> together(RotationError::kLog), alone(RotationError::kLog);
-    for (auto* graph : {&together, &alone}) {
-      for (const PoseNode& node : this->walk.graph.nodes) graph->add_node(node);
-      graph->add_constraints(this->walk.graph.constraints, false);
+    for (auto* each : {&together, &alone}) {
+      for (const PoseNode& node : this->walk.graph.nodes) each->add_node(node);
+      each->add_constraints(this->walk.graph.constraints, false);
     }
     Random random(seed);
     for (int round = 0; round < 4; ++round) {
