@@ -9,6 +9,8 @@ namespace placegraph {
 namespace {
 
 constexpr double kNearShare = 0.75;  // as for lost frames of a single estimate
+// Before the first pose and behind the last one none is missing for nearly a whole spacing. Chosen.
+constexpr double kEndShare = 0.9;
 
 /// The stamps at which an estimate is posed.
 class PosedTimes {
@@ -19,7 +21,7 @@ class PosedTimes {
     std::vector<double> spacings_ns;
     for (std::size_t i = 1; i < stamps_ns_.size(); ++i)
       spacings_ns.push_back(static_cast<double>(stamps_ns_[i] - stamps_ns_[i - 1]));
-    if (!spacings_ns.empty()) near_ns_ = kNearShare * median_of(std::move(spacings_ns));
+    if (!spacings_ns.empty()) spacing_ns_ = median_of(std::move(spacings_ns));
   }
 
   bool covers(std::int64_t stamp_ns) const {
@@ -29,13 +31,12 @@ class PosedTimes {
     if (!last) distance_ns = static_cast<double>(*after - stamp_ns);
     if (!first)
       distance_ns = std::min(distance_ns, static_cast<double>(stamp_ns - *std::prev(after)));
-    // Before the first pose and behind the last one none is missing for a whole spacing.
-    return distance_ns <= (first || last ? near_ns_ / kNearShare : near_ns_);
+    return distance_ns <= (first || last ? kEndShare : kNearShare) * spacing_ns_;
   }
 
  private:
   std::vector<std::int64_t> stamps_ns_;
-  double near_ns_ = 0;
+  double spacing_ns_ = 0;
 };
 
 }  // namespace
