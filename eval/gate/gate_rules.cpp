@@ -241,6 +241,7 @@ const std::string& default_rules_text() {
       "* | *_max_* | info\n"
       "* | *_sse_* | info\n"
       "* | *_p95_* | info\n"
+      "* | scale_drift* | info\n"
       "* | coverage | worse 0.01\n"
       "* | * | significant else worse 5 %\n";
   return text;

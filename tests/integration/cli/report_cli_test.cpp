@@ -57,7 +57,7 @@ TEST_F(ReportCli, EvalOfFoldersHasARunForEverySequence) {
 
 TEST_F(ReportCli, WritesNoPageOfWhatFails) {
   write_file(dir / "short.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n");
-  EXPECT_EQ(run("eval truth.txt short.txt --report page.html").code, 1);
+  EXPECT_EQ(run("eval truth.txt short.txt --report page.html").code, 2);
   expect_usage_error("eval truth.txt none.txt --report page.html", "none.txt");
   expect_usage_error("eval truth.txt estimate.txt --report no/page.html", "no");
   expect_usage_error("eval truth.txt estimate.txt --csv page.html --report page.html",
