@@ -165,4 +165,4 @@ void make_equal(FigurePanel& panel);
 /// `detail`: share of these bytes, above 0, for a picture that is one of several.
 std::string to_svg(const Figure& figure, double detail = 1);
 
-}  // namespace gnu::visibility("default")]]placegraph
+}  // namespace placegraph

@@ -58,4 +58,4 @@ void visit(OptionVisitor& field, FigureSettings& options);
 /// colour of a curve that the figure does not have, and for a picture too small for its margins.
 Figure with_settings(Figure figure, const FigureSettings& settings);
 
-}  // namespace gnu::visibility("default")]]placegraph
+}  // namespace placegraph

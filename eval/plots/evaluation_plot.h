@@ -41,4 +41,4 @@ Figure figure_of(const std::vector<EvaluationResult>& results, EvaluatedTruth tr
 /// How the positions were aligned, in words.
 std::string alignment_text(Alignment alignment);
 
-}  // namespace gnu::visibility("default")]]placegraph
+}  // namespace placegraph

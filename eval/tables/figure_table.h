@@ -102,4 +102,4 @@ enum class TableRows {
 FigureTable table_of(const std::vector<NamedResults>& systems, const std::vector<std::string>& keys,
                      TableRows rows = TableRows::kSequences);
 
-}  // namespace gnu::visibility("default")]]placegraph
+}  // namespace placegraph

@@ -45,4 +45,4 @@ const std::vector<std::string>& table_file_endings();
 /// Throws ArgumentError for another ending.
 std::string table_file_text(const FigureTable& table, const std::string& path);
 
-}  // namespace gnu::visibility("default")]]placegraph
+}  // namespace placegraph

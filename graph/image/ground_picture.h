@@ -17,4 +17,4 @@ struct GroundPicture {
   Eigen::Vector2d down_m = Eigen::Vector2d::Zero();    ///< from a pixel to the one below it
 };
 
-}  // namespace gnu::visibility("default")]]placegraph
+}  // namespace placegraph

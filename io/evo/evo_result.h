@@ -48,4 +48,4 @@ void write_evo_result(const std::string& path, const EvoResult& result);
 /// Whether the file is a zip archive, by its first bytes; false if it cannot be read.
 bool is_zip_archive(const std::string& path);
 
-}  // namespace gnu::visibility("default")]]placegraph
+}  // namespace placegraph

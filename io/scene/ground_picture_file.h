@@ -19,4 +19,4 @@ namespace [[gnu::visibility("default")]] placegraph {
 GroundPicture read_ground_picture(const std::string& path,
                                   const std::vector<double>& corners_m = {});
 
-}  // namespace gnu::visibility("default")]]placegraph
+}  // namespace placegraph

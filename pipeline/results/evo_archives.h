@@ -21,4 +21,4 @@ EvoResult evo_result_of(const EvaluationResult& result, const std::string& refer
 /// none.
 SequenceFigures figures_of_evo(const EvoResult& result, const std::string& name);
 
-}  // namespace gnu::visibility("default")]]placegraph
+}  // namespace placegraph
