@@ -146,21 +146,21 @@ void add_doubts(Alignment alignment, const FittedPositions& positions,
   const double error_m = result.rmse_m / std::sqrt(3.0);
   if (free_rotation && result.rank > 1 &&
       std::sqrt(spread.variances_m2[1]) < kSpreadPerError * error_m)
-    result.free_axis = spread.axes.col(2);
+    result.free_axes = {spread.axes.col(2)};
   if (alignment == Alignment::kYaw) {
     const Eigen::Vector3d level = spread.axes.transpose() * vertical_axis;
     double level_m2 = 0;
     for (int i = 0; i < 3; ++i) level_m2 += spread.variances_m2[i] * (1 - level[i] * level[i]);
-    if (std::sqrt(level_m2) < kSpreadPerError * error_m) result.free_axis = vertical_axis;
+    if (std::sqrt(level_m2) < kSpreadPerError * error_m) result.free_axes = {vertical_axis};
   }
   if (free_rotation && result.rank > 1 && result.explained < kLeastExplained) {
-    result.free_axis = spread.axes.col(2);
+    result.free_axes = {spread.axes.col(2)};
     result.doubts.push_back(fmt::format(
         "the rotation is arbitrary: the estimate's motion explains {:.1f} % of the ground truth's, "
         "as one that stands within its noise would",
         100 * result.explained));
-  } else if (result.free_axis) {
-    const Eigen::Vector3d& a = *result.free_axis;
+  } else if (!result.free_axes.empty()) {
+    const Eigen::Vector3d& a = result.free_axes.front();
     result.doubts.push_back(fmt::format(
         "the positions lie on a line{}: the rotation about ({:.3f}, {:.3f}, {:.3f}) is arbitrary "
         "(the ATE does not depend on it)",

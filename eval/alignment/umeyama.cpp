@@ -75,7 +75,7 @@ AlignmentResult umeyama(const std::vector<Eigen::Vector3d>& points_from,
                            2 * result.scale * common;
     const double gain_m2 = sign[2] < 0 ? 4 * result.scale * d[2] : 0;
     result.mirrored = result.rank == 3 && gain_m2 >= 0.75 * left_m2 && left_m2 > 0;
-    if (result.rank == 1) result.free_axis = svd.matrixU().col(0);
+    if (result.rank == 1) result.free_axes = {svd.matrixU().col(0)};
   }
   result.t_truth_estimate = mean_to - result.scale * (result.R_truth_estimate * mean_from);
   result.rmse_m = rmse_after(result, points_from, points_to);

@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,9 +20,9 @@ struct AlignmentResult {
   /// rotation about the line is unobservable: the outcome is kDegenerate, although the similarity
   /// is one of the optimal ones and `rmse_m` is the unique minimum.
   int rank = 0;
-  /// The axis, in the truth's world, about which the rotation is not determined by the positions
-  /// beyond their errors; nothing if there is none.
-  std::optional<Eigen::Vector3d> free_axis;
+  /// Axes, in the truth's world, about which the rotation is not determined by the positions beyond
+  /// their errors; none or one.
+  std::vector<Eigen::Vector3d> free_axes;
   bool mirrored = false;  ///< a reflection would at least halve the error
   double explained = 1;   ///< share of the true positions' variance that a fitted scale explains
   std::string vertical;   ///< the vertical that was used, for kYaw

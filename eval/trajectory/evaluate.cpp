@@ -61,7 +61,7 @@ void judge_no_motions(const EvaluationOptions& options, EvaluationResult& r) {
 void judge_poses(bool has_orientation, const EvaluationOptions& options, EvaluationResult& r) {
   const std::vector<FramePair>& pairs = r.aligned_pairs;
   Outcome rotation = has_orientation ? Outcome::ok() : needs_orientation("a rotation error");
-  if (r.alignment.free_axis)
+  if (!r.alignment.free_axes.empty())
     rotation = Outcome::failure(Outcome::Code::kDegenerate,
                                 "the alignment leaves the rotation about an axis arbitrary");
   r.ape = ape(pairs, projection_of(pairs, options.part), rotation);

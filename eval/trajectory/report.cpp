@@ -120,9 +120,10 @@ Json object(const EvaluationResult& r) {
   if (const std::string over = to_string(r.protocol.align_over); !over.empty())
     json["align_over"] = over;
   if (!r.protocol.part.empty()) json["part"] = r.protocol.part;
-  if (r.outcome && r.alignment.free_axis)
-    json["free_axis"] = {(*r.alignment.free_axis)[0], (*r.alignment.free_axis)[1],
-                         (*r.alignment.free_axis)[2]};
+  if (r.outcome && !r.alignment.free_axes.empty()) {
+    const Eigen::Vector3d& axis = r.alignment.free_axes.front();
+    json["free_axis"] = {axis[0], axis[1], axis[2]};
+  }
   json["scale"] = r.outcome ? Json(r.alignment.scale) : Json(nullptr);
   json["frames"] = r.frames;
   json["judged"] = r.judged;

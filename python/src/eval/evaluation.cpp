@@ -423,10 +423,10 @@ void bind_evaluation(nb::module_& m) {
       "Several results as JSON, with their averages if `average`, and those of common frames.");
   m.def(
       "results_to_csv", [](const Results& results) { return to_csv(results); }, "results"_a,
-      doc("to_csv"));
+      "Results as CSV, one number per line, with a header.");
   m.def(
       "results_to_latex", [](const Results& results) { return to_latex(results); }, "results"_a,
-      doc("to_latex"));
+      "A LaTeX table (booktabs), one row per result.");
   m.def(
       "results_to_table",
       [](const Results& results, bool average) { return to_table(results, average); }, "results"_a,

@@ -72,7 +72,7 @@ void bind_tables(nb::module_& m) {
   bind_evo(m);
   nb::class_<FigureTable>(m, "FigureTable", doc("FigureTable"))
       .def(
-          "to_text", [](const FigureTable& t) { return to_text(t); }, doc("to_text"))
+          "to_text", [](const FigureTable& t) { return to_text(t); }, "The table for people: aligned columns, notes below.")
       .def(
           "to_csv", [](const FigureTable& t) { return to_csv(t); },
           "The table as CSV: a line for each row, the notes in the last column.")
@@ -80,7 +80,7 @@ void bind_tables(nb::module_& m) {
           "to_latex", [](const FigureTable& t) { return to_latex(t); },
           "The table for LaTeX (booktabs), best figures bold, notes below.")
       .def(
-          "to_markdown", [](const FigureTable& t) { return to_markdown(t); }, doc("to_markdown"))
+          "to_markdown", [](const FigureTable& t) { return to_markdown(t); }, "The table in the Markdown of GitHub, best figures bold, notes below.")
       .def(
           "to_json", [](const FigureTable& t) { return to_json(t); },
           "The table as JSON, as `placegraph eval table --json` prints it.")

@@ -97,15 +97,41 @@ void visit_many_members(T& v, const Visit& visit) {
   }
 }
 
+/// The same of 21 to 26 members.
+template <std::size_t count, class T, class Visit>
+void visit_most_members(T& v, const Visit& visit) {
+  if constexpr (count == 21) {
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u] = v;
+    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u);
+  } else if constexpr (count == 22) {
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, w] = v;
+    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, w);
+  } else if constexpr (count == 23) {
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, w, x] = v;
+    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, w, x);
+  } else if constexpr (count == 24) {
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, w, x, y] = v;
+    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, w, x, y);
+  } else if constexpr (count == 25) {
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, w, x, y, z] = v;
+    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, w, x, y, z);
+  } else {
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, w, x, y, z, aa] = v;
+    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, w, x, y, z, aa);
+  }
+}
+
 /// Calls `visit(member, ...)` once, with all members of a struct in their order.
 template <class T, class Visit>
 void visit_members(T& value, const Visit& visit) {
   constexpr std::size_t count = count_members<T>();
-  static_assert(count >= 1 && count <= 20, "a struct of 1 to 20 members is needed");
+  static_assert(count >= 1 && count <= 26, "a struct of 1 to 26 members is needed");
   if constexpr (count <= 10)
     visit_few_members<count>(value, visit);
-  else
+  else if constexpr (count <= 20)
     visit_many_members<count>(value, visit);
+  else
+    visit_most_members<count>(value, visit);
 }
 
 }  // namespace placegraph::python
