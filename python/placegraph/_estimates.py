@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias, cast
 
 from . import _core
 from ._types import Path
@@ -39,7 +39,7 @@ def _is_table(given: object) -> bool:
 
 def _of_table(given: TrajectoryLike) -> TrajectoryLike:
     """The trajectory of a table of pandas; a trajectory or a path as it is."""
-    return _core.Trajectory.from_pandas(given) if _is_table(given) else given
+    return _core.Trajectory.from_pandas(cast(Any, given)) if _is_table(given) else given
 
 
 def true_of(given: TruthLike) -> TrajectoryLike:
@@ -65,7 +65,7 @@ def named_estimates(
         named = list(given.items())
     else:
         if isinstance(given, (str, os.PathLike, _core.Trajectory, Map)) or _is_table(given):
-            given = [given]
+            given = [cast(Any, given)]
         elif not isinstance(given, Iterable):
             raise _core.ArgumentError(
                 f"estimates: a list or a dictionary is needed, not {type(given).__name__}")
@@ -99,7 +99,7 @@ def read_estimate(given: TrajectoryLike, truth: TrajectoryLike, times: str) -> _
             raise _core.ArgumentError(
                 f"estimate: {path} is a folder without trajectory_optimized.kitti")
         timed = (truth.has_times if isinstance(truth, _core.Trajectory)
-                 else _core.truth_has_times(os.fspath(truth)))
+                 else _core.truth_has_times(os.fspath(cast(Any, truth))))
         path = _core.trajectory_of_run(path, timed)
     return _core.read_evaluated(path, times)
 

@@ -145,7 +145,8 @@ class Evaluation:
     @property
     def errors(self) -> pandas.DataFrame:
         """Statistics of every kind of error, a row each: rmse, mean, median, std, ..., p99."""
-        return table_of(self._core.error_table()).set_index("key")
+        table: pandas.DataFrame = table_of(self._core.error_table()).set_index("key")
+        return table
 
     def steps(self, delta: str = "1f") -> pandas.DataFrame:
         """The relative errors of each step over a delta of the evaluation: '1s', '10f', '5m'.
@@ -438,8 +439,8 @@ def compare(
     both = [_read_both(truth, each, name, times, chosen)
             for name, each in named_estimates(estimates)]
     results = [Evaluation(_core.evaluate_trajectory(*each[:2], chosen, each[2])) for each in both]
-    truths, estimated, names = (list(column) for column in zip(*both))
-    common = _core.evaluate_common_frames(truths, estimated, names, chosen)
+    common = _core.evaluate_common_frames([each[0] for each in both], [each[1] for each in both],
+                                          [each[2] for each in both], chosen)
     return _compared(results, False, [Evaluation(each) for each in common])
 
 

@@ -55,8 +55,9 @@ class KittiEvaluation:
         r_rel_deg_per_100m. "mean" is over all segments of all sequences; NaN where a fault allows
         no figure.
         """
-        table: pandas.DataFrame = table_of(self._core.figure_table())
-        return table.set_index(["system", "sequence"])
+        table: pandas.DataFrame = table_of(self._core.figure_table()).set_index(
+            ["system", "sequence"])
+        return table
 
     @property
     def lengths(self) -> pandas.DataFrame:

@@ -41,7 +41,7 @@ def test_an_archive_is_what_numpy_and_zipfile_read(tmp_path: pathlib.Path) -> No
         assert archive.testzip() is None
         errors = np.load(io.BytesIO(archive.read("error_array.npy")))
         assert json.loads(archive.read("info.json"))["ref_name"] == "gt.tum"
-    evo = pg.read_evo_result(path)
+    evo = pg.read_evo_result(str(path))
     assert np.array_equal(evo.arrays["error_array"], errors)
     assert evo.statistics["rmse"] == result["ate_rmse_m"]
     assert (evo.reference, evo.estimate, evo.label) == ("gt.tum", "estimate", "APE (m)")
@@ -56,10 +56,10 @@ def test_archives_that_python_writes_are_read(tmp_path: pathlib.Path) -> None:
             bytes_of_array = io.BytesIO()
             np.save(bytes_of_array, array)
             archive.writestr(f"{name}.npy", bytes_of_array.getvalue())
-    evo = pg.read_evo_result(tmp_path / "r.zip")
+    evo = pg.read_evo_result(str(tmp_path / "r.zip"))
     assert np.array_equal(evo.arrays["c"], matrix)
     assert np.array_equal(evo.arrays["fortran"], matrix)
     assert evo.statistics == {"rmse": 0.5}
     (tmp_path / "none.zip").write_text("no archive")
     with pytest.raises(pg.FileError, match="cannot be opened as a zip archive"):
-        pg.read_evo_result(tmp_path / "none.zip")
+        pg.read_evo_result(str(tmp_path / "none.zip"))

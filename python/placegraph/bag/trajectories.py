@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -50,8 +51,8 @@ def read_trajectory(bag: PathLike | Sequence[PathLike], topic: str) -> _core.Tra
     headers. Of poses of one time the first is kept, with a warning (Doubt). ArgumentError: the bag
     has no such topic, or one without poses; FileError: it is damaged.
     """
-    several = isinstance(bag, Sequence) and not isinstance(bag, str)
-    paths = [Path(each) for each in (bag if several else [bag])]  # type: ignore[union-attr]
+    bags = [bag] if isinstance(bag, (str, os.PathLike)) else list(bag)
+    paths = [Path(each) for each in bags]
     stamps: list[int] = []
     poses: list[Matrix] = []
     with opened(paths) as reader:

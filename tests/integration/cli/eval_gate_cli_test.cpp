@@ -55,7 +55,7 @@ TEST_F(EvalGate, OfOneRunEachGoesByTheTolerance) {
   EXPECT_EQ(worse.code, 1);
   EXPECT_THAT(worse.out, ::testing::StartsWith("Regressed: "));
   EXPECT_THAT(worse.err, ::testing::StartsWith("placegraph: regressed: "));
-  EXPECT_THAT(read_file(dir / "report.md"), HasSubstr("| **regressed** | 00 | ate\\_rmse\\_m [m]"));
+  EXPECT_THAT(read_file(dir / "report.md"), HasSubstr("| **regressed** | 00 | ate\\_rmse\\_m \\[m]"));
   EXPECT_THAT(read_file(dir / "report.xml"), HasSubstr("<failure type=\"regressed\""));
   expect_usage_error("eval gate a.json c.json --junit report.xml", "report.xml");
   EXPECT_EQ(run("eval gate c.json a.json").code, 0);
