@@ -16,7 +16,7 @@ struct EvoArray {
 
 /// A result of evo_ape or evo_rpe, as their `--save_results` writes it.
 /// Names and units are evo's own: its label is "APE (m)", its statistics are rmse, mean, median,
-/// std, min, max and sse.
+/// standard deviation, minimum, maximum and sum of squares.
 struct EvoResult {
   std::string title;      ///< what was measured and how it was aligned; may have several lines
   std::string label;      ///< name and unit of the errors

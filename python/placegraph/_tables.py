@@ -48,7 +48,8 @@ def trajectory_of_table(table: pandas.DataFrame) -> _core.Trajectory:
         if pandas.api.types.is_datetime64_any_dtype(values):
             # Whole nanoseconds since 1970, whatever the unit and the zone of the times.
             utc = pandas.to_datetime(values, utc=True).astype("datetime64[ns, UTC]")
-            columns[f"{name}_ns"] = utc.astype("int64")
+            column = str(name) if str(name).endswith("_ns") else f"{name}_ns"
+            columns[column] = utc.astype("int64")
         else:
             columns[str(name)] = values
     # As a file, so that the names of columns are those of files.

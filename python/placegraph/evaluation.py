@@ -144,7 +144,7 @@ class Evaluation:
 
     @property
     def errors(self) -> pandas.DataFrame:
-        """Statistics of every kind of error, a row each: rmse, mean, median, std, ..., p99."""
+        """Statistics of every kind of error, a row each: rmse, mean, median, ..., p99."""
         table: pandas.DataFrame = table_of(self._core.error_table()).set_index("key")
         return table
 
@@ -180,7 +180,7 @@ class Evaluation:
         return table_of(self._core.speed_table())
 
     def save_for_evo(self, path: Path, reference: str = "reference") -> None:
-        """Writes the position errors as a result archive of evo (.zip), as `evo_ape` does.
+        """Writes the position errors as a result archive of evo (.zip), as evo_ape does.
 
         `reference` is the name of the ground truth in it. NoResult: there are no figures.
         """

@@ -236,7 +236,7 @@ def test_a_refused_evaluation_says_why() -> None:
         pg.evaluate(trajectory(truth), other)
     with pytest.raises(pg.NoResult, match="late: .*stamps"):
         pg.compare(trajectory(truth), {"late": other})
-    with pytest.warns(pg.Doubt, match="late has no figures, and means leave it out"):
+    with pytest.warns(pg.Doubt, match="late has no figures, so that there is no mean"):
         both = pg.compare(trajectory(truth), {"late": other, "right": trajectory(truth)})
     assert not both["late"] and "stamps" in both["late"].reason
     with pytest.raises(pg.NoResult, match="late: .*stamps"):

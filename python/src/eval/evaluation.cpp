@@ -412,8 +412,9 @@ void bind_evaluation(nb::module_& m) {
         "A figure of the results that did not fail.\n\n`kind`: one of `evaluation_plots()`. "
         "`own_truths`: each result is of a sequence of its own.");
   m.def("evaluate_common_frames", &common_results, "truths"_a, "estimates"_a, "names"_a,
-        "options"_a, doc("on_common_frames"));
-  m.def("average_results", &average_of, "results"_a, doc("average"));
+        "options"_a, "Estimates judged again on the frames that all of them have; none if they are the same.");
+  m.def("average_results", &average_of, "results"_a,
+        "Averages of several results; none over all if one has no figures.");
   m.def(
       "results_to_json",
       [](const Results& results, bool average, const Results& common) {
