@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 #include <placegraph/eval/alignment/alignment.h>
+#include <placegraph/eval/alignment/vertical.h>
 #include <placegraph/eval/trajectory/evaluate.h>
 #include <placegraph/eval/trajectory/figure_intervals.h>
 #include <placegraph/eval/trajectory/plausibility.h>
-#include <placegraph/eval/alignment/vertical.h>
 
 #include <algorithm>
 #include <cmath>

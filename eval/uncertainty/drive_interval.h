@@ -12,9 +12,9 @@ namespace [[gnu::visibility("default")]] placegraph {
 /// system. The interval is Student's, on a logarithmic scale where no error is negative: figures of
 /// few independent errors are skewed. Its width comes from the scatter along the drive, by an
 /// orthonormal series variance (Müller 2007; Lazarus et al. 2018) whose half waves hold at least
-/// two of the longest stretches and four times the length over which errors are correlated.
+/// two of the longest stretches and eight times the length over which errors are correlated.
 /// Outcome: kTooFewData if the drive holds fewer than four disjoint stretches of the longest, or
-/// fewer than twenty independent errors of the shortest; kDegenerate if the errors are all equal.
+/// fewer than 25 independent errors of the shortest; kDegenerate if the errors are all equal.
 /// Throws ArgumentError if ErrorSeries::check() does, or for a level outside (0, 1).
 [[nodiscard]] ConfidenceInterval interval_of_mean(const std::vector<ErrorSeries>& series,
                                                   double level = 0.95);
