@@ -153,7 +153,7 @@ def test_without_a_result_there_is_an_exception() -> None:
     late = pg.Trajectory.from_arrays(np.arange(5) * 10**9 + 10**15, poses)
     with pytest.raises(pg.NoResult):
         pg.evaluate(drive, late)
-    with pytest.warns(pg.Doubt, match="b has no figures, and means leave it out"):
+    with pytest.warns(pg.Doubt, match="b has no figures, so that there is no mean over all"):
         both = pg.compare(drive, {"a": drive, "b": late})
     with pytest.raises(pg.NoResult):
         both["b"]["ate_rmse_m"]
