@@ -190,26 +190,6 @@ void write_outputs(const EvalArguments& arguments, const EvalResult& result, con
                      evo_result_of(result.results.front(), last_name_of(arguments.truth)));
 }
 
-/// The true poses of the judged frames.
-Trajectory true_trajectory(const EvaluationResult& result) {
-  Trajectory truth;
-  truth.has_times = result.has_times;
-  for (const FramePair& pair : result.aligned_pairs)
-    truth.poses.push_back({pair.stamp_ns, pair.T_world_truth});
-  return truth;
-}
-
-/// Each further estimate against the first, on the frames that all have.
-std::vector<std::vector<FigureComparison>> comparisons_with_first(const EvalResult& result) {
-  const std::vector<EvaluationResult>& judged =
-      result.common.needed ? result.common.results : result.results;
-  std::vector<std::vector<FigureComparison>> comparisons;
-  const TruthNoise noise = estimate_truth_noise(true_trajectory(judged.front()));
-  for (std::size_t i = 1; i < judged.size(); ++i)
-    comparisons.push_back(compare_estimates(judged.front(), judged[i], noise));
-  return comparisons;
-}
-
 /// The number on one side of the colon of a span; `missing` if there is none.
 double span_end(const std::string& option, const std::string& text, double missing) {
   if (text.empty()) return missing;
@@ -329,7 +309,8 @@ EvalResult eval(const EvalArguments& arguments) {
          "all have");
   if (arguments.repeated_runs) result.of_runs = intervals_of_repeated_runs(result.results);
   if (compared && options.intervals && !arguments.repeated_runs)
-    result.comparisons = comparisons_with_first(result);
+    result.comparisons =
+        compare_with_first(result.common.needed ? result.common.results : result.results);
   if (!result.refused()) write_outputs(arguments, result, look);
   return result;
 }

@@ -54,7 +54,7 @@ Statistics component(const std::vector<Eigen::Vector3d>& errors_m, int row) {
   std::vector<double> values;
   values.reserve(errors_m.size());
   for (const Eigen::Vector3d& error : errors_m) values.push_back(error[row]);
-  return statistics_of(values);
+  return signed_statistics_of(values);
 }
 
 }  // namespace

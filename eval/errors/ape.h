@@ -56,7 +56,7 @@ struct ApeResult {
 struct ErrorComponents {
   Outcome outcome;  ///< kDegenerate if no vertical is evident or the truth never moves
   std::string vertical;                      ///< the vertical, in words
-  Statistics along_m, across_m, up_m;        ///< of values with signs: the mean is a bias
+  Statistics along_m, across_m, up_m;        ///< signed_statistics_of: the mean is a bias
   std::vector<Eigen::Vector3d> errors_m;     ///< along, across, up of each posed frame
 };
 

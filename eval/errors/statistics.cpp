@@ -59,4 +59,15 @@ Statistics statistics_of(const std::vector<double>& errors) {
   return s;
 }
 
+Statistics signed_statistics_of(const std::vector<double>& errors) {
+  std::vector<double> magnitudes = errors;
+  for (double& error : magnitudes) error = std::abs(error);
+  Statistics s = statistics_of(magnitudes);
+  const Statistics with_signs = statistics_of(errors);
+  s.mean = with_signs.mean;
+  s.median = with_signs.median;
+  s.std_dev = with_signs.std_dev;
+  return s;
+}
+
 }  // namespace placegraph

@@ -22,6 +22,12 @@ struct Statistics {
 /// Computes the statistics of a list of errors. Throws ArgumentError if it is empty.
 Statistics statistics_of(const std::vector<double>& errors);
 
+/// Those of errors that have signs. Throws ArgumentError if the list is empty.
+///
+/// Mean, median and std_dev are of the errors; min, max and what so many are not larger than, of
+/// their magnitudes.
+Statistics signed_statistics_of(const std::vector<double>& errors);
+
 /// The value below which the share `q` in [0, 1] of a sorted list lies.
 ///
 /// Linear between the two nearest values (Hyndman and Fan 1996, type 7; numpy's default). Throws

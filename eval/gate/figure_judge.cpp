@@ -179,6 +179,11 @@ void judge_by_tolerance(const FigurePair& pair, GateFigure& figure) {
     decide(Standing::kRegressed, reported("worse"), figure);
   else if (worse < -room)
     decide(Standing::kImproved, "", figure);
+  else if (worse > std::max(pair.rule.relative * std::abs(before), pair.rule.absolute))
+    decide(Standing::kWithin,
+           fmt::format("the difference is within the noise of the truth, {}{}",
+                       number_text(pair.floor()), unit),
+           figure);
   else
     decide(Standing::kWithin, "", figure);
 }

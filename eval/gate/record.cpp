@@ -67,6 +67,11 @@ void append_nothing(const std::string& name, SequenceRecord& sequence) {
   sequence.failures.push_back(name + " has no sequence " + sequence.name);
 }
 
+void append_programs(const Record& more, Record& record) {
+  for (const std::string& program : more.programs)
+    if (std::ranges::count(record.programs, program) == 0) record.programs.push_back(program);
+}
+
 void append_record(const Record& more, const std::string& name,
                    const std::vector<std::string>& before, Record& record) {
   for (SequenceRecord& sequence : record.sequences)
@@ -79,8 +84,7 @@ void append_record(const Record& more, const std::string& name,
     record.sequences.push_back(sequence);
     for (const std::string& lacking : before) append_nothing(lacking, record.sequences.back());
   }
-  for (const std::string& program : more.programs)
-    if (std::ranges::count(record.programs, program) == 0) record.programs.push_back(program);
+  append_programs(more, record);
 }
 
 }  // namespace
@@ -153,6 +157,19 @@ Record merged(const std::vector<Record>& records, const std::vector<std::string>
       if (!values.empty() && values.front() >= 0) figure.interval = interval_of_runs(values);
     }
   return all;
+}
+
+void add_runs(const Record& more, const std::array<std::string, 2>& names, Record& record) {
+  for (const SequenceRecord& sequence : more.sequences) {
+    const auto found = std::ranges::find(record.sequences, sequence.name, &SequenceRecord::name);
+    if (found == record.sequences.end()) {
+      record.sequences.push_back(sequence);
+      continue;
+    }
+    const std::vector<Record> both = {{{}, {*found}}, {{}, {sequence}}};
+    *found = merged(both, {names.begin(), names.end()}).sequences.front();
+  }
+  append_programs(more, record);
 }
 
 std::string difference_of(const SequenceRecord& a, const SequenceRecord& b) {

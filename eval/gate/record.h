@@ -1,6 +1,7 @@
 #pragma once
 #include <placegraph/eval/uncertainty/confidence_interval.h>
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -76,6 +77,12 @@ struct Record {
 /// options, unit or whole of what both have: they are not runs of the same thing.
 [[nodiscard]] Record merged(const std::vector<Record>& records,
                             const std::vector<std::string>& names);
+
+/// Adds runs of a system to its record.
+///
+/// Those of a sequence that the record has stand behind its runs, other sequences behind its own.
+/// `names` of the record and of what is added are for messages. Throws ArgumentError as merged().
+void add_runs(const Record& more, const std::array<std::string, 2>& names, Record& record);
 
 /// Why two sequences' figures may not be compared; empty if they may.
 /// They may not with another truth, and with other options if both have some.

@@ -2,7 +2,7 @@
 #include <fmt/ranges.h>
 #include <placegraph/eval/gate/trajectory_record.h>
 #include <placegraph/eval/association/pairing.h>
-#include <placegraph/eval/uncertainty/drive_interval.h>
+#include <placegraph/eval/trajectory/figure_intervals.h>
 #include <placegraph/eval/uncertainty/run_interval.h>
 #include <placegraph/graph/core/error.h>
 
@@ -54,24 +54,33 @@ Better better_of(const std::string& key) {
   return key.starts_with("scale_drift") ? Better::kNearerZero : Better::kSmaller;
 }
 
-/// The interval of what one run allows: of the segments of the drive.
-ConfidenceInterval interval_of_drive(const std::string& key, const SegmentResult& segments) {
-  if (segments.outcome && key == "t_rel_percent")
-    return interval_of_mean(translation_series(segments.segments));
-  if (segments.outcome && key == "r_rel_deg_per_100m")
-    return interval_of_mean(rotation_series(segments.segments));
-  ConfidenceInterval none;
-  none.outcome = Outcome::failure(Outcome::Code::kTooFewData, "one run: no interval");
-  return none;
-}
-
+/// Of one run the intervals that its errors along the drive allow, of several those of the runs.
 void fill_intervals(const std::vector<EvaluationResult>& runs, SequenceRecord& sequence) {
+  std::vector<FigureInterval> of_drive;
+  if (runs.size() == 1) of_drive = intervals_of_drive(runs.front());
   for (FigureRecord& figure : sequence.figures) {
     const std::vector<double> values = figure.present();
     if (values.empty() || values.front() < 0) continue;
-    figure.interval = runs.size() == 1 ? interval_of_drive(figure.key, runs.front().segments)
-                                       : interval_of_runs(values);
+    if (runs.size() > 1) {
+      figure.interval = interval_of_runs(values);
+      continue;
+    }
+    const auto found = std::ranges::find(of_drive, figure.key, &FigureInterval::key);
+    if (found != of_drive.end())
+      figure.interval = found->interval;
+    else
+      figure.interval.outcome =
+          Outcome::failure(Outcome::Code::kTooFewData, "one run: no interval");
   }
+}
+
+/// What the noise of the truth adds to the figures of any run.
+void fill_noise_floors(const Trajectory& truth, const EvaluationResult& run,
+                       SequenceRecord& sequence) {
+  const std::map<std::string, double> floors = noise_floors(run, estimate_truth_noise(truth));
+  for (FigureRecord& figure : sequence.figures)
+    if (const auto found = floors.find(figure.key); found != floors.end())
+      figure.noise_floor = found->second;
 }
 
 }  // namespace
@@ -116,6 +125,7 @@ SequenceRecord record_of(const std::string& name, const Trajectory& truth,
     }
   }
   fill_intervals(runs, sequence);
+  if (ok != runs.end()) fill_noise_floors(truth, *ok, sequence);
   return sequence;
 }
 

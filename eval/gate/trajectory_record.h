@@ -16,8 +16,10 @@ std::string truth_fingerprint(const Trajectory& truth);
 
 /// The figures of runs over one sequence, all judged by `truth`: metrics() of each.
 ///
-/// A run without an outcome has no values and a line among the failures. Of one run, t_rel and
-/// r_rel have the interval of their segments; of several, every figure has that of the runs.
+/// A run without an outcome has no values and a line among the failures. Of one run, the relative
+/// figures have the intervals that its errors along the drive allow (intervals_of_drive, which needs
+/// the poses); of several, every figure has that of the runs. The noise of the truth is the floor
+/// below which a gate counts no difference (noise_floors).
 /// Throws ArgumentError without runs, or if their protocols differ.
 [[nodiscard]] SequenceRecord record_of(const std::string& name, const Trajectory& truth,
                                          const std::vector<EvaluationResult>& runs);

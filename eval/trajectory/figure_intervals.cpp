@@ -3,6 +3,7 @@
 #include <placegraph/eval/uncertainty/drive_interval.h>
 #include <placegraph/eval/uncertainty/run_interval.h>
 #include <placegraph/graph/core/angle.h>
+#include <placegraph/graph/core/error.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +19,6 @@ struct FigureSeries {
   std::string key, name, unit;
   SeriesFigure figure = SeriesFigure::kRmse;
   std::vector<ErrorSeries> series;
-  double noise = 0;  ///< what the noise of the true poses adds to it
 };
 
 ErrorSeries steps_of(const EvaluationResult& r, const RelativeErrors& steps,
@@ -39,27 +39,23 @@ double percent_per_m(const std::vector<SegmentError>& segments) {
   return segments.empty() ? 0 : sum / static_cast<double>(segments.size());
 }
 
-/// The figures whose errors lie along the drive, with the noise of the truth in each.
-std::vector<FigureSeries> series_of(const EvaluationResult& r, const TruthNoise& noise) {
-  // Both ends of a step or segment err.
-  const double ends_m = std::sqrt(2.0) * noise.sigma.head<3>().norm();
-  const double ends_deg = std::sqrt(2.0) * rad_to_deg(noise.sigma.tail<3>().norm());
+/// The figures whose errors lie along the drive.
+std::vector<FigureSeries> series_of(const EvaluationResult& r) {
   std::vector<FigureSeries> all;
   if (!r.outcome) return all;
   if (r.segments.outcome) {
-    const double per_m = percent_per_m(r.segments.segments);
     all.push_back({"t_rel_percent", "t_rel", "%", SeriesFigure::kMean,
-                   translation_series(r.segments.segments), ends_m * per_m});
+                   translation_series(r.segments.segments)});
     all.push_back({"r_rel_deg_per_100m", "r_rel", "deg/100m", SeriesFigure::kMean,
-                   rotation_series(r.segments.segments), ends_deg * per_m});
+                   rotation_series(r.segments.segments)});
   }
   const auto add = [&](const RelativeErrors& steps, const std::string& key,
                        const std::string& over) {
     if (!steps.outcome) return;
     all.push_back({key + "_trans_m", "RPE trans" + over, "m", SeriesFigure::kRmse,
-                   {steps_of(r, steps, &RelativeError::translation_m)}, ends_m});
+                   {steps_of(r, steps, &RelativeError::translation_m)}});
     all.push_back({key + "_rot_deg", "RPE rot" + over, "deg", SeriesFigure::kRmse,
-                   {steps_of(r, steps, &RelativeError::rotation_deg)}, ends_deg});
+                   {steps_of(r, steps, &RelativeError::rotation_deg)}});
   };
   add(r.rpe, "rpe", "");
   for (const RelativeErrors& steps : r.relative)
@@ -97,7 +93,7 @@ std::vector<FigureInterval> intervals_of_drive(const EvaluationResult& result, d
   std::vector<FigureInterval> intervals;
   if (result.outcome && result.ape.outcome)
     intervals.push_back({"ate_rmse_m", "ATE RMSE", "m", one_run(result.ape.error_m.rmse)});
-  for (const FigureSeries& each : series_of(result, {}))
+  for (const FigureSeries& each : series_of(result))
     intervals.push_back({each.key, each.name, each.unit,
                          each.figure == SeriesFigure::kMean
                              ? interval_of_mean(each.series, level)
@@ -129,17 +125,42 @@ std::vector<FigureInterval> intervals_of_repeated_runs(const std::vector<Evaluat
   return intervals;
 }
 
+std::map<std::string, double> noise_floors(const EvaluationResult& result,
+                                           const TruthNoise& noise) {
+  std::map<std::string, double> floors;
+  if (!result.outcome || !noise.outcome) return floors;
+  const double m = noise.sigma.head<3>().norm(), deg = rad_to_deg(noise.sigma.tail<3>().norm());
+  if (result.ape.outcome) floors["ate_rmse_m"] = m;
+  if (result.ape.rotation_outcome) floors["are_rmse_deg"] = deg;
+  // Both ends of a step or segment err.
+  const double ends = std::sqrt(2.0);
+  if (result.segments.outcome) {
+    const double per_m = percent_per_m(result.segments.segments);
+    floors["t_rel_percent"] = ends * m * per_m;
+    floors["r_rel_deg_per_100m"] = ends * deg * per_m;
+  }
+  const auto add = [&](const RelativeErrors& steps, const std::string& key) {
+    if (!steps.outcome) return;
+    floors[key + "_trans_m"] = ends * m;
+    floors[key + "_rot_deg"] = ends * deg;
+  };
+  add(result.rpe, "rpe");
+  for (const RelativeErrors& steps : result.relative) add(steps, "rpe_" + to_string(steps.delta));
+  return floors;
+}
+
 std::vector<FigureComparison> compare_estimates(const EvaluationResult& first,
                                                 const EvaluationResult& second,
                                                 const TruthNoise& noise, double level) {
   std::vector<FigureComparison> all;
-  const std::vector<FigureSeries> others = series_of(second, noise);
-  for (const FigureSeries& own : series_of(first, noise))
+  const std::vector<FigureSeries> others = series_of(second);
+  std::map<std::string, double> floors = noise_floors(first, noise);
+  for (const FigureSeries& own : series_of(first))
     for (const FigureSeries& other : others) {
       if (other.key != own.key) continue;
       ComparisonOptions options;
       options.level = level;
-      options.noise_floor = noise.outcome ? own.noise : 0;
+      options.noise_floor = floors[own.key];
       options.first = first.name;
       options.second = second.name;
       options.figure = own.name;
@@ -147,6 +168,20 @@ std::vector<FigureComparison> compare_estimates(const EvaluationResult& first,
       all.push_back({own.key, compare_series(own.series, other.series, own.figure, options)});
     }
   return all;
+}
+
+std::vector<std::vector<FigureComparison>> compare_with_first(
+    const std::vector<EvaluationResult>& results, double level) {
+  require(!results.empty(), "no estimate to compare");
+  Trajectory truth;
+  truth.has_times = results.front().has_times;
+  for (const FramePair& pair : results.front().aligned_pairs)
+    truth.poses.push_back({pair.stamp_ns, pair.T_world_truth});
+  const TruthNoise noise = estimate_truth_noise(truth);
+  std::vector<std::vector<FigureComparison>> comparisons;
+  for (std::size_t i = 1; i < results.size(); ++i)
+    comparisons.push_back(compare_estimates(results.front(), results[i], noise, level));
+  return comparisons;
 }
 
 std::string to_text(const std::vector<FigureInterval>& intervals) {

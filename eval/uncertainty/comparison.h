@@ -66,7 +66,8 @@ enum class SeriesFigure { kMean, kRmse };
 
 /// Compares repeated runs of two systems, which need not be equally many.
 ///
-/// Student's test of unequal variances (Welch 1947) on the logarithms of the means. Outcome:
+/// Of the tests of unequal (Welch 1947) and of equal variances (Student 1908), on the logarithms of
+/// the means, the one with the wider interval. Outcome:
 /// kTooFewData if either has fewer than kFewestRuns runs, kDegenerate if neither varies and they
 /// differ. Throws as interval_of_runs() and ComparisonOptions::check().
 [[nodiscard]] Comparison compare_runs(const std::vector<double>& first,

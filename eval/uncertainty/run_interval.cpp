@@ -2,10 +2,13 @@
 #include <placegraph/eval/uncertainty/run_interval.h>
 #include <placegraph/eval/uncertainty/run_statistics.h>
 #include <placegraph/eval/uncertainty/student_t.h>
+#include <placegraph/graph/core/chi_squared.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <ranges>
 
 namespace placegraph {
 
@@ -60,20 +63,26 @@ void PowerOptions::check() const {
   require(level > 0 && level < 1, "the level of a test is between 0 and 1");
 }
 
+/// The relative scatter that stays below it with that confidence (Browne 1995).
+static double upper_limit_of_scatter(const RunStatistics& runs, double confidence) {
+  const int dof = runs.runs - 1;
+  return runs.relative * std::sqrt(dof / chi_squared_quantile(1 - confidence, dof));
+}
+
 RunsNeeded runs_needed(const std::vector<double>& baseline, const PowerOptions& options) {
   options.check();
   const RunStatistics runs = statistics_of_runs(baseline);
   RunsNeeded result{runs.outcome, 0};
   if (!result.outcome) return result;
-  const double dof = runs.runs - 1;
-  // A tenth of the missed effects is kept as a margin for skewed figures. Chosen.
-  const double power = options.power + 0.1 * (1 - options.power);
-  const double deviations = (student_t_quantile(1 - options.level, dof) +
-                             student_t_quantile(power, dof)) /
-                            std::log1p(options.worse);
+  const double scatter = upper_limit_of_scatter(runs, options.power);
+  const auto enough = [&](int n) {
+    const double dof = 2.0 * (n - 1), deviations = student_t_quantile(1 - options.level, dof) +
+                                                   student_t_quantile(options.power, dof);
+    return 2 * std::pow(scatter * deviations / std::log1p(options.worse), 2) <= n;
+  };
   // Nobody makes a million runs; an int holds them.
-  const double needed = std::min(1e6, std::ceil(2 * std::pow(runs.relative * deviations, 2)));
-  result.runs = std::max(kFewestRuns, static_cast<int>(needed));
+  const auto numbers = std::views::iota(kFewestRuns, 1000000);
+  result.runs = *std::ranges::partition_point(numbers, std::not_fn(enough));
   return result;
 }
 

@@ -36,8 +36,9 @@ struct RunsNeeded {
 
 /// Runs that each of two systems needs for an effect to be found.
 ///
-/// Stein's rule (1945) for two systems of the relative scatter of the baseline: it takes into
-/// account that the scatter is itself estimated, from few runs. Throws as interval_of_runs().
+/// Both are taken to scatter by the upper limit of what the baseline's runs show, with the power as
+/// its confidence (Browne 1995): few runs may miss what happens in one of five. At most a million.
+/// Throws as interval_of_runs().
 [[nodiscard]] RunsNeeded runs_needed(const std::vector<double>& baseline,
                                      const PowerOptions& options = {});
 

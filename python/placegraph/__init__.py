@@ -61,8 +61,9 @@ from ._core import (
 from ._info import trajectory_info
 from ._progress import Progress
 from ._show import page_of, show
+from .comparison import Comparison, compare, figure_table
 from .datasets import Dataset, open_dataset
-from .evaluation import Comparison, Evaluation, compare, evaluate, figure_table
+from .evaluation import Evaluation, evaluate
 from .factor_graph import (
     SE2,
     SO3,
@@ -110,6 +111,7 @@ from .options import (
     SequenceFilterOptions,
     SlamOptions,
 )
+from .records import GateResult, Record, gate, read_record, record
 from .slam import Event, Recognizer, RunResult, Slam, run
 
 if _typing.TYPE_CHECKING:
@@ -158,6 +160,7 @@ __all__ = [
     "Frame",
     "FrameResult",
     "FrameView",
+    "GateResult",
     "ImuRecording",
     "IncrementalOptimizer",
     "IncrementalOptions",
@@ -191,6 +194,7 @@ __all__ = [
     "PoseMarginals",
     "Progress",
     "Recognizer",
+    "Record",
     "RobustKernel",
     "RunBegan",
     "RunOptions",
@@ -220,6 +224,7 @@ __all__ = [
     "figure_table",
     "fit_mount",
     "from_networkx",
+    "gate",
     "localizer_options",
     "loops",
     "marginal_covariances",
@@ -229,6 +234,8 @@ __all__ = [
     "optimize_factors",
     "page_of",
     "read_evo_result",
+    "read_record",
+    "record",
     "run",
     "show",
     "synthetic",

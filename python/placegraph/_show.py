@@ -10,7 +10,8 @@ from typing import Union
 from . import _core
 from ._notebook import escaped
 from ._types import Path
-from .evaluation import Comparison, Evaluation
+from .comparison import Comparison
+from .evaluation import Evaluation
 from .graphs import OptimizedGraph
 from .maps import Map
 

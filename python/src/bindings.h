@@ -54,6 +54,8 @@ void bind_places(nb::module_& m);
 void bind_kitti(nb::module_& m);
 void bind_loops(nb::module_& m);
 void bind_figures(nb::module_& m);
+void bind_gate(nb::module_& m);
+void bind_intervals(nb::module_& m);
 void bind_tables(nb::module_& m);
 void bind_reports(nb::module_& m);
 

@@ -60,7 +60,9 @@ NB_MODULE(_core, m) {
   bind_synthetic(m);
   bind_evaluation(m);
   bind_trajectory_info(m);
+  bind_intervals(m);
   bind_tables(m);
+  bind_gate(m);
   bind_edges(m);
   bind_kitti(m);
   bind_flow(m);

@@ -1,5 +1,7 @@
 """exports_check.py PROGRAM FOLDER: what the program writes, read by evo, gtsam and networkx; by others in exports_geometry.py and exports_dense.py.
 
+Beside that the figures of evo, epica and slam-regression-ci on the same trajectories (exports_evaluation.py, exports_epica.py, exports_slam_regression.py).
+
 Renders and runs small sequences in FOLDER. Prints one line a check; exits 1 where one fails.
 """
 
@@ -18,8 +20,10 @@ from evo import main_ape
 from evo.core import metrics
 from evo.tools import file_interface
 from exports_dense import check_bundle, check_dense
+from exports_epica import check_epica
 from exports_evaluation import check_evaluation
 from exports_geometry import check_geometry, package
+from exports_slam_regression import check_slam_regression
 
 FRAMES = 40
 failures = 0
@@ -166,6 +170,8 @@ def main():
     write_runs(placegraph)
     check_trajectories(placegraph)
     check_evaluation(placegraph, check)
+    check_epica(placegraph, check)
+    check_slam_regression(placegraph, check)
     check_results_of_evo(placegraph)
     check_lost_frames(placegraph)
     check_graphs(placegraph)

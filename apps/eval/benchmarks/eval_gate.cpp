@@ -5,20 +5,10 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/datasets/distinct_paths.h>
 #include <placegraph/io/files/output_file.h>
-#include <placegraph/io/files/text_file.h>
-
-#include "apps/eval/benchmarks/eval_record.h"
+#include <placegraph/pipeline/results/gate_files.h>
 
 namespace placegraph::apps {
 namespace {
-
-GateRules read_rules(const std::string& path) {
-  if (path.empty()) return default_rules();
-  TextFile file(path);
-  std::string text;
-  for (std::string_view line; file.next(line);) text.append(line).append("\n");
-  return parse_rules(text, path);
-}
 
 void check_gate_outputs(const EvalGateArguments& arguments) {
   std::vector<NamedPath> outputs, inputs = {{"BASELINE", arguments.baseline}};
@@ -36,7 +26,8 @@ void check_gate_outputs(const EvalGateArguments& arguments) {
 GateResult eval_gate(const EvalGateArguments& arguments) {
   require(!arguments.candidates.empty(), "CANDIDATE: no record is given");
   check_gate_outputs(arguments);
-  const GateRules rules = read_rules(arguments.rules);
+  const GateRules rules =
+      arguments.rules.empty() ? default_rules() : read_gate_rules(arguments.rules);
   const Record baseline = read_record(arguments.baseline);
   std::vector<Record> candidates;
   for (const std::string& path : arguments.candidates) candidates.push_back(read_record(path));

@@ -6,7 +6,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/datasets/evaluated_files.h>
 #include <placegraph/io/files/output_file.h>
-#include <placegraph/io/files/text_file.h>
+#include <placegraph/pipeline/results/gate_files.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -90,25 +90,13 @@ SequenceRecord record_runs(const std::string& name, const RecordedRuns& sequence
   for (const EvaluatedFiles& run : sequence.runs) {
     results.push_back(evaluate_files(run, arguments, options));
     for (const std::string& warning : results.back().warnings) warn(run.name + ": " + warning);
-    // Its figures are taken, its poses are not needed any more.
-    results.back().aligned_pairs = {};
+    // Of several runs only the figures are needed.
+    if (sequence.runs.size() > 1) results.back().aligned_pairs = {};
   }
   const Trajectory truth =
       read_truth(sequence.truth, arguments.times.empty() ? "" : arguments.times.front());
   for (const std::string& reason : sequence.missing) results.push_back(missing_run(reason));
   return record_of(name, truth, results);
-}
-
-/// The runs behind those that the record has, and sequences that it lacks.
-void append_to(const SequenceRecord& sequence, const std::vector<std::string>& programs,
-               const std::string& file, Record& record) {
-  const auto found = std::ranges::find(record.sequences, sequence.name, &SequenceRecord::name);
-  if (found == record.sequences.end()) {
-    record.sequences.push_back(sequence);
-    return;
-  }
-  const Record before{record.programs, {*found}}, more{programs, {sequence}};
-  *found = merged({before, more}, {file, "the new run"}).sequences.front();
 }
 
 }  // namespace
@@ -123,19 +111,10 @@ Record eval_record(const EvalRecordArguments& arguments) {
   Record record;
   if (arguments.append && exists) record = read_record(arguments.out);
   for (const auto& [name, runs] : recorded_runs(arguments))
-    append_to(record_runs(name, runs, arguments.evaluation, options), arguments.programs,
-              arguments.out, record);
-  for (const std::string& program : arguments.programs)
-    if (std::ranges::count(record.programs, program) == 0) record.programs.push_back(program);
+    add_runs({arguments.programs, {record_runs(name, runs, arguments.evaluation, options)}},
+             {arguments.out, "the new run"}, record);
   write_file(arguments.out, to_json(record));
   return record;
-}
-
-Record read_record(const std::string& path) {
-  TextFile file(path);
-  std::string text;
-  for (std::string_view line; file.next(line);) text.append(line).append("\n");
-  return parse_record(text, path);
 }
 
 std::string to_text(const Record& record) {

@@ -22,9 +22,6 @@ struct EvalRecordArguments {
 /// several folders lacks, too. Throws ArgumentError, FileError.
 Record eval_record(const EvalRecordArguments& arguments);
 
-/// A record of a file. Throws FileError.
-Record read_record(const std::string& path);
-
 /// What was recorded, a line for each sequence.
 std::string to_text(const Record& record);
 

@@ -21,9 +21,11 @@ NAN = np.full((40, 2), np.nan)
 SEGMENTS = np.c_[PX, PX + 20]
 QUAD = [[20, 20], [100, 20], [100, 80], [20, 80]]
 TRUTH = loops.LoopTruth({10: [1], 11: [2]})
+RECORD_TRUTH = None
 POSES = pg.Trajectory.from_arrays(np.arange(5), np.tile(np.eye(4), (5, 1, 1)))
 DRIVE = pg.Trajectory.from_arrays(np.arange(5), np.stack(
     [pg.SE3.exp([i, 0, 0, 0, 0, 0.1 * i]).matrix() for i in range(5)]))
+RECORD = pg.record(DRIVE, [DRIVE])
 VECTORS = vision.lucas_kanade(GREY, GREY, PX)
 DEROTATED = vision.derotate(CAMERA, VECTORS)
 CLOUD = vision.PointCloud(XYZ)
@@ -212,6 +214,16 @@ CASES: list[tuple[str, Callable[[], Any], type[Exception], str]] = [
     ("submission of a number", lambda: pg.evaluate_kitti(".", wrong(5)), ValueError, "estimates"),
     ("submission without poses", lambda: pg.evaluate_kitti("/", "/"), ValueError,
      "holds no poses of a sequence"),
+    ("record that is not there", lambda: pg.read_record("/nowhere.json"), OSError, "nowhere"),
+    ("baseline of a number", lambda: pg.gate(wrong(5), "b.json"), ValueError, "baseline"),
+    ("candidates of numbers", lambda: pg.gate(RECORD, wrong([5])), ValueError, "candidates"),
+    ("no candidate", lambda: pg.gate(RECORD, []), ValueError, "no record is given"),
+    ("rules of no form", lambda: pg.gate(RECORD, RECORD, rules=["worse"]), OSError, "rules:1"),
+    ("level of two", lambda: pg.gate(RECORD, RECORD, level=2), ValueError, "level"),
+    ("no such figure of a record", lambda: RECORD.values("sequence", "ate"), ValueError, "ate"),
+    ("differences of several truths",
+     lambda: pg.Comparison([pg.evaluate(DRIVE, DRIVE)], True).differences(), ValueError,
+     "one ground truth"),
     ("nothing to compare", lambda: pg.compare(POSES, {}), ValueError, "estimates"),
     ("no such plot", lambda: pg.evaluate(DRIVE, DRIVE).plot("pie"), ValueError, "kind"),
     ("no such figure", lambda: pg.evaluate(DRIVE, DRIVE)["ate"], KeyError, "ate_rmse_m"),

@@ -49,6 +49,17 @@ TEST(Statistics, MatchHandComputedValues) {
   EXPECT_THROW((void)statistics_of({}), ArgumentError);
 }
 
+TEST(Statistics, OfErrorsWithSignsHaveExtremesOfTheirMagnitudes) {
+  const Statistics s = signed_statistics_of({-5, 1, 2, -1});
+  EXPECT_DOUBLE_EQ(s.mean, -0.75);
+  EXPECT_DOUBLE_EQ(s.median, 0);
+  EXPECT_DOUBLE_EQ(s.min, 1);
+  EXPECT_DOUBLE_EQ(s.max, 5);
+  EXPECT_DOUBLE_EQ(s.p75, 2.75);
+  EXPECT_DOUBLE_EQ(s.rmse, std::sqrt(31.0 / 4));
+  EXPECT_DOUBLE_EQ(s.std_dev, std::sqrt(31.0 / 4 - 0.75 * 0.75));
+}
+
 TEST(Ape, MeasuresDistancesOfPosedFramesOnly) {
   std::vector<FramePair> pairs(3);
   for (int i = 0; i < 3; ++i) pairs[static_cast<std::size_t>(i)].frame = 10 + i;

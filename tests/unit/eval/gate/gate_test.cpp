@@ -184,6 +184,11 @@ TEST(Gate, NoDifferenceBelowTheNoiseOfTheTruthCounts) {
   after.sequences[0].figures[0].noise_floor = 0;
   const GateRules floor = parse_rules("* | * | significant floor 0.2", "r");
   EXPECT_EQ(judge(before, after, floor).exit_code(), 0);
+  // By a tolerance, too.
+  after.sequences[0].figures[0].noise_floor = 0.2;
+  const GateResult tolerated = judge(before, after, parse_rules("* | * | worse 5 %", "r"));
+  EXPECT_EQ(tolerated.exit_code(), 0);
+  EXPECT_EQ(tolerated.figures[0].reason, "the difference is within the noise of the truth, 0.2");
 }
 
 TEST(Gate, SequencesAreTestedInPairs) {

@@ -204,5 +204,39 @@ TEST(TrajectoryRecord, HasTheFiguresOfEveryRunAndTheFailedOnes) {
   EXPECT_THROW(static_cast<void>(record_of("00", truth, {})), ArgumentError);
 }
 
+TEST(TrajectoryRecord, KnowsTheNoiseOfItsTruthAndTheIntervalsOfOneRun) {
+  // A circle driven at 1 m a frame, with noise of 0.05 m in each axis of the true positions.
+  Random random(3);
+  Trajectory exact, truth;
+  for (int i = 0; i < 600; ++i) {
+    Eigen::Isometry3d pose = test::isometry({0, 0, 0.01}, {1, 0, 0});
+    if (i > 0) pose = *exact.poses.back().T_world_body * pose;
+    exact.poses.push_back({i, pose});
+  }
+  truth = exact;
+  for (StampedPose& pose : truth.poses)
+    for (double& part : pose.T_world_body->translation()) part += random.normal(0, 0.05);
+  const SequenceRecord sequence = record_of("00", truth, {evaluate(truth, exact)});
+  const double sigma = std::sqrt(3.0) * 0.05;
+  EXPECT_NEAR(sequence.find("ate_rmse_m")->noise_floor, sigma, 0.3 * sigma);
+  EXPECT_NEAR(sequence.find("rpe_trans_m")->noise_floor, std::sqrt(2.0) * sigma, 0.4 * sigma);
+  EXPECT_EQ(sequence.find("coverage")->noise_floor, 0);
+  EXPECT_TRUE(sequence.find("rpe_trans_m")->interval.outcome);
+  EXPECT_EQ(sequence.find("ate_rmse_m")->interval.outcome.reason, "one run: no interval");
+}
+
+TEST(AddRuns, StandBehindThoseOfTheSameSequenceAndOtherSequencesBehindTheirOwn) {
+  Record record = record_with({figure("a", {1.0, 2.0})});
+  Record more = record_with({figure("a", {3.0})});
+  more.programs = {"system 2"};
+  more.sequences.push_back(more.sequences[0]);
+  more.sequences[1].name = "05";
+  add_runs(more, {"before", "more"}, record);
+  EXPECT_EQ(record.programs, (std::vector<std::string>{"system 1", "system 2"}));
+  EXPECT_EQ(record.find("00")->find("a")->values.size(), 3u);
+  EXPECT_EQ(record.find("05")->find("a")->values.size(), 1u);
+  EXPECT_TRUE(record.find("05")->failures.empty());
+}
+
 }  // namespace record_test
 }  // namespace placegraph

@@ -41,6 +41,17 @@ TEST(CompareRuns, IsWelchsTestOfTheLogarithms) {
   EXPECT_EQ(comparison.difference, Difference::kWorse);
 }
 
+TEST(CompareRuns, FewRunsThatScatterLittleAreNotBelievedAgainstMany) {
+  // By hand: Welch's half width is 0.15145 (p 0.077), that of equal variances 0.20823 (p 0.149305,
+  // 13 degrees of freedom).
+  const Comparison comparison =
+      compare_runs({1, 1.02, 0.98, 1.01, 0.99}, {1, 1, 1.6, 1, 1.05, 0.95, 1.5, 1, 1.02, 0.98});
+  ASSERT_TRUE(comparison.outcome);
+  EXPECT_EQ(comparison.ratio.degrees_freedom, 13);
+  EXPECT_NEAR(comparison.p_worse, 0.1493051, 1e-7);
+  EXPECT_NEAR(std::log(comparison.ratio.high / comparison.ratio.estimate), 0.2082326, 1e-7);
+}
+
 TEST(CompareRuns, SaysWhatItFoundInASentence) {
   ComparisonOptions options;
   options.figure = "ATE";

@@ -50,12 +50,13 @@ TEST(RunInterval, RefusesFiguresThatAreNoErrors) {
   EXPECT_THROW((void)interval_of_runs({1, 2, 3, 4, 5}, 0), ArgumentError);
 }
 
-TEST(RunsNeeded, AreThoseOfSteinsRule) {
-  // Scatter 0.0790569; t 2.1318 (0.95) and 1.0329 (0.82: 0.8 and a tenth of the rest) of four
-  // degrees of freedom; log 1.1 = 0.0953102: 2 (0.0790569 * 3.1647 / 0.0953102)^2 = 13.78.
+TEST(RunsNeeded, AreThoseOfTheUpperLimitOfTheScatter) {
+  // Scatter 0.0790569, its limit sqrt(4 / 1.64878) times as large: 0.123138. With 22 runs of each t
+  // of 42 degrees of freedom is 1.68195 (0.95) and 0.85036 (0.8), log 1.1 = 0.0953102:
+  // 2 (0.123138 * 2.53231 / 0.0953102)^2 = 21.41; with 21 runs it is 21.45.
   const RunsNeeded needed = runs_needed({0.9, 1.1, 0.95, 1.05, 1});
   ASSERT_TRUE(needed.outcome);
-  EXPECT_EQ(needed.runs, 14);
+  EXPECT_EQ(needed.runs, 22);
 }
 
 TEST(RunsNeeded, AreMoreForSmallerEffectsMorePowerAndRarerAlarms) {
