@@ -108,8 +108,8 @@ class Comparison(Sequence[Evaluation]):
     def differences(self, level: float = 0.95) -> pandas.DataFrame:
         """Each further estimate against the first, on common frames, with the doubt in it.
 
-        A row for each figure: the two values, `ratio` with its interval `low` to `high`, `p_value`,
-        `difference` ("none", "better", "worse", "below noise", "unknown") and a `sentence`. No
+        A row for each figure: first, second, ratio with its interval from low to high, p_value,
+        difference ("none", "better", "worse", "below noise", "unknown") and a sentence. No
         difference below the noise of the true poses counts. ArgumentError: the results are of
         several sequences.
         """
@@ -123,9 +123,9 @@ class Comparison(Sequence[Evaluation]):
 
         Indexed by figure; without an interval from fewer than five runs, and where a run failed.
         """
-        table: pandas.DataFrame = table_of(
-            _core.intervals_of_repeated_runs([each._core for each in self], level))
-        return table.set_index("figure")
+        columns = _core.intervals_of_repeated_runs([each._core for each in self], level)
+        table: pandas.DataFrame = table_of(columns).set_index("figure")
+        return table
 
     def picture(self, kind: str = "overview") -> _core.Figure:
         """The picture that `placegraph eval --plot-kind` draws."""

@@ -181,11 +181,12 @@ class Evaluation:
     def intervals(self, level: float = 0.95) -> pandas.DataFrame:
         """Confidence intervals of the relative figures, from the scatter along the drive.
 
-        Indexed by figure; `low` and `high` are NaN where the data allow none, for the `reason`. An
-        ATE of one run has none.
+        Indexed by figure: estimate, low, high, level, of, reason. Low and high are NaN where the
+        data allow none, for that reason. An ATE of one run has none.
         """
-        table: pandas.DataFrame = table_of(_core.intervals_of_drive(self._core, level))
-        return table.set_index("figure")
+        columns = _core.intervals_of_drive(self._core, level)
+        table: pandas.DataFrame = table_of(columns).set_index("figure")
+        return table
 
     def save_for_evo(self, path: Path, reference: str = "reference") -> None:
         """Writes the position errors as a result archive of evo (.zip), as evo_ape does.

@@ -50,11 +50,12 @@ class Record:
     def figures(self) -> pandas.DataFrame:
         """The figures by sequence and key: unit, better, runs, failed, mean, low, high, noise_floor.
 
-        `low` to `high` is the interval of the mean, NaN where the runs allow none; `noise_floor`
+        From low to high is the interval of the mean, NaN where the runs allow none; the noise floor
         is what the noise of the truth adds.
         """
-        table: pandas.DataFrame = table_of(self._core.figure_table())
-        return table.set_index(["sequence", "figure"])
+        table: pandas.DataFrame = table_of(self._core.figure_table()).set_index(
+            ["sequence", "figure"])
+        return table
 
     def values(self, sequence: str, figure: str) -> list[float | None]:
         """The values of a figure, one for each run; None: the run has none.
@@ -75,7 +76,7 @@ class Record:
         return self._core.to_json()
 
     def save(self, path: Path, *, force: bool = False) -> None:
-        """Writes the record. FileError: the file exists and `force` is False."""
+        """Writes the record. ArgumentError: the file exists and `force` is False."""
         with arguments_named({}):
             _core.write_record(self._core, os.fspath(path), force)
 
@@ -190,13 +191,16 @@ def gate(
     """Judges records of a candidate against that of a baseline, as `placegraph eval gate` does.
 
     `baseline`, `candidates`: records or their files; several candidates are runs of one system.
-    `rules`: a file of rules, or a list of their lines; None: those of docs/evaluation.md. `level`:
+    `rules`: a file of rules, or a list of their lines; None: those of the command. `level`:
     the probability that an equal candidate is called worse; `power`: that of finding an effect, by
     which runs are counted. ArgumentError, FileError: one line that names the place.
     """
     before = _record_of(baseline, "baseline")
-    single = isinstance(candidates, (Record, str, os.PathLike))
-    given = [candidates] if single else list(candidates)  # type: ignore[arg-type, list-item]
+    given: list[Record | Path]
+    if isinstance(candidates, (Record, str, os.PathLike)):
+        given = [candidates]
+    else:
+        given = list(candidates)
     after = [_record_of(each, "candidates") for each in given]
     names = [f"candidate {i + 1}" if isinstance(each, Record) else os.fspath(each)
              for i, each in enumerate(given)]

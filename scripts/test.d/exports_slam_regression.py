@@ -51,22 +51,21 @@ def worsened(placegraph, files, factor):
     return write_tum(placegraph, f"worse{factor}.tum", truth[:, 0], truth[:, 1:4] + factor * (estimate[:, 1:4] - truth[:, 1:4]), estimate[:, 4:])
 
 
-def gate(placegraph, truth, estimate, name):
-    """The verdict of ours on one figure by a tolerance of 10 %: the exit code."""
+def gate(placegraph, truth, estimate, name, *rules):
+    """The exit code of ours."""
     placegraph("eval", "record", truth, estimate, "--name", "drive", "--out", name, "--force", "--align", "none")
-    done = subprocess.run([placegraph.path, "eval", "gate", "baseline.json", name, "--rules", "rules.txt"], cwd=placegraph.folder, capture_output=True, text=True)
-    return done.returncode
+    return subprocess.run([placegraph.path, "eval", "gate", "baseline.json", name, *rules], cwd=placegraph.folder, capture_output=True, text=True).returncode
 
 
 def check_gate(placegraph, slam, check, files):
     with open(placegraph.at("rules.txt"), "w", encoding="utf-8") as file:
-        file.write("* | ate_rmse_m | worse 10 %\n* | coverage | worse 0.01\n* | * | info\n")
+        file.write("* | ate_rmse_m | worse 10 %\n* | * | info\n")
     settings = "alignment: {enabled: false}\nmetrics: {ate_rmse: {max_relative_regression_percent: 10}}\n"
     slam.record(*files, settings)
     gate(placegraph, *files, "baseline.json")
     for factor, verdict in ((0.8, 0), (1.05, 0), (1.2, 1)):
         estimate = worsened(placegraph, files, factor)
-        both = gate(placegraph, files[0], estimate, "candidate.json"), slam.compare(files[0], estimate, settings)
+        both = gate(placegraph, files[0], estimate, "candidate.json", "--rules", "rules.txt"), slam.compare(files[0], estimate, settings)
         check(f"{factor} times the error gets exit code {verdict} of both", both == (verdict, verdict), both)
     with open(placegraph.at(files[1]), encoding="utf-8") as file, open(placegraph.at("half.tum"), "w", encoding="utf-8") as half:
         half.writelines(file.readlines()[:120])

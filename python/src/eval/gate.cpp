@@ -127,7 +127,7 @@ void bind_record(nb::module_& m) {
             add_runs(more, {"the record", "the runs that are added"}, both);
             return both;
           },
-          "more"_a, doc("add_runs"))
+          "more"_a, "A record with the runs of another one behind its own.")
       .def("to_json", [](const Record& record) { return to_json(record); },
            "The record as JSON, as `placegraph eval record` writes it.");
   m.def("record_of_runs", &record_of_runs, "name"_a, "truth"_a, "runs"_a, "programs"_a,
@@ -139,7 +139,7 @@ void bind_record(nb::module_& m) {
         write_file(path, to_json(record));
       },
       "record"_a, "path"_a, "force"_a = false, nb::call_guard<WithoutGil>(),
-      "Writes the file of a record. FileError: it exists and `force` is False.");
+      "Writes the file of a record. ArgumentError: it exists and `force` is False.");
   m.def("read_record", &read_record, "path"_a, nb::call_guard<WithoutGil>(), doc("read_record"));
 }
 
@@ -158,9 +158,10 @@ GateResult judged(const Record& baseline, const std::vector<Record>& candidates,
 void bind_gate(nb::module_& m) {
   bind_record(m);
   nb::class_<GateRules>(m, "GateRules", doc("GateRules"));
-  m.def("default_gate_rules", [] { return default_rules(); }, doc("default_rules"));
+  m.def("default_gate_rules", [] { return default_rules(); }, "The rules of a gate that is given none.");
   m.def("read_gate_rules", &read_gate_rules, "path"_a, doc("read_gate_rules"));
-  m.def("parse_gate_rules", &parse_rules, "text"_a, "source"_a = "rules", doc("parse_rules"));
+  m.def("parse_gate_rules", &parse_rules, "text"_a, "source"_a = "rules",
+        "Reads rules, a line each. FileError names the source and the line.");
   nb::class_<GateResult>(m, "GateJudgement", doc("GateResult"))
       .def_prop_ro("exit_code", &GateResult::exit_code, doc("GateResult::exit_code"))
       .def_ro("sentence", &GateResult::sentence, doc("GateResult::sentence"))
@@ -169,10 +170,11 @@ void bind_gate(nb::module_& m) {
           "to_text", [](const GateResult& r, bool everything) { return to_text(r, everything); },
           "everything"_a = false, "The verdict, a table and sentences, for people.")
       .def("to_json", [](const GateResult& r) { return to_json(r); }, "The judgement as JSON.")
-      .def("to_markdown", [](const GateResult& r) { return to_markdown(r); }, doc("to_markdown"))
+      .def("to_markdown", [](const GateResult& r) { return to_markdown(r); },
+           "A page for a pull request: what regressed first, the rest folded.")
       .def("to_junit", [](const GateResult& r) { return to_junit(r); }, doc("to_junit"));
   m.def("judge_records", &judged, "baseline"_a, "candidates"_a, "names"_a, "rules"_a,
-        "level"_a = 0.05, "power"_a = 0.8, doc("judge"));
+        "level"_a = 0.05, "power"_a = 0.8, "Judges candidates, runs of one system, by the rules.");
 }
 
 }  // namespace placegraph::python
