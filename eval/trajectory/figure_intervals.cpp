@@ -186,8 +186,13 @@ std::vector<std::vector<FigureComparison>> compare_with_first(
 
 std::string to_text(const std::vector<FigureInterval>& intervals) {
   std::string text;
+  std::size_t width = 0;
+  const auto named = [](const FigureInterval& figure) {
+    return fmt::format("{} [{}]", figure.name, figure.unit);
+  };
+  for (const FigureInterval& each : intervals) width = std::max(width, named(each).size());
   for (const FigureInterval& each : intervals)
-    text += fmt::format("  {:<15} [{}]: {}\n", each.name, each.unit, to_text(each.interval));
+    text += fmt::format("  {:<{}}  {}\n", named(each), width, to_text(each.interval));
   return text;
 }
 

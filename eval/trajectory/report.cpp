@@ -325,6 +325,18 @@ std::string to_latex(const std::vector<EvaluationResult>& results) {
       std::string(columns(metrics(results.front())).size(), 'r'), head, rows);
 }
 
+static std::string metrics_text(const EvaluationResult& r) {
+  std::string text;
+  const std::vector<Metric> all = metrics(r);
+  std::size_t width = 15;
+  for (const Metric& m : all) width = std::max(width, has_own_line(m) ? m.name.size() : 0);
+  for (const Metric& m : all)
+    if (has_own_line(m))
+      text += fmt::format("  {:<{}} {:>10} {:<9} {}\n", m.name, width, cell(m.value, "-"), m.unit,
+                          m.protocol);
+  return text;
+}
+
 std::string to_text(const EvaluationResult& r) {
   if (!r.outcome) return fmt::format("{}: no figures: {}\n", r.name, r.outcome.reason);
   std::string text =
@@ -340,11 +352,7 @@ std::string to_text(const EvaluationResult& r) {
       fmt::format("  align {}, scale {:.6f}, association by {}\n", to_string(r.protocol.alignment),
                   r.alignment.scale, to_string(r.protocol.association));
   if (r.offsets) text += to_text(*r.offsets);
-  for (const Metric& m : metrics(r)) {
-    if (!has_own_line(m)) continue;
-    text +=
-        fmt::format("  {:<15} {:>10} {:<9} {}\n", m.name, cell(m.value, "-"), m.unit, m.protocol);
-  }
+  text += metrics_text(r);
   text += errors_text(r);
   if (!r.intervals.empty()) text += "\n  confidence\n" + to_text(r.intervals);
   if (r.segments.outcome) text += groups_text(r.segments);

@@ -17,7 +17,7 @@ constexpr double kLeastNanosecondsSince1970 = 1e17;
 
 constexpr const char* kForms =
     "readable are 12 or 16 numbers (KITTI; 13 or 17 with the number of the frame), 8 (TUM: t x y z "
-    "qx qy qz qw; 9 with an id; EuRoC: t_ns,x,y,z,qw,qx,qy,qz,...), 4 (t x y z), 3 (x y z), or the "
+    "qx qy qz qw; 9 with an id, or with whole seconds and nanoseconds; EuRoC: t_ns,x,y,z,qw,qx,qy,qz,...), 4 (t x y z), 3 (x y z), or the "
     "columns that a header names";
 
 /// A possible format of a table.
@@ -82,6 +82,26 @@ bool is_in_two_columns(const std::vector<Fields>& lines, const PoseColumns& colu
   });
 }
 
+/// Whether the first two columns of lines without a header are one time.
+///
+/// Both are whole; the seconds are of an epoch, or one second has several lines of milliseconds and
+/// more, so that the first column is no number of the line.
+bool begin_with_two_columns(const std::vector<Fields>& lines) {
+  PoseColumns columns;
+  columns.stamp = 0;
+  columns.nanoseconds = 1;
+  if (!is_in_two_columns(lines, columns)) return false;
+  // 1973 in seconds since 1970.
+  bool epoch = true, repeated = false, milliseconds = false;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (lines[i].size() < 2) continue;
+    epoch &= *parse_integer(lines[i][0]) >= 100'000'000;
+    repeated |= i > 0 && lines[i][0] == lines[i - 1][0];
+    milliseconds |= *parse_integer(lines[i][1]) >= 1'000'000;
+  }
+  return epoch || (repeated && milliseconds);
+}
+
 /// The formats of tables without a header whose lines have as many fields as the first.
 std::vector<Form> forms_of(const std::vector<Fields>& lines, char separator) {
   const std::size_t n = lines.front().size();
@@ -92,6 +112,14 @@ std::vector<Form> forms_of(const std::vector<Fields>& lines, char separator) {
     forms.push_back({columns, certain});
   };
   const bool blanks = separator == ' ';
+  if ((n == 5 || n == 9) && begin_with_two_columns(lines)) {
+    PoseColumns columns = n == 5 ? position_columns(n, 1) : quaternion_columns(n, 1);
+    columns.separator = separator;
+    columns.stamp = 0;
+    columns.nanoseconds = 1;
+    columns.unit = StampUnit::kSeconds;
+    return {{columns, true}};
+  }
   if (n == 3) add(position_columns(n, std::nullopt), true);
   if (n == 4) add(position_columns(n, 0), true);
   if (n == 7) add(quaternion_columns(n, std::nullopt), false);

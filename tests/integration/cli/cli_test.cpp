@@ -209,6 +209,29 @@ TEST_F(Cli, EvalWritesItsFilesAndNeverOverwritesThemUnasked) {
     EXPECT_THAT(entry.path().filename().string(), ::testing::Not(HasSubstr("tmp")));
 }
 
+/// The commands of the first block of shell lines of a page.
+std::vector<std::string> first_commands(const std::string& page) {
+  std::istringstream text(page.substr(page.find("```sh\n") + 6));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(text, line) && line != "```";)
+    lines.push_back(line.substr(0, line.find('#')).substr(std::string("placegraph ").size()));
+  return lines;
+}
+
+TEST_F(Cli, EvalGoesFromTwoFilesToAFigureAndATableAsItsPageSays) {
+  write_file(dir / "truth.tum", circle_tum(900));
+  write_file(dir / "estimate.tum", circle_tum(900));
+  const std::vector<std::string> commands =
+      first_commands(read_file(test::source_dir() + "/docs/evaluation.md"));
+  EXPECT_EQ(commands.size(), 3u);
+  for (const std::string& command : commands) {
+    const CommandResult result = run(command);
+    EXPECT_EQ(result.code, 0) << command << ": " << result.err;
+  }
+  EXPECT_THAT(read_file(dir / "figure.pdf"), StartsWith("%PDF"));
+  EXPECT_THAT(read_file(dir / "table.tex"), HasSubstr("\\toprule"));
+}
+
 TEST_F(Cli, EvalNamesFileAndLineOfMalformedInput) {
   write_file(dir / "broken.txt", circle_kitti(3) + "1 0 0 0 0 1 0 0 0 0 1\n");
   expect_usage_error("eval gt.txt broken.txt", "broken.txt:4:");

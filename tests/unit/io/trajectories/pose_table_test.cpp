@@ -90,6 +90,23 @@ TEST_F(PoseTableOf, AnIdIsPassedOverOnEitherSide) {
   EXPECT_THAT(message, HasSubstr("as - t x y z qx qy qz qw: line 1: the quaternion has length"));
 }
 
+TEST_F(PoseTableOf, WholeSecondsAndNanosecondsAreOneTime) {
+  for (const char separator : {' ', ',', ';'}) {
+    expect_pose(with("1600000000 250000000 " + std::string(kScalarLast), separator));
+    EXPECT_EQ(last(with("1600000000 250000000 " + std::string(kScalarLast), separator)).stamp,
+              1600000000250000000);
+    EXPECT_EQ(last(with("1600000000 5 1 2 3", separator)).stamp, 1600000000000000005);
+  }
+  const std::string pose = " " + std::string(kScalarLast) + "\n";
+  EXPECT_EQ(last("3 900000000" + pose + "3 950000000" + pose + "4 0" + pose).stamp, 4'000'000'000);
+  // Numbers of lines, or of objects, before whole times.
+  EXPECT_EQ(last("3 90" + pose + "4 95" + pose).stamp, 95'000'000'000);
+  EXPECT_EQ(last("7 90" + pose + "7 95" + pose).stamp, 95'000'000'000);
+  // A second is no nanoseconds.
+  EXPECT_EQ(last("3 1000000000" + pose + "3 1100000000" + pose).stamp,
+            1'100'000'000'000'000'000);
+}
+
 TEST_F(PoseTableOf, PositionsMayStandAlone) {
   EXPECT_FALSE(last("0.5 1 2 3\n").oriented);
   EXPECT_EQ(last("0.5 1 2 3\n").T_world_body->translation(), Eigen::Vector3d(1, 2, 3));
