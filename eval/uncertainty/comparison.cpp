@@ -29,8 +29,8 @@ void write_sentence(const ComparisonOptions& options, Comparison& result) {
       fmt::format("{} {:.4g} and {:.4g}{}", options.figure, result.first, result.second, unit);
   switch (result.difference) {
     case Difference::kUnknown:
-      result.sentence = fmt::format("{} and {} cannot be compared: {}", options.first,
-                                    options.second, result.outcome.reason);
+      result.sentence = fmt::format("{} of {} and {} cannot be compared: {}", options.figure,
+                                    options.first, options.second, result.outcome.reason);
       return;
     case Difference::kNone:
       result.sentence = fmt::format("no difference between {} and {} is found: {}, {}",

@@ -79,7 +79,7 @@ TEST(CompareRuns, TheOtherWayRoundIsTheInverse) {
 TEST(CompareRuns, NeedsFiveRunsOfEach) {
   const Comparison comparison = compare_runs(kFirst, {1, 2, 3});
   EXPECT_EQ(comparison.outcome.code, Outcome::Code::kTooFewData);
-  EXPECT_EQ(comparison.sentence, "A and B cannot be compared: B has 3 runs: 5 are needed");
+  EXPECT_EQ(comparison.sentence, "error of A and B cannot be compared: B has 3 runs: 5 are needed");
   EXPECT_EQ(comparison.difference, Difference::kUnknown);
 }
 
