@@ -122,7 +122,7 @@ TEST(NpyArray, DamagedBytesNeverGoFurther) {
         0, static_cast<std::size_t>(random.uniform(0, static_cast<double>(good.size()))));
     for (int k = 0; k < 3 && !bytes.empty(); ++k)
       bytes[static_cast<std::size_t>(random.uniform(0, static_cast<double>(bytes.size())))] =
-          static_cast<char>(random.uniform(0, 256));
+          static_cast<char>(random.index(256));
     try {
       const NpyArray array = read_npy(bytes, "a.npy");
       EXPECT_LE(array.values.size(), bytes.size() / 4);
