@@ -2,11 +2,13 @@
 """cost.py reference | run FILE COMMAND... | check BUILD...: keeps the checks light.
 
 reference      compiles reference.cpp and runs it, and prints the CPU seconds of both
-run FILE ...   runs a command, ends with its exit code, and writes the CPU seconds of it and of all its children to FILE
+run FILE ...   runs a command, ends with its exit code, and writes the CPU seconds of it and of all its children to FILE,
+               and behind them those of the reference program before and after it, if `reference` has compiled that
 check BUILD... compares with budget.txt, in units of the reference program of the machine that did the work:
                compile  all objects of the build folders, each as it cost when it was compiled last (cmake/compile_cost.sh),
                         also where the compiler cache saved it this time
-               tests    the quick tests, as scripts/test measured them in the first folder (cost.quick)
+               tests    the quick tests, as scripts/test measured them in the first folder (cost.quick), with the speed
+                        that the machine had then: others on it slow it down and leave
                Exits 1 if one is more than its budget, 2 if too little is known to tell.
 """
 
@@ -21,6 +23,7 @@ import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
 COSTS = pathlib.Path(os.environ.get("PLACEGRAPH_COSTS") or pathlib.Path.home() / ".cache/placegraph_costs")
+PROGRAM = COSTS / "reference_program"
 LEAST_KNOWN = 0.9  # share of the objects of which the cost must be known
 
 
@@ -33,14 +36,21 @@ def cpu_seconds(command, **options):
 
 
 def reference():
-    with tempfile.TemporaryDirectory() as folder:
-        program = folder + "/reference"
+    """The CPU seconds of the reference program's compilation, and of one run."""
+    COSTS.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(dir=COSTS) as folder:
+        program = pathlib.Path(folder) / "reference"
         compile_s, code = cpu_seconds(["g++", "-std=c++20", "-O2", "-I/usr/include/eigen3", "-o", program,
                                        str(HERE / "reference.cpp")])
         if code:
             raise SystemExit(f"cost.py: {HERE / 'reference.cpp'} does not compile")
-        run_s = min(cpu_seconds([program], stdout=subprocess.DEVNULL)[0] for _ in range(3))
-    return compile_s, run_s
+        program.replace(PROGRAM)
+    return compile_s, reference_run()
+
+
+def reference_run():
+    """The CPU seconds of the compiled reference program; the least of three runs."""
+    return min(cpu_seconds([PROGRAM], stdout=subprocess.DEVNULL)[0] for _ in range(3))
 
 
 def objects_of(build):
@@ -85,7 +95,9 @@ def check(builds):
     if not tests.is_file():
         print("cost: tests: not measured; scripts/test does it")
         return code or 2
-    cost = float(tests.read_text()) / run_s
+    seconds, *then = map(float, tests.read_text().split())
+    run_s = sum(then) / len(then) if then else run_s
+    cost = seconds / run_s
     print(f"cost: tests: {cost:.0f} runs of the reference program ({run_s:.2f} CPU s each), {budget['tests']:.0f} allowed")
     return 1 if cost > budget["tests"] else code
 
@@ -95,8 +107,11 @@ def main():
         print("%.2f %.3f" % reference())
         return 0
     if sys.argv[1:2] == ["run"] and len(sys.argv) > 3:
+        speeds = [reference_run()] if PROGRAM.exists() else []
         seconds, code = cpu_seconds(sys.argv[3:])
-        pathlib.Path(sys.argv[2]).write_text(f"{seconds:.1f}\n")
+        if speeds:
+            speeds.append(reference_run())
+        pathlib.Path(sys.argv[2]).write_text(f"{seconds:.1f}{''.join(f' {s:.3f}' for s in speeds)}\n")
         return code
     if sys.argv[1:2] == ["check"] and len(sys.argv) > 2:
         return check([pathlib.Path(build) for build in sys.argv[2:]])
