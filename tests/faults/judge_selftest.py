@@ -224,6 +224,12 @@ class CommandLine(unittest.TestCase):
         with self.assertRaises(judge.KitError):
             judge.bound_of("moon")
 
+    def test_a_bound_is_of_rendered_sequences(self):
+        runs = [report.Run("fault", "fixed", base, "mono", ["cause"], 0) for base in ("town", "corridor", "kitti00", "town")]
+        for run in runs[:3]:
+            run.wrong, run.verdict = list(range(50)), "good"
+        self.assertEqual(judge.unreported_of_rendered(runs), 2)
+
     def test_tasks(self):
         needed = ["--program", "p", "--make-fault", "m", "--work", "w"]
         table = [judge.Fault("black_few", ("mono", "stereo", "rgbd"), "fixed", ()), judge.Fault("right_late", ("stereo",), "held", ())]
