@@ -1,6 +1,7 @@
 #include "apps/eval/eval.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <placegraph/eval/drawing/figure_settings.h>
 #include <placegraph/eval/edges/truth_noise.h>
 #include <placegraph/eval/plots/evaluation_plot.h>
@@ -251,6 +252,9 @@ EvaluationResult evaluate_files(const EvaluatedFiles& files, const EvalArguments
   if (offsets)
     for (const FreeOffset& free : offsets->free) result.warnings.push_back(free.text);
   result.offsets = std::move(offsets);
+  result.protocol.filters = arguments.apply;
+  result.protocol.truth_filters = arguments.apply_truth;
+  result.protocol.offsets = fmt::format("{}", fmt::join(arguments.estimated, ","));
   return result;
 }
 

@@ -161,10 +161,13 @@ void add_doubts(Alignment alignment, const FittedPositions& positions,
         100 * result.explained));
   } else if (!result.free_axes.empty()) {
     const Eigen::Vector3d& a = result.free_axes.front();
+    const char* what = alignment == Alignment::kYaw
+                           ? "the positions hardly move across the vertical, or on a line"
+                           : "the positions lie on a line";
     result.doubts.push_back(fmt::format(
-        "the positions lie on a line{}: the rotation about ({:.3f}, {:.3f}, {:.3f}) is arbitrary "
+        "{}{}: the rotation about ({:.3f}, {:.3f}, {:.3f}) is arbitrary "
         "(the ATE does not depend on it)",
-        result.rank == 1 ? "" : " within their errors", a[0], a[1], a[2]));
+        what, result.rank == 1 ? "" : " within their errors", a[0], a[1], a[2]));
   }
   if (result.mirrored)
     result.doubts.emplace_back(

@@ -87,6 +87,9 @@ VerticalResult vertical_of(const std::vector<FramePair>& pairs, bool has_orienta
         "(name it: --vertical x, y or z)");
     return result;
   }
+  Eigen::Index largest = 0;
+  result.axis.cwiseAbs().maxCoeff(&largest);
+  if (result.axis[largest] < 0) result.axis = -result.axis;
   const std::string name = axis_name(result.axis);
   if (!name.empty()) {
     result.axis = unit(name[0] - 'x');

@@ -39,7 +39,8 @@ std::vector<ErrorGroup> grouped_by(const std::vector<FrameErrors>& frames,
   std::map<long, int> steps;
   for (const FrameErrors& frame : frames) {
     if (steps_only && !frame.moves) continue;
-    const long key = std::lround(std::floor(frame.*value / width));
+    // Rounding does not divide equal values at a bound.
+    const long key = std::lround(std::floor(frame.*value / width + 1e-9));
     ErrorGroup& group = groups[key];
     ++group.frames;
     group.ate_rmse_m += frame.position_m * frame.position_m;

@@ -63,9 +63,10 @@ class StepEnds {
   /// The pair nearest to the delta in seconds after `first`; `from` is a pair before it.
   std::optional<std::size_t> nearest(std::size_t first, std::size_t from,
                                      double slack_ns) const {
-    const double target = static_cast<double>(pairs_[first].stamp_ns) + delta_.value * 1e9;
+    // Whole nanoseconds: doubles of stamps since 1970 are steps of 256 ns.
+    const std::int64_t target_ns = pairs_[first].stamp_ns + std::llround(delta_.value * 1e9);
     const auto late_ns = [&](std::size_t i) {
-      return static_cast<double>(pairs_[i].stamp_ns) - target;
+      return static_cast<double>(pairs_[i].stamp_ns - target_ns);
     };
     std::size_t end = std::max(from, first + 1);
     if (end > stretch_.last) return std::nullopt;
@@ -188,6 +189,13 @@ RelativeErrors relative_errors(const std::vector<FramePair>& pairs, bool has_tim
     return result;
   }
   const double slack_ns = 0.5 * median_spacing_ns(pairs);
+  if (delta.unit == Delta::Unit::kSeconds && delta.value * 1e9 < slack_ns) {
+    result.outcome = Outcome::failure(
+        Outcome::Code::kTooFewData,
+        fmt::format("steps of {} are shorter than half the spacing of the poses, {:.3g} s",
+                    text_of(delta), 2e-9 * slack_ns));
+    return result;
+  }
   int stretches = 0;
   for (const Stretch& stretch : stretches_of(gaps_before(pairs))) {
     if (!pairs[stretch.first].T_world_estimate) continue;

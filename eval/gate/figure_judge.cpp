@@ -84,9 +84,19 @@ std::string time_text(const FigurePair& pair, double before, double after) {
                      100 * ((after / *b) / (before / *a) - 1));
 }
 
+/// Runs that err to both sides do not cancel.
+double mean_magnitude(const FigureRecord& figure) {
+  double sum = 0;
+  const std::vector<double> values = figure.present();
+  for (const double value : values) sum += std::abs(value);
+  return sum / static_cast<double>(values.size());
+}
+
 /// The values that are compared: shares, where the whole has changed.
 std::pair<double, double> compared_values(const FigurePair& pair) {
-  const double before = *pair.before.mean(), after = *pair.after.mean();
+  const bool magnitudes = pair.better() == Better::kNearerZero;
+  const double before = magnitudes ? mean_magnitude(pair.before) : *pair.before.mean(),
+               after = magnitudes ? mean_magnitude(pair.after) : *pair.after.mean();
   if (pair.before.whole == pair.after.whole) return {before, after};
   const auto share = [](double value, std::optional<double> whole) {
     return whole.value_or(0) == 0 ? 0 : value / *whole;
@@ -173,7 +183,7 @@ void judge_by_tolerance(const FigurePair& pair, GateFigure& figure) {
                        figure.after_text, unit, word, number_text(std::abs(worse)),
                        number_text(allowed));
   };
-  if (figure.before == figure.after && !shares)
+  if (before == after && figure.before == figure.after && !shares)
     decide(Standing::kSame, "", figure);
   else if (worse > room)
     decide(Standing::kRegressed, reported("worse"), figure);

@@ -42,9 +42,14 @@ std::map<std::string, std::string> options_of(const Protocol& protocol) {
   if (!protocol.part.empty()) options["part"] = protocol.part;
   if (!protocol.vertical.empty()) options["vertical"] = protocol.vertical;
   if (protocol.pairs == StepPairs::kAll) options["pairs"] = "all";
+  if (!protocol.filters.empty()) options["apply"] = protocol.filters;
+  if (!protocol.truth_filters.empty()) options["apply_truth"] = protocol.truth_filters;
+  if (!protocol.offsets.empty()) options["estimate"] = protocol.offsets;
   if (protocol.association == Association::kTime) {
     options["max_difference_s"] = fmt::format("{}", protocol.max_difference_s);
-    options["offset_s"] = fmt::format("{}", protocol.offset_s);
+    // A time that is estimated is one of each run.
+    if (protocol.offsets.find("time") == std::string::npos)
+      options["offset_s"] = fmt::format("{}", protocol.offset_s);
   }
   return options;
 }
@@ -52,6 +57,15 @@ std::map<std::string, std::string> options_of(const Protocol& protocol) {
 Better better_of(const std::string& key) {
   if (key == "coverage") return Better::kLarger;
   return key.starts_with("scale_drift") ? Better::kNearerZero : Better::kSmaller;
+}
+
+/// Fewer judged frames make a coverage that is no worse.
+void add_judged_frames(const std::vector<EvaluationResult>& runs, SequenceRecord& sequence) {
+  FigureRecord& figure = sequence.figures.emplace_back();
+  figure.key = "judged_frames";
+  figure.better = Better::kLarger;
+  for (const EvaluationResult& run : runs)
+    figure.values.push_back(run.outcome ? std::optional<double>(run.judged) : std::nullopt);
 }
 
 /// Of one run the intervals that its errors along the drive allow, of several those of the runs.
@@ -124,6 +138,7 @@ SequenceRecord record_of(const std::string& name, const Trajectory& truth,
       figure.values.push_back(found == own.end() ? std::nullopt : found->value);
     }
   }
+  add_judged_frames(runs, sequence);
   fill_intervals(runs, sequence);
   if (ok != runs.end()) fill_noise_floors(truth, *ok, sequence);
   return sequence;

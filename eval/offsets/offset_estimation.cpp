@@ -71,6 +71,18 @@ void take_values(const OffsetFit& fit, double unit_s, OffsetEstimate& result) {
   if (result.with_time) result.time_deviation_s = of(kTimeAt);
 }
 
+/// Takes out of the lever arm what the motions do not show of it: the fit leaves rests there.
+void leave_free_lever_arm(OffsetEstimate& result) {
+  Eigen::Vector3d lever_m = result.T_estimate_truth.translation();
+  for (const FreeOffset& free : result.free) {
+    if (free.time || free.rotation.norm() > 0) continue;
+    // Without a vector all of it is free.
+    const Eigen::Vector3d& axis = free.lever_arm;
+    lever_m = axis.norm() == 0 ? Eigen::Vector3d::Zero() : Eigen::Vector3d(lever_m - axis * axis.dot(lever_m));
+  }
+  result.T_estimate_truth = SE3(result.T_estimate_truth.rotation(), lever_m);
+}
+
 /// Whether something that was asked for has no part that the motions show.
 Outcome judged(const OffsetEstimate& result) {
   const auto none = [](const Eigen::Vector3d& deviation) {
@@ -126,6 +138,7 @@ OffsetEstimate estimate_offsets(const Trajectory& truth, const Trajectory& estim
   if (!fit.outcome) return result;
   result.free = free_offsets(fit, options, result.has_rotation);
   take_values(fit, 1, result);
+  leave_free_lever_arm(result);
   result.outcome = judged(result);
   return result;
 }

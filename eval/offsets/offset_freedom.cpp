@@ -144,6 +144,7 @@ std::vector<FreeOffset> free_offsets(const OffsetFit& fit, const OffsetOptions& 
     free.text =
         "the time offset is free: the velocity in the body's frame is constant, and a later time "
         "looks like a place further along the path";
+    if (!options.body) free.text += "; or the bodies differ, which body,time estimates, too";
     found.push_back(free);
     take_out(rest, OffsetVector::Unit(kTimeAt));
   }

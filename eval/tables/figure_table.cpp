@@ -25,18 +25,20 @@ bool is_compared(const TableCell& cell) { return cell.value && cell.text.empty()
 void mark_best(const std::vector<ComparedCell>& cells, BetterFigure better, int decimals,
                std::vector<std::vector<bool>>& marks) {
   if (better == BetterFigure::kNone || cells.size() < 2) return;
-  const auto by_value = [](const ComparedCell& c) { return *c.cell->value; };
-  const TableCell& best =
-      *(better == BetterFigure::kLower ? std::ranges::min_element(cells, {}, by_value)
-                                       : std::ranges::max_element(cells, {}, by_value))
-           ->cell;
-  const std::string text = number_text(*best.value, decimals);
+  const auto cost = [better](const ComparedCell& c) {
+    if (better == BetterFigure::kNearerZero) return std::abs(*c.cell->value);
+    return better == BetterFigure::kHigher ? -*c.cell->value : *c.cell->value;
+  };
+  const ComparedCell& first = *std::ranges::min_element(cells, {}, cost);
+  const TableCell& best = *first.cell;
+  const auto text_of = [&](const ComparedCell& c) { return number_text(cost(c), decimals); };
+  const std::string text = text_of(first);
   double most_coverage = 0;
   for (const ComparedCell& each : cells)
     most_coverage = std::max(most_coverage, each.cell->coverage);
   if (best.coverage < most_coverage - kSameCoverage) return;
   for (const ComparedCell& each : cells)
-    if (number_text(*each.cell->value, decimals) == text &&
+    if (text_of(each) == text &&
         each.cell->coverage >= most_coverage - kSameCoverage)
       marks[each.row][each.column] = true;
 }
@@ -81,6 +83,7 @@ std::vector<std::vector<bool>> best_cells(const FigureTable& table) {
       for (end = first + 1;
            end < table.columns.size() && same_group(table.columns[first], table.columns[end]);)
         ++end;
+      if (table.rows[r].summary && table.columns[first].better == BetterFigure::kNearerZero) continue;
       for (std::size_t c = first; c < end; ++c)
         if (const TableCell& cell = table.rows[r].cells[c]; is_compared(cell))
           cells.push_back({&cell, r, c});

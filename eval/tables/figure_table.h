@@ -22,6 +22,7 @@ struct TableCell {
 enum class BetterFigure {
   kLower,   ///< the lower one: errors
   kHigher,  ///< the higher one: shares
+  kNearerZero,  ///< the one of smaller magnitude: drifts; means of them are not compared
   kNone     ///< neither: counts
 };
 

@@ -204,6 +204,10 @@ EvaluationResult evaluate(PairingResult paired, const EvaluationOptions& options
       options.alignment == Alignment::kOrigin || options.alignment == Alignment::kScale;
   if (r.outcome && by_first_pose && !paired.has_orientation)
     r.outcome = needs_orientation(("align " + to_string(options.alignment)).c_str());
+  if (r.outcome && options.align_over.unit == AlignmentSpan::Unit::kSeconds && !paired.has_times)
+    r.outcome = Outcome::failure(Outcome::Code::kInconsistent,
+                                 "an alignment over " + to_string(options.align_over) +
+                                     " needs times, which these trajectories do not have");
   if (!r.outcome) return r;
   r.warnings = std::move(paired.warnings);
 

@@ -25,6 +25,8 @@ struct Protocol {
   std::vector<double> lengths_m;                 ///< SegmentOptions::lengths_m
   StepPairs pairs = StepPairs::kConsecutive;     ///< RelativeErrorOptions::pairs
   int step = 0;                                  ///< SegmentOptions::step
+  std::string filters, truth_filters;  ///< steps applied to estimate and truth before; empty: none
+  std::string offsets;                 ///< "body", "time" or "body,time" if removed; empty: none
 };
 
 /// The confidence interval of one figure.

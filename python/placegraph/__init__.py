@@ -36,6 +36,7 @@ from ._core import (
     MeasuredMotion,
     MotionNoise,
     NoResult,
+    OffsetEstimate,
     PlaceAdded,
     PlaceRecognizer,
     PlacesMerged,
@@ -57,8 +58,10 @@ from ._core import (
     fit_mount,
     merge_trajectories,
     read_evo_result,
+    with_offsets,
 )
 from ._info import trajectory_info
+from ._offsets import estimate_offsets
 from ._progress import Progress
 from ._show import page_of, show
 from .comparison import Comparison, compare, figure_table
@@ -181,6 +184,7 @@ __all__ = [
     "NoResult",
     "MeasuredMotion",
     "MotionNoise",
+    "OffsetEstimate",
     "OptimizedGraph",
     "OptimizedLandmarkGraph",
     "PlaceAdded",
@@ -217,6 +221,7 @@ __all__ = [
     "TruthNoise",
     "compare",
     "edge_consistency",
+    "estimate_offsets",
     "estimate_truth_noise",
     "evaluate",
     "evaluate_kitti",
@@ -242,4 +247,5 @@ __all__ = [
     "to_networkx",
     "trajectory_info",
     "vision",
+    "with_offsets",
 ]

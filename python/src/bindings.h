@@ -56,6 +56,7 @@ void bind_loops(nb::module_& m);
 void bind_figures(nb::module_& m);
 void bind_gate(nb::module_& m);
 void bind_intervals(nb::module_& m);
+void bind_offsets(nb::module_& m);
 void bind_tables(nb::module_& m);
 void bind_reports(nb::module_& m);
 

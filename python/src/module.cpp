@@ -61,6 +61,7 @@ NB_MODULE(_core, m) {
   bind_evaluation(m);
   bind_trajectory_info(m);
   bind_intervals(m);
+  bind_offsets(m);
   bind_tables(m);
   bind_gate(m);
   bind_edges(m);

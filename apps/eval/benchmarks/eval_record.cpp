@@ -6,6 +6,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/datasets/evaluated_files.h>
 #include <placegraph/io/files/output_file.h>
+#include <placegraph/io/trajectories/trajectory_filter.h>
 #include <placegraph/pipeline/results/gate_files.h>
 
 #include <algorithm>
@@ -94,7 +95,8 @@ SequenceRecord record_runs(const std::string& name, const RecordedRuns& sequence
     if (sequence.runs.size() > 1) results.back().aligned_pairs = {};
   }
   const Trajectory truth =
-      read_truth(sequence.truth, arguments.times.empty() ? "" : arguments.times.front());
+      TrajectoryFilter(arguments.apply_truth)
+          .apply(read_truth(sequence.truth, arguments.times.empty() ? "" : arguments.times.front()));
   for (const std::string& reason : sequence.missing) results.push_back(missing_run(reason));
   return record_of(name, truth, results);
 }

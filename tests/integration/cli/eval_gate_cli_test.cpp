@@ -98,6 +98,13 @@ TEST_F(EvalGate, AnotherTruthOrAlignmentCannotBeJudged) {
   const auto options = run("eval gate a.json b.json");
   EXPECT_EQ(options.code, 2);
   EXPECT_THAT(options.out, HasSubstr("the options differ: align is se3, and sim3"));
+  const std::string again = "eval record truth.txt a.json0.txt --name 00 --force -o b.json ";
+  for (const char* changed :
+       {"--apply 'scale 2'", "--apply 'crop :40f' --apply-truth 'crop :40f'", "--estimate body"}) {
+    const auto recorded = run(again + changed);
+    ASSERT_EQ(recorded.code, 0) << changed << ": " << recorded.err;
+    EXPECT_EQ(run("eval gate a.json b.json").code, 2) << changed;
+  }
   write_run("other.txt", 0.001, 7);
   ASSERT_EQ(run("eval record other.txt a.json0.txt --name 00 -o c.json").code, 0);
   EXPECT_THAT(run("eval gate a.json c.json").err, HasSubstr("the truth is another one"));

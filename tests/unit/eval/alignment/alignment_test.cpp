@@ -89,6 +89,9 @@ TEST(Alignment, IsFittedToTheSpanAlone) {
   EXPECT_NEAR(evaluate(truth, estimate, options).ape.error_m.min, 0, 1e-9);
   options.align_over = {Unit::kFrames, 300, 400};
   EXPECT_EQ(evaluate(truth, estimate, options).outcome.code, Outcome::Code::kTooFewData);
+  options.align_over = {Unit::kSeconds, 0, 10};
+  const Trajectory untimed = test::winding_drive(200, 1, false);
+  EXPECT_EQ(evaluate(untimed, untimed, options).outcome.code, Outcome::Code::kInconsistent);
 }
 
 TEST(Alignment, ByOriginTakesTheFirstPoseOfTheSpan) {

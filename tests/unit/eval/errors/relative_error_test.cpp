@@ -97,6 +97,27 @@ TEST(RelativeErrors, EndAtThePoseNearestInTime) {
   }
 }
 
+TEST(RelativeErrors, DoNotDependOnTheEpochOfTheStamps) {
+  // Steps of 0.25 s end between two poses, which are equally near.
+  for (const char* delta : {"0.25s", "0.35s"})
+    for (const StepPairs choice : {StepPairs::kConsecutive, StepPairs::kAll}) {
+      std::vector<FramePair> pairs = line(60);
+      const RelativeErrors at_zero = over(pairs, delta, choice);
+      for (FramePair& pair : pairs) pair.stamp_ns += 1'700'000'000'123'456'789;
+      const RelativeErrors since_1970 = over(pairs, delta, choice);
+      ASSERT_EQ(at_zero.errors.size(), since_1970.errors.size());
+      for (std::size_t i = 0; i < at_zero.errors.size(); ++i)
+        EXPECT_EQ(at_zero.errors[i].last, since_1970.errors[i].last);
+    }
+}
+
+TEST(RelativeErrors, OfStepsShorterThanTheSpacingAreNone) {
+  const RelativeErrors errors = over(line(60), "0.01s");
+  EXPECT_FALSE(errors.outcome);
+  EXPECT_EQ(errors.outcome.reason,
+            "steps of 0.01 s are shorter than half the spacing of the poses, 0.1 s");
+}
+
 TEST(RelativeErrors, NeverCrossAGap) {
   std::vector<FramePair> lost = line(100);
   for (int i = 40; i < 45; ++i) lost[std::size_t(i)].T_world_estimate.reset();

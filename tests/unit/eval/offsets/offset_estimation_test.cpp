@@ -211,6 +211,7 @@ TEST(OffsetEstimation, OnAPlaneTheLeverArmAlongTheAxisIsFree) {
     EXPECT_GT(found.free[0].lever_arm.z(), 0.99) << "seed " << seed;
     EXPECT_THAT(found.free[0].text, HasSubstr("lever arm along (0.00 0.00 1.00) is free"));
     EXPECT_TRUE(std::isinf(found.lever_arm_deviation_m.z()));
+    EXPECT_NEAR(found.free[0].lever_arm.dot(found.T_estimate_truth.translation()), 0, 1e-9);
     EXPECT_NEAR(found.T_estimate_truth.translation().z(), 0, 0.02) << "seed " << seed;
     const OffsetErrors errors(found, world);
     for (const int k : {0, 1, 3, 4, 5, 6})

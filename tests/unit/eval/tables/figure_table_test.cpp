@@ -187,6 +187,23 @@ TEST(FigureTable, TheBestIsTheLowestErrorAndTheHighestShare) {
   EXPECT_THAT(best_cells(table)[0], ElementsAre(false, true, true, false));
 }
 
+TEST(FigureTable, TheBestDriftIsTheOneNearestToZero) {
+  const auto drift = [](const std::string& name, double value) {
+    SequenceFigures result;
+    result.name = name;
+    result.figures = {{"scale_drift_percent_per_100m", "scale drift", "%/100m", value, ""}};
+    return result;
+  };
+  const FigureTable table =
+      table_of({{"wild", {drift("0", 11), drift("1", -13)}}, {"calm", {drift("0", 1), drift("1", 1.5)}}},
+               {"scale_drift_percent_per_100m"}, TableRows::kSequences);
+  const std::vector<std::vector<bool>> best = best_cells(table);
+  EXPECT_THAT(best[0], ElementsAre(false, true));
+  EXPECT_THAT(best[1], ElementsAre(false, true));
+  // A mean of both signs says nothing of the drift.
+  EXPECT_THAT(best[2], ElementsAre(false, false));
+}
+
 TEST(FigureTable, ValuesThatPrintAlikeAreBothTheBest) {
   const FigureTable table = table_of(
       {{"a", {figures("00", 1.23401)}}, {"b", {figures("00", 1.23399)}}, {"c", {figures("00", 2)}}},
