@@ -162,7 +162,7 @@ void add_doubts(Alignment alignment, const FittedPositions& positions,
   } else if (!result.free_axes.empty()) {
     const Eigen::Vector3d& a = result.free_axes.front();
     const char* what = alignment == Alignment::kYaw
-                           ? "the positions hardly move across the vertical, or on a line"
+                           ? "the positions do not show the heading"
                            : "the positions lie on a line";
     result.doubts.push_back(fmt::format(
         "{}{}: the rotation about ({:.3f}, {:.3f}, {:.3f}) is arbitrary "

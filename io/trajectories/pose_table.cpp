@@ -118,7 +118,7 @@ std::vector<Form> forms_of(const std::vector<Fields>& lines, char separator) {
     columns.stamp = 0;
     columns.nanoseconds = 1;
     columns.unit = StampUnit::kSeconds;
-    return {{columns, true}};
+    forms.push_back({columns, false});
   }
   if (n == 3) add(position_columns(n, std::nullopt), true);
   if (n == 4) add(position_columns(n, 0), true);

@@ -99,6 +99,8 @@ TEST_F(PoseTableOf, WholeSecondsAndNanosecondsAreOneTime) {
   }
   const std::string pose = " " + std::string(kScalarLast) + "\n";
   EXPECT_EQ(last("3 900000000" + pose + "3 950000000" + pose + "4 0" + pose).stamp, 4'000'000'000);
+  // A whole second and a whole coordinate, with an id behind the quaternion.
+  expect_pose("1600000000 " + std::string(kScalarLast) + " 17\n");
   // Numbers of lines, or of objects, before whole times.
   EXPECT_EQ(last("3 90" + pose + "4 95" + pose).stamp, 95'000'000'000);
   EXPECT_EQ(last("7 90" + pose + "7 95" + pose).stamp, 95'000'000'000);
